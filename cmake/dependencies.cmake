@@ -1,0 +1,29 @@
+# The libraries that msq stands on. Debian: libtbb-dev libhwy-dev, and for the optional parts
+# libassimp-dev libminizip-dev libpugixml-dev (mesh files), libcgal-dev (foam method 2).
+find_package(Threads REQUIRED)
+find_package(TBB REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
+
+if(MSQ_WITH_ASSIMP)
+  find_package(assimp REQUIRED)
+  find_package(pugixml REQUIRED)
+  pkg_check_modules(MINIZIP REQUIRED IMPORTED_TARGET minizip)
+endif()
+if(MSQ_WITH_CGAL)
+  # CGAL's own package file sets build flags for everything; only its headers and GMP are wanted.
+  find_path(MSQ_CGAL_INCLUDE CGAL/Delaunay_triangulation_3.h REQUIRED)
+  find_library(MSQ_GMP gmp REQUIRED)
+  find_library(MSQ_MPFR mpfr REQUIRED)
+endif()
+
+# Private to msq: no type of a dependency crosses the C ABI, so hosts need none of their headers.
+function(msq_link_dependencies target)
+  target_link_libraries(${target} PRIVATE Threads::Threads TBB::tbb PkgConfig::HWY)
+  if(MSQ_WITH_ASSIMP)
+    target_link_libraries(${target} PRIVATE assimp::assimp pugixml::pugixml PkgConfig::MINIZIP)
+  endif()
+  if(MSQ_WITH_CGAL)
+    target_link_libraries(${target} PRIVATE ${MSQ_GMP} ${MSQ_MPFR})
+  endif()
+endfunction()

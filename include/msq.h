@@ -1,0 +1,550 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * msq: multiscale set queries. A coarse shape and fine-scale structures (strut
+ * lattices, Voronoi foams) answered point by point, set by set and layer by
+ * layer, without ever meshing the fine geometry.
+ *
+ * Source of the method: Igouchkine and Liu, "Set-based queries for multiscale
+ * shape-material modeling". What the words mean exactly: docs/concepts.md.
+ *
+ * Rules that hold for every declaration below:
+ *
+ *  Units     Lengths are in the model's unit. Files are read as millimetres, so
+ *            with files the model's unit is the millimetre. Coordinates are
+ *            right-handed, x, y, z.
+ *  Status    Every function that can fail returns msq_status: MSQ_OK (0) or a
+ *            negative MSQ_E_*. msq_error_message() then says what was wrong, with
+ *            the value and the limit. On failure no output argument is written,
+ *            save where a function says so.
+ *  Handles   Opaque, reference-counted and immutable once built: any number of
+ *            threads may use one handle at once. X_create and its kin return a
+ *            handle with one reference; X_retain adds one, X_release drops one and
+ *            frees the object with the last. Releasing NULL does nothing. A handle
+ *            keeps alive whatever it was built from, so release order is free.
+ *  Structs   A definition begins with struct_size. X_def_init(&def, sizeof def)
+ *            sets it and the defaults, and writes no byte past that size. A struct
+ *            that is longer than the library knows must be zero in the rest. In a
+ *            report, which msq fills in, the caller sets struct_size and msq writes
+ *            no byte past it.
+ *  Inputs    Arrays and strings given to a constructor are copied; the caller keeps
+ *            its own. NULL is refused save where a function gives it a meaning.
+ *            Non-finite numbers are refused.
+ *  Threads   Callbacks of a call run on the thread that made the call.
+ *  Process   msq never prints, exits, aborts, installs a signal handler, reads the
+ *            environment or changes locale or floating-point state, and lets no
+ *            C++ exception out.
+ *
+ * Every declaration is here since 0.1 unless it says otherwise.
+ */
+#ifndef MSQ_H
+#define MSQ_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32) && defined(MSQ_SHARED)
+#ifdef MSQ_BUILDING
+#define MSQ_API __declspec(dllexport)
+#else
+#define MSQ_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define MSQ_API __attribute__((visibility("default")))
+#else
+#define MSQ_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- version, status, errors ------------------------------------------- */
+
+#define MSQ_VERSION_MAJOR 0
+#define MSQ_VERSION_MINOR 1
+#define MSQ_VERSION_PATCH 0
+/* major * 10000 + minor * 100 + patch, of this header. */
+#define MSQ_VERSION 100
+
+typedef int32_t msq_status;
+
+enum {
+  MSQ_OK = 0,
+  MSQ_E_ARGUMENT = -1,    /* an argument is NULL, non-finite, out of range or inconsistent */
+  MSQ_E_MEMORY = -2,      /* an allocation failed */
+  MSQ_E_CANCELLED = -3,   /* the job was cancelled */
+  MSQ_E_HOST = -4,        /* a host callback returned a negative code: msq_error_host_code() */
+  MSQ_E_IO = -5,          /* a file cannot be opened or read */
+  MSQ_E_UNSUPPORTED = -6, /* not in this build, or a file format that msq does not read */
+  MSQ_E_MESH = -7,        /* mesh data that cannot be made sense of (not: a dirty mesh) */
+  MSQ_E_LIMIT = -8,       /* a stated limit, such as the context's memory limit, would be passed */
+  MSQ_E_INTERNAL = -9     /* a defect in msq: please report it */
+};
+
+/* Version of the loaded library, to compare with MSQ_VERSION. Never fails. */
+MSQ_API uint32_t msq_version(void);
+
+/* Name of a status, such as "MSQ_E_LIMIT"; "MSQ_E_UNKNOWN" for other numbers.
+ * Static storage. */
+MSQ_API const char *msq_status_name(msq_status status);
+
+/* Message of the last failure on the calling thread, UTF-8; "" before the first.
+ * Valid until the next msq call on this thread. Successful calls leave it. */
+MSQ_API const char *msq_error_message(void);
+
+/* Code that the host's callback returned, after MSQ_E_HOST on the calling thread. */
+MSQ_API int32_t msq_error_host_code(void);
+
+typedef struct msq_build_report {
+  uint32_t struct_size; /* in: sizeof of the caller's struct */
+  uint32_t version;     /* as msq_version() */
+  int32_t with_assimp;  /* 1 if mesh files can be read */
+  int32_t with_cgal;    /* 1 if MSQ_FOAM_METHOD_2 is available */
+  const char *licence;  /* effective SPDX licence of this binary with what it is built upon; static */
+  const char *simd;     /* instruction set that the kernels use on this machine, e.g. "AVX3"; static */
+} msq_build_report;
+
+/* Says how the loaded library was built. Errors: ARGUMENT. */
+MSQ_API msq_status msq_build_info(msq_build_report *report);
+
+/* ---- context and job ----------------------------------------------------- */
+
+typedef struct msq_context msq_context; /* threads, cell cache and memory limit that objects share */
+typedef struct msq_job msq_job;         /* one long call: its progress, and the means to cancel it */
+
+typedef struct msq_context_def {
+  uint32_t struct_size;
+  uint32_t threads;      /* threads of a call, the caller's included; 0 (default) and more than the
+                            machine has: one a core; 1: the calling thread alone */
+  uint64_t cache_bytes;  /* limit of the FIFO cache of cell data (default 1 GiB); 0: no cache. Same
+                            results at any size. */
+  uint64_t memory_limit; /* bytes that meshes, slabs and cached cells of this context may hold at
+                            once; 0 (default): no limit */
+} msq_context_def;
+
+/* Sets defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */
+MSQ_API msq_status msq_context_def_init(msq_context_def *def, size_t size);
+
+/* Creates a context; def NULL: defaults. Results never depend on it. Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_context_create(const msq_context_def *def, msq_context **context);
+MSQ_API void msq_context_retain(msq_context *context);
+MSQ_API void msq_context_release(msq_context *context);
+
+typedef struct msq_memory_report {
+  uint32_t struct_size;
+  uint32_t reserved;    /* 0 */
+  uint64_t bytes;       /* held now by meshes, slabs and cached cells */
+  uint64_t peak_bytes;  /* most ever held at once */
+  uint64_t limit_bytes; /* as in the definition; 0: no limit */
+} msq_memory_report;
+
+/* Memory accounted to the context. Any thread, at any time. Errors: ARGUMENT. */
+MSQ_API msq_status msq_context_memory(const msq_context *context, msq_memory_report *report);
+
+typedef struct msq_cache_report {
+  uint32_t struct_size;
+  uint32_t reserved; /* 0 */
+  uint64_t hits, misses, evictions;
+  uint64_t bytes, peak_bytes, limit_bytes; /* bytes never pass limit_bytes */
+} msq_cache_report;
+
+/* Counters of the cell cache since the context was made. Any thread, at any time.
+ * Errors: ARGUMENT. Source: paper, section "Set Queries for Ray-Casting" (FIFO cache). */
+MSQ_API msq_status msq_cache_stats(const msq_context *context, msq_cache_report *report);
+
+/* Drops all cached cells (calls in flight keep theirs). Counters stay. Errors: ARGUMENT. */
+MSQ_API msq_status msq_cache_clear(msq_context *context);
+
+/* Creates a job to pass to one long call at a time. Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_job_create(msq_job **job);
+MSQ_API void msq_job_retain(msq_job *job);
+MSQ_API void msq_job_release(msq_job *job);
+
+/* Asks the call that works under the job to stop; it returns MSQ_E_CANCELLED soon (within one
+ * slab's tile, milliseconds). Stays set: calls made later under this job stop at once. Any thread.
+ * Errors: ARGUMENT. */
+MSQ_API msq_status msq_job_cancel(msq_job *job);
+
+/* Fraction done, 0 to 1, of the last call under the job. Any thread. Errors: ARGUMENT. */
+MSQ_API msq_status msq_job_progress(const msq_job *job, double *fraction);
+
+/* ---- shapes: scale 0 ------------------------------------------------------ */
+
+typedef struct msq_shape msq_shape; /* a coarse solid */
+
+/* Which winding numbers are inside a mesh. */
+enum {
+  MSQ_WINDING_NONZERO = 0, /* any but 0 (default): overlapping and inside-out parts are solid */
+  MSQ_WINDING_EVEN_ODD = 1,
+  MSQ_WINDING_POSITIVE = 2 /* only parts with outward normals are solid */
+};
+
+enum { MSQ_FLOAT32 = 1, MSQ_FLOAT64 = 2 }; /* type of host coordinates */
+
+enum { /* mesh file formats; the only ones read */
+  MSQ_FORMAT_AUTO = 0, /* by the file's extension */
+  MSQ_FORMAT_STL = 1,  /* binary or ASCII */
+  MSQ_FORMAT_OBJ = 2,
+  MSQ_FORMAT_PLY = 3,
+  MSQ_FORMAT_OFF = 4,
+  MSQ_FORMAT_3MF = 5,
+  MSQ_FORMAT_AMF = 6
+};
+
+typedef struct msq_file_def {
+  uint32_t struct_size;
+  int32_t format;         /* MSQ_FORMAT_*; AUTO (default) needs a path */
+  int32_t winding_rule;   /* MSQ_WINDING_* */
+  uint32_t reserved;      /* 0 */
+  double unit_mm;         /* length of the file's unit in mm for STL, OBJ, PLY and OFF, which name
+                             none (default 1); 3MF and AMF name theirs, and it is applied */
+  uint64_t max_bytes;     /* refuse larger files (default 4 GiB) */
+  uint64_t max_triangles; /* refuse more (default 200 million) */
+} msq_file_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_file_def_init(msq_file_def *def, size_t size);
+
+/* Reads a triangle mesh from a file; def NULL: defaults. All instances in the file become one shape
+ * in millimetres: transforms applied, polygons triangulated, equal vertices welded, triangles
+ * without area dropped. No other file is ever opened. Cost: linear in the file.
+ * Errors: ARGUMENT, IO (no such file, truncated, malformed), UNSUPPORTED (format, or a build without
+ * Assimp), MESH (no triangles, index out of range, non-finite vertex), LIMIT, MEMORY. */
+MSQ_API msq_status msq_shape_from_file(msq_context *context, const char *path,
+                                       const msq_file_def *def, msq_shape **shape);
+
+/* The same from bytes in memory; def must name the format. */
+MSQ_API msq_status msq_shape_from_memory(msq_context *context, const void *data, uint64_t bytes,
+                                         const msq_file_def *def, msq_shape **shape);
+
+typedef struct msq_mesh_def {
+  uint32_t struct_size;
+  int32_t coordinate_type; /* MSQ_FLOAT32 or MSQ_FLOAT64 (default) */
+  int32_t winding_rule;    /* MSQ_WINDING_* */
+  uint32_t reserved;       /* 0 */
+  const void *vertices;    /* vertex_count triples x, y, z */
+  uint64_t vertex_count;
+  uint64_t vertex_stride;  /* bytes from one vertex to the next; 0 (default): tightly packed */
+  const uint32_t *triangles; /* triangle_count triples of vertex indices, counter-clockwise from
+                                outside */
+  uint64_t triangle_count;
+} msq_mesh_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_mesh_def_init(msq_mesh_def *def, size_t size);
+
+/* Makes a shape from a triangle mesh in arrays. Dirty meshes (open, self-intersecting, flipped,
+ * duplicate triangles) are accepted and diagnosed by msq_shape_info.
+ *
+ * Membership: a point of the mesh's bounding box is inside where the winding number of the +x ray
+ * from it satisfies the winding rule. Crossings are half-open in y and z, so shared edges and
+ * vertices count once, and closed in x: a point on a crossing is inside if either side of it is.
+ * Cost: linear; about 100 bytes a triangle are kept.
+ * Errors: ARGUMENT, MESH (no triangles, index out of range, non-finite vertex), LIMIT, MEMORY. */
+MSQ_API msq_status msq_shape_from_mesh(msq_context *context, const msq_mesh_def *def,
+                                       msq_shape **shape);
+
+/* Axis-aligned box, boundary included. Errors: ARGUMENT unless min < max in each axis; MEMORY. */
+MSQ_API msq_status msq_shape_from_box(msq_context *context, const double min[3],
+                                      const double max[3], msq_shape **shape);
+/* Ball, boundary included. Errors: ARGUMENT unless radius > 0; MEMORY. */
+MSQ_API msq_status msq_shape_from_sphere(msq_context *context, const double center[3],
+                                         double radius, msq_shape **shape);
+/* Flat-ended round cylinder between two points, boundary included. Errors: ARGUMENT unless the
+ * points differ and radius > 0; MEMORY. */
+MSQ_API msq_status msq_shape_from_cylinder(msq_context *context, const double from[3],
+                                           const double to[3], double radius, msq_shape **shape);
+
+MSQ_API void msq_shape_retain(msq_shape *shape);
+MSQ_API void msq_shape_release(msq_shape *shape);
+
+typedef struct msq_shape_report {
+  uint32_t struct_size;
+  int32_t is_mesh;     /* 1 for meshes; 0 for primitives, whose counts below are 0 */
+  double min[3];       /* bounding box */
+  double max[3];
+  double volume;       /* meshes: signed sum over triangles, exact for closed ones, negative if
+                          inside out */
+  double area;
+  uint64_t vertices;             /* after welding */
+  uint64_t triangles;            /* kept */
+  uint64_t degenerate_triangles; /* dropped: without area */
+  uint64_t duplicate_triangles;  /* kept: same three vertices as an earlier one */
+  uint64_t open_edges;           /* with one triangle */
+  uint64_t non_manifold_edges;   /* with three or more */
+  uint64_t flipped_edges;        /* with two triangles that run along it the same way */
+  int32_t closed;                /* 1 if every edge has as many triangles one way as the other */
+  int32_t reserved;              /* 0 */
+} msq_shape_report;
+
+/* Bounds, volume, area and the diagnosis of a dirty mesh. Cost: none, found at construction.
+ * Errors: ARGUMENT. */
+MSQ_API msq_status msq_shape_info(const msq_shape *shape, msq_shape_report *report);
+
+/* ---- fields ----------------------------------------------------------------- */
+
+typedef struct msq_field msq_field; /* a number at every point of space, of known range */
+
+/* Field that runs linearly from from_value in the plane through from, normal to to - from, to
+ * to_value in the plane through to, and is constant beyond both. Errors: ARGUMENT unless the points
+ * differ; MEMORY. */
+MSQ_API msq_status msq_field_gradient(msq_context *context, const double from[3],
+                                      double from_value, const double to[3], double to_value,
+                                      msq_field **field);
+MSQ_API void msq_field_retain(msq_field *field);
+MSQ_API void msq_field_release(msq_field *field);
+
+/* A parameter: the field, or the value where field is NULL. */
+typedef struct msq_param {
+  double value;
+  const msq_field *field;
+} msq_param;
+
+/* ---- structures: scales 1 and finer -------------------------------------------- */
+
+typedef struct msq_structure msq_structure; /* a fine-scale structure that fills all space */
+
+/* The grid of neighbourhood cells that a structure stands on. Cell (i, j, k) holds the points
+ * origin + rotation * ((i, j, k) + u) * cell_size, 0 <= u < 1 in each component.
+ * Source: paper, section "Multiscale Shape-Material Modeling API". */
+typedef struct msq_neighbourhood {
+  double origin[3];    /* default 0 */
+  double cell_size[3]; /* > 0, along the grid's own axes (default 1) */
+  double rotation[9];  /* row-major, orthonormal within 1e-9, determinant +1 (default identity) */
+} msq_neighbourhood;
+
+enum { /* unit cells of strut lattices, by nodes and struts in the unit cube */
+  MSQ_UNIT_CELL_CUSTOM = 0, /* nodes and struts of the definition */
+  MSQ_UNIT_CELL_CUBIC = 1,  /* the cube's edges: 3 struts a cell */
+  MSQ_UNIT_CELL_BCC = 2,    /* centre to the 8 corners */
+  MSQ_UNIT_CELL_OCTET = 3   /* corners to face centres, and the octahedron of face centres */
+};
+
+typedef struct msq_lattice_def {
+  uint32_t struct_size;
+  int32_t unit_cell;      /* MSQ_UNIT_CELL_*; default BCC */
+  msq_neighbourhood grid;
+  msq_param radius;       /* of the struts, in model units; constant: > 0, field: >= 0 */
+  const double *nodes;    /* CUSTOM: node_count triples in [0, 1] of the cell */
+  uint64_t node_count;    /* at most 4096 */
+  const uint32_t *struts; /* CUSTOM: strut_count pairs of node indices */
+  uint64_t strut_count;   /* at most 4096 */
+} msq_lattice_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_lattice_def_init(msq_lattice_def *def, size_t size);
+
+/* Periodic strut lattice: the points within radius of the unit cell's struts, tiled without end.
+ * Struts are capsules: round at their ends, circular in model units whatever the cell sizes, and
+ * they reach over cell borders. Errors: ARGUMENT, LIMIT (radius above 4 times the smallest cell
+ * size), MEMORY. */
+MSQ_API msq_status msq_structure_lattice(msq_context *context, const msq_lattice_def *def,
+                                         msq_structure **structure);
+
+enum { /* how a foam is evaluated: the same solid, at different cost */
+  MSQ_FOAM_AUTO = 0,    /* the fastest: at present DIRECT on grids and in slices, POINT elsewhere */
+  MSQ_FOAM_POINT = 1,   /* each point by itself: gather seeds, triplets, validity */
+  MSQ_FOAM_METHOD_2 = 2, /* per cell, a Delaunay triangulation (CGAL) kept in the cache */
+  MSQ_FOAM_DIRECT = 3   /* each edge built once for a slab and written as spans; for point arrays as
+                           POINT */
+};
+
+typedef struct msq_foam_def {
+  uint32_t struct_size;
+  int32_t method;         /* MSQ_FOAM_* */
+  msq_neighbourhood grid;
+  msq_param radius;       /* of the struts, in model units; constant: > 0, field: >= 0 */
+  double jitter;          /* 0: seeds at cell centres; 1 (default): anywhere in their cells */
+  uint64_t seed;          /* any number picks another foam (default 0) */
+} msq_foam_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_foam_def_init(msq_foam_def *def, size_t size);
+
+/* Open-cell Voronoi foam: the points within radius of the edges of the Voronoi diagram of one
+ * jittered seed per neighbourhood cell, all space over. Struts are capsules, circular in model
+ * units. The seeds follow from cell index and seed number alone, on every machine alike.
+ * Errors: ARGUMENT, LIMIT (radius above 2 times the smallest cell size, or cell sizes that differ
+ * by more than 4 times), UNSUPPORTED (METHOD_2 in a build without CGAL), MEMORY.
+ * Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. */
+MSQ_API msq_status msq_structure_foam(msq_context *context, const msq_foam_def *def,
+                                      msq_structure **structure);
+
+MSQ_API void msq_structure_retain(msq_structure *structure);
+MSQ_API void msq_structure_release(msq_structure *structure);
+
+/* ---- model ------------------------------------------------------------------------ */
+
+typedef struct msq_model msq_model; /* a coarse shape and the structures that fill it, scale by scale */
+
+typedef struct msq_scale_def { /* exactly one of the two */
+  const msq_shape *shape;         /* for scale 0 */
+  const msq_structure *structure; /* for scales 1 and finer */
+} msq_scale_def;
+
+typedef struct msq_model_def {
+  uint32_t struct_size;
+  uint32_t scale_count;        /* 1 to 64 */
+  const msq_scale_def *scales; /* coarsest first: a shape, then structures */
+  uint32_t scale_size;         /* sizeof(msq_scale_def) of the caller */
+  uint32_t reserved;           /* 0 */
+} msq_model_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_model_def_init(msq_model_def *def, size_t size);
+
+/* Makes the model whose solid is the intersection of its scales. Errors: ARGUMENT, LIMIT (more than
+ * 2^24 cells of a structure across the shape), MEMORY.
+ * Source: paper, section "Multiscale Shape-Material Modeling API". */
+MSQ_API msq_status msq_model_create(msq_context *context, const msq_model_def *def,
+                                    msq_model **model);
+MSQ_API void msq_model_retain(msq_model *model);
+MSQ_API void msq_model_release(msq_model *model);
+
+/* Bounding box of the coarse shape, which holds the model. Errors: ARGUMENT. */
+MSQ_API msq_status msq_model_bounds(const msq_model *model, double min[3], double max[3]);
+
+/* Characteristic length of a scale: its largest cell size; infinite for scale 0.
+ * Errors: ARGUMENT (no such scale). */
+MSQ_API msq_status msq_model_scale_length(const msq_model *model, uint32_t scale, double *length);
+
+/* ---- queries ------------------------------------------------------------------------ */
+
+typedef struct msq_query_def {
+  uint32_t struct_size;
+  uint32_t reserved;   /* 0 */
+  double length_scale; /* scales whose characteristic length is at least this are resolved; finer
+                          ones are taken as solid. 0 (default): all are resolved */
+} msq_query_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_query_def_init(msq_query_def *def, size_t size);
+
+enum { MSQ_POINTS_ARRAY = 1, MSQ_POINTS_GRID = 2 };
+
+typedef struct msq_points_def {
+  uint32_t struct_size;
+  int32_t kind;            /* MSQ_POINTS_* */
+  /* ARRAY: any points, in any order */
+  const void *coordinates; /* count triples x, y, z */
+  uint64_t count;
+  uint64_t stride;         /* bytes from one point to the next; 0 (default): tightly packed */
+  int32_t coordinate_type; /* MSQ_FLOAT32 or MSQ_FLOAT64 (default) */
+  uint32_t reserved;       /* 0 */
+  /* GRID: point (i, j, k) is origin + (i, j, k) * spacing, and has index i + nx * (j + ny * k) */
+  double origin[3];
+  double spacing[3];       /* > 0 */
+  uint64_t counts[3];      /* nx, ny, nz, each 1 to 2^31 - 1 */
+} msq_points_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_points_def_init(msq_points_def *def, size_t size);
+
+/* Membership of one point: *inside becomes 1 in the model or on its boundary, else 0. query NULL:
+ * defaults. This is the definition that all other paths agree with bit for bit.
+ * Cost: a mesh tests the triangles that share its y, z bin; a lattice the struts that can reach the
+ * cell; a foam gathers 27 to a few hundred seeds (about a microsecond). Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_point_membership(const msq_model *model, const double point[3],
+                                        const msq_query_def *query, int32_t *inside);
+
+/* Membership of a set of points: inside[i] becomes 1 or 0 for point i. inside_count: length of that
+ * array, which must be the number of points. query, job NULL: defaults, no job. Scale by scale, from
+ * the coarsest; points that a scale answers are not asked of finer ones.
+ * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY inside may be partly written.
+ * Errors: ARGUMENT (also non-finite points, by index), CANCELLED, LIMIT, MEMORY.
+ * Source: paper, section "Set-based queries". */
+MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_def *points,
+                                      const msq_query_def *query, uint8_t *inside,
+                                      uint64_t inside_count, msq_job *job);
+
+/* ---- slicing ------------------------------------------------------------------------- */
+
+typedef struct msq_slicer msq_slicer; /* a model and a plan of layers */
+
+enum { /* what a layer holds: one sample a pixel, at its centre */
+  MSQ_LAYER_BITS = 1, /* 1 bit a pixel, leftmost pixel in the high bit, as in PNG and PBM */
+  MSQ_LAYER_BYTES = 2 /* 1 byte a pixel: 255 inside, 0 outside */
+};
+
+typedef struct msq_slicer_def {
+  uint32_t struct_size;
+  int32_t output;       /* MSQ_LAYER_*; default BITS */
+  double pitch[2];      /* pixel size in x and y; 0 (default): from region and resolution */
+  uint32_t resolution[2]; /* pixels in x and y; 0 (default): from region and pitch, rounded up */
+  double layer_height;  /* > 0, unless heights are listed */
+  uint64_t layer_count; /* 0 (default): from region and layer_height, rounded up */
+  int32_t has_region;   /* 0 (default): the region is the model's bounding box, centred in the
+                           pixels; 1: region_min and region_max below */
+  uint32_t slab_layers; /* layers computed at once; 0 (default): one cell of the finest scale high,
+                           and no more than 32 MiB. Same results at any number */
+  double region_min[3]; /* corner of pixel (0, 0) and underside of layer 0 */
+  double region_max[3]; /* needed where a count follows from it */
+  const double *heights;  /* z of each layer, ascending; NULL (default): the middle of each layer,
+                             region_min[2] + (index + 1/2) * layer_height */
+  uint64_t height_count;  /* then the number of layers */
+  double length_scale;  /* as in msq_query_def */
+} msq_slicer_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_slicer_def_init(msq_slicer_def *def, size_t size);
+
+/* Plans the layers of a model, normal to z. Nothing is computed yet. Errors: ARGUMENT, LIMIT (more
+ * than 2^31 - 1 pixels along a side or layers), MEMORY. */
+MSQ_API msq_status msq_slicer_create(const msq_model *model, const msq_slicer_def *def,
+                                     msq_slicer **slicer);
+MSQ_API void msq_slicer_retain(msq_slicer *slicer);
+MSQ_API void msq_slicer_release(msq_slicer *slicer);
+
+typedef struct msq_slicer_report {
+  uint32_t struct_size;
+  uint32_t slab_layers; /* layers computed at once */
+  uint32_t width;       /* pixels in x */
+  uint32_t height;      /* pixels in y */
+  uint64_t layer_count;
+  uint64_t stride;      /* bytes from one row to the next, a multiple of 8 */
+  uint64_t layer_bytes; /* stride * height */
+  double origin[2];     /* x, y of the centre of pixel (0, 0) */
+  double pitch[2];      /* pixel (i, j) is sampled at origin + (i, j) * pitch, as in a point grid */
+} msq_slicer_report;
+
+/* The plan as it came out. Errors: ARGUMENT. */
+MSQ_API msq_status msq_slicer_info(const msq_slicer *slicer, msq_slicer_report *report);
+
+/* z of a layer's samples. Errors: ARGUMENT (index out of range). */
+MSQ_API msq_status msq_slicer_height(const msq_slicer *slicer, uint64_t index, double *z);
+
+/* One layer as the callback sees it: valid until the callback returns. */
+typedef struct msq_layer {
+  uint32_t struct_size; /* out: sizeof(msq_layer) of the library */
+  int32_t output;       /* MSQ_LAYER_* */
+  uint64_t index;       /* in the plan */
+  double z;
+  const uint8_t *data;  /* height rows, row 0 at the smallest y; bits past the width are 0 */
+  uint64_t stride;      /* bytes from one row to the next */
+  uint32_t width, height;
+  uint64_t inside_count; /* pixels inside */
+} msq_layer;
+
+/* Takes a layer. Return 0 to go on, a negative code of the host's own to stop. */
+typedef int32_t (*msq_layer_fn)(void *user, const msq_layer *layer);
+
+/* Computes layers first .. first + count - 1 and hands each to the callback, in ascending order, on
+ * the calling thread; workers compute the next slab meanwhile, and wait for the callback. count
+ * UINT64_MAX: to the last. job NULL: none. However the plan is split into calls or processes, the
+ * layers are the same bytes. Memory: two slabs and two slabs' worth of tiles, whatever the height of
+ * the stack. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY.
+ * Source: paper, section "Slicing". */
+MSQ_API msq_status msq_slicer_run(const msq_slicer *slicer, uint64_t first, uint64_t count,
+                                  msq_layer_fn fn, void *user, msq_job *job);
+
+/* Computes one layer, the same bytes as msq_slicer_run gives, into the host's buffer of
+ * buffer_bytes >= layer_bytes. On CANCELLED, LIMIT and MEMORY the buffer is untouched.
+ * Errors: ARGUMENT, CANCELLED, LIMIT, MEMORY. */
+MSQ_API msq_status msq_slice_layer(const msq_slicer *slicer, uint64_t index, uint8_t *buffer,
+                                   uint64_t buffer_bytes, msq_job *job);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/guard.h"
+
+using namespace msq;
+using namespace msq::api;
+
+namespace {
+
+msq_context_def context_defaults() {
+  msq_context_def def{};
+  def.cache_bytes = uint64_t{1} << 30;
+  return def;
+}
+
+}  // namespace
+
+msq_status msq_context_def_init(msq_context_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, context_defaults(), "msq_context_def"); });
+}
+
+msq_status msq_context_create(const msq_context_def* def, msq_context** context) {
+  return guard([&] {
+    require(context, "context");
+    const msq_context_def known =
+        def ? read_def(def, context_defaults(), "def") : context_defaults();
+    *context = new_handle<msq_context>(
+        make_ref<Context>(known.threads, known.cache_bytes, known.memory_limit));
+  });
+}
+
+void msq_context_retain(msq_context* context) { retain(context); }
+void msq_context_release(msq_context* context) { release(context); }
+
+msq_status msq_context_memory(const msq_context* context, msq_memory_report* report) {
+  return guard([&] {
+    const MemoryBudget& budget = *object(context, "context").budget;
+    msq_memory_report known{};
+    known.bytes = budget.held();
+    known.peak_bytes = budget.peak();
+    known.limit_bytes = budget.limit();
+    write_report(report, known, "report");
+  });
+}
+
+msq_status msq_cache_stats(const msq_context* context, msq_cache_report* report) {
+  return guard([&] {
+    const CellCache& cache = object(context, "context").cache;
+    const CellCache::Counters counters = cache.counters();
+    msq_cache_report known{};
+    known.hits = counters.hits;
+    known.misses = counters.misses;
+    known.evictions = counters.evictions;
+    known.bytes = counters.bytes;
+    known.peak_bytes = counters.peak_bytes;
+    known.limit_bytes = cache.limit();
+    write_report(report, known, "report");
+  });
+}
+
+msq_status msq_cache_clear(msq_context* context) {
+  return guard([&] { object(context, "context").cache.clear(); });
+}
+
+msq_status msq_job_create(msq_job** job) {
+  return guard([&] {
+    require(job, "job");
+    *job = new_handle<msq_job>(make_ref<Job>());
+  });
+}
+
+void msq_job_retain(msq_job* job) { retain(job); }
+void msq_job_release(msq_job* job) { release(job); }
+
+msq_status msq_job_cancel(msq_job* job) {
+  return guard([&] { object(job, "job").cancel(); });
+}
+
+msq_status msq_job_progress(const msq_job* job, double* fraction) {
+  return guard([&] {
+    const double now = object(job, "job").progress();
+    require(fraction, "fraction") = now;
+  });
+}

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every entry of the C ABI goes through: no exception gets out, the last failure of the thread is
+// kept, handles are the engine's objects.
+#pragma once
+
+#include <cmath>
+#include <cstring>
+#include <new>
+
+#include "base/checked.h"
+#include "base/job.h"
+#include "base/ref.h"
+#include "base/status.h"
+#include "base/vec.h"
+#include "cell/context.h"
+#include "field/field.h"
+#include "model/model.h"
+#include "msq.h"
+#include "query/point_array.h"
+#include "shape/shape.h"
+#include "slice/slicer.h"
+#include "structure/structure.h"
+
+namespace msq::api {
+
+/// Records a failure of this thread and returns its status. Never throws or allocates.
+msq_status record(Status status, const char* message, int32_t host_code) noexcept;
+
+/// Runs an entry's body. All failures come as exceptions.
+template <class Body>
+msq_status guard(Body&& body) noexcept {
+  try {
+    body();
+    return MSQ_OK;
+  } catch (const Error& error) {
+    return record(error.status, error.what(), error.host_code);
+  } catch (const std::bad_alloc&) {
+    return record(Status::memory, "out of memory", 0);
+  } catch (const std::length_error&) {
+    return record(Status::memory, "out of memory", 0);
+  } catch (const std::exception& error) {
+    return record(Status::internal, error.what(), 0);
+  } catch (...) {
+    return record(Status::internal, "unknown exception", 0);
+  }
+}
+
+/// Throws Error(argument) if a pointer is NULL.
+template <class T>
+T& require(T* pointer, const char* name) {
+  if (!pointer) fail(Status::argument, "%s is NULL", name);
+  return *pointer;
+}
+
+inline void require_reserved(uint64_t value, const char* name) {
+  if (value != 0)
+    fail(Status::argument, "%s is %llu; it must be 0", name,
+         static_cast<unsigned long long>(value));
+}
+
+inline double require_finite(double value, const char* name) {
+  if (!std::isfinite(value)) fail(Status::argument, "%s is %g; it must be finite", name, value);
+  return value;
+}
+
+inline double require_positive(double value, const char* name) {
+  if (!(value > 0) || !std::isfinite(value))
+    fail(Status::argument, "%s is %g; it must be positive and finite", name, value);
+  return value;
+}
+
+inline int32_t require_range(int32_t value, int32_t low, int32_t high, const char* name) {
+  if (value < low || value > high)
+    fail(Status::argument, "%s is %d; it must be from %d to %d", name, value, low, high);
+  return value;
+}
+
+inline Vec3 require_vector(const double* v, const char* name) {
+  if (!v) fail(Status::argument, "%s is NULL", name);
+  if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
+    fail(Status::argument, "%s is (%g, %g, %g); it must be finite", name, v[0], v[1], v[2]);
+  return {v[0], v[1], v[2]};
+}
+
+/// The host's coordinates. Throws Error(argument) where they make no sense.
+inline PointArray point_array(const void* data, uint64_t count, uint64_t stride, int32_t type,
+                              const char* name) {
+  PointArray points;
+  points.is_float32 =
+      require_range(type, MSQ_FLOAT32, MSQ_FLOAT64, "coordinate_type") == MSQ_FLOAT32;
+  const uint64_t packed = 3 * (points.is_float32 ? sizeof(float) : sizeof(double));
+  if (stride != 0 && stride < packed)
+    fail(Status::argument, "the stride of %s is %llu bytes; a point has %llu", name,
+         static_cast<unsigned long long>(stride), static_cast<unsigned long long>(packed));
+  if (count > 0 && !data) fail(Status::argument, "%s is NULL", name);
+  points.data = static_cast<const unsigned char*>(data);
+  points.count = count;
+  points.stride = stride ? stride : packed;
+  checked_product(count, points.stride, name);
+  return points;
+}
+
+/// Fills in a host's definition: defaults in what it has room for, 0 in what this version does not know.
+template <class Def>
+void set_defaults(Def* def, size_t size, const Def& defaults, const char* name) {
+  if (!def) fail(Status::argument, "def is NULL");
+  if (size < sizeof(uint32_t) || size > UINT32_MAX)
+    fail(Status::argument, "the size of %s is given as %zu; it must be its sizeof", name, size);
+  std::memset(static_cast<void*>(def), 0, size);
+  std::memcpy(static_cast<void*>(def), &defaults, size < sizeof defaults ? size : sizeof defaults);
+  def->struct_size = static_cast<uint32_t>(size);
+}
+
+/// A host's definition as this version knows it: what an older host lacks has its default, what a
+/// newer one adds must be 0.
+template <class Def>
+Def read_def(const Def* def, const Def& defaults, const char* name) {
+  if (!def) fail(Status::argument, "%s is NULL", name);
+  const size_t size = def->struct_size;
+  if (size < 2 * sizeof(uint32_t))
+    fail(Status::argument, "struct_size of %s is %zu; it must be its sizeof: call its def_init",
+         name, size);
+  Def known = defaults;
+  std::memcpy(static_cast<void*>(&known), def, size < sizeof known ? size : sizeof known);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(def);
+  for (size_t i = sizeof known; i < size; ++i)
+    if (bytes[i] != 0)
+      fail(Status::argument,
+           "%s uses a field at byte %zu that this version of msq does not know (it knows %zu bytes)",
+           name, i, sizeof known);
+  return known;
+}
+
+/// Copies a report to the host, as much as its struct_size says.
+template <class Report>
+void write_report(Report* report, Report known, const char* name) {
+  if (!report) fail(Status::argument, "%s is NULL", name);
+  const uint32_t size = report->struct_size;
+  if (size < 2 * sizeof(uint32_t))
+    fail(Status::argument, "struct_size of %s is %u; it must be its sizeof", name, size);
+  known.struct_size = size;
+  std::memcpy(static_cast<void*>(report), &known, size < sizeof known ? size : sizeof known);
+}
+
+/// A handle is a pointer to its engine object. Specialised below for each handle.
+template <class Handle>
+struct ObjectOf;
+
+template <class Handle>
+typename ObjectOf<Handle>::type& object(Handle* handle, const char* name) {
+  if (!handle) fail(Status::argument, "%s is NULL", name);
+  return *reinterpret_cast<typename ObjectOf<Handle>::type*>(handle);
+}
+
+/// A new handle, to store in the host's variable once nothing can fail any more.
+template <class Handle>
+Handle* new_handle(Ref<typename ObjectOf<Handle>::type> ref) {
+  return reinterpret_cast<Handle*>(ref.detach());
+}
+
+template <class Handle>
+void retain(Handle* handle) {
+  if (handle) reinterpret_cast<typename ObjectOf<Handle>::type*>(handle)->retain();
+}
+
+template <class Handle>
+void release(Handle* handle) {
+  if (handle) reinterpret_cast<typename ObjectOf<Handle>::type*>(handle)->release();
+}
+
+template <> struct ObjectOf<msq_context> { using type = Context; };
+template <> struct ObjectOf<const msq_context> { using type = const Context; };
+template <> struct ObjectOf<msq_job> { using type = Job; };
+template <> struct ObjectOf<const msq_job> { using type = const Job; };
+template <> struct ObjectOf<msq_shape> { using type = Shape; };
+template <> struct ObjectOf<const msq_shape> { using type = const Shape; };
+template <> struct ObjectOf<msq_field> { using type = Field; };
+template <> struct ObjectOf<const msq_field> { using type = const Field; };
+template <> struct ObjectOf<msq_structure> { using type = Structure; };
+template <> struct ObjectOf<const msq_structure> { using type = const Structure; };
+template <> struct ObjectOf<msq_model> { using type = Model; };
+template <> struct ObjectOf<const msq_model> { using type = const Model; };
+template <> struct ObjectOf<msq_slicer> { using type = Slicer; };
+template <> struct ObjectOf<const msq_slicer> { using type = const Slicer; };
+
+}  // namespace msq::api

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/guard.h"
+
+using namespace msq;
+using namespace msq::api;
+
+namespace {
+
+constexpr uint32_t most_scales = 64;
+
+msq_model_def model_defaults() {
+  msq_model_def def{};
+  def.scale_size = sizeof(msq_scale_def);
+  return def;
+}
+
+/// Scale i of a host whose msq_scale_def may be of another version.
+msq_scale_def read_scale(const msq_model_def& def, uint32_t i) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(def.scales) +
+                      static_cast<size_t>(i) * def.scale_size;
+  msq_scale_def scale{};
+  std::memcpy(&scale, bytes, sizeof scale);
+  for (size_t b = sizeof scale; b < def.scale_size; ++b)
+    if (bytes[b] != 0)
+      fail(Status::argument, "scale %u uses a field that this version of msq does not know", i);
+  return scale;
+}
+
+}  // namespace
+
+msq_status msq_model_def_init(msq_model_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, model_defaults(), "msq_model_def"); });
+}
+
+msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_model** model) {
+  return guard([&] {
+    Context& owner = object(context, "context");
+    require(model, "model");
+    const msq_model_def known = read_def(def, model_defaults(), "def");
+    require_reserved(known.reserved, "reserved");
+    if (known.scale_count < 1 || known.scale_count > most_scales)
+      fail(Status::argument, "scale_count is %u; it must be from 1 to %u", known.scale_count,
+           most_scales);
+    require(known.scales, "scales");
+    if (known.scale_size < sizeof(msq_scale_def) || known.scale_size > 4096)
+      fail(Status::argument, "scale_size is %u; it must be sizeof(msq_scale_def)",
+           known.scale_size);
+    Ref<const Shape> shape;
+    std::vector<Ref<const Structure>> structures;
+    for (uint32_t i = 0; i < known.scale_count; ++i) {
+      const msq_scale_def scale = read_scale(known, i);
+      if (i == 0 ? !scale.shape || scale.structure : !scale.structure || scale.shape)
+        fail(Status::argument, "scale %u must have a %s and no %s", i,
+             i == 0 ? "shape" : "structure", i == 0 ? "structure" : "shape");
+      if (i == 0)
+        shape = Ref<const Shape>(&object(scale.shape, "shape"));
+      else
+        structures.emplace_back(&object(scale.structure, "structure"));
+    }
+    *model = new_handle<msq_model>(
+        make_ref<Model>(Ref<Context>(&owner), std::move(shape), std::move(structures)));
+  });
+}
+
+void msq_model_retain(msq_model* model) { retain(model); }
+void msq_model_release(msq_model* model) { release(model); }
+
+msq_status msq_model_bounds(const msq_model* model, double min[3], double max[3]) {
+  return guard([&] {
+    const Box3& bounds = object(model, "model").bounds();
+    require(min, "min");
+    require(max, "max");
+    for (int axis = 0; axis < 3; ++axis) {
+      min[axis] = bounds.min[axis];
+      max[axis] = bounds.max[axis];
+    }
+  });
+}
+
+msq_status msq_model_scale_length(const msq_model* model, uint32_t scale, double* length) {
+  return guard([&] {
+    const Model& known = object(model, "model");
+    require(length, "length");
+    if (scale >= known.scale_count())
+      fail(Status::argument, "scale is %u; the model has %zu", scale, known.scale_count());
+    *length = known.scale_length(scale);
+  });
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/guard.h"
+#include "query/membership.h"
+
+using namespace msq;
+using namespace msq::api;
+
+namespace {
+
+msq_query_def query_defaults() { return {}; }
+
+msq_points_def points_defaults() {
+  msq_points_def def{};
+  def.kind = MSQ_POINTS_ARRAY;
+  def.coordinate_type = MSQ_FLOAT64;
+  return def;
+}
+
+double read_length_scale(const msq_query_def* query) {
+  const msq_query_def known =
+      query ? read_def(query, query_defaults(), "query") : query_defaults();
+  require_reserved(known.reserved, "reserved");
+  if (!(known.length_scale >= 0))
+    fail(Status::argument, "length_scale is %g; it must not be negative", known.length_scale);
+  return known.length_scale;
+}
+
+void check_count(uint64_t inside_count, uint64_t points) {
+  if (inside_count != points)
+    fail(Status::argument, "inside_count is %llu; there are %llu points",
+         static_cast<unsigned long long>(inside_count), static_cast<unsigned long long>(points));
+}
+
+SampleGrid read_grid(const msq_points_def& def) {
+  SampleGrid grid;
+  grid.origin = require_vector(def.origin, "origin");
+  uint64_t counts[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    grid.spacing[axis] = require_positive(def.spacing[axis], "spacing");
+    counts[axis] = def.counts[axis];
+    if (counts[axis] < 1 || counts[axis] > INT32_MAX)
+      fail(Status::argument, "counts[%d] is %llu; it must be from 1 to %d", axis,
+           static_cast<unsigned long long>(counts[axis]), INT32_MAX);
+    const double last = static_cast<double>(counts[axis] - 1);
+    require_finite(grid.origin[axis] + last * grid.spacing[axis], "the last point's coordinate");
+  }
+  grid.nx = counts[0];
+  grid.ny = counts[1];
+  grid.nz = counts[2];
+  return grid;
+}
+
+void check_finite(const PointArray& points) {
+  for (uint64_t i = 0; i < points.count; ++i) {
+    const Vec3 p = points.at(i);
+    if (!is_finite(p))
+      fail(Status::argument, "point %llu is (%g, %g, %g); it must be finite",
+           static_cast<unsigned long long>(i), p.x, p.y, p.z);
+  }
+}
+
+}  // namespace
+
+msq_status msq_query_def_init(msq_query_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, query_defaults(), "msq_query_def"); });
+}
+
+msq_status msq_points_def_init(msq_points_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, points_defaults(), "msq_points_def"); });
+}
+
+msq_status msq_point_membership(const msq_model* model, const double point[3],
+                                const msq_query_def* query, int32_t* inside) {
+  return guard([&] {
+    const Model& known = object(model, "model");
+    const Vec3 p = require_vector(point, "point");
+    require(inside, "inside");
+    *inside = known.inside(p, known.resolved(read_length_scale(query)));
+  });
+}
+
+msq_status msq_set_membership(const msq_model* model, const msq_points_def* points,
+                              const msq_query_def* query, uint8_t* inside, uint64_t inside_count,
+                              msq_job* job) {
+  return guard([&] {
+    const Model& known = object(model, "model");
+    const msq_points_def def = read_def(points, points_defaults(), "points");
+    const auto resolved = known.resolved(read_length_scale(query));
+    Job* work = job ? &object(job, "job") : nullptr;
+    if (work) work->set_progress(0);
+    require_reserved(def.reserved, "reserved");
+    if (require_range(def.kind, MSQ_POINTS_ARRAY, MSQ_POINTS_GRID, "kind") == MSQ_POINTS_ARRAY) {
+      const PointArray array =
+          point_array(def.coordinates, def.count, def.stride, def.coordinate_type, "coordinates");
+      check_count(inside_count, array.count);
+      if (array.count == 0) return;
+      require(inside, "inside");
+      check_finite(array);
+      array_membership(known, resolved, array, inside, work);
+    } else {
+      const SampleGrid grid = read_grid(def);
+      check_count(inside_count,
+                  checked_product(checked_product(grid.nx, grid.ny, "points"), grid.nz, "points"));
+      require(inside, "inside");
+      grid_membership(known, resolved, grid, inside, work);
+    }
+  });
+}

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/guard.h"
+#include "io/mesh_file.h"
+#include "shape/mesh.h"
+#include "shape/primitive.h"
+
+using namespace msq;
+using namespace msq::api;
+
+namespace {
+
+msq_file_def file_defaults() {
+  const MeshFileOptions options;
+  msq_file_def def{};
+  def.unit_mm = options.unit_mm;
+  def.max_bytes = options.max_bytes;
+  def.max_triangles = options.max_triangles;
+  return def;
+}
+
+msq_mesh_def mesh_defaults() {
+  msq_mesh_def def{};
+  def.coordinate_type = MSQ_FLOAT64;
+  return def;
+}
+
+WindingRule winding_rule(int32_t rule) {
+  return static_cast<WindingRule>(
+      require_range(rule, MSQ_WINDING_NONZERO, MSQ_WINDING_POSITIVE, "winding_rule"));
+}
+
+struct FileRequest {
+  MeshFileOptions options;
+  WindingRule rule;
+};
+
+FileRequest file_request(const msq_file_def* def) {
+  const msq_file_def known = def ? read_def(def, file_defaults(), "def") : file_defaults();
+  require_reserved(known.reserved, "reserved");
+  FileRequest request;
+  request.options.format = static_cast<MeshFormat>(
+      require_range(known.format, MSQ_FORMAT_AUTO, MSQ_FORMAT_AMF, "format"));
+  request.options.unit_mm = require_positive(known.unit_mm, "unit_mm");
+  request.options.max_bytes = known.max_bytes;
+  request.options.max_triangles = known.max_triangles;
+  request.rule = winding_rule(known.winding_rule);
+  return request;
+}
+
+void check_size(double radius, Vec3 centre) {
+  if (!std::isfinite(radius * radius * radius) || max_magnitude(centre) > 1e100)
+    fail(Status::argument, "a shape of radius %g at (%g, %g, %g) is too large", radius, centre.x,
+         centre.y, centre.z);
+}
+
+}  // namespace
+
+msq_status msq_file_def_init(msq_file_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, file_defaults(), "msq_file_def"); });
+}
+
+msq_status msq_shape_from_file(msq_context* context, const char* path, const msq_file_def* def,
+                               msq_shape** shape) {
+  return guard([&] {
+    Context& owner = object(context, "context");
+    require(path, "path");
+    require(shape, "shape");
+    const FileRequest request = file_request(def);
+    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<Mesh>(
+        read_mesh_file(path, request.options), request.rule, owner.budget)));
+  });
+}
+
+msq_status msq_shape_from_memory(msq_context* context, const void* data, uint64_t bytes,
+                                 const msq_file_def* def, msq_shape** shape) {
+  return guard([&] {
+    Context& owner = object(context, "context");
+    if (!data) fail(Status::argument, "data is NULL");
+    require(shape, "shape");
+    const FileRequest request = file_request(def);
+    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<Mesh>(
+        read_mesh_memory(data, bytes, request.options), request.rule, owner.budget)));
+  });
+}
+
+msq_status msq_mesh_def_init(msq_mesh_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, mesh_defaults(), "msq_mesh_def"); });
+}
+
+msq_status msq_shape_from_mesh(msq_context* context, const msq_mesh_def* def, msq_shape** shape) {
+  return guard([&] {
+    Context& owner = object(context, "context");
+    require(shape, "shape");
+    const msq_mesh_def known = read_def(def, mesh_defaults(), "def");
+    require_reserved(known.reserved, "reserved");
+    const WindingRule rule = winding_rule(known.winding_rule);
+    const PointArray points =
+        point_array(known.vertices, known.vertex_count, known.vertex_stride, known.coordinate_type,
+                    "vertices");
+    if (known.triangle_count == 0) fail(Status::mesh, "the mesh has no triangles");
+    require(known.triangles, "triangles");
+    if (known.triangle_count > UINT32_MAX || known.vertex_count > UINT32_MAX)
+      fail(Status::limit, "the mesh has %llu triangles and %llu vertices; the limit is %u of each",
+           static_cast<unsigned long long>(known.triangle_count),
+           static_cast<unsigned long long>(known.vertex_count), UINT32_MAX);
+    const Reservation staging(
+        owner.budget,
+        known.vertex_count * sizeof(Vec3) + known.triangle_count * sizeof(Triangle), "a mesh");
+    TriangleSoup soup;
+    soup.vertices.resize(known.vertex_count);
+    for (uint64_t i = 0; i < known.vertex_count; ++i) soup.vertices[i] = points.at(i);
+    soup.triangles.resize(known.triangle_count);
+    std::memcpy(soup.triangles.data(), known.triangles, known.triangle_count * sizeof(Triangle));
+    *shape = new_handle<msq_shape>(
+        Ref<Shape>(make_ref<Mesh>(std::move(soup), rule, owner.budget)));
+  });
+}
+
+msq_status msq_shape_from_box(msq_context* context, const double min[3], const double max[3],
+                              msq_shape** shape) {
+  return guard([&] {
+    object(context, "context");
+    const Box3 box{require_vector(min, "min"), require_vector(max, "max")};
+    require(shape, "shape");
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(box.min[axis] < box.max[axis]))
+        fail(Status::argument, "min[%d] is %g and max[%d] is %g; min must be less", axis,
+             box.min[axis], axis, box.max[axis]);
+    check_size(max_magnitude(box.extent()), box.min);
+    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<BoxShape>(box)));
+  });
+}
+
+msq_status msq_shape_from_sphere(msq_context* context, const double center[3], double radius,
+                                 msq_shape** shape) {
+  return guard([&] {
+    object(context, "context");
+    const Vec3 centre = require_vector(center, "center");
+    require_positive(radius, "radius");
+    require(shape, "shape");
+    check_size(radius, centre);
+    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<SphereShape>(centre, radius)));
+  });
+}
+
+msq_status msq_shape_from_cylinder(msq_context* context, const double from[3], const double to[3],
+                                   double radius, msq_shape** shape) {
+  return guard([&] {
+    object(context, "context");
+    const Vec3 a = require_vector(from, "from"), b = require_vector(to, "to");
+    require_positive(radius, "radius");
+    require(shape, "shape");
+    check_size(radius, a);
+    check_size(max_magnitude(b - a), b);
+    if (!(dot(b - a, b - a) > 0))
+      fail(Status::argument, "from and to are both (%g, %g, %g); they must differ", a.x, a.y, a.z);
+    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<CylinderShape>(a, b, radius)));
+  });
+}
+
+void msq_shape_retain(msq_shape* shape) { retain(shape); }
+void msq_shape_release(msq_shape* shape) { release(shape); }
+
+msq_status msq_shape_info(const msq_shape* shape, msq_shape_report* report) {
+  return guard([&] {
+    const ShapeFacts& facts = object(shape, "shape").facts();
+    msq_shape_report known{};
+    known.is_mesh = facts.is_mesh;
+    for (int axis = 0; axis < 3; ++axis) {
+      known.min[axis] = facts.bounds.min[axis];
+      known.max[axis] = facts.bounds.max[axis];
+    }
+    known.volume = facts.volume;
+    known.area = facts.area;
+    known.vertices = facts.vertices;
+    known.triangles = facts.triangles;
+    known.degenerate_triangles = facts.degenerate_triangles;
+    known.duplicate_triangles = facts.duplicate_triangles;
+    known.open_edges = facts.open_edges;
+    known.non_manifold_edges = facts.non_manifold_edges;
+    known.flipped_edges = facts.flipped_edges;
+    known.closed = facts.closed;
+    write_report(report, known, "report");
+  });
+}

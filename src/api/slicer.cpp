@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/guard.h"
+
+using namespace msq;
+using namespace msq::api;
+
+namespace {
+
+msq_slicer_def slicer_defaults() {
+  msq_slicer_def def{};
+  def.output = MSQ_LAYER_BITS;
+  return def;
+}
+
+double require_not_negative(double value, const char* name) {
+  if (!(value >= 0) || !std::isfinite(value))
+    fail(Status::argument, "%s is %g; it must be finite and not negative", name, value);
+  return value;
+}
+
+SlicePlan read_plan(const msq_slicer_def& def) {
+  SlicePlan plan;
+  plan.format = static_cast<LayerFormat>(
+      require_range(def.output, MSQ_LAYER_BITS, MSQ_LAYER_BYTES, "output"));
+  for (int axis = 0; axis < 2; ++axis) {
+    plan.pitch[axis] = require_not_negative(def.pitch[axis], "pitch");
+    plan.resolution[axis] = def.resolution[axis];
+  }
+  plan.layer_count = def.layer_count;
+  plan.slab_layers = def.slab_layers;
+  if (!(def.length_scale >= 0))
+    fail(Status::argument, "length_scale is %g; it must not be negative", def.length_scale);
+  plan.length_scale = def.length_scale;
+  plan.has_region = require_range(def.has_region, 0, 1, "has_region") != 0;
+  if (plan.has_region)
+    plan.region = {require_vector(def.region_min, "region_min"),
+                   require_vector(def.region_max, "region_max")};
+  if (!def.heights && def.height_count)
+    fail(Status::argument, "heights is NULL and height_count is %llu",
+         static_cast<unsigned long long>(def.height_count));
+  if (!def.heights) {
+    plan.layer_height = require_positive(def.layer_height, "layer_height");
+    return plan;
+  }
+  if (def.height_count < 1 || def.height_count > INT32_MAX)
+    fail(Status::argument, "height_count is %llu; it must be from 1 to %d",
+         static_cast<unsigned long long>(def.height_count), INT32_MAX);
+  if (def.layer_count && def.layer_count != def.height_count)
+    fail(Status::argument, "layer_count is %llu and height_count is %llu",
+         static_cast<unsigned long long>(def.layer_count),
+         static_cast<unsigned long long>(def.height_count));
+  for (uint64_t i = 0; i < def.height_count; ++i) {
+    require_finite(def.heights[i], "a height");
+    if (i > 0 && !(def.heights[i] > def.heights[i - 1]))
+      fail(Status::argument, "heights[%llu] is %g, after %g; heights must ascend",
+           static_cast<unsigned long long>(i), def.heights[i], def.heights[i - 1]);
+  }
+  plan.heights.assign(def.heights, def.heights + def.height_count);
+  return plan;
+}
+
+void require_layer(const Slicer& slicer, uint64_t index) {
+  if (index >= slicer.grid().nz)
+    fail(Status::argument, "layer %llu does not exist; there are %llu layers",
+         static_cast<unsigned long long>(index),
+         static_cast<unsigned long long>(slicer.grid().nz));
+}
+
+}  // namespace
+
+msq_status msq_slicer_def_init(msq_slicer_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, slicer_defaults(), "msq_slicer_def"); });
+}
+
+msq_status msq_slicer_create(const msq_model* model, const msq_slicer_def* def,
+                             msq_slicer** slicer) {
+  return guard([&] {
+    const Model& known = object(model, "model");
+    require(slicer, "slicer");
+    SlicePlan plan = read_plan(read_def(def, slicer_defaults(), "def"));
+    *slicer = new_handle<msq_slicer>(make_ref<Slicer>(Ref<const Model>(&known), std::move(plan)));
+  });
+}
+
+void msq_slicer_retain(msq_slicer* slicer) { retain(slicer); }
+void msq_slicer_release(msq_slicer* slicer) { release(slicer); }
+
+msq_status msq_slicer_info(const msq_slicer* slicer, msq_slicer_report* report) {
+  return guard([&] {
+    const Slicer& known = object(slicer, "slicer");
+    const SampleGrid& grid = known.grid();
+    msq_slicer_report written{};
+    written.slab_layers = static_cast<uint32_t>(known.slab_layers());
+    written.width = static_cast<uint32_t>(grid.nx);
+    written.height = static_cast<uint32_t>(grid.ny);
+    written.layer_count = grid.nz;
+    written.stride = known.stride();
+    written.layer_bytes = known.layer_bytes();
+    for (int axis = 0; axis < 2; ++axis) {
+      written.origin[axis] = grid.origin[axis];
+      written.pitch[axis] = grid.spacing[axis];
+    }
+    write_report(report, written, "report");
+  });
+}
+
+msq_status msq_slicer_height(const msq_slicer* slicer, uint64_t index, double* z) {
+  return guard([&] {
+    const Slicer& known = object(slicer, "slicer");
+    require_layer(known, index);
+    require(z, "z") = known.grid().z(index);
+  });
+}
+
+msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t count,
+                          msq_layer_fn fn, void* user, msq_job* job) {
+  return guard([&] {
+    const Slicer& known = object(slicer, "slicer");
+    const SampleGrid& grid = known.grid();
+    if (!fn) fail(Status::argument, "fn is NULL");
+    if (first > grid.nz || (count != UINT64_MAX && count > grid.nz - first))
+      fail(Status::argument, "layers %llu to %llu + %llu do not exist; there are %llu layers",
+           static_cast<unsigned long long>(first), static_cast<unsigned long long>(first),
+           static_cast<unsigned long long>(count), static_cast<unsigned long long>(grid.nz));
+    const uint64_t last = count == UINT64_MAX ? grid.nz : first + count;
+    const auto take = [&](const Layer& layer) {
+      msq_layer view{};
+      view.struct_size = sizeof view;
+      view.output = static_cast<int32_t>(known.format());
+      view.index = layer.index;
+      view.z = layer.z;
+      view.data = layer.data;
+      view.stride = known.stride();
+      view.width = static_cast<uint32_t>(grid.nx);
+      view.height = static_cast<uint32_t>(grid.ny);
+      view.inside_count = layer.inside_count;
+      const int32_t code = fn(user, &view);
+      if (code < 0)
+        throw Error(Status::host,
+                    "the layer callback returned " + std::to_string(code) + " at layer " +
+                        std::to_string(layer.index),
+                    code);
+    };
+    known.run(first, last, take, job ? &object(job, "job") : nullptr);
+  });
+}
+
+msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* buffer,
+                           uint64_t buffer_bytes, msq_job* job) {
+  return guard([&] {
+    const Slicer& known = object(slicer, "slicer");
+    require_layer(known, index);
+    require(buffer, "buffer");
+    if (buffer_bytes < known.layer_bytes())
+      fail(Status::argument, "buffer_bytes is %llu; a layer has %llu",
+           static_cast<unsigned long long>(buffer_bytes),
+           static_cast<unsigned long long>(known.layer_bytes()));
+    known.slice_layer(index, buffer, job ? &object(job, "job") : nullptr);
+  });
+}

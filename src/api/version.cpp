@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/guard.h"
+#include "base/simd.h"
+#include "io/mesh_file.h"
+#include "structure/foam/delaunay.h"
+
+using namespace msq;
+using namespace msq::api;
+
+uint32_t msq_version(void) { return MSQ_VERSION; }
+
+msq_status msq_build_info(msq_build_report* report) {
+  return guard([&] {
+    msq_build_report known{};
+    known.version = MSQ_VERSION;
+    known.with_assimp = can_read_mesh_files();
+    known.with_cgal = can_triangulate();
+    // Assimp, pugixml, minizip, oneTBB and Highway are under licences that ask for no more than
+    // Apache-2.0 does; CGAL's triangulations are under the GPL.
+    known.licence = can_triangulate() ? "GPL-3.0-or-later" : "Apache-2.0";
+    known.simd = simd_target_name();
+    write_report(report, known, "report");
+  });
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Products of sizes that cannot overflow unseen.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+
+#include "base/status.h"
+
+namespace msq {
+
+inline uint64_t checked_product(uint64_t a, uint64_t b, const char* what) {
+  uint64_t product;
+  if (__builtin_mul_overflow(a, b, &product) || product > UINT64_MAX / 2)
+    fail(Status::limit, "%s: %llu times %llu is more than 2^63", what,
+         static_cast<unsigned long long>(a), static_cast<unsigned long long>(b));
+  return product;
+}
+
+}  // namespace msq

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Accounting of the large allocations of a context against its memory limit.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "base/status.h"
+
+namespace msq {
+
+class MemoryBudget {
+ public:
+  explicit MemoryBudget(uint64_t limit) : limit_(limit) {}
+
+  /// Throws Error(limit), which names `what`, if the bytes would pass the limit.
+  void take(uint64_t bytes, const char* what) {
+    std::lock_guard lock(mutex_);
+    if (limit_ && (bytes > limit_ || held_ > limit_ - bytes))
+      fail(Status::limit,
+           "%s of %llu bytes, with %llu bytes held, would pass the context's memory_limit of %llu",
+           what, static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(held_),
+           static_cast<unsigned long long>(limit_));
+    held_ += bytes;
+    if (held_ > peak_) peak_ = held_;
+  }
+  /// As take(), but answers false instead of throwing.
+  bool try_take(uint64_t bytes) {
+    std::lock_guard lock(mutex_);
+    if (limit_ && (bytes > limit_ || held_ > limit_ - bytes)) return false;
+    held_ += bytes;
+    if (held_ > peak_) peak_ = held_;
+    return true;
+  }
+  void give_back(uint64_t bytes) {
+    std::lock_guard lock(mutex_);
+    held_ -= bytes;
+  }
+
+  uint64_t limit() const { return limit_; }
+  uint64_t held() const {
+    std::lock_guard lock(mutex_);
+    return held_;
+  }
+  uint64_t peak() const {
+    std::lock_guard lock(mutex_);
+    return peak_;
+  }
+
+ private:
+  const uint64_t limit_;
+  mutable std::mutex mutex_;
+  uint64_t held_ = 0, peak_ = 0;
+};
+
+/// Bytes taken from a budget for as long as this lives.
+class Reservation {
+ public:
+  Reservation() = default;
+  Reservation(std::shared_ptr<MemoryBudget> budget, uint64_t bytes, const char* what)
+      : budget_(std::move(budget)), bytes_(bytes) {
+    budget_->take(bytes_, what);
+  }
+  Reservation(Reservation&& other) noexcept
+      : budget_(std::move(other.budget_)), bytes_(std::exchange(other.bytes_, 0)) {
+    other.budget_.reset();
+  }
+  Reservation& operator=(Reservation&& other) noexcept {
+    std::swap(budget_, other.budget_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+  ~Reservation() {
+    if (budget_) budget_->give_back(bytes_);
+  }
+
+ private:
+  std::shared_ptr<MemoryBudget> budget_;
+  uint64_t bytes_ = 0;
+};
+
+}  // namespace msq

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// A regular grid of sample points, and blocks of its rows as bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/vec.h"
+
+namespace msq {
+
+/// Samples (i, j, k) at (x(i), y(j), z(k)). These three expressions are the sample positions, to the
+/// last bit, on every path. Layers are evenly spaced or listed.
+struct SampleGrid {
+  Vec3 origin;
+  Vec3 spacing{1, 1, 1};
+  uint64_t nx = 0, ny = 0, nz = 0;
+  const double* heights = nullptr;  ///< nz ascending z, in place of origin.z + k * spacing.z
+
+  double x(uint64_t i) const { return origin.x + static_cast<double>(i) * spacing.x; }
+  double y(uint64_t j) const { return origin.y + static_cast<double>(j) * spacing.y; }
+  double z(uint64_t k) const {
+    return heights ? heights[k] : origin.z + static_cast<double>(k) * spacing.z;
+  }
+  Vec3 at(uint64_t i, uint64_t j, uint64_t k) const { return {x(i), y(j), z(k)}; }
+};
+
+constexpr size_t bits_per_word = 64;
+inline size_t words_for(uint64_t bits) { return (bits + bits_per_word - 1) / bits_per_word; }
+
+/// Rows j in [y0, y1) of layers k in [z0, z1) of a grid, all x, one bit a sample: sample i is bit
+/// i % 64 of word i / 64; bits past nx are 0. A view: the words belong to someone else.
+struct RowBlock {
+  const SampleGrid* grid = nullptr;
+  uint64_t y0 = 0, y1 = 0, z0 = 0, z1 = 0;
+  uint64_t* words = nullptr;
+  size_t row_stride = 0, layer_stride = 0;  ///< in words
+
+  uint64_t* row(uint64_t j, uint64_t k) const {
+    return words + (k - z0) * layer_stride + (j - y0) * row_stride;
+  }
+  size_t row_words() const { return words_for(grid->nx); }
+  uint64_t rows() const { return y1 - y0; }
+  uint64_t layers() const { return z1 - z0; }
+  Box3 box() const {
+    return {grid->at(0, y0, z0), grid->at(grid->nx - 1, y1 - 1, z1 - 1)};
+  }
+};
+
+/// Sets bits first..last, inclusive, of a row.
+inline void set_bits(uint64_t* row, uint64_t first, uint64_t last) {
+  const uint64_t a = first / bits_per_word, b = last / bits_per_word;
+  const uint64_t head = ~uint64_t{0} << (first % bits_per_word);
+  const uint64_t tail = ~uint64_t{0} >> (bits_per_word - 1 - last % bits_per_word);
+  if (a == b) {
+    row[a] |= head & tail;
+    return;
+  }
+  row[a] |= head;
+  for (uint64_t w = a + 1; w < b; ++w) row[w] = ~uint64_t{0};
+  row[b] |= tail;
+}
+
+/// Index of the first of `count` ascending samples origin + i * spacing that is >= value (or
+/// > value, where `beyond`); count if none is.
+template <bool beyond = false>
+uint64_t first_sample_from(double origin, double spacing, uint64_t count, double value) {
+  const auto reached = [&](uint64_t i) {
+    const double x = origin + static_cast<double>(i) * spacing;
+    return beyond ? x > value : x >= value;
+  };
+  const double guess = std::ceil((value - origin) / spacing);
+  uint64_t i = guess <= 0                           ? 0
+               : guess >= static_cast<double>(count) ? count
+                                                     : static_cast<uint64_t>(guess);
+  while (i > 0 && reached(i - 1)) --i;
+  while (i < count && !reached(i)) ++i;
+  return i;
+}
+
+}  // namespace msq

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the objects of one host share: threads, memory limit and the cache of cell data.
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/ref.h"
+#include "cell/cache.h"
+
+namespace msq {
+
+class Context : public RefCounted {
+ public:
+  Context(unsigned threads, uint64_t cache_bytes, uint64_t memory_limit)
+      : executor(threads),
+        budget(std::make_shared<MemoryBudget>(memory_limit)),
+        cache(cache_bytes, budget) {}
+
+  /// A number that no other structure of this context has: its name in the cache.
+  uint64_t new_structure_id() { return next_id_.fetch_add(1, std::memory_order_relaxed); }
+
+  const Executor executor;
+  const std::shared_ptr<MemoryBudget> budget;
+  CellCache cache;
+
+ private:
+  std::atomic<uint64_t> next_id_{1};
+};
+
+}  // namespace msq

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The neighbourhood grid of a structure, and the canonical map from a point to (cell, position
+// in the cell). Every path goes through locate(), so all start from the same bits.
+// Source: paper, section "Multiscale Shape-Material Modeling API".
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/vec.h"
+
+namespace msq {
+
+struct CellIndex {
+  int32_t x = 0, y = 0, z = 0;
+
+  friend bool operator==(CellIndex a, CellIndex b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  }
+};
+
+/// Cell indices stay below this in magnitude; Model checks it once for the coarse shape's box.
+constexpr double max_cell_index = 1 << 24;
+
+struct Neighbourhood {
+  Vec3 origin;
+  Vec3 cell_size{1, 1, 1};
+  Rotation rotation;
+
+  struct Located {
+    CellIndex cell;
+    Vec3 fraction;  ///< from the cell's corner, in cell sizes, along the grid's axes; 0 to 1
+  };
+
+  /// Grid coordinates of a point: model units along the grid's axes, from the grid's origin.
+  Vec3 to_grid(Vec3 p) const { return rotation.apply_inverse(p - origin); }
+  Vec3 from_grid(Vec3 g) const { return rotation.apply(g) + origin; }
+
+  Located locate(Vec3 p) const {
+    const Vec3 g = to_grid(p);
+    Located located;
+    locate_axis(g.x, cell_size.x, located.cell.x, located.fraction.x);
+    locate_axis(g.y, cell_size.y, located.cell.y, located.fraction.y);
+    locate_axis(g.z, cell_size.z, located.cell.z, located.fraction.z);
+    return located;
+  }
+
+  /// Bounding box, in grid coordinates, of a box in model coordinates.
+  Box3 to_grid(const Box3& box) const {
+    const Vec3 centre = (box.min + box.max) * 0.5;
+    const Vec3 half = box.extent() * 0.5;
+    const Vec3 c = to_grid(centre);
+    const auto& m = rotation.m;
+    const Vec3 h{std::abs(m[0]) * half.x + std::abs(m[3]) * half.y + std::abs(m[6]) * half.z,
+                 std::abs(m[1]) * half.x + std::abs(m[4]) * half.y + std::abs(m[7]) * half.z,
+                 std::abs(m[2]) * half.x + std::abs(m[5]) * half.y + std::abs(m[8]) * half.z};
+    return {c - h, c + h};
+  }
+
+ private:
+  static void locate_axis(double g, double size, int32_t& cell, double& fraction) {
+    const double c = g / size;
+    const double floor = std::floor(c);
+    cell = static_cast<int32_t>(floor);
+    fraction = c - floor;
+  }
+};
+
+}  // namespace msq

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scalar fields that drive parameters, and parameters: a number or a field.
+#pragma once
+
+#include "base/ref.h"
+#include "base/vec.h"
+
+namespace msq {
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+class Field : public RefCounted {
+ public:
+  virtual double at(Vec3 p) const = 0;
+  /// Encloses at(p) for all p, and for all p of a box: proven, rounding included.
+  virtual Interval range() const = 0;
+  virtual Interval range(const Box3& box) const = 0;
+};
+
+class Parameter {
+ public:
+  Parameter() = default;
+  explicit Parameter(double value) : value_(value) {}
+  explicit Parameter(Ref<const Field> field) : field_(std::move(field)) {}
+
+  bool is_constant() const { return !field_; }
+  double at(Vec3 p) const { return field_ ? field_->at(p) : value_; }
+  Interval range() const { return field_ ? field_->range() : Interval{value_, value_}; }
+  Interval range(const Box3& box) const {
+    return field_ ? field_->range(box) : Interval{value_, value_};
+  }
+
+ private:
+  double value_ = 0;
+  Ref<const Field> field_;
+};
+
+}  // namespace msq

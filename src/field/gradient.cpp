@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/gradient.h"
+
+namespace msq {
+
+GradientField::GradientField(Vec3 from, double from_value, Vec3 to, double to_value)
+    : from_(from),
+      axis_(to - from),
+      axis_squared_(dot(axis_, axis_)),
+      from_value_(from_value),
+      to_value_(to_value) {}
+
+double GradientField::value(double t) const {
+  if (t <= 0) return from_value_;
+  if (t >= 1) return to_value_;
+  const double v = from_value_ + t * (to_value_ - from_value_);
+  return std::clamp(v, std::min(from_value_, to_value_), std::max(from_value_, to_value_));
+}
+
+Interval GradientField::range() const {
+  return {std::min(from_value_, to_value_), std::max(from_value_, to_value_)};
+}
+
+Interval GradientField::range(const Box3& box) const {
+  const Vec3 half = box.extent() * 0.5;
+  const double t = parameter((box.min + box.max) * 0.5);
+  const double reach = (std::abs(axis_.x) * half.x + std::abs(axis_.y) * half.y +
+                        std::abs(axis_.z) * half.z) /
+                       axis_squared_;
+  // t carries a few units of rounding of p, from_ and the products; 2^-40 of all that enters is
+  // thousands of them.
+  const double magnitude = max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(from_);
+  const double slack = 0x1p-40 * (1 + reach + std::abs(t) + magnitude / std::sqrt(axis_squared_));
+  const double a = value(t - reach - slack), b = value(t + reach + slack);
+  const double rounding = 0x1p-50 * (std::abs(from_value_) + std::abs(to_value_));
+  const Interval all = range();
+  return {std::max(all.low, std::min(a, b) - rounding),
+          std::min(all.high, std::max(a, b) + rounding)};
+}
+
+}  // namespace msq

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/assembly.h"
+
+#include "base/status.h"
+
+namespace msq {
+
+uint64_t saturating_sum(uint64_t a, uint64_t b) {
+  constexpr uint64_t most = uint64_t{1} << 63;
+  return a > most - b ? most : a + b;
+}
+
+uint64_t count_triangles(Assembly& assembly, int depth) {
+  constexpr int max_depth = 100;
+  if (depth > max_depth) fail(Status::limit, "objects are nested more than %d deep", max_depth);
+  if (assembly.state == Assembly::State::open) fail(Status::io, "an object contains itself");
+  if (assembly.state == Assembly::State::unseen) {
+    assembly.state = Assembly::State::open;
+    assembly.triangles = assembly.mesh.triangles.size();
+    std::erase_if(assembly.instances, [&](const Instance& instance) {
+      const uint64_t triangles = count_triangles(*instance.assembly, depth + 1);
+      assembly.triangles = saturating_sum(assembly.triangles, triangles);
+      return triangles == 0;
+    });
+    assembly.state = Assembly::State::done;
+  }
+  return assembly.triangles;
+}
+
+void place(const Assembly& assembly, const Placement& placement, SoupBuilder& soup) {
+  if (!assembly.mesh.triangles.empty()) soup.add_instance(assembly.mesh, placement);
+  for (const Instance& instance : assembly.instances)
+    place(*instance.assembly, placement.after(instance.placement), soup);
+}
+
+}  // namespace msq

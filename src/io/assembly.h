@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes that hold instances of one another, as the objects of 3MF and AMF do.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "io/soup_builder.h"
+
+namespace msq {
+
+struct Assembly;
+
+struct Instance {
+  Assembly* assembly;
+  Placement placement;
+};
+
+struct Assembly {
+  TriangleSoup mesh;
+  std::vector<Instance> instances;
+  uint64_t triangles = 0;  ///< with all instances, at most 2^63; set by count_triangles()
+  enum class State { unseen, open, done } state = State::unseen;
+};
+
+/// Counts the triangles of an assembly with all instances in it, each assembly once, and drops
+/// instances without triangles, so that placing costs no more than the triangles that come of it.
+/// Throws Error(io) if an assembly contains itself, Error(limit) on nesting over 100 deep.
+uint64_t count_triangles(Assembly& assembly, int depth = 0);
+
+/// Sum that stays at 2^63.
+uint64_t saturating_sum(uint64_t a, uint64_t b);
+
+/// Adds a counted assembly and all that is in it.
+void place(const Assembly& assembly, const Placement& placement, SoupBuilder& soup);
+
+}  // namespace msq

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/mesh_file.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+#include "base/status.h"
+#include "io/readers.h"
+#include "io/text_cursor.h"
+
+namespace msq {
+namespace {
+
+constexpr struct {
+  const char* extension;
+  MeshFormat format;
+} formats[] = {{"stl", MeshFormat::stl}, {"obj", MeshFormat::obj},     {"ply", MeshFormat::ply},
+               {"off", MeshFormat::off}, {"3mf", MeshFormat::threemf}, {"amf", MeshFormat::amf}};
+
+MeshFormat format_of(const std::string& path) {
+  const size_t slash = path.find_last_of("/\\");
+  const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
+  const size_t dot = name.rfind('.');
+  const std::string extension = dot == std::string::npos ? "" : name.substr(dot + 1);
+  for (const auto& known : formats)
+    if (equal_ignoring_case(extension, known.extension)) return known.format;
+  fail(Status::unsupported, "%s: the extension \"%s\" is none of stl, obj, ply, off, 3mf, amf",
+       path.c_str(), extension.c_str());
+}
+
+void check(const MeshFileOptions& options) {
+  const auto format = static_cast<int32_t>(options.format);
+  if (format < 0 || format > static_cast<int32_t>(MeshFormat::amf))
+    fail(Status::argument, "format is %d; it must be 0 to %d", format,
+         static_cast<int>(MeshFormat::amf));
+  if (!(options.unit_mm > 0) || !std::isfinite(options.unit_mm))
+    fail(Status::argument, "unit_mm is %g; it must be finite and more than 0", options.unit_mm);
+}
+
+void check_size(uint64_t bytes, const MeshFileOptions& options) {
+  if (bytes > options.max_bytes)
+    fail(Status::limit, "the file has %llu bytes; max_bytes is %llu",
+         static_cast<unsigned long long>(bytes),
+         static_cast<unsigned long long>(options.max_bytes));
+}
+
+std::string read_whole_file(const std::string& path, const MeshFileOptions& options) {
+  namespace fs = std::filesystem;
+  const auto give_up = [&](int error) {
+    fail(Status::io, "%s: %s", path.c_str(), std::generic_category().message(error).c_str());
+  };
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) give_up(ENOENT);
+  if (error) give_up(error.value());
+  if (status.type() == fs::file_type::directory) give_up(EISDIR);
+  // Pipes and devices have no size to check, and may never end.
+  if (status.type() != fs::file_type::regular)
+    fail(Status::io, "%s: not a regular file", path.c_str());
+  const uint64_t bytes = fs::file_size(path, error);
+  if (error) give_up(error.value());
+  check_size(bytes, options);
+
+  const auto close = [](std::FILE* file) { std::fclose(file); };
+  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
+  if (!file) give_up(errno);
+  std::string content(bytes, '\0');
+  errno = 0;
+  const size_t got = std::fread(content.data(), 1, bytes, file.get());
+  if (got != bytes) {
+    if (std::ferror(file.get())) give_up(errno ? errno : EIO);
+    fail(Status::io, "%s: ended after %zu of %llu bytes", path.c_str(), got,
+         static_cast<unsigned long long>(bytes));
+  }
+  return content;
+}
+
+TriangleSoup read(std::string_view file, MeshFormat format, const MeshFileOptions& options) {
+  SoupBuilder soup(options.max_triangles);
+  double scale = options.unit_mm;
+  switch (format) {
+    case MeshFormat::stl:
+      read_stl(file, soup);
+      break;
+    case MeshFormat::obj:
+      read_obj(file, soup);
+      break;
+    case MeshFormat::ply:
+      read_ply(file, soup);
+      break;
+    case MeshFormat::off:
+      read_off(file, soup);
+      break;
+    case MeshFormat::threemf:
+      scale = read_threemf(file, options.max_bytes, soup);
+      break;
+    case MeshFormat::amf:
+      scale = read_amf(file, options.max_bytes, soup);
+      break;
+    case MeshFormat::automatic:
+      fail(Status::internal, "no mesh format");
+  }
+  return soup.finish(scale);
+}
+
+}  // namespace
+
+bool can_read_mesh_files() {
+  return true;
+}
+
+TriangleSoup read_mesh_file(const std::string& path, const MeshFileOptions& options) {
+  check(options);
+  const MeshFormat format =
+      options.format == MeshFormat::automatic ? format_of(path) : options.format;
+  const std::string content = read_whole_file(path, options);
+  try {
+    return read(content, format, options);
+  } catch (const Error& error) {
+    throw Error(error.status, path + ": " + error.what());
+  }
+}
+
+TriangleSoup read_mesh_memory(const void* data, uint64_t bytes, const MeshFileOptions& options) {
+  check(options);
+  if (options.format == MeshFormat::automatic)
+    fail(Status::argument, "format is automatic; a file in memory needs a named one");
+  if (!data && bytes)
+    fail(Status::argument, "data is NULL with %llu bytes", static_cast<unsigned long long>(bytes));
+  check_size(bytes, options);
+  return read({static_cast<const char*>(data), bytes}, options.format, options);
+}
+
+}  // namespace msq

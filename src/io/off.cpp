@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// OFF files (Geomview), ASCII. Read here and not by Assimp 5.2.5, which drops polygons of more than
+// nine vertices, clamps indices out of range and allocates what the header claims.
+#include <vector>
+
+#include "base/status.h"
+#include "io/readers.h"
+#include "io/text_cursor.h"
+
+namespace msq {
+namespace {
+
+using Count = unsigned long long;
+
+/// Next word that is not in a comment.
+std::string_view next_word(TextCursor& text, const char* what) {
+  for (;;) {
+    const std::string_view word = text.word();
+    if (word.empty()) fail(Status::io, "OFF: the file ends in its %s", what);
+    if (word[0] != '#') return word;
+    text.line();
+  }
+}
+
+/// Passes the keyword [ST][C][N][4][n]OFF, which may be missing. Returns whether vertices have a
+/// fourth, homogeneous coordinate.
+bool read_keyword(TextCursor& text) {
+  TextCursor ahead = text;
+  const std::string_view word = next_word(ahead, "header");
+  if (word[0] >= '0' && word[0] <= '9') return false;
+  std::string_view letters = word;
+  if (letters.starts_with("ST")) letters.remove_prefix(2);
+  if (letters.starts_with('C')) letters.remove_prefix(1);
+  if (letters.starts_with('N')) letters.remove_prefix(1);
+  const bool homogeneous = letters.starts_with('4');
+  if (homogeneous) letters.remove_prefix(1);
+  if (letters.starts_with('n'))
+    fail(Status::unsupported, "OFF: vertices of other than three dimensions (\"%s\")",
+         Quoted(word).text);
+  if (!letters.starts_with("OFF"))
+    fail(Status::io, "OFF: the file begins with \"%s\", not with OFF", Quoted(word).text);
+  // Some files have the first count right behind the keyword.
+  const size_t after = static_cast<size_t>(letters.data() + 3 - text.rest().data());
+  text.skip(after);
+  TextCursor rest = text;
+  if (rest.word_of_line() == "BINARY")
+    fail(Status::unsupported, "OFF: binary files are not read, only ASCII ones");
+  return homogeneous;
+}
+
+}  // namespace
+
+void read_off(std::string_view file, SoupBuilder& soup) {
+  TextCursor text(without_byte_order_mark(file));
+  const bool homogeneous = read_keyword(text);
+  const uint64_t vertices = parse_count(next_word(text, "header"), "OFF: vertex count");
+  const uint64_t faces = parse_count(next_word(text, "header"), "OFF: face count");
+  parse_count(next_word(text, "header"), "OFF: edge count");
+
+  // A vertex takes 6 bytes or more ("0 0 0" and a line end), a face 2.
+  const uint64_t room = text.remaining() + 1;
+  if (vertices > room / 6 || faces > (room - 6 * vertices) / 2)
+    fail(Status::io, "OFF: the header claims %llu vertices and %llu faces; only %llu bytes follow",
+         static_cast<Count>(vertices), static_cast<Count>(faces),
+         static_cast<Count>(text.remaining()));
+  soup.expect_vertices(vertices);
+  soup.reserve_vertices(vertices);
+
+  // Colours and the like may follow on the line of a vertex or a face.
+  for (uint64_t i = 0; i < vertices; ++i) {
+    double p[4] = {0, 0, 0, 1};
+    for (int axis = 0; axis < (homogeneous ? 4 : 3); ++axis)
+      p[axis] = parse_real(next_word(text, "vertices"), "OFF: vertex");
+    text.line();
+    soup.add_vertex({p[0] / p[3], p[1] / p[3], p[2] / p[3]});
+  }
+  std::vector<int64_t> polygon;
+  for (uint64_t i = 0; i < faces; ++i) {
+    const uint64_t n = parse_count(next_word(text, "faces"), "OFF: vertices of a face");
+    polygon.clear();
+    for (uint64_t k = 0; k < n; ++k)
+      polygon.push_back(parse_integer(next_word(text, "faces"), "OFF: vertex index"));
+    text.line();
+    soup.add_polygon(polygon);
+  }
+}
+
+}  // namespace msq

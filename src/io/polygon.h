@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "shape/triangle_soup.h"
+
+namespace msq {
+
+/// Appends the n - 2 triangles of a polygon of n >= 3 vertices, which keep its orientation. Indices
+/// must be in range. Throws Error(limit) on concave polygons of more than 4096 vertices.
+void triangulate_polygon(const std::vector<Vec3>& vertices, std::span<const uint32_t> polygon,
+                         std::vector<Triangle>& triangles);
+
+}  // namespace msq

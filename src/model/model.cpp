@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/model.h"
+
+#include "base/status.h"
+
+namespace msq {
+
+Model::Model(Ref<Context> context, Ref<const Shape> shape,
+             std::vector<Ref<const Structure>> structures)
+    : context_(std::move(context)), shape_(std::move(shape)), structures_(std::move(structures)) {
+  for (size_t i = 0; i < structures_.size(); ++i) {
+    const Neighbourhood& grid = structures_[i]->neighbourhood();
+    const Box3 box = grid.to_grid(bounds());
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cells =
+          std::max(std::abs(box.min[axis]), std::abs(box.max[axis])) / grid.cell_size[axis];
+      if (!(cells < max_cell_index))
+        fail(Status::limit,
+             "the shape reaches %g cells of scale %zu from its grid's origin along axis %d; the "
+             "limit is %g",
+             cells, i + 1, axis, max_cell_index);
+    }
+  }
+}
+
+std::vector<const Structure*> Model::resolved(double length_scale) const {
+  std::vector<const Structure*> resolved;
+  for (const auto& structure : structures_)
+    if (structure->characteristic_length() >= length_scale) resolved.push_back(structure.get());
+  return resolved;
+}
+
+bool Model::inside(Vec3 p, const std::vector<const Structure*>& resolved) const {
+  if (!shape_->inside(p)) return false;
+  for (const Structure* structure : resolved)
+    if (!structure->inside(p)) return false;
+  return true;
+}
+
+}  // namespace msq

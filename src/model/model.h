@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// A coarse shape and the structures that fill it, scale by scale; the solid is their intersection.
+// Source: paper, section "Multiscale Shape-Material Modeling API".
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "cell/context.h"
+#include "shape/shape.h"
+#include "structure/structure.h"
+
+namespace msq {
+
+class Model final : public RefCounted {
+ public:
+  /// Throws Error(limit) if a structure has more than max_cell_index cells across the shape.
+  Model(Ref<Context> context, Ref<const Shape> shape, std::vector<Ref<const Structure>> structures);
+
+  Context& context() const { return *context_; }
+  const Shape& shape() const { return *shape_; }
+  const Box3& bounds() const { return shape_->bounds(); }
+  size_t scale_count() const { return 1 + structures_.size(); }
+  /// Of scale 0: infinite.
+  double scale_length(size_t scale) const {
+    return scale == 0 ? std::numeric_limits<double>::infinity()
+                      : structures_[scale - 1]->characteristic_length();
+  }
+
+  /// The structures, coarsest first, that a query at a length scale resolves.
+  std::vector<const Structure*> resolved(double length_scale) const;
+
+  /// Membership of a finite point: the definition.
+  bool inside(Vec3 p, const std::vector<const Structure*>& resolved) const;
+
+ private:
+  Ref<Context> context_;
+  Ref<const Shape> shape_;
+  std::vector<Ref<const Structure>> structures_;
+};
+
+}  // namespace msq

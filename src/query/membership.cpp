@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "query/membership.h"
+
+#include <atomic>
+#include <cstring>
+
+#include "base/memory.h"
+
+namespace msq {
+
+namespace {
+
+/// Rows are restricted in tiles of about this many words, which, with the two working rows of the
+/// span raster, stay in a core's own cache.
+constexpr uint64_t tile_words = 32768, tile_layers = 32, least_tile_rows = 16;
+
+uint64_t tile_rows(const SampleGrid& grid, uint64_t layers, unsigned threads) {
+  const uint64_t deep = std::max<uint64_t>(1, std::min(layers, tile_layers));
+  const uint64_t fit = tile_words / (words_for(grid.nx) * deep);
+  const uint64_t balanced = grid.ny / (4 * threads);  // several tiles for each thread
+  return std::clamp<uint64_t>(std::min(fit, balanced), least_tile_rows,
+                              std::max(least_tile_rows, grid.ny));
+}
+
+}  // namespace
+
+uint64_t fill_slab_scratch_words(const Model& model, const SampleGrid& grid) {
+  const unsigned threads = model.context().executor.threads();
+  return 2 * threads * words_for(grid.nx) * tile_layers * tile_rows(grid, tile_layers, threads);
+}
+
+void fill_slab(const Model& model, const std::vector<const Structure*>& resolved,
+               const SampleGrid& grid, uint64_t z0, uint64_t z1, uint64_t* words, const Job* job) {
+  const size_t row_words = words_for(grid.nx);
+  RowBlock slab;
+  slab.grid = &grid;
+  slab.y0 = 0;
+  slab.y1 = grid.ny;
+  slab.z0 = z0;
+  slab.z1 = z1;
+  slab.words = words;
+  slab.row_stride = row_words;
+  slab.layer_stride = row_words * grid.ny;
+  const Executor& executor = model.context().executor;
+
+  executor.for_each(z1 - z0, [&](uint64_t layer) {
+    check_cancelled(job);
+    RowBlock block = slab;
+    block.z0 = z0 + layer;
+    block.z1 = block.z0 + 1;
+    block.words = slab.row(0, block.z0);
+    std::memset(block.words, 0, slab.layer_stride * sizeof(uint64_t));
+    model.shape().fill_rows(block);
+  });
+  if (resolved.empty()) return;
+
+  const uint64_t rows = tile_rows(grid, z1 - z0, executor.threads());
+  const uint64_t across = (grid.ny + rows - 1) / rows;
+  const uint64_t deep = (z1 - z0 + tile_layers - 1) / tile_layers;
+  executor.for_each(across * deep, [&](uint64_t tile) {
+    check_cancelled(job);
+    RowBlock block = slab;
+    block.y0 = tile % across * rows;
+    block.y1 = std::min(grid.ny, block.y0 + rows);
+    block.z0 = z0 + tile / across * tile_layers;
+    block.z1 = std::min(z1, block.z0 + tile_layers);
+    block.words = slab.row(block.y0, block.z0);
+    for (const Structure* structure : resolved) structure->keep_rows(block, job);
+  });
+}
+
+void array_membership(const Model& model, const std::vector<const Structure*>& resolved,
+                      const PointArray& points, uint8_t* inside, Job* job) {
+  constexpr uint64_t chunk = 4096;
+  const uint64_t chunks = (points.count + chunk - 1) / chunk;
+  std::atomic<uint64_t> done{0};
+  model.context().executor.for_each(chunks, [&](uint64_t c) {
+    check_cancelled(job);
+    const uint64_t first = c * chunk, count = std::min(chunk, points.count - first);
+    std::vector<Vec3> positions(count);
+    std::vector<uint8_t> alive(count);
+    for (uint64_t i = 0; i < count; ++i) {
+      positions[i] = points.at(first + i);
+      alive[i] = model.shape().inside(positions[i]);
+    }
+    for (const Structure* structure : resolved)
+      structure->keep_points(positions.data(), alive.data(), count);
+    std::memcpy(inside + first, alive.data(), count);
+    const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
+    if (job) job->set_progress(static_cast<double>(now) / static_cast<double>(chunks));
+  });
+}
+
+void grid_membership(const Model& model, const std::vector<const Structure*>& resolved,
+                     const SampleGrid& grid, uint8_t* inside, Job* job) {
+  const size_t row_words = words_for(grid.nx);
+  const uint64_t layer_words = row_words * grid.ny;
+  // Slabs of at most 16 MiB, or a layer.
+  const uint64_t slab_layers =
+      std::clamp<uint64_t>((uint64_t{2} << 20) / layer_words, 1, std::min<uint64_t>(grid.nz, 64));
+  const Reservation reservation(
+      model.context().budget,
+      (slab_layers * layer_words + fill_slab_scratch_words(model, grid)) * sizeof(uint64_t),
+      "a slab of the grid");
+  std::vector<uint64_t> words(slab_layers * layer_words);
+  for (uint64_t z0 = 0; z0 < grid.nz; z0 += slab_layers) {
+    const uint64_t z1 = std::min(grid.nz, z0 + slab_layers);
+    fill_slab(model, resolved, grid, z0, z1, words.data(), job);
+    model.context().executor.for_each((z1 - z0) * grid.ny, [&](uint64_t r) {
+      const uint64_t* row = words.data() + r * row_words;
+      uint8_t* out = inside + (z0 * grid.ny + r) * grid.nx;
+      for (uint64_t i = 0; i < grid.nx; ++i)
+        out[i] = row[i / bits_per_word] >> (i % bits_per_word) & 1;
+    });
+    if (job) job->set_progress(static_cast<double>(z1) / static_cast<double>(grid.nz));
+  }
+}
+
+}  // namespace msq

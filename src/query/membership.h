@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Set queries of membership. Source: paper, section "Set-based queries": scale by scale from the
+// coarsest; what a scale answers is not asked of finer ones.
+#pragma once
+
+#include <vector>
+
+#include "base/job.h"
+#include "base/sample_grid.h"
+#include "model/model.h"
+#include "query/point_array.h"
+
+namespace msq {
+
+/// Bits of layers [z0, z1) of a grid, rows tightly packed in words_for(nx) words; `words` is
+/// overwritten. The whole of a layer at a time, in parallel.
+void fill_slab(const Model& model, const std::vector<const Structure*>& resolved,
+               const SampleGrid& grid, uint64_t z0, uint64_t z1, uint64_t* words, const Job* job);
+
+/// Words of working memory that fill_slab takes beyond its output.
+uint64_t fill_slab_scratch_words(const Model& model, const SampleGrid& grid);
+
+/// inside[i] becomes 0 or 1. All points must be finite.
+void array_membership(const Model& model, const std::vector<const Structure*>& resolved,
+                      const PointArray& points, uint8_t* inside, Job* job);
+
+/// inside[i + nx (j + ny k)] becomes 0 or 1.
+void grid_membership(const Model& model, const std::vector<const Structure*>& resolved,
+                     const SampleGrid& grid, uint8_t* inside, Job* job);
+
+}  // namespace msq

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Box, sphere and cylinder as coarse shapes.
+#pragma once
+
+#include "shape/shape.h"
+
+namespace msq {
+
+class BoxShape final : public Shape {
+ public:
+  explicit BoxShape(const Box3& box);
+  bool inside(Vec3 p) const override { return bounds().contains(p); }
+  void fill_rows(const RowBlock& block) const override;
+};
+
+class SphereShape final : public Shape {
+ public:
+  SphereShape(Vec3 centre, double radius);
+  bool inside(Vec3 p) const override;
+
+ private:
+  Vec3 centre_;
+  double radius_squared_;
+};
+
+/// Flat-ended round cylinder.
+class CylinderShape final : public Shape {
+ public:
+  CylinderShape(Vec3 from, Vec3 to, double radius);
+  bool inside(Vec3 p) const override;
+
+ private:
+  Vec3 from_, axis_;  // axis_ from one end to the other
+  double axis_squared_, radius_squared_;
+};
+
+}  // namespace msq

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The contract of coarse shapes (scale 0). inside() is the definition; fill_rows() must agree with it
+// bit for bit.
+#pragma once
+
+#include <cstdint>
+
+#include "base/ref.h"
+#include "base/sample_grid.h"
+#include "base/vec.h"
+
+namespace msq {
+
+/// What is known of a shape; the counts are those of meshes. Meanings: msq_shape_report in msq.h.
+struct ShapeFacts {
+  bool is_mesh = false;
+  Box3 bounds;
+  double volume = 0, area = 0;
+  uint64_t vertices = 0, triangles = 0;
+  uint64_t degenerate_triangles = 0, duplicate_triangles = 0;
+  uint64_t open_edges = 0, non_manifold_edges = 0, flipped_edges = 0;
+  bool closed = true;
+};
+
+class Shape : public RefCounted {
+ public:
+  /// No point outside this box is inside the shape.
+  const Box3& bounds() const { return facts_.bounds; }
+  const ShapeFacts& facts() const { return facts_; }
+
+  /// Membership of a finite point; the boundary is inside.
+  virtual bool inside(Vec3 p) const = 0;
+
+  /// Sets the bits of the samples that are inside, in a block of zeros. Default: asks inside() of
+  /// every sample in bounds().
+  virtual void fill_rows(const RowBlock& block) const;
+
+ protected:
+  ShapeFacts facts_;
+};
+
+}  // namespace msq

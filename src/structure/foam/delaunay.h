@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Delaunay triangulation of a few hundred seeds, as its facets: the duals of Voronoi edges.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace msq {
+
+struct DelaunayFacet {
+  std::array<uint32_t, 3> seeds;    ///< indices, ascending
+  std::array<int64_t, 2> opposite;  ///< fourth seed of the tetrahedron on either side; -1: none
+};
+
+bool can_triangulate();
+
+/// Exact in its decisions; seeds on one sphere are triangulated somehow. Throws Error(unsupported) in
+/// builds without CGAL.
+std::vector<DelaunayFacet> delaunay_facets(const std::vector<Vec3>& seeds);
+
+}  // namespace msq

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The edges come in bricks from the cell cache and go as struts to the span raster; the point query
+// decides the few samples in doubt.
+#include "structure/foam/direct.h"
+
+#include "structure/foam/edges.h"
+#include "structure/strut_rows.h"
+
+namespace msq {
+
+namespace {
+
+/// Ends of edges and the chords of the point query differ by rounding that grows where seeds are
+/// nearly on a sphere; in foam units, with room.
+constexpr double edge_margin = 1e-7;
+
+}  // namespace
+
+void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
+  const Neighbourhood& grid = foam.neighbourhood();
+  const double unit = foam.unit();
+  StrutRows rows(block, grid, foam.radius(), edge_margin * unit);
+  if (rows.empty()) return;
+  const Box3 reach = grid.to_grid(rows.reach());
+  // An edge that touches the reach has a point in it, and its owner within the empty radius of that.
+  const double owner_distance = foam.seeds().empty_radius() * unit * (1 + 1e-9);
+  int64_t first[3], last[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto brick = [&](double g) {
+      return static_cast<int64_t>(std::floor(g / (grid.cell_size[axis] * EdgeBrick::side)));
+    };
+    first[axis] = brick(reach.min[axis] - owner_distance);
+    last[axis] = brick(reach.max[axis] + owner_distance);
+  }
+  for (int64_t k = first[2]; k <= last[2]; ++k)
+    for (int64_t j = first[1]; j <= last[1]; ++j)
+      for (int64_t i = first[0]; i <= last[0]; ++i) {
+        check_cancelled(job);
+        const CellIndex corner{static_cast<int32_t>(i * EdgeBrick::side),
+                               static_cast<int32_t>(j * EdgeBrick::side),
+                               static_cast<int32_t>(k * EdgeBrick::side)};
+        const auto brick = foam.context().cache.fetch(foam.id(), corner, [&] {
+          return std::make_shared<const EdgeBrick>(foam.seeds(), corner);
+        });
+        const Vec3 origin =
+            grid.from_grid(Vec3{double(corner.x), double(corner.y), double(corner.z)} *
+                           grid.cell_size);
+        for (const FoamEdge& edge : static_cast<const EdgeBrick&>(*brick).edges())
+          rows.add(origin + grid.rotation.apply(edge.a * unit),
+                   origin + grid.rotation.apply(edge.b * unit));
+        rows.flush();
+      }
+  rows.finish(job, [&](Vec3 p) { return foam.inside(p); });
+}
+
+}  // namespace msq

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The line of a Voronoi edge, and the one test that decides foam membership on every path.
+//
+// The points equally far from three seeds a, b, c form a line: through the circumcentre of their
+// triangle, along its normal. The Voronoi edge of the triple is the part of the line where no other
+// seed is nearer; it may be empty. A point p lies in the foam if, for some triple, the chord that the
+// ball of radius r about p cuts from the line meets that part. This is the capsule solid: struts are
+// round at their ends, since near the end of an edge the chord is cut by the seed that ends it.
+// (Martinez, Dumas and Lefebvre 2016 test the foot of the perpendicular instead, of the nearest seed's
+// edges alone, which gives flat-ended cylinders that are cut at cell faces.)
+//
+// All paths order the triple the same way, work in the frame of the cell that holds p, and form
+// minimum and maximum over cuts, which do not depend on the order of cuts or on cuts that do not bind.
+// So they agree bit for bit, whichever way they came by the seeds that matter.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vec.h"
+
+namespace msq {
+
+/// A part of a line, by the line's parameter; empty where low > high.
+struct LineInterval {
+  double low, high;
+};
+
+struct EdgeLine {
+  Vec3 seed;       // one of the three, and
+  Vec3 offset;     // from it to the circumcentre
+  Vec3 direction;  // normal of the triangle, of twice its area
+  double inverse_squared = 0;  // of direction
+
+  EdgeLine() = default;
+  /// Seeds in ascending order of their cells (z, then y, then x).
+  EdgeLine(Vec3 a, Vec3 b, Vec3 c) : seed(a) {
+    const Vec3 u = b - a, v = c - a;
+    direction = cross(u, v);
+    const double squared = dot(direction, direction);
+    inverse_squared = squared > 0 ? 1 / squared : 0;
+    offset = cross(v * dot(u, u) - u * dot(v, v), direction) * (0.5 * inverse_squared);
+  }
+
+  /// False for collinear seeds, which have no line.
+  bool exists() const { return inverse_squared > 0; }
+  Vec3 at(double t) const { return seed + offset + direction * t; }
+
+  /// The chord within a ball.
+  LineInterval chord(Vec3 centre, double radius_squared) const {
+    const Vec3 w = centre - seed - offset;
+    const double foot = dot(w, direction) * inverse_squared;
+    const Vec3 d = w - direction * foot;
+    const double under = (radius_squared - dot(d, d)) * inverse_squared;
+    if (under < 0) return {1, 0};
+    const double half = std::sqrt(under);
+    return {foot - half, foot + half};
+  }
+
+  /// Cuts away where another seed is nearer than the line's own three.
+  void cut(Vec3 other, LineInterval& part) const {
+    const Vec3 e = other - seed;
+    const double across = dot(direction, e);
+    const double room = 0.5 * dot(e, e) - dot(offset, e);  // > 0: not nearer to the circumcentre
+    if (across > coplanar)
+      part.high = std::min(part.high, room / across);
+    else if (across < -coplanar)
+      part.low = std::max(part.low, room / across);
+    else if (room < -cocircular)
+      part = {1, 0};
+  }
+
+  /// Whether a part is not empty. Seeds on one sphere (low jitter) leave edges of length zero that
+  /// rounding may turn inside out; a part that is short of empty by 1e-12 counts, and lies as close
+  /// to edges that do exist.
+  bool holds(LineInterval part) const {
+    const double gap = part.low - part.high;
+    return gap <= 0 || gap * gap <= 1e-24 * inverse_squared;
+  }
+
+ private:
+  // A fourth seed in the plane of the three is as near to all of the line as to the circumcentre; on
+  // their circle it cuts nothing. Both are decided with room for rounding, which would otherwise
+  // cut such lines anywhere.
+  static constexpr double coplanar = 1e-14, cocircular = 1e-12;
+};
+
+}  // namespace msq

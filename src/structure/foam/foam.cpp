@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/foam.h"
+
+#include "structure/foam/direct.h"
+#include "structure/foam/method_2.h"
+#include "structure/foam/point.h"
+
+namespace msq {
+
+Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius, double jitter,
+           uint64_t seed, FoamMethod method)
+    : Structure(neighbourhood),
+      context_(std::move(context)),
+      id_(context_->new_structure_id()),
+      radius_(std::move(radius)),
+      unit_(max_component(neighbourhood.cell_size)),
+      seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
+      method_(method == FoamMethod::automatic ? FoamMethod::direct : method) {}
+
+bool Foam::inside(Vec3 p) const {
+  const Neighbourhood::Located located = neighbourhood().locate(p);
+  return foam_point_inside(seeds_, located.cell, located.fraction * seeds_.scale(),
+                           radius_.at(p) / unit_);
+}
+
+void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  if (method_ == FoamMethod::method_2)
+    method_2_keep_points(*this, points, alive, count);
+  else
+    Structure::keep_points(points, alive, count);
+}
+
+void Foam::keep_rows(const RowBlock& block, const Job* job) const {
+  if (method_ == FoamMethod::direct)
+    direct_keep_rows(*this, block, job);
+  else
+    Structure::keep_rows(block, job);
+}
+
+}  // namespace msq

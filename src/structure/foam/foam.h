@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Open-cell Voronoi foam. Onset of a point: its distance to the edges of the Voronoi diagram of all
+// seeds. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre,
+// "Procedural Voronoi foams for additive manufacturing", 2016. Where the solid differs from theirs:
+// edge_line.h.
+#pragma once
+
+#include "cell/context.h"
+#include "field/field.h"
+#include "structure/foam/seeds.h"
+#include "structure/structure.h"
+
+namespace msq {
+
+enum class FoamMethod : int32_t { automatic = 0, point = 1, method_2 = 2, direct = 3 };
+
+class Foam final : public Structure {
+ public:
+  Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius, double jitter,
+       uint64_t seed, FoamMethod method);
+
+  bool inside(Vec3 p) const override;
+  void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  void keep_rows(const RowBlock& block, const Job* job) const override;
+
+  const FoamSeeds& seeds() const { return seeds_; }
+  /// Length of a foam unit in model units.
+  double unit() const { return unit_; }
+  const Parameter& radius() const { return radius_; }
+  Context& context() const { return *context_; }
+  uint64_t id() const { return id_; }
+
+ private:
+  Ref<Context> context_;
+  uint64_t id_;
+  Parameter radius_;
+  double unit_;
+  FoamSeeds seeds_;
+  FoamMethod method_;
+};
+
+}  // namespace msq

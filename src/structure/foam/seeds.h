@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The seeds of a foam: one jittered seed per neighbourhood cell, a pure function of cell index and
+// seed number.
+//
+// Positions are in foam units: the largest cell size is 1, and a cell measures `scale` (1, 1, 1 where
+// the cells are cubes). They are given relative to a cell near by, so they are small numbers: with
+// cubic cells, fractions are multiples of 2^-21 and differences of seeds are exact.
+#pragma once
+
+#include <cstdint>
+
+#include "base/random.h"
+#include "base/vec.h"
+#include "cell/neighbourhood.h"
+
+namespace msq {
+
+class FoamSeeds {
+ public:
+  FoamSeeds(uint64_t seed, double jitter, Vec3 scale) : key_(splitmix_finalise(seed + 1)), jitter_(jitter), scale_(scale) {}
+
+  Vec3 scale() const { return scale_; }
+
+  /// The seed of cell `home` + (dx, dy, dz), relative to the corner of `home`.
+  Vec3 at(CellIndex home, int dx, int dy, int dz) const {
+    const uint64_t h = splitmix_output(row_key(home.y + dy, home.z + dz),
+                                       static_cast<uint32_t>(home.x + dx));
+    return Vec3{dx + fraction(h), dy + fraction(h >> 21), dz + fraction(h >> 42)} * scale_;
+  }
+
+  /// No point of space is farther than this from its nearest seed: that of its own cell is within the
+  /// cell's diagonal.
+  double empty_radius() const { return length(scale_); }
+
+ private:
+  uint64_t row_key(int32_t y, int32_t z) const {
+    return splitmix_finalise(key_ ^ (static_cast<uint32_t>(y) |
+                                     static_cast<uint64_t>(static_cast<uint32_t>(z)) << 32));
+  }
+  /// 0.5 without jitter, otherwise 21 random bits about it, scaled by the jitter and rounded down to
+  /// a multiple of 2^-21: in [0, 1).
+  double fraction(uint64_t bits) const {
+    const double centred = static_cast<double>(static_cast<int64_t>(bits & 0x1fffff) - 0x100000);
+    return 0.5 + std::floor(centred * jitter_) * 0x1p-21;
+  }
+
+  uint64_t key_;
+  double jitter_;
+  Vec3 scale_;
+};
+
+}  // namespace msq

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/lattice/lattice.h"
+
+#include "structure/strut_rows.h"
+
+namespace msq {
+
+namespace {
+
+/// Whether a segment comes within radius of a box, erring towards yes. The distance to a convex set
+/// is convex along a segment, so a ternary search finds its minimum.
+bool may_reach(const Segment& s, const Box3& box, double radius) {
+  const auto distance_at = [&](double t) {
+    const Vec3 p = s.a + s.ab * t;
+    return length(p - max(box.min, min(box.max, p)));
+  };
+  double low = 0, high = 1;
+  for (int i = 0; i < 64; ++i) {
+    const double third = (high - low) / 3;
+    if (distance_at(low + third) <= distance_at(high - third))
+      high -= third;
+    else
+      low += third;
+  }
+  const double slack = 1e-6 * (length(s.ab) + radius + max_magnitude(box.max));
+  return distance_at((low + high) / 2) <= radius + slack;
+}
+
+}  // namespace
+
+Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Parameter radius)
+    : Structure(neighbourhood), radius_(std::move(radius)), struts_(periodic_struts(cell)) {
+  const Vec3 size = neighbourhood.cell_size;
+  const double most = radius_.range().high;
+  const Box3 corner_to_corner{{0, 0, 0}, size};
+  reach_ = {struts_[0].a, struts_[0].a};
+  for (const PeriodicStrut& s : struts_) {
+    reach_.min = min(reach_.min, min(s.a, s.b));
+    reach_.max = max(reach_.max, max(s.a, s.b));
+  }
+  const auto cells_back = [&](int axis) {  // copies that many cells before may still reach
+    return static_cast<int>(std::ceil(reach_.max[axis] + most / size[axis]));
+  };
+  const auto cells_ahead = [&](int axis) {
+    return static_cast<int>(std::ceil(1 - reach_.min[axis] + most / size[axis]));
+  };
+  for (int k = -cells_back(2); k <= cells_ahead(2); ++k)
+    for (int j = -cells_back(1); j <= cells_ahead(1); ++j)
+      for (int i = -cells_back(0); i <= cells_ahead(0); ++i)
+        for (const PeriodicStrut& s : struts_) {
+          const Vec3 shift{double(i), double(j), double(k)};
+          const Segment segment((s.a + shift) * size, (s.b + shift) * size);
+          if (may_reach(segment, corner_to_corner, most)) near_.push_back(segment);
+        }
+}
+
+bool Lattice::inside(Vec3 p) const {
+  const double r = radius_.at(p);
+  const Vec3 q = neighbourhood().locate(p).fraction * neighbourhood().cell_size;
+  const double r2 = r * r;
+  for (const Segment& s : near_)
+    if (s.distance_squared(q) <= r2) return true;
+  return false;
+}
+
+void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
+  const Neighbourhood& grid = neighbourhood();
+  StrutRows rows(block, grid, radius_, 1e-9 * radius_.range().high);
+  if (rows.empty()) return;
+  const Box3 reach = grid.to_grid(rows.reach());
+  // Cells whose struts may touch it.
+  int64_t first[3], last[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = grid.cell_size[axis];
+    first[axis] = static_cast<int64_t>(std::floor(reach.min[axis] / size - reach_.max[axis]));
+    last[axis] = static_cast<int64_t>(std::ceil(reach.max[axis] / size - reach_.min[axis]));
+  }
+  for (int64_t k = first[2]; k <= last[2]; ++k)
+    for (int64_t j = first[1]; j <= last[1]; ++j) {
+      check_cancelled(job);
+      for (int64_t i = first[0]; i <= last[0]; ++i) {
+        const Vec3 corner{double(i), double(j), double(k)};
+        for (const PeriodicStrut& s : struts_)
+          rows.add(grid.from_grid((s.a + corner) * grid.cell_size),
+                   grid.from_grid((s.b + corner) * grid.cell_size));
+      }
+      rows.flush();
+    }
+  rows.finish(job, [this](Vec3 p) { return inside(p); });
+}
+
+}  // namespace msq

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the rows of strut structures share: struts in, samples restricted, whatever the radius.
+#pragma once
+
+#include <vector>
+
+#include "cell/neighbourhood.h"
+#include "field/field.h"
+#include "strut/span_raster.h"
+
+namespace msq {
+
+class StrutRows {
+ public:
+  /// `margin`: error of the strut ends against the scalar predicate, in model units; that of the
+  /// positions of samples and struts is added here.
+  StrutRows(const RowBlock& block, const Neighbourhood& grid, const Parameter& radius,
+            double margin)
+      : radius_(radius),
+        most_(radius.range().high),
+        margin_(margin + position_margin(block.box(), grid.origin)),
+        raster_(block, margin_),
+        reach_(raster_.box().grown(most_ + margin_)) {}
+
+  /// No sample is alive: nothing to do.
+  bool empty() const { return raster_.empty(); }
+  /// Struts whose axis does not meet this box may be left out.
+  const Box3& reach() const { return reach_; }
+
+  void add(Vec3 a, Vec3 b) {
+    const Box3 extent{min(a, b), max(a, b)};
+    if (!extent.overlaps(reach_)) return;
+    const Interval r = radius_.range(extent.grown(most_));
+    batch_.push_back({a, b, r.low, r.high});
+  }
+  /// Draws the struts added so far.
+  void flush() {
+    raster_.add(batch_.data(), batch_.size());
+    batch_.clear();
+  }
+  /// Clears the samples outside all struts; inside(p) decides those in doubt.
+  template <class Inside>
+  void finish(const Job* job, Inside&& inside) {
+    flush();
+    raster_.finish(job, inside);
+  }
+
+ private:
+  /// Positions on either side carry a few units of 2^-53 of the largest magnitude; this is 2^-40.
+  static double position_margin(const Box3& box, Vec3 origin) {
+    return 0x1p-40 * (max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(origin));
+  }
+
+  const Parameter& radius_;
+  double most_, margin_;
+  SpanRaster raster_;
+  Box3 reach_;
+  std::vector<RasterStrut> batch_;
+};
+
+}  // namespace msq
