@@ -207,7 +207,7 @@ MSQ_API msq_status msq_file_def_init(msq_file_def *def, size_t size);
 
 /* Reads a triangle mesh from a file; def NULL: defaults. All instances in the file become one shape
  * in millimetres: transforms applied, polygons triangulated, equal vertices welded, triangles
- * without area dropped. No other file is ever opened. Cost: linear in the file.
+ * with fewer than three distinct vertices dropped. No other file is ever opened. Cost: linear in the file.
  * Errors: ARGUMENT, IO (no such file, truncated, malformed), UNSUPPORTED (format, or a build without
  * Assimp), MESH (no triangles, index out of range, non-finite vertex), LIMIT, MEMORY. */
 MSQ_API msq_status msq_shape_from_file(msq_context *context, const char *path,
@@ -268,7 +268,8 @@ typedef struct msq_shape_report {
   double area;
   uint64_t vertices;             /* after welding */
   uint64_t triangles;            /* kept */
-  uint64_t degenerate_triangles; /* dropped: without area */
+  uint64_t degenerate_triangles; /* without area. Those with fewer than three distinct vertices are
+                                    dropped, collinear ones kept: they close the surface */
   uint64_t duplicate_triangles;  /* kept: same three vertices as an earlier one */
   uint64_t open_edges;           /* with one triangle */
   uint64_t non_manifold_edges;   /* with three or more */
@@ -364,8 +365,8 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def *def, size_t size);
 /* Open-cell Voronoi foam: the points within radius of the edges of the Voronoi diagram of one
  * jittered seed per neighbourhood cell, all space over. Struts are capsules, circular in model
  * units. The seeds follow from cell index and seed number alone, on every machine alike.
- * Errors: ARGUMENT, LIMIT (radius above 2 times the smallest cell size, or cell sizes that differ
- * by more than 4 times), UNSUPPORTED (METHOD_2 in a build without CGAL), MEMORY.
+ * Errors: ARGUMENT, LIMIT (radius above the smallest cell size, or cell sizes that differ by more
+ * than 4 times), UNSUPPORTED (METHOD_2 in a build without CGAL), MEMORY.
  * Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. */
 MSQ_API msq_status msq_structure_foam(msq_context *context, const msq_foam_def *def,
                                       msq_structure **structure);

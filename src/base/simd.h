@@ -3,7 +3,13 @@
 // hwy/foreach_target.h and hwy/highway.h itself, since both are read once for each target.
 #pragma once
 
+#include <cstddef>
+
 namespace msq {
+
+/// No vector of any instruction set holds more doubles (Scalable Vector Extension: 2048 bits).
+/// Highway's own HWY_MAX_BYTES is that of the target being compiled, not of the one dispatched to.
+constexpr size_t most_simd_doubles = 32;
 
 /// Name of the instruction set that the kernels use on this machine; static storage.
 const char* simd_target_name();

@@ -19,7 +19,9 @@ struct Instance {
 struct Assembly {
   TriangleSoup mesh;
   std::vector<Instance> instances;
-  uint64_t triangles = 0;  ///< with all instances, at most 2^63; set by count_triangles()
+  // Set by count_triangles():
+  uint64_t triangles = 0;  ///< with all instances, at most 2^63
+  int height = 0;          ///< levels of instances below
   enum class State { unseen, open, done } state = State::unseen;
 };
 

@@ -49,10 +49,16 @@ class ObjScan {
   }
 
  private:
-  /// Next word of the statement, which goes on behind a backslash at the end of a line.
+  /// Next word of the statement, which goes on behind a backslash at the end of a line. Empty at
+  /// its end and from a comment on.
   std::string_view next() {
     for (;;) {
       std::string_view word = text_.word_of_line();
+      if (word.starts_with('#')) {
+        while (!text_.word_of_line().empty()) {
+        }
+        return {};
+      }
       if (!word.ends_with('\\')) return word;
       TextCursor ahead = text_;
       if (!ahead.word_of_line().empty()) return word;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/simd.h"
 #include "strut/span_raster.h"
 
 #ifndef MSQ_SPAN_RASTER_ONCE
@@ -132,7 +133,7 @@ void raster_struts(const RasterTarget& target, const RasterStrut* struts, size_t
                    double margin) {
   const D d;
   const size_t lanes = hn::Lanes(d);
-  HWY_ALIGN double column[4][HWY_MAX_BYTES / sizeof(double)];
+  HWY_ALIGN double column[4][most_simd_doubles];
   for (size_t s = 0; s < count; ++s) {
     const RasterStrut& strut = struts[s];
     const double thick = strut.high + margin, thin = strut.low - margin;
@@ -238,7 +239,7 @@ SpanRaster::SpanRaster(const RowBlock& alive, double margin) : alive_(alive), ma
 
   for (uint64_t j = alive.y0; j < alive.y1; ++j) y_.push_back(grid.y(j));
   for (uint64_t k = alive.z0; k < alive.z1; ++k) z_.push_back(grid.z(k));
-  y_.resize(y_.size() + HWY_MAX_BYTES / sizeof(double), y_.back());
+  y_.resize(y_.size() + most_simd_doubles, y_.back());
   const size_t size = alive.rows() * alive.layers() * words;
   certain_.assign(size, 0);
   doubt_.assign(size, 0);

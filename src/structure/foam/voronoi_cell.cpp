@@ -4,6 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/simd.h"
 #include "structure/foam/voronoi_cell.h"
 
 #ifndef MSQ_VORONOI_CELL_ONCE
@@ -64,7 +65,7 @@ HWY_INLINE PlaneHit first_plane(const VoronoiCell::Planes& planes, size_t padded
   }
   const V t = hn::Div(best_num, best_den);
   const V least = hn::MinOfLanes(tag, t);
-  HWY_ALIGN double indices[HWY_MAX_BYTES / sizeof(double)];
+  HWY_ALIGN double indices[most_simd_doubles];
   hn::Store(best, tag, indices);
   const intptr_t lane = hn::FindFirstTrue(tag, hn::Eq(t, least));
   if (lane < 0) return {0, VoronoiCell::most_planes};  // NaN
@@ -159,8 +160,9 @@ bool VoronoiCell::walk() {
     epoch_ = 1;
   }
   // Planes that are never met, up to a whole vector.
+  static_assert(most_planes % most_simd_doubles == 0);
   size_t padded = count_;
-  for (; padded % (HWY_MAX_BYTES / sizeof(double)) != 0 && padded < most_planes; ++padded)
+  for (; padded % most_simd_doubles != 0; ++padded)
     planes_.x[padded] = planes_.y[padded] = planes_.z[padded] = planes_.offset[padded] = 0;
   WalkState state{&planes_, count_, padded, &vertices_, ends_.data(), epoch_, 0};
   const bool done = HWY_DYNAMIC_DISPATCH(walk_cell)(state);
