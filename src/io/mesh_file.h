@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "shape/triangle_soup.h"
+#include "base/triangle_soup.h"
 
 namespace msq {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "io/placement.h"
-#include "shape/triangle_soup.h"
+#include "base/triangle_soup.h"
 
 namespace msq {
 

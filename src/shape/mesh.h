@@ -15,11 +15,13 @@
 #include <vector>
 
 #include "base/memory.h"
+#include "base/triangle_soup.h"
 #include "shape/shape.h"
 #include "shape/triangle_bins.h"
-#include "shape/triangle_soup.h"
 
 namespace msq {
+
+enum class WindingRule : int32_t { nonzero = 0, even_odd = 1, positive = 2 };
 
 class Mesh final : public Shape {
  public:

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shape/shape.h"
-#include "shape/triangle_soup.h"
+#include "base/triangle_soup.h"
 
 namespace msq {
 

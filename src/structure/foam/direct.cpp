@@ -10,16 +10,34 @@ namespace msq {
 
 namespace {
 
-/// Ends of edges and the chords of the point query differ by rounding that grows where seeds are
-/// nearly on a sphere; in foam units, with room.
-constexpr double edge_margin = 1e-7;
+Vec3 vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+/// Adds a brick's edges, owner by owner, where the owner's box may touch `reach` (grid coordinates).
+void add_brick(const Foam& foam, const EdgeBrick& brick, CellIndex corner, const Box3& reach,
+               StrutRows& rows) {
+  const Neighbourhood& grid = foam.neighbourhood();
+  const double unit = foam.unit();
+  const Vec3 first_cell =
+      Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size;
+  const Vec3 origin = grid.from_grid(first_cell);
+  const Box3 from_brick{(reach.min - first_cell) * (1 / unit), (reach.max - first_cell) * (1 / unit)};
+  const Box3 wanted = from_brick.grown(edge_error);
+  for (const EdgeBrick::Group& group : brick.groups()) {
+    if (!wanted.overlaps({vec(group.low), vec(group.high)})) continue;
+    for (uint32_t i = group.first; i < group.last; ++i) {
+      const FoamEdge& edge = brick.edges()[i];
+      rows.add(origin + grid.rotation.apply(vec(edge.a) * unit),
+               origin + grid.rotation.apply(vec(edge.b) * unit));
+    }
+  }
+}
 
 }  // namespace
 
 void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
   const Neighbourhood& grid = foam.neighbourhood();
   const double unit = foam.unit();
-  StrutRows rows(block, grid, foam.radius(), edge_margin * unit);
+  StrutRows rows(block, grid, foam.radius(), 2 * edge_error * unit);
   if (rows.empty()) return;
   const Box3 reach = grid.to_grid(rows.reach());
   // An edge that touches the reach has a point in it, and its owner within the empty radius of that.
@@ -42,12 +60,7 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
         const auto brick = foam.context().cache.fetch(foam.id(), corner, [&] {
           return std::make_shared<const EdgeBrick>(foam.seeds(), corner);
         });
-        const Vec3 origin =
-            grid.from_grid(Vec3{double(corner.x), double(corner.y), double(corner.z)} *
-                           grid.cell_size);
-        for (const FoamEdge& edge : static_cast<const EdgeBrick&>(*brick).edges())
-          rows.add(origin + grid.rotation.apply(edge.a * unit),
-                   origin + grid.rotation.apply(edge.b * unit));
+        add_brick(foam, static_cast<const EdgeBrick&>(*brick), corner, reach, rows);
         rows.flush();
       }
   rows.finish(job, [&](Vec3 p) { return foam.inside(p); });

@@ -99,7 +99,7 @@ class EdgeBuilder {
         cell_.for_each_edge(
             [&](uint32_t a, uint32_t b) { return neighbours_[a].after && neighbours_[b].after; },
             [&](const VoronoiCell::Edge& edge) {
-              edges_.push_back({seed + edge.from, seed + edge.to});
+              add(seed + edge.from, seed + edge.to);
             });
         return;
       }
@@ -110,6 +110,11 @@ class EdgeBuilder {
   }
 
  private:
+  void add(Vec3 a, Vec3 b) {
+    edges_.push_back({{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)},
+                      {static_cast<float>(b.x), static_cast<float>(b.y), static_cast<float>(b.z)}});
+  }
+
   void gather(ptrdiff_t own, double distance_squared) {
     neighbours_.clear();
     const Vec3 seed = block_.position(own);
@@ -142,7 +147,7 @@ class EdgeBuilder {
         LineInterval part{-1e300, 1e300};
         for (size_t k = 0; k < neighbours_.size() && line.holds(part); ++k)
           if (k != i && k != j) line.cut(neighbours_[k].position, part);
-        if (line.holds(part)) edges_.push_back({seed + line.at(part.low), seed + line.at(part.high)});
+        if (line.holds(part)) add(seed + line.at(part.low), seed + line.at(part.high));
       }
     }
   }
@@ -159,10 +164,23 @@ class EdgeBuilder {
 
 EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner) {
   edges_.reserve(side * side * side * 15);
+  groups_.reserve(side * side * side);
   EdgeBuilder builder(seeds, corner, edges_);
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) builder.add_owned_edges(x, y, z);
+      for (int x = 0; x < side; ++x) {
+        Group group{static_cast<uint32_t>(edges_.size()), 0, {1e30f, 1e30f, 1e30f},
+                    {-1e30f, -1e30f, -1e30f}};
+        builder.add_owned_edges(x, y, z);
+        group.last = static_cast<uint32_t>(edges_.size());
+        for (uint32_t i = group.first; i < group.last; ++i)
+          for (int axis = 0; axis < 3; ++axis) {
+            const auto [low, high] = std::minmax(edges_[i].a[axis], edges_[i].b[axis]);
+            group.low[axis] = std::min(group.low[axis], low);
+            group.high[axis] = std::max(group.high[axis], high);
+          }
+        groups_.push_back(group);
+      }
   edges_.shrink_to_fit();
 }
 

@@ -12,25 +12,37 @@
 
 namespace msq {
 
+/// Ends in foam units from the corner of the brick's first cell. Single precision: they err by less
+/// than edge_error, which the raster's margin covers.
 struct FoamEdge {
-  Vec3 a, b;  ///< ends: foam units, from the corner of the brick's first cell
+  float a[3], b[3];
 };
+constexpr double edge_error = 1e-6;
 
 /// The edges owned by the seeds of a brick of cells.
 class EdgeBrick final : public CellData {
  public:
   static constexpr int side = 4;  ///< cells
 
+  /// The edges of one owner and a box that holds them.
+  struct Group {
+    uint32_t first, last;
+    float low[3], high[3];
+  };
+
   /// The brick whose first cell is `corner`.
   EdgeBrick(const FoamSeeds& seeds, CellIndex corner);
 
   const std::vector<FoamEdge>& edges() const { return edges_; }
+  const std::vector<Group>& groups() const { return groups_; }
   uint64_t bytes() const override {
-    return sizeof *this + edges_.capacity() * sizeof(FoamEdge);
+    return sizeof *this + edges_.capacity() * sizeof(FoamEdge) +
+           groups_.capacity() * sizeof(Group);
   }
 
  private:
   std::vector<FoamEdge> edges_;
+  std::vector<Group> groups_;
 };
 
 }  // namespace msq

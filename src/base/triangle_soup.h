@@ -17,6 +17,4 @@ struct TriangleSoup {
   std::vector<Triangle> triangles;
 };
 
-enum class WindingRule : int32_t { nonzero = 0, even_odd = 1, positive = 2 };
-
 }  // namespace msq

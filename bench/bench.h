@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the benchmarks share: medians of repeated runs, a table on standard output, JSON beside it.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "msq.h"
+
+namespace bench {
+
+inline void check(msq_status status) {
+  if (status != MSQ_OK) throw std::runtime_error(msq_error_message());
+}
+
+inline double seconds_of(const std::function<void()>& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Median of at least three runs that take about `most` seconds together; of one where one takes more.
+inline double median_seconds(const std::function<void()>& work, double most = 3) {
+  std::vector<double> times{seconds_of(work)};
+  while (times[0] < most && (times.size() < 3 || times.size() * times[0] < most) &&
+         times.size() < 15)
+    times.push_back(seconds_of(work));
+  std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
+  return times[times.size() / 2];
+}
+
+/// Rows of a table; written as JSON to the file of the program's first argument, if it has one.
+class Report {
+ public:
+  explicit Report(const std::string& title) {
+    json_["title"] = title;
+    json_["rows"] = nlohmann::json::array();
+    std::printf("%s\n%-64s %12s %14s\n", title.c_str(), "work", "seconds", "per unit");
+  }
+  /// `units`: what the time is divided by in the last column, named by `unit`.
+  void add(const std::string& work, double seconds, double units, const std::string& unit) {
+    std::printf("%-64s %12.4f %11.2f ns / %s\n", work.c_str(), seconds, seconds / units * 1e9,
+                unit.c_str());
+    std::fflush(stdout);
+    json_["rows"].push_back(
+        {{"work", work}, {"seconds", seconds}, {"ns_per_unit", seconds / units * 1e9}, {"unit", unit}});
+  }
+  void note(const std::string& what, double value, const std::string& unit) {
+    std::printf("%-64s %12.4g %s\n", what.c_str(), value, unit.c_str());
+    std::fflush(stdout);
+    json_["notes"].push_back({{"what", what}, {"value", value}, {"unit", unit}});
+  }
+  void write(int count, char** arguments) const {
+    if (count > 1) std::ofstream(arguments[1]) << json_.dump(2) << '\n';
+  }
+
+ private:
+  nlohmann::json json_;
+};
+
+/// Reads each word of a layer once, as a host would.
+struct Reader {
+  uint64_t inside = 0, sum = 0;
+  static int32_t take(void* user, const msq_layer* layer) {
+    auto& reader = *static_cast<Reader*>(user);
+    reader.inside += layer->inside_count;
+    const auto* words = reinterpret_cast<const uint64_t*>(layer->data);
+    const size_t count = layer->stride / 8 * layer->height;
+    uint64_t sum = 0;
+    for (size_t i = 0; i < count; ++i) sum += words[i];
+    reader.sum += sum;
+    return 0;
+  }
+};
+
+}  // namespace bench

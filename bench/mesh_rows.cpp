@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// A closed mesh of 270,000 triangles sliced at 1024^3, against its own point query and CGAL's. Also
+// the memory of slabs: 2048^2 x 64 layers as bits.
+#include <cmath>
+#include <random>
+
+#include "bench.h"
+
+#if MSQ_WITH_CGAL
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+#endif
+
+namespace {
+
+struct Arrays {
+  std::vector<double> vertices;
+  std::vector<uint32_t> triangles;
+};
+
+/// A torus with ripples: no two triangles alike, none along the axes.
+Arrays rippled_torus(uint32_t around, uint32_t across) {
+  Arrays mesh;
+  const double turn = 2 * std::acos(-1.0);
+  for (uint32_t i = 0; i < around; ++i)
+    for (uint32_t j = 0; j < across; ++j) {
+      const double u = turn * i / around, v = turn * j / across;
+      const double r = 0.18 + 0.02 * std::sin(9 * u) * std::cos(5 * v);
+      const double ring = 0.3 + r * std::cos(v);
+      mesh.vertices.insert(mesh.vertices.end(),
+                           {0.5 + ring * std::cos(u), 0.5 + ring * std::sin(u), 0.5 + r * std::sin(v)});
+      const uint32_t a = i * across + j, b = i * across + (j + 1) % across;
+      const uint32_t c = (i + 1) % around * across + j, d = (i + 1) % around * across + (j + 1) % across;
+      mesh.triangles.insert(mesh.triangles.end(), {a, c, d, a, d, b});
+    }
+  return mesh;
+}
+
+struct Sliced {
+  msq_context* context;
+  msq_model* model;
+  msq_slicer* slicer;
+};
+
+Sliced make_slicer(const Arrays& mesh, uint32_t resolution, uint32_t slab_layers) {
+  Sliced made{};
+  msq_context_def context_def;
+  bench::check(msq_context_def_init(&context_def, sizeof context_def));
+  bench::check(msq_context_create(&context_def, &made.context));
+  msq_mesh_def mesh_def;
+  bench::check(msq_mesh_def_init(&mesh_def, sizeof mesh_def));
+  mesh_def.vertices = mesh.vertices.data();
+  mesh_def.vertex_count = mesh.vertices.size() / 3;
+  mesh_def.triangles = mesh.triangles.data();
+  mesh_def.triangle_count = mesh.triangles.size() / 3;
+  msq_shape* shape;
+  bench::check(msq_shape_from_mesh(made.context, &mesh_def, &shape));
+  const msq_scale_def scale{shape, nullptr};
+  msq_model_def model_def;
+  bench::check(msq_model_def_init(&model_def, sizeof model_def));
+  model_def.scales = &scale;
+  model_def.scale_count = 1;
+  bench::check(msq_model_create(made.context, &model_def, &made.model));
+  msq_slicer_def def;
+  bench::check(msq_slicer_def_init(&def, sizeof def));
+  def.resolution[0] = def.resolution[1] = resolution;
+  def.layer_count = resolution;
+  def.layer_height = 1.0 / resolution;
+  def.has_region = 1;
+  for (double& v : def.region_max) v = 1;
+  def.slab_layers = slab_layers;
+  bench::check(msq_slicer_create(made.model, &def, &made.slicer));
+  msq_shape_release(shape);
+  return made;
+}
+
+void release(const Sliced& made) {
+  msq_slicer_release(made.slicer);
+  msq_model_release(made.model);
+  msq_context_release(made.context);
+}
+
+double peak_bytes(msq_context* context) {
+  msq_memory_report report{};
+  report.struct_size = sizeof report;
+  bench::check(msq_context_memory(context, &report));
+  return static_cast<double>(report.peak_bytes);
+}
+
+std::vector<double> random_points(size_t count) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<double> points(3 * count);
+  for (double& c : points) c = uniform(random);
+  return points;
+}
+
+#if MSQ_WITH_CGAL
+double cgal_seconds(const Arrays& mesh, const std::vector<double>& points) {
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+  Mesh surface;
+  for (size_t i = 0; i < mesh.vertices.size(); i += 3)
+    surface.add_vertex({mesh.vertices[i], mesh.vertices[i + 1], mesh.vertices[i + 2]});
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3)
+    surface.add_face(Mesh::Vertex_index(mesh.triangles[i]), Mesh::Vertex_index(mesh.triangles[i + 1]),
+                     Mesh::Vertex_index(mesh.triangles[i + 2]));
+  const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(surface);
+  side(Kernel::Point_3(0.5, 0.5, 0.5));  // builds its tree
+  size_t inside = 0;
+  return bench::seconds_of([&] {
+    for (size_t i = 0; i < points.size(); i += 3)
+      inside += side(Kernel::Point_3(points[i], points[i + 1], points[i + 2])) !=
+                CGAL::ON_UNBOUNDED_SIDE;
+  });
+}
+#endif
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  const Arrays mesh = rippled_torus(520, 260);
+  bench::Report report("mesh of " + std::to_string(mesh.triangles.size() / 3) + " triangles");
+  const double rows = 1024.0 * 1024.0;
+  const Sliced sliced = make_slicer(mesh, 1024, 0);
+  bench::Reader reader;
+  const double slicing = bench::median_seconds([&] {
+    bench::check(msq_slicer_run(sliced.slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));
+  });
+  report.add("slices 1024^3 as bits", slicing, rows, "row");
+
+  const std::vector<double> points = random_points(1000000);
+  std::vector<uint8_t> inside(points.size() / 3);
+  msq_points_def set;
+  bench::check(msq_points_def_init(&set, sizeof set));
+  set.coordinates = points.data();
+  set.count = inside.size();
+  const double array = bench::median_seconds([&] {
+    bench::check(msq_set_membership(sliced.model, &set, nullptr, inside.data(), inside.size(), nullptr));
+  });
+  report.add("random points, 1e6, set query", array, 1e6, "point");
+  report.note("slices against that query, for the same samples", array * 1073.741824 / slicing, "times faster");
+#if MSQ_WITH_CGAL
+  const std::vector<double> few(points.begin(), points.begin() + 300000);
+  const double cgal = cgal_seconds(mesh, few);
+  report.add("random points, 1e5, CGAL Side_of_triangle_mesh, one thread", cgal, 1e5, "point");
+  report.note("slices against CGAL, for the same samples", cgal * 10737.41824 / slicing, "times faster");
+#endif
+  release(sliced);
+
+  const Sliced slabs = make_slicer(mesh, 2048, 64);
+  msq_memory_report before{};
+  before.struct_size = sizeof before;
+  bench::check(msq_context_memory(slabs.context, &before));
+  bench::check(msq_slicer_run(slabs.slicer, 512, 256, bench::Reader::take, &reader, nullptr));
+  report.note("slabs of 2048^2 x 64 layers as bits, peak beyond the mesh",
+              (peak_bytes(slabs.context) - static_cast<double>(before.bytes)) / 1e6, "MB");
+  release(slabs);
+  report.write(count, arguments);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the raster kernels work on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/vec.h"
+
+namespace msq {
+
+struct RasterTarget {
+  const double *y, *z;  ///< rows and layers; y is padded by a vector
+  size_t rows, layers;
+  size_t words;               ///< of a row
+  uint64_t *certain, *doubt;  ///< rows, layer by layer, tightly packed, padded by a word
+  double x0, inverse_dx;      ///< column i is at x0 + i / inverse_dx
+  double dy, dz;              ///< from one row, or layer, to the next; dz 0: not evenly spaced
+  double last;                ///< last column
+  double slack;               ///< in columns: the rounding of a column number, with room
+  double margin;              ///< of radii, in model units
+};
+
+/// The rows and layers that a strut may meet: [j0, j1) of [k0, k1).
+struct RowRange {
+  size_t j0, j1, k0, k1;
+};
+
+/// The axis of a capsule, from its end a; x is relative to a.x.
+struct CapsuleAxis {
+  double dx, dy, dz, length, ux, uy, uz;
+  double across;  ///< uy^2 + uz^2
+  bool is_point, along_x;
+
+  CapsuleAxis(Vec3 a, Vec3 b, double radius) {
+    const Vec3 ab = b - a;
+    dx = ab.x;
+    dy = ab.y;
+    dz = ab.z;
+    length = msq::length(ab);
+    is_point = !(length > 1e-14 * radius);
+    const double inverse = is_point ? 0 : 1 / length;
+    ux = ab.x * inverse;
+    uy = ab.y * inverse;
+    uz = ab.z * inverse;
+    across = uy * uy + uz * uz;
+    along_x = across < 1e-28;
+  }
+};
+
+}  // namespace msq
