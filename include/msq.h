@@ -29,7 +29,7 @@
  *  Inputs    Arrays and strings given to a constructor are copied; the caller keeps
  *            its own. NULL is refused save where a function gives it a meaning.
  *            Non-finite numbers are refused.
- *  Threads   Callbacks of a call run on the thread that made the call.
+ *  Threads   Callbacks of a call run on the thread that made the call, and may call msq.
  *  Process   msq never prints, exits, aborts, installs a signal handler, reads the
  *            environment or changes locale or floating-point state, and lets no
  *            C++ exception out.
@@ -88,8 +88,8 @@ MSQ_API uint32_t msq_version(void);
  * Static storage. */
 MSQ_API const char *msq_status_name(msq_status status);
 
-/* Message of the last failure on the calling thread, UTF-8; "" before the first.
- * Valid until the next msq call on this thread. Successful calls leave it. */
+/* Message of the last failure on the calling thread, UTF-8; "" before the first. Valid until the
+ * next call on this thread that fails: calls that succeed leave it. */
 MSQ_API const char *msq_error_message(void);
 
 /* Code that the host's callback returned, after MSQ_E_HOST on the calling thread. */
@@ -325,7 +325,8 @@ typedef struct msq_lattice_def {
   uint32_t struct_size;
   int32_t unit_cell;      /* MSQ_UNIT_CELL_*; default BCC */
   msq_neighbourhood grid;
-  msq_param radius;       /* of the struts, in model units; constant: > 0, field: >= 0 */
+  msq_param radius;       /* of the struts, in model units; constant: > 0, field: >= 0, nowhere
+                             negative. No default: it must be set */
   const double *nodes;    /* CUSTOM: node_count triples in [0, 1] of the cell */
   uint64_t node_count;    /* at most 4096 */
   const uint32_t *struts; /* CUSTOM: strut_count pairs of node indices */
@@ -354,7 +355,8 @@ typedef struct msq_foam_def {
   uint32_t struct_size;
   int32_t method;         /* MSQ_FOAM_* */
   msq_neighbourhood grid;
-  msq_param radius;       /* of the struts, in model units; constant: > 0, field: >= 0 */
+  msq_param radius;       /* of the struts, in model units; constant: > 0, field: >= 0, nowhere
+                             negative. No default: it must be set */
   double jitter;          /* 0: seeds at cell centres; 1 (default): anywhere in their cells */
   uint64_t seed;          /* any number picks another foam (default 0) */
 } msq_foam_def;
@@ -387,7 +389,7 @@ typedef struct msq_model_def {
   uint32_t struct_size;
   uint32_t scale_count;        /* 1 to 64 */
   const msq_scale_def *scales; /* coarsest first: a shape, then structures */
-  uint32_t scale_size;         /* sizeof(msq_scale_def) of the caller */
+  uint32_t scale_size;         /* sizeof(msq_scale_def) of the caller; 0 (default): that of 0.1 */
   uint32_t reserved;           /* 0 */
 } msq_model_def;
 
@@ -415,7 +417,8 @@ typedef struct msq_query_def {
   uint32_t struct_size;
   uint32_t reserved;   /* 0 */
   double length_scale; /* scales whose characteristic length is at least this are resolved; finer
-                          ones are taken as solid. 0 (default): all are resolved */
+                          ones are taken as solid. 0 (default): all are resolved; infinity: the
+                          coarse shape alone */
 } msq_query_def;
 
 /* Sets defaults. Errors: ARGUMENT. */
@@ -526,7 +529,8 @@ typedef struct msq_layer {
   uint64_t inside_count; /* pixels inside */
 } msq_layer;
 
-/* Takes a layer. Return 0 to go on, a negative code of the host's own to stop. */
+/* Takes a layer. Return 0 to go on, a negative code of the host's own to stop. Exceptions of the
+ * host's language must not leave it: keep them, return a code, and raise them after the call. */
 typedef int32_t (*msq_layer_fn)(void *user, const msq_layer *layer);
 
 /* Computes layers first .. first + count - 1 and hands each to the callback, in ascending order, on

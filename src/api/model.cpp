@@ -8,18 +8,17 @@ namespace {
 
 constexpr uint32_t most_scales = 64;
 
-msq_model_def model_defaults() {
-  msq_model_def def{};
-  def.scale_size = sizeof(msq_scale_def);
-  return def;
-}
+/// Size of msq_scale_def in version 0.1: never changes.
+constexpr uint32_t first_scale_size = 2 * sizeof(void*);
+
+msq_model_def model_defaults() { return {}; }
 
 /// Scale i of a host whose msq_scale_def may be of another version.
 msq_scale_def read_scale(const msq_model_def& def, uint32_t i) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(def.scales) +
                       static_cast<size_t>(i) * def.scale_size;
   msq_scale_def scale{};
-  std::memcpy(&scale, bytes, sizeof scale);
+  std::memcpy(&scale, bytes, std::min<size_t>(sizeof scale, def.scale_size));
   for (size_t b = sizeof scale; b < def.scale_size; ++b)
     if (bytes[b] != 0)
       fail(Status::argument, "scale %u uses a field that this version of msq does not know", i);
@@ -36,13 +35,14 @@ msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_
   return guard([&] {
     Context& owner = object(context, "context");
     require(model, "model");
-    const msq_model_def known = read_def(def, model_defaults(), "def");
+    msq_model_def known = read_def(def, model_defaults(), "def");
+    if (known.scale_size == 0) known.scale_size = first_scale_size;
     require_reserved(known.reserved, "reserved");
     if (known.scale_count < 1 || known.scale_count > most_scales)
       fail(Status::argument, "scale_count is %u; it must be from 1 to %u", known.scale_count,
            most_scales);
     require(known.scales, "scales");
-    if (known.scale_size < sizeof(msq_scale_def) || known.scale_size > 4096)
+    if (known.scale_size < first_scale_size || known.scale_size > 4096)
       fail(Status::argument, "scale_size is %u; it must be sizeof(msq_scale_def)",
            known.scale_size);
     Ref<const Shape> shape;

@@ -1,32 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "slice/layer_format.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "base/simd.h"
 #include "slice/layer_format.h"
 
+HWY_BEFORE_NAMESPACE();
+namespace msq {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Number of bits set.
+uint64_t count_bits(const uint64_t* words, size_t count) {
+  const hn::ScalableTag<uint64_t> d;
+  const size_t lanes = hn::Lanes(d);
+  auto sum = hn::Zero(d);
+  size_t i = 0;
+  for (; i + lanes <= count; i += lanes)
+    sum = hn::Add(sum, hn::PopulationCount(hn::LoadU(d, words + i)));
+  uint64_t total = hn::GetLane(hn::SumOfLanes(d, sum));
+  for (; i < count; ++i) total += static_cast<uint64_t>(std::popcount(words[i]));
+  return total;
+}
+
+/// Copies words with the bits of each byte reversed: sample 0 moves to the high bit of byte 0.
+void reverse_bits_of_bytes(const uint64_t* words, size_t count, uint8_t* out) {
+  const hn::ScalableTag<uint64_t> d;
+  const size_t lanes = hn::Lanes(d);
+  const auto odd = hn::Set(d, 0x5555555555555555u), pairs = hn::Set(d, 0x3333333333333333u),
+             nibbles = hn::Set(d, 0x0f0f0f0f0f0f0f0fu);
+  const auto reverse = [&](auto v) {
+    v = hn::Or(hn::And(hn::ShiftRight<1>(v), odd), hn::ShiftLeft<1>(hn::And(v, odd)));
+    v = hn::Or(hn::And(hn::ShiftRight<2>(v), pairs), hn::ShiftLeft<2>(hn::And(v, pairs)));
+    return hn::Or(hn::And(hn::ShiftRight<4>(v), nibbles), hn::ShiftLeft<4>(hn::And(v, nibbles)));
+  };
+  size_t i = 0;
+  HWY_ALIGN uint64_t last[most_simd_doubles];  // words are as wide as doubles
+  for (; i + lanes <= count; i += lanes) {
+    hn::Store(reverse(hn::LoadU(d, words + i)), d, last);
+    std::memcpy(out + i * sizeof(uint64_t), last, lanes * sizeof(uint64_t));
+  }
+  for (; i < count; ++i) {
+    hn::Store(reverse(hn::Set(d, words[i])), d, last);
+    std::memcpy(out + i * sizeof(uint64_t), last, sizeof(uint64_t));
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace msq
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace msq {
 
 static_assert(std::endian::native == std::endian::little,
               "bit rows are written as bytes in the order of a little-endian word");
 
-namespace {
-
-/// Bits in reverse within each byte: sample 0 moves to the high bit of byte 0.
-inline uint64_t reverse_bits_of_bytes(uint64_t v) {
-  v = (v >> 1 & 0x5555555555555555) | (v & 0x5555555555555555) << 1;
-  v = (v >> 2 & 0x3333333333333333) | (v & 0x3333333333333333) << 2;
-  return (v >> 4 & 0x0f0f0f0f0f0f0f0f) | (v & 0x0f0f0f0f0f0f0f0f) << 4;
-}
-
-}  // namespace
+HWY_EXPORT(count_bits);
+HWY_EXPORT(reverse_bits_of_bytes);
 
 uint64_t write_layer(LayerFormat format, const uint64_t* words, uint64_t width, uint64_t height,
                      uint8_t* out) {
   const size_t row_words = words_for(width), count = row_words * height;
-  uint64_t inside = 0;
-  for (size_t i = 0; i < count; ++i) inside += static_cast<uint64_t>(std::popcount(words[i]));
+  const uint64_t inside = HWY_DYNAMIC_DISPATCH(count_bits)(words, count);
   if (format == LayerFormat::bits) {
-    for (size_t i = 0; i < count; ++i) {
-      const uint64_t reversed = reverse_bits_of_bytes(words[i]);
-      std::memcpy(out + i * sizeof reversed, &reversed, sizeof reversed);
-    }
+    HWY_DYNAMIC_DISPATCH(reverse_bits_of_bytes)(words, count, out);
     return inside;
   }
   const uint64_t stride = layer_stride(format, width);
@@ -40,3 +80,4 @@ uint64_t write_layer(LayerFormat format, const uint64_t* words, uint64_t width, 
 }
 
 }  // namespace msq
+#endif  // HWY_ONCE
