@@ -3,6 +3,7 @@
 #include "io/mesh_file.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
+#include "shape/self_intersections.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -181,5 +182,19 @@ msq_status msq_shape_info(const msq_shape* shape, msq_shape_report* report) {
     known.flipped_edges = facts.flipped_edges;
     known.closed = facts.closed;
     write_report(report, known, "report");
+  });
+}
+
+msq_status msq_shape_self_intersections(const msq_shape* shape, uint64_t* pairs, msq_job* job) {
+  return guard([&] {
+    const Shape& known = object(shape, "shape");
+    require(pairs, "pairs");
+    Job* work = job ? &object(job, "job") : nullptr;
+    if (work) work->set_progress(0);
+    check_cancelled(work);
+    const Mesh* mesh = dynamic_cast<const Mesh*>(&known);
+    const uint64_t found = mesh ? count_self_intersections(*mesh, work) : 0;
+    if (work) work->set_progress(1);
+    *pairs = found;
   });
 }
