@@ -9,9 +9,10 @@
 
 namespace msq {
 
-/// Number of pairs of triangles that meet other than in vertices or an edge that they share by index;
-/// two triangles of the same three vertices are a pair. Exact in its decisions. Triangles without area
-/// are in no pair. Throws Error(cancelled), and Error(unsupported) in builds without CGAL.
+/// Number of pairs of triangles that meet other than in vertices or an edge that they share by
+/// index; two triangles of the same three vertices are a pair. Exact in its decisions. Triangles
+/// without area are in no pair. Throws Error(cancelled), and Error(unsupported) in builds without
+/// CGAL.
 uint64_t count_self_intersections(const Mesh& mesh, const Job* job);
 
 }  // namespace msq

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Self-intersections by CGAL: the pairs of triangles whose boxes meet, by a streamed segment tree, then
-// exact predicates on each pair. The criterion is that of CGAL::Polygon_mesh_processing::
-// self_intersections; that function itself wants a manifold, consistently oriented mesh, which a mesh
-// to diagnose need not be.
+// Self-intersections by CGAL: the pairs of triangles whose boxes meet, by a streamed segment tree,
+// then exact predicates on each pair. The criterion is that of CGAL::Polygon_mesh_processing::
+// self_intersections; that function itself wants a manifold, consistently oriented mesh, which a
+// mesh to diagnose need not be.
 // Source: Zomorodian and Edelsbrunner, "Fast software for box intersections", 2002.
 //
 // CGAL's box intersection is under the GPL: a build with this file is too.
@@ -20,8 +20,9 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, uint32_t,
-                                                      CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
+using Box =
+    CGAL::Box_intersection_d::Box_with_info_d<double, 3, uint32_t,
+                                              CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
 
 /// Runs of fewer boxes are scanned instead of divided further; CGAL's own choice for meshes.
 constexpr std::ptrdiff_t scan_cutoff = 2000;
