@@ -209,7 +209,7 @@ MSQ_API msq_status msq_file_def_init(msq_file_def *def, size_t size);
  * in millimetres: transforms applied, polygons triangulated, equal vertices welded, triangles
  * with fewer than three distinct vertices dropped. No other file is ever opened. Cost: linear in the file.
  * Errors: ARGUMENT, IO (no such file, truncated, malformed), UNSUPPORTED (format, or a build without
- * Assimp), MESH (no triangles, index out of range, non-finite vertex), LIMIT, MEMORY. */
+ * Assimp), MESH (no triangles, index out of range, triangle with a non-finite vertex), LIMIT, MEMORY. */
 MSQ_API msq_status msq_shape_from_file(msq_context *context, const char *path,
                                        const msq_file_def *def, msq_shape **shape);
 
@@ -240,7 +240,7 @@ MSQ_API msq_status msq_mesh_def_init(msq_mesh_def *def, size_t size);
  * from it satisfies the winding rule. Crossings are half-open in y and z, so shared edges and
  * vertices count once, and closed in x: a point on a crossing is inside if either side of it is.
  * Cost: linear; about 100 bytes a triangle are kept.
- * Errors: ARGUMENT, MESH (no triangles, index out of range, non-finite vertex), LIMIT, MEMORY. */
+ * Errors: ARGUMENT, MESH (no triangles, index out of range, triangle with a non-finite vertex), LIMIT, MEMORY. */
 MSQ_API msq_status msq_shape_from_mesh(msq_context *context, const msq_mesh_def *def,
                                        msq_shape **shape);
 
@@ -409,8 +409,8 @@ typedef struct msq_model_def {
 /* Sets defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_model_def_init(msq_model_def *def, size_t size);
 
-/* Makes the model whose solid is the intersection of its scales. Errors: ARGUMENT, LIMIT (more than
- * 2^24 cells of a structure across the shape), MEMORY.
+/* Makes the model whose solid is the intersection of its scales. Errors: ARGUMENT, LIMIT (the
+ * shape reaches 2^24 cells of a structure from its grid's origin), MEMORY.
  * Source: paper, section "Multiscale Shape-Material Modeling API". */
 MSQ_API msq_status msq_model_create(msq_context *context, const msq_model_def *def,
                                     msq_model **model);
@@ -488,7 +488,7 @@ typedef struct msq_slicer_def {
   int32_t output;       /* MSQ_LAYER_*; default BITS */
   double pitch[2];      /* pixel size in x and y; 0 (default): from region and resolution */
   uint32_t resolution[2]; /* pixels in x and y; 0 (default): from region and pitch, rounded up */
-  double layer_height;  /* > 0, unless heights are listed */
+  double layer_height;  /* > 0, unless layer_z lists them */
   uint64_t layer_count; /* 0 (default): from region and layer_height, rounded up */
   int32_t has_region;   /* 0 (default): the region is the model's bounding box, centred in the
                            pixels; 1: region_min and region_max below */
@@ -496,9 +496,9 @@ typedef struct msq_slicer_def {
                            and no more than 32 MiB. Same results at any number */
   double region_min[3]; /* corner of pixel (0, 0) and underside of layer 0 */
   double region_max[3]; /* needed where a count follows from it */
-  const double *heights;  /* z of each layer, ascending; NULL (default): the middle of each layer,
+  const double *layer_z;  /* z of each layer, ascending; NULL (default): the middle of each layer,
                              region_min[2] + (index + 1/2) * layer_height */
-  uint64_t height_count;  /* then the number of layers */
+  uint64_t layer_z_count;  /* then the number of layers */
   double length_scale;  /* as in msq_query_def */
 } msq_slicer_def;
 
@@ -528,7 +528,7 @@ typedef struct msq_slicer_report {
 MSQ_API msq_status msq_slicer_info(const msq_slicer *slicer, msq_slicer_report *report);
 
 /* z of a layer's samples. Errors: ARGUMENT (index out of range). */
-MSQ_API msq_status msq_slicer_height(const msq_slicer *slicer, uint64_t index, double *z);
+MSQ_API msq_status msq_slicer_layer_z(const msq_slicer *slicer, uint64_t index, double *z);
 
 /* One layer as the callback sees it: valid until the callback returns. */
 typedef struct msq_layer {

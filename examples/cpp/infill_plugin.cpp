@@ -123,7 +123,7 @@ class InfillProvider {
 
   double height(uint64_t index) const {
     double z;
-    check(msq_slicer_height(slicer_.get(), index, &z));
+    check(msq_slicer_layer_z(slicer_.get(), index, &z));
     return z;
   }
 

@@ -41,8 +41,8 @@ class SlicerDef(Structure):
     _fields_ = [("struct_size", c_uint32), ("output", c_int32), ("pitch", c_double * 2),
                 ("resolution", c_uint32 * 2), ("layer_height", c_double), ("layer_count", c_uint64),
                 ("has_region", c_int32), ("slab_layers", c_uint32), ("region_min", c_double * 3),
-                ("region_max", c_double * 3), ("heights", POINTER(c_double)),
-                ("height_count", c_uint64), ("length_scale", c_double)]
+                ("region_max", c_double * 3), ("layer_z", POINTER(c_double)),
+                ("layer_z_count", c_uint64), ("length_scale", c_double)]
 
 
 class SlicerReport(Structure):

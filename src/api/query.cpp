@@ -87,22 +87,24 @@ msq_status msq_set_membership(const msq_model* model, const msq_points_def* poin
     const msq_points_def def = read_def(points, points_defaults(), "points");
     const auto resolved = known.resolved(read_length_scale(query));
     Job* work = job ? &object(job, "job") : nullptr;
-    if (work) work->set_progress(0);
     require_reserved(def.reserved, "reserved");
     if (require_range(def.kind, MSQ_POINTS_ARRAY, MSQ_POINTS_GRID, "kind") == MSQ_POINTS_ARRAY) {
       const PointArray array =
           point_array(def.coordinates, def.count, def.stride, def.coordinate_type, "coordinates");
       check_count(inside_count, array.count);
-      if (array.count == 0) return;
-      require(inside, "inside");
+      if (array.count > 0) require(inside, "inside");
       check_finite(array);
+      JobScope scope(work);
       array_membership(known, resolved, array, inside, work);
+      scope.done();
     } else {
       const SampleGrid grid = read_grid(def);
       check_count(inside_count,
                   checked_product(checked_product(grid.nx, grid.ny, "points"), grid.nz, "points"));
       require(inside, "inside");
+      JobScope scope(work);
       grid_membership(known, resolved, grid, inside, work);
+      scope.done();
     }
   });
 }

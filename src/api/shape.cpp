@@ -104,7 +104,7 @@ msq_status msq_shape_from_mesh(msq_context* context, const msq_mesh_def* def, ms
       fail(Status::limit, "the mesh has %llu triangles and %llu vertices; the limit is %u of each",
            static_cast<unsigned long long>(known.triangle_count),
            static_cast<unsigned long long>(known.vertex_count), UINT32_MAX);
-    const Reservation staging(
+    Reservation staging(
         owner.budget,
         known.vertex_count * sizeof(Vec3) + known.triangle_count * sizeof(Triangle), "a mesh");
     TriangleSoup soup;
@@ -112,6 +112,7 @@ msq_status msq_shape_from_mesh(msq_context* context, const msq_mesh_def* def, ms
     for (uint64_t i = 0; i < known.vertex_count; ++i) soup.vertices[i] = points.at(i);
     soup.triangles.resize(known.triangle_count);
     std::memcpy(soup.triangles.data(), known.triangles, known.triangle_count * sizeof(Triangle));
+    staging = {};  // the mesh takes its own
     *shape = new_handle<msq_shape>(
         Ref<Shape>(make_ref<Mesh>(std::move(soup), rule, owner.budget)));
   });

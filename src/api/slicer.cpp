@@ -35,27 +35,27 @@ SlicePlan read_plan(const msq_slicer_def& def) {
   if (plan.has_region)
     plan.region = {require_vector(def.region_min, "region_min"),
                    require_vector(def.region_max, "region_max")};
-  if (!def.heights && def.height_count)
-    fail(Status::argument, "heights is NULL and height_count is %llu",
-         static_cast<unsigned long long>(def.height_count));
-  if (!def.heights) {
+  if (!def.layer_z && def.layer_z_count)
+    fail(Status::argument, "layer_z is NULL and layer_z_count is %llu",
+         static_cast<unsigned long long>(def.layer_z_count));
+  if (!def.layer_z) {
     plan.layer_height = require_positive(def.layer_height, "layer_height");
     return plan;
   }
-  if (def.height_count < 1 || def.height_count > INT32_MAX)
-    fail(Status::argument, "height_count is %llu; it must be from 1 to %d",
-         static_cast<unsigned long long>(def.height_count), INT32_MAX);
-  if (def.layer_count && def.layer_count != def.height_count)
-    fail(Status::argument, "layer_count is %llu and height_count is %llu",
+  if (def.layer_z_count < 1 || def.layer_z_count > INT32_MAX)
+    fail(Status::argument, "layer_z_count is %llu; it must be from 1 to %d",
+         static_cast<unsigned long long>(def.layer_z_count), INT32_MAX);
+  if (def.layer_count && def.layer_count != def.layer_z_count)
+    fail(Status::argument, "layer_count is %llu and layer_z_count is %llu",
          static_cast<unsigned long long>(def.layer_count),
-         static_cast<unsigned long long>(def.height_count));
-  for (uint64_t i = 0; i < def.height_count; ++i) {
-    require_finite(def.heights[i], "a height");
-    if (i > 0 && !(def.heights[i] > def.heights[i - 1]))
-      fail(Status::argument, "heights[%llu] is %g, after %g; heights must ascend",
-           static_cast<unsigned long long>(i), def.heights[i], def.heights[i - 1]);
+         static_cast<unsigned long long>(def.layer_z_count));
+  for (uint64_t i = 0; i < def.layer_z_count; ++i) {
+    require_finite(def.layer_z[i], "layer_z");
+    if (i > 0 && !(def.layer_z[i] > def.layer_z[i - 1]))
+      fail(Status::argument, "layer_z[%llu] is %g, after %g; layer_z must ascend",
+           static_cast<unsigned long long>(i), def.layer_z[i], def.layer_z[i - 1]);
   }
-  plan.heights.assign(def.heights, def.heights + def.height_count);
+  plan.heights.assign(def.layer_z, def.layer_z + def.layer_z_count);
   return plan;
 }
 
@@ -104,7 +104,7 @@ msq_status msq_slicer_info(const msq_slicer* slicer, msq_slicer_report* report) 
   });
 }
 
-msq_status msq_slicer_height(const msq_slicer* slicer, uint64_t index, double* z) {
+msq_status msq_slicer_layer_z(const msq_slicer* slicer, uint64_t index, double* z) {
   return guard([&] {
     const Slicer& known = object(slicer, "slicer");
     require_layer(known, index);

@@ -14,6 +14,12 @@ class Job : public RefCounted {
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
   bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
   void set_progress(double fraction) { progress_.store(fraction, std::memory_order_relaxed); }
+  /// As set_progress(), but never back: for workers that report out of order.
+  void raise_progress(double fraction) {
+    double now = progress();
+    while (now < fraction && !progress_.compare_exchange_weak(now, fraction)) {
+    }
+  }
   double progress() const { return progress_.load(std::memory_order_relaxed); }
 
  private:
@@ -21,9 +27,27 @@ class Job : public RefCounted {
   std::atomic<double> progress_{0.0};
 };
 
+/// Marks a call's begin and its successful end in a job, which may be null.
+class JobScope {
+ public:
+  /// Throws Error(cancelled) if the job is cancelled.
+  explicit JobScope(Job* job);
+  void done() {
+    if (job_) job_->set_progress(1);
+  }
+
+ private:
+  Job* job_;
+};
+
 /// Throws Error(cancelled) if there is a job and it is cancelled.
 inline void check_cancelled(const Job* job) {
   if (job && job->cancelled()) throw Error(Status::cancelled, "the job was cancelled");
+}
+
+inline JobScope::JobScope(Job* job) : job_(job) {
+  if (job_) job_->set_progress(0);
+  check_cancelled(job_);
 }
 
 }  // namespace msq

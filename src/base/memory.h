@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -16,18 +17,20 @@ class MemoryBudget {
  public:
   explicit MemoryBudget(uint64_t limit) : limit_(limit) {}
 
-  /// Throws Error(limit), which names `what`, if the bytes would pass the limit.
+  /// Where take() may get bytes back: called with no lock held, answers whether it gave any back.
+  void set_reserve(std::function<bool()> give_way) { give_way_ = std::move(give_way); }
+
+  /// Throws Error(limit), which names `what`, if the bytes would pass the limit even when the reserve
+  /// has given way.
   void take(uint64_t bytes, const char* what) {
-    std::lock_guard lock(mutex_);
-    if (limit_ && (bytes > limit_ || held_ > limit_ - bytes))
-      fail(Status::limit,
-           "%s of %llu bytes, with %llu bytes held, would pass the context's memory_limit of %llu",
-           what, static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(held_),
-           static_cast<unsigned long long>(limit_));
-    held_ += bytes;
-    if (held_ > peak_) peak_ = held_;
+    while (!try_take(bytes))
+      if (!give_way_ || !give_way_())
+        fail(Status::limit,
+             "%s of %llu bytes, with %llu bytes held, would pass the context's memory_limit of %llu",
+             what, static_cast<unsigned long long>(bytes),
+             static_cast<unsigned long long>(held()), static_cast<unsigned long long>(limit_));
   }
-  /// As take(), but answers false instead of throwing.
+  /// Answers false if the bytes would pass the limit.
   bool try_take(uint64_t bytes) {
     std::lock_guard lock(mutex_);
     if (limit_ && (bytes > limit_ || held_ > limit_ - bytes)) return false;
@@ -52,6 +55,7 @@ class MemoryBudget {
 
  private:
   const uint64_t limit_;
+  std::function<bool()> give_way_;
   mutable std::mutex mutex_;
   uint64_t held_ = 0, peak_ = 0;
 };

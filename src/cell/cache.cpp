@@ -63,6 +63,13 @@ void CellCache::evict_oldest() {
   order_.pop_front();
 }
 
+bool CellCache::drop_oldest() {
+  std::lock_guard lock(mutex_);
+  if (order_.empty()) return false;
+  evict_oldest();
+  return true;
+}
+
 void CellCache::clear() {
   std::lock_guard lock(mutex_);
   budget_->give_back(counters_.bytes);

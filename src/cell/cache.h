@@ -39,6 +39,8 @@ class CellCache {
       const std::function<std::shared_ptr<const CellData>()>& build);
 
   void clear();
+  /// Drops the oldest cell, if there is one.
+  bool drop_oldest();
   Counters counters() const;
   uint64_t limit() const { return limit_; }
 

@@ -17,7 +17,12 @@ class Context : public RefCounted {
   Context(unsigned threads, uint64_t cache_bytes, uint64_t memory_limit)
       : executor(threads),
         budget(std::make_shared<MemoryBudget>(memory_limit)),
-        cache(cache_bytes, budget) {}
+        cache(cache_bytes, budget) {
+    // Cached cells make room for what a call must have, so that what a call can do does not depend on
+    // the calls before it.
+    budget->set_reserve([this] { return cache.drop_oldest(); });
+  }
+  ~Context() override { budget->set_reserve(nullptr); }
 
   /// A number that no other structure of this context has: its name in the cache.
   uint64_t new_structure_id() { return next_id_.fetch_add(1, std::memory_order_relaxed); }

@@ -23,6 +23,15 @@ constexpr struct {
 } formats[] = {{"stl", MeshFormat::stl}, {"obj", MeshFormat::obj},     {"ply", MeshFormat::ply},
                {"off", MeshFormat::off}, {"3mf", MeshFormat::threemf}, {"amf", MeshFormat::amf}};
 
+/// A path as messages show it: the end of a long one, so that there is room for the reason.
+std::string shown(const std::string& path) {
+  constexpr size_t most = 200;
+  if (path.size() <= most) return path;
+  size_t first = path.size() - most;
+  while (first < path.size() && (path[first] & 0xc0) == 0x80) ++first;  // whole characters of UTF-8
+  return "..." + path.substr(first);
+}
+
 MeshFormat format_of(const std::string& path) {
   const size_t slash = path.find_last_of("/\\");
   const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
@@ -31,7 +40,7 @@ MeshFormat format_of(const std::string& path) {
   for (const auto& known : formats)
     if (equal_ignoring_case(extension, known.extension)) return known.format;
   fail(Status::unsupported, "%s: the extension \"%s\" is none of stl, obj, ply, off, 3mf, amf",
-       path.c_str(), extension.c_str());
+       shown(path).c_str(), shown(extension).c_str());
 }
 
 void check(const MeshFileOptions& options) {
@@ -53,7 +62,7 @@ void check_size(uint64_t bytes, const MeshFileOptions& options) {
 std::string read_whole_file(const std::string& path, const MeshFileOptions& options) {
   namespace fs = std::filesystem;
   const auto give_up = [&](int error) {
-    fail(Status::io, "%s: %s", path.c_str(), std::generic_category().message(error).c_str());
+    fail(Status::io, "%s: %s", shown(path).c_str(), std::generic_category().message(error).c_str());
   };
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -62,7 +71,7 @@ std::string read_whole_file(const std::string& path, const MeshFileOptions& opti
   if (status.type() == fs::file_type::directory) give_up(EISDIR);
   // Pipes and devices have no size to check, and may never end.
   if (status.type() != fs::file_type::regular)
-    fail(Status::io, "%s: not a regular file", path.c_str());
+    fail(Status::io, "%s: not a regular file", shown(path).c_str());
   const uint64_t bytes = fs::file_size(path, error);
   if (error) give_up(error.value());
   check_size(bytes, options);
@@ -75,7 +84,7 @@ std::string read_whole_file(const std::string& path, const MeshFileOptions& opti
   const size_t got = std::fread(content.data(), 1, bytes, file.get());
   if (got != bytes) {
     if (std::ferror(file.get())) give_up(errno ? errno : EIO);
-    fail(Status::io, "%s: ended after %zu of %llu bytes", path.c_str(), got,
+    fail(Status::io, "%s: ended after %zu of %llu bytes", shown(path).c_str(), got,
          static_cast<unsigned long long>(bytes));
   }
   return content;
@@ -123,7 +132,7 @@ TriangleSoup read_mesh_file(const std::string& path, const MeshFileOptions& opti
   try {
     return read(content, format, options);
   } catch (const Error& error) {
-    throw Error(error.status, path + ": " + error.what());
+    throw Error(error.status, shown(path) + ": " + error.what());
   }
 }
 

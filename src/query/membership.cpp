@@ -87,7 +87,7 @@ void array_membership(const Model& model, const std::vector<const Structure*>& r
       structure->keep_points(positions.data(), alive.data(), count);
     std::memcpy(inside + first, alive.data(), count);
     const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
-    if (job) job->set_progress(static_cast<double>(now) / static_cast<double>(chunks));
+    if (job) job->raise_progress(static_cast<double>(now) / static_cast<double>(chunks));
   });
 }
 

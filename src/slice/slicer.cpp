@@ -112,8 +112,8 @@ void Slicer::plan_slabs() {
 
 void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const Layer&)>& take,
                  Job* job) const {
-  if (job) job->set_progress(0);
-  if (first == last) return;
+  JobScope scope(job);
+  if (first == last) return scope.done();
   const uint64_t layer_words = words_for(grid_.nx) * grid_.ny;
   const uint64_t deep = std::min(slab_layers_, last - first);
   const bool is_one_slab = deep == last - first;
@@ -153,9 +153,10 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
       model_->context().budget,
       (layer_words + fill_slab_scratch_words(*model_, grid_)) * sizeof(uint64_t), "a layer");
   std::vector<uint64_t> words(layer_words);
+  JobScope scope(job);
   fill_slab(*model_, resolved_, grid_, index, index + 1, words.data(), job);
   write_layer(plan_.format, words.data(), grid_.nx, grid_.ny, out);
-  if (job) job->set_progress(1);
+  scope.done();
 }
 
 }  // namespace msq

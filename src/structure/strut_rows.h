@@ -24,6 +24,14 @@ class StrutRows {
 
   /// No sample is alive: nothing to do.
   bool empty() const { return raster_.empty(); }
+  /// Whether there are more samples than `critical` for each cell that they spread over: if not, asking
+  /// them one by one is faster, and does not walk over cells that hold none.
+  bool pays(const Neighbourhood& grid, double critical) const {
+    const Vec3 spread = grid.to_grid(raster_.box()).extent();
+    double cells = 1;
+    for (int axis = 0; axis < 3; ++axis) cells *= 1 + spread[axis] / grid.cell_size[axis];
+    return raster_.samples() > critical * cells;
+  }
   /// Struts whose axis does not meet this box may be left out.
   const Box3& reach() const { return reach_; }
 

@@ -92,8 +92,11 @@ SpanRaster::SpanRaster(const RowBlock& alive, double margin) : alive_(alive), ma
   size_t w0 = 0, w1 = words;
   while (!any[w0]) ++w0;
   while (!any[w1 - 1]) --w1;
-  const uint64_t i0 = w0 * bits_per_word, i1 = std::min<uint64_t>(w1 * bits_per_word, grid.nx);
+  const uint64_t i0 = w0 * bits_per_word + static_cast<unsigned>(std::countr_zero(any[w0]));
+  const uint64_t i1 = w1 * bits_per_word - static_cast<unsigned>(std::countl_zero(any[w1 - 1]));
   box_ = {grid.at(i0, j0, k0), grid.at(i1 - 1, j1 - 1, k1 - 1)};
+  samples_ = static_cast<double>(i1 - i0) * static_cast<double>(j1 - j0) *
+             static_cast<double>(k1 - k0);
 
   for (uint64_t j = alive.y0; j < alive.y1; ++j) y_.push_back(grid.y(j));
   for (uint64_t k = alive.z0; k < alive.z1; ++k) z_.push_back(grid.z(k));

@@ -37,6 +37,8 @@ class SpanRaster {
   /// Bounding box of the samples that are alive. Struts out of its reach may be left out.
   const Box3& box() const { return box_; }
   bool empty() const { return empty_; }
+  /// Samples in the box.
+  double samples() const { return samples_; }
 
   void add(const RasterStrut* struts, size_t count);
 
@@ -48,6 +50,7 @@ class SpanRaster {
   RowBlock alive_;
   double margin_;
   bool empty_ = true;
+  double samples_ = 0;
   Box3 box_;
   std::vector<double> y_, z_;               // of rows and layers
   std::vector<uint64_t> certain_, doubt_;   // rows of the block, tightly packed

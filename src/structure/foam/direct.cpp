@@ -10,6 +10,9 @@ namespace msq {
 
 namespace {
 
+/// Samples a cell above which building the cell's edges beats the point query (docs/benchmarks.md).
+constexpr double critical_samples = 8;
+
 Vec3 vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 /// Adds a brick's edges, owner by owner, where the owner's box may touch `reach` (grid coordinates).
@@ -39,6 +42,7 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
   const double unit = foam.unit();
   StrutRows rows(block, grid, foam.radius(), 2 * edge_error * unit);
   if (rows.empty()) return;
+  if (!rows.pays(grid, critical_samples)) return foam.Structure::keep_rows(block, job);
   const Box3 reach = grid.to_grid(rows.reach());
   // An edge that touches the reach has a point in it, and its owner within the empty radius of that.
   const double owner_distance = foam.seeds().empty_radius() * unit * (1 + 1e-9);

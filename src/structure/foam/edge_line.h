@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/vec.h"
 
@@ -25,6 +26,9 @@ namespace msq {
 struct LineInterval {
   double low, high;
 };
+/// Empty by more than any slack forgives.
+constexpr LineInterval no_part{std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
 
 struct EdgeLine {
   Vec3 seed;       // one of the three, and
@@ -52,7 +56,7 @@ struct EdgeLine {
     const double foot = dot(w, direction) * inverse_squared;
     const Vec3 d = w - direction * foot;
     const double under = (radius_squared - dot(d, d)) * inverse_squared;
-    if (under < 0) return {1, 0};
+    if (under < 0) return no_part;
     const double half = std::sqrt(under);
     return {foot - half, foot + half};
   }
@@ -67,7 +71,7 @@ struct EdgeLine {
     else if (across < -coplanar)
       part.low = std::max(part.low, room / across);
     else if (room < -cocircular)
-      part = {1, 0};
+      part = no_part;
   }
 
   /// Whether a part is not empty. Seeds on one sphere (low jitter) leave edges of length zero that

@@ -41,20 +41,26 @@ struct Block {
   }
 };
 
-void gather(const FoamSeeds& seeds, CellIndex cell, Vec3 q, const Block& block,
-            std::vector<Candidate>& found, double& nearest_squared) {
-  found.clear();
-  nearest_squared = 1e300;
+/// Fills `found` with the block's seeds and returns their least squared distance.
+double gather(const FoamSeeds& seeds, CellIndex cell, Vec3 q, const Block& block,
+              std::vector<Candidate>& found) {
+  const int *half = block.half;
+  found.resize(static_cast<size_t>(2 * half[0] + 1) * static_cast<size_t>(2 * half[1] + 1) *
+               static_cast<size_t>(2 * half[2] + 1));
+  double nearest_squared = 1e300;
   uint32_t order = 0;
-  for (int dz = -block.half[2]; dz <= block.half[2]; ++dz)
-    for (int dy = -block.half[1]; dy <= block.half[1]; ++dy)
-      for (int dx = -block.half[0]; dx <= block.half[0]; ++dx) {
-        const Vec3 s = seeds.at(cell, dx, dy, dz);
+  for (int dz = -half[2]; dz <= half[2]; ++dz)
+    for (int dy = -half[1]; dy <= half[1]; ++dy) {
+      const uint64_t key = seeds.row_key(cell, dy, dz);
+      for (int dx = -half[0]; dx <= half[0]; ++dx, ++order) {
+        const Vec3 s = seeds.in_row(key, cell, dx, dy, dz);
         const Vec3 d = s - q;
         const double d2 = dot(d, d);
         nearest_squared = std::min(nearest_squared, d2);
-        found.push_back({s, d2, order++});
+        found[order] = {s, d2, order};
       }
+    }
+  return nearest_squared;
 }
 
 }  // namespace
@@ -63,11 +69,10 @@ bool foam_point_inside(const FoamSeeds& seeds, CellIndex cell, Vec3 q, double ra
   thread_local std::vector<Candidate> found;
   // Room for the rounding of distances; a seed too many never changes the answer.
   constexpr double slack = 1e-9;
-  double nearest_squared, needed;
+  double needed;
   for (double wanted = 1;; wanted += 1) {
     const Block block(wanted, q, seeds.scale());
-    gather(seeds, cell, q, block, found, nearest_squared);
-    needed = std::sqrt(nearest_squared) + 2 * radius + slack;
+    needed = std::sqrt(gather(seeds, cell, q, block, found)) + 2 * radius + slack;
     if (needed <= block.reach) break;
   }
   const double needed_squared = needed * needed;

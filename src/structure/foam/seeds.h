@@ -17,14 +17,23 @@ namespace msq {
 
 class FoamSeeds {
  public:
-  FoamSeeds(uint64_t seed, double jitter, Vec3 scale) : key_(splitmix_finalise(seed + 1)), jitter_(jitter), scale_(scale) {}
+  FoamSeeds(uint64_t seed, double jitter, Vec3 scale)
+      : key_(splitmix_finalise(seed + 1)), jitter_(jitter), scale_(scale) {}
 
   Vec3 scale() const { return scale_; }
 
   /// The seed of cell `home` + (dx, dy, dz), relative to the corner of `home`.
   Vec3 at(CellIndex home, int dx, int dy, int dz) const {
-    const uint64_t h = splitmix_output(row_key(home.y + dy, home.z + dz),
-                                       static_cast<uint32_t>(home.x + dx));
+    return in_row(row_key(home, dy, dz), home, dx, dy, dz);
+  }
+
+  /// The same for several cells of a row, with the row's key found once.
+  uint64_t row_key(CellIndex home, int dy, int dz) const {
+    const uint64_t y = static_cast<uint32_t>(home.y + dy), z = static_cast<uint32_t>(home.z + dz);
+    return splitmix_finalise(key_ ^ (y | z << 32));
+  }
+  Vec3 in_row(uint64_t row_key, CellIndex home, int dx, int dy, int dz) const {
+    const uint64_t h = splitmix_output(row_key, static_cast<uint32_t>(home.x + dx));
     return Vec3{dx + fraction(h), dy + fraction(h >> 21), dz + fraction(h >> 42)} * scale_;
   }
 
@@ -33,10 +42,6 @@ class FoamSeeds {
   double empty_radius() const { return length(scale_); }
 
  private:
-  uint64_t row_key(int32_t y, int32_t z) const {
-    return splitmix_finalise(key_ ^ (static_cast<uint32_t>(y) |
-                                     static_cast<uint64_t>(static_cast<uint32_t>(z)) << 32));
-  }
   /// 0.5 without jitter, otherwise 21 random bits about it, scaled by the jitter and rounded down to
   /// a multiple of 2^-21: in [0, 1).
   double fraction(uint64_t bits) const {

@@ -7,6 +7,10 @@ namespace msq {
 
 namespace {
 
+/// Samples a cell above which spans beat the point query. Drawing a strut costs about as much as asking
+/// one sample of all struts near it.
+constexpr double critical_samples = 4;
+
 /// Whether a segment comes within radius of a box, erring towards yes. The distance to a convex set
 /// is convex along a segment, so a ternary search finds its minimum.
 bool may_reach(const Segment& s, const Box3& box, double radius) {
@@ -67,6 +71,7 @@ void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
   const Neighbourhood& grid = neighbourhood();
   StrutRows rows(block, grid, radius_, 1e-9 * radius_.range().high);
   if (rows.empty()) return;
+  if (!rows.pays(grid, critical_samples)) return Structure::keep_rows(block, job);
   const Box3 reach = grid.to_grid(rows.reach());
   // Cells whose struts may touch it.
   int64_t first[3], last[3];

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "definitions.h"
+
+static msq_status read_info(void* env, void* report) {
+  (void)env;
+  return msq_build_info((msq_build_report*)report);
+}
+
+static void report_has_every_struct_size(void** state) {
+  (void)state;
+  check_report_sizes(sizeof(msq_build_report), read_info, NULL);
+}
+
+static void report_tells_how_the_library_was_built(void** state) {
+  msq_build_report report = {0};
+  (void)state;
+  report.struct_size = sizeof report;
+  assert_ok(msq_build_info(&report));
+  assert_int_equal(report.version, msq_version());
+  assert_int_equal(report.with_assimp, MSQ_WITH_ASSIMP);
+  assert_int_equal(report.with_cgal, MSQ_WITH_CGAL);
+  assert_string_equal(report.licence, MSQ_WITH_CGAL ? "GPL-3.0-or-later" : "Apache-2.0");
+  assert_non_null(report.simd);
+  assert_true(strlen(report.simd) > 0);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(report_has_every_struct_size),
+      cmocka_unit_test(report_tells_how_the_library_was_built),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include <pthread.h>
+
+#include "fixtures.h"
+
+static void fail_with_radius(msq_context* context, double radius) {
+  const double center[3] = {0, 0, 0};
+  assert_makes_nothing(msq_shape, msq_shape_from_sphere(context, center, radius, &made),
+                       MSQ_E_ARGUMENT, "radius");
+}
+
+/* Runs first: nothing has failed on this thread yet. */
+static void message_is_empty_before_the_first_failure(void** state) {
+  (void)state;
+  assert_string_equal(msq_error_message(), "");
+  msq_context* context = make_context();
+  assert_string_equal(msq_error_message(), "");
+  msq_context_release(context);
+}
+
+static void message_names_value_and_limit(void** state) {
+  msq_context* context = make_context();
+  (void)state;
+  fail_with_radius(context, -7.25);
+  assert_message_has("-7.25");
+  assert_message_has("positive");
+  msq_context_release(context);
+}
+
+static void message_is_that_of_the_last_failure(void** state) {
+  msq_context* context = make_context();
+  (void)state;
+  fail_with_radius(context, -1.5);
+  fail_with_radius(context, -2.5);
+  assert_message_has("-2.5");
+  assert_null(strstr(msq_error_message(), "-1.5"));
+  msq_context_release(context);
+}
+
+static void success_leaves_the_message(void** state) {
+  msq_context* context = make_context();
+  char kept[512];
+  (void)state;
+  fail_with_radius(context, -3.5);
+  snprintf(kept, sizeof kept, "%s", msq_error_message());
+  msq_model* model = make_lattice_model(context);
+  is_inside(model, 1, 1, 1);
+  memory_of(context);
+  msq_status_name(MSQ_E_HOST);
+  msq_version();
+  msq_model_release(model);
+  msq_context_release(context);
+  assert_string_equal(msq_error_message(), kept);
+}
+
+typedef struct other_thread {
+  msq_context* context;
+  char first[64], last[512];
+  msq_status status;
+} other_thread;
+
+static void* fail_elsewhere(void* argument) {
+  other_thread* other = (other_thread*)argument;
+  const double center[3] = {0, 0, 0};
+  msq_shape* shape;
+  snprintf(other->first, sizeof other->first, "%s", msq_error_message());
+  other->status = msq_shape_from_sphere(other->context, center, -8.5, &shape);
+  snprintf(other->last, sizeof other->last, "%s", msq_error_message());
+  return NULL;
+}
+
+static void message_is_per_thread(void** state) {
+  other_thread other;
+  pthread_t thread;
+  (void)state;
+  other.context = make_context();
+  fail_with_radius(other.context, -4.5);
+  assert_int_equal(pthread_create(&thread, NULL, fail_elsewhere, &other), 0);
+  assert_int_equal(pthread_join(thread, NULL), 0);
+  assert_string_equal(other.first, "");
+  assert_int_equal(other.status, MSQ_E_ARGUMENT);
+  assert_non_null(strstr(other.last, "-8.5"));
+  assert_message_has("-4.5");
+  msq_context_release(other.context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(message_is_empty_before_the_first_failure),
+      cmocka_unit_test(message_names_value_and_limit),
+      cmocka_unit_test(message_is_that_of_the_last_failure),
+      cmocka_unit_test(success_leaves_the_message),
+      cmocka_unit_test(message_is_per_thread),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

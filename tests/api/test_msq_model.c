@@ -1,0 +1,255 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_model_def_init, msq_model_create, msq_model_retain, msq_model_release. */
+#include "definitions.h"
+
+DEFINE_INIT(model_def)
+
+typedef struct parts {
+  msq_context* context;
+  msq_shape* shape;
+  msq_structure* structure;
+} parts;
+
+static parts make_parts(void) {
+  parts p;
+  p.context = make_context();
+  p.shape = make_box(p.context);
+  p.structure = make_lattice(p.context);
+  return p;
+}
+
+static void release_parts(parts* p) {
+  msq_structure_release(p->structure);
+  msq_shape_release(p->shape);
+  msq_context_release(p->context);
+}
+
+static msq_model_def model_def(const msq_scale_def* scales, uint32_t count) {
+  msq_model_def def;
+  assert_ok(msq_model_def_init(&def, sizeof def));
+  def.scales = scales;
+  def.scale_count = count;
+  return def;
+}
+
+static msq_status create(void* env, void* def) {
+  msq_model* model = (msq_model*)untouched();
+  const msq_status status = msq_model_create((msq_context*)env, (const msq_model_def*)def, &model);
+  if (status == MSQ_OK)
+    msq_model_release(model);
+  else
+    assert_ptr_equal(model, untouched());
+  return status;
+}
+
+static void def_init_honours_every_size(void** state) {
+  (void)state;
+  check_def_init(init_model_def, sizeof(msq_model_def));
+}
+
+static void defaults_are_those_of_the_header(void** state) {
+  msq_model_def def;
+  (void)state;
+  assert_ok(msq_model_def_init(&def, sizeof def));
+  assert_int_equal(def.scale_count, 0);
+  assert_int_equal(def.scale_size, 0);
+  assert_null(def.scales);
+  assert_int_equal(def.reserved, 0);
+}
+
+static void create_honours_every_struct_size(void** state) {
+  parts p = make_parts();
+  const msq_scale_def scales[2] = {{p.shape, NULL}, {NULL, p.structure}};
+  const msq_model_def def = model_def(scales, 2);
+  (void)state;
+  check_def_sizes(&def, sizeof def, create, p.context);
+  release_parts(&p);
+}
+
+static void fields_past_an_older_callers_size_have_defaults(void** state) {
+  parts p = make_parts();
+  const msq_scale_def scales[2] = {{p.shape, NULL}, {NULL, p.structure}};
+  msq_model_def def = model_def(scales, 2);
+  (void)state;
+  def.scale_size = 1;
+  def.reserved = 1;
+  def.struct_size = offsetof(msq_model_def, scale_size);
+  assert_ok(create(p.context, &def));
+  release_parts(&p);
+}
+
+static void model_is_the_intersection_of_its_scales(void** state) {
+  const double points[4][3] = {{0.5, 0.5, 0.5}, {0.5, 0, 0.5}, {4.5, 4.5, 4.5}, {0.95, 0.95, 0.95}};
+  const int in_shape[] = {1, 1, 0, 1}, in_both[] = {1, 0, 0, 1};
+  msq_context* context = make_context();
+  msq_model *box = make_box_model(context), *lattice = make_lattice_model(context);
+  (void)state;
+  for (int i = 0; i < 4; ++i) {
+    const double* p = points[i];
+    assert_int_equal(is_inside(box, p[0], p[1], p[2]), in_shape[i]);
+    assert_int_equal(is_inside(lattice, p[0], p[1], p[2]), in_both[i]);
+  }
+  msq_model_release(box);
+  msq_model_release(lattice);
+  msq_context_release(context);
+}
+
+static void model_keeps_its_parts_alive(void** state) {
+  parts p = make_parts();
+  const msq_scale_def scales[2] = {{p.shape, NULL}, {NULL, p.structure}};
+  const msq_model_def def = model_def(scales, 2);
+  msq_model* model;
+  (void)state;
+  assert_ok(msq_model_create(p.context, &def, &model));
+  msq_context_release(p.context);
+  msq_shape_release(p.shape);
+  msq_structure_release(p.structure);
+  assert_int_equal(is_inside(model, 0.5, 0.5, 0.5), 1);
+  msq_model_retain(model);
+  msq_model_release(model);
+  assert_int_equal(is_inside(model, 0.5, 0, 0.5), 0);
+  msq_model_release(model);
+}
+
+static void release_of_null_does_nothing(void** state) {
+  (void)state;
+  msq_model_release(NULL);
+  msq_model_retain(NULL);
+}
+
+/* 64 scales, the most there may be, all the same structure. */
+static void most_scales_are_64(void** state) {
+  parts p = make_parts();
+  msq_scale_def scales[65];
+  (void)state;
+  for (int i = 0; i < 65; ++i) {
+    scales[i].shape = i ? NULL : p.shape;
+    scales[i].structure = i ? p.structure : NULL;
+  }
+  msq_model_def def = model_def(scales, 64);
+  assert_ok(create(p.context, &def));
+  def.scale_count = 65;
+  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale_count is 65");
+  assert_message_has("64");
+  def.scale_count = 0;
+  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale_count is 0");
+  release_parts(&p);
+}
+
+static void null_arguments_are_refused(void** state) {
+  parts p = make_parts();
+  const msq_scale_def scales[1] = {{p.shape, NULL}};
+  msq_model_def def = model_def(scales, 1);
+  (void)state;
+  assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "context is NULL");
+  assert_refused(create(p.context, NULL), MSQ_E_ARGUMENT, "def is NULL");
+  assert_refused(msq_model_create(p.context, &def, NULL), MSQ_E_ARGUMENT, "model is NULL");
+  def.scales = NULL;
+  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scales is NULL");
+  release_parts(&p);
+}
+
+static void scales_are_a_shape_then_structures(void** state) {
+  parts p = make_parts();
+  const msq_scale_def wrong[6][2] = {{{NULL, NULL}, {NULL, p.structure}},
+                                     {{NULL, p.structure}, {NULL, p.structure}},
+                                     {{p.shape, p.structure}, {NULL, p.structure}},
+                                     {{p.shape, NULL}, {NULL, NULL}},
+                                     {{p.shape, NULL}, {p.shape, NULL}},
+                                     {{p.shape, NULL}, {p.shape, p.structure}}};
+  (void)state;
+  for (int i = 0; i < 6; ++i) {
+    msq_model_def def = model_def(wrong[i], 2);
+    assert_refused(create(p.context, &def), MSQ_E_ARGUMENT,
+                   i < 3 ? "scale 0 must have a shape" : "scale 1 must have a structure");
+  }
+  release_parts(&p);
+}
+
+typedef struct later_scale { /* of a host that is newer than the library */
+  msq_scale_def known;
+  uint64_t added;
+} later_scale;
+
+static void scales_of_a_newer_host_must_be_zero_in_the_rest(void** state) {
+  parts p = make_parts();
+  later_scale scales[2] = {{{p.shape, NULL}, 0}, {{NULL, p.structure}, 0}};
+  msq_model_def def = model_def(&scales[0].known, 2);
+  (void)state;
+  def.scale_size = sizeof(later_scale);
+  assert_ok(create(p.context, &def));
+  scales[1].added = (uint64_t)1 << 63;
+  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale 1");
+  release_parts(&p);
+}
+
+static void scale_size_of_0_is_that_of_version_0_1(void** state) {
+  parts p = make_parts();
+  const msq_scale_def scales[2] = {{p.shape, NULL}, {NULL, p.structure}};
+  msq_model_def def = model_def(scales, 2);
+  (void)state;
+  def.scale_size = 0;
+  assert_ok(create(p.context, &def));
+  def.scale_size = 2 * sizeof(void*);
+  assert_ok(create(p.context, &def));
+  release_parts(&p);
+}
+
+static void wrong_sizes_are_refused(void** state) {
+  parts p = make_parts();
+  const msq_scale_def scales[1] = {{p.shape, NULL}};
+  const uint32_t refused[] = {1, sizeof(msq_scale_def) - 1, UINT32_MAX};
+  msq_model_def def = model_def(scales, 1);
+  (void)state;
+  for (int i = 0; i < 3; ++i) {
+    def.scale_size = refused[i];
+    assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale_size");
+    assert_message_has_number(refused[i]);
+  }
+  def = model_def(scales, 1);
+  def.reserved = 5;
+  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "reserved is 5");
+  release_parts(&p);
+}
+
+static void too_many_cells_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_shape* shape = make_box(context);
+  (void)state;
+  /* 4 / 2^-22 cells are 2^24, one too many; 4 / 2^-21 are few enough. */
+  for (int exponent = -22; exponent <= -21; ++exponent) {
+    msq_structure* fine =
+        make_lattice_of(context, MSQ_UNIT_CELL_BCC, ldexp(1, exponent), ldexp(1, exponent - 3));
+    const msq_scale_def scales[2] = {{shape, NULL}, {NULL, fine}};
+    msq_model_def def = model_def(scales, 2);
+    if (exponent == -21) {
+      assert_ok(create(context, &def));
+    } else {
+      assert_refused(create(context, &def), MSQ_E_LIMIT, "scale 1");
+      assert_message_has("1.67772e+07");
+    }
+    msq_structure_release(fine);
+  }
+  msq_shape_release(shape);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(def_init_honours_every_size),
+      cmocka_unit_test(defaults_are_those_of_the_header),
+      cmocka_unit_test(create_honours_every_struct_size),
+      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
+      cmocka_unit_test(model_is_the_intersection_of_its_scales),
+      cmocka_unit_test(model_keeps_its_parts_alive),
+      cmocka_unit_test(release_of_null_does_nothing),
+      cmocka_unit_test(most_scales_are_64),
+      cmocka_unit_test(null_arguments_are_refused),
+      cmocka_unit_test(scales_are_a_shape_then_structures),
+      cmocka_unit_test(scales_of_a_newer_host_must_be_zero_in_the_rest),
+      cmocka_unit_test(scale_size_of_0_is_that_of_version_0_1),
+      cmocka_unit_test(wrong_sizes_are_refused),
+      cmocka_unit_test(too_many_cells_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

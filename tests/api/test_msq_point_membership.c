@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_query_def_init, msq_point_membership. */
+#include <float.h>
+
+#include "definitions.h"
+
+DEFINE_INIT(query_def)
+
+static const double inner[3] = {0.5, 0.5, 0.5};
+
+static msq_status ask(void* env, void* def) {
+  int32_t inside = 77;
+  const msq_status status =
+      msq_point_membership((const msq_model*)env, inner, (const msq_query_def*)def, &inside);
+  assert_int_equal(inside, status == MSQ_OK ? 1 : 77);
+  return status;
+}
+
+static void def_init_honours_every_size(void** state) {
+  (void)state;
+  check_def_init(init_query_def, sizeof(msq_query_def));
+}
+
+static void defaults_are_those_of_the_header(void** state) {
+  msq_query_def def;
+  (void)state;
+  assert_ok(msq_query_def_init(&def, sizeof def));
+  assert_int_equal(def.reserved, 0);
+  assert_true(def.length_scale == 0);
+}
+
+static void query_honours_every_struct_size(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_lattice_model(context);
+  msq_query_def def;
+  (void)state;
+  assert_ok(msq_query_def_init(&def, sizeof def));
+  check_def_sizes(&def, sizeof def, ask, model);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void fields_past_an_older_callers_size_have_defaults(void** state) {
+  const double outer[3] = {0.5, 0, 0.5}; /* in the box, not in the lattice */
+  msq_context* context = make_context();
+  msq_model* model = make_lattice_model(context);
+  msq_query_def def;
+  int32_t inside;
+  (void)state;
+  assert_ok(msq_query_def_init(&def, sizeof def));
+  def.length_scale = 100;
+  assert_ok(msq_point_membership(model, outer, &def, &inside));
+  assert_int_equal(inside, 1);
+  def.struct_size = offsetof(msq_query_def, length_scale);
+  assert_ok(msq_point_membership(model, outer, &def, &inside));
+  assert_int_equal(inside, 0);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+/* A lattice of cell 2, and one of cell 0.5 within its struts. */
+static msq_model* make_nested(msq_context* context) {
+  return make_model(context, make_box(context),
+                    make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 2, 0.5),
+                    make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 0.5, 0.1));
+}
+
+static void finer_scales_are_solid_at_a_length_scale(void** state) {
+  /* In both lattices; in the coarse one alone; in the fine one alone. */
+  const double points[3][3] = {{1.25, 0, 0.05}, {1.25, 0.25, 0.2}, {1.25, 1, 1}};
+  const double scales[] = {0, 0.5, 0.50001, 2, 2.00001, INFINITY};
+  const int wanted[6][3] = {{1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 0}, {1, 1, 1}, {1, 1, 1}};
+  msq_context* context = make_context();
+  msq_model* model = make_nested(context);
+  msq_query_def def;
+  (void)state;
+  assert_ok(msq_query_def_init(&def, sizeof def));
+  for (int i = 0; i < 6; ++i)
+    for (int p = 0; p < 3; ++p) {
+      int32_t inside;
+      def.length_scale = scales[i];
+      assert_ok(msq_point_membership(model, points[p], &def, &inside));
+      assert_int_equal(inside, wanted[i][p]);
+    }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void far_points_are_outside(void** state) {
+  const double far_away[] = {1e10, -1e300, DBL_MAX};
+  msq_context* context = make_context();
+  msq_model* models[3];
+  (void)state;
+  models[0] = make_lattice_model(context);
+  models[1] = make_foam_model(context, MSQ_FOAM_AUTO);
+  models[2] = make_shape_model(context, make_cube_mesh(context));
+  for (int m = 0; m < 3; ++m) {
+    for (int i = 0; i < 3; ++i) {
+      assert_int_equal(is_inside(models[m], far_away[i], 1, 1), 0);
+      assert_int_equal(is_inside(models[m], 1, far_away[i], 1), 0);
+      assert_int_equal(is_inside(models[m], 1, 1, far_away[i]), 0);
+    }
+    msq_model_release(models[m]);
+  }
+  msq_context_release(context);
+}
+
+static void null_arguments_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_box_model(context);
+  int32_t inside = 77;
+  (void)state;
+  assert_refused(msq_point_membership(NULL, inner, NULL, &inside), MSQ_E_ARGUMENT, "model is NULL");
+  assert_refused(msq_point_membership(model, NULL, NULL, &inside), MSQ_E_ARGUMENT, "point is NULL");
+  assert_refused(msq_point_membership(model, inner, NULL, NULL), MSQ_E_ARGUMENT, "inside is NULL");
+  assert_int_equal(inside, 77);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void points_that_are_not_finite_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_box_model(context);
+  (void)state;
+  for (int which = 0; which < 3; ++which)
+    for (int axis = 0; axis < 3; ++axis) {
+      double point[3] = {1, 1, 1};
+      int32_t inside = 77;
+      point[axis] = not_finite(which);
+      assert_refused(msq_point_membership(model, point, NULL, &inside), MSQ_E_ARGUMENT,
+                     which == 0 ? "nan" : "inf");
+      assert_message_has("point");
+      assert_int_equal(inside, 77);
+    }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void wrong_queries_are_refused(void** state) {
+  const double refused[] = {-0.5, NAN, -INFINITY};
+  const char* texts[] = {"-0.5", "nan", "-inf"};
+  msq_context* context = make_context();
+  msq_model* model = make_box_model(context);
+  msq_query_def def;
+  (void)state;
+  for (int i = 0; i < 3; ++i) {
+    assert_ok(msq_query_def_init(&def, sizeof def));
+    def.length_scale = refused[i];
+    assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "length_scale");
+    assert_message_has(texts[i]);
+  }
+  assert_ok(msq_query_def_init(&def, sizeof def));
+  def.reserved = 3;
+  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "reserved is 3");
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(def_init_honours_every_size),
+      cmocka_unit_test(defaults_are_those_of_the_header),
+      cmocka_unit_test(query_honours_every_struct_size),
+      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
+      cmocka_unit_test(finer_scales_are_solid_at_a_length_scale),
+      cmocka_unit_test(far_points_are_outside),
+      cmocka_unit_test(null_arguments_are_refused),
+      cmocka_unit_test(points_that_are_not_finite_are_refused),
+      cmocka_unit_test(wrong_queries_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

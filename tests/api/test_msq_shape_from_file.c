@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_file_def_init, msq_shape_from_file. The formats themselves: tests/unit/test_mesh_file.cpp. */
+#define _POSIX_C_SOURCE 200809L
+#include <unistd.h>
+
+#include "definitions.h"
+#include "stl.h"
+
+DEFINE_INIT(file_def)
+
+static char folder[512];
+
+static int make_folder(void** state) {
+  const char* parent = getenv("TMPDIR");
+  (void)state;
+  snprintf(folder, sizeof folder, "%s/msq-test-XXXXXX", parent && *parent ? parent : "/tmp");
+  return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void** state) {
+  (void)state;
+  return rmdir(folder);
+}
+
+static const char* path_of(const char* name) {
+  static char path[600];
+  snprintf(path, sizeof path, "%s/%s", folder, name);
+  return path;
+}
+
+static const char* write_file(const char* name, const void* data, size_t bytes) {
+  const char* path = path_of(name);
+  FILE* file = fopen(path, "wb");
+  assert_non_null(file);
+  assert_int_equal(fwrite(data, 1, bytes, file), bytes);
+  assert_int_equal(fclose(file), 0);
+  return path;
+}
+
+static const char* write_stl(const char* name) {
+  uint8_t file[stl_bytes];
+  make_stl(file);
+  return write_file(name, file, sizeof file);
+}
+
+static msq_file_def file_def(void) {
+  msq_file_def def;
+  assert_ok(msq_file_def_init(&def, sizeof def));
+  return def;
+}
+
+typedef struct request {
+  msq_context* context;
+  const char* path;
+} request;
+
+static msq_status read_file(void* env, void* def) {
+  const request* r = (const request*)env;
+  msq_shape* shape = (msq_shape*)untouched();
+  const msq_status status =
+      msq_shape_from_file(r->context, r->path, (const msq_file_def*)def, &shape);
+  if (status == MSQ_OK)
+    msq_shape_release(shape);
+  else
+    assert_ptr_equal(shape, untouched());
+  return status;
+}
+
+static void def_init_honours_every_size(void** state) {
+  (void)state;
+  check_def_init(init_file_def, sizeof(msq_file_def));
+}
+
+static void defaults_are_those_of_the_header(void** state) {
+  const msq_file_def def = file_def();
+  (void)state;
+  assert_int_equal(def.format, MSQ_FORMAT_AUTO);
+  assert_int_equal(def.winding_rule, MSQ_WINDING_NONZERO);
+  assert_int_equal(def.reserved, 0);
+  assert_true(def.unit_mm == 1);
+  assert_int_equal(def.max_bytes, (uint64_t)4 << 30);
+  assert_int_equal(def.max_triangles, 200000000);
+}
+
+static void wrong_arguments_are_refused(void** state) {
+  const int32_t formats[] = {-1, 7};
+  const double units[] = {0, -1, NAN, INFINITY};
+  request r = {make_context(), "part.stl"};
+  msq_file_def def = file_def();
+  (void)state;
+  assert_makes_nothing(msq_shape, msq_shape_from_file(NULL, r.path, NULL, &made), MSQ_E_ARGUMENT,
+                       "context is NULL");
+  assert_makes_nothing(msq_shape, msq_shape_from_file(r.context, NULL, NULL, &made), MSQ_E_ARGUMENT,
+                       "path is NULL");
+  assert_refused(msq_shape_from_file(r.context, r.path, NULL, NULL), MSQ_E_ARGUMENT,
+                 "shape is NULL");
+  for (int i = 0; i < 2; ++i) {
+    def = file_def();
+    def.format = formats[i];
+    assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, i ? "format is 7" : "format is -1");
+    assert_message_has("from 0 to 6");
+    def = file_def();
+    def.winding_rule = i ? 3 : -1;
+    assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, "winding_rule");
+    assert_message_has("from 0 to 2");
+  }
+  for (int i = 0; i < 4; ++i) {
+    def = file_def();
+    def.unit_mm = units[i];
+    assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, "unit_mm");
+  }
+  def = file_def();
+  def.reserved = 9;
+  assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, "reserved is 9");
+  msq_context_release(r.context);
+}
+
+#if MSQ_WITH_ASSIMP
+
+static void create_honours_every_struct_size(void** state) {
+  const msq_file_def def = file_def();
+  request r = {make_context(), write_stl("cube.stl")};
+  (void)state;
+  check_def_sizes(&def, sizeof def, read_file, &r);
+  unlink(r.path);
+  msq_context_release(r.context);
+}
+
+static void fields_past_an_older_callers_size_have_defaults(void** state) {
+  msq_file_def def = file_def();
+  request r = {make_context(), write_stl("cube.stl")};
+  (void)state;
+  def.max_bytes = 1;
+  def.max_triangles = 1;
+  def.struct_size = offsetof(msq_file_def, max_bytes);
+  assert_ok(read_file(&r, &def));
+  unlink(r.path);
+  msq_context_release(r.context);
+}
+
+static void stl_is_read_by_its_extension(void** state) {
+  const char* names[] = {"cube.stl", "CUBE.STL", "with.dots.Stl"};
+  msq_context* context = make_context();
+  (void)state;
+  for (int i = 0; i < 3; ++i) {
+    const char* path = write_stl(names[i]);
+    msq_shape* shape;
+    assert_ok(msq_shape_from_file(context, path, NULL, &shape));
+    unlink(path); /* it was read at once */
+    assert_is_cube(context, shape, 1);
+    msq_shape_release(shape);
+  }
+  assert_int_equal(memory_of(context).bytes, 0);
+  msq_context_release(context);
+}
+
+static void named_format_goes_before_the_extension(void** state) {
+  msq_context* context = make_context();
+  const char* path = write_stl("cube.bin");
+  msq_file_def def = file_def();
+  msq_shape* shape;
+  (void)state;
+  def.format = MSQ_FORMAT_STL;
+  assert_ok(msq_shape_from_file(context, path, &def, &shape));
+  assert_is_cube(context, shape, 1);
+  msq_shape_release(shape);
+  unlink(path);
+  msq_context_release(context);
+}
+
+static void unit_scales_the_shape(void** state) {
+  msq_context* context = make_context();
+  const char* path = write_stl("inches.stl");
+  msq_file_def def = file_def();
+  msq_shape* shape;
+  (void)state;
+  def.unit_mm = 25.4;
+  assert_ok(msq_shape_from_file(context, path, &def, &shape));
+  assert_is_cube(context, shape, 25.4);
+  msq_shape_release(shape);
+  unlink(path);
+  msq_context_release(context);
+}
+
+static void unknown_extension_is_unsupported(void** state) {
+  const char* names[] = {"cube.step", "cube", "cube.stl.gz", ".hidden"};
+  (void)state;
+  for (int i = 0; i < 4; ++i) {
+    request r = {make_context(), write_stl(names[i])};
+    assert_refused(read_file(&r, NULL), MSQ_E_UNSUPPORTED, names[i]);
+    assert_message_has("stl, obj, ply, off, 3mf, amf");
+    unlink(r.path);
+    msq_context_release(r.context);
+  }
+}
+
+static void missing_file_is_an_io_error(void** state) {
+  request r = {make_context(), path_of("none.stl")};
+  (void)state;
+  assert_refused(read_file(&r, NULL), MSQ_E_IO, "none.stl");
+  assert_message_has("No such file");
+  msq_context_release(r.context);
+}
+
+static void folder_is_an_io_error(void** state) {
+  request r = {make_context(), folder};
+  msq_file_def def = file_def();
+  (void)state;
+  def.format = MSQ_FORMAT_STL;
+  assert_refused(read_file(&r, &def), MSQ_E_IO, folder);
+  msq_context_release(r.context);
+}
+
+/* Longer than the message has room for. */
+static void reason_is_told_of_a_long_path(void** state) {
+  char path[1000];
+  request r = {make_context(), path};
+  (void)state;
+  memset(path, 'x', sizeof path);
+  for (size_t i = 0; i < sizeof path; i += 100) path[i] = '/';
+  snprintf(path + sizeof path - 10, 10, "none.stl");
+  assert_refused(read_file(&r, NULL), MSQ_E_IO, "No such file");
+  msq_context_release(r.context);
+}
+
+static void truncated_file_is_an_io_error(void** state) {
+  uint8_t file[stl_bytes];
+  const size_t lengths[] = {0, 83, 84, stl_bytes - 1};
+  (void)state;
+  make_stl(file);
+  for (int i = 0; i < 4; ++i) {
+    request r = {make_context(), write_file("cut.stl", file, lengths[i])};
+    assert_refused(read_file(&r, NULL), MSQ_E_IO, "cut.stl");
+    assert_message_has_number(lengths[i]);
+    assert_message_has_number(lengths[i] < 84 ? 84 : stl_bytes);
+    assert_int_equal(memory_of(r.context).bytes, 0);
+    unlink(r.path);
+    msq_context_release(r.context);
+  }
+}
+
+static void file_without_triangles_is_refused(void** state) {
+  uint8_t file[stl_bytes];
+  (void)state;
+  make_stl(file);
+  put_little_endian(file + 80, 0);
+  request r = {make_context(), write_file("empty.stl", file, 84)};
+  assert_refused(read_file(&r, NULL), MSQ_E_MESH, "no triangles");
+  unlink(r.path);
+  msq_context_release(r.context);
+}
+
+static void vertex_that_is_not_finite_is_refused(void** state) {
+  uint8_t file[stl_bytes];
+  (void)state;
+  make_stl(file);
+  put_float(file + 84 + 12, NAN);
+  request r = {make_context(), write_file("nan.stl", file, stl_bytes)};
+  assert_refused(read_file(&r, NULL), MSQ_E_MESH, "finite");
+  unlink(r.path);
+  msq_context_release(r.context);
+}
+
+static void limits_are_kept_to_the_byte(void** state) {
+  request r = {make_context(), write_stl("cube.stl")};
+  msq_file_def def = file_def();
+  (void)state;
+  def.max_bytes = stl_bytes;
+  def.max_triangles = 12;
+  assert_ok(read_file(&r, &def));
+  def.max_bytes = stl_bytes - 1;
+  assert_refused(read_file(&r, &def), MSQ_E_LIMIT, "max_bytes");
+  assert_message_has_number(stl_bytes);
+  assert_message_has_number(stl_bytes - 1);
+  def.max_bytes = stl_bytes;
+  def.max_triangles = 11;
+  assert_refused(read_file(&r, &def), MSQ_E_LIMIT, "max_triangles is 11");
+  assert_message_has("12");
+  unlink(r.path);
+  msq_context_release(r.context);
+}
+
+static void memory_limit_is_kept(void** state) {
+  request r = {make_context_of(1, 0, 100), write_stl("cube.stl")};
+  (void)state;
+  assert_refused(read_file(&r, NULL), MSQ_E_LIMIT, "memory_limit of 100");
+  assert_int_equal(memory_of(r.context).bytes, 0);
+  unlink(r.path);
+  msq_context_release(r.context);
+}
+
+#else
+
+static void build_without_reader_says_so(void** state) {
+  request r = {make_context(), write_stl("cube.stl")};
+  (void)state;
+  assert_refused(read_file(&r, NULL), MSQ_E_UNSUPPORTED, "MSQ_WITH_ASSIMP");
+  unlink(r.path);
+  msq_context_release(r.context);
+}
+
+#endif
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(def_init_honours_every_size),
+    cmocka_unit_test(defaults_are_those_of_the_header),
+    cmocka_unit_test(wrong_arguments_are_refused),
+#if MSQ_WITH_ASSIMP
+    cmocka_unit_test(create_honours_every_struct_size),
+    cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
+    cmocka_unit_test(stl_is_read_by_its_extension),
+    cmocka_unit_test(named_format_goes_before_the_extension),
+    cmocka_unit_test(unit_scales_the_shape),
+    cmocka_unit_test(unknown_extension_is_unsupported),
+    cmocka_unit_test(missing_file_is_an_io_error),
+    cmocka_unit_test(folder_is_an_io_error),
+    cmocka_unit_test(reason_is_told_of_a_long_path),
+    cmocka_unit_test(truncated_file_is_an_io_error),
+    cmocka_unit_test(file_without_triangles_is_refused),
+    cmocka_unit_test(vertex_that_is_not_finite_is_refused),
+    cmocka_unit_test(limits_are_kept_to_the_byte),
+    cmocka_unit_test(memory_limit_is_kept),
+#else
+    cmocka_unit_test(build_without_reader_says_so),
+#endif
+  };
+  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

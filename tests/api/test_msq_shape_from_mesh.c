@@ -1,0 +1,365 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_mesh_def_init, msq_shape_from_mesh. The diagnosis of meshes: test_msq_shape_info.c. */
+#include "definitions.h"
+
+DEFINE_INIT(mesh_def)
+
+static double corners[8][3];
+
+static int set_corners(void** state) {
+  (void)state;
+  cube_corners(0, 4, corners);
+  return 0;
+}
+
+static msq_mesh_def cube_def(void) {
+  return mesh_def((const double(*)[3])corners, 8, cube_triangles(), 12);
+}
+
+static msq_status create(void* env, void* def) {
+  msq_shape* shape = (msq_shape*)untouched();
+  const msq_status status =
+      msq_shape_from_mesh((msq_context*)env, (const msq_mesh_def*)def, &shape);
+  if (status == MSQ_OK)
+    msq_shape_release(shape);
+  else
+    assert_ptr_equal(shape, untouched());
+  return status;
+}
+
+static void def_init_honours_every_size(void** state) {
+  (void)state;
+  check_def_init(init_mesh_def, sizeof(msq_mesh_def));
+}
+
+static void defaults_are_those_of_the_header(void** state) {
+  msq_mesh_def def;
+  (void)state;
+  assert_ok(msq_mesh_def_init(&def, sizeof def));
+  assert_int_equal(def.coordinate_type, MSQ_FLOAT64);
+  assert_int_equal(def.winding_rule, MSQ_WINDING_NONZERO);
+  assert_int_equal(def.vertex_stride, 0);
+  assert_null(def.vertices);
+  assert_null(def.triangles);
+}
+
+static void create_honours_every_struct_size(void** state) {
+  msq_context* context = make_context();
+  const msq_mesh_def def = cube_def();
+  (void)state;
+  check_def_sizes(&def, sizeof def, create, context);
+  msq_context_release(context);
+}
+
+/* An older caller without triangles has none. */
+static void fields_past_an_older_callers_size_have_defaults(void** state) {
+  msq_context* context = make_context();
+  msq_mesh_def def = cube_def();
+  (void)state;
+  def.struct_size = offsetof(msq_mesh_def, triangles);
+  assert_refused(create(context, &def), MSQ_E_MESH, "no triangles");
+  msq_context_release(context);
+}
+
+static void assert_same_points(const msq_model* a, const msq_model* b, const msq_points_def* points,
+                               uint64_t count) {
+  uint8_t *in_a = (uint8_t*)malloc(count), *in_b = (uint8_t*)malloc(count);
+  assert_ok(msq_set_membership(a, points, NULL, in_a, count, NULL));
+  assert_ok(msq_set_membership(b, points, NULL, in_b, count, NULL));
+  assert_memory_equal(in_a, in_b, count);
+  free(in_a);
+  free(in_b);
+}
+
+static void cube_is_the_box_away_from_its_boundary(void** state) {
+  const msq_points_def points = grid_points(-0.55, 4.55, 31); /* steps of 0.17 */
+  msq_context* context = make_context();
+  msq_model* cube = make_shape_model(context, make_cube_mesh(context));
+  msq_model* box = make_box_model(context);
+  (void)state;
+  assert_same_points(cube, box, &points, 31 * 31 * 31);
+  msq_model_release(cube);
+  msq_model_release(box);
+  msq_context_release(context);
+}
+
+static void boundary_is_closed_in_x_and_half_open_in_y_and_z(void** state) {
+  msq_context* context = make_context();
+  msq_model* cube = make_shape_model(context, make_cube_mesh(context));
+  (void)state;
+  assert_int_equal(is_inside(cube, 0, 1, 1.5), 1);
+  assert_int_equal(is_inside(cube, 4, 1, 1.5), 1);
+  assert_int_equal(is_inside(cube, 1, 0, 1.5), 1);
+  assert_int_equal(is_inside(cube, 1, 4, 1.5), 0);
+  assert_int_equal(is_inside(cube, 1, 1.5, 0), 1);
+  assert_int_equal(is_inside(cube, 1, 1.5, 4), 0);
+  assert_int_equal(is_inside(cube, 0, 0, 0), 1);
+  assert_int_equal(is_inside(cube, 4, 0, 0), 1);
+  assert_int_equal(is_inside(cube, nextafter(4, 5), 1, 1.5), 0);
+  assert_int_equal(is_inside(cube, -5e-324, 1, 1.5), 0);
+  assert_int_equal(is_inside(cube, 2, 2, 2), 1); /* on diagonals of four sides */
+  msq_model_release(cube);
+  msq_context_release(context);
+}
+
+/* Float coordinates, or doubles, `stride` bytes apart at an odd address. */
+static void check_strided(msq_context* context, int32_t type, uint64_t stride) {
+  const msq_points_def points = grid_points(-0.55, 4.55, 16);
+  unsigned char bytes[8 * 64 + 1];
+  msq_mesh_def def = cube_def();
+  memset(bytes, struct_pattern, sizeof bytes);
+  for (int i = 0; i < 8; ++i) {
+    float single[3];
+    for (int axis = 0; axis < 3; ++axis) single[axis] = (float)corners[i][axis];
+    if (type == MSQ_FLOAT32)
+      memcpy(bytes + 1 + (uint64_t)i * stride, single, sizeof single);
+    else
+      memcpy(bytes + 1 + (uint64_t)i * stride, corners[i], sizeof corners[i]);
+  }
+  def.vertices = bytes + 1;
+  def.vertex_stride = stride;
+  def.coordinate_type = type;
+  msq_shape* shape = make_mesh(context, &def);
+  assert_true(info_of(shape).volume == 64);
+  msq_model *strided = make_shape_model(context, shape), *box = make_box_model(context);
+  assert_same_points(strided, box, &points, 16 * 16 * 16);
+  msq_model_release(strided);
+  msq_model_release(box);
+}
+
+static void vertices_have_any_type_and_stride(void** state) {
+  msq_context* context = make_context();
+  (void)state;
+  check_strided(context, MSQ_FLOAT64, 24);
+  check_strided(context, MSQ_FLOAT64, 25);
+  check_strided(context, MSQ_FLOAT64, 63);
+  check_strided(context, MSQ_FLOAT32, 12);
+  check_strided(context, MSQ_FLOAT32, 13);
+  check_strided(context, MSQ_FLOAT32, 32);
+  msq_context_release(context);
+}
+
+static void arrays_are_copied(void** state) {
+  double own[8][3];
+  uint32_t triangles[12][3];
+  msq_context* context = make_context();
+  (void)state;
+  memcpy(own, corners, sizeof own);
+  memcpy(triangles, cube_triangles(), sizeof triangles);
+  const msq_mesh_def def =
+      mesh_def((const double(*)[3])own, 8, (const uint32_t(*)[3])triangles, 12);
+  msq_shape* shape = make_mesh(context, &def);
+  memset(own, 0xff, sizeof own);
+  memset(triangles, 0xff, sizeof triangles);
+  msq_model* model = make_shape_model(context, shape);
+  assert_int_equal(is_inside(model, 1, 2, 3), 1);
+  assert_int_equal(is_inside(model, 1, 2, 4.5), 0);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+/* Which of the rules NONZERO, EVEN_ODD, POSITIVE have the point inside, as bits 1, 2, 4. */
+static int rules_at(msq_context* context, msq_mesh_def def, double x, double y, double z) {
+  int rules = 0;
+  for (int32_t rule = MSQ_WINDING_NONZERO; rule <= MSQ_WINDING_POSITIVE; ++rule) {
+    def.winding_rule = rule;
+    msq_model* model = make_shape_model(context, make_mesh(context, &def));
+    rules |= is_inside(model, x, y, z) << rule;
+    msq_model_release(model);
+  }
+  return rules;
+}
+
+static void inside_out_cube_has_winding_minus_1(void** state) {
+  uint32_t flipped[12][3];
+  msq_context* context = make_context();
+  (void)state;
+  for (int i = 0; i < 12; ++i) {
+    flipped[i][0] = cube_triangles()[i][0];
+    flipped[i][1] = cube_triangles()[i][2];
+    flipped[i][2] = cube_triangles()[i][1];
+  }
+  const msq_mesh_def def =
+      mesh_def((const double(*)[3])corners, 8, (const uint32_t(*)[3])flipped, 12);
+  assert_int_equal(rules_at(context, def, 1, 2, 3), 1 | 2);
+  assert_int_equal(rules_at(context, def, 1, 2, 4.5), 0);
+  msq_context_release(context);
+}
+
+/* Two cubes, the second turned as told: the first from 0 to 4, the other from 2 to 6. */
+static void check_two_cubes(int is_second_flipped, int in_first, int in_both, int in_second) {
+  double vertices[16][3];
+  uint32_t triangles[24][3];
+  msq_context* context = make_context();
+  cube_corners(0, 4, vertices);
+  cube_corners(2, 6, vertices + 8);
+  for (int i = 0; i < 12; ++i)
+    for (int v = 0; v < 3; ++v) {
+      triangles[i][v] = cube_triangles()[i][v];
+      triangles[12 + i][is_second_flipped ? 2 - v : v] = cube_triangles()[i][v] + 8;
+    }
+  const msq_mesh_def def =
+      mesh_def((const double(*)[3])vertices, 16, (const uint32_t(*)[3])triangles, 24);
+  assert_int_equal(rules_at(context, def, 1, 1.2, 1.3), in_first);
+  assert_int_equal(rules_at(context, def, 3, 3.2, 3.3), in_both);
+  assert_int_equal(rules_at(context, def, 5, 5.2, 5.3), in_second);
+  assert_int_equal(rules_at(context, def, 5, 1.2, 1.3), 0);
+  msq_context_release(context);
+}
+
+static void overlapping_cubes_have_winding_2(void** state) {
+  (void)state;
+  check_two_cubes(0, 1 | 2 | 4, 1 | 4, 1 | 2 | 4);
+}
+
+static void cubes_of_opposite_turn_cancel(void** state) {
+  (void)state;
+  check_two_cubes(1, 1 | 2 | 4, 0, 1 | 2);
+}
+
+static void null_arguments_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_mesh_def def = cube_def();
+  (void)state;
+  assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "context is NULL");
+  assert_refused(create(context, NULL), MSQ_E_ARGUMENT, "def is NULL");
+  assert_refused(msq_shape_from_mesh(context, &def, NULL), MSQ_E_ARGUMENT, "shape is NULL");
+  def.vertices = NULL;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "vertices is NULL");
+  def = cube_def();
+  def.triangles = NULL;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "triangles is NULL");
+  msq_context_release(context);
+}
+
+static void unknown_numbers_are_refused(void** state) {
+  const int32_t rules[] = {-1, 3}, types[] = {0, 3, -1};
+  msq_context* context = make_context();
+  (void)state;
+  for (size_t i = 0; i < 2; ++i) {
+    msq_mesh_def def = cube_def();
+    def.winding_rule = rules[i];
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "winding_rule");
+    assert_message_has(i ? "is 3;" : "is -1;");
+    assert_message_has("from 0 to 2");
+  }
+  for (size_t i = 0; i < 3; ++i) {
+    msq_mesh_def def = cube_def();
+    def.coordinate_type = types[i];
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "coordinate_type");
+    assert_message_has("from 1 to 2");
+  }
+  msq_mesh_def def = cube_def();
+  def.reserved = 17;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "reserved is 17");
+  msq_context_release(context);
+}
+
+static void stride_within_a_vertex_is_refused(void** state) {
+  msq_context* context = make_context();
+  msq_mesh_def def = cube_def();
+  (void)state;
+  def.vertex_stride = 23;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "23");
+  assert_message_has("24");
+  def.coordinate_type = MSQ_FLOAT32;
+  def.vertex_stride = 11;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "11");
+  assert_message_has("12");
+  msq_context_release(context);
+}
+
+static void counts_beyond_memory_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_mesh_def def = cube_def();
+  (void)state;
+  def.vertex_count = UINT64_MAX / 2; /* times 24 bytes */
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "vertices");
+  assert_message_has_number(UINT64_MAX / 2);
+  def = cube_def();
+  def.vertex_stride = UINT64_MAX / 4;
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "vertices");
+  def = cube_def();
+  def.triangle_count = (uint64_t)UINT32_MAX + 1;
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "4294967296");
+  assert_message_has("4294967295");
+  def = cube_def();
+  def.vertex_count = (uint64_t)UINT32_MAX + 1;
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "4294967296");
+  msq_context_release(context);
+}
+
+static void mesh_without_triangles_is_refused(void** state) {
+  const uint32_t flat[2][3] = {{0, 0, 1}, {2, 3, 3}};
+  msq_context* context = make_context();
+  msq_mesh_def def = cube_def();
+  (void)state;
+  def.triangle_count = 0;
+  assert_refused(create(context, &def), MSQ_E_MESH, "no triangles");
+  def.triangles = flat[0]; /* none left */
+  def.triangle_count = 2;
+  assert_refused(create(context, &def), MSQ_E_MESH, "all 2 triangles");
+  msq_context_release(context);
+}
+
+static void index_out_of_range_is_refused(void** state) {
+  uint32_t triangles[12][3];
+  const uint32_t wrong[] = {8, UINT32_MAX};
+  msq_context* context = make_context();
+  (void)state;
+  for (size_t i = 0; i < 2; ++i) {
+    memcpy(triangles, cube_triangles(), sizeof triangles);
+    triangles[7][2] = wrong[i];
+    const msq_mesh_def def =
+        mesh_def((const double(*)[3])corners, 8, (const uint32_t(*)[3])triangles, 12);
+    assert_makes_nothing(msq_shape, msq_shape_from_mesh(context, &def, &made), MSQ_E_MESH,
+                         "triangle 7");
+    assert_message_has_number(wrong[i]);
+    assert_message_has("8 vertices");
+  }
+  msq_mesh_def def = cube_def();
+  def.vertex_count = 0;
+  def.vertices = NULL;
+  assert_refused(create(context, &def), MSQ_E_MESH, "0 vertices");
+  msq_context_release(context);
+}
+
+static void vertex_that_is_not_finite_is_refused(void** state) {
+  msq_context* context = make_context();
+  (void)state;
+  for (int which = 0; which < 3; ++which)
+    for (int axis = 0; axis < 3; ++axis) {
+      double own[8][3];
+      memcpy(own, corners, sizeof own);
+      own[5][axis] = not_finite(which);
+      const msq_mesh_def def = mesh_def((const double(*)[3])own, 8, cube_triangles(), 12);
+      assert_makes_nothing(msq_shape, msq_shape_from_mesh(context, &def, &made), MSQ_E_MESH,
+                           "vertex 5");
+      assert_message_has(which == 0 ? "nan" : "inf");
+    }
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(def_init_honours_every_size),
+      cmocka_unit_test(defaults_are_those_of_the_header),
+      cmocka_unit_test(create_honours_every_struct_size),
+      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
+      cmocka_unit_test(cube_is_the_box_away_from_its_boundary),
+      cmocka_unit_test(boundary_is_closed_in_x_and_half_open_in_y_and_z),
+      cmocka_unit_test(vertices_have_any_type_and_stride),
+      cmocka_unit_test(arrays_are_copied),
+      cmocka_unit_test(inside_out_cube_has_winding_minus_1),
+      cmocka_unit_test(overlapping_cubes_have_winding_2),
+      cmocka_unit_test(cubes_of_opposite_turn_cancel),
+      cmocka_unit_test(null_arguments_are_refused),
+      cmocka_unit_test(unknown_numbers_are_refused),
+      cmocka_unit_test(stride_within_a_vertex_is_refused),
+      cmocka_unit_test(counts_beyond_memory_are_refused),
+      cmocka_unit_test(mesh_without_triangles_is_refused),
+      cmocka_unit_test(index_out_of_range_is_refused),
+      cmocka_unit_test(vertex_that_is_not_finite_is_refused),
+  };
+  return cmocka_run_group_tests(tests, set_corners, NULL);
+}

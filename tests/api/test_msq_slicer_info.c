@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "definitions.h"
+
+static msq_context* context;
+static msq_model* model; /* 0 to 4 in each axis, cells of 1 */
+
+static int set_up(void** state) {
+  (void)state;
+  context = make_context();
+  model = make_lattice_model(context);
+  return 0;
+}
+
+static int tear_down(void** state) {
+  (void)state;
+  msq_model_release(model);
+  msq_context_release(context);
+  return 0;
+}
+
+static msq_slicer_report plan_for(msq_slicer_def def) {
+  msq_slicer* slicer = make_slicer(model, &def);
+  const msq_slicer_report plan = plan_of(slicer);
+  msq_slicer_release(slicer);
+  assert_int_equal(plan.stride % 8, 0);
+  assert_int_equal(plan.layer_bytes, plan.stride * plan.height);
+  return plan;
+}
+
+static msq_status read_info(void* env, void* report) {
+  return msq_slicer_info((const msq_slicer*)env, (msq_slicer_report*)report);
+}
+
+static void report_has_every_struct_size(void** state) {
+  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 8, 8, 0.5);
+  msq_slicer* slicer = make_slicer(model, &def);
+  (void)state;
+  check_report_sizes(sizeof(msq_slicer_report), read_info, slicer);
+  msq_slicer_release(slicer);
+}
+
+static void slicer_null_is_refused(void** state) {
+  struct_bytes report;
+  (void)state;
+  memset(&report, struct_pattern, sizeof report);
+  report.struct_size = sizeof(msq_slicer_report);
+  assert_refused(read_info(NULL, &report), MSQ_E_ARGUMENT, "slicer is NULL");
+  assert_filled(report.bytes + 4, sizeof report - 4, struct_pattern);
+}
+
+static void resolution_divides_the_box(void** state) {
+  const msq_slicer_report plan = plan_for(slicer_def(MSQ_LAYER_BITS, 16, 5, 0.5));
+  (void)state;
+  assert_int_equal(plan.width, 16);
+  assert_int_equal(plan.height, 5);
+  assert_int_equal(plan.layer_count, 8);
+  assert_true(plan.pitch[0] == 0.25 && plan.origin[0] == 0.125);
+  assert_near(plan.pitch[1], 0.8, 1e-15);
+  assert_near(plan.origin[1], 0.4, 1e-15);
+}
+
+/* 4 / 0.3 pixels, rounded up, are wider than the box, and centred on it. */
+static void pitch_counts_pixels_rounded_up_and_centred(void** state) {
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 0, 0, 0.3);
+  (void)state;
+  def.pitch[0] = 0.3;
+  def.pitch[1] = 0.5;
+  const msq_slicer_report plan = plan_for(def);
+  assert_int_equal(plan.width, 14);
+  assert_int_equal(plan.height, 8);
+  assert_int_equal(plan.layer_count, 14);
+  assert_true(plan.pitch[0] == 0.3 && plan.pitch[1] == 0.5);
+  assert_near(plan.origin[0], 2 - 14 * 0.15 + 0.15, 1e-15);
+  assert_near(plan.origin[1], 0.25, 1e-15);
+}
+
+/* 4 / 0.1 is 40 by a hair, whichever way it is rounded. */
+static void rounding_makes_no_more_pixels(void** state) {
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 0, 0, 0.1);
+  const double box = 4;
+  (void)state;
+  for (int i = 1; i <= 1000; i += 37) {
+    def.pitch[0] = def.pitch[1] = def.layer_height = box / i;
+    const msq_slicer_report plan = plan_for(def);
+    assert_int_equal(plan.width, i);
+    assert_int_equal(plan.height, i);
+    assert_int_equal(plan.layer_count, i);
+  }
+  def.pitch[0] = def.pitch[1] = def.layer_height = 0.1;
+  assert_int_equal(plan_for(def).width, 40);
+  assert_int_equal(plan_for(def).layer_count, 40);
+}
+
+static void pitch_and_resolution_are_both_taken(void** state) {
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 10, 6, 0.5);
+  (void)state;
+  def.pitch[0] = def.pitch[1] = 0.5;
+  const msq_slicer_report plan = plan_for(def);
+  assert_int_equal(plan.width, 10);
+  assert_int_equal(plan.height, 6);
+  assert_near(plan.origin[0], 2 - 2.5 + 0.25, 1e-15);
+  assert_near(plan.origin[1], 2 - 1.5 + 0.25, 1e-15);
+}
+
+static void region_puts_pixel_0_at_its_corner(void** state) {
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 0, 10, 0.4);
+  (void)state;
+  def.has_region = 1;
+  def.region_min[0] = -1;
+  def.region_min[1] = 1;
+  def.region_min[2] = 0.5;
+  def.region_max[0] = 0;
+  def.region_max[1] = 2;
+  def.region_max[2] = 1.5;
+  def.pitch[0] = 0.3;
+  const msq_slicer_report plan = plan_for(def);
+  assert_int_equal(plan.width, 4);
+  assert_int_equal(plan.height, 10);
+  assert_int_equal(plan.layer_count, 3);
+  assert_near(plan.origin[0], -0.85, 1e-15);
+  assert_near(plan.origin[1], 1.05, 1e-15);
+  assert_near(plan.pitch[1], 0.1, 1e-15);
+}
+
+/* Where all counts are given, region_max is not needed. */
+static void region_needs_no_end_where_no_count_follows(void** state) {
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 7, 6, 0.4);
+  (void)state;
+  def.has_region = 1;
+  def.region_min[0] = def.region_min[1] = def.region_min[2] = 1;
+  def.pitch[0] = def.pitch[1] = 0.1;
+  def.layer_count = 5;
+  const msq_slicer_report plan = plan_for(def);
+  assert_int_equal(plan.width, 7);
+  assert_int_equal(plan.height, 6);
+  assert_int_equal(plan.layer_count, 5);
+  assert_near(plan.origin[0], 1.05, 1e-15);
+}
+
+static void stride_holds_the_width(void** state) {
+  const uint32_t widths[] = {1, 7, 8, 9, 63, 64, 65, 128, 129};
+  (void)state;
+  for (size_t i = 0; i < sizeof widths / sizeof widths[0]; ++i) {
+    const uint32_t width = widths[i];
+    const msq_slicer_report bits = plan_for(slicer_def(MSQ_LAYER_BITS, width, 3, 0.5));
+    const msq_slicer_report bytes = plan_for(slicer_def(MSQ_LAYER_BYTES, width, 3, 0.5));
+    assert_int_equal(bits.width, width);
+    assert_true(bits.stride * 8 >= width && bits.stride < width / 8 + 9);
+    assert_true(bytes.stride >= width && bytes.stride < width + 8);
+  }
+}
+
+static void layer_count_is_the_one_given(void** state) {
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 8, 8, 0.5);
+  (void)state;
+  def.layer_count = 100; /* beyond the box too */
+  assert_int_equal(plan_for(def).layer_count, 100);
+  def.layer_count = INT32_MAX;
+  assert_int_equal(plan_for(def).layer_count, INT32_MAX);
+}
+
+static void listed_heights_are_the_layers(void** state) {
+  const double heights[3] = {-1, 2, 2.25};
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 8, 8, 0);
+  (void)state;
+  def.layer_z = heights;
+  def.layer_z_count = 3;
+  assert_int_equal(plan_for(def).layer_count, 3);
+}
+
+static void slabs_are_a_cell_high_unless_told(void** state) {
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 8, 8, 0.125);
+  (void)state;
+  assert_int_equal(plan_for(def).slab_layers, 8);
+  def.slab_layers = 5;
+  assert_int_equal(plan_for(def).slab_layers, 5);
+  def.slab_layers = UINT32_MAX; /* no more than there are */
+  assert_int_equal(plan_for(def).slab_layers, 32);
+  def = slicer_def(MSQ_LAYER_BITS, 8, 8, 2);
+  assert_int_equal(plan_for(def).slab_layers, 1);
+}
+
+static void slabs_are_no_more_than_32_mib(void** state) {
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 8192, 8192, 0.03125); /* 8 MiB a layer */
+  (void)state;
+  assert_int_equal(plan_for(def).slab_layers, 4);
+  def = slicer_def(MSQ_LAYER_BITS, 1 << 20, 1 << 20, 0.03125);
+  assert_int_equal(plan_for(def).slab_layers, 1);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(report_has_every_struct_size),
+      cmocka_unit_test(slicer_null_is_refused),
+      cmocka_unit_test(resolution_divides_the_box),
+      cmocka_unit_test(pitch_counts_pixels_rounded_up_and_centred),
+      cmocka_unit_test(rounding_makes_no_more_pixels),
+      cmocka_unit_test(pitch_and_resolution_are_both_taken),
+      cmocka_unit_test(region_puts_pixel_0_at_its_corner),
+      cmocka_unit_test(region_needs_no_end_where_no_count_follows),
+      cmocka_unit_test(stride_holds_the_width),
+      cmocka_unit_test(layer_count_is_the_one_given),
+      cmocka_unit_test(listed_heights_are_the_layers),
+      cmocka_unit_test(slabs_are_a_cell_high_unless_told),
+      cmocka_unit_test(slabs_are_no_more_than_32_mib),
+  };
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_foam_def_init, msq_structure_foam. */
+#include "structures.h"
+
+DEFINE_INIT(foam_def)
+
+enum { side = 14, samples = side * side * side };
+
+static msq_foam_def foam_def(void) {
+  msq_foam_def def;
+  assert_ok(msq_foam_def_init(&def, sizeof def));
+  def.radius.value = 0.15;
+  return def;
+}
+
+static msq_status create(void* env, void* def) {
+  msq_structure* structure = (msq_structure*)untouched();
+  const msq_status status =
+      msq_structure_foam((msq_context*)env, (const msq_foam_def*)def, &structure);
+  if (status == MSQ_OK)
+    msq_structure_release(structure);
+  else
+    assert_ptr_equal(structure, untouched());
+  return status;
+}
+
+static void def_init_honours_every_size(void** state) {
+  (void)state;
+  check_def_init(init_foam_def, sizeof(msq_foam_def));
+}
+
+static void defaults_are_those_of_the_header(void** state) {
+  msq_foam_def def;
+  (void)state;
+  assert_ok(msq_foam_def_init(&def, sizeof def));
+  assert_int_equal(def.method, MSQ_FOAM_AUTO);
+  for (int i = 0; i < 3; ++i) {
+    assert_true(def.grid.origin[i] == 0);
+    assert_true(def.grid.cell_size[i] == 1);
+  }
+  for (int i = 0; i < 9; ++i) assert_true(def.grid.rotation[i] == (i % 4 == 0));
+  assert_null(def.radius.field);
+  assert_true(def.jitter == 1);
+  assert_int_equal(def.seed, 0);
+}
+
+static void create_honours_every_struct_size(void** state) {
+  msq_context* context = make_context();
+  const msq_foam_def def = foam_def();
+  (void)state;
+  check_def_sizes(&def, sizeof def, create, context);
+  msq_context_release(context);
+}
+
+/* Samples of a foam in the box, as a grid. */
+static void sample_foam(const msq_foam_def* def, uint8_t inside[samples]) {
+  const msq_points_def points = grid_points(0.05, 3.95, side);
+  msq_context* context = make_context();
+  msq_structure* foam;
+  assert_ok(msq_structure_foam(context, def, &foam));
+  msq_model* model = make_model(context, make_box(context), foam, NULL);
+  assert_ok(msq_set_membership(model, &points, NULL, inside, samples, NULL));
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void fields_past_an_older_callers_size_have_defaults(void** state) {
+  uint8_t wanted[samples], got[samples];
+  msq_foam_def def = foam_def();
+  (void)state;
+  sample_foam(&def, wanted);
+  def.jitter = 1e30;
+  def.seed = 77;
+  def.struct_size = offsetof(msq_foam_def, jitter);
+  sample_foam(&def, got);
+  assert_memory_equal(wanted, got, samples);
+}
+
+static void seed_picks_another_foam_and_the_same_again(void** state) {
+  uint8_t first[samples], other[samples];
+  const uint64_t seeds[] = {1, UINT64_MAX, (uint64_t)1 << 63};
+  msq_foam_def def = foam_def();
+  (void)state;
+  sample_foam(&def, first);
+  for (int i = 0; i < 3; ++i) {
+    def.seed = seeds[i];
+    sample_foam(&def, other);
+    assert_memory_not_equal(first, other, samples);
+  }
+  def.seed = 0;
+  sample_foam(&def, other);
+  assert_memory_equal(first, other, samples);
+}
+
+/* Seeds at the cells' centres: the diagram's edges are the edges of a cubic lattice, half a cell
+ * off. */
+static void foam_without_jitter_is_the_cubic_lattice(void** state) {
+  uint64_t random = 5;
+  msq_foam_def def = foam_def();
+  msq_context* context = make_context();
+  msq_structure* foam;
+  (void)state;
+  def.jitter = 0;
+  def.radius.value = 0.25;
+  assert_ok(msq_structure_foam(context, &def, &foam));
+  msq_model* model = make_model(context, make_box(context), foam, NULL);
+  for (size_t i = 0; i < test_count(500); ++i) {
+    double p[3], squared[3], nearest = INFINITY;
+    for (int axis = 0; axis < 3; ++axis) {
+      p[axis] = random_between(&random, 0, 4);
+      squared[axis] = (p[axis] - rint(p[axis])) * (p[axis] - rint(p[axis]));
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      nearest = fmin(nearest, sqrt(squared[axis] + squared[(axis + 1) % 3]));
+    if (fabs(nearest - 0.25) < 1e-6) continue;
+    assert_int_equal(is_inside(model, p[0], p[1], p[2]), nearest < 0.25);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void methods_give_the_same_solid(void** state) {
+  const double rotation[9] = {0.36, 0.48, -0.8, -0.8, 0.6, 0, 0.48, 0.64, 0.6};
+  const double jitters[] = {1, 0.5, 0};
+  (void)state;
+  for (int i = 0; i < 3; ++i) {
+    uint8_t wanted[samples], got[samples];
+    msq_foam_def def = foam_def();
+    def.jitter = jitters[i];
+    def.grid.cell_size[0] = 0.8;
+    def.grid.cell_size[2] = 1.5;
+    memcpy(def.grid.rotation, rotation, sizeof rotation);
+    def.method = MSQ_FOAM_POINT;
+    sample_foam(&def, wanted);
+    def.method = MSQ_FOAM_DIRECT;
+    sample_foam(&def, got);
+    assert_memory_equal(wanted, got, samples);
+    def.method = MSQ_FOAM_AUTO;
+    sample_foam(&def, got);
+    assert_memory_equal(wanted, got, samples);
+#if MSQ_WITH_CGAL
+    def.method = MSQ_FOAM_METHOD_2;
+    sample_foam(&def, got);
+    assert_memory_equal(wanted, got, samples);
+#endif
+  }
+}
+
+/* Thicker struts hold the thinner ones. */
+static void field_thickens_the_struts(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {0, 0, 4};
+  uint8_t thin[samples], graded[samples], thick[samples];
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  msq_field* field;
+  size_t thin_count = 0, graded_count = 0, thick_count = 0;
+  (void)state;
+  def.radius.value = 0.1;
+  sample_foam(&def, thin);
+  def.radius.value = 0.2;
+  sample_foam(&def, thick);
+  assert_ok(msq_field_gradient(context, from, 0.1, to, 0.2, &field));
+  def.radius.field = field;
+  sample_foam(&def, graded);
+  msq_field_release(field);
+  for (int i = 0; i < samples; ++i) {
+    assert_true(thin[i] <= graded[i] && graded[i] <= thick[i]);
+    thin_count += thin[i];
+    graded_count += graded[i];
+    thick_count += thick[i];
+  }
+  assert_true(0 < thin_count && thin_count < graded_count);
+  assert_true(graded_count < thick_count && thick_count < samples);
+  msq_context_release(context);
+}
+
+static void null_arguments_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "context is NULL");
+  assert_refused(create(context, NULL), MSQ_E_ARGUMENT, "def is NULL");
+  assert_refused(msq_structure_foam(context, &def, NULL), MSQ_E_ARGUMENT, "structure is NULL");
+  msq_context_release(context);
+}
+
+static void unknown_methods_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  def.method = -1;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "method is -1");
+  def.method = 4;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "method is 4");
+  assert_message_has("from 0 to 3");
+  msq_context_release(context);
+}
+
+static void method_2_needs_cgal(void** state) {
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  def.method = MSQ_FOAM_METHOD_2;
+#if MSQ_WITH_CGAL
+  assert_ok(create(context, &def));
+#else
+  assert_refused(create(context, &def), MSQ_E_UNSUPPORTED, "MSQ_WITH_CGAL");
+#endif
+  msq_context_release(context);
+}
+
+static void jitter_outside_0_to_1_is_refused(void** state) {
+  const double refused[] = {-0.125, 1.125, NAN, INFINITY};
+  const char* texts[] = {"-0.125", "1.125", "nan", "inf"};
+  msq_context* context = make_context();
+  (void)state;
+  for (int i = 0; i < 4; ++i) {
+    msq_foam_def def = foam_def();
+    def.jitter = refused[i];
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "jitter");
+    assert_message_has(texts[i]);
+    assert_message_has("from 0 to 1");
+  }
+  msq_context_release(context);
+}
+
+static void wrong_grids_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  check_grid_refusals(&def.grid, create, context, &def);
+  msq_context_release(context);
+}
+
+static void wrong_radii_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  def.grid.cell_size[2] = 0.5;
+  check_radius_refusals(&def.radius, 0.5, context, create, context, &def);
+  msq_context_release(context);
+}
+
+static void cells_of_too_different_sizes_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  def.grid.cell_size[1] = 4;
+  assert_ok(create(context, &def));
+  def.grid.cell_size[1] = 4.5;
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "4.5");
+  assert_message_has("limit is 4");
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(def_init_honours_every_size),
+      cmocka_unit_test(defaults_are_those_of_the_header),
+      cmocka_unit_test(create_honours_every_struct_size),
+      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
+      cmocka_unit_test(seed_picks_another_foam_and_the_same_again),
+      cmocka_unit_test(foam_without_jitter_is_the_cubic_lattice),
+      cmocka_unit_test(methods_give_the_same_solid),
+      cmocka_unit_test(field_thickens_the_struts),
+      cmocka_unit_test(null_arguments_are_refused),
+      cmocka_unit_test(unknown_methods_are_refused),
+      cmocka_unit_test(method_2_needs_cgal),
+      cmocka_unit_test(jitter_outside_0_to_1_is_refused),
+      cmocka_unit_test(wrong_grids_are_refused),
+      cmocka_unit_test(wrong_radii_are_refused),
+      cmocka_unit_test(cells_of_too_different_sizes_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

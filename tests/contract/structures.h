@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The structures that the contract suite runs over. A new structure is a new row of kinds(); every
+// kind is crossed with the grids and with a constant and a varying radius.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "field/gradient.h"
+#include "structure/foam/delaunay.h"
+#include "structure/foam/foam.h"
+#include "structure/lattice/lattice.h"
+
+namespace msq::test {
+
+/// One thread: the suite is about answers, not about who computes them.
+inline Ref<Context> shared_context() {
+  static const Ref<Context> context = make_ref<Context>(1u, uint64_t{64} << 20, uint64_t{0});
+  return context;
+}
+
+using Factory = std::function<Ref<const Structure>(const Neighbourhood&, Parameter)>;
+
+struct Kind {
+  std::string family;  ///< counts of samples hold for all rows of a family together
+  std::string name;
+  double radius;  ///< in units of the largest cell size
+  double jitter;  ///< of foams; lattices: 1, as they have no ties that the methods may split
+  Factory make;
+};
+
+struct GridVariant {
+  std::string name;
+  Neighbourhood grid;
+  bool is_axis_aligned;
+};
+
+/// A row of the suite.
+struct StructureRow {
+  std::string name;
+  Kind kind;
+  GridVariant variant;
+  bool is_graded;
+  size_t family_rows;      ///< rows in the same family
+  size_t index;            ///< among them
+  double graded_from = 0;  ///< part of the radius that a varying radius begins at
+
+  bool is_lattice() const { return kind.family.find("foam") == std::string::npos; }
+  bool is_method_2() const { return kind.family == "foam METHOD_2"; }
+  double unit() const { return max_component(variant.grid.cell_size); }
+  double radius() const { return kind.radius * unit(); }
+
+  /// The structure with its radius changed by `extra`; a varying radius grows along an
+  /// oblique line through `centre`, from graded_from of its greatest value to that.
+  Ref<const Structure> make(Vec3 centre, double extra = 0) const {
+    const double most = radius() + extra;
+    if (!is_graded) return kind.make(variant.grid, Parameter(most));
+    const Vec3 half = Vec3{1.1, 0.9, 0.7} * unit();
+    return kind.make(variant.grid,
+                     Parameter(Ref<const Field>(make_ref<GradientField>(
+                         centre - half, graded_from * radius() + extra, centre + half, most))));
+  }
+};
+
+inline Factory lattice_factory(UnitCell cell) {
+  return [cell](const Neighbourhood& grid, Parameter radius) {
+    return Ref<const Structure>(make_ref<Lattice>(grid, cell, std::move(radius)));
+  };
+}
+
+inline Factory foam_factory(FoamMethod method, double jitter) {
+  return [=](const Neighbourhood& grid, Parameter radius) {
+    return Ref<const Structure>(
+        make_ref<Foam>(shared_context(), grid, std::move(radius), jitter, uint64_t{7}, method));
+  };
+}
+
+/// Skew struts that start and end on faces, edges and corners of the cell, one that joins two
+/// cells' worth of nodes, and one alone in the middle.
+inline UnitCell skew_unit_cell() {
+  UnitCell cell;
+  cell.nodes = {{0, 0.25, 0.75},   {1, 0.5, 0.125}, {0.3, 0, 1},     {0.7, 1, 0},  {0, 0, 0},
+                {0.6, 0.45, 0.55}, {1, 1, 0.4},     {0.2, 0.3, 0.1}, {0.9, 0.8, 1}};
+  cell.struts = {{0, 1}, {2, 3}, {4, 5}, {5, 6}, {7, 8}, {0, 5}};
+  return cell;
+}
+
+inline std::vector<Kind> kinds() {
+  std::vector<Kind> kinds = {
+      {"cubic", "thin", 0.08, 1, lattice_factory(cubic_unit_cell())},
+      {"cubic", "ties", 0.25, 1, lattice_factory(cubic_unit_cell())},
+      {"BCC", "thin", 0.06, 1, lattice_factory(bcc_unit_cell())},
+      {"BCC", "fat", 0.2, 1, lattice_factory(bcc_unit_cell())},
+      {"octet", "thin", 0.03, 1, lattice_factory(octet_unit_cell())},
+      {"octet", "ties", 0.125, 1, lattice_factory(octet_unit_cell())},
+      {"skew", "thin", 0.05, 1, lattice_factory(skew_unit_cell())},
+      {"skew", "beyond its cell", 0.21, 1, lattice_factory(skew_unit_cell())},
+  };
+  struct Method {
+    const char* family;
+    FoamMethod method;
+  };
+  std::vector<Method> methods = {{"foam POINT", FoamMethod::point},
+                                 {"foam DIRECT", FoamMethod::direct}};
+  if (can_triangulate()) methods.push_back({"foam METHOD_2", FoamMethod::method_2});
+  for (const Method& m : methods)
+    for (double jitter : {1.0, 0.5, 0.01, 0.0})
+      for (double radius : {0.05, 0.1, 0.26, 0.5}) {
+        char name[64];
+        std::snprintf(name, sizeof name, "jitter %g r %g", jitter, radius);
+        kinds.push_back({m.family, name, radius, jitter, foam_factory(m.method, jitter)});
+      }
+  return kinds;
+}
+
+inline std::vector<GridVariant> grid_variants(bool is_lattice) {
+  const Vec3 uneven = is_lattice ? Vec3{1.25, 0.75, 1} : Vec3{1, 1, 0.5};
+  const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(-1.1), t = std::sin(-1.1);
+  const Rotation skew{{c, -s * d, s * t, s, c * d, -c * t, 0, t, d}};
+  const Rotation quarter{{0, -1, 0, 1, 0, 0, 0, 0, 1}};
+  return {{"", {}, true},
+          {"uneven cells", {{0.5, -0.25, 0.125}, uneven, {}}, true},
+          {"turned", {{0.3, 0.2, -0.7}, {2.5, 2.5, 2.5}, skew}, false},
+          {"uneven, quarter turn", {{0, 1, 0}, uneven * 4.0, quarter}, true}};
+}
+
+inline std::vector<StructureRow> structures() {
+  std::vector<StructureRow> rows;
+  for (const Kind& kind : kinds())
+    for (const GridVariant& variant : grid_variants(kind.family.find("foam") == std::string::npos))
+      for (bool is_graded : {false, true})
+        rows.push_back({kind.family + ", " + kind.name +
+                            (variant.name.empty() ? "" : ", " + variant.name) +
+                            (is_graded ? ", graded" : ""),
+                        kind, variant, is_graded, 0, 0});
+  for (StructureRow& row : rows)
+    for (const StructureRow& other : rows)
+      if (other.kind.family == row.kind.family) {
+        if (&other < &row) ++row.index;
+        ++row.family_rows;
+      }
+  return rows;
+}
+
+/// Where the methods of a foam may differ, by the contract: with seeds so nearly on spheres that
+/// rounding decides, within 1e-9 of the boundary. A point is that near if the structure with a
+/// radius smaller by that leaves it out and the one with a larger radius holds it.
+inline bool may_differ(const StructureRow& row, Vec3 centre, Vec3 p) {
+  if (row.is_lattice() || row.kind.jitter >= 0.01) return false;
+  const double near = 1e-9 * row.unit();
+  return !row.make(centre, -near)->inside(p) && row.make(centre, near)->inside(p);
+}
+
+}  // namespace msq::test

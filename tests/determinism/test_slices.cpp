@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layers of a model are the same bytes whatever the threads, the slab height, the cache, and
+// however the plan is split; and they are what set queries and point queries answer.
+#include <functional>
+
+#include "base/random.h"
+#include "field/gradient.h"
+#include "meshes.h"
+#include "query/membership.h"
+#include "shape/mesh.h"
+#include "shape/primitive.h"
+#include "slice/slicer.h"
+#include "structure/foam/delaunay.h"
+#include "structure/foam/foam.h"
+#include "structure/lattice/lattice.h"
+#include "suite.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+using Structures = std::vector<Ref<const Structure>>;
+
+struct ModelRow {
+  std::string name;
+  uint32_t cell_layers;  ///< layers in a cell of the finest scale
+  std::function<Ref<Model>(Ref<Context>)> make;
+};
+
+Ref<const Shape> mesh(const TriangleSoup& soup) {
+  return make_ref<Mesh>(soup, WindingRule::nonzero, std::make_shared<MemoryBudget>(uint64_t{0}));
+}
+
+Neighbourhood cells_of(double size, double turn) {
+  const double c = std::cos(turn), s = std::sin(turn);
+  return {{0.1, 0.2, 0.3}, {size, size, size}, {{c, -s, 0, s, c, 0, 0, 0, 1}}};
+}
+
+Ref<const Structure> foam(Ref<Context> context, double size, double radius, FoamMethod method) {
+  return make_ref<Foam>(std::move(context), cells_of(size, 0.3), Parameter(radius), 1.0,
+                        uint64_t{6}, method);
+}
+
+constexpr double layer_height = 0.05;
+
+std::vector<ModelRow> models() {
+  std::vector<ModelRow> rows;
+  rows.push_back({"mesh and foam", 8, [](Ref<Context> c) {
+                    return make_ref<Model>(c, mesh(torus_mesh(1.2, 0.5, 30, 20)),
+                                           Structures{foam(c, 0.4, 0.05, FoamMethod::direct)});
+                  }});
+  rows.push_back(
+      {"mesh and graded lattice", 6, [](Ref<Context> c) {
+         const Ref<const Field> field =
+             make_ref<GradientField>(Vec3{-1, 0, 0}, 0.01, Vec3{1, 0.5, 0.2}, 0.06);
+         return make_ref<Model>(
+             c, mesh(icosphere(1, 3)),
+             Structures{make_ref<Lattice>(cells_of(0.3, 0), octet_unit_cell(), Parameter(field))});
+       }});
+  rows.push_back(
+      {"three scales", 5, [](Ref<Context> c) {
+         return make_ref<Model>(
+             c, make_ref<SphereShape>(Vec3{0, 0, 0}, 1.1),
+             Structures{make_ref<Lattice>(cells_of(0.8, 0.2), bcc_unit_cell(), Parameter(0.15)),
+                        foam(c, 0.25, 0.03, FoamMethod::direct)});
+       }});
+  if (can_triangulate())
+    rows.push_back({"foam by METHOD_2", 8, [](Ref<Context> c) {
+                      return make_ref<Model>(
+                          c, make_ref<BoxShape>(Box3{{-0.6, -0.6, -0.3}, {0.6, 0.6, 0.3}}),
+                          Structures{foam(c, 0.4, 0.05, FoamMethod::method_2)});
+                    }});
+  return rows;
+}
+
+SlicePlan plan_of(uint32_t slab_layers) {
+  SlicePlan plan;
+  plan.pitch[0] = 0.02;
+  plan.pitch[1] = 0.025;
+  plan.layer_height = layer_height;
+  plan.slab_layers = slab_layers;
+  return plan;
+}
+
+/// Bytes of all layers, their order and their counts in one number.
+class Hash {
+ public:
+  void add(const Layer& layer, uint64_t bytes) {
+    add(layer.index);
+    add(layer.inside_count);
+    for (uint64_t i = 0; i < bytes; i += sizeof(uint64_t)) {
+      uint64_t word;
+      std::memcpy(&word, layer.data + i, sizeof word);
+      add(word);
+    }
+  }
+  void add(uint64_t word) { value_ = splitmix_finalise(value_ ^ splitmix_output(word, ++count_)); }
+  uint64_t value() const { return value_; }
+
+ private:
+  uint64_t value_ = 0, count_ = 0;
+};
+
+uint64_t hash_of(const ModelRow& row, unsigned threads, uint32_t slab_layers, uint64_t cache) {
+  const Ref<Model> model = row.make(make_ref<Context>(threads, cache, uint64_t{0}));
+  const Slicer slicer(Ref<const Model>(model.get()), plan_of(slab_layers));
+  Hash hash;
+  slicer.run(
+      0, slicer.grid().nz, [&](const Layer& layer) { hash.add(layer, slicer.layer_bytes()); },
+      nullptr);
+  return hash.value();
+}
+
+void test_settings(void** state) {
+  const ModelRow& row = *static_cast<const ModelRow*>(*state);
+  const uint64_t expected = hash_of(row, 1, 0, uint64_t{1} << 30);
+  size_t count = 0;
+  for (uint64_t cache : {uint64_t{0}, uint64_t{64} << 10, uint64_t{1} << 30})
+    for (unsigned threads : {1u, 2u, 3u, 8u})
+      for (uint32_t slab : {1u, 2u, 7u, row.cell_layers, 1000000u}) {
+        // Slow builds take each setting once; so do small caches, where every tile builds its
+        // cells.
+        if ((test_scale() < 0.5 || cache < 1 << 20) && (threads + slab + cache / 65536) % 3 != 1)
+          continue;
+        ++count;
+        if (hash_of(row, threads, slab, cache) == expected) continue;
+        fail_msg("other layers with %u threads, slabs of %u layers, a cache of %llu bytes", threads,
+                 slab, static_cast<unsigned long long>(cache));
+      }
+  print_message("%zu settings, the same layers\n", count);
+}
+
+void test_split(void** state) {
+  const ModelRow& row = *static_cast<const ModelRow*>(*state);
+  const Ref<Model> model = row.make(make_ref<Context>(2u, uint64_t{1} << 30, uint64_t{0}));
+  const Slicer slicer(Ref<const Model>(model.get()), plan_of(0));
+  const uint64_t layers = slicer.grid().nz, bytes = slicer.layer_bytes();
+  std::vector<uint8_t> whole(layers * bytes), split(layers * bytes), single(bytes);
+  const auto into = [&](std::vector<uint8_t>& out) {
+    return [&](const Layer& layer) {
+      std::memcpy(out.data() + layer.index * bytes, layer.data, bytes);
+    };
+  };
+  slicer.run(0, layers, into(whole), nullptr);
+  for (uint64_t part : {uint64_t{1}, uint64_t{3}, uint64_t{8}, layers - 1}) {
+    std::fill(split.begin(), split.end(), uint8_t{0x55});
+    for (uint64_t first = 0; first < layers; first += part)
+      slicer.run(first, std::min(layers, first + part), into(split), nullptr);
+    assert_memory_equal(whole.data(), split.data(), whole.size());
+  }
+  for (uint64_t k = 0; k < layers; k += 3) {
+    slicer.slice_layer(k, single.data(), nullptr);
+    assert_memory_equal(whole.data() + k * bytes, single.data(), bytes);
+  }
+}
+
+void test_queries(void** state) {
+  const ModelRow& row = *static_cast<const ModelRow*>(*state);
+  const Ref<Model> model = row.make(make_ref<Context>(2u, uint64_t{1} << 30, uint64_t{0}));
+  const Slicer slicer(Ref<const Model>(model.get()), plan_of(3));
+  const SampleGrid& grid = slicer.grid();
+  const auto resolved = model->resolved(0);
+  const uint64_t layer = grid.nx * grid.ny;
+  std::vector<uint8_t> sliced, asked(layer * grid.nz), alone(layer);
+  slicer.run(
+      0, grid.nz,
+      [&](const Layer& l) {
+        for (uint64_t j = 0; j < grid.ny; ++j)
+          for (uint64_t i = 0; i < grid.nx; ++i)
+            sliced.push_back(l.data[j * slicer.stride() + i / 8] >> (7 - i % 8) & 1);
+      },
+      nullptr);
+  grid_membership(*model, resolved, grid, asked.data(), nullptr);
+  assert_memory_equal(sliced.data(), asked.data(), asked.size());
+  // Some layers by the array query, in an order of its own, and by the definition.
+  uint64_t held = 0;
+  for (uint64_t k = 1; k < grid.nz; k += test_scale() < 0.5 ? 12 : 4) {
+    std::vector<Vec3> points(layer);
+    const auto other = [&](uint64_t i) { return (i * 7919 + 13) % layer; };
+    if (layer % 7919 == 0) fail_msg("the order repeats points");
+    for (uint64_t i = 0; i < layer; ++i)
+      points[i] = grid.at(other(i) % grid.nx, other(i) / grid.nx, k);
+    const PointArray array{reinterpret_cast<const unsigned char*>(points.data()), layer,
+                           sizeof(Vec3), false};
+    array_membership(*model, resolved, array, alone.data(), nullptr);
+    for (uint64_t i = 0; i < layer; ++i) {
+      held += alone[i];
+      assert_int_equal(alone[i], sliced[k * layer + other(i)]);
+      if (i % 5 == 0) assert_int_equal(alone[i], model->inside(points[i], resolved));
+    }
+  }
+  assert_true(held > 0);
+}
+
+}  // namespace
+
+int main() {
+  std::vector<ModelRow> rows = models();
+  int failed = run_for_each("settings", rows, test_settings);
+  failed += run_for_each("split plans", rows, test_split);
+  failed += run_for_each("slices and queries", rows, test_queries);
+  return failed;
+}

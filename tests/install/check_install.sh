@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs a build to a prefix, moves the prefix, and builds and runs a C program against it.
+# Usage: check_install.sh cmake|pkgconfig shared|static BUILD_DIR VERSION
+# Environment: CC, CXX, CMAKE, PKG_CONFIG.
+set -euo pipefail
+
+way=$1 kind=$2 build=$3 version=$4
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+say() { printf '%s\n' "$*"; }
+die() { say "$*" >&2; exit 1; }
+
+"$CMAKE" --install "$build" --prefix "$work/first" >"$work/log" || { cat "$work/log"; exit 1; }
+mv "$work/first" "$work/moved"
+prefix=$work/moved
+pc=$(dirname "$(find "$prefix" -name msq.pc)")
+
+headers=$(find "$prefix/include" -type f -printf '%f ')
+[[ $headers == "msq.h " ]] || die "installed headers: $headers"
+if grep -rlF -e "$work/first" -e "$build" "$prefix" --include='*.cmake' --include='*.pc'; then
+  die "these files name the folder they were built or first installed in"
+fi
+
+case $way in
+  cmake)
+    options=(-DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$CC" -DCMAKE_BUILD_TYPE=Release)
+    if [[ $kind == shared ]]; then
+      # A host of the shared library needs none of its dependencies.
+      for name in TBB assimp pugixml CGAL PkgConfig Threads; do
+        options+=("-DCMAKE_DISABLE_FIND_PACKAGE_$name=ON")
+      done
+    else
+      options+=(-DCONSUMER_STATIC=ON -DCMAKE_CXX_COMPILER="$CXX")
+    fi
+    configure() { "$CMAKE" -S "$here/consumer" -B "$work/build" "${options[@]}" "$@" >"$work/log" 2>&1; }
+    configure "-DCONSUMER_WANTS=$version" || { cat "$work/log"; exit 1; }
+    "$CMAKE" --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+    "$work/build/consumer"
+    # While the major version is 0, no other minor version will do, not even an older one.
+    major=${version%%.*} minor=${version#*.} minor=${minor%%.*}
+    other=$major.$((minor > 0 ? minor - 1 : minor + 1))
+    rm -rf "$work/build"
+    if configure "-DCONSUMER_WANTS=$other"; then die "the package passes for version $other"; fi
+    grep -q "considered but not accepted" "$work/log" || { cat "$work/log"; exit 1; }
+    if [[ $kind == static ]]; then
+      rm -rf "$work/build"
+      if configure "-DCONSUMER_WANTS=$version" -DCONSUMER_STATIC=OFF; then
+        die "a static msq was found by a project without C++"
+      fi
+      tr -s ' \n' ' ' <"$work/log" | grep -q "add CXX to the languages" || { cat "$work/log"; exit 1; }
+    fi
+    ;;
+  pkgconfig)
+    flags=()
+    if [[ $kind == shared ]]; then
+      export PKG_CONFIG_LIBDIR=$pc  # and nowhere else: no dependency is asked for
+    else
+      export PKG_CONFIG_PATH=$pc
+      flags=(--static)
+    fi
+    [[ $("$PKG_CONFIG" --modversion msq) == "$version" ]] || die "wrong version in msq.pc"
+    all_cflags=$("$PKG_CONFIG" --cflags msq)
+    all_libs=$("$PKG_CONFIG" "${flags[@]}" --libs msq)
+    read -r -a cflags <<<"$all_cflags"
+    read -r -a libs <<<"$all_libs"
+    "$CC" -std=c99 "${cflags[@]}" "$here/consumer/consumer.c" -o "$work/consumer" "${libs[@]}"
+    LD_LIBRARY_PATH=$(dirname "$pc") "$work/consumer"
+    ;;
+  *) die "unknown way: $way" ;;
+esac
