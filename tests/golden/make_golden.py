@@ -103,7 +103,8 @@ def seed_of(number, jitter, cell, scale):
     x, y, z = (c & 0xFFFFFFFF for c in cell)
     h = output(finalise(key ^ (y | z << 32)), x)
     parts = (h & 0x1FFFFF, h >> 21 & 0x1FFFFF, h >> 42 & 0x1FFFFF)
-    return tuple((cell[c] + 0.5 + math.floor((parts[c] - 0x100000) * jitter) / 2.0**21) * scale[c]
+    amount = math.floor(jitter * 2.0**31)
+    return tuple((cell[c] + 0.5 + ((parts[c] - 0x100000) * amount >> 31) / 2.0**21) * scale[c]
                  for c in range(3))
 
 

@@ -4,6 +4,7 @@
 #include "structure/foam/direct.h"
 #include "structure/foam/method_2.h"
 #include "structure/foam/point.h"
+#include "structure/group_by_cell.h"
 
 namespace msq {
 
@@ -17,17 +18,18 @@ Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter r
       seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
       method_(method == FoamMethod::automatic ? FoamMethod::direct : method) {}
 
-bool Foam::inside(Vec3 p) const {
-  const Neighbourhood::Located located = neighbourhood().locate(p);
+bool Foam::inside(const Neighbourhood::Located& located, Vec3 p) const {
   return foam_point_inside(seeds_, located.cell, located.fraction * seeds_.scale(),
                            radius_.at(p) / unit_);
 }
 
+bool Foam::inside(Vec3 p) const { return inside(neighbourhood().locate(p), p); }
+
 void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
-  if (method_ == FoamMethod::method_2)
-    method_2_keep_points(*this, points, alive, count);
-  else
-    Structure::keep_points(points, alive, count);
+  if (method_ == FoamMethod::method_2) return method_2_keep_points(*this, points, alive, count);
+  // Cell by cell, since the point query keeps the seeds about the last point's cell.
+  for (const LocatedPoint& point : group_by_cell(neighbourhood(), points, alive, count))
+    if (!inside(point.located, points[point.index])) alive[point.index] = 0;
 }
 
 void Foam::keep_rows(const RowBlock& block, const Job* job) const {

@@ -31,6 +31,8 @@ class Foam final : public Structure {
   uint64_t id() const { return id_; }
 
  private:
+  bool inside(const Neighbourhood::Located& located, Vec3 p) const;
+
   Ref<Context> context_;
   uint64_t id_;
   Parameter radius_;

@@ -12,11 +12,11 @@
 #include "structure/foam/method_2.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "structure/foam/delaunay.h"
 #include "structure/foam/edge_line.h"
+#include "structure/group_by_cell.h"
 
 namespace msq {
 
@@ -94,30 +94,19 @@ bool CellEdges::inside(Vec3 q, double radius) const {
 }  // namespace
 
 void method_2_keep_points(const Foam& foam, const Vec3* points, uint8_t* alive, size_t count) {
-  struct Sample {
-    Neighbourhood::Located located;
-    size_t index;
-  };
-  std::vector<Sample> samples;
-  for (size_t i = 0; i < count; ++i)
-    if (alive[i]) samples.push_back({foam.neighbourhood().locate(points[i]), i});
-  std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
-    const CellIndex &u = a.located.cell, &v = b.located.cell;
-    return u.z != v.z ? u.z < v.z : u.y != v.y ? u.y < v.y : u.x < v.x;
-  });
   const double most_radius = foam.radius().range().high / foam.unit();
-  for (size_t i = 0; i < samples.size();) {
-    const CellIndex cell = samples[i].located.cell;
+  const auto grouped = group_by_cell(foam.neighbourhood(), points, alive, count);
+  for_each_cell(grouped, [&](CellIndex cell, std::span<const LocatedPoint> group) {
     const auto data = foam.context().cache.fetch(foam.id(), cell, [&] {
       return std::make_shared<const CellEdges>(foam.seeds(), cell, most_radius);
     });
     const auto& edges = static_cast<const CellEdges&>(*data);
-    for (; i < samples.size() && samples[i].located.cell == cell; ++i) {
-      const Vec3 q = samples[i].located.fraction * foam.seeds().scale();
-      const double r = foam.radius().at(points[samples[i].index]) / foam.unit();
-      if (!edges.inside(q, r)) alive[samples[i].index] = 0;
+    for (const LocatedPoint& point : group) {
+      const Vec3 q = point.located.fraction * foam.seeds().scale();
+      const double r = foam.radius().at(points[point.index]) / foam.unit();
+      if (!edges.inside(q, r)) alive[point.index] = 0;
     }
-  }
+  });
 }
 
 }  // namespace msq

@@ -18,7 +18,13 @@ namespace msq {
 class FoamSeeds {
  public:
   FoamSeeds(uint64_t seed, double jitter, Vec3 scale)
-      : key_(splitmix_finalise(seed + 1)), jitter_(jitter), scale_(scale) {}
+      : key_(splitmix_finalise(seed + 1)),
+        jitter_(static_cast<int64_t>(std::floor(jitter * 0x1p31))),
+        scale_(scale) {}
+
+  friend bool operator==(const FoamSeeds& a, const FoamSeeds& b) {
+    return a.key_ == b.key_ && a.jitter_ == b.jitter_ && a.scale_ == b.scale_;
+  }
 
   Vec3 scale() const { return scale_; }
 
@@ -45,12 +51,12 @@ class FoamSeeds {
   /// 0.5 without jitter, otherwise 21 random bits about it, scaled by the jitter and rounded down to
   /// a multiple of 2^-21: in [0, 1).
   double fraction(uint64_t bits) const {
-    const double centred = static_cast<double>(static_cast<int64_t>(bits & 0x1fffff) - 0x100000);
-    return 0.5 + std::floor(centred * jitter_) * 0x1p-21;
+    const int64_t centred = static_cast<int64_t>(bits & 0x1fffff) - 0x100000;
+    return static_cast<double>(0x100000 + ((centred * jitter_) >> 31)) * 0x1p-21;
   }
 
   uint64_t key_;
-  double jitter_;
+  int64_t jitter_;  // of 2^31
   Vec3 scale_;
 };
 
