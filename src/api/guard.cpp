@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/guard.h"
 
-#include <cstdio>
+#include <cstring>
 
 namespace msq::api {
 
@@ -13,10 +13,42 @@ struct LastError {
 };
 thread_local LastError last_error;
 
+/// Bytes of the UTF-8 character that begins here; 0 if it is not one.
+size_t character_length(const unsigned char* s) {
+  const size_t length = s[0] < 0x80                      ? 1
+                        : s[0] >= 0xc2 && s[0] < 0xe0    ? 2
+                        : (s[0] & 0xf0) == 0xe0          ? 3
+                        : s[0] >= 0xf0 && s[0] < 0xf5    ? 4
+                                                         : 0;
+  for (size_t i = 1; i < length; ++i)
+    if ((s[i] & 0xc0) != 0x80) return 0;
+  if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] > 0x9f) ||
+      (s[0] == 0xf0 && s[1] < 0x90) || (s[0] == 0xf4 && s[1] > 0x8f))
+    return 0;  // overlong, a surrogate, or beyond Unicode
+  return length;
+}
+
+/// Copies whole characters as far as they fit; bytes that are none, as paths may have, become '?'.
+void copy_utf8(const char* from, char* to, size_t room) {
+  const auto* s = reinterpret_cast<const unsigned char*>(from);
+  size_t used = 0;
+  while (*s) {
+    const size_t length = character_length(s), taken = length ? length : 1;
+    if (used + taken >= room) break;
+    if (length)
+      std::memcpy(to + used, s, length);
+    else
+      to[used] = '?';
+    used += taken;
+    s += taken;
+  }
+  to[used] = 0;
+}
+
 }  // namespace
 
 msq_status record(Status status, const char* message, int32_t host_code) noexcept {
-  std::snprintf(last_error.message, sizeof last_error.message, "%s", message);
+  copy_utf8(message, last_error.message, sizeof last_error.message);
   if (status == Status::host) last_error.host_code = host_code;
   return static_cast<msq_status>(status);
 }

@@ -100,12 +100,25 @@ inline PointArray point_array(const void* data, uint64_t count, uint64_t stride,
   return points;
 }
 
+/// Size that a struct of the ABI had when it was first published. A struct that grows gets its old size
+/// here, as a specialisation; less was never right, such as the size of a pointer to it.
+template <class T>
+inline constexpr size_t first_size = sizeof(T);
+/// More is a struct_size that was never set.
+constexpr size_t most_size = 4096;
+
+template <class T>
+void check_struct_size(size_t size, const char* name) {
+  if (size < first_size<T> || size > most_size)
+    fail(Status::argument, "the struct_size of %s is %zu; it must be its sizeof, %zu to %zu", name,
+         size, first_size<T>, most_size);
+}
+
 /// Fills in a host's definition: defaults in what it has room for, 0 in what this version does not know.
 template <class Def>
 void set_defaults(Def* def, size_t size, const Def& defaults, const char* name) {
   if (!def) fail(Status::argument, "def is NULL");
-  if (size < sizeof(uint32_t) || size > UINT32_MAX)
-    fail(Status::argument, "the size of %s is given as %zu; it must be its sizeof", name, size);
+  check_struct_size<Def>(size, name);
   std::memset(static_cast<void*>(def), 0, size);
   std::memcpy(static_cast<void*>(def), &defaults, size < sizeof defaults ? size : sizeof defaults);
   def->struct_size = static_cast<uint32_t>(size);
@@ -117,9 +130,7 @@ template <class Def>
 Def read_def(const Def* def, const Def& defaults, const char* name) {
   if (!def) fail(Status::argument, "%s is NULL", name);
   const size_t size = def->struct_size;
-  if (size < 2 * sizeof(uint32_t))
-    fail(Status::argument, "struct_size of %s is %zu; it must be its sizeof: call its def_init",
-         name, size);
+  check_struct_size<Def>(size, name);
   Def known = defaults;
   std::memcpy(static_cast<void*>(&known), def, size < sizeof known ? size : sizeof known);
   const auto* bytes = reinterpret_cast<const unsigned char*>(def);
@@ -131,14 +142,14 @@ Def read_def(const Def* def, const Def& defaults, const char* name) {
   return known;
 }
 
-/// Copies a report to the host, as much as its struct_size says.
+/// Copies a report to the host, as much as its struct_size says; what this version does not know is 0.
 template <class Report>
 void write_report(Report* report, Report known, const char* name) {
   if (!report) fail(Status::argument, "%s is NULL", name);
   const uint32_t size = report->struct_size;
-  if (size < 2 * sizeof(uint32_t))
-    fail(Status::argument, "struct_size of %s is %u; it must be its sizeof", name, size);
+  check_struct_size<Report>(size, name);
   known.struct_size = size;
+  std::memset(static_cast<void*>(report), 0, size);
   std::memcpy(static_cast<void*>(report), &known, size < sizeof known ? size : sizeof known);
 }
 

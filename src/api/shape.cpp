@@ -3,7 +3,6 @@
 #include "io/mesh_file.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
-#include "shape/self_intersections.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -35,23 +34,27 @@ struct FileRequest {
   WindingRule rule;
 };
 
-FileRequest file_request(const msq_file_def* def) {
+FileRequest file_request(const msq_file_def* def, const Context& owner) {
   const msq_file_def known = def ? read_def(def, file_defaults(), "def") : file_defaults();
   require_reserved(known.reserved, "reserved");
   FileRequest request;
   request.options.format = static_cast<MeshFormat>(
       require_range(known.format, MSQ_FORMAT_AUTO, MSQ_FORMAT_AMF, "format"));
   request.options.unit_mm = require_positive(known.unit_mm, "unit_mm");
-  request.options.max_bytes = known.max_bytes;
-  request.options.max_triangles = known.max_triangles;
+  const MeshFileOptions defaults;
+  request.options.max_bytes = known.max_bytes ? known.max_bytes : defaults.max_bytes;
+  request.options.max_triangles =
+      known.max_triangles ? known.max_triangles : defaults.max_triangles;
+  request.options.budget = owner.budget;
   request.rule = winding_rule(known.winding_rule);
   return request;
 }
 
 void check_size(double radius, Vec3 centre) {
-  if (!std::isfinite(radius * radius * radius) || max_magnitude(centre) > 1e100)
-    fail(Status::argument, "a shape of radius %g at (%g, %g, %g) is too large", radius, centre.x,
-         centre.y, centre.z);
+  constexpr double most = 1e75;  // fourth powers of lengths stay finite
+  if (radius > most || max_magnitude(centre) > most)
+    fail(Status::argument, "a shape of radius or size %g at (%g, %g, %g) is too large; the limit is %g for each", radius,
+         centre.x, centre.y, centre.z, most);
 }
 
 }  // namespace
@@ -66,7 +69,7 @@ msq_status msq_shape_from_file(msq_context* context, const char* path, const msq
     Context& owner = object(context, "context");
     require(path, "path");
     require(shape, "shape");
-    const FileRequest request = file_request(def);
+    const FileRequest request = file_request(def, owner);
     *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<Mesh>(
         read_mesh_file(path, request.options), request.rule, owner.budget)));
   });
@@ -78,7 +81,7 @@ msq_status msq_shape_from_memory(msq_context* context, const void* data, uint64_
     Context& owner = object(context, "context");
     if (!data) fail(Status::argument, "data is NULL");
     require(shape, "shape");
-    const FileRequest request = file_request(def);
+    const FileRequest request = file_request(def, owner);
     *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<Mesh>(
         read_mesh_memory(data, bytes, request.options), request.rule, owner.budget)));
   });
@@ -191,11 +194,9 @@ msq_status msq_shape_self_intersections(const msq_shape* shape, uint64_t* pairs,
     const Shape& known = object(shape, "shape");
     require(pairs, "pairs");
     Job* work = job ? &object(job, "job") : nullptr;
-    if (work) work->set_progress(0);
-    check_cancelled(work);
-    const Mesh* mesh = dynamic_cast<const Mesh*>(&known);
-    const uint64_t found = mesh ? count_self_intersections(*mesh, work) : 0;
-    if (work) work->set_progress(1);
+    JobScope scope(work);
+    const uint64_t found = known.self_intersections(work);
+    scope.done();
     *pairs = found;
   });
 }

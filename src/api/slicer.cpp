@@ -32,6 +32,10 @@ SlicePlan read_plan(const msq_slicer_def& def) {
     fail(Status::argument, "length_scale is %g; it must not be negative", def.length_scale);
   plan.length_scale = def.length_scale;
   plan.has_region = require_range(def.has_region, 0, 1, "has_region") != 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!plan.has_region && (def.region_min[axis] != 0 || def.region_max[axis] != 0))
+      fail(Status::argument, "a region is given from %g to %g along axis %d, and has_region is 0",
+           def.region_min[axis], def.region_max[axis], axis);
   if (plan.has_region)
     plan.region = {require_vector(def.region_min, "region_min"),
                    require_vector(def.region_max, "region_max")};
@@ -116,6 +120,9 @@ msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t cou
                           msq_layer_fn fn, void* user, msq_job* job) {
   return guard([&] {
     const Slicer& known = object(slicer, "slicer");
+    // The callback may release the host's last references.
+    const Ref<const Slicer> keep(&known);
+    const Ref<Job> work(job ? &object(job, "job") : nullptr);
     const SampleGrid& grid = known.grid();
     if (!fn) fail(Status::argument, "fn is NULL");
     if (first > grid.nz || (count != UINT64_MAX && count > grid.nz - first))
@@ -135,13 +142,13 @@ msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t cou
       view.height = static_cast<uint32_t>(grid.ny);
       view.inside_count = layer.inside_count;
       const int32_t code = fn(user, &view);
-      if (code < 0)
+      if (code != 0)
         throw Error(Status::host,
                     "the layer callback returned " + std::to_string(code) + " at layer " +
                         std::to_string(layer.index),
                     code);
     };
-    known.run(first, last, take, job ? &object(job, "job") : nullptr);
+    known.run(first, last, take, work.get());
   });
 }
 

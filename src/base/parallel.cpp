@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
 
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -8,20 +9,25 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
 #include <thread>
 
 namespace msq {
 
 struct Executor::Arena {
-  explicit Arena(int slots) : arena(slots) {}
+  Arena(int slots, bool beyond_cores) : arena(slots) {
+    if (beyond_cores)
+      allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(slots));
+  }
+  std::optional<tbb::global_control> allowed;
   tbb::task_arena arena;
 };
 
-Executor::Executor(unsigned threads) : threads_(threads) {
+Executor::Executor(unsigned threads, bool beyond_cores) : threads_(threads) {
   if (threads_ == 1) return;
-  const unsigned cores = std::max(1, tbb::info::default_concurrency());
-  threads_ = threads_ == 0 ? cores : std::min(threads_, cores);
-  if (threads_ > 1) arena_ = std::make_unique<Arena>(static_cast<int>(threads_));
+  const unsigned cores = static_cast<unsigned>(std::max(1, tbb::info::default_concurrency()));
+  if (threads_ == 0 || (threads_ > cores && !beyond_cores)) threads_ = cores;
+  if (threads_ > 1) arena_ = std::make_unique<Arena>(static_cast<int>(threads_), beyond_cores);
 }
 
 Executor::~Executor() = default;

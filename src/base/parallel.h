@@ -13,7 +13,8 @@ namespace msq {
 /// stderr where an arena asks for more.
 class Executor {
  public:
-  explicit Executor(unsigned threads);
+  /// `beyond_cores`: do not clamp. For tests of many threads on few cores.
+  explicit Executor(unsigned threads, bool beyond_cores = false);
   ~Executor();
 
   unsigned threads() const { return threads_; }

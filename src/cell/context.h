@@ -14,8 +14,8 @@ namespace msq {
 
 class Context : public RefCounted {
  public:
-  Context(unsigned threads, uint64_t cache_bytes, uint64_t memory_limit)
-      : executor(threads),
+  Context(unsigned threads, uint64_t cache_bytes, uint64_t memory_limit, bool beyond_cores = false)
+      : executor(threads, beyond_cores),
         budget(std::make_shared<MemoryBudget>(memory_limit)),
         cache(cache_bytes, budget) {
     // Cached cells make room for what a call must have, so that what a call can do does not depend on

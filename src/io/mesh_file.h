@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
+#include "base/memory.h"
 #include "base/triangle_soup.h"
 
 namespace msq {
@@ -16,6 +18,7 @@ struct MeshFileOptions {
   double unit_mm = 1;  ///< for formats that name no unit
   uint64_t max_bytes = uint64_t{4} << 30;
   uint64_t max_triangles = 200000000;
+  std::shared_ptr<MemoryBudget> budget;  ///< that reading counts against; null: none
 };
 
 /// Whether this build reads files; if not, the functions below throw Error(unsupported).

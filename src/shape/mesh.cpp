@@ -5,6 +5,7 @@
 
 #include "base/status.h"
 #include "shape/mesh_diagnosis.h"
+#include "shape/self_intersections.h"
 
 namespace msq {
 
@@ -73,7 +74,9 @@ uint64_t bytes_of(const TriangleSoup& soup) {
 Mesh::Mesh(TriangleSoup soup, WindingRule rule, std::shared_ptr<MemoryBudget> budget)
     : rule_(rule) {
   check_soup(soup);
-  Reservation soup_bytes(budget, bytes_of(soup), "a mesh");
+  // While it is built: the soup, its weld map and the sorted copies of the diagnosis.
+  const uint64_t scratch = soup.vertices.size() * 48 + soup.triangles.size() * 48;
+  Reservation building(budget, bytes_of(soup) + scratch, "building a mesh");
   const uint64_t dropped = weld(soup);
   if (soup.triangles.empty())
     fail(Status::mesh, "all %llu triangles of the mesh are degenerate",
@@ -84,7 +87,7 @@ Mesh::Mesh(TriangleSoup soup, WindingRule rule, std::shared_ptr<MemoryBudget> bu
   const uint64_t count = soup_.triangles.size();
   columns_ = TriangleBins(soup_, facts_.bounds, bins_for(count, 0.5, 4096), bins_for(count, 0.5, 4096));
   sheets_ = TriangleBins(soup_, facts_.bounds, 1, bins_for(count, 1.0, 16384));
-  soup_bytes = {};
+  building = {};
   reservation_ = Reservation(std::move(budget), bytes_of(soup_) + columns_.bytes() + sheets_.bytes(),
                              "a mesh");
 }
@@ -105,6 +108,10 @@ bool Mesh::inside(Vec3 p) const {
     if (x >= p.x) from += sign;
   }
   return solid(beyond) || solid(from);
+}
+
+uint64_t Mesh::self_intersections(const Job* job) const {
+  return count_self_intersections(*this, job);
 }
 
 void Mesh::fill_rows(const RowBlock& block) const {

@@ -31,6 +31,7 @@ class Mesh final : public Shape {
 
   bool inside(Vec3 p) const override;
   void fill_rows(const RowBlock& block) const override;
+  uint64_t self_intersections(const Job* job) const override;
 
   const std::vector<Vec3>& vertices() const { return soup_.vertices; }
   const std::vector<Triangle>& triangles() const { return soup_.triangles; }

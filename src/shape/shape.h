@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "base/job.h"
 #include "base/ref.h"
 #include "base/sample_grid.h"
 #include "base/vec.h"
@@ -30,6 +31,9 @@ class Shape : public RefCounted {
 
   /// Membership of a finite point; the boundary is inside.
   virtual bool inside(Vec3 p) const = 0;
+
+  /// Number of pairs of triangles that meet where they should not; none where there are no triangles.
+  virtual uint64_t self_intersections(const Job*) const { return 0; }
 
   /// Sets the bits of the samples that are inside, in a block of zeros. Default: asks inside() of
   /// every sample in bounds().

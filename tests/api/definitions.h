@@ -26,7 +26,7 @@ typedef msq_status (*use_fn)(void* env, void* structure);
 
 /* def_init of a struct that has `known` bytes. */
 static inline void check_def_init(init_fn init, size_t known) {
-  const size_t refused[] = {0, 1, 3};
+  const size_t refused[] = {0, 1, sizeof(void*), known - 1, 4097};
   struct_bytes all, def;
   assert_true(known + struct_tail <= struct_room);
   assert_refused(init(NULL, known), MSQ_E_ARGUMENT, "NULL");
@@ -44,20 +44,19 @@ static inline void check_def_init(init_fn init, size_t known) {
 
   assert_ok(init(&all, known));
   assert_int_equal(all.struct_size, known);
-  for (size_t size = sizeof(uint32_t); size <= known + struct_tail; ++size) {
-    const size_t shared = size < known ? size : known;
+  for (size_t size = known; size <= known + struct_tail; ++size) {
     memset(&def, struct_pattern, sizeof def);
     assert_ok(init(&def, size));
     assert_int_equal(def.struct_size, size);
-    assert_memory_equal(def.bytes + 4, all.bytes + 4, shared - 4);
-    assert_filled(def.bytes + shared, size - shared, 0);
+    assert_memory_equal(def.bytes + 4, all.bytes + 4, known - 4);
+    assert_filled(def.bytes + known, size - known, 0);
     assert_filled(def.bytes + size, sizeof def - size, struct_pattern);
   }
 }
 
 /* A definition that is valid as it stands, passed with every kind of struct_size. */
 static inline void check_def_sizes(const void* valid, size_t known, use_fn use, void* env) {
-  const uint32_t refused[] = {0, 4, 7};
+  const uint32_t refused[] = {0, 4, sizeof(void*), (uint32_t)known - 1, 4097, UINT32_MAX};
   struct_bytes def;
   memset(&def, struct_pattern, sizeof def);
   memcpy(&def, valid, known);
@@ -83,7 +82,7 @@ static inline void check_def_sizes(const void* valid, size_t known, use_fn use, 
 
 /* A report of `known` bytes, asked for with every struct_size. */
 static inline void check_report_sizes(size_t known, use_fn read, void* env) {
-  const uint32_t refused[] = {0, 4, 7};
+  const uint32_t refused[] = {0, 4, sizeof(void*), (uint32_t)known - 1, 4097, UINT32_MAX};
   struct_bytes all, report;
   assert_true(known + struct_tail <= struct_room);
   assert_refused(read(env, NULL), MSQ_E_ARGUMENT, "report is NULL");
@@ -98,13 +97,13 @@ static inline void check_report_sizes(size_t known, use_fn read, void* env) {
 
   all.struct_size = (uint32_t)known;
   assert_ok(read(env, &all));
-  for (size_t size = 8; size <= known + struct_tail; ++size) {
-    const size_t shared = size < known ? size : known;
+  for (size_t size = known; size <= known + struct_tail; ++size) {
     memset(&report, struct_pattern, sizeof report);
     report.struct_size = (uint32_t)size;
     assert_ok(read(env, &report));
     assert_int_equal(report.struct_size, size);
-    assert_memory_equal(report.bytes + 4, all.bytes + 4, shared - 4);
+    assert_memory_equal(report.bytes + 4, all.bytes + 4, known - 4);
+    assert_filled(report.bytes + known, size - known, 0);
     assert_filled(report.bytes + size, sizeof report - size, struct_pattern);
   }
 }

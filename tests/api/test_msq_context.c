@@ -36,19 +36,6 @@ static void create_honours_every_struct_size(void** state) {
   check_def_sizes(&def, sizeof def, create, NULL);
 }
 
-static void fields_past_an_older_callers_size_have_defaults(void** state) {
-  msq_context_def def;
-  msq_context* context;
-  (void)state;
-  memset(&def, 0x11, sizeof def);
-  def.struct_size = offsetof(msq_context_def, cache_bytes);
-  def.threads = 1;
-  assert_ok(msq_context_create(&def, &context));
-  assert_int_equal(cache_of(context).limit_bytes, (uint64_t)1 << 30);
-  assert_int_equal(memory_of(context).limit_bytes, 0);
-  msq_context_release(context);
-}
-
 static void no_definition_means_defaults(void** state) {
   msq_context* context;
   (void)state;
@@ -134,7 +121,6 @@ int main(void) {
       cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(create_honours_every_struct_size),
-      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
       cmocka_unit_test(no_definition_means_defaults),
       cmocka_unit_test(definition_is_taken_over),
       cmocka_unit_test(output_null_is_refused),

@@ -66,18 +66,6 @@ static void create_honours_every_struct_size(void** state) {
   release_parts(&p);
 }
 
-static void fields_past_an_older_callers_size_have_defaults(void** state) {
-  parts p = make_parts();
-  const msq_scale_def scales[2] = {{p.shape, NULL}, {NULL, p.structure}};
-  msq_model_def def = model_def(scales, 2);
-  (void)state;
-  def.scale_size = 1;
-  def.reserved = 1;
-  def.struct_size = offsetof(msq_model_def, scale_size);
-  assert_ok(create(p.context, &def));
-  release_parts(&p);
-}
-
 static void model_is_the_intersection_of_its_scales(void** state) {
   const double points[4][3] = {{0.5, 0.5, 0.5}, {0.5, 0, 0.5}, {4.5, 4.5, 4.5}, {0.95, 0.95, 0.95}};
   const int in_shape[] = {1, 1, 0, 1}, in_both[] = {1, 0, 0, 1};
@@ -239,7 +227,6 @@ int main(void) {
       cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(create_honours_every_struct_size),
-      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
       cmocka_unit_test(model_is_the_intersection_of_its_scales),
       cmocka_unit_test(model_keeps_its_parts_alive),
       cmocka_unit_test(release_of_null_does_nothing),

@@ -40,24 +40,6 @@ static void query_honours_every_struct_size(void** state) {
   msq_context_release(context);
 }
 
-static void fields_past_an_older_callers_size_have_defaults(void** state) {
-  const double outer[3] = {0.5, 0, 0.5}; /* in the box, not in the lattice */
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_query_def def;
-  int32_t inside;
-  (void)state;
-  assert_ok(msq_query_def_init(&def, sizeof def));
-  def.length_scale = 100;
-  assert_ok(msq_point_membership(model, outer, &def, &inside));
-  assert_int_equal(inside, 1);
-  def.struct_size = offsetof(msq_query_def, length_scale);
-  assert_ok(msq_point_membership(model, outer, &def, &inside));
-  assert_int_equal(inside, 0);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 /* A lattice of cell 2, and one of cell 0.5 within its struts. */
 static msq_model* make_nested(msq_context* context) {
   return make_model(context, make_box(context),
@@ -161,7 +143,6 @@ int main(void) {
       cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(query_honours_every_struct_size),
-      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
       cmocka_unit_test(finer_scales_are_solid_at_a_length_scale),
       cmocka_unit_test(far_points_are_outside),
       cmocka_unit_test(null_arguments_are_refused),

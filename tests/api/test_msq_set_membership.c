@@ -56,19 +56,6 @@ static void query_honours_every_struct_size(void** state) {
   msq_context_release(context);
 }
 
-static void fields_past_an_older_callers_size_have_defaults(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_points_def def = array_of(few_points(), few);
-  (void)state;
-  def.stride = 1;
-  def.coordinate_type = 99;
-  def.struct_size = offsetof(msq_points_def, stride);
-  assert_ok(ask(model, &def));
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 /* ---- answers */
 
 /* The answers are those of msq_point_membership; `coordinates` as msq sees them. */
@@ -458,7 +445,6 @@ int main(void) {
       cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(query_honours_every_struct_size),
-      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
       cmocka_unit_test(arrays_have_any_type_and_stride),
       cmocka_unit_test(arrays_have_any_length),
       cmocka_unit_test(every_kind_of_model_answers_arrays_as_points),

@@ -126,18 +126,6 @@ static void create_honours_every_struct_size(void** state) {
   msq_context_release(r.context);
 }
 
-static void fields_past_an_older_callers_size_have_defaults(void** state) {
-  msq_file_def def = file_def();
-  request r = {make_context(), write_stl("cube.stl")};
-  (void)state;
-  def.max_bytes = 1;
-  def.max_triangles = 1;
-  def.struct_size = offsetof(msq_file_def, max_bytes);
-  assert_ok(read_file(&r, &def));
-  unlink(r.path);
-  msq_context_release(r.context);
-}
-
 static void stl_is_read_by_its_extension(void** state) {
   const char* names[] = {"cube.stl", "CUBE.STL", "with.dots.Stl"};
   msq_context* context = make_context();
@@ -308,7 +296,6 @@ int main(void) {
     cmocka_unit_test(wrong_arguments_are_refused),
 #if MSQ_WITH_ASSIMP
     cmocka_unit_test(create_honours_every_struct_size),
-    cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
     cmocka_unit_test(stl_is_read_by_its_extension),
     cmocka_unit_test(named_format_goes_before_the_extension),
     cmocka_unit_test(unit_scales_the_shape),

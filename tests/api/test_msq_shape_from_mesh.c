@@ -52,15 +52,6 @@ static void create_honours_every_struct_size(void** state) {
 }
 
 /* An older caller without triangles has none. */
-static void fields_past_an_older_callers_size_have_defaults(void** state) {
-  msq_context* context = make_context();
-  msq_mesh_def def = cube_def();
-  (void)state;
-  def.struct_size = offsetof(msq_mesh_def, triangles);
-  assert_refused(create(context, &def), MSQ_E_MESH, "no triangles");
-  msq_context_release(context);
-}
-
 static void assert_same_points(const msq_model* a, const msq_model* b, const msq_points_def* points,
                                uint64_t count) {
   uint8_t *in_a = (uint8_t*)malloc(count), *in_b = (uint8_t*)malloc(count);
@@ -345,7 +336,6 @@ int main(void) {
       cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(create_honours_every_struct_size),
-      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
       cmocka_unit_test(cube_is_the_box_away_from_its_boundary),
       cmocka_unit_test(boundary_is_closed_in_x_and_half_open_in_y_and_z),
       cmocka_unit_test(vertices_have_any_type_and_stride),

@@ -68,18 +68,6 @@ static void create_honours_every_struct_size(void** state) {
   check_def_sizes(&def, sizeof def, create, model);
 }
 
-static void fields_past_an_older_callers_size_have_defaults(void** state) {
-  msq_slicer_def def = good();
-  (void)state;
-  def.has_region = 99;
-  def.slab_layers = 99;
-  def.region_min[0] = NAN;
-  def.layer_z_count = 99;
-  def.length_scale = -1;
-  def.struct_size = offsetof(msq_slicer_def, has_region);
-  assert_ok(create(model, &def));
-}
-
 static void slicer_keeps_its_model_alive(void** state) {
   msq_context* own = make_context();
   msq_model* lattice = make_model(own, make_cube_mesh(own), make_lattice(own), NULL);
@@ -270,7 +258,6 @@ int main(void) {
       cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(create_honours_every_struct_size),
-      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
       cmocka_unit_test(slicer_keeps_its_model_alive),
       cmocka_unit_test(release_of_null_does_nothing),
       cmocka_unit_test(null_arguments_are_refused),

@@ -64,18 +64,6 @@ static void sample_foam(const msq_foam_def* def, uint8_t inside[samples]) {
   msq_context_release(context);
 }
 
-static void fields_past_an_older_callers_size_have_defaults(void** state) {
-  uint8_t wanted[samples], got[samples];
-  msq_foam_def def = foam_def();
-  (void)state;
-  sample_foam(&def, wanted);
-  def.jitter = 1e30;
-  def.seed = 77;
-  def.struct_size = offsetof(msq_foam_def, jitter);
-  sample_foam(&def, got);
-  assert_memory_equal(wanted, got, samples);
-}
-
 static void seed_picks_another_foam_and_the_same_again(void** state) {
   uint8_t first[samples], other[samples];
   const uint64_t seeds[] = {1, UINT64_MAX, (uint64_t)1 << 63};
@@ -258,7 +246,6 @@ int main(void) {
       cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(create_honours_every_struct_size),
-      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
       cmocka_unit_test(seed_picks_another_foam_and_the_same_again),
       cmocka_unit_test(foam_without_jitter_is_the_cubic_lattice),
       cmocka_unit_test(methods_give_the_same_solid),

@@ -62,15 +62,6 @@ static void create_honours_every_struct_size(void** state) {
   msq_context_release(context);
 }
 
-static void fields_past_an_older_callers_size_have_defaults(void** state) {
-  msq_context* context = make_context();
-  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_CUSTOM, 0.1);
-  (void)state;
-  def.struct_size = offsetof(msq_lattice_def, nodes);
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "node_count is 0");
-  msq_context_release(context);
-}
-
 /* ---- the solid, against distances to all struts of the cells around */
 
 typedef struct oracle {
@@ -381,7 +372,6 @@ int main(void) {
       cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(create_honours_every_struct_size),
-      cmocka_unit_test(fields_past_an_older_callers_size_have_defaults),
       cmocka_unit_test(unit_cells_are_tiled_capsules),
       cmocka_unit_test(unit_cells_stand_on_any_grid),
       cmocka_unit_test(struts_reach_over_cell_borders),

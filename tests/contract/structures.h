@@ -143,11 +143,11 @@ inline std::vector<StructureRow> structures() {
   return rows;
 }
 
-/// Where the methods of a foam may differ, by the contract: with seeds so nearly on spheres that
-/// rounding decides, within 1e-9 of the boundary. A point is that near if the structure with a
+/// Where METHOD_2 may differ from the point query, by the contract: with seeds so nearly on spheres
+/// that rounding decides which of them end an edge, within 1e-9 of the boundary. A point is that near if the structure with a
 /// radius smaller by that leaves it out and the one with a larger radius holds it.
 inline bool may_differ(const StructureRow& row, Vec3 centre, Vec3 p) {
-  if (row.is_lattice() || row.kind.jitter >= 0.01) return false;
+  if (!row.is_method_2() || row.kind.jitter >= 0.01) return false;
   const double near = 1e-9 * row.unit();
   return !row.make(centre, -near)->inside(p) && row.make(centre, near)->inside(p);
 }

@@ -103,7 +103,10 @@ class Hash {
 };
 
 uint64_t hash_of(const ModelRow& row, unsigned threads, uint32_t slab_layers, uint64_t cache) {
-  const Ref<Model> model = row.make(make_ref<Context>(threads, cache, uint64_t{0}));
+  const bool beyond_cores = true;  // that many threads, on any machine
+  const Ref<Context> context = make_ref<Context>(threads, cache, uint64_t{0}, beyond_cores);
+  assert_int_equal(context->executor.threads(), threads);
+  const Ref<Model> model = row.make(context);
   const Slicer slicer(Ref<const Model>(model.get()), plan_of(slab_layers));
   Hash hash;
   slicer.run(

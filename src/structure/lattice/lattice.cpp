@@ -54,6 +54,9 @@ Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Param
         for (const PeriodicStrut& s : struts_) {
           const Vec3 shift{double(i), double(j), double(k)};
           const Segment segment((s.a + shift) * size, (s.b + shift) * size);
+          const Vec3 b = segment.a + segment.ab;
+          const Box3 extent{min(segment.a, b), max(segment.a, b)};
+          if (!extent.overlaps(corner_to_corner.grown(most * (1 + 1e-6)))) continue;
           if (may_reach(segment, corner_to_corner, most)) near_.push_back(segment);
         }
 }
