@@ -86,6 +86,7 @@ Foam make_foam(int cells, int32_t method, uint64_t cache_bytes) {
   Foam foam{};
   msq_context_def context_def;
   bench::check(msq_context_def_init(&context_def, sizeof context_def));
+  context_def.threads = 2;
   context_def.cache_bytes = cache_bytes;
   bench::check(msq_context_create(&context_def, &foam.context));
   const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};

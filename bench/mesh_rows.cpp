@@ -47,6 +47,7 @@ Sliced make_slicer(const Arrays& mesh, uint32_t resolution, uint32_t slab_layers
   Sliced made{};
   msq_context_def context_def;
   bench::check(msq_context_def_init(&context_def, sizeof context_def));
+  context_def.threads = 2;
   bench::check(msq_context_create(&context_def, &made.context));
   msq_mesh_def mesh_def;
   bench::check(msq_mesh_def_init(&mesh_def, sizeof mesh_def));

@@ -19,20 +19,25 @@
  *  Handles   Opaque, reference-counted and immutable once built: any number of
  *            threads may use one handle at once. X_create and its kin return a
  *            handle with one reference; X_retain adds one, X_release drops one and
- *            frees the object with the last. Releasing NULL does nothing. A handle
- *            keeps alive whatever it was built from, so release order is free.
+ *            frees the object with the last. Retaining and releasing NULL do nothing.
+ *            A handle keeps alive whatever it was built from, so release order is
+ *            free, also from within a callback. What one model is built from should
+ *            come from one context: memory and cached cells count where they were made.
  *  Structs   A definition begins with struct_size. X_def_init(&def, sizeof def)
  *            sets it and the defaults, and writes no byte past that size. A struct
  *            that is longer than the library knows must be zero in the rest. In a
  *            report, which msq fills in, the caller sets struct_size and msq writes
- *            no byte past it.
+ *            no byte past it, and 0 into what it does not know. Sizes below that of
+ *            version 0.1 and above 4096 are refused.
  *  Inputs    Arrays and strings given to a constructor are copied; the caller keeps
  *            its own. NULL is refused save where a function gives it a meaning.
  *            Non-finite numbers are refused.
  *  Threads   Callbacks of a call run on the thread that made the call, and may call msq.
  *  Process   msq never prints, exits, aborts, installs a signal handler, reads the
  *            environment or changes locale or floating-point state, and lets no
- *            C++ exception out.
+ *            C++ exception out. (oneTBB, which runs the threads, prints its version
+ *            where the environment has TBB_VERSION set.)
+ *  Cost      Where a comment says none, a call costs next to nothing.
  *
  * Every declaration is here since 0.1 unless it says otherwise.
  */
@@ -66,14 +71,14 @@ extern "C" {
 /* major * 10000 + minor * 100 + patch, of this header. */
 #define MSQ_VERSION 100
 
-typedef int32_t msq_status;
+typedef int32_t msq_status; /* MSQ_OK or one of MSQ_E_* */
 
 enum {
   MSQ_OK = 0,
   MSQ_E_ARGUMENT = -1,    /* an argument is NULL, non-finite, out of range or inconsistent */
   MSQ_E_MEMORY = -2,      /* an allocation failed */
   MSQ_E_CANCELLED = -3,   /* the job was cancelled */
-  MSQ_E_HOST = -4,        /* a host callback returned a negative code: msq_error_host_code() */
+  MSQ_E_HOST = -4,        /* a host callback asked to stop: msq_error_host_code() */
   MSQ_E_IO = -5,          /* a file cannot be opened or read */
   MSQ_E_UNSUPPORTED = -6, /* not in this build, or a file format that msq does not read */
   MSQ_E_MESH = -7,        /* mesh data that cannot be made sense of (not: a dirty mesh) */
@@ -92,7 +97,7 @@ MSQ_API const char *msq_status_name(msq_status status);
  * next call on this thread that fails: calls that succeed leave it. */
 MSQ_API const char *msq_error_message(void);
 
-/* Code that the host's callback returned, after MSQ_E_HOST on the calling thread. */
+/* Code that the host's callback returned at the last MSQ_E_HOST on the calling thread; 0 before. */
 MSQ_API int32_t msq_error_host_code(void);
 
 typedef struct msq_build_report {
@@ -118,14 +123,15 @@ typedef struct msq_context_def {
                             machine has: one a core; 1: the calling thread alone */
   uint64_t cache_bytes;  /* limit of the FIFO cache of cell data (default 1 GiB); 0: no cache. Same
                             results at any size. */
-  uint64_t memory_limit; /* bytes that meshes, slabs and cached cells of this context may hold at
-                            once; 0 (default): no limit */
+  uint64_t memory_limit; /* bytes that meshes, slabs, cached cells and the reading of files (8 times
+                            the file's size) may hold at once; cached cells give way to the rest.
+                            0 (default): no limit */
 } msq_context_def;
 
 /* Sets defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */
 MSQ_API msq_status msq_context_def_init(msq_context_def *def, size_t size);
 
-/* Creates a context; def NULL: defaults. Results never depend on it. Errors: ARGUMENT, MEMORY. */
+/* Creates a context; def NULL: defaults. Results never depend on it. Cost: starts no threads yet. Errors: ARGUMENT, MEMORY. */
 MSQ_API msq_status msq_context_create(const msq_context_def *def, msq_context **context);
 MSQ_API void msq_context_retain(msq_context *context);
 MSQ_API void msq_context_release(msq_context *context);
@@ -144,8 +150,9 @@ MSQ_API msq_status msq_context_memory(const msq_context *context, msq_memory_rep
 typedef struct msq_cache_report {
   uint32_t struct_size;
   uint32_t reserved; /* 0 */
-  uint64_t hits, misses, evictions;
-  uint64_t bytes, peak_bytes, limit_bytes; /* bytes never pass limit_bytes */
+  uint64_t hits, misses, evictions; /* of cells */
+  uint64_t bytes;                   /* held now; never above limit_bytes */
+  uint64_t peak_bytes, limit_bytes;
 } msq_cache_report;
 
 /* Counters of the cell cache since the context was made. Any thread, at any time.
@@ -155,17 +162,18 @@ MSQ_API msq_status msq_cache_stats(const msq_context *context, msq_cache_report 
 /* Drops all cached cells (calls in flight keep theirs). Counters stay. Errors: ARGUMENT. */
 MSQ_API msq_status msq_cache_clear(msq_context *context);
 
-/* Creates a job to pass to one long call at a time. Errors: ARGUMENT, MEMORY. */
+/* Creates a job to pass to one long call at a time (in two at once, their progress is mixed). Errors: ARGUMENT, MEMORY. */
 MSQ_API msq_status msq_job_create(msq_job **job);
 MSQ_API void msq_job_retain(msq_job *job);
 MSQ_API void msq_job_release(msq_job *job);
 
-/* Asks the call that works under the job to stop; it returns MSQ_E_CANCELLED soon (within one
- * slab's tile, milliseconds). Stays set: calls made later under this job stop at once. Any thread.
- * Errors: ARGUMENT. */
+/* Asks the call that works under the job to stop; it returns MSQ_E_CANCELLED when the tiles or layers
+ * in work are done, mostly within tens of milliseconds. Stays set: calls made later under this job
+ * stop at once. Any thread. Errors: ARGUMENT. */
 MSQ_API msq_status msq_job_cancel(msq_job *job);
 
-/* Fraction done, 0 to 1, of the last call under the job. Any thread. Errors: ARGUMENT. */
+/* Fraction done, 0 to 1, of the last call under the job; 1 only after success. Any thread.
+ * Errors: ARGUMENT. */
 MSQ_API msq_status msq_job_progress(const msq_job *job, double *fraction);
 
 /* ---- shapes: scale 0 ------------------------------------------------------ */
@@ -198,8 +206,9 @@ typedef struct msq_file_def {
   uint32_t reserved;      /* 0 */
   double unit_mm;         /* length of the file's unit in mm for STL, OBJ, PLY and OFF, which name
                              none (default 1); 3MF and AMF name theirs, and it is applied */
-  uint64_t max_bytes;     /* refuse larger files (default 4 GiB) */
-  uint64_t max_triangles; /* refuse more (default 200 million) */
+  uint64_t max_bytes;     /* refuse larger files, and archives that unpack to more; 0 and default:
+                             4 GiB */
+  uint64_t max_triangles; /* refuse more; 0 and default: 200 million */
 } msq_file_def;
 
 /* Sets defaults. Errors: ARGUMENT. */
@@ -213,7 +222,8 @@ MSQ_API msq_status msq_file_def_init(msq_file_def *def, size_t size);
 MSQ_API msq_status msq_shape_from_file(msq_context *context, const char *path,
                                        const msq_file_def *def, msq_shape **shape);
 
-/* The same from bytes in memory; def must name the format. */
+/* The same from bytes in memory; def must name the format and may not be NULL. Errors: as
+ * msq_shape_from_file, IO for bytes that are truncated or malformed. */
 MSQ_API msq_status msq_shape_from_memory(msq_context *context, const void *data, uint64_t bytes,
                                          const msq_file_def *def, msq_shape **shape);
 
@@ -238,19 +248,22 @@ MSQ_API msq_status msq_mesh_def_init(msq_mesh_def *def, size_t size);
  *
  * Membership: a point of the mesh's bounding box is inside where the winding number of the +x ray
  * from it satisfies the winding rule. Crossings are half-open in y and z, so shared edges and
- * vertices count once, and closed in x: a point on a crossing is inside if either side of it is.
- * Cost: linear; about 100 bytes a triangle are kept.
+ * vertices count once, and closed in x: a point on a crossing is inside if either side of it is. So
+ * points exactly on a face that is highest in y or z are outside, those on the opposite face inside.
+ * Limits: coordinates up to 1e100, 2^32 - 1 vertices and triangles. Cost: linear in the triangles,
+ * about 100 bytes for each are kept.
  * Errors: ARGUMENT, MESH (no triangles, index out of range, triangle with a non-finite vertex), LIMIT, MEMORY. */
 MSQ_API msq_status msq_shape_from_mesh(msq_context *context, const msq_mesh_def *def,
                                        msq_shape **shape);
 
-/* Axis-aligned box, boundary included. Errors: ARGUMENT unless min < max in each axis; MEMORY. */
+/* Axis-aligned box, boundary included, in model units up to 1e75. Errors: ARGUMENT unless min < max in
+ * each axis; MEMORY. */
 MSQ_API msq_status msq_shape_from_box(msq_context *context, const double min[3],
                                       const double max[3], msq_shape **shape);
-/* Ball, boundary included. Errors: ARGUMENT unless radius > 0; MEMORY. */
+/* Ball, boundary included, in model units up to 1e75. Errors: ARGUMENT unless radius > 0; MEMORY. */
 MSQ_API msq_status msq_shape_from_sphere(msq_context *context, const double center[3],
                                          double radius, msq_shape **shape);
-/* Flat-ended round cylinder between two points, boundary included. Errors: ARGUMENT unless the
+/* Flat-ended round cylinder between two points, boundary included, in model units up to 1e75. Errors: ARGUMENT unless the
  * points differ and radius > 0; MEMORY. */
 MSQ_API msq_status msq_shape_from_cylinder(msq_context *context, const double from[3],
                                            const double to[3], double radius, msq_shape **shape);
@@ -263,9 +276,9 @@ typedef struct msq_shape_report {
   int32_t is_mesh;     /* 1 for meshes; 0 for primitives, whose counts below are 0 */
   double min[3];       /* bounding box */
   double max[3];
-  double volume;       /* meshes: signed sum over triangles, exact for closed ones, negative if
-                          inside out */
-  double area;
+  double volume;       /* cubic model units; meshes: signed sum over triangles, exact for closed
+                          ones but for rounding, negative if inside out */
+  double area;         /* square model units */
   uint64_t vertices;             /* after welding */
   uint64_t triangles;            /* kept */
   uint64_t degenerate_triangles; /* without area. Those with fewer than three distinct vertices are
@@ -308,7 +321,7 @@ MSQ_API msq_status msq_field_gradient(msq_context *context, const double from[3]
 MSQ_API void msq_field_retain(msq_field *field);
 MSQ_API void msq_field_release(msq_field *field);
 
-/* A parameter: the field, or the value where field is NULL. */
+/* A parameter: the field, or the value where field is NULL. What is built with a field retains it. */
 typedef struct msq_param {
   double value;
   const msq_field *field;
@@ -351,7 +364,8 @@ MSQ_API msq_status msq_lattice_def_init(msq_lattice_def *def, size_t size);
 
 /* Periodic strut lattice: the points within radius of the unit cell's struts, tiled without end.
  * Struts are capsules: round at their ends, circular in model units whatever the cell sizes, and
- * they reach over cell borders. Errors: ARGUMENT, LIMIT (radius above 4 times the smallest cell
+ * they reach over cell borders. def may not be NULL. Cost: as the struts that can reach one cell;
+ * milliseconds for the presets, seconds for thousands of struts as wide as cells. Errors: ARGUMENT, LIMIT (radius above 4 times the smallest cell
  * size), MEMORY. */
 MSQ_API msq_status msq_structure_lattice(msq_context *context, const msq_lattice_def *def,
                                          msq_structure **structure);
@@ -379,7 +393,8 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def *def, size_t size);
 
 /* Open-cell Voronoi foam: the points within radius of the edges of the Voronoi diagram of one
  * jittered seed per neighbourhood cell, all space over. Struts are capsules, circular in model
- * units. The seeds follow from cell index and seed number alone, on every machine alike.
+ * units. The seeds follow from cell index and seed number alone, on every machine alike. def may not
+ * be NULL. Cost: none; cells are built by the calls that need them.
  * Errors: ARGUMENT, LIMIT (radius above the smallest cell size, or cell sizes that differ by more
  * than 4 times), UNSUPPORTED (METHOD_2 in a build without CGAL), MEMORY.
  * Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. */
@@ -409,7 +424,7 @@ typedef struct msq_model_def {
 /* Sets defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_model_def_init(msq_model_def *def, size_t size);
 
-/* Makes the model whose solid is the intersection of its scales. Errors: ARGUMENT, LIMIT (the
+/* Makes the model whose solid is the intersection of its scales. def may not be NULL. Errors: ARGUMENT, LIMIT (the
  * shape reaches 2^24 cells of a structure from its grid's origin), MEMORY.
  * Source: paper, section "Multiscale Shape-Material Modeling API". */
 MSQ_API msq_status msq_model_create(msq_context *context, const msq_model_def *def,
@@ -457,8 +472,9 @@ typedef struct msq_points_def {
 /* Sets defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_points_def_init(msq_points_def *def, size_t size);
 
-/* Membership of one point: *inside becomes 1 in the model or on its boundary, else 0. query NULL:
- * defaults. This is the definition that all other paths agree with bit for bit.
+/* Membership of one point: *inside becomes 1 in the model or on its boundary (for meshes see
+ * msq_shape_from_mesh), else 0. query NULL: defaults. This is the definition that all other paths agree with bit for bit
+ * (MSQ_FOAM_METHOD_2 at jitters below 0.01: outside 1e-9 of a cell about the boundary).
  * Cost: a mesh tests the triangles that share its y, z bin; a lattice the struts that can reach the
  * cell; a foam gathers 27 to a few hundred seeds (about a microsecond). Errors: ARGUMENT, MEMORY. */
 MSQ_API msq_status msq_point_membership(const msq_model *model, const double point[3],
@@ -468,6 +484,8 @@ MSQ_API msq_status msq_point_membership(const msq_model *model, const double poi
  * array, which must be the number of points. query, job NULL: defaults, no job. Scale by scale, from
  * the coarsest; points that a scale answers are not asked of finer ones.
  * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY inside may be partly written.
+ * Cost: arrays as their points, each as in msq_point_membership but in parallel, and cheaper where
+ * points of a cell follow each other; grids as slices, far less a point.
  * Errors: ARGUMENT (also non-finite points, by index), CANCELLED, LIMIT, MEMORY.
  * Source: paper, section "Set-based queries". */
 MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_def *points,
@@ -491,7 +509,7 @@ typedef struct msq_slicer_def {
   double layer_height;  /* > 0, unless layer_z lists them */
   uint64_t layer_count; /* 0 (default): from region and layer_height, rounded up */
   int32_t has_region;   /* 0 (default): the region is the model's bounding box, centred in the
-                           pixels; 1: region_min and region_max below */
+                           pixels, and region_min and region_max must be 0; 1: the region below */
   uint32_t slab_layers; /* layers computed at once; 0 (default): one cell of the finest scale high,
                            and no more than 32 MiB. Same results at any number */
   double region_min[3]; /* corner of pixel (0, 0) and underside of layer 0 */
@@ -505,7 +523,7 @@ typedef struct msq_slicer_def {
 /* Sets defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_slicer_def_init(msq_slicer_def *def, size_t size);
 
-/* Plans the layers of a model, normal to z. Nothing is computed yet. Errors: ARGUMENT, LIMIT (more
+/* Plans the layers of a model, normal to z. def may not be NULL. Nothing is computed yet. Errors: ARGUMENT, LIMIT (more
  * than 2^31 - 1 pixels along a side or layers), MEMORY. */
 MSQ_API msq_status msq_slicer_create(const msq_model *model, const msq_slicer_def *def,
                                      msq_slicer **slicer);
@@ -542,7 +560,7 @@ typedef struct msq_layer {
   uint64_t inside_count; /* pixels inside */
 } msq_layer;
 
-/* Takes a layer. Return 0 to go on, a negative code of the host's own to stop. Exceptions of the
+/* Takes a layer. Return 0 to go on, a code of the host's own, best negative, to stop. Exceptions of the
  * host's language must not leave it: keep them, return a code, and raise them after the call. */
 typedef int32_t (*msq_layer_fn)(void *user, const msq_layer *layer);
 
@@ -556,7 +574,8 @@ MSQ_API msq_status msq_slicer_run(const msq_slicer *slicer, uint64_t first, uint
                                   msq_layer_fn fn, void *user, msq_job *job);
 
 /* Computes one layer, the same bytes as msq_slicer_run gives, into the host's buffer of
- * buffer_bytes >= layer_bytes. On CANCELLED, LIMIT and MEMORY the buffer is untouched.
+ * buffer_bytes >= layer_bytes. On failure the buffer is untouched. Cost: for many layers one after the
+ * other, two to three times that of msq_slicer_run, which computes a slab at once.
  * Errors: ARGUMENT, CANCELLED, LIMIT, MEMORY. */
 MSQ_API msq_status msq_slice_layer(const msq_slicer *slicer, uint64_t index, uint8_t *buffer,
                                    uint64_t buffer_bytes, msq_job *job);

@@ -238,22 +238,57 @@ static void callback_may_call_msq(void** state) {
   msq_slicer_release(slicer);
 }
 
-static int32_t release_slicer(void* user, const msq_layer* layer) {
-  msq_slicer** slicer = (msq_slicer**)user;
+/* The last references to everything that a run works with. */
+typedef struct last_references {
+  msq_context* context;
+  msq_model* model;
+  msq_slicer* slicer;
+  msq_job* job;
+  int layers;
+} last_references;
+
+static int32_t release_all(void* user, const msq_layer* layer) {
+  last_references* last = (last_references*)user;
   (void)layer;
-  msq_slicer_release(*slicer);
-  *slicer = NULL;
+  ++last->layers;
+  msq_slicer_release(last->slicer);
+  msq_model_release(last->model);
+  msq_context_release(last->context);
+  msq_job_release(last->job);
+  last->slicer = NULL;
+  last->model = NULL;
+  last->context = NULL;
+  last->job = NULL;
   return 0;
 }
 
-/* The run's caller still has a reference; the one that the callback drops is another. */
-static void callback_may_release_handles(void** state) {
-  const msq_slicer_def def = small_def(MSQ_LAYER_BITS);
-  msq_slicer *slicer = make_slicer(lattice, &def), *other = slicer;
+static void callback_may_release_the_last_references(void** state) {
+  msq_slicer_def def = small_def(MSQ_LAYER_BITS);
+  last_references last = {make_context(), NULL, NULL, NULL, 0};
   (void)state;
-  msq_slicer_retain(slicer);
-  assert_ok(msq_slicer_run(slicer, 0, UINT64_MAX, release_slicer, &other, NULL));
-  assert_null(other);
+  last.model = make_foam_model(last.context, MSQ_FOAM_DIRECT);
+  def.slab_layers = 1; /* the next slab is in work while the callback runs */
+  last.slicer = make_slicer(last.model, &def);
+  assert_ok(msq_job_create(&last.job));
+  assert_ok(msq_slicer_run(last.slicer, 0, UINT64_MAX, release_all, &last, last.job));
+  assert_true(last.layers > 1);
+  assert_null(last.slicer);
+}
+
+static int32_t return_one(void* user, const msq_layer* layer) {
+  (void)layer;
+  ++*(int*)user;
+  return 1;
+}
+
+static void any_code_but_0_stops_the_run(void** state) {
+  const msq_slicer_def def = small_def(MSQ_LAYER_BITS);
+  msq_slicer* slicer = make_slicer(lattice, &def);
+  int layers = 0;
+  (void)state;
+  assert_status(msq_slicer_run(slicer, 0, UINT64_MAX, return_one, &layers, NULL), MSQ_E_HOST);
+  assert_int_equal(msq_error_host_code(), 1);
+  assert_int_equal(layers, 1);
   msq_slicer_release(slicer);
 }
 
@@ -356,7 +391,8 @@ int main(void) {
       cmocka_unit_test(count_of_uint64_max_runs_to_the_last),
       cmocka_unit_test(negative_return_stops_the_run),
       cmocka_unit_test(callback_may_call_msq),
-      cmocka_unit_test(callback_may_release_handles),
+      cmocka_unit_test(callback_may_release_the_last_references),
+      cmocka_unit_test(any_code_but_0_stops_the_run),
       cmocka_unit_test(runs_go_on_at_once),
       cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(layers_that_are_not_there_are_refused),
