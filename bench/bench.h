@@ -26,7 +26,8 @@ inline double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Median of at least three runs that take about `most` seconds together; of one where one takes more.
+/// Median of at least three runs that take about `most` seconds together; of one where one takes
+/// more.
 inline double median_seconds(const std::function<void()>& work, double most = 3) {
   std::vector<double> times{seconds_of(work)};
   while (times[0] < most && (times.size() < 3 || times.size() * times[0] < most) &&
@@ -49,8 +50,10 @@ class Report {
     std::printf("%-64s %12.4f %11.2f ns / %s\n", work.c_str(), seconds, seconds / units * 1e9,
                 unit.c_str());
     std::fflush(stdout);
-    json_["rows"].push_back(
-        {{"work", work}, {"seconds", seconds}, {"ns_per_unit", seconds / units * 1e9}, {"unit", unit}});
+    json_["rows"].push_back({{"work", work},
+                             {"seconds", seconds},
+                             {"ns_per_unit", seconds / units * 1e9},
+                             {"unit", unit}});
   }
   void note(const std::string& what, double value, const std::string& unit) {
     std::printf("%-64s %12.4g %s\n", what.c_str(), value, unit.c_str());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Voronoi foams, r = 0.1 cell, in the unit cube: edges against CGAL and voro++, slices by each method.
+// Voronoi foams, r = 0.1 cell, in the unit cube: edges against CGAL and voro++, slices by each
+// method.
 //
 // usage: foam [results.json] [largest slices, default 1024]
 #include <cstdlib>
@@ -25,7 +26,8 @@ std::vector<msq::Vec3> all_seeds(const msq::FoamSeeds& seeds) {
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x)
-        positions.push_back(msq::Vec3{double(x), double(y), double(z)} + seeds.at({x, y, z}, 0, 0, 0));
+        positions.push_back(msq::Vec3{double(x), double(y), double(z)} +
+                            seeds.at({x, y, z}, 0, 0, 0));
   return positions;
 }
 
@@ -63,7 +65,8 @@ void bench_edges(bench::Report& report) {
 #if MSQ_WITH_VOROPP
   size_t vertices = 0;
   const double voropp = bench::median_seconds([&] {
-    voro::container box(0, side, 0, side, 0, side, side / 2, side / 2, side / 2, false, false, false, 8);
+    voro::container box(0, side, 0, side, 0, side, side / 2, side / 2, side / 2, false, false,
+                        false, 8);
     for (size_t i = 0; i < positions.size(); ++i)
       box.put(static_cast<int>(i), positions[i].x, positions[i].y, positions[i].z);
     voro::voronoicell cell;

@@ -28,10 +28,11 @@ Arrays rippled_torus(uint32_t around, uint32_t across) {
       const double u = turn * i / around, v = turn * j / across;
       const double r = 0.18 + 0.02 * std::sin(9 * u) * std::cos(5 * v);
       const double ring = 0.3 + r * std::cos(v);
-      mesh.vertices.insert(mesh.vertices.end(),
-                           {0.5 + ring * std::cos(u), 0.5 + ring * std::sin(u), 0.5 + r * std::sin(v)});
+      mesh.vertices.insert(mesh.vertices.end(), {0.5 + ring * std::cos(u), 0.5 + ring * std::sin(u),
+                                                 0.5 + r * std::sin(v)});
       const uint32_t a = i * across + j, b = i * across + (j + 1) % across;
-      const uint32_t c = (i + 1) % around * across + j, d = (i + 1) % around * across + (j + 1) % across;
+      const uint32_t c = (i + 1) % around * across + j,
+                     d = (i + 1) % around * across + (j + 1) % across;
       mesh.triangles.insert(mesh.triangles.end(), {a, c, d, a, d, b});
     }
   return mesh;
@@ -105,15 +106,16 @@ double cgal_seconds(const Arrays& mesh, const std::vector<double>& points) {
   for (size_t i = 0; i < mesh.vertices.size(); i += 3)
     surface.add_vertex({mesh.vertices[i], mesh.vertices[i + 1], mesh.vertices[i + 2]});
   for (size_t i = 0; i < mesh.triangles.size(); i += 3)
-    surface.add_face(Mesh::Vertex_index(mesh.triangles[i]), Mesh::Vertex_index(mesh.triangles[i + 1]),
+    surface.add_face(Mesh::Vertex_index(mesh.triangles[i]),
+                     Mesh::Vertex_index(mesh.triangles[i + 1]),
                      Mesh::Vertex_index(mesh.triangles[i + 2]));
   const CGAL::Side_of_triangle_mesh<Mesh, Kernel> side(surface);
   side(Kernel::Point_3(0.5, 0.5, 0.5));  // builds its tree
   size_t inside = 0;
   return bench::seconds_of([&] {
     for (size_t i = 0; i < points.size(); i += 3)
-      inside += side(Kernel::Point_3(points[i], points[i + 1], points[i + 2])) !=
-                CGAL::ON_UNBOUNDED_SIDE;
+      inside +=
+          side(Kernel::Point_3(points[i], points[i + 1], points[i + 2])) != CGAL::ON_UNBOUNDED_SIDE;
   });
 }
 #endif
@@ -127,7 +129,8 @@ int main(int count, char** arguments) try {
   const Sliced sliced = make_slicer(mesh, 1024, 0);
   bench::Reader reader;
   const double slicing = bench::median_seconds([&] {
-    bench::check(msq_slicer_run(sliced.slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));
+    bench::check(
+        msq_slicer_run(sliced.slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));
   });
   report.add("slices 1024^3 as bits", slicing, rows, "row");
 
@@ -138,15 +141,18 @@ int main(int count, char** arguments) try {
   set.coordinates = points.data();
   set.count = inside.size();
   const double array = bench::median_seconds([&] {
-    bench::check(msq_set_membership(sliced.model, &set, nullptr, inside.data(), inside.size(), nullptr));
+    bench::check(
+        msq_set_membership(sliced.model, &set, nullptr, inside.data(), inside.size(), nullptr));
   });
   report.add("random points, 1e6, set query", array, 1e6, "point");
-  report.note("slices against that query, for the same samples", array * 1073.741824 / slicing, "times faster");
+  report.note("slices against that query, for the same samples", array * 1073.741824 / slicing,
+              "times faster");
 #if MSQ_WITH_CGAL
   const std::vector<double> few(points.begin(), points.begin() + 300000);
   const double cgal = cgal_seconds(mesh, few);
   report.add("random points, 1e5, CGAL Side_of_triangle_mesh, one thread", cgal, 1e5, "point");
-  report.note("slices against CGAL, for the same samples", cgal * 10737.41824 / slicing, "times faster");
+  report.note("slices against CGAL, for the same samples", cgal * 10737.41824 / slicing,
+              "times faster");
 #endif
   release(sliced);
 

@@ -337,7 +337,8 @@ typedef struct msq_structure msq_structure; /* a fine-scale structure that fills
 typedef struct msq_neighbourhood {
   double origin[3];    /* default 0 */
   double cell_size[3]; /* > 0, along the grid's own axes (default 1) */
-  double rotation[9];  /* row-major, orthonormal within 1e-9, determinant +1 (default identity) */
+  double rotation[9];  /* row-major, orthonormal within 1e-9 (the nearest rotation is taken),
+                          determinant +1 (default identity) */
 } msq_neighbourhood;
 
 enum { /* unit cells of strut lattices, by nodes and struts in the unit cube */

@@ -28,8 +28,12 @@ msq_status msq_context_create(const msq_context_def* def, msq_context** context)
   });
 }
 
-void msq_context_retain(msq_context* context) { retain(context); }
-void msq_context_release(msq_context* context) { release(context); }
+void msq_context_retain(msq_context* context) {
+  retain(context);
+}
+void msq_context_release(msq_context* context) {
+  release(context);
+}
 
 msq_status msq_context_memory(const msq_context* context, msq_memory_report* report) {
   return guard([&] {
@@ -68,8 +72,12 @@ msq_status msq_job_create(msq_job** job) {
   });
 }
 
-void msq_job_retain(msq_job* job) { retain(job); }
-void msq_job_release(msq_job* job) { release(job); }
+void msq_job_retain(msq_job* job) {
+  retain(job);
+}
+void msq_job_release(msq_job* job) {
+  release(job);
+}
 
 msq_status msq_job_cancel(msq_job* job) {
   return guard([&] { object(job, "job").cancel(); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every entry of the C ABI goes through: no exception gets out, the last failure of the thread is
-// kept, handles are the engine's objects.
+// What every entry of the C ABI goes through: no exception gets out, the last failure of the thread
+// is kept, handles are the engine's objects.
 #pragma once
 
 #include <cmath>
@@ -100,8 +100,8 @@ inline PointArray point_array(const void* data, uint64_t count, uint64_t stride,
   return points;
 }
 
-/// Size that a struct of the ABI had when it was first published. A struct that grows gets its old size
-/// here, as a specialisation; less was never right, such as the size of a pointer to it.
+/// Size that a struct of the ABI had when it was first published. A struct that grows gets its old
+/// size here, as a specialisation; less was never right, such as the size of a pointer to it.
 template <class T>
 inline constexpr size_t first_size = sizeof(T);
 /// More is a struct_size that was never set.
@@ -114,7 +114,8 @@ void check_struct_size(size_t size, const char* name) {
          size, first_size<T>, most_size);
 }
 
-/// Fills in a host's definition: defaults in what it has room for, 0 in what this version does not know.
+/// Fills in a host's definition: defaults in what it has room for, 0 in what this version does not
+/// know.
 template <class Def>
 void set_defaults(Def* def, size_t size, const Def& defaults, const char* name) {
   if (!def) fail(Status::argument, "def is NULL");
@@ -136,13 +137,15 @@ Def read_def(const Def* def, const Def& defaults, const char* name) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(def);
   for (size_t i = sizeof known; i < size; ++i)
     if (bytes[i] != 0)
-      fail(Status::argument,
-           "%s uses a field at byte %zu that this version of msq does not know (it knows %zu bytes)",
-           name, i, sizeof known);
+      fail(
+          Status::argument,
+          "%s uses a field at byte %zu that this version of msq does not know (it knows %zu bytes)",
+          name, i, sizeof known);
   return known;
 }
 
-/// Copies a report to the host, as much as its struct_size says; what this version does not know is 0.
+/// Copies a report to the host, as much as its struct_size says; what this version does not know is
+/// 0.
 template <class Report>
 void write_report(Report* report, Report known, const char* name) {
   if (!report) fail(Status::argument, "%s is NULL", name);
@@ -179,19 +182,61 @@ void release(Handle* handle) {
   if (handle) reinterpret_cast<typename ObjectOf<Handle>::type*>(handle)->release();
 }
 
-template <> struct ObjectOf<msq_context> { using type = Context; };
-template <> struct ObjectOf<const msq_context> { using type = const Context; };
-template <> struct ObjectOf<msq_job> { using type = Job; };
-template <> struct ObjectOf<const msq_job> { using type = const Job; };
-template <> struct ObjectOf<msq_shape> { using type = Shape; };
-template <> struct ObjectOf<const msq_shape> { using type = const Shape; };
-template <> struct ObjectOf<msq_field> { using type = Field; };
-template <> struct ObjectOf<const msq_field> { using type = const Field; };
-template <> struct ObjectOf<msq_structure> { using type = Structure; };
-template <> struct ObjectOf<const msq_structure> { using type = const Structure; };
-template <> struct ObjectOf<msq_model> { using type = Model; };
-template <> struct ObjectOf<const msq_model> { using type = const Model; };
-template <> struct ObjectOf<msq_slicer> { using type = Slicer; };
-template <> struct ObjectOf<const msq_slicer> { using type = const Slicer; };
+template <>
+struct ObjectOf<msq_context> {
+  using type = Context;
+};
+template <>
+struct ObjectOf<const msq_context> {
+  using type = const Context;
+};
+template <>
+struct ObjectOf<msq_job> {
+  using type = Job;
+};
+template <>
+struct ObjectOf<const msq_job> {
+  using type = const Job;
+};
+template <>
+struct ObjectOf<msq_shape> {
+  using type = Shape;
+};
+template <>
+struct ObjectOf<const msq_shape> {
+  using type = const Shape;
+};
+template <>
+struct ObjectOf<msq_field> {
+  using type = Field;
+};
+template <>
+struct ObjectOf<const msq_field> {
+  using type = const Field;
+};
+template <>
+struct ObjectOf<msq_structure> {
+  using type = Structure;
+};
+template <>
+struct ObjectOf<const msq_structure> {
+  using type = const Structure;
+};
+template <>
+struct ObjectOf<msq_model> {
+  using type = Model;
+};
+template <>
+struct ObjectOf<const msq_model> {
+  using type = const Model;
+};
+template <>
+struct ObjectOf<msq_slicer> {
+  using type = Slicer;
+};
+template <>
+struct ObjectOf<const msq_slicer> {
+  using type = const Slicer;
+};
 
 }  // namespace msq::api

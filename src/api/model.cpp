@@ -11,12 +11,14 @@ constexpr uint32_t most_scales = 64;
 /// Size of msq_scale_def in version 0.1: never changes.
 constexpr uint32_t first_scale_size = 2 * sizeof(void*);
 
-msq_model_def model_defaults() { return {}; }
+msq_model_def model_defaults() {
+  return {};
+}
 
 /// Scale i of a host whose msq_scale_def may be of another version.
 msq_scale_def read_scale(const msq_model_def& def, uint32_t i) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(def.scales) +
-                      static_cast<size_t>(i) * def.scale_size;
+  const auto* bytes =
+      reinterpret_cast<const unsigned char*>(def.scales) + static_cast<size_t>(i) * def.scale_size;
   msq_scale_def scale{};
   std::memcpy(&scale, bytes, std::min<size_t>(sizeof scale, def.scale_size));
   for (size_t b = sizeof scale; b < def.scale_size; ++b)
@@ -62,8 +64,12 @@ msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_
   });
 }
 
-void msq_model_retain(msq_model* model) { retain(model); }
-void msq_model_release(msq_model* model) { release(model); }
+void msq_model_retain(msq_model* model) {
+  retain(model);
+}
+void msq_model_release(msq_model* model) {
+  release(model);
+}
 
 msq_status msq_model_bounds(const msq_model* model, double min[3], double max[3]) {
   return guard([&] {

@@ -7,7 +7,9 @@ using namespace msq::api;
 
 namespace {
 
-msq_query_def query_defaults() { return {}; }
+msq_query_def query_defaults() {
+  return {};
+}
 
 msq_points_def points_defaults() {
   msq_points_def def{};
@@ -17,8 +19,7 @@ msq_points_def points_defaults() {
 }
 
 double read_length_scale(const msq_query_def* query) {
-  const msq_query_def known =
-      query ? read_def(query, query_defaults(), "query") : query_defaults();
+  const msq_query_def known = query ? read_def(query, query_defaults(), "query") : query_defaults();
   require_reserved(known.reserved, "reserved");
   if (!(known.length_scale >= 0))
     fail(Status::argument, "length_scale is %g; it must not be negative", known.length_scale);
@@ -43,6 +44,10 @@ SampleGrid read_grid(const msq_points_def& def) {
            static_cast<unsigned long long>(counts[axis]), INT32_MAX);
     const double last = static_cast<double>(counts[axis] - 1);
     require_finite(grid.origin[axis] + last * grid.spacing[axis], "the last point's coordinate");
+    const double step = grid.spacing[axis], origin = grid.origin[axis];
+    if (last > 0 && (origin + step == origin || origin + last * step == origin + (last - 1) * step))
+      fail(Status::argument, "spacing[%d] is %g; points %g away from 0 would coincide", axis, step,
+           std::max(std::abs(origin), std::abs(origin + last * step)));
   }
   grid.nx = counts[0];
   grid.ny = counts[1];

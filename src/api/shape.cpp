@@ -53,8 +53,9 @@ FileRequest file_request(const msq_file_def* def, const Context& owner) {
 void check_size(double radius, Vec3 centre) {
   constexpr double most = 1e75;  // fourth powers of lengths stay finite
   if (radius > most || max_magnitude(centre) > most)
-    fail(Status::argument, "a shape of radius or size %g at (%g, %g, %g) is too large; the limit is %g for each", radius,
-         centre.x, centre.y, centre.z, most);
+    fail(Status::argument,
+         "a shape of radius or size %g at (%g, %g, %g) is too large; the limit is %g for each",
+         radius, centre.x, centre.y, centre.z, most);
 }
 
 }  // namespace
@@ -70,8 +71,8 @@ msq_status msq_shape_from_file(msq_context* context, const char* path, const msq
     require(path, "path");
     require(shape, "shape");
     const FileRequest request = file_request(def, owner);
-    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<Mesh>(
-        read_mesh_file(path, request.options), request.rule, owner.budget)));
+    *shape = new_handle<msq_shape>(Ref<Shape>(
+        make_ref<Mesh>(read_mesh_file(path, request.options), request.rule, owner.budget)));
   });
 }
 
@@ -98,26 +99,24 @@ msq_status msq_shape_from_mesh(msq_context* context, const msq_mesh_def* def, ms
     const msq_mesh_def known = read_def(def, mesh_defaults(), "def");
     require_reserved(known.reserved, "reserved");
     const WindingRule rule = winding_rule(known.winding_rule);
-    const PointArray points =
-        point_array(known.vertices, known.vertex_count, known.vertex_stride, known.coordinate_type,
-                    "vertices");
+    const PointArray points = point_array(known.vertices, known.vertex_count, known.vertex_stride,
+                                          known.coordinate_type, "vertices");
     if (known.triangle_count == 0) fail(Status::mesh, "the mesh has no triangles");
     require(known.triangles, "triangles");
     if (known.triangle_count > UINT32_MAX || known.vertex_count > UINT32_MAX)
       fail(Status::limit, "the mesh has %llu triangles and %llu vertices; the limit is %u of each",
            static_cast<unsigned long long>(known.triangle_count),
            static_cast<unsigned long long>(known.vertex_count), UINT32_MAX);
-    Reservation staging(
-        owner.budget,
-        known.vertex_count * sizeof(Vec3) + known.triangle_count * sizeof(Triangle), "a mesh");
+    Reservation staging(owner.budget,
+                        known.vertex_count * sizeof(Vec3) + known.triangle_count * sizeof(Triangle),
+                        "a mesh");
     TriangleSoup soup;
     soup.vertices.resize(known.vertex_count);
     for (uint64_t i = 0; i < known.vertex_count; ++i) soup.vertices[i] = points.at(i);
     soup.triangles.resize(known.triangle_count);
     std::memcpy(soup.triangles.data(), known.triangles, known.triangle_count * sizeof(Triangle));
     staging = {};  // the mesh takes its own
-    *shape = new_handle<msq_shape>(
-        Ref<Shape>(make_ref<Mesh>(std::move(soup), rule, owner.budget)));
+    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<Mesh>(std::move(soup), rule, owner.budget)));
   });
 }
 
@@ -163,8 +162,12 @@ msq_status msq_shape_from_cylinder(msq_context* context, const double from[3], c
   });
 }
 
-void msq_shape_retain(msq_shape* shape) { retain(shape); }
-void msq_shape_release(msq_shape* shape) { release(shape); }
+void msq_shape_retain(msq_shape* shape) {
+  retain(shape);
+}
+void msq_shape_release(msq_shape* shape) {
+  release(shape);
+}
 
 msq_status msq_shape_info(const msq_shape* shape, msq_shape_report* report) {
   return guard([&] {

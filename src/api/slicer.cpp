@@ -66,8 +66,7 @@ SlicePlan read_plan(const msq_slicer_def& def) {
 void require_layer(const Slicer& slicer, uint64_t index) {
   if (index >= slicer.grid().nz)
     fail(Status::argument, "layer %llu does not exist; there are %llu layers",
-         static_cast<unsigned long long>(index),
-         static_cast<unsigned long long>(slicer.grid().nz));
+         static_cast<unsigned long long>(index), static_cast<unsigned long long>(slicer.grid().nz));
 }
 
 }  // namespace
@@ -86,8 +85,12 @@ msq_status msq_slicer_create(const msq_model* model, const msq_slicer_def* def,
   });
 }
 
-void msq_slicer_retain(msq_slicer* slicer) { retain(slicer); }
-void msq_slicer_release(msq_slicer* slicer) { release(slicer); }
+void msq_slicer_retain(msq_slicer* slicer) {
+  retain(slicer);
+}
+void msq_slicer_release(msq_slicer* slicer) {
+  release(slicer);
+}
 
 msq_status msq_slicer_info(const msq_slicer* slicer, msq_slicer_report* report) {
   return guard([&] {
@@ -116,8 +119,8 @@ msq_status msq_slicer_layer_z(const msq_slicer* slicer, uint64_t index, double* 
   });
 }
 
-msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t count,
-                          msq_layer_fn fn, void* user, msq_job* job) {
+msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t count, msq_layer_fn fn,
+                          void* user, msq_job* job) {
   return guard([&] {
     const Slicer& known = object(slicer, "slicer");
     // The callback may release the host's last references.

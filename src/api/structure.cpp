@@ -36,6 +36,27 @@ msq_foam_def foam_defaults() {
   return def;
 }
 
+/// The rotation next to a matrix that is one within 1e-9: two Newton steps R (3 I - R^T R) / 2
+/// towards the orthogonal polar factor (Higham 1986), after which R^T is its inverse to the last
+/// bits. Exact rotations stay as they are.
+Rotation nearest_rotation(Rotation r) {
+  for (int step = 0; step < 2; ++step) {
+    Rotation next;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        double sum = 0;
+        for (int k = 0; k < 3; ++k) {
+          double product = 0;  // (R^T R) at k, j
+          for (int l = 0; l < 3; ++l) product += r.m[3 * l + k] * r.m[3 * l + j];
+          sum += r.m[3 * i + k] * ((k == j ? 3.0 : 0.0) - product);
+        }
+        next.m[3 * i + j] = 0.5 * sum;
+      }
+    r = next;
+  }
+  return r;
+}
+
 Neighbourhood read_neighbourhood(const msq_neighbourhood& grid) {
   Neighbourhood read;
   read.origin = require_vector(grid.origin, "grid.origin");
@@ -46,7 +67,8 @@ Neighbourhood read_neighbourhood(const msq_neighbourhood& grid) {
            grid.cell_size[i]);
   }
   read.cell_size = {grid.cell_size[0], grid.cell_size[1], grid.cell_size[2]};
-  for (int i = 0; i < 9; ++i) read.rotation.m[i] = require_finite(grid.rotation[i], "grid.rotation");
+  for (int i = 0; i < 9; ++i)
+    read.rotation.m[i] = require_finite(grid.rotation[i], "grid.rotation");
   const auto& m = read.rotation.m;
   const Vec3 rows[3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
   for (int i = 0; i < 3; ++i)
@@ -59,6 +81,7 @@ Neighbourhood read_neighbourhood(const msq_neighbourhood& grid) {
     }
   if (dot(rows[0], cross(rows[1], rows[2])) < 0)
     fail(Status::argument, "grid.rotation mirrors; its determinant must be +1");
+  read.rotation = nearest_rotation(read.rotation);
   return read;
 }
 
@@ -84,10 +107,14 @@ Parameter read_radius(const msq_param& radius, const Neighbourhood& grid, double
 
 UnitCell read_unit_cell(const msq_lattice_def& def) {
   switch (require_range(def.unit_cell, MSQ_UNIT_CELL_CUSTOM, MSQ_UNIT_CELL_OCTET, "unit_cell")) {
-    case MSQ_UNIT_CELL_CUBIC: return cubic_unit_cell();
-    case MSQ_UNIT_CELL_BCC: return bcc_unit_cell();
-    case MSQ_UNIT_CELL_OCTET: return octet_unit_cell();
-    default: break;
+    case MSQ_UNIT_CELL_CUBIC:
+      return cubic_unit_cell();
+    case MSQ_UNIT_CELL_BCC:
+      return bcc_unit_cell();
+    case MSQ_UNIT_CELL_OCTET:
+      return octet_unit_cell();
+    default:
+      break;
   }
   const auto check_count = [](uint64_t count, const char* name) {
     if (count < 1 || count > most_custom)
@@ -109,7 +136,8 @@ UnitCell read_unit_cell(const msq_lattice_def& def) {
   for (uint64_t i = 0; i < def.strut_count; ++i) {
     const uint32_t a = def.struts[2 * i], b = def.struts[2 * i + 1];
     if (a >= def.node_count || b >= def.node_count || a == b)
-      fail(Status::argument, "strut %llu joins nodes %u and %u; there are %llu nodes, and they must "
+      fail(Status::argument,
+           "strut %llu joins nodes %u and %u; there are %llu nodes, and they must "
            "differ",
            static_cast<unsigned long long>(i), a, b,
            static_cast<unsigned long long>(def.node_count));
@@ -130,16 +158,18 @@ msq_status msq_field_gradient(msq_context* context, const double from[3], double
     require(field, "field");
     const double length_squared = dot(b - a, b - a);
     if (!(length_squared > 0) || !std::isfinite(length_squared))
-      fail(Status::argument,
-           "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ", a.x, a.y, a.z,
-           b.x, b.y, b.z, std::sqrt(length_squared));
-    *field = new_handle<msq_field>(
-        Ref<Field>(make_ref<GradientField>(a, from_value, b, to_value)));
+      fail(Status::argument, "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ",
+           a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared));
+    *field = new_handle<msq_field>(Ref<Field>(make_ref<GradientField>(a, from_value, b, to_value)));
   });
 }
 
-void msq_field_retain(msq_field* field) { retain(field); }
-void msq_field_release(msq_field* field) { release(field); }
+void msq_field_retain(msq_field* field) {
+  retain(field);
+}
+void msq_field_release(msq_field* field) {
+  release(field);
+}
 
 msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size) {
   return guard([&] { set_defaults(def, size, lattice_defaults(), "msq_lattice_def"); });
@@ -184,5 +214,9 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
   });
 }
 
-void msq_structure_retain(msq_structure* structure) { retain(structure); }
-void msq_structure_release(msq_structure* structure) { release(structure); }
+void msq_structure_retain(msq_structure* structure) {
+  retain(structure);
+}
+void msq_structure_release(msq_structure* structure) {
+  release(structure);
+}

@@ -7,7 +7,9 @@
 using namespace msq;
 using namespace msq::api;
 
-uint32_t msq_version(void) { return MSQ_VERSION; }
+uint32_t msq_version(void) {
+  return MSQ_VERSION;
+}
 
 msq_status msq_build_info(msq_build_report* report) {
   return guard([&] {

@@ -11,8 +11,14 @@ namespace msq {
 
 class Job : public RefCounted {
  public:
+  Job() = default;
+  /// Cancelled with its parent, which may be null and must outlive it.
+  explicit Job(const Job* parent) : parent_(parent) {}
+
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
-  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+  bool cancelled() const {
+    return cancelled_.load(std::memory_order_relaxed) || (parent_ && parent_->cancelled());
+  }
   void set_progress(double fraction) { progress_.store(fraction, std::memory_order_relaxed); }
   /// As set_progress(), but never back: for workers that report out of order.
   void raise_progress(double fraction) {
@@ -23,6 +29,7 @@ class Job : public RefCounted {
   double progress() const { return progress_.load(std::memory_order_relaxed); }
 
  private:
+  const Job* parent_ = nullptr;
   std::atomic<bool> cancelled_{false};
   std::atomic<double> progress_{0.0};
 };

@@ -20,15 +20,16 @@ class MemoryBudget {
   /// Where take() may get bytes back: called with no lock held, answers whether it gave any back.
   void set_reserve(std::function<bool()> give_way) { give_way_ = std::move(give_way); }
 
-  /// Throws Error(limit), which names `what`, if the bytes would pass the limit even when the reserve
-  /// has given way.
+  /// Throws Error(limit), which names `what`, if the bytes would pass the limit even when the
+  /// reserve has given way.
   void take(uint64_t bytes, const char* what) {
     while (!try_take(bytes))
       if (!give_way_ || !give_way_())
-        fail(Status::limit,
-             "%s of %llu bytes, with %llu bytes held, would pass the context's memory_limit of %llu",
-             what, static_cast<unsigned long long>(bytes),
-             static_cast<unsigned long long>(held()), static_cast<unsigned long long>(limit_));
+        fail(
+            Status::limit,
+            "%s of %llu bytes, with %llu bytes held, would pass the context's memory_limit of %llu",
+            what, static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(held()),
+            static_cast<unsigned long long>(limit_));
   }
   /// Answers false if the bytes would pass the limit.
   bool try_take(uint64_t bytes) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counter-based random numbers: Steele, Lea and Flood, "Fast splittable pseudorandom number
-// generators", OOPSLA 2014 (SplitMix64). Output n of stream `key` is a pure function of (key, n), so
-// a row of cells is one stream indexed by the cell's x, and no list of seeds is kept anywhere.
+// generators", OOPSLA 2014 (SplitMix64). Output n of stream `key` is a pure function of (key, n),
+// so a row of cells is one stream indexed by the cell's x, and no list of seeds is kept anywhere.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,8 @@
 
 namespace msq {
 
-/// Samples (i, j, k) at (x(i), y(j), z(k)). These three expressions are the sample positions, to the
-/// last bit, on every path. Layers are evenly spaced or listed.
+/// Samples (i, j, k) at (x(i), y(j), z(k)). These three expressions are the sample positions, to
+/// the last bit, on every path. Layers are evenly spaced or listed.
 struct SampleGrid {
   Vec3 origin;
   Vec3 spacing{1, 1, 1};
@@ -26,7 +26,9 @@ struct SampleGrid {
 };
 
 constexpr size_t bits_per_word = 64;
-inline size_t words_for(uint64_t bits) { return (bits + bits_per_word - 1) / bits_per_word; }
+inline size_t words_for(uint64_t bits) {
+  return (bits + bits_per_word - 1) / bits_per_word;
+}
 
 /// Rows j in [y0, y1) of layers k in [z0, z1) of a grid, all x, one bit a sample: sample i is bit
 /// i % 64 of word i / 64; bits past nx are 0. A view: the words belong to someone else.
@@ -42,9 +44,7 @@ struct RowBlock {
   size_t row_words() const { return words_for(grid->nx); }
   uint64_t rows() const { return y1 - y0; }
   uint64_t layers() const { return z1 - z0; }
-  Box3 box() const {
-    return {grid->at(0, y0, z0), grid->at(grid->nx - 1, y1 - 1, z1 - 1)};
-  }
+  Box3 box() const { return {grid->at(0, y0, z0), grid->at(grid->nx - 1, y1 - 1, z1 - 1)}; }
 };
 
 /// Sets bits first..last, inclusive, of a row.
@@ -70,7 +70,7 @@ uint64_t first_sample_from(double origin, double spacing, uint64_t count, double
     return beyond ? x > value : x >= value;
   };
   const double guess = std::ceil((value - origin) / spacing);
-  uint64_t i = guess <= 0                           ? 0
+  uint64_t i = guess <= 0                            ? 0
                : guess >= static_cast<double>(count) ? count
                                                      : static_cast<uint64_t>(guess);
   while (i > 0 && reached(i - 1)) --i;

@@ -36,6 +36,9 @@ std::shared_ptr<const CellData> CellCache::fetch(
 
   std::lock_guard lock(mutex_);
   if (const auto found = entries_.find(key); found != entries_.end()) return found->second.data;
+  // If not even an empty cache would make room for it, the cells at hand are worth more.
+  const uint64_t others = budget_->held() - std::min(budget_->held(), counters_.bytes);
+  if (budget_->limit() && others + bytes > budget_->limit()) return data;
   while (counters_.bytes > limit_ - bytes) evict_oldest();
   while (!budget_->try_take(bytes)) {
     if (order_.empty()) return data;

@@ -18,8 +18,8 @@ class Context : public RefCounted {
       : executor(threads, beyond_cores),
         budget(std::make_shared<MemoryBudget>(memory_limit)),
         cache(cache_bytes, budget) {
-    // Cached cells make room for what a call must have, so that what a call can do does not depend on
-    // the calls before it.
+    // Cached cells make room for what a call must have, so that what a call can do does not depend
+    // on the calls before it.
     budget->set_reserve([this] { return cache.drop_oldest(); });
   }
   ~Context() override { budget->set_reserve(nullptr); }

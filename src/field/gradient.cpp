@@ -24,9 +24,9 @@ Interval GradientField::range() const {
 Interval GradientField::range(const Box3& box) const {
   const Vec3 half = box.extent() * 0.5;
   const double t = parameter((box.min + box.max) * 0.5);
-  const double reach = (std::abs(axis_.x) * half.x + std::abs(axis_.y) * half.y +
-                        std::abs(axis_.z) * half.z) /
-                       axis_squared_;
+  const double reach =
+      (std::abs(axis_.x) * half.x + std::abs(axis_.y) * half.y + std::abs(axis_.z) * half.z) /
+      axis_squared_;
   // t carries a few units of rounding of p, from_ and the products; 2^-40 of all that enters is
   // thousands of them.
   const double magnitude = max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(from_);

@@ -53,8 +53,8 @@ void check(const MeshFileOptions& options) {
     fail(Status::argument, "unit_mm is %g; it must be finite and more than 0", options.unit_mm);
 }
 
-/// Times its bytes that reading a file takes: its content, what a library makes of it, the triangles.
-/// Binary STL was measured at 7.
+/// Times its bytes that reading a file takes: its content, what a library makes of it, the
+/// triangles. Binary STL was measured at 7.
 constexpr uint64_t working_factor = 8;
 
 Reservation reserve_reading(uint64_t bytes, const MeshFileOptions& options) {

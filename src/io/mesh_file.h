@@ -11,7 +11,15 @@
 
 namespace msq {
 
-enum class MeshFormat : int32_t { automatic = 0, stl = 1, obj = 2, ply = 3, off = 4, threemf = 5, amf = 6 };
+enum class MeshFormat : int32_t {
+  automatic = 0,
+  stl = 1,
+  obj = 2,
+  ply = 3,
+  off = 4,
+  threemf = 5,
+  amf = 6
+};
 
 struct MeshFileOptions {
   MeshFormat format = MeshFormat::automatic;
@@ -24,8 +32,8 @@ struct MeshFileOptions {
 /// Whether this build reads files; if not, the functions below throw Error(unsupported).
 bool can_read_mesh_files();
 
-/// All triangles of a file in millimetres, instances placed, mirrored ones turned outside out again,
-/// not yet welded. Opens no file but this one.
+/// All triangles of a file in millimetres, instances placed, mirrored ones turned outside out
+/// again, not yet welded. Opens no file but this one.
 TriangleSoup read_mesh_file(const std::string& path, const MeshFileOptions& options);
 
 /// The same from bytes; options.format must be named.

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "io/placement.h"
 #include "base/triangle_soup.h"
+#include "io/placement.h"
 
 namespace msq {
 

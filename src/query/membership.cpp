@@ -24,9 +24,12 @@ uint64_t tile_rows(const SampleGrid& grid, uint64_t layers, unsigned threads) {
 
 }  // namespace
 
-uint64_t fill_slab_scratch_words(const Model& model, const SampleGrid& grid) {
+uint64_t fill_slab_scratch_words(const Model& model, const std::vector<const Structure*>& resolved,
+                                 const SampleGrid& grid, uint64_t layers) {
+  if (resolved.empty()) return 0;
   const unsigned threads = model.context().executor.threads();
-  return 2 * threads * words_for(grid.nx) * tile_layers * tile_rows(grid, tile_layers, threads);
+  const uint64_t rows = std::min(grid.ny, tile_rows(grid, layers, threads));
+  return 2 * threads * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
 }
 
 void fill_slab(const Model& model, const std::vector<const Structure*>& resolved,
@@ -100,7 +103,8 @@ void grid_membership(const Model& model, const std::vector<const Structure*>& re
       std::clamp<uint64_t>((uint64_t{2} << 20) / layer_words, 1, std::min<uint64_t>(grid.nz, 64));
   const Reservation reservation(
       model.context().budget,
-      (slab_layers * layer_words + fill_slab_scratch_words(model, grid)) * sizeof(uint64_t),
+      (slab_layers * layer_words + fill_slab_scratch_words(model, resolved, grid, slab_layers)) *
+          sizeof(uint64_t),
       "a slab of the grid");
   std::vector<uint64_t> words(slab_layers * layer_words);
   for (uint64_t z0 = 0; z0 < grid.nz; z0 += slab_layers) {

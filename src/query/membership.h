@@ -17,8 +17,9 @@ namespace msq {
 void fill_slab(const Model& model, const std::vector<const Structure*>& resolved,
                const SampleGrid& grid, uint64_t z0, uint64_t z1, uint64_t* words, const Job* job);
 
-/// Words of working memory that fill_slab takes beyond its output.
-uint64_t fill_slab_scratch_words(const Model& model, const SampleGrid& grid);
+/// Words of working memory that fill_slab takes beyond its output, for slabs of so many layers.
+uint64_t fill_slab_scratch_words(const Model& model, const std::vector<const Structure*>& resolved,
+                                 const SampleGrid& grid, uint64_t layers);
 
 /// inside[i] becomes 0 or 1. All points must be finite.
 void array_membership(const Model& model, const std::vector<const Structure*>& resolved,

@@ -19,7 +19,10 @@ struct PlanePoint {
 /// Where an edge crosses the plane; low.z <= z < high.z.
 inline PlanePoint cross_edge(const Vec3& low, const Vec3& high, double z) {
   const double t = (z - low.z) / (high.z - low.z);
-  return {low.x + t * (high.x - low.x), low.y + t * (high.y - low.y)};
+  // Within the edge's y, so that rounding does not carry it out of the triangle's bins.
+  const double y =
+      std::clamp(low.y + t * (high.y - low.y), std::min(low.y, high.y), std::max(low.y, high.y));
+  return {low.x + t * (high.x - low.x), y};
 }
 
 /// The segment in which a plane cuts a triangle, from the edge that runs up to the one that runs
@@ -52,7 +55,9 @@ inline double cross_segment(const PlanePoint& low, const PlanePoint& high, doubl
 
 /// Sign of a crossing: what the winding number loses on passing it along +x. For outward normals
 /// the surface is left (+1) where the segment's upward end has the larger y.
-inline int crossing_sign(const Segment& s) { return s.up.y > s.down.y ? 1 : -1; }
+inline int crossing_sign(const Segment& s) {
+  return s.up.y > s.down.y ? 1 : -1;
+}
 
 struct Crossing {
   double x;
@@ -85,11 +90,12 @@ Mesh::Mesh(TriangleSoup soup, WindingRule rule, std::shared_ptr<MemoryBudget> bu
   facts_.degenerate_triangles += dropped;
   soup_ = std::move(soup);
   const uint64_t count = soup_.triangles.size();
-  columns_ = TriangleBins(soup_, facts_.bounds, bins_for(count, 0.5, 4096), bins_for(count, 0.5, 4096));
+  columns_ =
+      TriangleBins(soup_, facts_.bounds, bins_for(count, 0.5, 4096), bins_for(count, 0.5, 4096));
   sheets_ = TriangleBins(soup_, facts_.bounds, 1, bins_for(count, 1.0, 16384));
   building = {};
-  reservation_ = Reservation(std::move(budget), bytes_of(soup_) + columns_.bytes() + sheets_.bytes(),
-                             "a mesh");
+  reservation_ = Reservation(std::move(budget),
+                             bytes_of(soup_) + columns_.bytes() + sheets_.bytes(), "a mesh");
 }
 
 bool Mesh::inside(Vec3 p) const {
@@ -139,8 +145,8 @@ void Mesh::fill_layer(const RowBlock& block, uint64_t k) const {
     const int sign = crossing_sign(s);
     const PlanePoint &low = sign > 0 ? s.down : s.up, &high = sign > 0 ? s.up : s.down;
     for (uint64_t j = first_row(low.y), end = first_row(high.y); j < end; ++j)
-      crossings.push_back({cross_segment(low, high, grid.y(j)),
-                           static_cast<uint32_t>(j - block.y0), sign});
+      crossings.push_back(
+          {cross_segment(low, high, grid.y(j)), static_cast<uint32_t>(j - block.y0), sign});
   }
 
   // Counting sort by row, then by x within the row.

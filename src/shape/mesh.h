@@ -2,13 +2,14 @@
 // A triangle mesh as a coarse shape: membership by the winding number of the +x ray.
 //
 // A plane z cuts each triangle that it crosses (half-open in z: an end at z counts as below) in one
-// segment between two of its edges, directed from the edge that runs up through the plane to the one
-// that runs down. The end on an edge is computed from the edge's lower to its upper vertex, so the two
-// triangles of an edge give the same bits, and the segments of a closed mesh form closed polygons with
-// no gap at all. A row y cuts each segment (half-open in y) in one crossing, computed from the
-// segment's end of smaller y. Winding numbers of closed meshes are thus consistent by construction,
-// with no tolerance anywhere. Membership of a point is closed in x: on a crossing it is inside if
-// either side is. The point form (inside) and the row form (fill_rows) share these expressions.
+// segment between two of its edges, directed from the edge that runs up through the plane to the
+// one that runs down. The end on an edge is computed from the edge's lower to its upper vertex, so
+// the two triangles of an edge give the same bits, and the segments of a closed mesh form closed
+// polygons with no gap at all. A row y cuts each segment (half-open in y) in one crossing, computed
+// from the segment's end of smaller y. Winding numbers of closed meshes are thus consistent by
+// construction, with no tolerance anywhere. Membership of a point is closed in x: on a crossing it
+// is inside if either side is. The point form (inside) and the row form (fill_rows) share these
+// expressions.
 #pragma once
 
 #include <memory>

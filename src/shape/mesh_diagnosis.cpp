@@ -15,8 +15,7 @@ struct BitwiseHash {
   size_t operator()(const Vec3& v) const {
     uint64_t bits[3];
     std::memcpy(bits, &v, sizeof bits);
-    return splitmix_finalise(bits[0] ^
-                             splitmix_finalise(bits[1] ^ splitmix_finalise(bits[2])));
+    return splitmix_finalise(bits[0] ^ splitmix_finalise(bits[1] ^ splitmix_finalise(bits[2])));
   }
 };
 
@@ -40,8 +39,9 @@ void check_soup(const TriangleSoup& soup) {
              soup.vertices.size());
       const Vec3& p = soup.vertices[v];
       if (!is_finite(p) || max_magnitude(p) > 1e100)
-        fail(Status::mesh, "vertex %u is (%g, %g, %g); coordinates must be finite and at most 1e100",
-             v, p.x, p.y, p.z);
+        fail(Status::mesh,
+             "vertex %u is (%g, %g, %g); coordinates must be finite and at most 1e100", v, p.x, p.y,
+             p.z);
     }
 }
 
@@ -107,9 +107,8 @@ ShapeFacts diagnose(const TriangleSoup& soup) {
       const uint32_t a = t[i], b = t[(i + 1) % 3];
       uses.push_back({std::min(a, b), std::max(a, b), a < b});
     }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& l, const EdgeUse& r) {
-    return l.a != r.a ? l.a < r.a : l.b < r.b;
-  });
+  std::sort(uses.begin(), uses.end(),
+            [](const EdgeUse& l, const EdgeUse& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
   for (size_t i = 0; i < uses.size();) {
     size_t end = i;
     int64_t balance = 0;

@@ -2,8 +2,8 @@
 // Cleaning and diagnosis of triangle meshes.
 #pragma once
 
-#include "shape/shape.h"
 #include "base/triangle_soup.h"
+#include "shape/shape.h"
 
 namespace msq {
 
@@ -12,8 +12,9 @@ namespace msq {
 void check_soup(const TriangleSoup& soup);
 
 /// Merges vertices of equal coordinates (-0 counts as 0), drops vertices that no triangle uses and
-/// triangles with fewer than three distinct ones. Returns how many triangles were dropped. Collinear
-/// triangles with three distinct vertices stay: they close the surface between their neighbours.
+/// triangles with fewer than three distinct ones. Returns how many triangles were dropped.
+/// Collinear triangles with three distinct vertices stay: they close the surface between their
+/// neighbours.
 uint64_t weld(TriangleSoup& soup);
 
 /// Bounds, volume, area and counts of a welded soup.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contract of coarse shapes (scale 0). inside() is the definition; fill_rows() must agree with it
-// bit for bit.
+// The contract of coarse shapes (scale 0). inside() is the definition; fill_rows() must agree with
+// it bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,8 @@ class Shape : public RefCounted {
   /// Membership of a finite point; the boundary is inside.
   virtual bool inside(Vec3 p) const = 0;
 
-  /// Number of pairs of triangles that meet where they should not; none where there are no triangles.
+  /// Number of pairs of triangles that meet where they should not; none where there are no
+  /// triangles.
   virtual uint64_t self_intersections(const Job*) const { return 0; }
 
   /// Sets the bits of the samples that are inside, in a block of zeros. Default: asks inside() of

@@ -43,8 +43,7 @@ TriangleBins::TriangleBins(const TriangleSoup& soup, const Box3& bounds, uint32_
     for (uint32_t z = b.z0; z <= b.z1; ++z)
       for (uint32_t y = b.y0; y <= b.y1; ++y) visit(static_cast<size_t>(z) * ny_ + y);
   };
-  for (const Triangle& t : soup.triangles)
-    for_each_bin(t, [&](size_t bin) { ++starts_[bin + 1]; });
+  for (const Triangle& t : soup.triangles) for_each_bin(t, [&](size_t bin) { ++starts_[bin + 1]; });
   for (size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   std::vector<uint64_t> next(starts_.begin(), starts_.end() - 1);
   for (uint32_t i = 0; i < soup.triangles.size(); ++i)

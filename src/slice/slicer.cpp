@@ -56,13 +56,13 @@ void Slicer::plan_axis(int axis) {
     fail(Status::limit, "%llu pixels along %s; the limit is %llu",
          static_cast<unsigned long long>(count), name,
          static_cast<unsigned long long>(most_samples));
-  const double corner = plan_.has_region
-                            ? low
-                            : low + 0.5 * (extent - static_cast<double>(count) * pitch);
+  const double corner =
+      plan_.has_region ? low : low + 0.5 * (extent - static_cast<double>(count) * pitch);
   const double origin = corner + 0.5 * pitch;
   if (!(pitch > 0) || !std::isfinite(origin + static_cast<double>(count) * pitch) ||
-      origin + pitch == origin || origin + static_cast<double>(count) * pitch ==
-                                      origin + static_cast<double>(count - 1) * pitch)
+      origin + pitch == origin ||
+      origin + static_cast<double>(count) * pitch ==
+          origin + static_cast<double>(count - 1) * pitch)
     fail(Status::argument, "a pitch of %g along %s is too small or too large at %g", pitch, name,
          origin);
   grid_.origin[axis] = origin;
@@ -83,8 +83,8 @@ void Slicer::plan_layers() {
   grid_.nz = plan_.layer_count ? plan_.layer_count
                                : checked_count(samples_across(extent, height), "layers");
   if (grid_.nz > most_samples)
-    fail(Status::limit, "%llu layers; the limit is %llu",
-         static_cast<unsigned long long>(grid_.nz), static_cast<unsigned long long>(most_samples));
+    fail(Status::limit, "%llu layers; the limit is %llu", static_cast<unsigned long long>(grid_.nz),
+         static_cast<unsigned long long>(most_samples));
   grid_.origin.z = low + 0.5 * height;
   grid_.spacing.z = height;
   const double last = static_cast<double>(grid_.nz);
@@ -106,8 +106,8 @@ void Slicer::plan_slabs() {
     layers = std::floor(resolved_.back()->neighbourhood().cell_size.z / height);
   const uint64_t layer_bytes = words_for(grid_.nx) * grid_.ny * sizeof(uint64_t);
   const double fit = static_cast<double>(automatic_slab_bytes / layer_bytes);
-  slab_layers_ = static_cast<uint64_t>(
-      std::clamp(std::min(layers, fit), 1.0, static_cast<double>(grid_.nz)));
+  slab_layers_ =
+      static_cast<uint64_t>(std::clamp(std::min(layers, fit), 1.0, static_cast<double>(grid_.nz)));
 }
 
 void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const Layer&)>& take,
@@ -117,30 +117,36 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   const uint64_t layer_words = words_for(grid_.nx) * grid_.ny;
   const uint64_t deep = std::min(slab_layers_, last - first);
   const bool is_one_slab = deep == last - first;
-  const Reservation reservation(
-      model_->context().budget,
-      ((is_one_slab ? 1 : 2) * deep * layer_words + fill_slab_scratch_words(*model_, grid_)) *
-              sizeof(uint64_t) +
-          layer_bytes(),
-      "slabs of layers");
+  const Reservation reservation(model_->context().budget,
+                                ((is_one_slab ? 1 : 2) * deep * layer_words +
+                                 fill_slab_scratch_words(*model_, resolved_, grid_, deep)) *
+                                        sizeof(uint64_t) +
+                                    layer_bytes(),
+                                "slabs of layers");
   std::vector<uint64_t> current(deep * layer_words), next(is_one_slab ? 0 : deep * layer_words);
   std::vector<uint8_t> bytes(layer_bytes());
 
+  Job ahead_job(job);  // stops the slab ahead when a callback ends the run
   fill_slab(*model_, resolved_, grid_, first, first + deep, current.data(), job);
   for (uint64_t z0 = first; z0 < last; z0 += deep) {
     const uint64_t z1 = std::min(last, z0 + deep), z2 = std::min(last, z1 + deep);
     std::optional<Executor::Task> ahead;
     if (z1 < last)
       ahead.emplace(model_->context().executor, [&, z1, z2] {
-        fill_slab(*model_, resolved_, grid_, z1, z2, next.data(), job);
+        fill_slab(*model_, resolved_, grid_, z1, z2, next.data(), &ahead_job);
       });
-    for (uint64_t k = z0; k < z1; ++k) {
-      check_cancelled(job);
-      const uint64_t inside = write_layer(plan_.format, current.data() + (k - z0) * layer_words,
-                                          grid_.nx, grid_.ny, bytes.data());
-      take({k, grid_.z(k), bytes.data(), inside});
-      if (job)
-        job->set_progress(static_cast<double>(k + 1 - first) / static_cast<double>(last - first));
+    try {
+      for (uint64_t k = z0; k < z1; ++k) {
+        check_cancelled(job);
+        const uint64_t inside = write_layer(plan_.format, current.data() + (k - z0) * layer_words,
+                                            grid_.nx, grid_.ny, bytes.data());
+        take({k, grid_.z(k), bytes.data(), inside});
+        if (job)
+          job->set_progress(static_cast<double>(k + 1 - first) / static_cast<double>(last - first));
+      }
+    } catch (...) {
+      ahead_job.cancel();
+      throw;
     }
     if (ahead) ahead->wait();
     std::swap(current, next);
@@ -151,7 +157,8 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
   const uint64_t layer_words = words_for(grid_.nx) * grid_.ny;
   const Reservation reservation(
       model_->context().budget,
-      (layer_words + fill_slab_scratch_words(*model_, grid_)) * sizeof(uint64_t), "a layer");
+      (layer_words + fill_slab_scratch_words(*model_, resolved_, grid_, 1)) * sizeof(uint64_t),
+      "a layer");
   std::vector<uint64_t> words(layer_words);
   JobScope scope(job);
   fill_slab(*model_, resolved_, grid_, index, index + 1, words.data(), job);

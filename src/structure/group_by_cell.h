@@ -17,8 +17,8 @@ struct LocatedPoint {
 };
 
 /// The points with alive[i] != 0, those of a cell next to each other; cells in the order of their
-/// indices (z, then y, then x). Points that are spread over more than 2^14 cells along an axis are left
-/// in their own order: then few share a cell.
+/// indices (z, then y, then x). Points that are spread over more than 2^14 cells along an axis are
+/// left in their own order: then few share a cell.
 std::vector<LocatedPoint> group_by_cell(const Neighbourhood& grid, const Vec3* points,
                                         const uint8_t* alive, size_t count);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contract of fine-scale structures (scales 1 and finer). inside() is the definition: everything
-// else must agree with it bit for bit, and has a default that asks it. A new kind is a new folder
-// beside this file that implements inside(), plus its constructor in src/api.
+// The contract of fine-scale structures (scales 1 and finer). inside() is the definition:
+// everything else must agree with it bit for bit, and has a default that asks it. A new kind is a
+// new folder beside this file that implements inside(), plus its constructor in src/api.
 #pragma once
 
 #include <cstddef>

@@ -18,16 +18,16 @@ class StrutRows {
             double margin)
       : radius_(radius),
         most_(radius.range().high),
-        margin_(margin + position_margin(block.box(), grid.origin)),
-        raster_(block, margin_),
+        raster_(block),
+        margin_(margin + position_margin(raster_.box(), grid.origin)),
         reach_(raster_.box().grown(most_ + margin_)) {}
 
   /// No sample is alive: nothing to do.
   bool empty() const { return raster_.empty(); }
-  /// Whether there are more samples than `critical` for each cell that they spread over: if not, asking
-  /// them one by one is faster, and does not walk over cells that hold none.
+  /// Whether there are more samples than `critical` for each cell in reach: if not, asking them one
+  /// by one is faster, and does not walk over cells that hold none.
   bool pays(const Neighbourhood& grid, double critical) const {
-    const Vec3 spread = grid.to_grid(raster_.box()).extent();
+    const Vec3 spread = grid.to_grid(reach_).extent();
     double cells = 1;
     for (int axis = 0; axis < 3; ++axis) cells *= 1 + spread[axis] / grid.cell_size[axis];
     return raster_.samples() > critical * cells;
@@ -43,7 +43,7 @@ class StrutRows {
   }
   /// Draws the struts added so far.
   void flush() {
-    raster_.add(batch_.data(), batch_.size());
+    raster_.add(batch_.data(), batch_.size(), margin_);
     batch_.clear();
   }
   /// Clears the samples outside all struts; inside(p) decides those in doubt.
@@ -60,8 +60,9 @@ class StrutRows {
   }
 
   const Parameter& radius_;
-  double most_, margin_;
+  double most_;
   SpanRaster raster_;
+  double margin_;
   Box3 reach_;
   std::vector<RasterStrut> batch_;
 };

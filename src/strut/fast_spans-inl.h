@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spans of capsules of one radius in single precision: the raster's common case. Rows for which single
-// precision does not prove the columns go to the careful kernel, which is right for all.
+// Spans of capsules of one radius in single precision: the raster's common case. Rows for which
+// single precision does not prove the columns go to the careful kernel, which is right for all.
 // Included once for each instruction set.
 //
-// Lengths are scaled so that the capsule's length plus radius is 1; u = 2^-24. Offsets v, w of a row
-// carry at most 4 u, their products with the axis (k, m) 10 u. The discriminants across r^2 - k^2 and
-// r^2 - rho^2 then err by at most 32 u r, called e: where one is between -e and 64 e the row grazes
-// and is left to the careful kernel; beyond, a root q errs by e / q, so an end of a span by
-// (16 u + e / q), over `across` for ends on the cylinder. Which of cylinder and end spheres makes an
-// end depends on the sign of its distance t along the axis (0 to length): where t is within its own
-// error of a switch, the row is left to the careful kernel too.
+// Lengths are scaled so that the capsule's length plus radius is 1; u = 2^-24, and d is the
+// raster's margin, by which the axis itself may be displaced. Offsets v, w of a row carry at most 6
+// u, their products with the axis (k, m) 12 u, beside d. The discriminants across r^2 - k^2 and r^2
+// - rho^2 then err by at most 32 u r + 2 r d + (12 u + d)^2, called e: where one is between -e and
+// 64 e the row grazes and is left to the careful kernel; beyond, a root q errs by e / q, so an end
+// of a span by (16 u + d + e / q), over `across` for ends on the cylinder. Which of cylinder and
+// end spheres makes an end depends on the sign of its distance t along the axis (0 to length):
+// where t is within its own error of a switch, the row is left to the careful kernel too.
 #if defined(MSQ_STRUT_FAST_SPANS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_STRUT_FAST_SPANS_INL_H
 #undef MSQ_STRUT_FAST_SPANS_INL_H
@@ -43,8 +44,14 @@ HWY_INLINE void set_short_span(uint64_t* row, int64_t x, int64_t length) {
   std::memcpy(at, &word, sizeof word);
 }
 
-/// Capsules that single precision serves: not nearly along x, not points.
-HWY_INLINE bool serves(const CapsuleAxis& axis) { return !axis.is_point && axis.across > 0.05; }
+/// Capsules that single precision serves: not nearly along x, not points, not needles; and grids
+/// whose steps are not so much larger that they overflow.
+HWY_INLINE bool serves(const RasterTarget& target, const RasterStrut& strut,
+                       const CapsuleAxis& axis) {
+  const double unit = axis.length + strut.high;
+  return !axis.is_point && axis.across > 0.05 && strut.high > 1e-4 * unit &&
+         target.margin < 1e-3 * strut.high && target.dy < 1e6 * unit && target.dz < 1e6 * unit;
+}
 
 /// Rows lie `wide` to a vector, with as many layers as fill it.
 HWY_INLINE void write_rows(const RasterTarget& target, const RasterStrut& strut,
@@ -57,8 +64,10 @@ HWY_INLINE void write_rows(const RasterTarget& target, const RasterStrut& strut,
 
   const float r = static_cast<float>(strut.high * s);
   const float inverse_across = static_cast<float>(1 / axis.across);
-  const float e = 32 * u * r;
-  const V ux = hn::Set(d, static_cast<float>(axis.ux)), uy = hn::Set(d, static_cast<float>(axis.uy)),
+  const float shift = static_cast<float>(target.margin * s * (1 + 1e-6));
+  const float e = 32 * u * r + 2 * r * shift + (12 * u + shift) * (12 * u + shift);
+  const V ux = hn::Set(d, static_cast<float>(axis.ux)),
+          uy = hn::Set(d, static_cast<float>(axis.uy)),
           uz = hn::Set(d, static_cast<float>(axis.uz));
   const V dx = hn::Set(d, static_cast<float>(axis.dx * s)),
           dy = hn::Set(d, static_cast<float>(axis.dy * s)),
@@ -68,7 +77,8 @@ HWY_INLINE void write_rows(const RasterTarget& target, const RasterStrut& strut,
   const V ux_over_across = hn::Set(d, static_cast<float>(axis.ux / axis.across));
   const V inverse = hn::Set(d, inverse_across);
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f), error = hn::Set(d, e);
-  const V none = hn::Set(d, -e), grazing = hn::Set(d, 64 * e), base_error = hn::Set(d, 16 * u);
+  const V none = hn::Set(d, -e), grazing = hn::Set(d, 64 * e),
+          base_error = hn::Set(d, 16 * u + shift);
   const V abs_ux = hn::Abs(ux);
 
   // Columns from a whole one near a.
@@ -97,7 +107,8 @@ HWY_INLINE void write_rows(const RasterTarget& target, const RasterStrut& strut,
     lane_words[l] = (l / wide * target.rows + l % wide) * target.words;
   }
   const auto lane_layer = hn::Load(di, lane_layers);
-  const V v_lane = hn::Mul(hn::ConvertTo(d, lane_row), hn::Set(d, static_cast<float>(target.dy * s)));
+  const V v_lane =
+      hn::Mul(hn::ConvertTo(d, lane_row), hn::Set(d, static_cast<float>(target.dy * s)));
   const V w_lane =
       hn::Mul(hn::ConvertTo(d, lane_layer), hn::Set(d, static_cast<float>(target.dz * s)));
   HWY_ALIGN int32_t x_first[2 * most_simd_doubles], x_last[2 * most_simd_doubles];
@@ -123,12 +134,14 @@ HWY_INLINE void write_rows(const RasterTarget& target, const RasterStrut& strut,
       const V body_error = hn::Mul(
           hn::Add(base_error, hn::Mul(error, hn::ApproximateReciprocal(hn::Max(root, error)))),
           inverse);
-      // 1.01: the approximate reciprocal is good to a thousandth.
+      // 1.01: the approximate reciprocal is good to half a hundredth.
       V low_error = hn::Mul(body_error, hn::Set(d, 1.01f)), high_error = low_error;
       auto careful = hn::Lt(under, grazing);
       const V t_error = hn::Add(hn::Mul(low_error, abs_ux), base_error);
-      careful = hn::Or(careful, hn::Lt(hn::Min(hn::Abs(t_low), hn::Abs(hn::Sub(t_low, length))), t_error));
-      careful = hn::Or(careful, hn::Lt(hn::Min(hn::Abs(t_high), hn::Abs(hn::Sub(t_high, length))), t_error));
+      careful = hn::Or(careful,
+                       hn::Lt(hn::Min(hn::Abs(t_low), hn::Abs(hn::Sub(t_low, length))), t_error));
+      careful = hn::Or(careful,
+                       hn::Lt(hn::Min(hn::Abs(t_high), hn::Abs(hn::Sub(t_high, length))), t_error));
 
       const auto low_a = hn::Lt(t_low, zero), low_b = hn::Gt(t_low, length);
       const auto high_a = hn::Lt(t_high, zero), high_b = hn::Gt(t_high, length);

@@ -15,10 +15,10 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 
-/// Indices of evenly spaced values (or, with step 0, of any) that may lie in [low, high]. One too many
-/// does no harm.
-HWY_INLINE void index_range(const double* values, size_t count, double step, double low, double high,
-                            size_t& first, size_t& last) {
+/// Indices of evenly spaced values (or, with step 0, of any) that may lie in [low, high]. One too
+/// many does no harm.
+HWY_INLINE void index_range(const double* values, size_t count, double step, double low,
+                            double high, size_t& first, size_t& last) {
   if (step > 0) {
     const double inverse = 1 / step, most = static_cast<double>(count);
     const double a = std::ceil((low - values[0]) * inverse - 1e-3);
@@ -47,7 +47,7 @@ void raster_struts(const RasterTarget& target, const RasterStrut* struts, size_t
     const RowRange range = rows_of(target, *strut);
     if (range.j0 >= range.j1 || range.k0 >= range.k1) continue;
     const CapsuleAxis axis(strut->a, strut->b, strut->high);
-    if (strut->low != strut->high || !fast::serves(axis)) {
+    if (strut->low != strut->high || !fast::serves(target, *strut, axis)) {
       general::write_rows(target, *strut, axis, range);
       continue;
     }
@@ -68,7 +68,7 @@ namespace msq {
 
 HWY_EXPORT(raster_struts);
 
-SpanRaster::SpanRaster(const RowBlock& alive, double margin) : alive_(alive), margin_(margin) {
+SpanRaster::SpanRaster(const RowBlock& alive) : alive_(alive) {
   const SampleGrid& grid = *alive.grid;
   const size_t words = alive.row_words();
   uint64_t j0 = alive.y1, j1 = alive.y0, k0 = alive.z1, k1 = alive.z0;
@@ -95,8 +95,8 @@ SpanRaster::SpanRaster(const RowBlock& alive, double margin) : alive_(alive), ma
   const uint64_t i0 = w0 * bits_per_word + static_cast<unsigned>(std::countr_zero(any[w0]));
   const uint64_t i1 = w1 * bits_per_word - static_cast<unsigned>(std::countl_zero(any[w1 - 1]));
   box_ = {grid.at(i0, j0, k0), grid.at(i1 - 1, j1 - 1, k1 - 1)};
-  samples_ = static_cast<double>(i1 - i0) * static_cast<double>(j1 - j0) *
-             static_cast<double>(k1 - k0);
+  samples_ =
+      static_cast<double>(i1 - i0) * static_cast<double>(j1 - j0) * static_cast<double>(k1 - k0);
 
   for (uint64_t j = alive.y0; j < alive.y1; ++j) y_.push_back(grid.y(j));
   for (uint64_t k = alive.z0; k < alive.z1; ++k) z_.push_back(grid.z(k));
@@ -106,7 +106,7 @@ SpanRaster::SpanRaster(const RowBlock& alive, double margin) : alive_(alive), ma
   doubt_.assign(size, 0);
 }
 
-void SpanRaster::add(const RasterStrut* struts, size_t count) {
+void SpanRaster::add(const RasterStrut* struts, size_t count, double margin) {
   const SampleGrid& grid = *alive_.grid;
   RasterTarget target;
   target.y = y_.data();
@@ -122,7 +122,7 @@ void SpanRaster::add(const RasterStrut* struts, size_t count) {
   target.dz = grid.heights ? 0 : grid.spacing.z;
   target.last = static_cast<double>(grid.nx - 1);
   target.slack = 1e-9 + 0x1p-50 * static_cast<double>(grid.nx);
-  target.margin = margin_;
+  target.margin = margin;
   HWY_DYNAMIC_DISPATCH(raster_struts)(target, struts, count);
 }
 

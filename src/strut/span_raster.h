@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Struts written into bit rows as x-spans, instead of points asked one by one.
 //
-// A row cuts a capsule, which is convex, in one interval. The raster writes two: of a capsule thinner
-// by a margin than any radius in its reach, whose samples are certainly inside, and of one thicker by
-// the margin, beyond which samples are certainly outside. The margin exceeds, many times over, the
-// rounding of the span's ends, of the sample positions and of the scalar predicate, so what lies
-// between the two spans, and only that, is in doubt; the caller's scalar predicate decides it. The
-// result is the predicate's answer at every sample, bit for bit, for constant and varying radii, on
-// every instruction set.
+// A row cuts a capsule, which is convex, in one interval. The raster writes two: of a capsule
+// thinner by a margin than any radius in its reach, whose samples are certainly inside, and of one
+// thicker by the margin, beyond which samples are certainly outside. The margin exceeds, many times
+// over, the rounding of the span's ends, of the sample positions and of the scalar predicate, so
+// what lies between the two spans, and only that, is in doubt; the caller's scalar predicate
+// decides it. The result is the predicate's answer at every sample, bit for bit, for constant and
+// varying radii, on every instruction set.
 //
-// Why a shell in r rather than in x: errors of a squared distance are equivalent to a tiny change of r
-// everywhere, also on grazing rows, where the same errors move the span's end without bound.
+// Why a shell in r rather than in x: errors of a squared distance are equivalent to a tiny change
+// of r everywhere, also on grazing rows, where the same errors move the span's end without bound.
 #pragma once
 
 #include <bit>
@@ -30,9 +30,8 @@ struct RasterStrut {
 
 class SpanRaster {
  public:
-  /// `alive`: the rows to restrict. `margin`: at least the error of positions and predicate, in
-  /// model units.
-  SpanRaster(const RowBlock& alive, double margin);
+  /// `alive`: the rows to restrict.
+  explicit SpanRaster(const RowBlock& alive);
 
   /// Bounding box of the samples that are alive. Struts out of its reach may be left out.
   const Box3& box() const { return box_; }
@@ -40,7 +39,8 @@ class SpanRaster {
   /// Samples in the box.
   double samples() const { return samples_; }
 
-  void add(const RasterStrut* struts, size_t count);
+  /// `margin`: at least the error of positions, struts and predicate, in model units.
+  void add(const RasterStrut* struts, size_t count, double margin);
 
   /// Clears what is outside; inside(p) decides the samples in doubt.
   template <class Inside>
@@ -48,12 +48,11 @@ class SpanRaster {
 
  private:
   RowBlock alive_;
-  double margin_;
   bool empty_ = true;
   double samples_ = 0;
   Box3 box_;
-  std::vector<double> y_, z_;               // of rows and layers
-  std::vector<uint64_t> certain_, doubt_;   // rows of the block, tightly packed
+  std::vector<double> y_, z_;              // of rows and layers
+  std::vector<uint64_t> certain_, doubt_;  // rows of the block, tightly packed
 };
 
 template <class Inside>

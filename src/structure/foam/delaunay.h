@@ -17,8 +17,8 @@ struct DelaunayFacet {
 
 bool can_triangulate();
 
-/// Exact in its decisions; seeds on one sphere are triangulated somehow. Throws Error(unsupported) in
-/// builds without CGAL.
+/// Exact in its decisions; seeds on one sphere are triangulated somehow. Throws Error(unsupported)
+/// in builds without CGAL.
 std::vector<DelaunayFacet> delaunay_facets(const std::vector<Vec3>& seeds);
 
 }  // namespace msq

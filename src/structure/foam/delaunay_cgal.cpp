@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Delaunay triangulation by CGAL, in place of the paper's own Bowyer-Watson: exact predicates, and
-// adjacency for free, so no search for the pairs of tetrahedra that share a face. The paper rescales
-// the seeds to the unit cube against rounding; exact predicates need no such care.
-// Source: paper, section "Preprocessing for Voronoi Foams".
+// adjacency for free, so no search for the pairs of tetrahedra that share a face. The paper
+// rescales the seeds to the unit cube against rounding; exact predicates need no such care. Source:
+// paper, section "Preprocessing for Voronoi Foams".
 //
 // CGAL's triangulations are under the GPL: a build with this file is too.
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -23,7 +23,9 @@ using Triangulation =
     CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase>>;
 }  // namespace
 
-bool can_triangulate() { return true; }
+bool can_triangulate() {
+  return true;
+}
 
 std::vector<DelaunayFacet> delaunay_facets(const std::vector<Vec3>& seeds) {
   std::vector<std::pair<Kernel::Point_3, uint32_t>> points;

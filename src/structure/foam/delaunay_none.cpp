@@ -5,7 +5,9 @@
 
 namespace msq {
 
-bool can_triangulate() { return false; }
+bool can_triangulate() {
+  return false;
+}
 
 std::vector<DelaunayFacet> delaunay_facets(const std::vector<Vec3>&) {
   fail(Status::unsupported, "this build of msq has no triangulation (MSQ_WITH_CGAL is off)");

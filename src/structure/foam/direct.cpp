@@ -13,9 +13,12 @@ namespace {
 /// Samples a cell above which building the cell's edges beats the point query (docs/benchmarks.md).
 constexpr double critical_samples = 8;
 
-Vec3 vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+Vec3 vec(const float (&v)[3]) {
+  return {v[0], v[1], v[2]};
+}
 
-/// Adds a brick's edges, owner by owner, where the owner's box may touch `reach` (grid coordinates).
+/// Adds a brick's edges, owner by owner, where the owner's box may touch `reach` (grid
+/// coordinates).
 void add_brick(const Foam& foam, const EdgeBrick& brick, CellIndex corner, const Box3& reach,
                StrutRows& rows) {
   const Neighbourhood& grid = foam.neighbourhood();
@@ -23,7 +26,8 @@ void add_brick(const Foam& foam, const EdgeBrick& brick, CellIndex corner, const
   const Vec3 first_cell =
       Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size;
   const Vec3 origin = grid.from_grid(first_cell);
-  const Box3 from_brick{(reach.min - first_cell) * (1 / unit), (reach.max - first_cell) * (1 / unit)};
+  const Box3 from_brick{(reach.min - first_cell) * (1 / unit),
+                        (reach.max - first_cell) * (1 / unit)};
   const Box3 wanted = from_brick.grown(edge_error);
   for (const EdgeBrick::Group& group : brick.groups()) {
     if (!wanted.overlaps({vec(group.low), vec(group.high)})) continue;
@@ -40,11 +44,12 @@ void add_brick(const Foam& foam, const EdgeBrick& brick, CellIndex corner, const
 void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
   const Neighbourhood& grid = foam.neighbourhood();
   const double unit = foam.unit();
-  StrutRows rows(block, grid, foam.radius(), 2 * edge_error * unit);
+  StrutRows rows(block, grid, foam.radius(), edge_error * unit);
   if (rows.empty()) return;
   if (!rows.pays(grid, critical_samples)) return foam.Structure::keep_rows(block, job);
   const Box3 reach = grid.to_grid(rows.reach());
-  // An edge that touches the reach has a point in it, and its owner within the empty radius of that.
+  // An edge that touches the reach has a point in it, and its owner within the empty radius of
+  // that.
   const double owner_distance = foam.seeds().empty_radius() * unit * (1 + 1e-9);
   int64_t first[3], last[3];
   for (int axis = 0; axis < 3; ++axis) {

@@ -3,15 +3,15 @@
 //
 // The points equally far from three seeds a, b, c form a line: through the circumcentre of their
 // triangle, along its normal. The Voronoi edge of the triple is the part of the line where no other
-// seed is nearer; it may be empty. A point p lies in the foam if, for some triple, the chord that the
-// ball of radius r about p cuts from the line meets that part. This is the capsule solid: struts are
-// round at their ends, since near the end of an edge the chord is cut by the seed that ends it.
-// (Martinez, Dumas and Lefebvre 2016 test the foot of the perpendicular instead, of the nearest seed's
-// edges alone, which gives flat-ended cylinders that are cut at cell faces.)
+// seed is nearer; it may be empty. A point p lies in the foam if, for some triple, the chord that
+// the ball of radius r about p cuts from the line meets that part. This is the capsule solid:
+// struts are round at their ends, since near the end of an edge the chord is cut by the seed that
+// ends it. (Martinez, Dumas and Lefebvre 2016 test the foot of the perpendicular instead, of the
+// nearest seed's edges alone, which gives flat-ended cylinders that are cut at cell faces.)
 //
 // All paths order the triple the same way, work in the frame of the cell that holds p, and form
-// minimum and maximum over cuts, which do not depend on the order of cuts or on cuts that do not bind.
-// So they agree bit for bit, whichever way they came by the seeds that matter.
+// minimum and maximum over cuts, which do not depend on the order of cuts or on cuts that do not
+// bind. So they agree bit for bit, whichever way they came by the seeds that matter.
 #pragma once
 
 #include <algorithm>
@@ -31,9 +31,9 @@ constexpr LineInterval no_part{std::numeric_limits<double>::infinity(),
                                -std::numeric_limits<double>::infinity()};
 
 struct EdgeLine {
-  Vec3 seed;       // one of the three, and
-  Vec3 offset;     // from it to the circumcentre
-  Vec3 direction;  // normal of the triangle, of twice its area
+  Vec3 seed;                   // one of the three, and
+  Vec3 offset;                 // from it to the circumcentre
+  Vec3 direction;              // normal of the triangle, of twice its area
   double inverse_squared = 0;  // of direction
 
   EdgeLine() = default;
@@ -83,8 +83,8 @@ struct EdgeLine {
   }
 
  private:
-  // A fourth seed in the plane of the three is as near to all of the line as to the circumcentre; on
-  // their circle it cuts nothing. Both are decided with room for rounding, which would otherwise
+  // A fourth seed in the plane of the three is as near to all of the line as to the circumcentre;
+  // on their circle it cuts nothing. Both are decided with room for rounding, which would otherwise
   // cut such lines anywhere.
   static constexpr double coplanar = 1e-14, cocircular = 1e-12;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each seed's Voronoi cell is found by a walk (voronoi_cell.h) among the seeds within some distance D
-// of it. It is the true cell if its farthest vertex is within D / 2: a seed farther than D is farther
-// than twice any vertex, and cuts nothing. If not, D grows, up to twice the empty radius, beyond
-// which no seed can matter. Where the walk fails (seeds on one sphere, low jitter), every pair of
-// neighbours is tried by the definition itself (edge_line.h), which needs no graph.
+// Each seed's Voronoi cell is found by a walk (voronoi_cell.h) among the seeds within some distance
+// D of it. It is the true cell if its farthest vertex is within D / 2: a seed farther than D is
+// farther than twice any vertex, and cuts nothing. If not, D grows, up to twice the empty radius,
+// beyond which no seed can matter. Where the walk fails (seeds on one sphere, low jitter), every
+// pair of neighbours is tried by the definition itself (edge_line.h), which needs no graph.
 #include "structure/foam/edges.h"
 
 #include <algorithm>
@@ -105,7 +105,9 @@ EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner) {
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {
-        Group group{static_cast<uint32_t>(edges_.size()), 0, {1e30f, 1e30f, 1e30f},
+        Group group{static_cast<uint32_t>(edges_.size()),
+                    0,
+                    {1e30f, 1e30f, 1e30f},
                     {-1e30f, -1e30f, -1e30f}};
         builder.add_owned_edges(x, y, z);
         group.last = static_cast<uint32_t>(edges_.size());

@@ -12,12 +12,14 @@
 
 namespace msq {
 
-/// Ends in foam units from the corner of the brick's first cell. Single precision: they err by less
-/// than edge_error, which the raster's margin covers.
+/// Ends in foam units from the corner of the brick's first cell, in single precision. Owners lie
+/// within the brick's 4 units and their edges within the empty radius, below 2, of them:
+/// coordinates stay below 8, roundings below 2^-22 in each and 4.2e-7 together. The rest of
+/// edge_error is for the vertices themselves, in double precision.
 struct FoamEdge {
   float a[3], b[3];
 };
-constexpr double edge_error = 1e-6;
+constexpr double edge_error = 5e-7;
 
 /// The edges owned by the seeds of a brick of cells.
 class EdgeBrick final : public CellData {
@@ -36,8 +38,7 @@ class EdgeBrick final : public CellData {
   const std::vector<FoamEdge>& edges() const { return edges_; }
   const std::vector<Group>& groups() const { return groups_; }
   uint64_t bytes() const override {
-    return sizeof *this + edges_.capacity() * sizeof(FoamEdge) +
-           groups_.capacity() * sizeof(Group);
+    return sizeof *this + edges_.capacity() * sizeof(FoamEdge) + groups_.capacity() * sizeof(Group);
   }
 
  private:

@@ -8,8 +8,8 @@
 
 namespace msq {
 
-Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius, double jitter,
-           uint64_t seed, FoamMethod method)
+Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
+           double jitter, uint64_t seed, FoamMethod method)
     : Structure(neighbourhood),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
@@ -23,7 +23,9 @@ bool Foam::inside(const Neighbourhood::Located& located, Vec3 p) const {
                            radius_.at(p) / unit_);
 }
 
-bool Foam::inside(Vec3 p) const { return inside(neighbourhood().locate(p), p); }
+bool Foam::inside(Vec3 p) const {
+  return inside(neighbourhood().locate(p), p);
+}
 
 void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   if (method_ == FoamMethod::method_2) return method_2_keep_points(*this, points, alive, count);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Source: paper, section "Preprocessing for Voronoi Foams", Method 2: pairs of adjacent tetrahedra of
-// the cell's Delaunay triangulation, an edge between their circumcentres, with the ids of the three
-// seeds of the shared facet; per sample, only the edges near its nearest seed are tested.
+// Source: paper, section "Preprocessing for Voronoi Foams", Method 2: pairs of adjacent tetrahedra
+// of the cell's Delaunay triangulation, an edge between their circumcentres, with the ids of the
+// three seeds of the shared facet; per sample, only the edges near its nearest seed are tested.
 //
-// Which seeds a cell needs: as in point.cpp, only seeds within d0 + 2 r of a point p decide, and the
-// edges' own within d0 + r of a point that is itself within r of p. With d0 at most the empty radius e
-// (the cell's diagonal), a point v of an edge with |v - p| <= r has its three seeds within e of v,
-// hence within e + r of p. The block of cells that reaches e + r about every point of the cell holds
-// them and all seeds that could make v invalid. Edges of that block's triangulation may run on past
-// their true ends, but nowhere within r of the cell.
+// Which seeds a cell needs: as in point.cpp, only seeds within d0 + 2 r of a point p decide, and
+// the edges' own within d0 + r of a point that is itself within r of p. With d0 at most the empty
+// radius e (the cell's diagonal), a point v of an edge with |v - p| <= r has its three seeds within
+// e of v, hence within e + r of p. The block of cells that reaches e + r about every point of the
+// cell holds them and all seeds that could make v invalid. Edges of that block's triangulation may
+// run on past their true ends, but nowhere within r of the cell.
 #include "structure/foam/method_2.h"
 
 #include <algorithm>

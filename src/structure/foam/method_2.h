@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Method 2 of the paper: the edges of a neighbourhood cell from a Delaunay triangulation, kept in the
-// cell cache.
+// Method 2 of the paper: the edges of a neighbourhood cell from a Delaunay triangulation, kept in
+// the cell cache.
 #pragma once
 
 #include "structure/foam/foam.h"

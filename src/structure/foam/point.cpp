@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's point query (gather, nearest seed, triplets, projection, validity), made to answer the
-// capsule solid and to look at few seeds.
-// Source: paper, section "Fine-scale Structures" (Voronoi Foams).
+// The paper's point query (gather, nearest seed, triplets, projection, validity), made to answer
+// the capsule solid and to look at few seeds. Source: paper, section "Fine-scale Structures"
+// (Voronoi Foams).
 //
 // Which seeds matter to a point p: let d0 be the distance to its nearest seed, and v a point of an
-// edge with |v - p| <= r. No seed is nearer to v than the edge's three, and the seed nearest to p is
-// within d0 + r of v, so the three are within d0 + r of v and within d0 + 2 r of p. A seed that makes
-// such a point v of a line invalid is nearer to v than that, so it is within d0 + 2 r of p too. Hence
-// the seeds within d0 + 2 r decide alone; where they are fewer than three, p is outside.
+// edge with |v - p| <= r. No seed is nearer to v than the edge's three, and the seed nearest to p
+// is within d0 + r of v, so the three are within d0 + r of v and within d0 + 2 r of p. A seed that
+// makes such a point v of a line invalid is nearer to v than that, so it is within d0 + 2 r of p
+// too. Hence the seeds within d0 + 2 r decide alone; where they are fewer than three, p is outside.
 #include "structure/foam/point.h"
 
 #include <algorithm>

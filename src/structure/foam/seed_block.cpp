@@ -14,7 +14,8 @@ namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Appends to `out` the indices of seeds start .. start + count - 1 within the distance, but for own.
+/// Appends to `out` the indices of seeds start .. start + count - 1 within the distance, but for
+/// own.
 size_t seeds_within(const float* x, const float* y, const float* z, size_t start, size_t count,
                     size_t own, float distance_squared, uint32_t* out) {
   const hn::ScalableTag<float> d;

@@ -12,8 +12,8 @@ namespace msq {
 
 class SeedBlock {
  public:
-  /// The brick of side^3 cells whose first is `corner`. Seeds farther from a seed than twice the empty
-  /// radius do not meet its Voronoi cell; the block reaches that far.
+  /// The brick of side^3 cells whose first is `corner`. Seeds farther from a seed than twice the
+  /// empty radius do not meet its Voronoi cell; the block reaches that far.
   SeedBlock(const FoamSeeds& seeds, CellIndex corner, int side);
 
   int halo(int axis) const { return halo_[axis]; }

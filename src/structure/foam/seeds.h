@@ -2,9 +2,9 @@
 // The seeds of a foam: one jittered seed per neighbourhood cell, a pure function of cell index and
 // seed number.
 //
-// Positions are in foam units: the largest cell size is 1, and a cell measures `scale` (1, 1, 1 where
-// the cells are cubes). They are given relative to a cell near by, so they are small numbers: with
-// cubic cells, fractions are multiples of 2^-21 and differences of seeds are exact.
+// Positions are in foam units: the largest cell size is 1, and a cell measures `scale` (1, 1, 1
+// where the cells are cubes). They are given relative to a cell near by, so they are small numbers:
+// with cubic cells, fractions are multiples of 2^-21 and differences of seeds are exact.
 #pragma once
 
 #include <cstdint>
@@ -43,13 +43,13 @@ class FoamSeeds {
     return Vec3{dx + fraction(h), dy + fraction(h >> 21), dz + fraction(h >> 42)} * scale_;
   }
 
-  /// No point of space is farther than this from its nearest seed: that of its own cell is within the
-  /// cell's diagonal.
+  /// No point of space is farther than this from its nearest seed: that of its own cell is within
+  /// the cell's diagonal.
   double empty_radius() const { return length(scale_); }
 
  private:
-  /// 0.5 without jitter, otherwise 21 random bits about it, scaled by the jitter and rounded down to
-  /// a multiple of 2^-21: in [0, 1).
+  /// 0.5 without jitter, otherwise 21 random bits about it, scaled by the jitter and rounded down
+  /// to a multiple of 2^-21: in [0, 1).
   double fraction(uint64_t bits) const {
     const int64_t centred = static_cast<int64_t>(bits & 0x1fffff) - 0x100000;
     return static_cast<double>(0x100000 + ((centred * jitter_) >> 31)) * 0x1p-21;

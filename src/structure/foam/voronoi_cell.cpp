@@ -26,11 +26,11 @@ struct PlaneArrays {
   size_t padded;
 };
 
-/// Least (offset - n . p) / (n . d) over planes with n . d > 0, but for three. Fractions are compared
-/// by cross products, which spares a division a plane.
+/// Least (offset - n . p) / (n . d) over planes with n . d > 0, but for three. Fractions are
+/// compared by cross products, which spares a division a plane.
 template <class T>
-HWY_INLINE PlaneHit first_plane(const PlaneArrays<T>& planes, Vec3 p, Vec3 d, uint32_t a, uint32_t b,
-                                uint32_t c) {
+HWY_INLINE PlaneHit first_plane(const PlaneArrays<T>& planes, Vec3 p, Vec3 d, uint32_t a,
+                                uint32_t b, uint32_t c) {
   const hn::ScalableTag<T> tag;
   const size_t lanes = hn::Lanes(tag);
   const auto set = [&](double v) { return hn::Set(tag, static_cast<T>(v)); };
@@ -45,15 +45,13 @@ HWY_INLINE PlaneHit first_plane(const PlaneArrays<T>& planes, Vec3 p, Vec3 d, ui
   for (size_t i = 0; i < planes.padded; i += lanes) {
     const auto nx = hn::Load(tag, planes.x + i), ny = hn::Load(tag, planes.y + i),
                nz = hn::Load(tag, planes.z + i);
-    const auto num =
-        hn::Sub(hn::Load(tag, planes.offset + i),
-                hn::Add(hn::Add(hn::Mul(nx, px), hn::Mul(ny, py)), hn::Mul(nz, pz)));
+    const auto num = hn::Sub(hn::Load(tag, planes.offset + i),
+                             hn::Add(hn::Add(hn::Mul(nx, px), hn::Mul(ny, py)), hn::Mul(nz, pz)));
     const auto den = hn::Add(hn::Add(hn::Mul(nx, dx), hn::Mul(ny, dy)), hn::Mul(nz, dz));
     const auto other =
         hn::And(hn::And(hn::Ne(index, not_a), hn::Ne(index, not_b)), hn::Ne(index, not_c));
-    const auto nearer =
-        hn::And(hn::And(other, hn::Gt(den, parallel)),
-                hn::Lt(hn::Mul(num, best_den), hn::Mul(best_num, den)));
+    const auto nearer = hn::And(hn::And(other, hn::Gt(den, parallel)),
+                                hn::Lt(hn::Mul(num, best_den), hn::Mul(best_num, den)));
     best_num = hn::IfThenElse(nearer, num, best_num);
     best_den = hn::IfThenElse(nearer, den, best_den);
     best = hn::IfThenElse(nearer, index, best);
@@ -88,8 +86,8 @@ bool walk(const PlaneArrays<T>& planes, size_t count, VoronoiCell::Graph& graph)
     graph.ends[a * width + b] = value;
     graph.ends[b * width + c] = value;
     graph.ends[c * width + a] = value;
-    vertices.push_back({{static_cast<uint16_t>(a), static_cast<uint16_t>(b),
-                         static_cast<uint16_t>(c)}, p});
+    vertices.push_back(
+        {{static_cast<uint16_t>(a), static_cast<uint16_t>(b), static_cast<uint16_t>(c)}, p});
     return true;
   };
 
@@ -134,15 +132,15 @@ bool walk(const PlaneArrays<T>& planes, size_t count, VoronoiCell::Graph& graph)
   return vertices.size() == 2 * faces - 4;
 }
 
-/// Puts each vertex where its planes meet. Returns by how much one lies beyond a plane, or off its own,
-/// at most.
+/// Puts each vertex where its planes meet. Returns by how much one lies beyond a plane, or off its
+/// own, at most.
 double place_vertices(const PlaneArrays<double>& planes, VoronoiCell::Graph& graph) {
   const hn::ScalableTag<double> tag;
   const size_t lanes = hn::Lanes(tag);
   auto beyond = hn::Zero(tag);
   double off = 0;
   for (VoronoiCell::Vertex& vertex : graph.vertices) {
-    const uint16_t *plane = vertex.plane;
+    const uint16_t* plane = vertex.plane;
     const auto normal = [&](uint16_t i) { return Vec3{planes.x[i], planes.y[i], planes.z[i]}; };
     const Vec3 a = normal(plane[0]), b = normal(plane[1]), c = normal(plane[2]);
     const Vec3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
@@ -154,11 +152,10 @@ double place_vertices(const PlaneArrays<double>& planes, VoronoiCell::Graph& gra
       off = std::max(off, std::abs(dot(normal(plane[i]), p) - planes.offset[plane[i]]));
     const auto px = hn::Set(tag, p.x), py = hn::Set(tag, p.y), pz = hn::Set(tag, p.z);
     for (size_t i = 0; i < planes.padded; i += lanes) {
-      const auto over = hn::Sub(
-          hn::Add(hn::Add(hn::Mul(hn::Load(tag, planes.x + i), px),
-                          hn::Mul(hn::Load(tag, planes.y + i), py)),
-                  hn::Mul(hn::Load(tag, planes.z + i), pz)),
-          hn::Load(tag, planes.offset + i));
+      const auto over = hn::Sub(hn::Add(hn::Add(hn::Mul(hn::Load(tag, planes.x + i), px),
+                                                hn::Mul(hn::Load(tag, planes.y + i), py)),
+                                        hn::Mul(hn::Load(tag, planes.z + i), pz)),
+                                hn::Load(tag, planes.offset + i));
       beyond = hn::Max(beyond, over);
     }
   }

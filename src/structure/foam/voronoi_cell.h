@@ -2,15 +2,16 @@
 // The Voronoi cell of one seed among its neighbours, as the edges of a convex polytope.
 //
 // Method: walk the polytope's edge graph. From the midpoint to the nearest neighbour, which always
-// lies on a face, slide to an edge and along it to a vertex; from each vertex follow its three edges
-// to the next vertex, which is where the first of all planes is met (a minimum over planes, in SIMD),
-// until every edge has both ends. One pass over n planes an edge, instead of cutting with n planes
-// one after the other; the degenerate (four planes in a point) shows as a graph that is not one of a
-// simple polytope (Euler: vertices = 2 faces - 4), and is left to the caller's fallback.
+// lies on a face, slide to an edge and along it to a vertex; from each vertex follow its three
+// edges to the next vertex, which is where the first of all planes is met (a minimum over planes,
+// in SIMD), until every edge has both ends. One pass over n planes an edge, instead of cutting with
+// n planes one after the other; the degenerate (four planes in a point) shows as a graph that is
+// not one of a simple polytope (Euler: vertices = 2 faces - 4), and is left to the caller's
+// fallback.
 //
-// The walk is first tried in single precision. Its vertices are then computed in double precision from
-// their three planes and tested against all planes: a vertex on the wrong side of one shows a wrong
-// turn, and the walk is done again in double precision.
+// The walk is first tried in single precision. Its vertices are then computed in double precision
+// from their three planes and tested against all planes: a vertex on the wrong side of one shows a
+// wrong turn, and the walk is done again in double precision.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,8 @@ class VoronoiCell {
   /// A neighbouring seed, relative to the cell's own; at most most_planes of them.
   void add(Vec3 neighbour);
 
-  /// Finds the vertices among the planes added. False if the walk fails: degenerate, or not bounded.
+  /// Finds the vertices among the planes added. False if the walk fails: degenerate, or not
+  /// bounded.
   bool walk();
 
   /// After walk(): squared distance of the farthest vertex. Seeds at more than twice that distance

@@ -7,8 +7,8 @@ namespace msq {
 
 namespace {
 
-/// Samples a cell above which spans beat the point query. Drawing a strut costs about as much as asking
-/// one sample of all struts near it.
+/// Samples a cell above which spans beat the point query. Drawing a strut costs about as much as
+/// asking one sample of all struts near it.
 constexpr double critical_samples = 4;
 
 /// Whether a segment comes within radius of a box, erring towards yes. The distance to a convex set

@@ -10,7 +10,9 @@ namespace {
 // Nodes closer than this, in cell units, are one node of the tiling.
 constexpr double same_node = 1e-9;
 
-bool close(Vec3 a, Vec3 b) { return max_magnitude(a - b) <= same_node; }
+bool close(Vec3 a, Vec3 b) {
+  return max_magnitude(a - b) <= same_node;
+}
 
 std::vector<Vec3> cube_corners() {
   std::vector<Vec3> corners;
@@ -37,7 +39,9 @@ Vec3 floor_with_tolerance(Vec3 v) {
 
 }  // namespace
 
-UnitCell cubic_unit_cell() { return connect(cube_corners(), 1); }
+UnitCell cubic_unit_cell() {
+  return connect(cube_corners(), 1);
+}
 
 UnitCell bcc_unit_cell() {
   std::vector<Vec3> nodes = cube_corners();
