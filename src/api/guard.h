@@ -159,6 +159,10 @@ void write_report(Report* report, Report known, const char* name) {
 /// A handle is a pointer to its engine object. Specialised below for each handle.
 template <class Handle>
 struct ObjectOf;
+template <class Handle>
+struct ObjectOf<const Handle> {
+  using type = const typename ObjectOf<Handle>::type;
+};
 
 template <class Handle>
 typename ObjectOf<Handle>::type& object(Handle* handle, const char* name) {
@@ -187,56 +191,28 @@ struct ObjectOf<msq_context> {
   using type = Context;
 };
 template <>
-struct ObjectOf<const msq_context> {
-  using type = const Context;
-};
-template <>
 struct ObjectOf<msq_job> {
   using type = Job;
-};
-template <>
-struct ObjectOf<const msq_job> {
-  using type = const Job;
 };
 template <>
 struct ObjectOf<msq_shape> {
   using type = Shape;
 };
 template <>
-struct ObjectOf<const msq_shape> {
-  using type = const Shape;
-};
-template <>
 struct ObjectOf<msq_field> {
   using type = Field;
-};
-template <>
-struct ObjectOf<const msq_field> {
-  using type = const Field;
 };
 template <>
 struct ObjectOf<msq_structure> {
   using type = Structure;
 };
 template <>
-struct ObjectOf<const msq_structure> {
-  using type = const Structure;
-};
-template <>
 struct ObjectOf<msq_model> {
   using type = Model;
 };
 template <>
-struct ObjectOf<const msq_model> {
-  using type = const Model;
-};
-template <>
 struct ObjectOf<msq_slicer> {
   using type = Slicer;
-};
-template <>
-struct ObjectOf<const msq_slicer> {
-  using type = const Slicer;
 };
 
 }  // namespace msq::api
