@@ -38,10 +38,15 @@ void Executor::for_each(uint64_t count, const std::function<void(uint64_t)>& bod
     return;
   }
   arena_->arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<uint64_t>(0, count, 1),
-                      [&](const tbb::blocked_range<uint64_t>& range) {
-                        for (uint64_t i = range.begin(); i != range.end(); ++i) body(i);
-                      });
+    // Isolated: a thread that waits here may not take up other work of the arena. It could be a
+    // wait for the very task that this loop is part of (Task::wait, handed over by a caller who
+    // found the arena full), which would then never end.
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(tbb::blocked_range<uint64_t>(0, count, 1),
+                        [&](const tbb::blocked_range<uint64_t>& range) {
+                          for (uint64_t i = range.begin(); i != range.end(); ++i) body(i);
+                        });
+    });
   });
 }
 

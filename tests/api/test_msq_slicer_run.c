@@ -333,7 +333,7 @@ static void runs_go_on_at_once(void** state) {
   for (int i = 0; i < 3; ++i) {
     runners[i].slicer = slicers[i % 2];
     runners[i].wanted = &wanted[i % 2];
-    runners[i].runs = (int)test_count(10);
+    runners[i].runs = (int)test_count(300);
     runners[i].wrong = 0;
     assert_int_equal(pthread_create(&threads[i], NULL, run_often, &runners[i]), 0);
   }
