@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layers of a model are the same bytes whichever vector instructions draw them.
+#include <hwy/highway.h>
+
+#include "base/random.h"
+#include "field/gradient.h"
+#include "shape/primitive.h"
+#include "slice/slicer.h"
+#include "structure/foam/foam.h"
+#include "structure/lattice/lattice.h"
+#include "suite.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+Neighbourhood turned() {
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  return {{0.1, 0.2, 0.3}, {0.4, 0.4, 0.3}, {{c, -s, 0, s, c, 0, 0, 0, 1}}};
+}
+
+uint64_t hash_of(const std::function<Ref<const Structure>(Ref<Context>)>& make) {
+  const Ref<Context> context = make_ref<Context>(2u, uint64_t{1} << 28, uint64_t{0});
+  const Ref<Model> model = make_ref<Model>(context, make_ref<SphereShape>(Vec3{0.5, 0.5, 0.5}, 1.0),
+                                           std::vector<Ref<const Structure>>{make(context)});
+  SlicePlan plan;
+  plan.pitch[0] = plan.pitch[1] = 0.011;
+  plan.layer_height = 0.02;
+  const Slicer slicer(Ref<const Model>(model.get()), plan);
+  uint64_t hash = 0, count = 0;
+  const auto take = [&](const Layer& layer) {
+    hash = splitmix_output(hash, layer.inside_count);
+    for (uint64_t i = 0; i < slicer.layer_bytes(); i += sizeof(uint64_t)) {
+      uint64_t word;
+      std::memcpy(&word, layer.data + i, sizeof word);
+      hash = splitmix_finalise(hash ^ splitmix_output(word, ++count));
+    }
+  };
+  slicer.run(0, slicer.grid().nz, take, nullptr);
+  return hash;
+}
+
+void all_instruction_sets_give_the_same_layers(void**) {
+  const std::function<Ref<const Structure>(Ref<Context>)> structures[] = {
+      [](Ref<Context>) { return make_ref<Lattice>(turned(), octet_unit_cell(), Parameter(0.02)); },
+      [](Ref<Context>) {
+        const Ref<const Field> field =
+            make_ref<GradientField>(Vec3{0, 0, 0}, 0.01, Vec3{1, 0.5, 0.2}, 0.05);
+        return make_ref<Lattice>(Neighbourhood{}, bcc_unit_cell(), Parameter(field));
+      },
+      [](Ref<Context> c) {
+        return make_ref<Foam>(c, turned(), Parameter(0.03), 1.0, uint64_t{3}, FoamMethod::direct);
+      },
+      [](Ref<Context> c) {
+        return make_ref<Foam>(c, turned(), Parameter(0.03), 0.7, uint64_t{3}, FoamMethod::point);
+      },
+  };
+  std::vector<int64_t> targets;
+  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1)
+    targets.push_back(all & -all);
+  for (const auto& make : structures) {
+    const uint64_t expected = hash_of(make);
+    for (const int64_t target : targets) {
+      hwy::SetSupportedTargetsForTest(target);
+      const uint64_t hash = hash_of(make);
+      hwy::SetSupportedTargetsForTest(0);
+      if (hash != expected) fail_msg("other layers with %s", hwy::TargetName(target));
+    }
+  }
+  for (const int64_t target : targets) print_message("%s ", hwy::TargetName(target));
+  print_message("give the same layers\n");
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(all_instruction_sets_give_the_same_layers)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
