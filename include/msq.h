@@ -375,8 +375,8 @@ enum { /* how a foam is evaluated: the same solid, at different cost */
   MSQ_FOAM_AUTO = 0,    /* the fastest: at present DIRECT on grids and in slices, POINT elsewhere */
   MSQ_FOAM_POINT = 1,   /* each point by itself: gather seeds, triplets, validity */
   MSQ_FOAM_METHOD_2 = 2, /* per cell, a Delaunay triangulation (CGAL) kept in the cache */
-  MSQ_FOAM_DIRECT = 3   /* each edge built once for a slab and written as spans; for point arrays as
-                           POINT */
+  MSQ_FOAM_DIRECT = 3   /* each edge built once, kept in the cache and written as spans; points where
+                           there are few samples a cell, and in arrays, are answered as by POINT */
 };
 
 typedef struct msq_foam_def {
@@ -568,8 +568,8 @@ typedef int32_t (*msq_layer_fn)(void *user, const msq_layer *layer);
 /* Computes layers first .. first + count - 1 and hands each to the callback, in ascending order, on
  * the calling thread; workers compute the next slab meanwhile, and wait for the callback. count
  * UINT64_MAX: to the last. job NULL: none. However the plan is split into calls or processes, the
- * layers are the same bytes. Memory: two slabs and two slabs' worth of tiles, whatever the height of
- * the stack. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY.
+ * layers are the same bytes. Memory: two slabs, a layer, and a few tiles for each thread, whatever the
+ * height of the stack; foams keep cells in the cache besides. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY.
  * Source: paper, section "Slicing". */
 MSQ_API msq_status msq_slicer_run(const msq_slicer *slicer, uint64_t first, uint64_t count,
                                   msq_layer_fn fn, void *user, msq_job *job);

@@ -16,7 +16,6 @@ class SeedBlock {
   /// empty radius do not meet its Voronoi cell; the block reaches that far.
   SeedBlock(const FoamSeeds& seeds, CellIndex corner, int side);
 
-  int halo(int axis) const { return halo_[axis]; }
   /// Of a cell of the brick (0 to side - 1 along each axis); ascends with z, then y, then x.
   size_t index(int x, int y, int z) const {
     return (static_cast<size_t>(z + halo_[2]) * size_[1] + static_cast<size_t>(y + halo_[1])) *
