@@ -40,7 +40,7 @@ void bench_edges(bench::Report& report) {
     for (int z = 0; z < side; z += msq::EdgeBrick::side)
       for (int y = 0; y < side; y += msq::EdgeBrick::side)
         for (int x = 0; x < side; x += msq::EdgeBrick::side)
-          edges += msq::EdgeBrick(seeds, {x, y, z}).edges().size();
+          edges += msq::EdgeBrick(seeds, {x, y, z}).segments().count();
   });
   report.add("edges of 32^3 seeds, msq, one thread", ours, count, "seed");
   report.note("edges a seed", static_cast<double>(edges) / count, "");

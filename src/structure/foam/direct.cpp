@@ -13,12 +13,7 @@ namespace {
 /// Samples a cell above which building the cell's edges beats the point query (docs/benchmarks.md).
 constexpr double critical_samples = 8;
 
-Vec3 vec(const float (&v)[3]) {
-  return {v[0], v[1], v[2]};
-}
-
-/// Adds a brick's edges, owner by owner, where the owner's box may touch `reach` (grid
-/// coordinates).
+/// Adds a brick's edges where they may touch `reach` (grid coordinates).
 void add_brick(const Foam& foam, const EdgeBrick& brick, CellIndex corner, const Box3& reach,
                StrutRows& rows) {
   const Neighbourhood& grid = foam.neighbourhood();
@@ -29,12 +24,18 @@ void add_brick(const Foam& foam, const EdgeBrick& brick, CellIndex corner, const
   const Box3 from_brick{(reach.min - first_cell) * (1 / unit),
                         (reach.max - first_cell) * (1 / unit)};
   const Box3 wanted = from_brick.grown(edge_error);
-  for (const EdgeBrick::Group& group : brick.groups()) {
-    if (!wanted.overlaps({vec(group.low), vec(group.high)})) continue;
-    for (uint32_t i = group.first; i < group.last; ++i) {
-      const FoamEdge& edge = brick.edges()[i];
-      rows.add(origin + grid.rotation.apply(vec(edge.a) * unit),
-               origin + grid.rotation.apply(vec(edge.b) * unit));
+  const SegmentSet& edges = brick.segments();
+  for (size_t run = 0; run < edges.runs(); ++run) {
+    Box3 box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min[axis] = edges.bound(axis)[run];
+      box.max[axis] = edges.bound(axis + 3)[run];
+    }
+    if (!wanted.overlaps(box)) continue;
+    for (size_t i = edges.run_start(run); i < edges.run_end(run); ++i) {
+      const FoamEdge edge = edges.at(i);
+      rows.add(origin + grid.rotation.apply(Vec3{edge.a[0], edge.a[1], edge.a[2]} * unit),
+               origin + grid.rotation.apply(Vec3{edge.b[0], edge.b[1], edge.b[2]} * unit));
     }
   }
 }

@@ -99,27 +99,22 @@ class EdgeBuilder {
 }  // namespace
 
 EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner) {
-  edges_.reserve(side * side * side * 15);
-  groups_.reserve(side * side * side);
-  EdgeBuilder builder(seeds, corner, edges_);
+  std::vector<FoamEdge> edges;
+  edges.reserve(side * side * side * 15);
+  std::vector<uint32_t> starts;
+  EdgeBuilder builder(seeds, corner, edges);
   for (int z = 0; z < side; ++z)
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        Group group{static_cast<uint32_t>(edges_.size()),
-                    0,
-                    {1e30f, 1e30f, 1e30f},
-                    {-1e30f, -1e30f, -1e30f}};
-        builder.add_owned_edges(x, y, z);
-        group.last = static_cast<uint32_t>(edges_.size());
-        for (uint32_t i = group.first; i < group.last; ++i)
-          for (int axis = 0; axis < 3; ++axis) {
-            const auto [low, high] = std::minmax(edges_[i].a[axis], edges_[i].b[axis]);
-            group.low[axis] = std::min(group.low[axis], low);
-            group.high[axis] = std::max(group.high[axis], high);
-          }
-        groups_.push_back(group);
-      }
-  edges_.shrink_to_fit();
+    for (int y = 0; y < side; ++y) {
+      starts.push_back(static_cast<uint32_t>(edges.size()));
+      for (int x = 0; x < side; ++x) builder.add_owned_edges(x, y, z);
+    }
+  segments_ = SegmentSet(edges, starts);
+}
+
+std::vector<FoamEdge> EdgeBrick::edges() const {
+  std::vector<FoamEdge> edges;
+  for (size_t i = 0; i < segments_.count(); ++i) edges.push_back(segments_.at(i));
+  return edges;
 }
 
 }  // namespace msq

@@ -9,6 +9,7 @@
 
 #include "cell/cache.h"
 #include "structure/foam/seeds.h"
+#include "strut/segment_set.h"
 
 namespace msq {
 
@@ -16,9 +17,7 @@ namespace msq {
 /// within the brick's 4 units and their edges within the empty radius, below 2, of them:
 /// coordinates stay below 8, roundings below 2^-22 in each and 4.2e-7 together. The rest of
 /// edge_error is for the vertices themselves, in double precision.
-struct FoamEdge {
-  float a[3], b[3];
-};
+using FoamEdge = FloatSegment;
 constexpr double edge_error = 5e-7;
 
 /// The edges owned by the seeds of a brick of cells.
@@ -26,24 +25,17 @@ class EdgeBrick final : public CellData {
  public:
   static constexpr int side = 4;  ///< cells
 
-  /// The edges of one owner and a box that holds them.
-  struct Group {
-    uint32_t first, last;
-    float low[3], high[3];
-  };
-
   /// The brick whose first cell is `corner`.
   EdgeBrick(const FoamSeeds& seeds, CellIndex corner);
 
-  const std::vector<FoamEdge>& edges() const { return edges_; }
-  const std::vector<Group>& groups() const { return groups_; }
-  uint64_t bytes() const override {
-    return sizeof *this + edges_.capacity() * sizeof(FoamEdge) + groups_.capacity() * sizeof(Group);
-  }
+  /// In runs of the edges that a row of cells along x owns.
+  const SegmentSet& segments() const { return segments_; }
+  /// A copy, edge by edge.
+  std::vector<FoamEdge> edges() const;
+  uint64_t bytes() const override { return sizeof *this + segments_.bytes(); }
 
  private:
-  std::vector<FoamEdge> edges_;
-  std::vector<Group> groups_;
+  SegmentSet segments_;
 };
 
 }  // namespace msq
