@@ -60,7 +60,7 @@ double apart(const std::pair<Vec3, Vec3>& l, const std::pair<Vec3, Vec3>& r) {
 void test_random_cells(void**) {
   Random random(9);
   VoronoiCell cell;
-  size_t edges = 0, walked = 0, skipped = 0;
+  size_t edges = 0, walked = 0, skipped = 0, resumed = 0;
   const size_t count = test_count(1500);
   for (size_t n = 0; n < count; ++n) {
     // Seeds that enclose the cell, and more at random.
@@ -84,8 +84,8 @@ void test_random_cells(void**) {
     assert_true(std::abs(cell.radius_squared() - expected.radius_squared) <=
                 1e-5 * expected.radius_squared);
     std::vector<std::pair<Vec3, Vec3>> got;
-    cell.for_each_edge(static_cast<uint32_t>(first), [&](Vec3 a, Vec3 b) {
-      got.push_back({a, b});
+    cell.for_each_edge(static_cast<uint32_t>(first), [&](size_t from, size_t to) {
+      got.push_back({cell.vertex(from), cell.vertex(to)});
     });
     assert_int_equal(got.size(), expected.edges.size());
     for (const auto& e : expected.edges) {
@@ -95,7 +95,35 @@ void test_random_cells(void**) {
         fail_msg("cell %d of %d seeds: an edge is %g off", int(n), int(seeds.size()), best);
     }
     edges += got.size();
+
+    // The same cell from some of its vertices.
+    struct Known {
+      uint8_t plane[3];
+      Vec3 position;
+    };
+    std::vector<Known> known;
+    const size_t vertices = cell.vertex_count();
+    cell.for_each_new_vertex([&](const uint8_t* plane, Vec3 p) {
+      if (random.below(3) == 0) known.push_back({{plane[0], plane[1], plane[2]}, p});
+    });
+    cell.clear();
+    for (Vec3 seed : seeds) cell.add(seed);
+    for (const Known& k : known)
+      assert_true(cell.add_vertex(k.plane[0], k.plane[1], k.plane[2], k.position));
+    assert_true(cell.walk());
+    assert_int_equal(cell.vertex_count(), vertices);
+    size_t found = 0, again = 0;
+    cell.for_each_new_vertex([&](const uint8_t*, Vec3) { ++found; });
+    if (found > 0) resumed += known.size();  // 0: found anew in double precision
+    cell.for_each_edge(static_cast<uint32_t>(first), [&](size_t from, size_t to) {
+      const std::pair<Vec3, Vec3> edge{cell.vertex(from), cell.vertex(to)};
+      double best = 1e300;
+      for (const auto& g : got) best = std::min(best, apart(edge, g));
+      again += best <= 1e-9;
+    });
+    assert_int_equal(again, got.size());
   }
+  assert_true(resumed > edges / 9);
   print_message("%zu cells, %zu edges; %zu degenerate cells left out\n", walked, edges, skipped);
   assert_true(walked > count * 9 / 10);
 }
@@ -120,7 +148,7 @@ void test_failures(void**) {
   for (Vec3 v : {Vec3{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}) cell.add(v);
   assert_true(cell.walk());
   size_t edges = 0;
-  cell.for_each_edge(0, [&](Vec3, Vec3) { ++edges; });
+  cell.for_each_edge(0, [&](size_t, size_t) { ++edges; });
   assert_int_equal(edges, 6);
 }
 

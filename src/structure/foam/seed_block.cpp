@@ -14,32 +14,54 @@ namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Appends to `out` the indices of seeds start .. start + count - 1 within the distance, but for
-/// own.
-size_t seeds_within(const float* x, const float* y, const float* z, size_t start, size_t count,
-                    size_t own, float distance_squared, uint32_t* out) {
-  const hn::ScalableTag<float> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
-  const size_t lanes = hn::Lanes(d);
-  const auto ox = hn::Set(d, x[own]), oy = hn::Set(d, y[own]), oz = hn::Set(d, z[own]);
-  const auto most = hn::Set(d, distance_squared);
-  const auto self = hn::Set(du, static_cast<uint32_t>(own));
-  const auto end = hn::Set(du, static_cast<uint32_t>(start + count));
-  auto index = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<uint32_t>(start)));
-  const auto step = hn::Set(du, static_cast<uint32_t>(lanes));
-  size_t found = 0;
-  for (size_t i = 0; i < count; i += lanes, index = hn::Add(index, step)) {
-    const auto dx = hn::Sub(hn::LoadU(d, x + start + i), ox);
-    const auto dy = hn::Sub(hn::LoadU(d, y + start + i), oy);
-    const auto dz = hn::Sub(hn::LoadU(d, z + start + i), oz);
-    const auto d2 = hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz));
-    const auto wanted = hn::And(hn::Lt(index, end), hn::Ne(index, self));
-    const auto within = hn::And(hn::RebindMask(du, hn::Le(d2, most)), wanted);
+// Where vectors of 64 bytes exist, two stretches to a vector.
+#if HWY_MAX_BYTES == 64 && !HWY_HAVE_SCALABLE
+using D = hn::ScalableTag<float>;
+#else
+using D = hn::CappedTag<float, SeedBlock::Stretches::lanes>;
+#endif
+
+HWY_INLINE hn::Vec<D> load(const float* values, const ptrdiff_t* starts, size_t lane) {
+  constexpr size_t stretch = SeedBlock::Stretches::lanes;
+#if HWY_MAX_BYTES == 64 && !HWY_HAVE_SCALABLE
+  const hn::Half<D> half;
+  return hn::Combine(D(), hn::LoadU(half, values + starts[lane / stretch + 1]),
+                     hn::LoadU(half, values + starts[lane / stretch]));
+#else
+  return hn::LoadU(D(), values + starts[lane / stretch] + lane % stretch);
+#endif
+}
+
+void planes_within(const SeedBlock::Fractions& fractions, const SeedBlock::Stretches& stretches,
+                   size_t own, float distance_squared, VoronoiCell::Planes& planes) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  const hn::RebindToUnsigned<D> du;
+  const float *x = fractions.x.data() + own, *y = fractions.y.data() + own,
+              *z = fractions.z.data() + own;
+  const auto own_x = hn::Set(d, *x), own_y = hn::Set(d, *y), own_z = hn::Set(d, *z);
+  const auto own_seed = hn::Set(di, static_cast<int32_t>(own));
+  const auto most = hn::Set(d, distance_squared), half = hn::Set(d, 0.5f);
+  size_t count = 0;
+  for (size_t i = 0; i < stretches.x.size() && count <= VoronoiCell::most_planes;
+       i += hn::Lanes(d)) {
+    const ptrdiff_t* starts = stretches.starts.data();
+    // Whole cells last: differences of fractions are exact, and so are the sums of cube cells.
+    const auto nx = hn::Add(hn::Sub(load(x, starts, i), own_x), hn::LoadU(d, &stretches.x[i]));
+    const auto ny = hn::Add(hn::Sub(load(y, starts, i), own_y), hn::LoadU(d, &stretches.y[i]));
+    const auto nz = hn::Add(hn::Sub(load(z, starts, i), own_z), hn::LoadU(d, &stretches.z[i]));
+    const auto d2 = hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz)));
+    const auto within = hn::Le(d2, most);
+    const auto seed = hn::BitCast(du, hn::Add(own_seed, hn::LoadU(di, &stretches.seed[i])));
     // In two steps: a compressing store to memory is microcode on some processors.
-    hn::StoreU(hn::Compress(index, within), du, out + found);
-    found += hn::CountTrue(du, within);
+    hn::StoreU(hn::Compress(nx, within), d, planes.x + count);
+    hn::StoreU(hn::Compress(ny, within), d, planes.y + count);
+    hn::StoreU(hn::Compress(nz, within), d, planes.z + count);
+    hn::StoreU(hn::Compress(hn::Mul(d2, half), within), d, planes.offset + count);
+    hn::StoreU(hn::Compress(seed, hn::RebindMask(du, within)), du, planes.seed + count);
+    count += hn::CountTrue(d, within);
   }
-  return found;
+  planes.count = count;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -49,51 +71,84 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace msq {
 
-HWY_EXPORT(seeds_within);
+HWY_EXPORT(planes_within);
 
-SeedBlock::SeedBlock(const FoamSeeds& seeds, CellIndex corner, int side) {
+void SeedBlock::move_to(const FoamSeeds& seeds, CellIndex corner, int side, double most_often) {
   const Vec3 scale = seeds.scale();
   const double reach = 2 * seeds.empty_radius();
-  for (int axis = 0; axis < 3; ++axis) {
-    halo_[axis] = static_cast<int>(std::ceil(reach / scale[axis]));
-    size_[axis] = static_cast<size_t>(side + 2 * halo_[axis]);
+  if (side != side_ || !(scale == scale_) || most_often != most_often_) {
+    side_ = side;
+    scale_ = scale;
+    most_often_ = most_often;
+    for (int axis = 0; axis < 3; ++axis) {
+      halo_[axis] = static_cast<int>(std::ceil(reach / scale[axis]));
+      size_[axis] = static_cast<size_t>(side + 2 * halo_[axis]);
+    }
+    near_ = stretches(scale, most_often);
+    all_ = stretches(scale, reach * reach);
+    const size_t count = size_[0] * size_[1] * size_[2];
+    positions_.resize(count);
+    // Stretches may end beyond the last seed.
+    for (std::vector<float>* v : {&fractions_.x, &fractions_.y, &fractions_.z})
+      v->assign(count + 2 * Stretches::lanes, 0);
   }
-  const size_t count = size_[0] * size_[1] * size_[2];
-  positions_.reserve(count);
+  size_t i = 0;
   for (int z = -halo_[2]; z < side + halo_[2]; ++z)
-    for (int y = -halo_[1]; y < side + halo_[1]; ++y)
-      for (int x = -halo_[0]; x < side + halo_[0]; ++x)
-        positions_.push_back(seeds.at(corner, x, y, z));
-  for (std::vector<float>* v : {&x_, &y_, &z_}) v->reserve(count + 2 * most_simd_doubles);
-  for (const Vec3& p : positions_) {
-    x_.push_back(static_cast<float>(p.x));
-    y_.push_back(static_cast<float>(p.y));
-    z_.push_back(static_cast<float>(p.z));
-  }
-  for (std::vector<float>* v : {&x_, &y_, &z_}) v->resize(count + 2 * most_simd_doubles);
-
-  for (int z = -halo_[2]; z <= halo_[2]; ++z)
-    for (int y = -halo_[1]; y <= halo_[1]; ++y) {
-      const double gap_y = std::max(0, std::abs(y) - 1) * scale.y;
-      const double gap_z = std::max(0, std::abs(z) - 1) * scale.z;
-      rows_.push_back({(static_cast<ptrdiff_t>(z) * static_cast<ptrdiff_t>(size_[1]) + y) *
-                               static_cast<ptrdiff_t>(size_[0]) -
-                           halo_[0],
-                       gap_y * gap_y + gap_z * gap_z});
+    for (int y = -halo_[1]; y < side + halo_[1]; ++y) {
+      const uint64_t key = seeds.row_key(corner, y, z);
+      for (int x = -halo_[0]; x < side + halo_[0]; ++x, ++i) {
+        const Vec3 p = seeds.in_row(key, corner, x, y, z);
+        positions_[i] = p;
+        fractions_.x[i] = static_cast<float>(p.x - x * scale.x);
+        fractions_.y[i] = static_cast<float>(p.y - y * scale.y);
+        fractions_.z[i] = static_cast<float>(p.z - z * scale.z);
+      }
     }
 }
 
-size_t SeedBlock::near(size_t own, double distance_squared, std::vector<uint32_t>& found) const {
-  const size_t length = static_cast<size_t>(2 * halo_[0] + 1);
-  found.resize(rows_.size() * length + 2 * most_simd_doubles);
-  size_t count = 0;
-  for (const Row& row : rows_)
-    if (row.least_squared <= distance_squared)
-      count += HWY_DYNAMIC_DISPATCH(seeds_within)(
-          x_.data(), y_.data(), z_.data(),
-          static_cast<size_t>(static_cast<ptrdiff_t>(own) + row.start), length, own,
-          static_cast<float>(distance_squared * (1 + 1e-5)), found.data() + count);
-  return count;
+SeedBlock::Stretches SeedBlock::stretches(Vec3 scale, double distance_squared) const {
+  constexpr float far = 1e3f;
+  Stretches found;
+  const auto gap = [](int cells, double size) { return std::max(0, std::abs(cells) - 1) * size; };
+  for (int z = -halo_[2]; z <= halo_[2]; ++z)
+    for (int y = -halo_[1]; y <= halo_[1]; ++y) {
+      const double gap_y = gap(y, scale.y), gap_z = gap(z, scale.z);
+      const double across = gap_y * gap_y + gap_z * gap_z;
+      int reach = -1;  // cells along x that may hold seeds within the distance
+      while (reach < halo_[0] && across + gap(reach + 1, scale.x) * gap(reach + 1, scale.x) <=
+                                     distance_squared * (1 + 1e-5))
+        ++reach;
+      const ptrdiff_t row = (static_cast<ptrdiff_t>(z) * static_cast<ptrdiff_t>(size_[1]) + y) *
+                            static_cast<ptrdiff_t>(size_[0]);
+      for (int x0 = -reach; x0 <= reach; x0 += Stretches::lanes) {
+        found.starts.push_back(row + x0);
+        for (int x = x0; x < x0 + static_cast<int>(Stretches::lanes); ++x) {
+          const bool is_there = x <= reach && (x || y || z);
+          found.seed.push_back(static_cast<int32_t>(row + x));
+          found.x.push_back(is_there ? static_cast<float>(x * scale.x) : far);
+          found.y.push_back(static_cast<float>(y * scale.y));
+          found.z.push_back(static_cast<float>(z * scale.z));
+        }
+      }
+    }
+  if (found.starts.size() % 2) {
+    found.starts.push_back(0);
+    for (size_t lane = 0; lane < Stretches::lanes; ++lane) {
+      found.seed.push_back(0);
+      for (std::vector<float>* v : {&found.x, &found.y, &found.z}) v->push_back(far);
+    }
+  }
+  return found;
+}
+
+size_t SeedBlock::refill(VoronoiCell& cell, size_t own, double distance_squared) const {
+  VoronoiCell::Planes& planes = cell.refill(positions_.data(), positions_[own]);
+  HWY_DYNAMIC_DISPATCH(planes_within)
+  (fractions_, distance_squared <= most_often_ ? near_ : all_, own,
+   static_cast<float>(distance_squared * (1 + 1e-5)), planes);
+  return static_cast<size_t>(
+      std::lower_bound(planes.seed, planes.seed + planes.count, static_cast<uint32_t>(own)) -
+      planes.seed);
 }
 
 }  // namespace msq

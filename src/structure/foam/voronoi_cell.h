@@ -23,59 +23,95 @@ namespace msq {
 
 class VoronoiCell {
  public:
-  static constexpr size_t most_planes = 128, most_vertices = 256;
+  static constexpr size_t most_planes = 128, most_vertices = 255;
 
-  /// Forgets all neighbours.
-  void clear() { count_ = 0; }
-  size_t count() const { return count_; }
+  /// Neighbours as planes in single precision; what the kernels work on.
+  struct Planes {
+    static constexpr size_t room = most_planes + 64;  // finders write whole vectors
+    alignas(64) float x[room], y[room], z[room];      // normals: relative to the cell's own seed
+    alignas(64) float offset[room];                   // half squared lengths
+    alignas(64) uint32_t seed[room];                  // index of the neighbouring seed
+    size_t count = 0;
+  };
+  struct Vertex {
+    uint8_t plane[3];
+    Vec3 position;
+  };
+  struct Graph {
+    Vertex vertices[most_vertices];
+    size_t count = 0, known = 0;  // in all, and before the walk
+    std::vector<uint16_t> ends;   // of half-edge (a, b): epoch << 8 | vertex
+    uint32_t epoch = 0;
+
+    uint32_t end(uint32_t a, uint32_t b) const { return ends[a * most_planes + b] & 0xff; }
+  };
+
+  /// Forgets all neighbours; those to come are added one by one.
+  void clear();
   /// A neighbouring seed, relative to the cell's own; at most most_planes of them.
   void add(Vec3 neighbour);
+  size_t count() const { return planes_.count; }
+  const Planes& planes() const { return planes_; }
 
-  /// Finds the vertices among the planes added. False if the walk fails: degenerate, or not
-  /// bounded.
+  /// Forgets all neighbours of the seed `own`; those to come are written into the planes returned,
+  /// with indices into `seeds`.
+  Planes& refill(const Vec3* seeds, Vec3 own);
+
+  /// A vertex that is known beforehand, relative to the cell's own seed, among planes that follow
+  /// one another as those of for_each_new_vertex do. False if there is no room.
+  bool add_vertex(uint32_t a, uint32_t b, uint32_t c, Vec3 position);
+
+  /// Finds the vertices among the planes added. False if the walk fails: degenerate, too many
+  /// planes, or not bounded.
   bool walk();
 
   /// After walk(): squared distance of the farthest vertex. Seeds at more than twice that distance
   /// cannot cut the cell.
   double radius_squared() const { return radius_squared_; }
 
-  /// After walk(): visit(from, to), relative to the seed, for the edges between two neighbours that
-  /// were both added as number `first` or later.
+  /// After walk(): relative to the seed.
+  size_t vertex_count() const { return graph_.count; }
+  Vec3 vertex(size_t i) const { return graph_.vertices[i].position; }
+
+  /// After walk(): visit(v, w) for the edges, from vertex v to vertex w, between two neighbours
+  /// that were both added as number `first` or later.
   template <class Visit>
   void for_each_edge(uint32_t first, Visit&& visit) const;
 
-  /// What the kernels work on.
-  struct Planes {
-    alignas(64) double x[most_planes], y[most_planes], z[most_planes];  // normals
-    alignas(64) double offset[most_planes];                             // half squared lengths
-    alignas(64) float fx[most_planes], fy[most_planes], fz[most_planes], foffset[most_planes];
-  };
-  struct Vertex {
-    uint16_t plane[3];
-    Vec3 position;
-  };
-  struct Graph {
-    std::vector<Vertex> vertices;
-    std::vector<uint32_t> ends;  // of half-edge (a, b): epoch << 16 | vertex
-    uint32_t epoch = 0;
-
-    uint32_t end(uint32_t a, uint32_t b) const { return ends[a * most_planes + b] & 0xffff; }
-  };
+  /// After walk(): visit(planes, position) for the vertices that were not known before, with the
+  /// numbers of their three planes, anticlockwise as seen from outside. A walk that came to its end
+  /// in double precision only has none: it found all anew.
+  template <class Visit>
+  void for_each_new_vertex(Visit&& visit) const {
+    for (size_t v = graph_.known; v < graph_.count; ++v)
+      visit(graph_.vertices[v].plane, graph_.vertices[v].position);
+  }
 
  private:
   Planes planes_;
-  size_t count_ = 0;
+  std::vector<Vec3> added_;
+  const Vec3* seeds_ = nullptr;
+  Vec3 own_;
   Graph graph_;
   double radius_squared_ = 0;
 };
 
 template <class Visit>
 void VoronoiCell::for_each_edge(uint32_t first, Visit&& visit) const {
-  for (const Vertex& vertex : graph_.vertices)
-    for (int i = 0; i < 3; ++i) {
-      const uint32_t a = vertex.plane[i], b = vertex.plane[(i + 1) % 3];
-      if (a >= first && b > a) visit(vertex.position, graph_.vertices[graph_.end(b, a)].position);
+  // Without a branch on which edges are wanted: that is a coin toss.
+  uint16_t wanted[3 * most_vertices];  // vertex << 2 | plane
+  size_t count = 0;
+  for (size_t v = 0; v < graph_.count; ++v)
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t a = graph_.vertices[v].plane[i], b = graph_.vertices[v].plane[(i + 1) % 3];
+      wanted[count] = static_cast<uint16_t>(v << 2 | i);
+      count += a >= first && b > a;
     }
+  for (size_t n = 0; n < count; ++n) {
+    const size_t v = wanted[n] >> 2, i = wanted[n] & 3;
+    const uint8_t* plane = graph_.vertices[v].plane;
+    visit(v, graph_.end(plane[i == 2 ? 0 : i + 1], plane[i]));
+  }
 }
 
 }  // namespace msq
