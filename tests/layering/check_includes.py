@@ -20,8 +20,8 @@ ROOMS = ["api", "slice", "ray", "query", "model", "structure", "cell", "field", 
 OUTSIDE = [
     (r"msq\.h", ["api/*"]),
     # Files that are compiled once for each target include these themselves, between their own lines.
-    (r"hwy/highway\.h", ["base/simd.cpp", "strut/*.cpp", "strut/*-inl.h", "slice/*.cpp",
-                         "structure/*/*.cpp", "structure/*/*-inl.h"]),
+    (r"hwy/highway\.h", ["base/simd.cpp", "base/*-inl.h", "strut/*.cpp", "strut/*-inl.h",
+                         "slice/*.cpp", "structure/*/*.cpp", "structure/*/*-inl.h"]),
     (r"hwy/foreach_target\.h", ["strut/*.cpp", "structure/*/*.cpp", "slice/*.cpp"]),
     (r"hwy/.*", ["base/simd.h", "base/simd.cpp"]),
     (r"(oneapi/)?tbb/.*", ["base/parallel.cpp"]),

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/compress-inl.h"
 #include "base/simd.h"
 #include "structure/foam/seed_block.h"
 
@@ -53,12 +54,12 @@ void planes_within(const SeedBlock::Fractions& fractions, const SeedBlock::Stret
     const auto d2 = hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz)));
     const auto within = hn::Le(d2, most);
     const auto seed = hn::BitCast(du, hn::Add(own_seed, hn::LoadU(di, &stretches.seed[i])));
-    // In two steps: a compressing store to memory is microcode on some processors.
-    hn::StoreU(hn::Compress(nx, within), d, planes.x + count);
-    hn::StoreU(hn::Compress(ny, within), d, planes.y + count);
-    hn::StoreU(hn::Compress(nz, within), d, planes.z + count);
-    hn::StoreU(hn::Compress(hn::Mul(d2, half), within), d, planes.offset + count);
-    hn::StoreU(hn::Compress(seed, hn::RebindMask(du, within)), du, planes.seed + count);
+    const Compression<D> compressed(within);
+    hn::StoreU(compressed(nx), d, planes.x + count);
+    hn::StoreU(compressed(ny), d, planes.y + count);
+    hn::StoreU(compressed(nz), d, planes.z + count);
+    hn::StoreU(compressed(hn::Mul(d2, half)), d, planes.offset + count);
+    hn::StoreU(compressed(seed), du, planes.seed + count);
     count += hn::CountTrue(d, within);
   }
   planes.count = count;
