@@ -79,10 +79,11 @@ struct EdgeLine {
   /// to edges that do exist.
   bool holds(LineInterval part) const {
     const double gap = part.low - part.high;
-    return gap <= 0 || gap * gap <= 1e-24 * inverse_squared;
+    return gap <= 0 || gap * gap <= forgiven_squared * inverse_squared;
   }
 
- private:
+  // What the definition forgives; for those who test many lines at once.
+  static constexpr double forgiven_squared = 1e-24;
   // A fourth seed in the plane of the three is as near to all of the line as to the circumcentre;
   // on their circle it cuts nothing. Both are decided with room for rounding, which would otherwise
   // cut such lines anywhere.

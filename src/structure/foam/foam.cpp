@@ -4,7 +4,7 @@
 #include "structure/foam/direct.h"
 #include "structure/foam/method_2.h"
 #include "structure/foam/point.h"
-#include "structure/group_by_cell.h"
+#include "structure/foam/point_set.h"
 
 namespace msq {
 
@@ -29,9 +29,7 @@ bool Foam::inside(Vec3 p) const {
 
 void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   if (method_ == FoamMethod::method_2) return method_2_keep_points(*this, points, alive, count);
-  // Cell by cell, since the point query keeps the seeds about the last point's cell.
-  for (const LocatedPoint& point : group_by_cell(neighbourhood(), points, alive, count))
-    if (!inside(point.located, points[point.index])) alive[point.index] = 0;
+  foam_keep_points_by_point(*this, points, alive, count);
 }
 
 void Foam::keep_rows(const RowBlock& block, const Job* job) const {

@@ -23,39 +23,52 @@ bool foam_point_inside(const FoamSeeds& seeds, CellIndex cell, Vec3 q, double ra
   // Points come cell by cell where the caller can arrange it.
   thread_local CellSeeds around;
   thread_local std::vector<double> distance_squared;
-  thread_local std::vector<uint32_t> near;
+  thread_local std::vector<uint32_t> found;
+  thread_local std::vector<Vec3> near;
   around.move_to(seeds, cell);
 
-  // Room for the rounding of distances; a seed too many never changes the answer.
-  constexpr double slack = 1e-9;
   const CellSeeds::Block* block;
   double needed;
   for (size_t step = 0;; ++step) {
     block = &around.block(step);
-    needed = std::sqrt(CellSeeds::distances(*block, q, distance_squared)) + 2 * radius + slack;
+    needed = std::sqrt(CellSeeds::distances(*block, q, distance_squared)) + 2 * radius + near_slack;
     if (needed <= block->reach(q, seeds.scale())) break;
   }
-  CellSeeds::within(*block, distance_squared, needed * needed, near);
-  const size_t count = near.size();
-  if (count < 3) return false;
+  CellSeeds::within(*block, distance_squared, needed * needed, found);
+  if (found.size() < 3) return false;
+  near.clear();
+  for (const uint32_t i : found) near.push_back(block->position(i));
+  return foam_point_inside(near, q, radius);
+}
 
+bool foam_point_inside(const std::vector<Vec3>& near, Vec3 q, double radius) {
+  struct Ranked {
+    double distance_squared;
+    uint32_t index;
+  };
+  thread_local std::vector<Ranked> ranked;
+  const size_t count = near.size();
+  ranked.clear();
+  for (uint32_t i = 0; i < count; ++i) {
+    const Vec3 d = near[i] - q;
+    ranked.push_back({dot(d, d), i});
+  }
   // Near seeds first: they make the edges that matter and the cuts that bind.
-  std::sort(near.begin(), near.end(), [](uint32_t a, uint32_t b) {
-    return distance_squared[a] < distance_squared[b] ||
-           (distance_squared[a] == distance_squared[b] && a < b);
+  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return a.distance_squared < b.distance_squared ||
+           (a.distance_squared == b.distance_squared && a.index < b.index);
   });
   const double r2 = radius * radius;
   for (size_t c = 2; c < count; ++c)
     for (size_t b = 1; b < c; ++b)
       for (size_t a = 0; a < b; ++a) {
-        uint32_t triple[3] = {near[a], near[b], near[c]};
+        uint32_t triple[3] = {ranked[a].index, ranked[b].index, ranked[c].index};
         std::sort(triple, triple + 3);
-        const EdgeLine line(block->position(triple[0]), block->position(triple[1]),
-                            block->position(triple[2]));
+        const EdgeLine line(near[triple[0]], near[triple[1]], near[triple[2]]);
         if (!line.exists()) continue;
         LineInterval part = line.chord(q, r2);
         for (size_t i = 0; i < count && line.holds(part); ++i)
-          if (i != a && i != b && i != c) line.cut(block->position(near[i]), part);
+          if (i != a && i != b && i != c) line.cut(near[ranked[i].index], part);
         if (line.holds(part)) return true;
       }
   return false;

@@ -27,6 +27,8 @@ class FoamSeeds {
   }
 
   Vec3 scale() const { return scale_; }
+  /// In units of 2^-31: 0 to 2^31.
+  int64_t jitter() const { return jitter_; }
 
   /// The seed of cell `home` + (dx, dy, dz), relative to the corner of `home`.
   Vec3 at(CellIndex home, int dx, int dy, int dz) const {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernels of the batched point query (point_batch.h): which seeds of a block are near a point, and
+// the definition itself for many points at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/simd.h"
+#include "structure/foam/seed_tile.h"
+
+namespace msq {
+
+/// Seeds about one cell in single precision, foam units from the cell's corner; padded to whole
+/// vectors by seeds far away.
+struct SeedBlockView {
+  const float *x, *y, *z;
+  size_t count;       ///< the seeds
+  size_t mask_words;  ///< words for a bit a seed
+};
+/// Most seeds of a block.
+constexpr size_t most_block_seeds = 1024;
+
+/// Fills x, y and z with the seeds of the cells up to half[axis] away from the tile's cell `home`,
+/// in the order of their cells, and a vector of seeds far away; there is room for
+/// most_block_seeds + block_padding.
+void fill_block(const SeedTile& tile, size_t home, const int (&half)[3], Vec3 scale, float* x,
+                float* y, float* z);
+constexpr size_t block_padding = 2 * most_simd_doubles + 4;
+
+/// For each point: needed[i] = distance to its nearest seed + add[i], and bit s of
+/// masks[i * mask_words ...] is set for the seeds s within needed[i].
+void find_near_seeds(const SeedBlockView& block, const float* x, const float* y, const float* z,
+                     const float* add, size_t points, float* needed, uint64_t* masks);
+
+/// Points that have the same number of candidates: the seeds, in the order of their cells, that may
+/// be within nearest + 2 radius + near_slack. Foam units, from any cell's corner, one for a point.
+struct TripleBatch {
+  static constexpr size_t capacity = most_simd_doubles;
+  static constexpr size_t most_seeds = 6;
+
+  size_t count = 0;
+  double seed[most_seeds][3][capacity] = {};
+  double point[3][capacity] = {};
+  double radius[capacity] = {};
+  uint32_t index[capacity];
+};
+
+/// held[i] becomes 1 or 0 as foam_point_inside() answers for point i, whose candidates are the
+/// first `seeds` of the batch.
+void decide_triples(const TripleBatch& batch, size_t seeds, uint8_t* held);
+
+}  // namespace msq

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// A point needs the seeds within needed = d0 + 2 r + near_slack of it, d0 the distance to the
+// nearest (point.cpp). Here they are first looked for in single precision, in a block of cells
+// about the point's, and with room for its error: more seeds may be found, none is missed. Where
+// fewer than three are found the point is outside. The others are decided by the definition, in
+// double precision: those with few seeds in vectors of points, the rest one by one. A point that
+// needs seeds beyond the block asks a second, larger one, and then foam_point_inside().
+//
+// The error in single precision, u = 2^-24 a rounding, all coordinates at most B: a seed's carries
+// three roundings (its sum with its cell's number, the cell's size, their product), the point's
+// one, their difference one of at most 2 B: 6 u B along each axis, 10.4 u B in distance. The
+// squares and their sum round by 4 u of the squared distance, thus 2 u of a distance of at most 3.5
+// B: 7 u B. Together below 18 u B for a distance; `slack` is 32 u B. needed is a distance plus 2 r,
+// once more compared with a distance: two errors, and the few roundings of the sum and its square,
+// each below u of 3.5 B + 2 r. Three times the slack holds them, r being at most a cell.
+#include "structure/foam/point_batch.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "structure/foam/point.h"
+
+namespace msq {
+
+namespace {
+
+/// The blocks' size: with this distance to the nearest seed and a place at the border of the cell,
+/// a point finds its seeds in the first block.
+constexpr double usual_distance = 0.6;
+
+}  // namespace
+
+PointBatch::PointBatch(const FoamSeeds& seeds, double most_radius, uint8_t* inside)
+    : seeds_(seeds), inside_(inside) {
+  const int step = std::max(0, static_cast<int>(std::ceil(usual_distance + 2 * most_radius)) - 1);
+  plan(first_, step);
+  plan(second_, step + 1);
+  has_first_ = first_.seeds <= most_block_seeds;
+  has_second_ = second_.seeds <= most_block_seeds;
+  masks_.resize(capacity * (has_second_ ? second_ : first_).mask_words);
+}
+
+void PointBatch::plan(Block& block, int step) const {
+  const Vec3 scale = seeds_.scale();
+  double most = 0;
+  block.seeds = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    block.half[axis] = static_cast<int>(std::ceil((step + 1) / scale[axis]));
+    block.seeds *= static_cast<size_t>(2 * block.half[axis] + 1);
+    most = std::max(most, (block.half[axis] + 1) * scale[axis]);
+  }
+  block.slack = 0x1p-19 * most;
+  block.mask_words = (block.seeds + 63) / 64;
+  if (block.seeds > most_block_seeds) return;
+  for (int dz = -block.half[2]; dz <= block.half[2]; ++dz)
+    for (int dy = -block.half[1]; dy <= block.half[1]; ++dy)
+      for (int dx = -block.half[0]; dx <= block.half[0]; ++dx)
+        block.cell.push_back({double(dx), double(dy), double(dz)});
+  block.offset.resize(block.seeds);
+  for (std::vector<float>* v : {&block.x, &block.y, &block.z})
+    v->resize(block.seeds + block_padding);
+}
+
+void PointBatch::move_to(CellIndex low, const int (&size)[3], bool is_sparse) {
+  if (!has_first_) return;
+  const bool is_wide = has_second_ && !is_sparse;
+  tile_.build(seeds_, low, size, (is_wide ? second_ : first_).half);
+  for (Block* block : {&first_, &second_}) {
+    const bool is_used = block == &first_ || is_wide;
+    if (!is_used) continue;
+    for (size_t s = 0; s < block->seeds; ++s) {
+      const Vec3 cell = block->cell[s];
+      block->offset[s] = tile_.offset(int(cell.x), int(cell.y), int(cell.z));
+    }
+  }
+  is_wide_ = is_wide;
+}
+
+void PointBatch::ask(CellIndex cell) {
+  uint8_t points[capacity];
+  for (size_t i = 0; i < count_; ++i) {
+    points[i] = static_cast<uint8_t>(i);
+    inside_[index_[i]] = 0;
+  }
+  size_t left = count_;
+  if (has_first_) left = ask(first_, cell, points, left);
+  if (left > 0 && is_wide_) left = ask(second_, cell, points, left);
+  for (size_t k = 0; k < left; ++k) {
+    const size_t i = points[k];
+    inside_[index_[i]] = foam_point_inside(seeds_, cell, {x_[i], y_[i], z_[i]}, radius_[i]);
+  }
+  count_ = 0;
+}
+
+size_t PointBatch::ask(Block& block, CellIndex cell, uint8_t* points, size_t count) {
+  const Vec3 scale = seeds_.scale();
+  float x[capacity], y[capacity], z[capacity], add[capacity], reach[capacity], needed[capacity];
+  const float slack = static_cast<float>(3 * block.slack);
+  const Vec3 room =
+      Vec3{double(block.half[0]), double(block.half[1]), double(block.half[2])} * scale -
+      Vec3{block.slack, block.slack, block.slack};
+  for (size_t k = 0; k < count; ++k) {
+    const size_t i = points[k];
+    x[k] = static_cast<float>(x_[i]);
+    y[k] = static_cast<float>(y_[i]);
+    z[k] = static_cast<float>(z_[i]);
+    add[k] = static_cast<float>(2 * radius_[i]) + slack;
+    reach[k] = static_cast<float>(std::min({room.x + std::min(x_[i], scale.x - x_[i]),
+                                            room.y + std::min(y_[i], scale.y - y_[i]),
+                                            room.z + std::min(z_[i], scale.z - z_[i])}));
+  }
+  const size_t home = tile_.index(cell), words = block.mask_words;
+  fill_block(tile_, home, block.half, scale, block.x.data(), block.y.data(), block.z.data());
+  const SeedBlockView view{block.x.data(), block.y.data(), block.z.data(), block.seeds, words};
+  find_near_seeds(view, x, y, z, add, count, needed, masks_.data());
+
+  // Which points have three seeds is a coin toss: listed without a branch.
+  uint8_t chosen[capacity];
+  uint16_t near[capacity];
+  size_t chosen_count = 0, beyond_count = 0;
+  uint8_t beyond[capacity];
+  for (size_t k = 0; k < count; ++k) {
+    size_t seeds = 0;
+    for (size_t w = 0; w < words; ++w)
+      seeds += static_cast<size_t>(std::popcount(masks_[k * words + w]));
+    const bool is_beyond = !(needed[k] <= reach[k]);
+    near[k] = static_cast<uint16_t>(seeds);
+    chosen[chosen_count] = static_cast<uint8_t>(k);
+    chosen_count += seeds >= 3 && !is_beyond;
+    beyond[beyond_count] = points[k];
+    beyond_count += is_beyond;
+  }
+  for (size_t n = 0; n < chosen_count; ++n) {
+    const size_t k = chosen[n];
+    push(block, home, points[k], masks_.data() + k * words, near[k]);
+  }
+  std::copy(beyond, beyond + beyond_count, points);
+  return beyond_count;
+}
+
+void PointBatch::push(const Block& block, size_t home, size_t point, const uint64_t* mask,
+                      size_t count) {
+  const Vec3 scale = seeds_.scale();
+  const float *fx = tile_.fraction(0) + home, *fy = tile_.fraction(1) + home,
+              *fz = tile_.fraction(2) + home;
+  // FoamSeeds::in_row, to the last bit.
+  const auto position = [&](size_t s) {
+    const ptrdiff_t at = block.offset[s];
+    return (block.cell[s] + Vec3{fx[at], fy[at], fz[at]}) * scale;
+  };
+  const auto for_each_seed = [&](auto&& visit) {
+    for (size_t w = 0; w < block.mask_words; ++w)
+      for (uint64_t rest = mask[w]; rest; rest &= rest - 1)
+        visit(position(w * 64 + static_cast<size_t>(std::countr_zero(rest))));
+  };
+  const Vec3 q{x_[point], y_[point], z_[point]};
+  const double radius = radius_[point];
+  if (count <= TripleBatch::most_seeds) {
+    TripleBatch& batch = triples_[count];
+    const size_t slot = batch.count++;
+    size_t i = 0;
+    for_each_seed([&](Vec3 seed) {
+      for (int axis = 0; axis < 3; ++axis) batch.seed[i][axis][slot] = seed[axis];
+      ++i;
+    });
+    for (int axis = 0; axis < 3; ++axis) batch.point[axis][slot] = q[axis];
+    batch.radius[slot] = radius;
+    batch.index[slot] = index_[point];
+    if (batch.count == TripleBatch::capacity) decide(count);
+    return;
+  }
+  candidates_.clear();
+  distance_squared_.clear();
+  double least = 1e300;
+  for_each_seed([&](Vec3 seed) {
+    const Vec3 d = seed - q;
+    candidates_.push_back(seed);
+    distance_squared_.push_back(dot(d, d));
+    least = std::min(least, distance_squared_.back());
+  });
+  const double needed = std::sqrt(least) + 2 * radius + near_slack;
+  near_.clear();
+  for (size_t i = 0; i < candidates_.size(); ++i)
+    if (distance_squared_[i] <= needed * needed) near_.push_back(candidates_[i]);
+  inside_[index_[point]] = foam_point_inside(near_, q, radius);
+}
+
+void PointBatch::decide(size_t seeds) {
+  TripleBatch& batch = triples_[seeds];
+  uint8_t held[TripleBatch::capacity];
+  decide_triples(batch, seeds, held);
+  for (size_t i = 0; i < batch.count; ++i) inside_[batch.index[i]] = held[i];
+  batch.count = 0;
+}
+
+void PointBatch::finish() {
+  for (size_t seeds = 3; seeds <= TripleBatch::most_seeds; ++seeds)
+    if (triples_[seeds].count > 0) decide(seeds);
+}
+
+}  // namespace msq

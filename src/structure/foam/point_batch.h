@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// The point query for many points of a cell: the same answers as foam_point_inside(), bit for bit,
+// with the seeds about the cell found once and vectors of seeds and of points looked at.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "structure/foam/near_seeds.h"
+#include "structure/foam/seed_tile.h"
+
+namespace msq {
+
+class PointBatch {
+ public:
+  /// No point's radius exceeds most_radius (foam units). Answers, 0 or 1, go to `inside` by the
+  /// points' indices.
+  PointBatch(const FoamSeeds& seeds, double most_radius, uint8_t* inside);
+
+  /// Turns to the cells of a box of size[0] x size[1] x size[2] from `low` on; all cells asked next
+  /// lie in it. The seeds about them are found here, so the box should hold few cells without
+  /// points: if `is_sparse`, it is a single cell, and fewer seeds about it are found.
+  void move_to(CellIndex low, const int (&size)[3], bool is_sparse = false);
+  /// How many seeds that finds.
+  size_t seeds_about(const int (&size)[3]) const { return SeedTile::seeds(size, second_.half); }
+
+  /// A point of the cell asked next: q in foam units from its corner.
+  void add(Vec3 q, double radius, uint32_t index) {
+    x_[count_] = q.x;
+    y_[count_] = q.y;
+    z_[count_] = q.z;
+    radius_[count_] = radius;
+    index_[count_] = index;
+    ++count_;
+  }
+  bool is_full() const { return count_ == capacity; }
+  /// Answers the points added; some perhaps not before finish().
+  void ask(CellIndex cell);
+  void finish();
+
+ private:
+  static constexpr size_t capacity = 64;
+
+  /// The seeds of the cells up to half[axis] away from a point's cell.
+  struct Block {
+    int half[3];
+    size_t seeds = 0, mask_words = 0;
+    double slack = 0;               // of distances in single precision, foam units
+    std::vector<Vec3> cell;         // of each seed, from the point's
+    std::vector<ptrdiff_t> offset;  // of each seed in the tile
+    std::vector<float> x, y, z;
+  };
+  void plan(Block& block, int step) const;
+  /// Answers points, by their positions among those added, from a block; returns how many it is too
+  /// small for, whose positions are then the first.
+  size_t ask(Block& block, CellIndex cell, uint8_t* points, size_t count);
+  /// A point that may lie inside, and the seeds that may decide it.
+  void push(const Block& block, size_t home, size_t point, const uint64_t* mask, size_t count);
+  void decide(size_t seeds);
+
+  const FoamSeeds seeds_;
+  uint8_t* inside_;
+  Block first_, second_;
+  bool has_first_, has_second_;  // small enough
+  bool is_wide_ = false;         // the tile has room for the second
+  SeedTile tile_;
+
+  size_t count_ = 0;
+  double x_[capacity], y_[capacity], z_[capacity], radius_[capacity];
+  uint32_t index_[capacity];
+  std::vector<uint64_t> masks_;
+  std::vector<Vec3> candidates_, near_;
+  std::vector<double> distance_squared_;
+  TripleBatch triples_[TripleBatch::most_seeds + 1];  // by the number of seeds
+};
+
+}  // namespace msq

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The seeds of a box of cells and of the cells around it, found by vectors of seeds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "structure/foam/seeds.h"
+
+namespace msq {
+
+class SeedTile {
+ public:
+  /// The box of size[0] x size[1] x size[2] cells whose first is `low`, and `halo` cells on either
+  /// side of it.
+  void build(const FoamSeeds& seeds, CellIndex low, const int (&size)[3], const int (&halo)[3]);
+
+  static size_t seeds(const int (&size)[3], const int (&halo)[3]) {
+    size_t count = 1;
+    for (int axis = 0; axis < 3; ++axis) count *= static_cast<size_t>(size[axis] + 2 * halo[axis]);
+    return count;
+  }
+
+  /// Of a cell of the box; of a cell (dx, dy, dz) away in the tile: index + offset(dx, dy, dz).
+  size_t index(CellIndex cell) const {
+    return static_cast<size_t>(offset(cell.x - first_.x, cell.y - first_.y, cell.z - first_.z));
+  }
+  ptrdiff_t offset(int dx, int dy, int dz) const {
+    return (ptrdiff_t{dz} * length_[1] + dy) * length_[0] + dx;
+  }
+
+  /// A seed's coordinate from the corner of its own cell, in cell sizes: a multiple of 2^-21 in
+  /// [0, 1), which single precision holds exactly. A few more may be read past the last.
+  const float* fraction(int axis) const { return fraction_[axis].data(); }
+
+ private:
+  CellIndex first_;  // with the halo
+  int length_[3] = {0, 0, 0};
+  std::vector<float> fraction_[3];
+};
+
+}  // namespace msq
