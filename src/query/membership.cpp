@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "query/membership.h"
 
-#include <atomic>
 #include <cstring>
 
 #include "base/memory.h"
@@ -69,28 +68,6 @@ void fill_slab(const Model& model, const std::vector<const Structure*>& resolved
     block.z1 = std::min(z1, block.z0 + tile_layers);
     block.words = slab.row(block.y0, block.z0);
     for (const Structure* structure : resolved) structure->keep_rows(block, job);
-  });
-}
-
-void array_membership(const Model& model, const std::vector<const Structure*>& resolved,
-                      const PointArray& points, uint8_t* inside, Job* job) {
-  constexpr uint64_t chunk = 4096;
-  const uint64_t chunks = (points.count + chunk - 1) / chunk;
-  std::atomic<uint64_t> done{0};
-  model.context().executor.for_each(chunks, [&](uint64_t c) {
-    check_cancelled(job);
-    const uint64_t first = c * chunk, count = std::min(chunk, points.count - first);
-    std::vector<Vec3> positions(count);
-    std::vector<uint8_t> alive(count);
-    for (uint64_t i = 0; i < count; ++i) {
-      positions[i] = points.at(first + i);
-      alive[i] = model.shape().inside(positions[i]);
-    }
-    for (const Structure* structure : resolved)
-      structure->keep_points(positions.data(), alive.data(), count);
-    std::memcpy(inside + first, alive.data(), count);
-    const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
-    if (job) job->raise_progress(static_cast<double>(now) / static_cast<double>(chunks));
   });
 }
 

@@ -25,9 +25,12 @@ class Structure : public RefCounted {
   /// Membership of a point whose cell index is below max_cell_index; the boundary is inside.
   virtual bool inside(Vec3 p) const = 0;
 
-  /// Sets alive[i] to 0 where points[i] is outside; looks only at points with alive[i] != 0. Points
-  /// that are close to each other in the array are best close in space.
+  /// Sets alive[i] to 0 where points[i] is outside; looks only at points with alive[i] != 0, which
+  /// are 1. Fewer than 2^32 points, in any order.
   virtual void keep_points(const Vec3* points, uint8_t* alive, size_t count) const;
+  /// Whether keep_points is faster for points that share cells: then large sets come in groups, each
+  /// from a box of few cells.
+  virtual bool gains_by_groups() const { return false; }
 
   /// Clears the bits of samples that are outside. Stops early, by Error(cancelled), with the job.
   virtual void keep_rows(const RowBlock& block, const Job* job) const;

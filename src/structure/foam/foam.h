@@ -21,6 +21,7 @@ class Foam final : public Structure {
 
   bool inside(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  bool gains_by_groups() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
 
   const FoamSeeds& seeds() const { return seeds_; }

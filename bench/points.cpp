@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Foams asked point by point: sets of random points in no order, and grids of few samples a cell.
+// r = 0.1 cell, in the unit cube, two threads.
+//
+// usage: points [results.json] [millions of points, default 10]
+#include <cstdlib>
+#include <string>
+
+#include "base/random.h"
+#include "bench.h"
+#include "query/point_groups.h"
+#include "structure/foam/foam.h"
+
+namespace {
+
+struct Foam {
+  msq_context* context;
+  msq_model* model;
+};
+
+Foam make_foam(int cells, int32_t method) {
+  Foam foam{};
+  msq_context_def context_def;
+  bench::check(msq_context_def_init(&context_def, sizeof context_def));
+  context_def.threads = 2;
+  bench::check(msq_context_create(&context_def, &foam.context));
+  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
+  msq_shape* cube;
+  bench::check(msq_shape_from_box(foam.context, low, high, &cube));
+  msq_foam_def def;
+  bench::check(msq_foam_def_init(&def, sizeof def));
+  def.method = method;
+  for (double& size : def.grid.cell_size) size = 1.0 / cells;
+  def.radius.value = 0.1 / cells;
+  msq_structure* structure;
+  bench::check(msq_structure_foam(foam.context, &def, &structure));
+  const msq_scale_def scales[] = {{cube, nullptr}, {nullptr, structure}};
+  msq_model_def model_def;
+  bench::check(msq_model_def_init(&model_def, sizeof model_def));
+  model_def.scales = scales;
+  model_def.scale_count = 2;
+  bench::check(msq_model_create(foam.context, &model_def, &foam.model));
+  msq_structure_release(structure);
+  msq_shape_release(cube);
+  return foam;
+}
+
+void release(const Foam& foam) {
+  msq_model_release(foam.model);
+  msq_context_release(foam.context);
+}
+
+std::vector<double> random_points(size_t count) {
+  std::vector<double> coordinates(3 * count);
+  for (size_t i = 0; i < coordinates.size(); ++i)
+    coordinates[i] = static_cast<double>(msq::splitmix_output(1, i) >> 11) * 0x1p-53;
+  return coordinates;
+}
+
+void bench_grouping(bench::Report& report, int cells, const std::vector<double>& coordinates) {
+  const msq::Executor executor(2);
+  const size_t count = coordinates.size() / 3;
+  const msq::PointArray points{reinterpret_cast<const unsigned char*>(coordinates.data()), count,
+                               3 * sizeof(double), false};
+  constexpr size_t chunk = size_t{1} << 22;
+  msq::Neighbourhood grid;
+  for (int axis = 0; axis < 3; ++axis) grid.cell_size[axis] = 1.0 / cells;
+  const std::vector<uint8_t> alive(count, 1);
+  msq::PointGroups groups(chunk);
+  const double seconds = bench::median_seconds([&] {
+    for (size_t first = 0; first < count; first += chunk)
+      groups.group(executor, grid, points, first, std::min(chunk, count - first),
+                   alive.data() + first, nullptr);
+  });
+  report.add("  grouping alone", seconds, static_cast<double>(count), "point");
+}
+
+void bench_array(bench::Report& report, int cells, const std::vector<double>& coordinates) {
+  const size_t count = coordinates.size() / 3;
+  const Foam foam = make_foam(cells, MSQ_FOAM_DIRECT);
+  msq_points_def points;
+  bench::check(msq_points_def_init(&points, sizeof points));
+  points.coordinates = coordinates.data();
+  points.count = count;
+  std::vector<uint8_t> inside(count);
+  const double set = bench::median_seconds([&] {
+    bench::check(
+        msq_set_membership(foam.model, &points, nullptr, inside.data(), inside.size(), nullptr));
+  });
+  report.add("set of random points, " + std::to_string(cells) + "^3 cells", set,
+             static_cast<double>(count), "point");
+  bench_grouping(report, cells, coordinates);
+
+  const size_t sample = std::min<size_t>(count, 200000);
+  size_t differ = 0;
+  const double alone = bench::seconds_of([&] {
+    for (size_t i = 0; i < sample; ++i) {
+      int32_t answer;
+      bench::check(msq_point_membership(foam.model, &coordinates[3 * i], nullptr, &answer));
+      differ += answer != inside[i];
+    }
+  });
+  report.add("  one by one, one thread", alone, static_cast<double>(sample), "point");
+  report.note("  set against one by one",
+              alone / static_cast<double>(sample) / (set / static_cast<double>(count)),
+              "times faster");
+  report.note("  answers that differ", static_cast<double>(differ), "");
+  msq_memory_report memory{};
+  memory.struct_size = sizeof memory;
+  bench::check(msq_context_memory(foam.context, &memory));
+  report.note("  peak memory", static_cast<double>(memory.peak_bytes) / 1e6, "MB");
+  release(foam);
+}
+
+void bench_grid(bench::Report& report, int cells, uint32_t resolution, int32_t method,
+                const char* name) {
+  const Foam foam = make_foam(cells, method);
+  msq_slicer_def def;
+  bench::check(msq_slicer_def_init(&def, sizeof def));
+  def.resolution[0] = def.resolution[1] = resolution;
+  def.layer_height = 1.0 / resolution;
+  msq_slicer* slicer;
+  bench::check(msq_slicer_create(foam.model, &def, &slicer));
+  bench::Reader reader;
+  const uint64_t layers = resolution / 8;
+  const double seconds = bench::median_seconds([&] {
+    reader = {};
+    bench::check(msq_slicer_run(slicer, 0, layers, bench::Reader::take, &reader, nullptr));
+  });
+  const double samples = static_cast<double>(resolution) * resolution * static_cast<double>(layers);
+  report.add(std::string(name) + ", an eighth of " + std::to_string(resolution) + "^3, " +
+                 std::to_string(cells) + "^3 cells",
+             seconds, samples, "sample");
+  report.note("  volume fraction", static_cast<double>(reader.inside) / samples, "");
+  msq_slicer_release(slicer);
+  release(foam);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  bench::Report report("Voronoi foams point by point, r = 0.1 cell");
+  const size_t millions = count > 2 ? static_cast<size_t>(std::atoi(arguments[2])) : 10;
+  {
+    const std::vector<double> coordinates = random_points(millions * 1000000);
+    for (int cells : {32, 128}) bench_array(report, cells, coordinates);
+  }
+  // From 2 to 5.3 samples a cell along each axis.
+  for (int cells : {256, 192, 128, 96}) {
+    bench_grid(report, cells, 512, MSQ_FOAM_POINT, "POINT");
+    bench_grid(report, cells, 512, MSQ_FOAM_DIRECT, "DIRECT");
+  }
+  report.write(count, arguments);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
