@@ -2,10 +2,9 @@
 // What the rows of strut structures share: struts in, samples restricted, whatever the radius.
 #pragma once
 
-#include <vector>
-
 #include "cell/neighbourhood.h"
 #include "field/field.h"
+#include "strut/segment_selection.h"
 #include "strut/span_raster.h"
 
 namespace msq {
@@ -38,13 +37,30 @@ class StrutRows {
   void add(Vec3 a, Vec3 b) {
     const Box3 extent{min(a, b), max(a, b)};
     if (!extent.overlaps(reach_)) return;
-    const Interval r = radius_.range(extent.grown(most_));
-    batch_.push_back({a, b, r.low, r.high});
+    batch_.push(a, b);
+    if (batch_.full()) flush();
+  }
+  /// Adds those segments of a set that may touch `box` (the set's coordinates).
+  void add(const SegmentSet& set, const SegmentFrame& frame, const Box3& box) {
+    flush();
+    selection_.select(set, box);
+    for (size_t first = 0; first < selection_.count(); first += StrutBatch::capacity) {
+      selection_.place(frame, first, batch_);
+      flush();
+    }
   }
   /// Draws the struts added so far.
   void flush() {
-    raster_.add(batch_.data(), batch_.size(), margin_);
-    batch_.clear();
+    for (size_t i = 0; i < batch_.count; ++i) {
+      const Vec3 a = batch_.from(i), b = batch_.to(i);
+      const Interval r = radius_.is_constant()
+                             ? Interval{most_, most_}
+                             : radius_.range(Box3{min(a, b), max(a, b)}.grown(most_));
+      batch_.low[i] = r.low;
+      batch_.high[i] = r.high;
+    }
+    raster_.add(batch_, margin_, [this](Vec3 p) { return radius_.at(p); });
+    batch_.count = 0;
   }
   /// Clears the samples outside all struts; inside(p) decides those in doubt.
   template <class Inside>
@@ -64,7 +80,8 @@ class StrutRows {
   SpanRaster raster_;
   double margin_;
   Box3 reach_;
-  std::vector<RasterStrut> batch_;
+  StrutBatch batch_;
+  SegmentSelection selection_;
 };
 
 }  // namespace msq

@@ -13,7 +13,7 @@
 #include "base/sample_grid.h"
 #include "base/simd.h"
 #include "strut/raster_target.h"
-#include "strut/span_raster.h"
+#include "strut/strut_batch.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace msq {
@@ -89,16 +89,20 @@ HWY_INLINE Spans capsule_spans(const CapsuleAxis& axis, double r, V v, V w, V k,
   return {low, high};
 }
 
-/// Writes the strut's two spans into rows [range.j0, range.j1) of each layer of the range.
-HWY_INLINE void write_rows(const RasterTarget& target, const RasterStrut& strut,
-                           const CapsuleAxis& axis, const RowRange& range) {
+/// Draws the span of strut `index`, thinned by the margin, into rows [range.j0, range.j1) of each
+/// layer of the range; what the span of the strut thickened by it holds beyond that is doubtful.
+HWY_INLINE void write_rows(const RasterTarget& target, const StrutBatch& batch, size_t index,
+                           const RowRange& range, DoubtfulSpans& doubts) {
   const D d;
   const size_t lanes = hn::Lanes(d);
-  const double thick = strut.high + target.margin, thin = strut.low - target.margin;
-  const V shift = hn::Set(d, strut.a.x - target.x0), scale = hn::Set(d, target.inverse_dx);
+  const Vec3 a = batch.from(index);
+  const CapsuleAxis axis(a, batch.to(index), batch.high[index]);
+  const double thick = batch.high[index] + target.margin;
+  const double thin = batch.low[index] - target.margin;
+  const V shift = hn::Set(d, a.x - target.x0), scale = hn::Set(d, target.inverse_dx);
   const V slack = hn::Set(d, target.slack), last = hn::Set(d, target.last);
   const V minus_one = hn::Set(d, -1.0), beyond = hn::Set(d, target.last + 1);
-  const V uy = hn::Set(d, axis.uy), uz = hn::Set(d, axis.uz), ay = hn::Set(d, strut.a.y);
+  const V uy = hn::Set(d, axis.uy), uz = hn::Set(d, axis.uz), ay = hn::Set(d, a.y);
   HWY_ALIGN double column[4][most_simd_doubles];
   // First and last column; clamped so that empty spans stay empty and all fit an integer.
   const auto first_column = [&](V x, V inwards) {
@@ -110,7 +114,7 @@ HWY_INLINE void write_rows(const RasterTarget& target, const RasterStrut& strut,
     return hn::Max(hn::Min(c, last), minus_one);
   };
   for (size_t k = range.k0; k < range.k1; ++k) {
-    const V w = hn::Set(d, target.z[k] - strut.a.z);
+    const V w = hn::Set(d, target.z[k] - a.z);
     for (size_t j = range.j0; j < range.j1; j += lanes) {
       // Lanes past j1 are computed and not used.
       const V v = hn::Sub(hn::LoadU(d, target.y + j), ay);
@@ -132,14 +136,19 @@ HWY_INLINE void write_rows(const RasterTarget& target, const RasterStrut& strut,
         if (o0 > o1) continue;
         const int64_t i0 = static_cast<int64_t>(column[2][lane]);
         const int64_t i1 = static_cast<int64_t>(column[3][lane]);
-        const size_t at = (k * target.rows + j + lane) * target.words;
+        const auto doubt = [&](int64_t from, int64_t to) {
+          if (from > to) return;
+          doubts.push_back({static_cast<uint32_t>(index), static_cast<uint32_t>(j + lane),
+                            static_cast<uint32_t>(k), static_cast<uint32_t>(from),
+                            static_cast<uint32_t>(to - from + 1)});
+        };
         if (i0 > i1) {
-          set_bits(target.doubt + at, o0, o1);
+          doubt(o0, o1);
           continue;
         }
-        set_bits(target.certain + at, i0, i1);
-        if (o0 < i0) set_bits(target.doubt + at, o0, i0 - 1);
-        if (i1 < o1) set_bits(target.doubt + at, i1 + 1, o1);
+        set_bits(target.row(j + lane, k), i0, i1);
+        doubt(o0, i0 - 1);
+        doubt(i1 + 1, o1);
       }
     }
   }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the raster kernels work on.
+// What the raster kernels read and write.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "base/vec.h"
 
@@ -12,14 +13,22 @@ namespace msq {
 struct RasterTarget {
   const double *y, *z;  ///< rows and layers; y is padded by a vector
   size_t rows, layers;
-  size_t words;               ///< of a row
-  uint64_t *certain, *doubt;  ///< rows, layer by layer, tightly packed, padded by a word
-  double x0, inverse_dx;      ///< column i is at x0 + i / inverse_dx
-  double dy, dz;              ///< from one row, or layer, to the next; dz 0: not evenly spaced
-  double last;                ///< last column
-  double slack;               ///< in columns: the rounding of a column number, with room
-  double margin;              ///< of radii, in model units
+  size_t row_words, layer_words;  ///< from one row, or layer, to the next
+  uint64_t* certain;              ///< padded by a word
+  double x0, inverse_dx;          ///< column i is at x0 + i / inverse_dx
+  double dy, dz;                  ///< from one row, or layer, to the next; dz 0: not evenly spaced
+  double last;                    ///< last column
+  double slack;                   ///< in columns: the rounding of a column number, with room
+  double margin;                  ///< of radii, in model units
+
+  uint64_t* row(size_t j, size_t k) const { return certain + k * layer_words + j * row_words; }
 };
+
+/// Columns [first, first + count) of a row that a strut of the batch may hold or not.
+struct DoubtfulSpan {
+  uint32_t strut, j, k, first, count;
+};
+using DoubtfulSpans = std::vector<DoubtfulSpan>;
 
 /// The rows and layers that a strut may meet: [j0, j1) of [k0, k1).
 struct RowRange {

@@ -15,48 +15,23 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 
-/// Indices of evenly spaced values (or, with step 0, of any) that may lie in [low, high]. One too
-/// many does no harm.
-HWY_INLINE void index_range(const double* values, size_t count, double step, double low,
-                            double high, size_t& first, size_t& last) {
-  if (step > 0) {
-    const double inverse = 1 / step, most = static_cast<double>(count);
-    const double a = std::ceil((low - values[0]) * inverse - 1e-3);
-    const double b = std::floor((high - values[0]) * inverse + 1e-3) + 1;
-    first = static_cast<size_t>(std::min(std::max(a, 0.0), most));
-    last = static_cast<size_t>(std::min(std::max(b, 0.0), most));
-  } else {
-    first = static_cast<size_t>(std::lower_bound(values, values + count, low) - values);
-    last = static_cast<size_t>(std::upper_bound(values, values + count, high) - values);
-  }
-}
-
-HWY_INLINE RowRange rows_of(const RasterTarget& target, const RasterStrut& strut) {
-  const double thick = strut.high + target.margin;
-  RowRange range;
-  index_range(target.y, target.rows, target.dy, std::min(strut.a.y, strut.b.y) - thick,
-              std::max(strut.a.y, strut.b.y) + thick, range.j0, range.j1);
-  index_range(target.z, target.layers, target.dz, std::min(strut.a.z, strut.b.z) - thick,
-              std::max(strut.a.z, strut.b.z) + thick, range.k0, range.k1);
-  return range;
-}
-
-void raster_struts(const RasterTarget& target, const RasterStrut* struts, size_t count) {
-  const size_t lanes = hwy::HWY_NAMESPACE::Lanes(fast::D());
-  for (const RasterStrut* strut = struts; strut != struts + count; ++strut) {
-    const RowRange range = rows_of(target, *strut);
-    if (range.j0 >= range.j1 || range.k0 >= range.k1) continue;
-    const CapsuleAxis axis(strut->a, strut->b, strut->high);
-    if (strut->low != strut->high || !fast::serves(target, *strut, axis)) {
-      general::write_rows(target, *strut, axis, range);
-      continue;
+void raster_struts(const RasterTarget& target, const StrutBatch& batch, DoubtfulSpans& doubts) {
+  StrutSetups setups;
+  set_up_struts(target, batch, setups);
+  FastSpans spans(target);
+  for (size_t i = 0; i < batch.count; ++i) {
+    if (setups.kernel[i] == StrutSetups::none) continue;
+    if (setups.kernel[i] == StrutSetups::general) {
+      const auto index = [&](const int32_t* values) { return static_cast<size_t>(values[i]); };
+      const RowRange range{index(setups.j0), index(setups.j1), index(setups.k0), index(setups.k1)};
+      general::write_rows(target, batch, i, range, doubts);
+    } else if (batch.low[i] == batch.high[i]) {
+      spans.add<false>(batch, setups, i, doubts);
+    } else {
+      spans.add<true>(batch, setups, i, doubts);
     }
-    // Few rows: several layers to a vector.
-    size_t wide = lanes;
-    if (target.dz > 0)
-      while (wide > 4 && range.j1 - range.j0 <= wide / 2) wide /= 2;
-    fast::write_rows(target, *strut, axis, range, wide);
   }
+  spans.draw();
 }
 
 }  // namespace HWY_NAMESPACE
@@ -101,21 +76,21 @@ SpanRaster::SpanRaster(const RowBlock& alive) : alive_(alive) {
   for (uint64_t j = alive.y0; j < alive.y1; ++j) y_.push_back(grid.y(j));
   for (uint64_t k = alive.z0; k < alive.z1; ++k) z_.push_back(grid.z(k));
   y_.resize(y_.size() + most_simd_doubles, y_.back());
-  const size_t size = alive.rows() * alive.layers() * words;
-  certain_.assign(size + 1, 0);  // a word of room for unaligned writes
-  doubt_.assign(size, 0);
+  // A line of the cache more to a layer: neighbouring layers then use different sets of it.
+  layer_words_ = alive.rows() * words + 8;
+  certain_.assign(alive.layers() * layer_words_ + 1, 0);  // a word of room for unaligned writes
 }
 
-void SpanRaster::add(const RasterStrut* struts, size_t count, double margin) {
+void SpanRaster::draw(const StrutBatch& struts, double margin) {
   const SampleGrid& grid = *alive_.grid;
   RasterTarget target;
   target.y = y_.data();
   target.z = z_.data();
   target.rows = alive_.rows();
   target.layers = alive_.layers();
-  target.words = alive_.row_words();
+  target.row_words = alive_.row_words();
+  target.layer_words = layer_words_;
   target.certain = certain_.data();
-  target.doubt = doubt_.data();
   target.x0 = grid.origin.x;
   target.inverse_dx = 1 / grid.spacing.x;
   target.dy = grid.spacing.y;
@@ -123,7 +98,18 @@ void SpanRaster::add(const RasterStrut* struts, size_t count, double margin) {
   target.last = static_cast<double>(grid.nx - 1);
   target.slack = 1e-9 + 0x1p-50 * static_cast<double>(grid.nx);
   target.margin = margin;
-  HWY_DYNAMIC_DISPATCH(raster_struts)(target, struts, count);
+  doubtful_.clear();
+  HWY_DYNAMIC_DISPATCH(raster_struts)(target, struts, doubtful_);
+}
+
+void SpanRaster::leave(Sample sample) {
+  // Struts that share a surface leave the same samples.
+  if (left_.size() == most_left_) {
+    std::sort(left_.begin(), left_.end());
+    left_.erase(std::unique(left_.begin(), left_.end()), left_.end());
+    most_left_ = std::max(most_left_, 2 * left_.size());
+  }
+  left_.push_back(sample);
 }
 
 }  // namespace msq

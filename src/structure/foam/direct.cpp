@@ -24,20 +24,9 @@ void add_brick(const Foam& foam, const EdgeBrick& brick, CellIndex corner, const
   const Box3 from_brick{(reach.min - first_cell) * (1 / unit),
                         (reach.max - first_cell) * (1 / unit)};
   const Box3 wanted = from_brick.grown(edge_error);
-  const SegmentSet& edges = brick.segments();
-  for (size_t run = 0; run < edges.runs(); ++run) {
-    Box3 box;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.min[axis] = edges.bound(axis)[run];
-      box.max[axis] = edges.bound(axis + 3)[run];
-    }
-    if (!wanted.overlaps(box)) continue;
-    for (size_t i = edges.run_start(run); i < edges.run_end(run); ++i) {
-      const FoamEdge edge = edges.at(i);
-      rows.add(origin + grid.rotation.apply(Vec3{edge.a[0], edge.a[1], edge.a[2]} * unit),
-               origin + grid.rotation.apply(Vec3{edge.b[0], edge.b[1], edge.b[2]} * unit));
-    }
-  }
+  SegmentFrame frame{origin, grid.rotation.m};
+  for (double& m : frame.matrix) m *= unit;
+  rows.add(brick.segments(), frame, wanted);
 }
 
 }  // namespace
@@ -71,7 +60,6 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
           return std::make_shared<const EdgeBrick>(foam.seeds(), corner);
         });
         add_brick(foam, static_cast<const EdgeBrick&>(*brick), corner, reach, rows);
-        rows.flush();
       }
   rows.finish(job, [&](Vec3 p) { return foam.inside(p); });
 }

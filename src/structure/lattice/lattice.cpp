@@ -92,7 +92,6 @@ void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
           rows.add(grid.from_grid((s.a + corner) * grid.cell_size),
                    grid.from_grid((s.b + corner) * grid.cell_size));
       }
-      rows.flush();
     }
   rows.finish(job, [this](Vec3 p) { return inside(p); });
 }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The segments of a set that may touch a box, moved into model space batch by batch.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/vec.h"
+#include "strut/segment_set.h"
+#include "strut/strut_batch.h"
+
+namespace msq {
+
+/// From a set's coordinates to the model's: origin + matrix (row-major) * p.
+struct SegmentFrame {
+  Vec3 origin;
+  std::array<double, 9> matrix;
+};
+
+class SegmentSelection {
+ public:
+  /// Selects, instead of those selected before, the segments whose bounding box meets `box` (the
+  /// set's coordinates).
+  void select(const SegmentSet& set, const Box3& box);
+  size_t count() const { return count_; }
+  /// Fills a batch with the segments from number `first` on, as many as it holds; leaves its radii.
+  void place(const SegmentFrame& frame, size_t first, StrutBatch& batch) const;
+
+ private:
+  size_t count_ = 0;
+  std::array<std::vector<float>, 6> components_;
+};
+
+}  // namespace msq

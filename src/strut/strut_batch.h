@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Struts as the raster takes them: component by component, so that several are set up at once.
+#pragma once
+
+#include <cstddef>
+
+#include "base/simd.h"
+#include "base/vec.h"
+
+namespace msq {
+
+/// Struts in model units, each with the least and greatest radius, margins not included, at points
+/// in its reach. Kernels read and write whole vectors: up to `padding` entries past the count.
+struct StrutBatch {
+  static constexpr size_t capacity = 128, padding = most_simd_doubles;
+
+  size_t count = 0;
+  double a[3][capacity + padding], b[3][capacity + padding];
+  double low[capacity + padding], high[capacity + padding];
+
+  bool full() const { return count == capacity; }
+  Vec3 from(size_t i) const { return {a[0][i], a[1][i], a[2][i]}; }
+  Vec3 to(size_t i) const { return {b[0][i], b[1][i], b[2][i]}; }
+  void push(Vec3 from, Vec3 to) {
+    for (int axis = 0; axis < 3; ++axis) {
+      a[axis][count] = from[axis];
+      b[axis][count] = to[axis];
+    }
+    ++count;
+  }
+};
+
+}  // namespace msq

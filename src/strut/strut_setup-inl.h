@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the fast kernel needs of each strut of a batch, computed for a vector of struts at a time in
+// double precision and kept in single. Included once for each instruction set.
+//
+// Lengths are in columns, so that ends of spans come out as column numbers.
+#if defined(MSQ_STRUT_STRUT_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef MSQ_STRUT_STRUT_SETUP_INL_H
+#undef MSQ_STRUT_STRUT_SETUP_INL_H
+#else
+#define MSQ_STRUT_STRUT_SETUP_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "strut/raster_target.h"
+#include "strut/strut_batch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace msq {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+struct StrutSetups {
+  enum Kernel : int32_t { none = 0, general = 1, fast = 2 };
+  static constexpr size_t room = StrutBatch::capacity + StrutBatch::padding;
+
+  int32_t kernel[room];  // none: meets no row of the target
+  int32_t j0[room], j1[room], k0[room], k1[room];
+  int32_t column[room];                  // a whole one near the end a: columns count from it
+  float a_column[room], b_column[room];  // of the ends
+  float first[room], last[room];         // columns of the target
+  float v[room], w[room];                // of row j0 and layer k0, in y and z, from a
+  float dy[room], dz[room];              // from a to b
+  float ux[room], uy[room], uz[room], length[room];  // axis
+  float inverse_across[room];                        // 1 / (uy^2 + uz^2)
+  float high2[room], low2[room];                     // squared radii; low2 negative: no inner span
+  float error[room], end_error[room];                // see fast_spans-inl.h
+};
+
+/// Rows of evenly spaced values, [first, end), that may lie in [low, high]. One too many does no
+/// harm.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void index_range(D d, double start, double step, size_t count, V low, V high, V& first,
+                            V& end) {
+  const V zero = hn::Zero(d), most = hn::Set(d, static_cast<double>(count));
+  const V from = hn::Set(d, start), inverse = hn::Set(d, 1 / step), slack = hn::Set(d, 1e-3);
+  const V a = hn::Ceil(hn::Sub(hn::Mul(hn::Sub(low, from), inverse), slack));
+  const V b = hn::Floor(hn::Add(hn::Mul(hn::Sub(high, from), inverse), slack));
+  first = hn::Min(hn::Max(a, zero), most);
+  end = hn::Min(hn::Max(hn::Add(b, hn::Set(d, 1.0)), zero), most);
+}
+
+/// The same for any ascending values.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void index_range(D d, const double* values, size_t count, V low, V high, V& first,
+                            V& end) {
+  HWY_ALIGN double bounds[2][most_simd_doubles];
+  hn::Store(low, d, bounds[0]);
+  hn::Store(high, d, bounds[1]);
+  for (size_t l = 0; l < hn::Lanes(d); ++l) {
+    bounds[0][l] =
+        static_cast<double>(std::lower_bound(values, values + count, bounds[0][l]) - values);
+    bounds[1][l] =
+        static_cast<double>(std::upper_bound(values, values + count, bounds[1][l]) - values);
+  }
+  first = hn::Load(d, bounds[0]);
+  end = hn::Load(d, bounds[1]);
+}
+
+HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batch,
+                              StrutSetups& setups) {
+  using D = hn::ScalableTag<double>;
+  using V = hn::Vec<D>;
+  const D d;
+  const hn::Rebind<float, D> df;
+  const hn::Rebind<int32_t, D> di;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const V margin = hn::Set(d, target.margin), scale = hn::Set(d, target.inverse_dx);
+  const V shift = hn::Mul(margin, scale);
+  constexpr double u = 0x1p-24;
+  const double step = std::max(target.dy, target.dz) * target.inverse_dx;
+  const bool grid_fits = target.layers * target.layer_words < (size_t{1} << 25);  // 2^31 bits
+
+  for (size_t i = 0; i < batch.count; i += hn::Lanes(d)) {
+    const V ax = hn::LoadU(d, batch.a[0] + i), ay = hn::LoadU(d, batch.a[1] + i),
+            az = hn::LoadU(d, batch.a[2] + i);
+    const V bx = hn::LoadU(d, batch.b[0] + i), by = hn::LoadU(d, batch.b[1] + i),
+            bz = hn::LoadU(d, batch.b[2] + i);
+    const V high = hn::LoadU(d, batch.high + i), low = hn::LoadU(d, batch.low + i);
+    const V thick = hn::Add(high, margin);
+
+    V j0, j1, k0, k1;
+    index_range(d, target.y[0], target.dy, target.rows, hn::Sub(hn::Min(ay, by), thick),
+                hn::Add(hn::Max(ay, by), thick), j0, j1);
+    const V z_low = hn::Sub(hn::Min(az, bz), thick), z_high = hn::Add(hn::Max(az, bz), thick);
+    V z_first;
+    if (target.dz > 0) {
+      index_range(d, target.z[0], target.dz, target.layers, z_low, z_high, k0, k1);
+      z_first = hn::Add(hn::Set(d, target.z[0]), hn::Mul(k0, hn::Set(d, target.dz)));
+    } else {
+      index_range(d, target.z, target.layers, z_low, z_high, k0, k1);
+      z_first = zero;  // the kernel looks it up
+    }
+    const V y_first = hn::Add(hn::Set(d, target.y[0]), hn::Mul(j0, hn::Set(d, target.dy)));
+
+    const V dx = hn::Mul(hn::Sub(bx, ax), scale), dy = hn::Mul(hn::Sub(by, ay), scale),
+            dz = hn::Mul(hn::Sub(bz, az), scale);
+    const V across2 = hn::Add(hn::Mul(dy, dy), hn::Mul(dz, dz));
+    const V length2 = hn::Add(across2, hn::Mul(dx, dx));
+    const V length = hn::Sqrt(length2), inverse_length = hn::Div(one, length);
+    const V inverse_across = hn::Div(length2, across2);
+    const V r = hn::Mul(high, scale), whole = hn::Add(length, r);
+
+    const V a_column = hn::Mul(hn::Sub(ax, hn::Set(d, target.x0)), scale);
+    const V column = hn::Floor(a_column), fraction = hn::Sub(a_column, column);
+    const V b_column = hn::Add(fraction, dx);
+
+    const V ru = hn::Mul(whole, hn::Set(d, 14 * u)), both = hn::Add(ru, shift);
+    const V squared_error =
+        hn::MulAdd(hn::Mul(r, hn::Set(d, 2.0)), hn::Add(shift, hn::Mul(whole, hn::Set(d, 16 * u))),
+                   hn::Mul(both, both));
+    const V error =
+        hn::Mul(hn::Mul(hn::Set(d, 12.0), squared_error), hn::Mul(inverse_across, inverse_across));
+    const V end_error = hn::MulAdd(hn::Set(d, 32 * u), hn::MulAdd(whole, inverse_across, one),
+                                   hn::Set(d, target.slack));
+
+    const V reach = hn::Add(hn::Add(r, shift), one);
+    // Also where overflow leaves no number.
+    const auto before = hn::Lt(hn::Add(hn::Max(a_column, hn::Add(a_column, dx)), reach), zero);
+    const auto beyond =
+        hn::Gt(hn::Sub(hn::Min(a_column, hn::Add(a_column, dx)), reach), hn::Set(d, target.last));
+    const auto meets = hn::AndNot(hn::Or(before, beyond), hn::And(hn::Lt(j0, j1), hn::Lt(k0, k1)));
+    // Not nearly along x, not points, not needles; and grids that are neither so fine nor so coarse
+    // that single precision overflows.
+    auto serves = hn::Lt(inverse_across, hn::Set(d, 20.0));
+    serves = hn::And(serves, hn::Gt(length, hn::Mul(whole, hn::Set(d, 1e-9))));
+    serves = hn::And(serves, hn::Gt(r, hn::Mul(whole, hn::Set(d, 1e-4))));
+    serves = hn::And(serves, hn::Lt(shift, hn::Mul(r, hn::Set(d, 1e-3))));
+    serves = hn::And(serves, hn::Gt(hn::Mul(whole, hn::Set(d, 1e6)), hn::Set(d, step)));
+    serves = hn::And(serves, hn::Gt(whole, hn::Set(d, 1e-6)));
+    serves = hn::And(serves, hn::Lt(whole, hn::Set(d, 65536.0)));
+    serves = hn::And(serves, hn::Lt(hn::Abs(column), hn::Set(d, 0x1p30)));
+    V kernel = hn::Set(d, double{StrutSetups::general});
+    if (grid_fits) kernel = hn::IfThenElse(serves, hn::Set(d, double{StrutSetups::fast}), kernel);
+    kernel = hn::IfThenElseZero(meets, kernel);
+
+    const auto put = [&](V value, float* out) { hn::StoreU(hn::DemoteTo(df, value), df, out + i); };
+    const auto put_index = [&](V value, int32_t* out) {
+      hn::StoreU(hn::DemoteTo(di, value), di, out + i);
+    };
+    const V bound = hn::Set(d, 0x1p23);
+    const auto near = [&](V value) { return hn::Min(hn::Max(value, hn::Neg(bound)), bound); };
+    put_index(kernel, setups.kernel);
+    put_index(j0, setups.j0);
+    put_index(j1, setups.j1);
+    put_index(k0, setups.k0);
+    put_index(k1, setups.k1);
+    put_index(hn::Min(hn::Max(column, hn::Set(d, -0x1p30)), hn::Set(d, 0x1p30)), setups.column);
+    put(fraction, setups.a_column);
+    put(b_column, setups.b_column);
+    put(near(hn::Neg(column)), setups.first);
+    put(near(hn::Sub(hn::Set(d, target.last), column)), setups.last);
+    put(hn::Mul(hn::Sub(y_first, ay), scale), setups.v);
+    put(hn::Mul(hn::Sub(z_first, az), scale), setups.w);
+    put(dy, setups.dy);
+    put(dz, setups.dz);
+    put(hn::Mul(dx, inverse_length), setups.ux);
+    put(hn::Mul(dy, inverse_length), setups.uy);
+    put(hn::Mul(dz, inverse_length), setups.uz);
+    put(length, setups.length);
+    put(inverse_across, setups.inverse_across);
+    put(hn::Mul(r, r), setups.high2);
+    const V thin = hn::Mul(low, scale);
+    put(hn::IfThenElse(hn::Gt(thin, zero), hn::Mul(thin, thin), hn::Set(d, -1.0)), setups.low2);
+    put(error, setups.error);
+    put(end_error, setups.end_error);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace msq
+HWY_AFTER_NAMESPACE();
+
+#endif
