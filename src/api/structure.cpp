@@ -203,7 +203,7 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     if (ratio > 4)
       fail(Status::limit, "cell sizes of a foam differ by %g times; the limit is 4", ratio);
     const FoamMethod method = static_cast<FoamMethod>(
-        require_range(known.method, MSQ_FOAM_AUTO, MSQ_FOAM_DIRECT, "method"));
+        require_range(known.method, MSQ_FOAM_AUTO, MSQ_FOAM_METHOD_1, "method"));
     if (method == FoamMethod::method_2 && !can_triangulate())
       fail(Status::unsupported, "MSQ_FOAM_METHOD_2 is not in this build (MSQ_WITH_CGAL is off)");
     if (!(known.jitter >= 0 && known.jitter <= 1))

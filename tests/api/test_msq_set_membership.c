@@ -134,6 +134,7 @@ static void every_kind_of_model_answers_arrays_as_points(void** state) {
     make_shape_model(context, ball),
     make_foam_model(context, MSQ_FOAM_AUTO),
     make_foam_model(context, MSQ_FOAM_POINT),
+    make_foam_model(context, MSQ_FOAM_METHOD_1),
     make_foam_model(context, MSQ_FOAM_DIRECT),
 #if MSQ_WITH_CGAL
     make_foam_model(context, MSQ_FOAM_METHOD_2),
@@ -186,7 +187,7 @@ static void grids_are_answered_x_first(void** state) {
     make_shape_model(context, cylinder),
     make_lattice_model(context),
     make_foam_model(context, MSQ_FOAM_AUTO),
-    make_foam_model(context, MSQ_FOAM_POINT),
+    make_foam_model(context, MSQ_FOAM_METHOD_1),
 #if MSQ_WITH_CGAL
     make_foam_model(context, MSQ_FOAM_METHOD_2),
 #endif

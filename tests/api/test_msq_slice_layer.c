@@ -35,7 +35,7 @@ static void layer_is_that_of_a_run(void** state) {
   check_layers(make_lattice_model(context));
   check_layers(make_model(context, make_cube_mesh(context), make_lattice(context), NULL));
   check_layers(make_foam_model(context, MSQ_FOAM_DIRECT));
-  check_layers(make_foam_model(context, MSQ_FOAM_POINT));
+  check_layers(make_foam_model(context, MSQ_FOAM_METHOD_1));
 #if MSQ_WITH_CGAL
   check_layers(make_foam_model(context, MSQ_FOAM_METHOD_2));
 #endif

@@ -51,7 +51,7 @@ static void layers_hold_what_the_points_say(void** state) {
   check_layers(make_shape_model(context, ball), def);
   check_layers(make_shape_model(context, make_cube_mesh(context)), def);
   check_layers(make_foam_model(context, MSQ_FOAM_DIRECT), def);
-  check_layers(make_foam_model(context, MSQ_FOAM_POINT), def);
+  check_layers(make_foam_model(context, MSQ_FOAM_METHOD_1), def);
 #if MSQ_WITH_CGAL
   check_layers(make_foam_model(context, MSQ_FOAM_METHOD_2), def);
 #endif

@@ -26,7 +26,7 @@ std::vector<Vec3> points_in(const StructureRow& row, Vec3 corner_cell, size_t co
 
 void test_row(void** state) {
   const StructureRow& row = *static_cast<const StructureRow*>(*state);
-  const size_t count = test_count(1000000) / row.family_rows + 2;
+  const size_t count = row.samples(1000000);
   Random random(row.index + 1);
   size_t held = 0, differ = 0, forgiven = 0;
   for (Vec3 corner : {Vec3{-1, -1, -1}, Vec3{1000, -1001, 999}}) {

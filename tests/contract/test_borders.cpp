@@ -67,7 +67,7 @@ void test_row(void** state) {
 }  // namespace
 
 int main() {
-  std::vector<StructureRow> rows = structures();
+  std::vector<StructureRow> rows = structures_by_point();
   // A radius of 0 has no smaller one to compare with.
   for (StructureRow& row : rows) row.graded_from = 0.01;
   return run_for_each("borders", rows, test_row);

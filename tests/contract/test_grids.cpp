@@ -49,8 +49,9 @@ SampleGrid make_grid(const StructureRow& row, const GridCase& c, size_t samples,
   grid.spacing = size * (1 / c.samples_per_cell);
   grid.origin = n.from_grid(c.corner_cell * n.cell_size);
   if (!c.on_borders) grid.origin = grid.origin + size * random.in_box({{}, {1, 1, 1}});
-  // Few cells for the method whose cells are dear.
-  grid.nx = row.is_method_2() ? std::min(70.0, 2 * c.samples_per_cell + 1) : 70 + random.below(70);
+  // Few samples or cells for the methods that they are dear to.
+  grid.nx = row.has_dear_points()  ? 8
+            : row.has_dear_cells() ? std::min(70.0, 2 * c.samples_per_cell + 1) : 70 + random.below(70);
   const double rest = std::sqrt(static_cast<double>(samples) / static_cast<double>(grid.nx));
   grid.ny = std::max<uint64_t>(2, static_cast<uint64_t>(rest));
   grid.nz = grid.ny;
@@ -114,7 +115,7 @@ void test_row(void** state) {
   const StructureRow& row = *static_cast<const StructureRow*>(*state);
   // Foams have many rows, each with two of the grids; lattices have few, each with all.
   const size_t grids = row.is_lattice() ? std::size(cases) : 2;
-  const size_t samples = test_count(1000000) / row.family_rows / grids + 2;
+  const size_t samples = row.samples(1000000) / grids + 2;
   Random random(row.index + 1);
   Outcome total;
   for (size_t g = 0; g < grids; ++g) {

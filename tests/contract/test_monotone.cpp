@@ -41,6 +41,6 @@ void test_row(void** state) {
 }  // namespace
 
 int main() {
-  std::vector<StructureRow> rows = structures();
+  std::vector<StructureRow> rows = structures_by_point();
   return run_for_each("monotone", rows, test_row);
 }

@@ -49,7 +49,7 @@ void test_row(void** state) {
 }  // namespace
 
 int main() {
-  std::vector<StructureRow> rows = structures();
+  std::vector<StructureRow> rows = structures_by_point();
   // A varying radius does not repeat.
   rows.erase(std::remove_if(rows.begin(), rows.end(),
                             [](const StructureRow& r) { return !r.is_lattice() || r.is_graded; }),

@@ -20,6 +20,13 @@ Neighbourhood turned() {
   return {{0.1, 0.2, 0.3}, {0.4, 0.4, 0.3}, {{c, -s, 0, s, c, 0, 0, 0, 1}}};
 }
 
+/// Cells so small that foams answer point by point.
+Neighbourhood few_samples() {
+  Neighbourhood grid = turned();
+  grid.cell_size = grid.cell_size * 0.05;
+  return grid;
+}
+
 uint64_t hash_of(const std::function<Ref<const Structure>(Ref<Context>)>& make) {
   const Ref<Context> context = make_ref<Context>(2u, uint64_t{1} << 28, uint64_t{0});
   const Ref<Model> model = make_ref<Model>(context, make_ref<SphereShape>(Vec3{0.5, 0.5, 0.5}, 1.0),
@@ -53,7 +60,8 @@ void all_instruction_sets_give_the_same_layers(void**) {
         return make_ref<Foam>(c, turned(), Parameter(0.03), 1.0, uint64_t{3}, FoamMethod::direct);
       },
       [](Ref<Context> c) {
-        return make_ref<Foam>(c, turned(), Parameter(0.03), 0.7, uint64_t{3}, FoamMethod::point);
+        return make_ref<Foam>(c, few_samples(), Parameter(0.002), 0.7, uint64_t{3},
+                              FoamMethod::direct);
       },
   };
   std::vector<int64_t> targets;

@@ -2,7 +2,9 @@
 #include "structure/foam/foam.h"
 
 #include "structure/foam/direct.h"
+#include "structure/foam/method_1.h"
 #include "structure/foam/method_2.h"
+#include "structure/foam/naive_point.h"
 #include "structure/foam/point.h"
 #include "structure/foam/point_set.h"
 
@@ -28,6 +30,8 @@ bool Foam::inside(Vec3 p) const {
 }
 
 void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  if (method_ == FoamMethod::point) return naive_keep_points(*this, points, alive, count);
+  if (method_ == FoamMethod::method_1) return method_1_keep_points(*this, points, alive, count);
   if (method_ == FoamMethod::method_2) return method_2_keep_points(*this, points, alive, count);
   foam_keep_points_by_point(*this, points, alive, count);
 }
@@ -35,6 +39,8 @@ void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
 void Foam::keep_rows(const RowBlock& block, const Job* job) const {
   if (method_ == FoamMethod::direct)
     direct_keep_rows(*this, block, job);
+  else if (method_ == FoamMethod::point)
+    naive_keep_rows(*this, block, job);
   else
     Structure::keep_rows(block, job);
 }

@@ -12,7 +12,13 @@
 
 namespace msq {
 
-enum class FoamMethod : int32_t { automatic = 0, point = 1, method_2 = 2, direct = 3 };
+enum class FoamMethod : int32_t {
+  automatic = 0,
+  point = 1,
+  method_2 = 2,
+  direct = 3,
+  method_1 = 4
+};
 
 class Foam final : public Structure {
  public:
