@@ -74,7 +74,7 @@ void block_of(const SeedTile& tile, size_t home, const int (&half)[3], Vec3 scal
 
 // Lanes are seeds: whatever points come, no lane waits for another's seeds.
 void near_seeds(const SeedBlockView& block, const float* x, const float* y, const float* z,
-                const float* add, size_t points, float* needed, uint64_t* masks) {
+                const float* add, size_t points, float* needed, uint16_t* near, uint64_t* masks) {
   const hn::ScalableTag<float> d;
   const size_t lanes = hn::Lanes(d);
   HWY_ALIGN float distance_squared[most_block_seeds + 2 * most_simd_doubles];
@@ -93,16 +93,18 @@ void near_seeds(const SeedBlockView& block, const float* x, const float* y, cons
     needed[i] = hn::GetLane(reach);
     const auto reach_squared = hn::Mul(reach, reach);
     uint64_t word = 0;
-    size_t s = 0;
+    size_t s = 0, count = 0;
     for (; s < block.count; s += lanes) {
       if (s % 64 == 0 && s > 0) {
         masks[s / 64 - 1] = word;
         word = 0;
       }
-      const auto near = hn::Le(hn::Load(d, distance_squared + s), reach_squared);
-      word |= bits_of(d, near) << (s % 64);
+      const auto is_near = hn::Le(hn::Load(d, distance_squared + s), reach_squared);
+      word |= bits_of(d, is_near) << (s % 64);
+      count += hn::CountTrue(d, is_near);
     }
     masks[(s - 1) / 64] = word;
+    near[i] = static_cast<uint16_t>(count);
   }
 }
 
@@ -225,8 +227,9 @@ void fill_block(const SeedTile& tile, size_t home, const int (&half)[3], Vec3 sc
 }
 
 void find_near_seeds(const SeedBlockView& block, const float* x, const float* y, const float* z,
-                     const float* add, size_t points, float* needed, uint64_t* masks) {
-  HWY_DYNAMIC_DISPATCH(near_seeds)(block, x, y, z, add, points, needed, masks);
+                     const float* add, size_t points, float* needed, uint16_t* near,
+                     uint64_t* masks) {
+  HWY_DYNAMIC_DISPATCH(near_seeds)(block, x, y, z, add, points, needed, near, masks);
 }
 
 void decide_triples(const TripleBatch& batch, size_t seeds, uint8_t* held) {

@@ -29,9 +29,10 @@ void fill_block(const SeedTile& tile, size_t home, const int (&half)[3], Vec3 sc
 constexpr size_t block_padding = 2 * most_simd_doubles + 4;
 
 /// For each point: needed[i] = distance to its nearest seed + add[i], and bit s of
-/// masks[i * mask_words ...] is set for the seeds s within needed[i].
+/// masks[i * mask_words ...] is set for the seeds s within needed[i], near[i] in all.
 void find_near_seeds(const SeedBlockView& block, const float* x, const float* y, const float* z,
-                     const float* add, size_t points, float* needed, uint64_t* masks);
+                     const float* add, size_t points, float* needed, uint16_t* near,
+                     uint64_t* masks);
 
 /// Points that have the same number of candidates: the seeds, in the order of their cells, that may
 /// be within nearest + 2 radius + near_slack. Foam units, from any cell's corner, one for a point.

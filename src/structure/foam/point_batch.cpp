@@ -31,8 +31,7 @@ constexpr double usual_distance = 0.6;
 
 }  // namespace
 
-PointBatch::PointBatch(const FoamSeeds& seeds, double most_radius, uint8_t* inside)
-    : seeds_(seeds), inside_(inside) {
+PointBatch::PointBatch(const FoamSeeds& seeds, double most_radius) : seeds_(seeds) {
   const int step = std::max(0, static_cast<int>(std::ceil(usual_distance + 2 * most_radius)) - 1);
   plan(first_, step);
   plan(second_, step + 1);
@@ -113,21 +112,17 @@ size_t PointBatch::ask(Block& block, CellIndex cell, uint8_t* points, size_t cou
   const size_t home = tile_.index(cell), words = block.mask_words;
   fill_block(tile_, home, block.half, scale, block.x.data(), block.y.data(), block.z.data());
   const SeedBlockView view{block.x.data(), block.y.data(), block.z.data(), block.seeds, words};
-  find_near_seeds(view, x, y, z, add, count, needed, masks_.data());
+  uint16_t near[capacity];
+  find_near_seeds(view, x, y, z, add, count, needed, near, masks_.data());
 
   // Which points have three seeds is a coin toss: listed without a branch.
   uint8_t chosen[capacity];
-  uint16_t near[capacity];
   size_t chosen_count = 0, beyond_count = 0;
   uint8_t beyond[capacity];
   for (size_t k = 0; k < count; ++k) {
-    size_t seeds = 0;
-    for (size_t w = 0; w < words; ++w)
-      seeds += static_cast<size_t>(std::popcount(masks_[k * words + w]));
     const bool is_beyond = !(needed[k] <= reach[k]);
-    near[k] = static_cast<uint16_t>(seeds);
     chosen[chosen_count] = static_cast<uint8_t>(k);
-    chosen_count += seeds >= 3 && !is_beyond;
+    chosen_count += near[k] >= 3 && !is_beyond;
     beyond[beyond_count] = points[k];
     beyond_count += is_beyond;
   }

@@ -13,16 +13,21 @@ namespace msq {
 
 class PointBatch {
  public:
-  /// No point's radius exceeds most_radius (foam units). Answers, 0 or 1, go to `inside` by the
-  /// points' indices.
-  PointBatch(const FoamSeeds& seeds, double most_radius, uint8_t* inside);
+  /// The seeds of a whole box of cells are best found at once where they are at most so many for
+  /// each point (docs/benchmarks.md); a point alone needs 27 or more.
+  static constexpr double most_seeds_a_point = 16;
+
+  /// No point's radius exceeds most_radius (foam units).
+  PointBatch(const FoamSeeds& seeds, double most_radius);
+  /// Where answers go, 0 or 1, by the points' indices.
+  void answer_to(uint8_t* inside) { inside_ = inside; }
 
   /// Turns to the cells of a box of size[0] x size[1] x size[2] from `low` on; all cells asked next
   /// lie in it. The seeds about them are found here, so the box should hold few cells without
   /// points: if `is_sparse`, it is a single cell, and fewer seeds about it are found.
   void move_to(CellIndex low, const int (&size)[3], bool is_sparse = false);
   /// How many seeds that finds.
-  size_t seeds_about(const int (&size)[3]) const { return SeedTile::seeds(size, second_.half); }
+  double seeds_about(const int (&size)[3]) const { return SeedTile::seeds(size, second_.half); }
 
   /// A point of the cell asked next: q in foam units from its corner.
   void add(Vec3 q, double radius, uint32_t index) {
@@ -59,7 +64,7 @@ class PointBatch {
   void decide(size_t seeds);
 
   const FoamSeeds seeds_;
-  uint8_t* inside_;
+  uint8_t* inside_ = nullptr;
   Block first_, second_;
   bool has_first_, has_second_;  // small enough
   bool is_wide_ = false;         // the tile has room for the second

@@ -15,10 +15,6 @@ namespace {
 
 /// Boxes of at most this many cells are counted through, cell by cell, to sort points.
 constexpr size_t most_counted_cells = 32768;
-/// The seeds of a whole box are found at once where they are at most so many for each point: a
-/// point alone needs 27 or more. (docs/benchmarks.md)
-constexpr size_t most_seeds_a_point = 16;
-
 /// What a thread keeps between calls.
 struct Workspace {
   LocatedPoints located;
@@ -82,14 +78,12 @@ void foam_keep_points_by_point(const Foam& foam, const Vec3* points, uint8_t* al
   order_by_cell(w, alive, count, corner, wide);
 
   const double most_radius = foam.radius().range().high / foam.unit();
-  PointBatch batch(seeds, most_radius, alive);
+  PointBatch batch(seeds, most_radius);
+  batch.answer_to(alive);
   int size[3];
-  bool is_dense = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    size[axis] = static_cast<int>(std::min<int64_t>(wide[axis], most_counted_cells));
-    is_dense &= size[axis] == wide[axis];
-  }
-  is_dense = is_dense && batch.seeds_about(size) <= most_seeds_a_point * living;
+  for (int axis = 0; axis < 3; ++axis) size[axis] = static_cast<int>(wide[axis]);
+  const bool is_dense =
+      batch.seeds_about(size) <= PointBatch::most_seeds_a_point * static_cast<double>(living);
   if (is_dense) batch.move_to(corner, size);
   const bool is_constant = foam.radius().is_constant();
   for (size_t first = 0; first < living;) {

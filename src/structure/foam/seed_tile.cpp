@@ -95,7 +95,7 @@ void SeedTile::build(const FoamSeeds& seeds, CellIndex low, const int (&size)[3]
                      const int (&halo)[3]) {
   first_ = {low.x - halo[0], low.y - halo[1], low.z - halo[2]};
   for (int axis = 0; axis < 3; ++axis) length_[axis] = size[axis] + 2 * halo[axis];
-  const size_t count = SeedTile::seeds(size, halo) + 2 * most_simd_doubles;
+  const size_t count = static_cast<size_t>(SeedTile::seeds(size, halo)) + 2 * most_simd_doubles;
   for (std::vector<float>& v : fraction_)
     if (v.size() < count) v.resize(count);
   // A row's last vector runs into the next row, which is written after it.

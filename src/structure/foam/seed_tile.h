@@ -16,9 +16,10 @@ class SeedTile {
   /// side of it.
   void build(const FoamSeeds& seeds, CellIndex low, const int (&size)[3], const int (&halo)[3]);
 
-  static size_t seeds(const int (&size)[3], const int (&halo)[3]) {
-    size_t count = 1;
-    for (int axis = 0; axis < 3; ++axis) count *= static_cast<size_t>(size[axis] + 2 * halo[axis]);
+  /// How many seeds that are; beyond what memory holds, too.
+  static double seeds(const int (&size)[3], const int (&halo)[3]) {
+    double count = 1;
+    for (int axis = 0; axis < 3; ++axis) count *= double(size[axis]) + 2 * halo[axis];
     return count;
   }
 
