@@ -63,6 +63,12 @@ void all_instruction_sets_give_the_same_layers(void**) {
         return make_ref<Foam>(c, few_samples(), Parameter(0.002), 0.7, uint64_t{3},
                               FoamMethod::direct);
       },
+      [](Ref<Context> c) {
+        const Ref<const Field> field =
+            make_ref<GradientField>(Vec3{0, 0, 0}, 0.0, Vec3{1, 0.5, 0.2}, 0.03);
+        return make_ref<Foam>(c, Neighbourhood{{}, {0.1, 0.1, 0.06}, {}}, Parameter(field), 0.9,
+                              uint64_t{3}, FoamMethod::point);
+      },
   };
   std::vector<int64_t> targets;
   for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1)

@@ -77,6 +77,7 @@ void PointBatch::move_to(CellIndex low, const int (&size)[3], bool is_sparse) {
 }
 
 void PointBatch::ask(CellIndex cell) {
+  if (count_ == 0) return;
   uint8_t points[capacity];
   for (size_t i = 0; i < count_; ++i) {
     points[i] = static_cast<uint8_t>(i);
