@@ -70,7 +70,7 @@ void bench_grouping(bench::Report& report, int cells, const std::vector<double>&
   const size_t count = coordinates.size() / 3;
   const msq::PointArray points{reinterpret_cast<const unsigned char*>(coordinates.data()), count,
                                3 * sizeof(double), false};
-  constexpr size_t chunk = size_t{1} << 22;
+  constexpr size_t chunk = size_t{1} << 21;
   msq::Neighbourhood grid;
   for (int axis = 0; axis < 3; ++axis) grid.cell_size[axis] = 1.0 / cells;
   const std::vector<uint8_t> alive(count, 1);
@@ -162,8 +162,8 @@ int main(int count, char** arguments) try {
     const std::vector<double> coordinates = random_points(millions * 1000000);
     for (int cells : {32, 128}) bench_array(report, cells, coordinates);
   }
-  // From 2 to 5.3 samples a cell along each axis.
-  for (int cells : {256, 192, 128, 96}) {
+  // From 2 to 6.4 samples a cell along each axis.
+  for (int cells : {256, 160, 128, 104, 80}) {
     bench_grid(report, cells, 512, MSQ_FOAM_POINT, "POINT");
     bench_grid(report, cells, 512, MSQ_FOAM_DIRECT, "DIRECT");
   }

@@ -496,7 +496,7 @@ MSQ_API msq_status msq_point_membership(const msq_model *model, const double poi
  * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY inside may be partly written.
  * Cost: arrays as their points, each as in msq_point_membership but in parallel; in foams points are
  * grouped by cell first, whatever their order, and cost far less each. Memory for that: 6 bytes a
- * point, at most 28 MB; less where the memory limit leaves no room. Grids as slices, far less a point.
+ * point, at most 15 MB; less where the memory limit leaves no room. Grids as slices, far less a point.
  * Errors: ARGUMENT (also non-finite points, by index), CANCELLED, LIMIT, MEMORY.
  * Source: paper, section "Set-based queries". */
 MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_def *points,

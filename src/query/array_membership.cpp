@@ -13,7 +13,9 @@ namespace {
 
 /// Points grouped at a time. More share more of a cell's work (docs/benchmarks.md), but ask for 6
 /// bytes each.
-constexpr uint64_t most_in_chunk = uint64_t{1} << 22, least_in_chunk = 4096;
+constexpr uint64_t most_in_chunk = uint64_t{1} << 21, least_in_chunk = 4096;
+/// Points of a group lie anywhere in the host's array: they are called for so many ahead.
+constexpr size_t ahead = 24;
 /// Points asked at a time.
 constexpr uint64_t run = 4096;
 static_assert(run <= PointGroups::most_in_group);
@@ -96,7 +98,10 @@ void array_membership(const Model& model, const std::vector<const Structure*>& r
         const std::span<const uint32_t> group = groups[g];
         std::vector<Vec3> positions;
         positions.reserve(group.size());
-        for (const uint32_t i : group) positions.push_back(points.at(first + i));
+        for (size_t k = 0; k < group.size(); ++k) {
+          if (k + ahead < group.size()) points.prefetch(first + group[k + ahead]);
+          positions.push_back(points.at(first + group[k]));
+        }
         std::vector<uint8_t> kept(group.size(), 1);
         structure->keep_points(positions.data(), kept.data(), group.size());
         for (size_t k = 0; k < group.size(); ++k) alive[group[k]] = kept[k];

@@ -26,6 +26,14 @@ struct PointArray {
     std::memcpy(v, p, sizeof v);
     return {v[0], v[1], v[2]};
   }
+  /// Calls for a point's bytes that at() will ask for soon.
+  void prefetch([[maybe_unused]] uint64_t i) const {
+#if defined(__GNUC__)
+    const unsigned char* p = data + i * stride;
+    __builtin_prefetch(p);
+    __builtin_prefetch(p + (is_float32 ? sizeof(float[3]) : sizeof(double[3])) - 1);
+#endif
+  }
 };
 
 }  // namespace msq

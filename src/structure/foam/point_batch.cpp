@@ -153,7 +153,7 @@ void PointBatch::push(const Block& block, size_t home, size_t point, const uint6
   const Vec3 q{x_[point], y_[point], z_[point]};
   const double radius = radius_[point];
   if (count <= TripleBatch::most_seeds) {
-    TripleBatch& batch = triples_[count];
+    TripleBatch& batch = triples_[count - 3];
     const size_t slot = batch.count++;
     size_t i = 0;
     for_each_seed([&](Vec3 seed) {
@@ -183,7 +183,7 @@ void PointBatch::push(const Block& block, size_t home, size_t point, const uint6
 }
 
 void PointBatch::decide(size_t seeds) {
-  TripleBatch& batch = triples_[seeds];
+  TripleBatch& batch = triples_[seeds - 3];
   uint8_t held[TripleBatch::capacity];
   decide_triples(batch, seeds, held);
   for (size_t i = 0; i < batch.count; ++i) inside_[batch.index[i]] = held[i];
@@ -192,7 +192,7 @@ void PointBatch::decide(size_t seeds) {
 
 void PointBatch::finish() {
   for (size_t seeds = 3; seeds <= TripleBatch::most_seeds; ++seeds)
-    if (triples_[seeds].count > 0) decide(seeds);
+    if (triples_[seeds - 3].count > 0) decide(seeds);
 }
 
 }  // namespace msq

@@ -76,7 +76,7 @@ class PointBatch {
   std::vector<uint64_t> masks_;
   std::vector<Vec3> candidates_, near_;
   std::vector<double> distance_squared_;
-  TripleBatch triples_[TripleBatch::most_seeds + 1];  // by the number of seeds
+  TripleBatch triples_[TripleBatch::most_seeds - 2];  // by the number of seeds, from 3 on
 };
 
 }  // namespace msq
