@@ -4,6 +4,7 @@
 #include "structure/foam/direct.h"
 
 #include "structure/foam/edges.h"
+#include "structure/foam/point_rows.h"
 #include "structure/strut_rows.h"
 
 namespace msq {
@@ -36,7 +37,7 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
   const double unit = foam.unit();
   StrutRows rows(block, grid, foam.radius(), edge_error * unit);
   if (rows.empty()) return;
-  if (!rows.pays(grid, critical_samples)) return foam.Structure::keep_rows(block, job);
+  if (!rows.pays(grid, critical_samples)) return foam_keep_rows_by_point(foam, block, job);
   const Box3 reach = grid.to_grid(rows.reach());
   // An edge that touches the reach has a point in it, and its owner within the empty radius of
   // that.
