@@ -27,6 +27,9 @@ class EdgeBrick final : public CellData {
 
   /// The brick whose first cell is `corner`.
   EdgeBrick(const FoamSeeds& seeds, CellIndex corner);
+  /// Of edges that are found another way, in runs as SegmentSet has them.
+  EdgeBrick(const std::vector<FoamEdge>& edges, const std::vector<uint32_t>& starts)
+      : segments_(edges, starts) {}
 
   /// In runs of the edges that a row of cells along x owns.
   const SegmentSet& segments() const { return segments_; }
