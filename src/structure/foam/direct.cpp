@@ -4,7 +4,7 @@
 #include "structure/foam/direct.h"
 
 #include "structure/foam/edges.h"
-#include "structure/foam/point_rows.h"
+#include "structure/foam/point_set.h"
 #include "structure/strut_rows.h"
 
 namespace msq {
