@@ -45,39 +45,51 @@ inline Vec3 circumcentre(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
                   static_cast<double>(z / det)};
 }
 
-/// All edges among the seeds of cells [-half, half)^3 that have both ends. Those within two cells
-/// of the border of the box are not the foam's.
-inline std::vector<DiagramEdge> foam_diagram(const FoamSeeds& seeds, int half) {
+struct DualEdge {
+  Vec3 a, b;
+  uint32_t first;  ///< of its three seeds
+};
+
+/// All edges among seeds that have both ends.
+inline std::vector<DualEdge> dual_edges(const std::vector<Vec3>& seeds) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<uint32_t, Kernel>;
   using Delaunay =
       CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase>>;
   std::vector<std::pair<Kernel::Point_3, uint32_t>> points;
-  std::vector<CellIndex> cells;
-  std::vector<Vec3> positions;
-  for (int z = -half; z < half; ++z)
-    for (int y = -half; y < half; ++y)
-      for (int x = -half; x < half; ++x) {
-        const Vec3 p = seeds.at({0, 0, 0}, x, y, z);
-        points.emplace_back(Kernel::Point_3(p.x, p.y, p.z), static_cast<uint32_t>(cells.size()));
-        cells.push_back({x, y, z});
-        positions.push_back(p);
-      }
+  for (const Vec3& p : seeds)
+    points.emplace_back(Kernel::Point_3(p.x, p.y, p.z), static_cast<uint32_t>(points.size()));
   const Delaunay delaunay(points.begin(), points.end());
-  std::vector<DiagramEdge> edges;
+  std::vector<DualEdge> edges;
   for (const auto& [cell, corner] : delaunay.finite_facets()) {
     const auto other = cell->neighbor(corner);
     if (delaunay.is_infinite(cell) || delaunay.is_infinite(other)) continue;
-    uint32_t first = UINT32_MAX;  // seeds are numbered in the order of cells
+    uint32_t first = UINT32_MAX;
     for (int i = 0; i < 4; ++i)
       if (i != corner) first = std::min(first, cell->vertex(i)->info());
     const auto centre = [&](const auto& tetrahedron) {
       Vec3 p[4];
-      for (int i = 0; i < 4; ++i) p[i] = positions[tetrahedron->vertex(i)->info()];
+      for (int i = 0; i < 4; ++i) p[i] = seeds[tetrahedron->vertex(i)->info()];
       return circumcentre(p[0], p[1], p[2], p[3]);
     };
-    edges.push_back({centre(cell), centre(other), cells[first]});
+    edges.push_back({centre(cell), centre(other), first});
   }
+  return edges;
+}
+
+/// All edges among the seeds of cells [-half, half)^3 that have both ends. Those within two cells
+/// of the border of the box are not the foam's.
+inline std::vector<DiagramEdge> foam_diagram(const FoamSeeds& seeds, int half) {
+  std::vector<CellIndex> cells;  // in order
+  std::vector<Vec3> positions;
+  for (int z = -half; z < half; ++z)
+    for (int y = -half; y < half; ++y)
+      for (int x = -half; x < half; ++x) {
+        cells.push_back({x, y, z});
+        positions.push_back(seeds.at({0, 0, 0}, x, y, z));
+      }
+  std::vector<DiagramEdge> edges;
+  for (const DualEdge& e : dual_edges(positions)) edges.push_back({e.a, e.b, cells[e.first]});
   return edges;
 }
 

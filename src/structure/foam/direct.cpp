@@ -4,6 +4,7 @@
 #include "structure/foam/direct.h"
 
 #include "structure/foam/edges.h"
+#include "structure/foam/graded_edges.h"
 #include "structure/foam/point_set.h"
 #include "structure/strut_rows.h"
 
@@ -13,6 +14,8 @@ namespace {
 
 /// Samples a cell above which building the cell's edges beats the point query (docs/benchmarks.md).
 constexpr double critical_samples = 8;
+/// The same for each leaf of a graded foam.
+constexpr double critical_samples_of_leaf = 2;
 
 /// Adds a brick's edges where they may touch `reach` (grid coordinates).
 void add_brick(const Foam& foam, const EdgeBrick& brick, CellIndex corner, const Box3& reach,
@@ -37,15 +40,21 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
   const double unit = foam.unit();
   StrutRows rows(block, grid, foam.radius(), edge_error * unit);
   if (rows.empty()) return;
-  if (!rows.pays(grid, critical_samples)) return foam_keep_rows_by_point(foam, block, job);
   const Box3 reach = grid.to_grid(rows.reach());
+  const GradedSeeds* graded = foam.graded().get();
+  const double critical =
+      graded ? critical_samples_of_leaf * graded->mean_density(reach) : critical_samples;
+  if (!rows.pays(grid, critical))
+    return graded ? foam.Structure::keep_rows(block, job)
+                  : foam_keep_rows_by_point(foam, block, job);
+  const int side = graded ? graded->brick_side() : EdgeBrick::side;
   // An edge that touches the reach has a point in it, and its owner within the empty radius of
   // that.
   const double owner_distance = foam.seeds().empty_radius() * unit * (1 + 1e-9);
   int64_t first[3], last[3];
   for (int axis = 0; axis < 3; ++axis) {
     const auto brick = [&](double g) {
-      return static_cast<int64_t>(std::floor(g / (grid.cell_size[axis] * EdgeBrick::side)));
+      return static_cast<int64_t>(std::floor(g / (grid.cell_size[axis] * side)));
     };
     first[axis] = brick(reach.min[axis] - owner_distance);
     last[axis] = brick(reach.max[axis] + owner_distance);
@@ -54,11 +63,12 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
     for (int64_t j = first[1]; j <= last[1]; ++j)
       for (int64_t i = first[0]; i <= last[0]; ++i) {
         check_cancelled(job);
-        const CellIndex corner{static_cast<int32_t>(i * EdgeBrick::side),
-                               static_cast<int32_t>(j * EdgeBrick::side),
-                               static_cast<int32_t>(k * EdgeBrick::side)};
+        const CellIndex corner{static_cast<int32_t>(i * side), static_cast<int32_t>(j * side),
+                               static_cast<int32_t>(k * side)};
+        if (graded && !graded->may_own_edges(corner, reach)) continue;
         const auto brick = foam.context().cache.fetch(foam.id(), corner, [&] {
-          return std::make_shared<const EdgeBrick>(foam.seeds(), corner);
+          return graded ? graded_edge_brick(foam.graded(), corner)
+                        : std::make_shared<const EdgeBrick>(foam.seeds(), corner);
         });
         add_brick(foam, static_cast<const EdgeBrick&>(*brick), corner, reach, rows);
       }

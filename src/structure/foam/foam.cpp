@@ -2,6 +2,7 @@
 #include "structure/foam/foam.h"
 
 #include "structure/foam/direct.h"
+#include "structure/foam/graded_point.h"
 #include "structure/foam/method_1.h"
 #include "structure/foam/method_2.h"
 #include "structure/foam/naive_point.h"
@@ -11,18 +12,23 @@
 namespace msq {
 
 Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-           double jitter, uint64_t seed, FoamMethod method)
+           double jitter, uint64_t seed, FoamMethod method, Parameter density)
     : Structure(neighbourhood),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
       radius_(std::move(radius)),
       unit_(max_component(neighbourhood.cell_size)),
       seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
-      method_(method == FoamMethod::automatic ? FoamMethod::direct : method) {}
+      method_(method == FoamMethod::automatic ? FoamMethod::direct : method) {
+  if (density.range().high > 1)
+    graded_ = std::make_shared<const GradedSeeds>(seeds_, neighbourhood, std::move(density));
+}
 
 bool Foam::inside(const Neighbourhood::Located& located, Vec3 p) const {
-  return foam_point_inside(seeds_, located.cell, located.fraction * seeds_.scale(),
-                           radius_.at(p) / unit_);
+  const Vec3 q = located.fraction * seeds_.scale();
+  const double radius = radius_.at(p) / unit_;
+  return graded_ ? graded_point_inside(graded_, located.cell, q, radius)
+                 : foam_point_inside(seeds_, located.cell, q, radius);
 }
 
 bool Foam::inside(Vec3 p) const {

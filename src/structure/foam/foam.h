@@ -5,8 +5,11 @@
 // edge_line.h.
 #pragma once
 
+#include <memory>
+
 #include "cell/context.h"
 #include "field/field.h"
+#include "structure/foam/graded_seeds.h"
 #include "structure/foam/seeds.h"
 #include "structure/structure.h"
 
@@ -22,15 +25,19 @@ enum class FoamMethod : int32_t {
 
 class Foam final : public Structure {
  public:
+  /// `density`: as in GradedSeeds. Where it is above 1 anywhere, the method is `direct`.
   Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius, double jitter,
-       uint64_t seed, FoamMethod method);
+       uint64_t seed, FoamMethod method, Parameter density = Parameter(1));
 
   bool inside(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
 
+  /// One in each cell; those of the foam unless it is graded.
   const FoamSeeds& seeds() const { return seeds_; }
+  /// The seeds where their density is above 1 anywhere, otherwise null.
+  const std::shared_ptr<const GradedSeeds>& graded() const { return graded_; }
   /// Length of a foam unit in model units.
   double unit() const { return unit_; }
   const Parameter& radius() const { return radius_; }
@@ -45,6 +52,7 @@ class Foam final : public Structure {
   Parameter radius_;
   double unit_;
   FoamSeeds seeds_;
+  std::shared_ptr<const GradedSeeds> graded_;
   FoamMethod method_;
 };
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "structure/foam/cell_seeds.h"
-#include "structure/foam/edge_line.h"
+#include "structure/foam/meets_edge.h"
 
 namespace msq {
 
@@ -47,9 +47,9 @@ bool foam_point_inside(const std::vector<Vec3>& near, Vec3 q, double radius) {
     uint32_t index;
   };
   thread_local std::vector<Ranked> ranked;
-  const size_t count = near.size();
+  thread_local std::vector<uint32_t> order;
   ranked.clear();
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < near.size(); ++i) {
     const Vec3 d = near[i] - q;
     ranked.push_back({dot(d, d), i});
   }
@@ -58,20 +58,10 @@ bool foam_point_inside(const std::vector<Vec3>& near, Vec3 q, double radius) {
     return a.distance_squared < b.distance_squared ||
            (a.distance_squared == b.distance_squared && a.index < b.index);
   });
-  const double r2 = radius * radius;
-  for (size_t c = 2; c < count; ++c)
-    for (size_t b = 1; b < c; ++b)
-      for (size_t a = 0; a < b; ++a) {
-        uint32_t triple[3] = {ranked[a].index, ranked[b].index, ranked[c].index};
-        std::sort(triple, triple + 3);
-        const EdgeLine line(near[triple[0]], near[triple[1]], near[triple[2]]);
-        if (!line.exists()) continue;
-        LineInterval part = line.chord(q, r2);
-        for (size_t i = 0; i < count && line.holds(part); ++i)
-          if (i != a && i != b && i != c) line.cut(near[ranked[i].index], part);
-        if (line.holds(part)) return true;
-      }
-  return false;
+  order.clear();
+  for (const Ranked& seed : ranked) order.push_back(seed.index);
+  return meets_edge(
+      order, [&](uint32_t i) { return near[i]; }, q, radius);
 }
 
 }  // namespace msq

@@ -41,8 +41,16 @@ class FoamSeeds {
     return splitmix_finalise(key_ ^ (y | z << 32));
   }
   Vec3 in_row(uint64_t row_key, CellIndex home, int dx, int dy, int dz) const {
-    const uint64_t h = splitmix_output(row_key, static_cast<uint32_t>(home.x + dx));
-    return Vec3{dx + fraction(h), dy + fraction(h >> 21), dz + fraction(h >> 42)} * scale_;
+    const Vec3 f = fractions(splitmix_output(row_key, static_cast<uint32_t>(home.x + dx)));
+    return Vec3{dx + f.x, dy + f.y, dz + f.z} * scale_;
+  }
+
+  /// The random bits of a cell, and where in its box, of size 1, a seed with these bits is.
+  uint64_t bits(CellIndex cell) const {
+    return splitmix_output(row_key(cell, 0, 0), static_cast<uint32_t>(cell.x));
+  }
+  Vec3 fractions(uint64_t bits) const {
+    return {fraction(bits), fraction(bits >> 21), fraction(bits >> 42)};
   }
 
   /// No point of space is farther than this from its nearest seed: that of its own cell is within

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each seed's Voronoi cell is found among few seeds and then proven among all.
+//
+// A convex cell among some of the seeds is the true one if no other seed is nearer to a vertex than
+// its own: a half-space that cuts a convex polytope cuts off a vertex. That is, the ball about each
+// vertex v through the own seed must be empty. The seeds within some distance D of the own one are
+// at hand, and hold those in the balls with 2 |v| <= D, since a ball lies within 2 |v| of the own
+// seed. Where a fine leaf has coarse neighbours, vertices are farther, and the octrees are asked
+// for the seed nearest to v: an empty ball holds no whole leaf, so this looks at few. Seeds found
+// in a ball join, and the cell is built again, until none is found.
+//
+// To begin with, the cell has the nearest seeds of all eight octants about the own one. With one
+// strictly inside each, it is bounded: a direction d has a positive product with the seed of its
+// octant. Each octant has such a seed within two cells along each axis, since there it holds a
+// whole cell that does not touch the planes between octants from the outside.
+//
+// Lengths are relative to the own seed and in sizes of its leaf, so that the tolerances of the walk
+// (voronoi_cell.h) and of EdgeLine mean the same at all levels. Where the walk fails (seeds on one
+// sphere) or has no room (a coarse leaf among fine ones), the cell is cut plane by plane
+// (clipped_cell.h), and where rounding defeats that too, every pair of seeds is tried by the
+// definition itself (edge_line.h), which needs no graph.
+#include "structure/foam/graded_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "structure/foam/clipped_cell.h"
+#include "structure/foam/edge_line.h"
+#include "structure/foam/seed_trees.h"
+#include "structure/foam/voronoi_cell.h"
+
+namespace msq {
+
+namespace {
+
+/// D^2, in sizes of the own leaf: among leaves of one level about 43 seeds, which hold most cells.
+/// With fewer than `enough`, D grows.
+constexpr double first_reach_squared = 4.75;
+constexpr size_t enough = 32;
+/// Of the seeds at hand, if there are more than `most_at_first`, so many of each octant are taken.
+constexpr size_t most_at_first = 64, octant_share = 6;
+/// How far beyond a plane a vertex v may be: a part of |v|^2 or of 1. More than ClippedCell leaves.
+constexpr double tolerance = 2 * ClippedCell::tolerance;
+
+/// Owners in a row whose edges share a box: leaves of one parent, mostly.
+constexpr size_t owners_in_run = 8;
+
+struct Neighbour {
+  Vec3 at;
+  double half_squared;  // of its length
+  uint64_t order;
+};
+
+/// Works for one brick after another, in memory that it keeps.
+class CellBuilder {
+ public:
+  void move_to(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex home) {
+    trees_.move_to(seeds);
+    home_ = home;
+    empty_radius_ = seeds->cells().empty_radius();
+  }
+
+  /// Appends the seeds of a cell, in order.
+  void append_owners(CellIndex cell, std::vector<LeafSeed>& owners) {
+    trees_.visit_cell(home_, cell, [&](const LeafSeed& seed) { owners.push_back(seed); });
+  }
+
+  /// Appends the edges that a seed owns.
+  void add_owned_edges(const LeafSeed& own, std::vector<FoamEdge>& edges) {
+    own_ = own;
+    unit_ = 1.0 / (1 << own.level);
+    gather();
+    choose_first();
+    if (!walk() && !clip()) try_pairs();
+    for (const Edge& edge : edges_) {
+      const Vec3 a = own.position + edge.from * unit_, b = own.position + edge.to * unit_;
+      FoamEdge& added = edges.emplace_back();
+      for (int axis = 0; axis < 3; ++axis) {
+        added.a[axis] = static_cast<float>(a[axis]);
+        added.b[axis] = static_cast<float>(b[axis]);
+      }
+    }
+  }
+
+ private:
+  struct Edge {
+    Vec3 from, to;
+  };
+
+  Neighbour neighbour(const LeafSeed& seed) const {
+    const Vec3 at = (seed.position - own_.position) * (1 / unit_);
+    return {at, 0.5 * dot(at, at), seed.order};
+  }
+  static uint32_t octant(Vec3 v) { return (v.x > 0) | (v.y > 0) << 1 | (v.z > 0) << 2; }
+
+  /// The seeds within D, which grows until they are enough for a cell.
+  void gather() {
+    for (reach_squared_ = first_reach_squared;; reach_squared_ *= 2) {
+      near_.clear();
+      const double squared = reach_squared_ * (unit_ * unit_);
+      trees_.visit(
+          home_, Box3{own_.position, own_.position}.grown(std::sqrt(squared) + 1e-9),
+          [&](const Box3& box) { return least_squared(box, own_.position) <= squared + 1e-9; },
+          [&](const LeafSeed& seed) {
+            if (seed.order == own_.order) return;
+            const Neighbour n = neighbour(seed);
+            if (2 * n.half_squared <= reach_squared_) near_.push_back(n);
+          });
+      if (near_.size() >= enough) return;
+    }
+  }
+
+  void choose_first() {
+    planes_.clear();
+    has_all_near_ = near_.size() <= most_at_first;
+    if (has_all_near_) {
+      planes_ = near_;
+    } else {
+      // The nearest of each octant, by insertion.
+      Neighbour share[8][octant_share];
+      size_t held[8] = {};
+      for (const Neighbour& n : near_) {
+        const uint32_t o = octant(n.at);
+        size_t i = held[o];
+        if (i == octant_share) {
+          if (share[o][i - 1].half_squared <= n.half_squared) continue;
+          --i;
+        } else {
+          ++held[o];
+        }
+        for (; i > 0 && share[o][i - 1].half_squared > n.half_squared; --i)
+          share[o][i] = share[o][i - 1];
+        share[o][i] = n;
+      }
+      for (int o = 0; o < 8; ++o) planes_.insert(planes_.end(), share[o], share[o] + held[o]);
+    }
+    bool has[8] = {};
+    for (const Neighbour& n : planes_)
+      if (n.at.x != 0 && n.at.y != 0 && n.at.z != 0) has[octant(n.at)] = true;
+    for (uint32_t o = 0; o < 8; ++o)
+      if (!has[o]) add_nearest_in_octant(o);
+    sort_planes();
+  }
+
+  void add_nearest_in_octant(uint32_t wanted) {
+    const double far = 2 * empty_radius_ * (1 + 1e-9);
+    double squared = far * far;
+    LeafSeed seed{};
+    Vec3 low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+      const bool up = wanted >> axis & 1;
+      low[axis] = own_.position[axis] - (up ? 0 : far);
+      high[axis] = own_.position[axis] + (up ? far : 0);
+    }
+    const Box3 box{low, high};
+    trees_.visit(
+        home_, box,
+        [&](const Box3& node) {
+          return node.overlaps(box) && least_squared(node, own_.position) < squared;
+        },
+        [&](const LeafSeed& found) {
+          const Vec3 d = found.position - own_.position;
+          if (d.x == 0 || d.y == 0 || d.z == 0 || octant(d) != wanted || dot(d, d) >= squared)
+            return;
+          squared = dot(d, d);
+          seed = found;
+        });
+    planes_.push_back(neighbour(seed));
+  }
+
+  void sort_planes() {
+    std::sort(planes_.begin(), planes_.end(),
+              [](const Neighbour& a, const Neighbour& b) { return a.order < b.order; });
+  }
+  bool is_plane(uint64_t order) const {
+    const auto at =
+        std::lower_bound(planes_.begin(), planes_.end(), order,
+                         [](const Neighbour& n, uint64_t value) { return n.order < value; });
+    return at != planes_.end() && at->order == order;
+  }
+
+  // Three ways to fill edges_, each surer and slower than the one before; the first two answer
+  // whether they could.
+
+  bool walk() {
+    do {
+      if (!walk_once()) return false;
+    } while (add_violators());
+    return true;
+  }
+  bool walk_once() {
+    vertices_.clear();
+    edges_.clear();
+    if (planes_.size() > VoronoiCell::most_planes) return false;
+    cell_.clear();
+    uint32_t after = 0;  // of the planes, those of seeds behind the own one come last
+    for (const Neighbour& n : planes_) {
+      cell_.add(n.at);
+      after += n.order < own_.order;
+    }
+    if (!cell_.walk()) return false;
+    for (size_t i = 0; i < cell_.vertex_count(); ++i) vertices_.push_back(cell_.vertex(i));
+    cell_.for_each_edge(after, [&](size_t from, size_t to) {
+      edges_.push_back({vertices_[from], vertices_[to]});
+    });
+    return true;
+  }
+
+  bool clip() {
+    // No point of the cell is farther than the empty radius from the seed: the cube takes nothing.
+    clipped_.start(1.001 * empty_radius_ / unit_);
+    sort_by_distance();
+    for (const Neighbour& n : by_distance_)
+      if (!clipped_.cut(n.at)) return false;
+    unproven_.clear();
+    const auto add_unproven = [&](size_t from) {
+      for (size_t i = from; i < clipped_.vertices().size(); ++i)
+        unproven_.push_back(static_cast<uint32_t>(i));
+    };
+    add_unproven(0);
+    while (!unproven_.empty()) {
+      const ClippedCell::Vertex& vertex = clipped_.vertices()[unproven_.back()];
+      unproven_.pop_back();
+      if (!vertex.is_there) continue;
+      found_.clear();
+      check_far(vertex.position, dot(vertex.position, vertex.position));
+      if (found_.empty()) continue;
+      by_distance_.push_back(found_[0]);
+      planes_.push_back(found_[0]);
+      sort_planes();
+      if (!clipped_.cut(found_[0].at)) return false;
+      add_unproven(clipped_.made());
+    }
+    edges_.clear();
+    const auto is_after = [&](uint32_t plane) {
+      return plane >= ClippedCell::first_neighbour &&
+             by_distance_[plane - ClippedCell::first_neighbour].order > own_.order;
+    };
+    for (const ClippedCell::Vertex& vertex : clipped_.vertices())
+      for (int i = 0; vertex.is_there && i < 3; ++i) {
+        const uint32_t a = vertex.plane[i], b = vertex.plane[(i + 1) % 3];
+        if (a < b && is_after(a) && is_after(b))
+          edges_.push_back({vertex.position, clipped_.vertices()[vertex.next[i]].position});
+      }
+    return true;
+  }
+
+  /// Every pair of neighbours, cut by all others.
+  void try_pairs() {
+    do try_pairs_once();
+    while (add_violators());
+  }
+  void try_pairs_once() {
+    vertices_.clear();
+    edges_.clear();
+    sort_by_distance();
+    const size_t count = by_distance_.size();
+    for (size_t i = 0; i < count; ++i)
+      for (size_t j = i + 1; j < count; ++j) {
+        const EdgeLine line(Vec3{}, by_distance_[i].at, by_distance_[j].at);
+        if (!line.exists()) continue;
+        LineInterval part{-1e300, 1e300};
+        for (size_t k = 0; k < count && line.holds(part); ++k)
+          if (k != i && k != j) line.cut(by_distance_[k].at, part);
+        if (!line.holds(part)) continue;
+        const Edge edge{line.at(part.low), line.at(part.high)};
+        vertices_.push_back(edge.from);
+        vertices_.push_back(edge.to);
+        if (by_distance_[i].order > own_.order && by_distance_[j].order > own_.order)
+          edges_.push_back(edge);
+      }
+  }
+
+  void sort_by_distance() {
+    by_distance_ = planes_;
+    std::sort(by_distance_.begin(), by_distance_.end(), [](const Neighbour& a, const Neighbour& b) {
+      return a.half_squared < b.half_squared ||
+             (a.half_squared == b.half_squared && a.order < b.order);
+    });
+  }
+
+  /// Adds the seeds that are nearest to the vertices, where they are nearer than the own one.
+  bool add_violators() {
+    const size_t before = planes_.size();
+    found_.clear();
+    for (const Vec3& v : vertices_) {
+      const double squared = dot(v, v);
+      if (!has_all_near_) check_near(v);
+      if (4 * squared * (1 + 1e-9) > reach_squared_) check_far(v, squared);
+    }
+    for (const Neighbour& n : found_) {
+      if (is_plane(n.order)) continue;
+      planes_.push_back(n);
+      sort_planes();
+    }
+    return planes_.size() != before;
+  }
+
+  /// The deepest in a vertex's ball of the seeds at hand.
+  void check_near(Vec3 v) {
+    double deepest = tolerance;
+    const Neighbour* found = nullptr;
+    for (const Neighbour& n : near_) {
+      const double depth = dot(n.at, v) - n.half_squared;
+      if (depth <= deepest || is_plane(n.order)) continue;
+      deepest = depth;
+      found = &n;
+    }
+    if (found) found_.push_back(*found);
+  }
+
+  /// The same of all seeds. No point of the true cell is farther than the empty radius from the own
+  /// seed. A vertex that is has a seed in its ball already about the point of that distance towards
+  /// it, whose ball lies in that of the vertex; so searches do not go astray.
+  void check_far(Vec3 v, double squared) {
+    const double most = 1.001 * empty_radius_ / unit_;
+    if (squared > most * most) {
+      v = v * (most / std::sqrt(squared));
+      squared = dot(v, v);
+    }
+    // |s - v|^2 = |v|^2 - 2 (s v - |s|^2 / 2)
+    const double slack = tolerance * std::max(1.0, squared);
+    double nearest_squared = (squared - 2 * slack) * (unit_ * unit_);
+    LeafSeed seed{};
+    bool found = false;
+    trees_.nearest(home_, own_.position + v * unit_, nearest_squared, seed,
+                   [&](const LeafSeed& candidate) {
+                     if (candidate.order == own_.order || is_plane(candidate.order)) return false;
+                     return found = true;
+                   });
+    if (found) found_.push_back(neighbour(seed));
+  }
+
+  SeedTrees trees_;
+  CellIndex home_;
+  double empty_radius_ = 0;
+  LeafSeed own_{};
+  double unit_ = 1;                // size of the own leaf, in foam units
+  double reach_squared_ = 0;       // D^2
+  std::vector<Neighbour> near_;    // within D, in the order of seeds
+  bool has_all_near_ = true;       // whether the planes do
+  std::vector<Neighbour> planes_;  // of the cell, in the order of seeds
+  std::vector<Neighbour> by_distance_, found_;
+  VoronoiCell cell_;
+  ClippedCell clipped_;
+  std::vector<uint32_t> unproven_;  // vertices of clipped_ whose ball may hold a seed
+  std::vector<Vec3> vertices_;
+  std::vector<Edge> edges_;  // owned ones
+};
+
+}  // namespace
+
+std::shared_ptr<const EdgeBrick> graded_edge_brick(const std::shared_ptr<const GradedSeeds>& seeds,
+                                                   CellIndex corner) {
+  thread_local CellBuilder builder;
+  thread_local std::vector<LeafSeed> owners;
+  thread_local std::vector<FoamEdge> edges;
+  builder.move_to(seeds, corner);
+  owners.clear();
+  edges.clear();
+  const int side = seeds->brick_side();
+  for (int z = 0; z < side; ++z)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        builder.append_owners({corner.x + x, corner.y + y, corner.z + z}, owners);
+  std::vector<uint32_t> starts;
+  for (size_t i = 0; i < owners.size(); ++i) {
+    if (i % owners_in_run == 0) starts.push_back(static_cast<uint32_t>(edges.size()));
+    builder.add_owned_edges(owners[i], edges);
+  }
+  return std::make_shared<const EdgeBrick>(edges, starts);
+}
+
+}  // namespace msq

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// As in point.cpp, only seeds within d0 + 2 r of a point p can matter, d0 being its distance to the
+// nearest one, s0. Where a coarse cell meets fine ones these may be thousands, so one more bound
+// leaves out seeds: a seed s matters only if it is, at some point of the ball of radius r about p,
+// no farther than s0. The plane between s and s0 is ((s - p)^2 - (s0 - p)^2) / (2 |s - s0|) from p;
+// where that is more than r, the ball lies on the side of s0. An edge of s then does not meet the
+// ball; and what s would cut away of a line in the ball, s0 cuts away too.
+//
+// Seeds that are near to each other compared with a cell would meet the tolerances of EdgeLine,
+// which are lengths, areas and volumes: all is measured in sizes of the leaf of s0, a power of two
+// and hence without rounding.
+#include "structure/foam/graded_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "structure/foam/meets_edge.h"
+#include "structure/foam/seed_trees.h"
+
+namespace msq {
+
+namespace {
+
+/// Seeds that may matter, in the order of seeds, and in which order to try them.
+struct NearSeeds {
+  std::vector<Vec3> positions;
+  std::vector<double> planes;  // distances to the planes between them and the nearest one
+  std::vector<uint32_t> order;
+};
+
+void gather(SeedTrees& trees, CellIndex cell, Vec3 q, const LeafSeed& nearest,
+            double nearest_squared, double radius, NearSeeds& near) {
+  // Room for the rounding of distances; a seed too many never changes the answer.
+  constexpr double slack = 1e-9, slack_squared = 1e-12;
+  const double reach = std::sqrt(nearest_squared) + 2 * radius + slack;
+  const double reach_squared = reach * reach;
+  const double twice_radius = 2 * (radius + slack);
+  // More by `over` than (s0 - p)^2 is too far for a seed that is within sqrt(apart_squared) of s0.
+  const auto too_far = [&](double over, double apart_squared) {
+    over -= slack_squared;
+    return over > 0 && over * over > twice_radius * twice_radius * apart_squared;
+  };
+  near.positions.clear();
+  near.planes.clear();
+  trees.visit(
+      cell, Box3{q, q}.grown(reach),
+      [&](const Box3& box) {
+        const double least = least_squared(box, q);
+        return least <= reach_squared &&
+               !too_far(least - nearest_squared, most_squared(box, nearest.position));
+      },
+      [&](const LeafSeed& seed) {
+        const Vec3 d = seed.position - q, apart = seed.position - nearest.position;
+        const double squared = dot(d, d), apart_squared = dot(apart, apart);
+        if (squared > reach_squared || too_far(squared - nearest_squared, apart_squared)) return;
+        near.positions.push_back(seed.position);
+        near.planes.push_back(
+            apart_squared > 0 ? (squared - nearest_squared) / std::sqrt(apart_squared) : -1);
+      });
+  // Seeds first whose faces with the nearest one are near: they make the edges that matter and the
+  // cuts that bind.
+  near.order.resize(near.positions.size());
+  for (uint32_t i = 0; i < near.order.size(); ++i) near.order[i] = i;
+  std::sort(near.order.begin(), near.order.end(), [&](uint32_t a, uint32_t b) {
+    return near.planes[a] < near.planes[b] || (near.planes[a] == near.planes[b] && a < b);
+  });
+}
+
+}  // namespace
+
+bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q,
+                         double radius) {
+  thread_local SeedTrees trees;
+  thread_local NearSeeds near;
+  trees.move_to(seeds);
+  LeafSeed nearest = trees.at(cell, q);
+  const Vec3 d = nearest.position - q;
+  double nearest_squared = dot(d, d);
+  trees.nearest(cell, q, nearest_squared, nearest, [](const LeafSeed&) { return true; });
+
+  // A radius of many leaves holds a crowd of seeds, and mostly an edge near p: growing radii find
+  // it first. Points inside for one of them are inside for the last.
+  const double unit = 1 << nearest.level;
+  for (double tried = std::min(radius, 1 / unit);; tried = std::min(radius, 2 * tried)) {
+    gather(trees, cell, q, nearest, nearest_squared, tried, near);
+    if (near.order.size() >= 3) {
+      for (Vec3& position : near.positions) position = position * unit;
+      if (meets_edge(
+              near.order, [&](uint32_t i) { return near.positions[i]; }, q * unit, tried * unit))
+        return true;
+    }
+    if (tried >= radius) return false;
+  }
+}
+
+}  // namespace msq

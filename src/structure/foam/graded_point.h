@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The point query of graded foams: the definition that every other way agrees with.
+#pragma once
+
+#include <memory>
+
+#include "structure/foam/graded_seeds.h"
+
+namespace msq {
+
+/// Whether the point q (foam units, from the corner of `cell`) is within `radius` of an edge.
+bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q,
+                         double radius);
+
+}  // namespace msq

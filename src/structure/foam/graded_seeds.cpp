@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/graded_seeds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace msq {
+
+bool GradedSeeds::splits(const Node& node) const {
+  if (node.level == most_levels) return false;
+  double density;
+  if (density_.is_constant()) {
+    density = density_.at({});
+  } else {
+    const double half = 0.5 * node.size();
+    const CellIndex cell = node.cell;
+    const Vec3 centre =
+        Vec3{double(cell.x), double(cell.y), double(cell.z)} + node.low + Vec3{half, half, half};
+    density = density_.at(grid_.from_grid(centre * grid_.cell_size));
+  }
+  const double expected = std::ldexp(density, -3 * node.level);
+  if (!(expected > 1)) return false;
+  if (expected >= 8) return true;
+  // Outputs 2 path and 2 path + 1 of the cell's stream: of the seed, and of this decision.
+  const uint64_t bits = splitmix_output(cells_.bits(node.cell), 2 * uint64_t{node.path} + 1);
+  return static_cast<double>(bits >> 11) * 0x1p-53 < (expected - 1) / 7;
+}
+
+Vec3 GradedSeeds::in_leaf(const Node& leaf) const {
+  const uint64_t cell_bits = cells_.bits(leaf.cell);
+  const uint64_t bits =
+      leaf.level == 0 ? cell_bits : splitmix_output(cell_bits, 2 * uint64_t{leaf.path});
+  return leaf.low + cells_.fractions(bits) * leaf.size();
+}
+
+Box3 GradedSeeds::model_box(const Box3& grid_box) const {
+  const Vec3 centre = grid_.from_grid((grid_box.min + grid_box.max) * 0.5);
+  const Vec3 half = grid_box.extent() * 0.5;
+  const auto& m = grid_.rotation.m;
+  const Vec3 h{std::abs(m[0]) * half.x + std::abs(m[1]) * half.y + std::abs(m[2]) * half.z,
+               std::abs(m[3]) * half.x + std::abs(m[4]) * half.y + std::abs(m[5]) * half.z,
+               std::abs(m[6]) * half.x + std::abs(m[7]) * half.y + std::abs(m[8]) * half.z};
+  // Positions carry a few units of 2^-53 of the largest magnitude; this is thousands of them.
+  const double slack =
+      0x1p-40 * (max_magnitude(centre) + max_magnitude(h) + max_magnitude(grid_.origin));
+  return Box3{centre - h, centre + h}.grown(slack);
+}
+
+int GradedSeeds::least_level(const Box3& box) const {
+  // Nodes about the points of the box lie in the cells that the box meets, and so do their centres.
+  // Where the density is nowhere below 8^n there, a node of level l < n expects 8^(n - l) >= 8.
+  const double slack = 1e-9;
+  Box3 cells;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = grid_.cell_size[axis];
+    cells.min[axis] = std::floor(box.min[axis] / size - slack) * size;
+    cells.max[axis] = (std::floor(box.max[axis] / size + slack) + 1) * size;
+  }
+  const double least = density_.range(model_box(cells)).low;
+  int level = 0;
+  for (double next = 8; level < most_levels && least >= next; next *= 8) ++level;
+  return level;
+}
+
+bool GradedSeeds::may_own_edges(CellIndex corner, const Box3& box) const {
+  // Such an edge has a point v in the box. Its owner is one of the seeds nearest to v, hence within
+  // the diagonal of v's leaf; so v is within that of the brick. The diagonal of a cell says which
+  // points of the box may be v, and their leaves' level how near to the brick v is then.
+  const Vec3 low = Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid_.cell_size;
+  const Box3 brick{low, low + grid_.cell_size * brick_side()};
+  const double diagonal = length(grid_.cell_size) * (1 + 1e-9);
+  const Box3 about = brick.grown(diagonal);
+  if (!about.overlaps(box)) return false;
+  const int level = least_level({max(about.min, box.min), min(about.max, box.max)});
+  return brick.grown(std::ldexp(diagonal, -level)).overlaps(box);
+}
+
+double GradedSeeds::mean_density(const Box3& box) const {
+  const Interval range = density_.range(model_box(box));
+  return std::max(1.0, 0.5 * (range.low + range.high));
+}
+
+int GradedSeeds::brick_side() const {
+  // About 512 seeds at most, but for cells that have more by themselves.
+  const double most = density_.range().high;
+  return most <= 8 ? 4 : most <= 64 ? 2 : 1;
+}
+
+}  // namespace msq
