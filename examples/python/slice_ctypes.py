@@ -25,7 +25,7 @@ class Param(Structure):
 
 class FoamDef(Structure):
     _fields_ = [("struct_size", c_uint32), ("method", c_int32), ("grid", Neighbourhood),
-                ("radius", Param), ("jitter", c_double), ("seed", c_uint64)]
+                ("radius", Param), ("jitter", c_double), ("seed", c_uint64), ("density", Param)]
 
 
 class ScaleDef(Structure):

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <new>
 
@@ -104,6 +105,8 @@ inline PointArray point_array(const void* data, uint64_t count, uint64_t stride,
 /// size here, as a specialisation; less was never right, such as the size of a pointer to it.
 template <class T>
 inline constexpr size_t first_size = sizeof(T);
+template <>
+inline constexpr size_t first_size<msq_foam_def> = offsetof(msq_foam_def, density);
 /// More is a struct_size that was never set.
 constexpr size_t most_size = 4096;
 

@@ -33,6 +33,7 @@ msq_foam_def foam_defaults() {
   msq_foam_def def{};
   def.grid = neighbourhood_defaults();
   def.jitter = 1;
+  def.density.value = 1;
   return def;
 }
 
@@ -102,6 +103,25 @@ Parameter read_radius(const msq_param& radius, const Neighbourhood& grid, double
   if (read.range().high > most)
     fail(Status::limit, "radius reaches %g; the limit is %g (%g times the smallest cell size)",
          read.range().high, most, most_cells);
+  return read;
+}
+
+Parameter read_density(const msq_param& density) {
+  Parameter read;
+  if (density.field) {
+    read = Parameter(Ref<const Field>(&object(density.field, "density.field")));
+    const Interval range = read.range();
+    if (!(range.low >= 0))
+      fail(Status::argument, "the field of density runs from %g to %g; it must not be negative",
+           range.low, range.high);
+  } else {
+    if (!(density.value >= 0) || !std::isfinite(density.value))
+      fail(Status::argument, "density is %g; it must be finite and not negative", density.value);
+    read = Parameter(density.value);
+  }
+  if (!(read.range().high <= GradedSeeds::most_density))
+    fail(Status::limit, "density reaches %g; the limit is %g seeds in the volume of a cell",
+         read.range().high, GradedSeeds::most_density);
   return read;
 }
 
@@ -208,9 +228,15 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
       fail(Status::unsupported, "MSQ_FOAM_METHOD_2 is not in this build (MSQ_WITH_CGAL is off)");
     if (!(known.jitter >= 0 && known.jitter <= 1))
       fail(Status::argument, "jitter is %g; it must be from 0 to 1", known.jitter);
+    const Parameter density = read_density(known.density);
+    if (density.range().high > 1 && method != FoamMethod::automatic && method != FoamMethod::direct)
+      fail(Status::unsupported,
+           "density reaches %g; above 1, the method of a foam must be MSQ_FOAM_AUTO or "
+           "MSQ_FOAM_DIRECT",
+           density.range().high);
     *structure = new_handle<msq_structure>(Ref<Structure>(
         make_ref<Foam>(Ref<Context>(&owner), grid, read_radius(known.radius, grid, 1), known.jitter,
-                       known.seed, method)));
+                       known.seed, method, density)));
   });
 }
 

@@ -24,9 +24,9 @@ typedef msq_status (*use_fn)(void* env, void* structure);
     return msq_##name##_init((msq_##name*)def, size);     \
   }
 
-/* def_init of a struct that has `known` bytes. */
-static inline void check_def_init(init_fn init, size_t known) {
-  const size_t refused[] = {0, 1, sizeof(void*), known - 1, 4097};
+/* def_init of a struct that has `known` bytes, and had `first` when it was published. */
+static inline void check_grown_def_init(init_fn init, size_t first, size_t known) {
+  const size_t refused[] = {0, 1, sizeof(void*), first - 1, 4097};
   struct_bytes all, def;
   assert_true(known + struct_tail <= struct_room);
   assert_refused(init(NULL, known), MSQ_E_ARGUMENT, "NULL");
@@ -44,23 +44,31 @@ static inline void check_def_init(init_fn init, size_t known) {
 
   assert_ok(init(&all, known));
   assert_int_equal(all.struct_size, known);
-  for (size_t size = known; size <= known + struct_tail; ++size) {
+  for (size_t size = first; size <= known + struct_tail; ++size) {
+    const size_t shared = size < known ? size : known;
     memset(&def, struct_pattern, sizeof def);
     assert_ok(init(&def, size));
     assert_int_equal(def.struct_size, size);
-    assert_memory_equal(def.bytes + 4, all.bytes + 4, known - 4);
-    assert_filled(def.bytes + known, size - known, 0);
+    assert_memory_equal(def.bytes + 4, all.bytes + 4, shared - 4);
+    assert_filled(def.bytes + shared, size - shared, 0);
     assert_filled(def.bytes + size, sizeof def - size, struct_pattern);
   }
 }
+static inline void check_def_init(init_fn init, size_t known) {
+  check_grown_def_init(init, known, known);
+}
 
-/* A definition that is valid as it stands, passed with every kind of struct_size. */
-static inline void check_def_sizes(const void* valid, size_t known, use_fn use, void* env) {
-  const uint32_t refused[] = {0, 4, sizeof(void*), (uint32_t)known - 1, 4097, UINT32_MAX};
+/* A definition that is valid as it stands, and by its first fields alone, passed with every kind of
+ * struct_size. */
+static inline void check_grown_def_sizes(const void* valid, size_t first, size_t known, use_fn use,
+                                         void* env) {
+  const uint32_t refused[] = {0, 4, sizeof(void*), (uint32_t)first - 1, 4097, UINT32_MAX};
   struct_bytes def;
   memset(&def, struct_pattern, sizeof def);
   memcpy(&def, valid, known);
   def.struct_size = (uint32_t)known;
+  assert_ok(use(env, &def));
+  def.struct_size = (uint32_t)first;
   assert_ok(use(env, &def));
 
   for (size_t i = 0; i < sizeof refused / sizeof refused[0]; ++i) {
@@ -78,6 +86,9 @@ static inline void check_def_sizes(const void* valid, size_t known, use_fn use, 
     assert_refused(use(env, &def), MSQ_E_ARGUMENT, "byte");
     assert_message_has_number(known + i);
   }
+}
+static inline void check_def_sizes(const void* valid, size_t known, use_fn use, void* env) {
+  check_grown_def_sizes(valid, known, known, use, env);
 }
 
 /* A report of `known` bytes, asked for with every struct_size. */

@@ -5,6 +5,8 @@
 DEFINE_INIT(foam_def)
 
 enum { side = 14, samples = side * side * side };
+/* of msq_foam_def before it had a density */
+enum { first_size = offsetof(msq_foam_def, density) };
 
 static msq_foam_def foam_def(void) {
   msq_foam_def def;
@@ -26,7 +28,7 @@ static msq_status create(void* env, void* def) {
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
-  check_def_init(init_foam_def, sizeof(msq_foam_def));
+  check_grown_def_init(init_foam_def, first_size, sizeof(msq_foam_def));
 }
 
 static void defaults_are_those_of_the_header(void** state) {
@@ -42,13 +44,15 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_null(def.radius.field);
   assert_true(def.jitter == 1);
   assert_int_equal(def.seed, 0);
+  assert_null(def.density.field);
+  assert_true(def.density.value == 1);
 }
 
 static void create_honours_every_struct_size(void** state) {
   msq_context* context = make_context();
   const msq_foam_def def = foam_def();
   (void)state;
-  check_def_sizes(&def, sizeof def, create, context);
+  check_grown_def_sizes(&def, first_size, sizeof def, create, context);
   msq_context_release(context);
 }
 
@@ -172,6 +176,99 @@ static void field_thickens_the_struts(void** state) {
   msq_context_release(context);
 }
 
+/* An older host, whose definition ends before the density, has the foam of density 1; and so have
+ * densities below 1, and fields of them. */
+static void densities_up_to_1_change_nothing(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {0, 0, 4};
+  uint8_t wanted[samples], got[samples];
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  sample_foam(&def, wanted);
+  def.struct_size = first_size;
+  def.density.value = 64; /* behind what the size says */
+  sample_foam(&def, got);
+  assert_memory_equal(wanted, got, samples);
+  def = foam_def();
+  for (int method = MSQ_FOAM_AUTO; method <= MSQ_FOAM_POINT; ++method) {
+    def.method = method;
+    def.density.value = 0.5;
+    sample_foam(&def, got);
+    assert_memory_equal(wanted, got, samples);
+  }
+  msq_field* field;
+  assert_ok(msq_field_gradient(context, from, 0, to, 1, &field));
+  def.density.field = field;
+  sample_foam(&def, got);
+  assert_memory_equal(wanted, got, samples);
+  msq_field_release(field);
+  msq_context_release(context);
+}
+
+/* Thinner struts in the same share of space: density^(-1/3) of the radius. */
+static void density_adds_struts(void** state) {
+  uint8_t coarse[samples], fine[samples], direct[samples];
+  size_t coarse_count = 0, fine_count = 0;
+  msq_foam_def def = foam_def();
+  (void)state;
+  def.radius.value = 0.08;
+  sample_foam(&def, coarse);
+  def.density.value = 20;
+  sample_foam(&def, fine);
+  def.method = MSQ_FOAM_DIRECT;
+  sample_foam(&def, direct);
+  assert_memory_equal(fine, direct, samples);
+  for (int i = 0; i < samples; ++i) {
+    coarse_count += coarse[i];
+    fine_count += fine[i];
+  }
+  assert_true(fine_count > 3 * coarse_count);
+}
+
+static void wrong_densities_are_refused(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {1, 0, 0};
+  const double refused[] = {-0.25, NAN, INFINITY, -INFINITY};
+  msq_context* context = make_context();
+  (void)state;
+  for (int i = 0; i < 4; ++i) {
+    msq_foam_def def = foam_def();
+    def.density.value = refused[i];
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "density is ");
+  }
+  msq_foam_def def = foam_def();
+  def.density.value = 32768;
+  assert_ok(create(context, &def));
+  def.density.value = 32769;
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "density reaches 32769");
+  assert_message_has("the limit is 32768");
+  const double low[] = {-1, 1, 1}, high[] = {8, 40000, 32768};
+  const msq_status wanted[] = {MSQ_E_ARGUMENT, MSQ_E_LIMIT, MSQ_OK};
+  for (int i = 0; i < 3; ++i) {
+    msq_field* field;
+    assert_ok(msq_field_gradient(context, from, low[i], to, high[i], &field));
+    def.density.field = field;
+    assert_status(create(context, &def), wanted[i]);
+    if (wanted[i] != MSQ_OK) assert_message_has("density");
+    msq_field_release(field);
+  }
+  msq_context_release(context);
+}
+
+static void other_methods_refuse_a_density(void** state) {
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  def.density.value = 2;
+  def.method = MSQ_FOAM_POINT;
+  assert_refused(create(context, &def), MSQ_E_UNSUPPORTED, "density reaches 2");
+  assert_message_has("MSQ_FOAM_DIRECT");
+  def.method = MSQ_FOAM_METHOD_2;
+  assert_status(create(context, &def), MSQ_E_UNSUPPORTED);
+  def.method = MSQ_FOAM_DIRECT;
+  assert_ok(create(context, &def));
+  msq_context_release(context);
+}
+
 static void null_arguments_are_refused(void** state) {
   msq_context* context = make_context();
   msq_foam_def def = foam_def();
@@ -260,6 +357,10 @@ int main(void) {
       cmocka_unit_test(foam_without_jitter_is_the_cubic_lattice),
       cmocka_unit_test(methods_give_the_same_solid),
       cmocka_unit_test(field_thickens_the_struts),
+      cmocka_unit_test(densities_up_to_1_change_nothing),
+      cmocka_unit_test(density_adds_struts),
+      cmocka_unit_test(wrong_densities_are_refused),
+      cmocka_unit_test(other_methods_refuse_a_density),
       cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(unknown_methods_are_refused),
       cmocka_unit_test(method_2_needs_cgal),
