@@ -84,6 +84,17 @@ inline Factory foam_factory(FoamMethod method, double jitter) {
   };
 }
 
+/// The density of seeds rises from 1 to 30 along an oblique line through the grid's origin.
+inline Factory graded_foam_factory(double jitter) {
+  return [=](const Neighbourhood& grid, Parameter radius) {
+    const Vec3 half = Vec3{1.6, 1.2, 0.9} * grid.cell_size;
+    const Parameter density(Ref<const Field>(make_ref<GradientField>(
+        grid.from_grid(half * -1.0), 1.0, grid.from_grid(half), 30.0)));
+    return Ref<const Structure>(make_ref<Foam>(shared_context(), grid, std::move(radius), jitter,
+                                               uint64_t{7}, FoamMethod::direct, density));
+  };
+}
+
 /// Skew struts that start and end on faces, edges and corners of the cell, one that joins two
 /// cells' worth of nodes, and one alone in the middle.
 inline UnitCell skew_unit_cell() {
@@ -121,6 +132,12 @@ inline std::vector<Kind> kinds() {
         std::snprintf(name, sizeof name, "jitter %g r %g", jitter, radius);
         kinds.push_back({m.family, name, radius, jitter, foam_factory(m.method, jitter)});
       }
+  for (double jitter : {1.0, 0.01, 0.0})
+    for (double radius : {0.02, 0.06, 0.26}) {
+      char name[64];
+      std::snprintf(name, sizeof name, "density 1 to 30, jitter %g r %g", jitter, radius);
+      kinds.push_back({"foam DIRECT", name, radius, jitter, graded_foam_factory(jitter)});
+    }
   return kinds;
 }
 

@@ -16,8 +16,7 @@ struct GradedSeed {
 inline void append_leaves(const GradedSeeds& seeds, const GradedSeeds::Node& node,
                           std::vector<GradedSeed>& out) {
   if (seeds.splits(node)) {
-    for (uint32_t octant = 0; octant < 8; ++octant)
-      append_leaves(seeds, node.child(octant), out);
+    for (uint32_t octant = 0; octant < 8; ++octant) append_leaves(seeds, node.child(octant), out);
     return;
   }
   const Vec3 in_cell = seeds.in_leaf(node);

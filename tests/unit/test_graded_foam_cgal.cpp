@@ -31,8 +31,7 @@ struct DensityRow {
   Parameter density() const {
     if (low == high) return Parameter(low);
     const Vec3 reach = direction * (0.5 * length / msq::length(direction));
-    return Parameter(
-        Ref<const Field>(make_ref<GradientField>(Vec3{} - reach, low, reach, high)));
+    return Parameter(Ref<const Field>(make_ref<GradientField>(Vec3{} - reach, low, reach, high)));
   }
   std::shared_ptr<const GradedSeeds> seeds() const {
     return std::make_shared<const GradedSeeds>(FoamSeeds(77, jitter, {1, 1, 1}), Neighbourhood{},
@@ -68,8 +67,8 @@ class EdgeGrid {
       const Vec3 low = min(edges[e].a, edges[e].b), high = max(edges[e].a, edges[e].b);
       int from[3], to[3];
       for (int axis = 0; axis < 3; ++axis) {
-        from[axis] = static_cast<int>(
-            std::max(0.0, std::floor(bins * (low[axis] - reach + middle))));
+        from[axis] =
+            static_cast<int>(std::max(0.0, std::floor(bins * (low[axis] - reach + middle))));
         to[axis] = static_cast<int>(
             std::min(size_ - 1.0, std::floor(bins * (high[axis] + reach + middle))));
       }
@@ -123,10 +122,9 @@ void test_membership(void** state) {
   Random random(3);
   for (double radius : row.radii) {
     const EdgeGrid grid(diagram.edges, row.middle, radius + 0.01);
-    const Ref<Foam> foam =
-        make_ref<Foam>(make_ref<Context>(1u, uint64_t{0}, uint64_t{0}), Neighbourhood{},
-                       Parameter(radius), row.jitter, uint64_t{77}, FoamMethod::direct,
-                       row.density());
+    const Ref<Foam> foam = make_ref<Foam>(make_ref<Context>(1u, uint64_t{0}, uint64_t{0}),
+                                          Neighbourhood{}, Parameter(radius), row.jitter,
+                                          uint64_t{77}, FoamMethod::direct, row.density());
     size_t held = 0, near = 0, differ = 0;
     for (size_t i = 0; i < count; ++i) {
       const Vec3 p = random.in_box(Box3{}.grown(row.middle));
@@ -142,8 +140,9 @@ void test_membership(void** state) {
         print_error("(%.17g, %.17g, %.17g) is %.17g from an edge; msq: %d at radius %g\n", p.x, p.y,
                     p.z, distance, is_inside, radius);
     }
-    print_message("%zu seeds, r %g: %zu points, %zu inside, %zu differ within 1e-9, %zu elsewhere\n",
-                  diagram.seeds.size(), radius, count, held, near, differ);
+    print_message(
+        "%zu seeds, r %g: %zu points, %zu inside, %zu differ within 1e-9, %zu elsewhere\n",
+        diagram.seeds.size(), radius, count, held, near, differ);
     assert_int_equal(differ, 0);
   }
 }
