@@ -20,6 +20,7 @@ static const char usage[] =
     "  --solid            the part alone, unfilled by any structure\n"
     "  --radius MM        radius of the struts (default 0.4)\n"
     "  --radius-top MM    radius at the top of the part, from --radius at its bottom\n"
+    "  --density N        foam graded along x, from one seed in a cell's volume to N\n"
     "  --seed N           picks another foam (default 0)\n"
     "  --layer MM         layer height (default 0.1)\n"
     "  --pitch MM         pixel size (default 0.1)\n"
@@ -69,11 +70,13 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
       {"solid", 0, NULL, 's'}, {"radius", 1, NULL, 'r'},  {"radius-top", 1, NULL, 'R'},
       {"seed", 1, NULL, 'S'},  {"layer", 1, NULL, 'z'},   {"pitch", 1, NULL, 'p'},
       {"unit", 1, NULL, 'u'},  {"every", 1, NULL, 'e'},   {"threads", 1, NULL, 't'},
-      {"out", 1, NULL, 'o'},   {"help", 0, NULL, 'h'},    {NULL, 0, NULL, 0}};
+      {"out", 1, NULL, 'o'},   {"help", 0, NULL, 'h'},    {"density", 1, NULL, 'd'},
+      {NULL, 0, NULL, 0}};
   const slice_options defaults = {.out = "out",
                                   .foam = 4,
                                   .cell = 4,
                                   .radius = 0.4,
+                                  .density = 1,
                                   .layer = 0.1,
                                   .pitch = 0.1,
                                   .unit = 1,
@@ -83,7 +86,7 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
     int option;
     double* value;
   } lengths[] = {{'f', &o->foam},  {'c', &o->cell},  {'r', &o->radius}, {'R', &o->radius_top},
-                 {'z', &o->layer}, {'p', &o->pitch}, {'u', &o->unit}};
+                 {'z', &o->layer}, {'p', &o->pitch}, {'u', &o->unit},   {'d', &o->density}};
   for (int option; (option = getopt_long(argc, argv, "o:h", longs, NULL)) != -1;) {
     int bad = 0;
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; ++i) {

@@ -10,6 +10,7 @@ typedef struct slice_options {
   const char *file, *out;
   double foam, cell;         /* cell sizes of the foam and of the lattice */
   double radius, radius_top; /* of the struts */
+  double density;            /* of the foam's seeds at the greatest x, from 1 at the least */
   double layer, pitch, unit;
   int32_t unit_cell; /* of the lattice, MSQ_UNIT_CELL_*; 0: a foam */
   int solid;         /* 1: the part alone */

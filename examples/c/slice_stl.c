@@ -24,6 +24,7 @@ typedef struct scene {
   msq_context* context;
   msq_shape* part;
   msq_field* radius;
+  msq_field* density;
   msq_structure* filling;
   msq_model* model;
   msq_slicer* slicer; /* of the model */
@@ -35,6 +36,7 @@ static void release(scene* s) {
   msq_slicer_release(s->slicer);
   msq_model_release(s->model);
   msq_structure_release(s->filling);
+  msq_field_release(s->density);
   msq_field_release(s->radius);
   msq_shape_release(s->part);
   msq_context_release(s->context);
@@ -77,6 +79,11 @@ static msq_status make_filling(scene* s, const slice_options* o, const msq_shape
   TRY(msq_foam_def_init(&foam, sizeof foam));
   foam.radius = radius;
   foam.seed = o->seed;
+  if (o->density != 1) {
+    const double left[3] = {part->min[0], 0, 0}, right[3] = {part->max[0], 0, 0};
+    TRY(msq_field_gradient(s->context, left, 1, right, o->density, &s->density));
+    foam.density.field = s->density;
+  }
   for (int a = 0; a < 3; ++a) foam.grid.cell_size[a] = o->foam;
   return msq_structure_foam(s->context, &foam, &s->filling);
 }

@@ -134,6 +134,7 @@ inline std::vector<Kind> kinds() {
       }
   for (double jitter : {1.0, 0.01, 0.0})
     for (double radius : {0.02, 0.06, 0.26}) {
+      if (jitter < 1 && radius != 0.06) continue;
       char name[64];
       std::snprintf(name, sizeof name, "density 1 to 30, jitter %g r %g", jitter, radius);
       kinds.push_back({"foam DIRECT", name, radius, jitter, graded_foam_factory(jitter)});

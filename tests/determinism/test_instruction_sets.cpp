@@ -69,6 +69,12 @@ void all_instruction_sets_give_the_same_layers(void**) {
         return make_ref<Foam>(c, Neighbourhood{{}, {0.1, 0.1, 0.06}, {}}, Parameter(field), 0.9,
                               uint64_t{3}, FoamMethod::point);
       },
+      [](Ref<Context> c) {
+        const Ref<const Field> density =
+            make_ref<GradientField>(Vec3{0.2, 0, 0}, 1, Vec3{0.5, 0.1, 0}, 60);
+        return make_ref<Foam>(c, Neighbourhood{}, Parameter(0.03), 1.0, uint64_t{3},
+                              FoamMethod::direct, Parameter(density));
+      },
   };
   std::vector<int64_t> targets;
   for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1)

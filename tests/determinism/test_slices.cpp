@@ -65,6 +65,15 @@ std::vector<ModelRow> models() {
              Structures{make_ref<Lattice>(cells_of(0.8, 0.2), bcc_unit_cell(), Parameter(0.15)),
                         foam(c, 0.25, 0.03, FoamMethod::direct)});
        }});
+  rows.push_back(
+      {"foam of graded density", 8, [](Ref<Context> c) {
+         const Ref<const Field> density =
+             make_ref<GradientField>(Vec3{-0.4, 0, 0}, 1, Vec3{0.4, 0.2, 0.1}, 30);
+         return make_ref<Model>(
+             c, make_ref<BoxShape>(Box3{{-0.5, -0.4, -0.2}, {0.5, 0.4, 0.2}}),
+             Structures{make_ref<Foam>(c, cells_of(0.4, 0.3), Parameter(0.02), 1.0, uint64_t{6},
+                                       FoamMethod::direct, Parameter(density))});
+       }});
   if (can_triangulate())
     rows.push_back({"foam by METHOD_2", 8, [](Ref<Context> c) {
                       return make_ref<Model>(
