@@ -8,6 +8,7 @@
 #include "structure/foam/naive_point.h"
 #include "structure/foam/point.h"
 #include "structure/foam/point_set.h"
+#include "structure/group_by_cell.h"
 
 namespace msq {
 
@@ -39,7 +40,10 @@ void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   if (method_ == FoamMethod::point) return naive_keep_points(*this, points, alive, count);
   if (method_ == FoamMethod::method_1) return method_1_keep_points(*this, points, alive, count);
   if (method_ == FoamMethod::method_2) return method_2_keep_points(*this, points, alive, count);
-  foam_keep_points_by_point(*this, points, alive, count);
+  if (!graded_) return foam_keep_points_by_point(*this, points, alive, count);
+  // Cell by cell, since the point query keeps the seeds about the last point's cell.
+  for (const LocatedPoint& point : group_by_cell(neighbourhood(), points, alive, count))
+    if (!inside(point.located, points[point.index])) alive[point.index] = 0;
 }
 
 void Foam::keep_rows(const RowBlock& block, const Job* job) const {
