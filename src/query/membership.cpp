@@ -9,9 +9,9 @@ namespace msq {
 
 namespace {
 
-/// Rows are restricted in tiles of about this many words, which, with the two working rows of the
-/// span raster, stay in a core's own cache.
-constexpr uint64_t tile_words = 32768, tile_layers = 32, least_tile_rows = 16;
+/// Rows are restricted in tiles of about this many words: so few that the span raster's working
+/// rows stay in a core's own cache, so many that few struts reach into several tiles.
+constexpr uint64_t tile_words = uint64_t{1} << 17, tile_layers = 64, least_tile_rows = 16;
 
 uint64_t tile_rows(const SampleGrid& grid, uint64_t layers, unsigned threads) {
   const uint64_t deep = std::max<uint64_t>(1, std::min(layers, tile_layers));
@@ -28,7 +28,7 @@ uint64_t fill_slab_scratch_words(const Model& model, const std::vector<const Str
   if (resolved.empty()) return 0;
   const unsigned threads = model.context().executor.threads();
   const uint64_t rows = std::min(grid.ny, tile_rows(grid, layers, threads));
-  return 2 * threads * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
+  return threads * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
 }
 
 void fill_slab(const Model& model, const std::vector<const Structure*>& resolved,

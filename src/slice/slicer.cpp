@@ -12,6 +12,9 @@ namespace {
 
 constexpr uint64_t most_samples = INT32_MAX;
 constexpr uint64_t automatic_slab_bytes = uint64_t{32} << 20;
+/// Of an automatic slab: of less, each slab would redo much of what the one before it found about
+/// the cells that both reach.
+constexpr double automatic_slab_layers = 64;
 
 /// Samples of a pitch that cover an extent; a remainder of rounding does not make one more.
 double samples_across(double extent, double pitch) {
@@ -101,9 +104,11 @@ void Slicer::plan_slabs() {
   }
   const double extent = grid_.z(grid_.nz - 1) - grid_.z(0);
   const double height = grid_.nz > 1 ? extent / static_cast<double>(grid_.nz - 1) : 0;
-  double layers = 64;
-  if (!resolved_.empty() && height > 0)
-    layers = std::floor(resolved_.back()->neighbourhood().cell_size.z / height);
+  double layers = automatic_slab_layers;
+  if (!resolved_.empty() && height > 0) {  // whole cells, at least one
+    const double cell = resolved_.back()->neighbourhood().cell_size.z / height * (1 + 1e-9);
+    layers = std::floor(std::max(1.0, std::floor(automatic_slab_layers / cell)) * cell);
+  }
   const uint64_t layer_bytes = words_for(grid_.nx) * grid_.ny * sizeof(uint64_t);
   const double fit = static_cast<double>(automatic_slab_bytes / layer_bytes);
   slab_layers_ =

@@ -10,19 +10,20 @@
 //
 // Bounds. Lengths are in columns; u = 2^-24, R the radius, U = length + R, A = uy^2 + uz^2, d the
 // margin, by which the radius is uncertain. Offsets v, w of a row err by 6 u U at most, so their
-// products with the axis, k and m, by 12 u U. Let e = 32 u U R + 2 R d + (14 u U + d)^2.
-// - The cylinder's D = R^2 / A - (k / A)^2 errs by e / A^2 at most where the row may meet it (|k|
-// <=
-//   sqrt(A) R), and so do the spheres', R^2 - v^2 - w^2.
-// - The choice compares g |g|, g = m / A, with ux |ux| D; the difference errs by 2.2 e / A^2. A
-//   wrong choice has therefore t^2 <= 4.4 e / A^2 (|p - q|^2 <= 2 |p |p| - q |q||). There the
-//   cylinder's end is at R^2 + t^2 from the sphere's centre, squared: the wrong choice is an error
-//   of t^2 in D. With short struts two choices may be wrong.
-// Together D errs by less than E = 12 e / A^2. So where it is below -E for either end, or for the
-// cylinder, the row misses the capsule; from 2 E on at both ends it meets it. The root errs by E /
-// sqrt(D) where D >= E, by sqrt(2 E) below: by 2 E / max(sqrt(D), sqrt(E)) everywhere. The centre
-// (g ux for the cylinder) and the sums err by 32 u (U / A + 1), and column numbers by the target's
-// slack.
+// products with the axis, k and m, by 12 u U.
+// - The cylinder's D = R^2 / A - (k / A)^2 errs by F = (32 u U R + (14 u U + d)^2) / A^2 + 2 R d /
+// A
+//   at most where the row may meet it (|k| <= sqrt(A) R), and so do the spheres', R^2 - v^2 - w^2.
+// - The choice compares g |g|, g = m / A, with ux |ux| D. Where they are nearly the same, |g| <=
+//   |ux| R / sqrt(A), so their difference errs by C = F (0.95 |ux| + 1.05 ux^2) at most. A wrong
+//   choice has therefore t^2 <= 2 C (|p - q|^2 <= 2 |p |p| - q |q||). There the cylinder's end is
+//   at R^2 + t^2 from the sphere's centre, squared: the wrong choice is an error of t^2 in D. Of
+//   two choices both can be wrong only if length <= 2 |t|, where length^2 <= 16 F.
+// Together D errs by E = F + 2 C at most, or F + 4 C. So where it is below -E for either end, or
+// for the cylinder, the row misses the capsule; from E on at both ends it meets it. The root q errs
+// by E / q where D >= E, by sqrt(2 E) below: by E / (max(q, sqrt(E)) - 0.3 sqrt(E)) everywhere. The
+// centre (g ux for the cylinder) and the sums err by 32 u (U / A + 1), and column numbers by the
+// target's slack.
 // Where the radius varies, the outer ends are those of the greatest and the inner ones those of the
 // least, each within these bounds.
 #if defined(MSQ_STRUT_FAST_SPANS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -37,54 +38,13 @@
 #include <bit>
 #include <cstring>
 
-#include "base/sample_grid.h"
+#include "strut/span_buffer-inl.h"
 #include "strut/strut_setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Spans waiting to be drawn.
-class SpanBuffer {
-  using D = hn::ScalableTag<int32_t>;
-
- public:
-  explicit SpanBuffer(uint64_t* words) : words_(words) {}
-
-  /// Bits [bit, bit + length) of the lanes in `mask`.
-  HWY_INLINE void add(hn::Vec<D> bit, hn::Vec<D> length, hn::Mask<D> mask) {
-    const D d;
-    hn::StoreU(hn::Compress(bit, mask), d, reinterpret_cast<int32_t*>(bits_ + count_));
-    hn::StoreU(hn::Compress(length, mask), d, reinterpret_cast<int32_t*>(lengths_ + count_));
-    count_ += hn::CountTrue(d, mask);
-    if (count_ >= capacity) draw();
-  }
-
-  HWY_INLINE void draw() {
-    unsigned char* const bytes = reinterpret_cast<unsigned char*>(words_);
-    for (size_t i = 0; i < count_; ++i) {
-      const uint32_t bit = bits_[i], length = lengths_[i];
-      if (length > 57) {
-        set_bits(words_, bit, bit + length - 1);
-        continue;
-      }
-      const uint64_t mask = (~uint64_t{0} >> (64 - length)) << (bit & 7);
-      uint64_t word;
-      std::memcpy(&word, bytes + (bit >> 3), sizeof word);
-      word |= mask;
-      std::memcpy(bytes + (bit >> 3), &word, sizeof word);
-    }
-    count_ = 0;
-  }
-
- private:
-  static constexpr size_t capacity = 1024;
-
-  uint64_t* const words_;
-  size_t count_ = 0;
-  uint32_t bits_[capacity + 2 * most_simd_doubles], lengths_[capacity + 2 * most_simd_doubles];
-};
 
 /// How the lanes of a vector lie on rows and layers: `wide` rows of each of several layers.
 struct LaneShape {
@@ -93,189 +53,231 @@ struct LaneShape {
   HWY_ALIGN int32_t bit[2 * most_simd_doubles];  // from that of lane 0
 };
 
+/// `varying`: radii have a least and a greatest that differ.
+template <bool varying>
 class FastSpans {
-  using D = hn::ScalableTag<float>;
-  using V = hn::Vec<D>;
-  using DI = hn::RebindToSigned<D>;
-  using VI = hn::Vec<DI>;
-  using M = hn::Mask<D>;
-
  public:
-  explicit FastSpans(const RasterTarget& target)
+  FastSpans(const RasterTarget& target, const StrutBatch& batch, const StrutSetups& setups,
+            DoubtfulSpans& doubts)
       : target_(target),
+        batch_(batch),
+        setups_(setups),
+        doubts_(doubts),
         buffer_(target.certain),
         row_step_(static_cast<float>(target.dy * target.inverse_dx)),
         layer_step_(static_cast<float>(target.dz * target.inverse_dx)) {
-    const size_t lanes = hn::Lanes(D());
-    for (size_t wide = lanes; shapes_ == 0 || (wide >= 2 && shapes_ < most_shapes); wide /= 2) {
-      LaneShape& shape = shape_[shapes_++];
-      shape.wide = wide;
-      shape.deep = lanes / wide;
-      for (size_t l = 0; l < lanes; ++l) {
-        const size_t row = l % wide, layer = l / wide;
-        shape.row[l] = static_cast<float>(row);
-        shape.layer[l] = static_cast<float>(layer);
-        shape.bit[l] = static_cast<int32_t>((layer * target.layer_words + row * target.row_words) *
-                                            bits_per_word);
-      }
-      if (!(target.dz > 0)) break;  // layers one by one
-    }
+    make_shapes(FullLanes(), full_);
+    make_shapes(FewLanes(), few_);
   }
 
-  /// Adds the spans of strut `index` of a batch.
-  template <bool varying>
-  HWY_INLINE void add(const StrutBatch& batch, const StrutSetups& setups, size_t index,
-                      DoubtfulSpans& doubts);
-  void draw() { buffer_.draw(); }
+  /// Adds a strut of the batch, of kernel `fast`.
+  HWY_INLINE void add(size_t strut) {
+    add_vectors(FullLanes(), full_[setups_.shape[strut]], strut, 0,
+                static_cast<size_t>(setups_.vectors[strut]));
+  }
+  /// Adds one of kernel `few`: gathered, for a loop that does not branch on how many vectors.
+  HWY_INLINE void add_few(size_t strut) {
+    for (uint32_t v = 0; v < StrutSetups::most_few; ++v)
+      waiting_[waiting_count_ + v] = {static_cast<uint32_t>(strut), v};
+    waiting_count_ += static_cast<size_t>(setups_.vectors[strut]);
+  }
+
+  /// Draws all that was added.
+  HWY_INLINE void draw() {
+    for (size_t i = 0; i < waiting_count_; ++i) {
+      const RowVector& w = waiting_[i];
+      add_vectors(FewLanes(), few_[setups_.shape[w.strut]], w.strut, w.vector, w.vector + 1);
+    }
+    waiting_count_ = 0;
+    buffer_.draw();
+  }
 
  private:
-  static constexpr size_t most_shapes = 4;
+  /// One of the vectors that hold a strut's rows.
+  struct RowVector {
+    uint32_t strut, vector;
+  };
 
-  /// That which needs the fewest vectors.
-  const LaneShape& shape_for(size_t rows, size_t layers) const {
-    size_t best = 0, least = SIZE_MAX;
-    for (size_t s = 0; s < shapes_; ++s) {
-      const size_t wide = shape_[s].wide, deep = shape_[s].deep;
-      const size_t vectors = ((rows + wide - 1) >> std::countr_zero(wide)) *
-                             ((layers + deep - 1) >> std::countr_zero(deep));
-      if (vectors < least) {
-        least = vectors;
-        best = s;
+  template <class D>
+  void make_shapes(D d, LaneShape* out) {
+    const size_t lanes = hn::Lanes(d);
+    for (size_t s = 0; s < shapes(d, target_); ++s) {
+      LaneShape& shape = out[s];
+      shape.wide = lanes >> s;
+      shape.deep = size_t{1} << s;
+      for (size_t l = 0; l < lanes; ++l) {
+        const size_t row = l % shape.wide, layer = l / shape.wide;
+        shape.row[l] = static_cast<float>(row);
+        shape.layer[l] = static_cast<float>(layer);
+        shape.bit[l] = static_cast<int32_t>(
+            (layer * target_.layer_words + row * target_.row_words) * bits_per_word);
       }
     }
-    return shape_[best];
   }
 
+  template <class D>
+  HWY_INLINE void add_vectors(D d, const LaneShape& shape, size_t strut, size_t begin, size_t end);
+  template <class D, class V = hn::Vec<D>>
+  HWY_INLINE void add_doubts(D d, const LaneShape& shape, size_t strut, size_t j, size_t k,
+                             hn::Mask<D> doubtful, V x0, V i0, V i1, V x1);
+
   const RasterTarget& target_;
+  const StrutBatch& batch_;
+  const StrutSetups& setups_;
+  DoubtfulSpans& doubts_;
   SpanBuffer buffer_;
   const float row_step_, layer_step_;
-  size_t shapes_ = 0;
-  LaneShape shape_[most_shapes];
+  LaneShape full_[most_shapes], few_[most_shapes];
+  size_t waiting_count_ = 0;
+  RowVector waiting_[StrutSetups::most_few * (StrutBatch::capacity + 1)];
 };
 
+/// Vectors `begin` to `end` of the strut's.
 template <bool varying>
-HWY_INLINE void FastSpans::add(const StrutBatch& batch, const StrutSetups& setups, size_t index,
-                               DoubtfulSpans& doubts) {
-  const D d;
-  const DI di;
-  const auto set = [&](const float* values) { return hn::Set(d, values[index]); };
-  const V uy = set(setups.uy), uz = set(setups.uz), ux = set(setups.ux);
-  const V inverse = set(setups.inverse_across), length = set(setups.length);
-  const V dy = set(setups.dy), dz = set(setups.dz);
-  const V a_column = set(setups.a_column), b_column = set(setups.b_column);
-  const V first = set(setups.first), last = set(setups.last);
-  const V error = set(setups.error), base_error = set(setups.end_error);
-  const V root_error = hn::Sqrt(error), none = hn::Neg(error);
-  // 1.01: the approximate reciprocal is good to half a hundredth.
-  const V twice_error = hn::Mul(error, hn::Set(d, 2.02f));
-  const V high2 = set(setups.high2), low2 = set(setups.low2);
-  const V zero = hn::Zero(d);
-  const V signed_ux2 = hn::Mul(ux, hn::Abs(ux));
+template <class D>
+HWY_INLINE void FastSpans<varying>::add_vectors(D d, const LaneShape& shape, size_t strut,
+                                                size_t begin, size_t end) {
+  using V = hn::Vec<D>;
+  using M = hn::Mask<D>;
+  const hn::RebindToSigned<D> di;
+  using VI = hn::Vec<decltype(di)>;
+  const auto set = [&](const float* values) HWY_ATTR { return hn::Set(d, values[strut]); };
+  const V uy = set(setups_.uy), uz = set(setups_.uz), ux = set(setups_.ux);
+  const V inverse = set(setups_.inverse_across), length = set(setups_.length);
+  const V dy = set(setups_.dy), dz = set(setups_.dz);
+  const V a_column = set(setups_.a_column), b_column = set(setups_.b_column);
+  const bool clipped = setups_.clipped[strut];
+  const V error = set(setups_.error), root_error = set(setups_.root_error);
+  const V base_error = set(setups_.end_error);
+  const V root_less = hn::Mul(root_error, hn::Set(d, 0.3f));
+  const V none = hn::Neg(error), zero = hn::Zero(d);
+  const V high2 = set(setups_.high2), low2 = set(setups_.low2);
+  const V signed_ux2 = set(setups_.signed_ux2);
+  const V v0 = set(setups_.v), w0 = set(setups_.w);
+  const V row_step = hn::Set(d, row_step_), layer_step = hn::Set(d, layer_step_);
 
-  const size_t rows = static_cast<size_t>(setups.j1[index] - setups.j0[index]);
-  const size_t layers = static_cast<size_t>(setups.k1[index] - setups.k0[index]);
-  const size_t j0 = static_cast<size_t>(setups.j0[index]);
-  const size_t k0 = static_cast<size_t>(setups.k0[index]);
-  const LaneShape& shape = shape_for(rows, layers);
+  const size_t j0 = static_cast<size_t>(setups_.j0[strut]);
+  const size_t k0 = static_cast<size_t>(setups_.k0[strut]);
+  const V rows = hn::Set(d, static_cast<float>(setups_.j1[strut] - setups_.j0[strut]));
+  const V layers = hn::Set(d, static_cast<float>(setups_.k1[strut] - setups_.k0[strut]));
   const V lane_row = hn::Load(d, shape.row), lane_layer = hn::Load(d, shape.layer);
   const VI lane_bit = hn::Load(di, shape.bit);
-  const V v0 = set(setups.v), w0 = set(setups.w);
-  const V row_step = hn::Set(d, row_step_), layer_step = hn::Set(d, layer_step_);
-  const V row_count = hn::Set(d, static_cast<float>(rows));
-  const V layer_count = hn::Set(d, static_cast<float>(layers));
+  const size_t across = shape.wide * static_cast<size_t>(setups_.row_vectors[strut]);
+  size_t j = begin * shape.wide, k = 0;
+  for (; j >= across; j -= across) k += shape.deep;
 
-  for (size_t k = 0; k < layers; k += shape.deep) {
+  for (size_t vector = begin; vector < end; ++vector, j += shape.wide) {
+    if (j == across) {
+      j = 0;
+      k += shape.deep;
+    }
+    const V row = hn::Add(lane_row, hn::Set(d, static_cast<float>(j)));
     const V layer = hn::Add(lane_layer, hn::Set(d, static_cast<float>(k)));
+    const M in = hn::And(hn::Lt(row, rows), hn::Lt(layer, layers));
+    const V v = hn::MulAdd(row, row_step, v0), vb = hn::Sub(v, dy);
     V w = hn::MulAdd(layer, layer_step, w0);
     if (!(target_.dz > 0)) {
-      const double from_a = target_.z[k0 + k] - batch.a[2][index];
+      const double from_a = target_.z[k0 + k] - batch_.a[2][strut];
       w = hn::Set(d, static_cast<float>(from_a * target_.inverse_dx));
     }
     const V wb = hn::Sub(w, dz);
-    const M layer_in = hn::Lt(layer, layer_count);
-    for (size_t j = 0; j < rows; j += shape.wide) {
-      const V row = hn::Add(lane_row, hn::Set(d, static_cast<float>(j)));
-      const V v = hn::MulAdd(row, row_step, v0), vb = hn::Sub(v, dy);
-      const M in = hn::And(layer_in, hn::Lt(row, row_count));
 
-      const V cross = hn::Mul(hn::MulSub(v, uz, hn::Mul(w, uy)), inverse);
-      const V cross2 = hn::Mul(cross, cross);
-      const V g = hn::Mul(hn::MulAdd(v, uy, hn::Mul(w, uz)), inverse), h = hn::Sub(g, length);
-      const V g2 = hn::Mul(g, hn::Abs(g)), h2 = hn::Mul(h, hn::Abs(h));
-      const V body_centre = hn::MulAdd(g, ux, a_column);
-      const V rho2_a = hn::MulAdd(v, v, hn::Mul(w, w)),
-              rho2_b = hn::MulAdd(vb, vb, hn::Mul(wb, wb));
+    const V cross = hn::Mul(hn::MulSub(v, uz, hn::Mul(w, uy)), inverse);
+    const V cross2 = hn::Mul(cross, cross);
+    const V g = hn::Mul(hn::MulAdd(v, uy, hn::Mul(w, uz)), inverse), h = hn::Sub(g, length);
+    const V g2 = hn::Mul(g, hn::Abs(g)), h2 = hn::Mul(h, hn::Abs(h));
+    const V body_centre = hn::MulAdd(g, ux, a_column);
+    const V rho2_a = hn::MulAdd(v, v, hn::Mul(w, w)), rho2_b = hn::MulAdd(vb, vb, hn::Mul(wb, wb));
 
-      // Ends for a squared radius, with their errors; returns the least of the discriminants.
-      const auto ends = [&](V r2, V& low, V& high, V& low_error, V& high_error) HWY_ATTR {
-        const V body = hn::MulSub(r2, inverse, cross2);
-        const V at_a = hn::Sub(r2, rho2_a), at_b = hn::Sub(r2, rho2_b);
-        const V moved = hn::Mul(signed_ux2, body), back = hn::Neg(moved);
-        const M low_a = hn::Lt(g2, moved), low_b = hn::Gt(h2, moved);
-        const M high_a = hn::Lt(g2, back), high_b = hn::Gt(h2, back);
-        const V low_d = hn::IfThenElse(low_b, at_b, hn::IfThenElse(low_a, at_a, body));
-        const V high_d = hn::IfThenElse(high_b, at_b, hn::IfThenElse(high_a, at_a, body));
-        const V low_centre =
-            hn::IfThenElse(low_b, b_column, hn::IfThenElse(low_a, a_column, body_centre));
-        const V high_centre =
-            hn::IfThenElse(high_b, b_column, hn::IfThenElse(high_a, a_column, body_centre));
-        const V low_root = hn::Sqrt(hn::Max(low_d, zero));
-        const V high_root = hn::Sqrt(hn::Max(high_d, zero));
-        low = hn::Sub(low_centre, low_root);
-        high = hn::Add(high_centre, high_root);
-        low_error = hn::MulAdd(
-            twice_error, hn::ApproximateReciprocal(hn::Max(low_root, root_error)), base_error);
-        high_error = hn::MulAdd(
-            twice_error, hn::ApproximateReciprocal(hn::Max(high_root, root_error)), base_error);
-        return hn::Min(body, hn::Min(low_d, high_d));
+    // Ends for a squared radius, with their errors; returns the least of the discriminants.
+    const auto ends = [&](V r2, V& low, V& high, V& low_error, V& high_error) HWY_ATTR {
+      const V body = hn::MulSub(r2, inverse, cross2);
+      const V at_a = hn::Sub(r2, rho2_a), at_b = hn::Sub(r2, rho2_b);
+      const V moved = hn::Mul(signed_ux2, body), back = hn::Neg(moved);
+      const M low_a = hn::Lt(g2, moved), low_b = hn::Gt(h2, moved);
+      const M high_a = hn::Lt(g2, back), high_b = hn::Gt(h2, back);
+      const V low_d = hn::IfThenElse(low_b, at_b, hn::IfThenElse(low_a, at_a, body));
+      const V high_d = hn::IfThenElse(high_b, at_b, hn::IfThenElse(high_a, at_a, body));
+      const V low_centre =
+          hn::IfThenElse(low_b, b_column, hn::IfThenElse(low_a, a_column, body_centre));
+      const V high_centre =
+          hn::IfThenElse(high_b, b_column, hn::IfThenElse(high_a, a_column, body_centre));
+      const V low_root = hn::Sqrt(hn::Max(low_d, zero));
+      const V high_root = hn::Sqrt(hn::Max(high_d, zero));
+      const auto error_of = [&](V root) HWY_ATTR {
+        const V q = hn::Sub(hn::Max(root, root_error), root_less);
+        return hn::MulAdd(error, hn::ApproximateReciprocal(q), base_error);
       };
+      low = hn::Sub(low_centre, low_root);
+      high = hn::Add(high_centre, high_root);
+      low_error = error_of(low_root);
+      high_error = error_of(high_root);
+      return hn::Min(body, hn::Min(low_d, high_d));
+    };
 
-      V low, high, low_error, high_error;
-      V least = ends(high2, low, high, low_error, high_error);
-      const M met = hn::And(in, hn::Gt(least, none));
-      if (hn::AllFalse(d, met)) continue;
-      // Columns [x0, x1] may be inside, those of [i0, i1] are.
-      const V x0 = hn::Max(hn::Ceil(hn::Sub(low, low_error)), first);
-      const V x1 = hn::Min(hn::Floor(hn::Add(high, high_error)), last);
-      if constexpr (varying) least = ends(low2, low, high, low_error, high_error);
-      const V i0 = hn::Max(hn::Ceil(hn::Add(low, low_error)), first);
-      const V i1 = hn::Min(hn::Floor(hn::Sub(high, high_error)), last);
-      const M some = hn::And(met, hn::Le(x0, x1));
-      const M sure = hn::And(hn::And(some, hn::Gt(least, twice_error)), hn::Le(i0, i1));
-
-      const size_t at = (k0 + k) * target_.layer_words + (j0 + j) * target_.row_words;
-      const int32_t bit = static_cast<int32_t>(at * bits_per_word) + setups.column[index];
-      const VI start = hn::ConvertTo(di, i0);
-      const VI count = hn::ConvertTo(di, hn::Add(hn::Sub(i1, i0), hn::Set(d, 1.0f)));
-      buffer_.add(hn::Add(hn::Add(start, lane_bit), hn::Set(di, bit)), count,
-                  hn::RebindMask(di, sure));
-
-      const M decided = hn::And(sure, hn::And(hn::Eq(x0, i0), hn::Eq(x1, i1)));
-      const M doubtful = hn::AndNot(decided, some);
-      if (hn::AllFalse(d, doubtful)) continue;
-      HWY_ALIGN float ends_of[4][2 * most_simd_doubles];
-      hn::Store(x0, d, ends_of[0]);
-      hn::Store(hn::IfThenElse(sure, i0, hn::Add(x1, hn::Set(d, 1.0f))), d, ends_of[1]);
-      hn::Store(hn::IfThenElse(sure, i1, x1), d, ends_of[2]);
-      hn::Store(x1, d, ends_of[3]);
-      uint8_t bits[8] = {};
-      hn::StoreMaskBits(d, doubtful, bits);
-      uint64_t rest;
-      std::memcpy(&rest, bits, sizeof rest);
-      for (; rest; rest &= rest - 1) {
-        const size_t l = static_cast<size_t>(std::countr_zero(rest));
-        const auto add = [&](float from, float to) {
-          if (from >= to) return;
-          doubts.push_back(
-              {static_cast<uint32_t>(index), static_cast<uint32_t>(j0 + j + l % shape.wide),
-               static_cast<uint32_t>(k0 + k + l / shape.wide),
-               static_cast<uint32_t>(setups.column[index] + static_cast<int32_t>(from)),
-               static_cast<uint32_t>(to - from)});
-        };
-        add(ends_of[0][l], ends_of[1][l]);
-        add(ends_of[2][l] + 1, ends_of[3][l] + 1);
-      }
+    V low, high, low_error, high_error;
+    V least = ends(high2, low, high, low_error, high_error);
+    const M met = hn::And(in, hn::Gt(least, none));
+    if (hn::AllFalse(d, met)) continue;
+    // Columns [x0, x1] may be inside, those of [i0, i1] are.
+    V x0 = hn::Ceil(hn::Sub(low, low_error)), x1 = hn::Floor(hn::Add(high, high_error));
+    if constexpr (varying) least = ends(low2, low, high, low_error, high_error);
+    V i0 = hn::Ceil(hn::Add(low, low_error)), i1 = hn::Floor(hn::Sub(high, high_error));
+    if (clipped) {
+      const V first = set(setups_.first), last = set(setups_.last);
+      x0 = hn::Max(x0, first);
+      i0 = hn::Max(i0, first);
+      x1 = hn::Min(x1, last);
+      i1 = hn::Min(i1, last);
     }
+    const M some = hn::And(met, hn::Le(x0, x1));
+    const M sure = hn::And(hn::And(some, hn::Gt(least, error)), hn::Le(i0, i1));
+
+    // A whole number below 2^22 plus 1.5 * 2^23 has it in its last bits.
+    const V whole = hn::Set(d, 0x1.8p23f);
+    const VI from = hn::BitCast(di, hn::Add(i0, whole)), to = hn::BitCast(di, hn::Add(i1, whole));
+    const size_t at = (k0 + k) * target_.layer_words + (j0 + j) * target_.row_words;
+    const uint32_t bit = static_cast<uint32_t>(at * bits_per_word) +
+                         static_cast<uint32_t>(setups_.column[strut]) - 0x4b400000u;
+    buffer_.add(di, hn::Add(hn::Add(from, lane_bit), hn::Set(di, static_cast<int32_t>(bit))),
+                hn::Sub(to, from), hn::RebindMask(di, sure));
+
+    const M decided = hn::And(sure, hn::And(hn::Eq(x0, i0), hn::Eq(x1, i1)));
+    const M doubtful = hn::AndNot(decided, some);
+    if (!hn::AllFalse(d, doubtful)) {
+      const V beyond = hn::Add(x1, hn::Set(d, 1.0f));
+      add_doubts(d, shape, strut, j0 + j, k0 + k, doubtful, x0, hn::IfThenElse(sure, i0, beyond),
+                 hn::IfThenElse(sure, i1, x1), x1);
+    }
+  }
+}
+
+/// Columns [x0, i0) and (i1, x1] of the doubtful lanes.
+template <bool varying>
+template <class D, class V>
+HWY_INLINE void FastSpans<varying>::add_doubts(D d, const LaneShape& shape, size_t strut, size_t j,
+                                               size_t k, hn::Mask<D> doubtful, V x0, V i0, V i1,
+                                               V x1) {
+  HWY_ALIGN float columns[4][2 * most_simd_doubles];
+  hn::Store(x0, d, columns[0]);
+  hn::Store(i0, d, columns[1]);
+  hn::Store(i1, d, columns[2]);
+  hn::Store(x1, d, columns[3]);
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, doubtful, bits);
+  uint64_t rest;
+  std::memcpy(&rest, bits, sizeof rest);
+  for (; rest; rest &= rest - 1) {
+    const size_t l = static_cast<size_t>(std::countr_zero(rest));
+    const auto add = [&](float from, float to) {
+      if (from >= to) return;
+      doubts_.push_back({static_cast<uint32_t>(strut), static_cast<uint32_t>(j + l % shape.wide),
+                         static_cast<uint32_t>(k + l / shape.wide),
+                         static_cast<uint32_t>(setups_.column[strut] + static_cast<int32_t>(from)),
+                         static_cast<uint32_t>(to - from)});
+    };
+    add(columns[0][l], columns[1][l]);
+    add(columns[2][l] + 1, columns[3][l] + 1);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/compress-inl.h"
 #include "base/simd.h"
 #include "strut/segment_selection.h"
 
@@ -41,7 +42,8 @@ size_t select_segments(const SegmentSet& set, const float* low, const float* hig
       in = hn::And(in, hn::And(hn::Le(hn::Min(c[2], c[5]), hz), hn::Ge(hn::Max(c[2], c[5]), lz)));
       const size_t found = hn::CountTrue(d, in);
       if (!found) continue;
-      for (int k = 0; k < 6; ++k) hn::StoreU(hn::Compress(c[k], in), d, out[k] + count);
+      const Compression<D> compress(in);
+      for (int k = 0; k < 6; ++k) hn::StoreU(compress(c[k]), d, out[k] + count);
       count += found;
     }
   }

@@ -15,23 +15,37 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 
-void raster_struts(const RasterTarget& target, const StrutBatch& batch, DoubtfulSpans& doubts) {
-  StrutSetups setups;
-  set_up_struts(target, batch, setups);
-  FastSpans spans(target);
+template <bool varying>
+HWY_INLINE void draw_struts(const RasterTarget& target, const StrutBatch& batch,
+                            const StrutSetups& setups, DoubtfulSpans& doubts) {
+  FastSpans<varying> spans(target, batch, setups, doubts);
   for (size_t i = 0; i < batch.count; ++i) {
-    if (setups.kernel[i] == StrutSetups::none) continue;
-    if (setups.kernel[i] == StrutSetups::general) {
-      const auto index = [&](const int32_t* values) { return static_cast<size_t>(values[i]); };
-      const RowRange range{index(setups.j0), index(setups.j1), index(setups.k0), index(setups.k1)};
-      general::write_rows(target, batch, i, range, doubts);
-    } else if (batch.low[i] == batch.high[i]) {
-      spans.add<false>(batch, setups, i, doubts);
-    } else {
-      spans.add<true>(batch, setups, i, doubts);
+    const auto index = [&](const int32_t* values) { return static_cast<size_t>(values[i]); };
+    switch (setups.kernel[i]) {
+      case StrutSetups::few:
+        spans.add_few(i);
+        break;
+      case StrutSetups::fast:
+        spans.add(i);
+        break;
+      case StrutSetups::general:
+        general::write_rows(
+            target, batch, i,
+            {index(setups.j0), index(setups.j1), index(setups.k0), index(setups.k1)}, doubts);
+        break;
     }
   }
   spans.draw();
+}
+
+void raster_struts(const RasterTarget& target, const StrutBatch& batch, bool varying,
+                   DoubtfulSpans& doubts) {
+  StrutSetups setups;
+  set_up_struts(target, batch, setups);
+  if (varying)
+    draw_struts<true>(target, batch, setups, doubts);
+  else
+    draw_struts<false>(target, batch, setups, doubts);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -99,7 +113,9 @@ void SpanRaster::draw(const StrutBatch& struts, double margin) {
   target.slack = 1e-9 + 0x1p-50 * static_cast<double>(grid.nx);
   target.margin = margin;
   doubtful_.clear();
-  HWY_DYNAMIC_DISPATCH(raster_struts)(target, struts, doubtful_);
+  bool varying = false;
+  for (size_t i = 0; i < struts.count; ++i) varying |= struts.low[i] != struts.high[i];
+  HWY_DYNAMIC_DISPATCH(raster_struts)(target, struts, varying, doubtful_);
 }
 
 void SpanRaster::leave(Sample sample) {

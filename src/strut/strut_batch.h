@@ -12,7 +12,7 @@ namespace msq {
 /// Struts in model units, each with the least and greatest radius, margins not included, at points
 /// in its reach. Kernels read and write whole vectors: up to `padding` entries past the count.
 struct StrutBatch {
-  static constexpr size_t capacity = 128, padding = most_simd_doubles;
+  static constexpr size_t capacity = 64, padding = most_simd_doubles;
 
   size_t count = 0;
   double a[3][capacity + padding], b[3][capacity + padding];

@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "strut/raster_target.h"
 #include "strut/strut_batch.h"
@@ -22,21 +23,39 @@ namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+using FullLanes = hn::ScalableTag<float>;
+using FewLanes = hn::CappedTag<float, 8>;
+
+/// Rows and layers of a strut by vectors: shape s puts lanes / 2^s of the lanes of a vector on
+/// rows, and as many layers as fill it.
+constexpr size_t most_shapes = 3;
+template <class D>
+HWY_INLINE size_t shapes(D d, const RasterTarget& target) {
+  const size_t lanes = hn::Lanes(d);
+  if (!(target.dz > 0) || lanes < 4) return 1;  // layers one by one
+  return std::min<size_t>(most_shapes, static_cast<size_t>(std::countr_zero(lanes)));
+}
+
 struct StrutSetups {
-  enum Kernel : int32_t { none = 0, general = 1, fast = 2 };
+  enum Kernel : int32_t { none = 0, general = 1, few = 2, fast = 3 };
+  /// Vectors of FewLanes up to which a strut is of kernel `few`.
+  static constexpr size_t most_few = 4;
   static constexpr size_t room = StrutBatch::capacity + StrutBatch::padding;
 
   int32_t kernel[room];  // none: meets no row of the target
   int32_t j0[room], j1[room], k0[room], k1[room];
+  int32_t shape[room], row_vectors[room], vectors[room];  // for all rows; for all rows and layers
   int32_t column[room];                  // a whole one near the end a: columns count from it
-  float a_column[room], b_column[room];  // of the ends
+  int32_t clipped[room];                 // by the first or the last column
   float first[room], last[room];         // columns of the target
+  float a_column[room], b_column[room];  // of the ends
   float v[room], w[room];                // of row j0 and layer k0, in y and z, from a
   float dy[room], dz[room];              // from a to b
   float ux[room], uy[room], uz[room], length[room];  // axis
+  float signed_ux2[room];                            // ux |ux|
   float inverse_across[room];                        // 1 / (uy^2 + uz^2)
   float high2[room], low2[room];                     // squared radii; low2 negative: no inner span
-  float error[room], end_error[room];                // see fast_spans-inl.h
+  float error[room], root_error[room], end_error[room];  // E, sqrt(E); see fast_spans-inl.h
 };
 
 /// Rows of evenly spaced values, [first, end), that may lie in [low, high]. One too many does no
@@ -67,6 +86,27 @@ HWY_INLINE void index_range(D d, const double* values, size_t count, V low, V hi
   }
   first = hn::Load(d, bounds[0]);
   end = hn::Load(d, bounds[1]);
+}
+
+/// The shape that needs the fewest vectors for so many rows and layers.
+template <class D, class V = hn::Vec<D>>
+struct ChosenLayout {
+  V shape, row_vectors, vectors;
+};
+template <class D, class DF, class V = hn::Vec<D>>
+HWY_INLINE ChosenLayout<D> layout(D d, DF df, const RasterTarget& target, V rows, V layers) {
+  ChosenLayout<D> best{hn::Zero(d), hn::Zero(d), hn::Set(d, 1e300)};
+  for (size_t s = 0; s < shapes(df, target); ++s) {
+    const double deep = static_cast<double>(size_t{1} << s);
+    const double wide = static_cast<double>(hn::Lanes(df)) / deep;
+    const V across = hn::Ceil(hn::Mul(rows, hn::Set(d, 1 / wide)));
+    const V vectors = hn::Mul(across, hn::Ceil(hn::Mul(layers, hn::Set(d, 1 / deep))));
+    const auto fewer = hn::Lt(vectors, best.vectors);
+    best.shape = hn::IfThenElse(fewer, hn::Set(d, static_cast<double>(s)), best.shape);
+    best.row_vectors = hn::IfThenElse(fewer, across, best.row_vectors);
+    best.vectors = hn::Min(vectors, best.vectors);
+  }
+  return best;
 }
 
 HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batch,
@@ -117,12 +157,18 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     const V column = hn::Floor(a_column), fraction = hn::Sub(a_column, column);
     const V b_column = hn::Add(fraction, dx);
 
+    // See fast_spans-inl.h.
+    const V across_error = hn::Mul(hn::Mul(whole, r), hn::Set(d, 32 * u));
     const V ru = hn::Mul(whole, hn::Set(d, 14 * u)), both = hn::Add(ru, shift);
     const V squared_error =
-        hn::MulAdd(hn::Mul(r, hn::Set(d, 2.0)), hn::Add(shift, hn::Mul(whole, hn::Set(d, 16 * u))),
-                   hn::Mul(both, both));
-    const V error =
-        hn::Mul(hn::Mul(hn::Set(d, 12.0), squared_error), hn::Mul(inverse_across, inverse_across));
+        hn::Mul(inverse_across, hn::MulAdd(inverse_across, hn::MulAdd(both, both, across_error),
+                                           hn::Mul(hn::Set(d, 2.0), hn::Mul(r, shift))));
+    const V along = hn::Abs(hn::Mul(dx, inverse_length));
+    const V choices = hn::IfThenElse(hn::Gt(length2, hn::Mul(squared_error, hn::Set(d, 16.0))),
+                                     hn::Set(d, 2.0), hn::Set(d, 4.0));
+    const V error = hn::Mul(squared_error,
+                            hn::MulAdd(hn::Mul(choices, along),
+                                       hn::MulAdd(along, hn::Set(d, 1.05), hn::Set(d, 0.95)), one));
     const V end_error = hn::MulAdd(hn::Set(d, 32 * u), hn::MulAdd(whole, inverse_across, one),
                                    hn::Set(d, target.slack));
 
@@ -142,9 +188,23 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     serves = hn::And(serves, hn::Gt(whole, hn::Set(d, 1e-6)));
     serves = hn::And(serves, hn::Lt(whole, hn::Set(d, 65536.0)));
     serves = hn::And(serves, hn::Lt(hn::Abs(column), hn::Set(d, 0x1p30)));
+    const auto few = layout(d, FewLanes(), target, hn::Sub(j1, j0), hn::Sub(k1, k0));
+    auto chosen = few;
+    const auto is_few = hn::Le(few.vectors, hn::Set(d, static_cast<double>(StrutSetups::most_few)));
+    if (hn::Lanes(FullLanes()) > hn::Lanes(FewLanes())) {
+      const auto full = layout(d, FullLanes(), target, hn::Sub(j1, j0), hn::Sub(k1, k0));
+      chosen.shape = hn::IfThenElse(is_few, few.shape, full.shape);
+      chosen.row_vectors = hn::IfThenElse(is_few, few.row_vectors, full.row_vectors);
+      chosen.vectors = hn::IfThenElse(is_few, few.vectors, full.vectors);
+    }
+    const auto fast = hn::IfThenElse(is_few, hn::Set(d, double{StrutSetups::few}),
+                                     hn::Set(d, double{StrutSetups::fast}));
     V kernel = hn::Set(d, double{StrutSetups::general});
-    if (grid_fits) kernel = hn::IfThenElse(serves, hn::Set(d, double{StrutSetups::fast}), kernel);
+    if (grid_fits) kernel = hn::IfThenElse(serves, fast, kernel);
     kernel = hn::IfThenElseZero(meets, kernel);
+    const V least = hn::Sub(hn::Min(a_column, hn::Add(a_column, dx)), reach);
+    const V greatest = hn::Add(hn::Max(a_column, hn::Add(a_column, dx)), reach);
+    const auto clipped = hn::Or(hn::Lt(least, zero), hn::Gt(greatest, hn::Set(d, target.last)));
 
     const auto put = [&](V value, float* out) { hn::StoreU(hn::DemoteTo(df, value), df, out + i); };
     const auto put_index = [&](V value, int32_t* out) {
@@ -153,6 +213,10 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     const V bound = hn::Set(d, 0x1p23);
     const auto near = [&](V value) { return hn::Min(hn::Max(value, hn::Neg(bound)), bound); };
     put_index(kernel, setups.kernel);
+    put_index(chosen.shape, setups.shape);
+    put_index(chosen.row_vectors, setups.row_vectors);
+    put_index(hn::Min(chosen.vectors, hn::Set(d, 0x1p30)), setups.vectors);
+    put_index(hn::IfThenElseZero(clipped, one), setups.clipped);
     put_index(j0, setups.j0);
     put_index(j1, setups.j1);
     put_index(k0, setups.k0);
@@ -166,7 +230,9 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     put(hn::Mul(hn::Sub(z_first, az), scale), setups.w);
     put(dy, setups.dy);
     put(dz, setups.dz);
-    put(hn::Mul(dx, inverse_length), setups.ux);
+    const V ux = hn::Mul(dx, inverse_length);
+    put(ux, setups.ux);
+    put(hn::Mul(ux, along), setups.signed_ux2);
     put(hn::Mul(dy, inverse_length), setups.uy);
     put(hn::Mul(dz, inverse_length), setups.uz);
     put(length, setups.length);
@@ -174,7 +240,8 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     put(hn::Mul(r, r), setups.high2);
     const V thin = hn::Mul(low, scale);
     put(hn::IfThenElse(hn::Gt(thin, zero), hn::Mul(thin, thin), hn::Set(d, -1.0)), setups.low2);
-    put(error, setups.error);
+    put(hn::Mul(error, hn::Set(d, 1.01)), setups.error);
+    put(hn::Sqrt(hn::Mul(error, hn::Set(d, 1.01))), setups.root_error);
     put(end_error, setups.end_error);
   }
 }

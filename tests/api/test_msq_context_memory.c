@@ -121,13 +121,13 @@ static void slicer_run_needs_its_peak_and_no_more(void** state) {
 
 static void refused_slice_layer_writes_nothing(void** state) {
   const msq_slicer_def def = slicer_def(MSQ_LAYER_BYTES, 64, 64, 0.25);
-  msq_context* context = make_context_of(1, 0, 700);
+  msq_context* context = make_context_of(1, 0, 500);
   msq_model* model = make_lattice_model(context);
   msq_slicer* slicer = make_slicer(model, &def);
   uint8_t layer[64 * 64];
   (void)state;
   memset(layer, struct_pattern, sizeof layer);
-  assert_refused(msq_slice_layer(slicer, 0, layer, sizeof layer, NULL), MSQ_E_LIMIT, "700");
+  assert_refused(msq_slice_layer(slicer, 0, layer, sizeof layer, NULL), MSQ_E_LIMIT, "500");
   assert_filled(layer, sizeof layer, struct_pattern);
   assert_int_equal(memory_of(context).bytes, 0);
   assert_int_equal(memory_of(context).peak_bytes, 0);

@@ -168,16 +168,21 @@ static void listed_heights_are_the_layers(void** state) {
   assert_int_equal(plan_for(def).layer_count, 3);
 }
 
-static void slabs_are_a_cell_high_unless_told(void** state) {
-  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 8, 8, 0.125);
+static void slabs_are_whole_cells_high_unless_told(void** state) {
+  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 8, 8, 1.0 / 80);
   (void)state;
-  assert_int_equal(plan_for(def).slab_layers, 8);
+  assert_int_equal(plan_for(def).slab_layers, 80); /* one */
+  def.layer_height = 1.0 / 25;
+  assert_int_equal(plan_for(def).slab_layers, 50); /* two: three are more than 64 */
+  def.layer_height = 0.125;
+  assert_int_equal(plan_for(def).slab_layers, 32); /* all there are */
   def.slab_layers = 5;
   assert_int_equal(plan_for(def).slab_layers, 5);
   def.slab_layers = UINT32_MAX; /* no more than there are */
   assert_int_equal(plan_for(def).slab_layers, 32);
-  def = slicer_def(MSQ_LAYER_BITS, 8, 8, 2);
-  assert_int_equal(plan_for(def).slab_layers, 1);
+  def.slab_layers = 0;
+  def.layer_height = 2; /* cells of less than a layer */
+  assert_int_equal(plan_for(def).slab_layers, 2);
 }
 
 static void slabs_are_no_more_than_32_mib(void** state) {
@@ -201,7 +206,7 @@ int main(void) {
       cmocka_unit_test(stride_holds_the_width),
       cmocka_unit_test(layer_count_is_the_one_given),
       cmocka_unit_test(listed_heights_are_the_layers),
-      cmocka_unit_test(slabs_are_a_cell_high_unless_told),
+      cmocka_unit_test(slabs_are_whole_cells_high_unless_told),
       cmocka_unit_test(slabs_are_no_more_than_32_mib),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
