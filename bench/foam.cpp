@@ -2,7 +2,9 @@
 // Voronoi foams, r = 0.1 cell, in the unit cube: edges against CGAL and voro++, slices by each
 // method.
 //
-// usage: foam [results.json] [largest slices, default 1024]
+// usage: foam [results.json] [largest slices, default 2048]
+#include <hwy/highway.h>
+
 #include <cstdlib>
 #include <string>
 
@@ -85,7 +87,8 @@ struct Foam {
   msq_model* model;
 };
 
-Foam make_foam(int cells, int32_t method, uint64_t cache_bytes) {
+/// r: 0.1 cell; or `graded`, from 0.05 cell at one corner of the cube to 0.15 at the other.
+Foam make_foam(int cells, int32_t method, uint64_t cache_bytes, bool graded = false) {
   Foam foam{};
   msq_context_def context_def;
   bench::check(msq_context_def_init(&context_def, sizeof context_def));
@@ -100,8 +103,14 @@ Foam make_foam(int cells, int32_t method, uint64_t cache_bytes) {
   def.method = method;
   for (double& size : def.grid.cell_size) size = 1.0 / cells;
   def.radius.value = 0.1 / cells;
+  msq_field* field = nullptr;
+  if (graded) {
+    bench::check(msq_field_gradient(foam.context, low, 0.05 / cells, high, 0.15 / cells, &field));
+    def.radius = {0, field};
+  }
   msq_structure* structure;
   bench::check(msq_structure_foam(foam.context, &def, &structure));
+  msq_field_release(field);
   const msq_scale_def scales[] = {{cube, nullptr}, {nullptr, structure}};
   msq_model_def model_def;
   bench::check(msq_model_def_init(&model_def, sizeof model_def));
@@ -115,8 +124,8 @@ Foam make_foam(int cells, int32_t method, uint64_t cache_bytes) {
 
 /// Seconds for the first `layers` layers, from an empty cache; and the bytes held at most.
 double slice_seconds(int cells, uint32_t resolution, uint64_t layers, int32_t method,
-                     uint64_t cache_bytes, double& peak) {
-  const Foam foam = make_foam(cells, method, cache_bytes);
+                     uint64_t cache_bytes, double& peak, bool graded = false) {
+  const Foam foam = make_foam(cells, method, cache_bytes, graded);
   msq_slicer_def def;
   bench::check(msq_slicer_def_init(&def, sizeof def));
   def.resolution[0] = def.resolution[1] = resolution;
@@ -138,8 +147,9 @@ double slice_seconds(int cells, uint32_t resolution, uint64_t layers, int32_t me
   return seconds;
 }
 
+constexpr uint64_t cache = uint64_t{128} << 20;
+
 void bench_slices(bench::Report& report, uint32_t largest) {
-  constexpr uint64_t cache = uint64_t{256} << 20;
   for (uint32_t resolution = 512; resolution <= largest; resolution *= 2)
     for (int cells : {32, 128, 256}) {
       double peak;
@@ -151,6 +161,28 @@ void bench_slices(bench::Report& report, uint32_t largest) {
       report.add("DIRECT, " + name, seconds, samples, "sample");
       report.note("  peak memory", peak / 1e6, "MB");
     }
+}
+
+/// What a gradient of r, and AVX2 in place of wider vectors, cost.
+void bench_variants(bench::Report& report, uint32_t resolution) {
+  const double samples = static_cast<double>(resolution) * resolution * resolution;
+  double peak;
+  for (int cells : {32, 256}) {
+    const std::string name =
+        std::to_string(resolution) + "^3, " + std::to_string(cells) + "^3 cells";
+    const auto seconds = [&](bool graded) {
+      return slice_seconds(cells, resolution, UINT64_MAX, MSQ_FOAM_DIRECT, cache, peak, graded);
+    };
+    const double constant = seconds(false), graded = seconds(true);
+    report.add("DIRECT, " + name + ", gradient of r", graded, samples, "sample");
+    report.note("  against constant r", graded / constant, "times the time");
+    if (!(hwy::SupportedTargets() & HWY_AVX2)) continue;
+    hwy::SetSupportedTargetsForTest(HWY_AVX2);
+    const double avx2 = seconds(false);
+    hwy::SetSupportedTargetsForTest(0);
+    report.add("DIRECT, " + name + ", AVX2", avx2, samples, "sample");
+    report.note("  against all instruction sets", avx2 / constant, "times the time");
+  }
 }
 
 /// The other methods on the same few layers of 512^3, 32^3 cells.
@@ -176,7 +208,9 @@ int main(int count, char** arguments) try {
   bench::Report report("Voronoi foams, r = 0.1 cell");
   bench_edges(report);
   bench_methods(report);
-  bench_slices(report, count > 2 ? static_cast<uint32_t>(std::atoi(arguments[2])) : 1024);
+  const uint32_t largest = count > 2 ? static_cast<uint32_t>(std::atoi(arguments[2])) : 2048;
+  bench_slices(report, largest);
+  bench_variants(report, largest);
   report.write(count, arguments);
   return 0;
 } catch (const std::exception& error) {

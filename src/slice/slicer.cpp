@@ -106,8 +106,10 @@ void Slicer::plan_slabs() {
   const double height = grid_.nz > 1 ? extent / static_cast<double>(grid_.nz - 1) : 0;
   double layers = automatic_slab_layers;
   if (!resolved_.empty() && height > 0) {  // whole cells, at least one
-    const double cell = resolved_.back()->neighbourhood().cell_size.z / height * (1 + 1e-9);
-    layers = std::floor(std::max(1.0, std::floor(automatic_slab_layers / cell)) * cell);
+    // As many layers to a cell as there are in exact numbers.
+    const double cell = resolved_.back()->neighbourhood().cell_size.z / height;
+    constexpr double up = 1 + 1e-9;
+    layers = std::floor(std::max(1.0, std::floor(automatic_slab_layers / cell * up)) * cell * up);
   }
   const uint64_t layer_bytes = words_for(grid_.nx) * grid_.ny * sizeof(uint64_t);
   const double fit = static_cast<double>(automatic_slab_bytes / layer_bytes);
