@@ -139,6 +139,7 @@ void bench_grid(bench::Report& report, int cells, uint32_t resolution, int32_t m
   const uint64_t layers = resolution / 8;
   const auto slice = [&] {
     reader = {};
+    bench::check(msq_cache_clear(foam.context));
     bench::check(msq_slicer_run(slicer, 0, layers, bench::Reader::take, &reader, nullptr));
   };
   const double seconds = bench::median_seconds(slice);
