@@ -73,12 +73,36 @@ void block_of(const SeedTile& tile, size_t home, const int (&half)[3], Vec3 scal
 }
 
 // Lanes are seeds: whatever points come, no lane waits for another's seeds.
-void near_seeds(const SeedBlockView& block, const float* x, const float* y, const float* z,
-                const float* add, size_t points, float* needed, uint16_t* near, uint64_t* masks) {
+void near_seeds(const SeedBlockView& block, Vec3 scale, const PlacesView& places, uint16_t* near,
+                uint64_t* masks) {
+  HWY_ALIGN float x[PlacesView::most], y[PlacesView::most], z[PlacesView::most],
+      add[PlacesView::most], reach[PlacesView::most];
+  {
+    const hn::ScalableTag<double> d;
+    const hn::Rebind<float, decltype(d)> df;
+    const auto to_border = [&](auto place, double size, double room) {
+      const auto edge = hn::Min(place, hn::Sub(hn::Set(d, size), place));
+      return hn::Add(edge, hn::Set(d, room - static_cast<double>(block.slack)));
+    };
+    // A distance, the nearest, and their comparison: three times the slack (point_batch.cpp).
+    const auto slack = hn::Set(df, 3 * block.slack);
+    for (size_t i = 0; i < places.count; i += hn::Lanes(d)) {
+      const auto px = hn::LoadU(d, places.x + i), py = hn::LoadU(d, places.y + i),
+                 pz = hn::LoadU(d, places.z + i), radius = hn::LoadU(d, places.radius + i);
+      hn::Store(hn::DemoteTo(df, px), df, x + i);
+      hn::Store(hn::DemoteTo(df, py), df, y + i);
+      hn::Store(hn::DemoteTo(df, pz), df, z + i);
+      hn::Store(hn::Add(hn::DemoteTo(df, hn::Add(radius, radius)), slack), df, add + i);
+      const auto border = hn::Min(
+          hn::Min(to_border(px, scale.x, block.room.x), to_border(py, scale.y, block.room.y)),
+          to_border(pz, scale.z, block.room.z));
+      hn::Store(hn::DemoteTo(df, border), df, reach + i);
+    }
+  }
   const hn::ScalableTag<float> d;
   const size_t lanes = hn::Lanes(d);
   HWY_ALIGN float distance_squared[most_block_seeds + 2 * most_simd_doubles];
-  for (size_t i = 0; i < points; ++i, masks += block.mask_words) {
+  for (size_t i = 0; i < places.count; ++i, masks += block.mask_words) {
     const auto qx = hn::Set(d, x[i]), qy = hn::Set(d, y[i]), qz = hn::Set(d, z[i]);
     auto least = hn::Set(d, 1e30f);
     for (size_t s = 0; s < block.count; s += lanes) {
@@ -89,9 +113,8 @@ void near_seeds(const SeedBlockView& block, const float* x, const float* y, cons
       hn::Store(d2, d, distance_squared + s);
       least = hn::Min(least, d2);
     }
-    const auto reach = hn::Add(hn::Sqrt(hn::MinOfLanes(d, least)), hn::Set(d, add[i]));
-    needed[i] = hn::GetLane(reach);
-    const auto reach_squared = hn::Mul(reach, reach);
+    const auto needed = hn::Add(hn::Sqrt(hn::MinOfLanes(d, least)), hn::Set(d, add[i]));
+    const auto needed_squared = hn::Mul(needed, needed);
     uint64_t word = 0;
     size_t s = 0, count = 0;
     for (; s < block.count; s += lanes) {
@@ -99,12 +122,12 @@ void near_seeds(const SeedBlockView& block, const float* x, const float* y, cons
         masks[s / 64 - 1] = word;
         word = 0;
       }
-      const auto is_near = hn::Le(hn::Load(d, distance_squared + s), reach_squared);
+      const auto is_near = hn::Le(hn::Load(d, distance_squared + s), needed_squared);
       word |= bits_of(d, is_near) << (s % 64);
       count += hn::CountTrue(d, is_near);
     }
     masks[(s - 1) / 64] = word;
-    near[i] = static_cast<uint16_t>(count);
+    near[i] = hn::GetLane(needed) <= reach[i] ? static_cast<uint16_t>(count) : beyond_block;
   }
 }
 
@@ -226,10 +249,9 @@ void fill_block(const SeedTile& tile, size_t home, const int (&half)[3], Vec3 sc
   HWY_DYNAMIC_DISPATCH(block_of)(tile, home, half, scale, x, y, z);
 }
 
-void find_near_seeds(const SeedBlockView& block, const float* x, const float* y, const float* z,
-                     const float* add, size_t points, float* needed, uint16_t* near,
-                     uint64_t* masks) {
-  HWY_DYNAMIC_DISPATCH(near_seeds)(block, x, y, z, add, points, needed, near, masks);
+void find_near_seeds(const SeedBlockView& block, Vec3 scale, const PlacesView& places,
+                     uint16_t* near, uint64_t* masks) {
+  HWY_DYNAMIC_DISPATCH(near_seeds)(block, scale, places, near, masks);
 }
 
 void decide_triples(const TripleBatch& batch, size_t seeds, uint8_t* held) {

@@ -17,6 +17,14 @@ struct SeedBlockView {
   const float *x, *y, *z;
   size_t count;       ///< the seeds
   size_t mask_words;  ///< words for a bit a seed
+  Vec3 room;          ///< from the cell to the block's border
+  float slack;        ///< of distances in single precision
+};
+/// Points of that cell. Whole vectors of them may be read.
+struct PlacesView {
+  const double *x, *y, *z, *radius;
+  size_t count;
+  static constexpr size_t most = 64;
 };
 /// Most seeds of a block.
 constexpr size_t most_block_seeds = 1024;
@@ -28,11 +36,12 @@ void fill_block(const SeedTile& tile, size_t home, const int (&half)[3], Vec3 sc
                 float* y, float* z);
 constexpr size_t block_padding = 2 * most_simd_doubles + 4;
 
-/// For each point: needed[i] = distance to its nearest seed + add[i], and bit s of
-/// masks[i * mask_words ...] is set for the seeds s within needed[i], near[i] in all.
-void find_near_seeds(const SeedBlockView& block, const float* x, const float* y, const float* z,
-                     const float* add, size_t points, float* needed, uint16_t* near,
-                     uint64_t* masks);
+/// For each point: bit s of masks[i * mask_words ...] is set for the seeds s that may be within
+/// nearest distance + 2 radius + near_slack of it, near[i] in all; near[i] = beyond_block if some
+/// of them may lie beyond the block. `scale`: cell size in foam units.
+void find_near_seeds(const SeedBlockView& block, Vec3 scale, const PlacesView& places,
+                     uint16_t* near, uint64_t* masks);
+constexpr uint16_t beyond_block = UINT16_MAX;
 
 /// Points that have the same number of candidates: the seeds, in the order of their cells, that may
 /// be within nearest + 2 radius + near_slack. Foam units, from any cell's corner, one for a point.

@@ -49,7 +49,7 @@ void PointBatch::plan(Block& block, int step) const {
     block.seeds *= static_cast<size_t>(2 * block.half[axis] + 1);
     most = std::max(most, (block.half[axis] + 1) * scale[axis]);
   }
-  block.slack = 0x1p-19 * most;
+  block.slack = static_cast<float>(0x1p-19 * most);
   block.mask_words = (block.seeds + 63) / 64;
   if (block.seeds > most_block_seeds) return;
   for (int dz = -block.half[2]; dz <= block.half[2]; ++dz)
@@ -78,60 +78,45 @@ void PointBatch::move_to(CellIndex low, const int (&size)[3], bool is_sparse) {
 
 void PointBatch::ask(CellIndex cell) {
   if (count_ == 0) return;
-  uint8_t points[capacity];
-  for (size_t i = 0; i < count_; ++i) {
-    points[i] = static_cast<uint8_t>(i);
-    inside_[index_[i]] = 0;
-  }
+  for (size_t i = 0; i < count_; ++i) inside_[index_[i]] = 0;
   size_t left = count_;
-  if (has_first_) left = ask(first_, cell, points, left);
-  if (left > 0 && is_wide_) left = ask(second_, cell, points, left);
-  for (size_t k = 0; k < left; ++k) {
-    const size_t i = points[k];
+  if (has_first_) left = ask(first_, cell, left);
+  if (left > 0 && is_wide_) left = ask(second_, cell, left);
+  for (size_t i = 0; i < left; ++i)
     inside_[index_[i]] = foam_point_inside(seeds_, cell, {x_[i], y_[i], z_[i]}, radius_[i]);
-  }
   count_ = 0;
 }
 
-size_t PointBatch::ask(Block& block, CellIndex cell, uint8_t* points, size_t count) {
+size_t PointBatch::ask(Block& block, CellIndex cell, size_t count) {
   const Vec3 scale = seeds_.scale();
-  float x[capacity], y[capacity], z[capacity], add[capacity], reach[capacity], needed[capacity];
-  const float slack = static_cast<float>(3 * block.slack);
-  const Vec3 room =
-      Vec3{double(block.half[0]), double(block.half[1]), double(block.half[2])} * scale -
-      Vec3{block.slack, block.slack, block.slack};
-  for (size_t k = 0; k < count; ++k) {
-    const size_t i = points[k];
-    x[k] = static_cast<float>(x_[i]);
-    y[k] = static_cast<float>(y_[i]);
-    z[k] = static_cast<float>(z_[i]);
-    add[k] = static_cast<float>(2 * radius_[i]) + slack;
-    reach[k] = static_cast<float>(std::min({room.x + std::min(x_[i], scale.x - x_[i]),
-                                            room.y + std::min(y_[i], scale.y - y_[i]),
-                                            room.z + std::min(z_[i], scale.z - z_[i])}));
-  }
   const size_t home = tile_.index(cell), words = block.mask_words;
   fill_block(tile_, home, block.half, scale, block.x.data(), block.y.data(), block.z.data());
-  const SeedBlockView view{block.x.data(), block.y.data(), block.z.data(), block.seeds, words};
+  const Vec3 half{double(block.half[0]), double(block.half[1]), double(block.half[2])};
   uint16_t near[capacity];
-  find_near_seeds(view, x, y, z, add, count, needed, near, masks_.data());
+  find_near_seeds({block.x.data(), block.y.data(), block.z.data(), block.seeds, words, half * scale,
+                   block.slack},
+                  scale, {x_, y_, z_, radius_, count}, near, masks_.data());
 
   // Which points have three seeds is a coin toss: listed without a branch.
-  uint8_t chosen[capacity];
+  uint8_t chosen[capacity], beyond[capacity];
   size_t chosen_count = 0, beyond_count = 0;
-  uint8_t beyond[capacity];
-  for (size_t k = 0; k < count; ++k) {
-    const bool is_beyond = !(needed[k] <= reach[k]);
-    chosen[chosen_count] = static_cast<uint8_t>(k);
-    chosen_count += near[k] >= 3 && !is_beyond;
-    beyond[beyond_count] = points[k];
-    beyond_count += is_beyond;
+  for (size_t i = 0; i < count; ++i) {
+    chosen[chosen_count] = beyond[beyond_count] = static_cast<uint8_t>(i);
+    chosen_count += near[i] >= 3 && near[i] != beyond_block;
+    beyond_count += near[i] == beyond_block;
   }
   for (size_t n = 0; n < chosen_count; ++n) {
-    const size_t k = chosen[n];
-    push(block, home, points[k], masks_.data() + k * words, near[k]);
+    const size_t i = chosen[n];
+    push(block, home, i, masks_.data() + i * words, near[i]);
   }
-  std::copy(beyond, beyond + beyond_count, points);
+  for (size_t n = 0; n < beyond_count; ++n) {
+    const size_t i = beyond[n];
+    x_[n] = x_[i];
+    y_[n] = y_[i];
+    z_[n] = z_[i];
+    radius_[n] = radius_[i];
+    index_[n] = index_[i];
+  }
   return beyond_count;
 }
 

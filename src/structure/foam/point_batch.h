@@ -44,21 +44,21 @@ class PointBatch {
   void finish();
 
  private:
-  static constexpr size_t capacity = 64;
+  static constexpr size_t capacity = PlacesView::most;
 
   /// The seeds of the cells up to half[axis] away from a point's cell.
   struct Block {
     int half[3];
     size_t seeds = 0, mask_words = 0;
-    double slack = 0;               // of distances in single precision, foam units
+    float slack = 0;                // of distances in single precision, foam units
     std::vector<Vec3> cell;         // of each seed, from the point's
     std::vector<ptrdiff_t> offset;  // of each seed in the tile
     std::vector<float> x, y, z;
   };
   void plan(Block& block, int step) const;
-  /// Answers points, by their positions among those added, from a block; returns how many it is too
-  /// small for, whose positions are then the first.
-  size_t ask(Block& block, CellIndex cell, uint8_t* points, size_t count);
+  /// Answers the first `count` of the points added from a block; returns how many it is too small
+  /// for, which are then the first.
+  size_t ask(Block& block, CellIndex cell, size_t count);
   /// A point that may lie inside, and the seeds that may decide it.
   void push(const Block& block, size_t home, size_t point, const uint64_t* mask, size_t count);
   void decide(size_t seeds);
@@ -71,7 +71,7 @@ class PointBatch {
   SeedTile tile_;
 
   size_t count_ = 0;
-  double x_[capacity], y_[capacity], z_[capacity], radius_[capacity];
+  double x_[capacity] = {}, y_[capacity] = {}, z_[capacity] = {}, radius_[capacity] = {};
   uint32_t index_[capacity];
   std::vector<uint64_t> masks_;
   std::vector<Vec3> candidates_, near_;
