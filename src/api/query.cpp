@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+
 #include "api/guard.h"
 #include "query/membership.h"
 
@@ -55,13 +57,24 @@ SampleGrid read_grid(const msq_points_def& def) {
   return grid;
 }
 
-void check_finite(const PointArray& points) {
-  for (uint64_t i = 0; i < points.count; ++i) {
-    const Vec3 p = points.at(i);
-    if (!is_finite(p))
-      fail(Status::argument, "point %llu is (%g, %g, %g); it must be finite",
-           static_cast<unsigned long long>(i), p.x, p.y, p.z);
-  }
+/// Names the first point that is not finite.
+void check_finite(const PointArray& points, const Executor& executor) {
+  constexpr uint64_t run = 65536;
+  std::atomic<uint64_t> first{points.count};
+  executor.for_each((points.count + run - 1) / run, [&](uint64_t r) {
+    const uint64_t end = std::min(points.count, (r + 1) * run);
+    for (uint64_t i = r * run; i < end; ++i) {
+      if (is_finite(points.at(i))) continue;
+      uint64_t known = first.load();
+      while (i < known && !first.compare_exchange_weak(known, i)) {
+      }
+      return;
+    }
+  });
+  if (first == points.count) return;
+  const Vec3 p = points.at(first);
+  fail(Status::argument, "point %llu is (%g, %g, %g); it must be finite",
+       static_cast<unsigned long long>(first.load()), p.x, p.y, p.z);
 }
 
 }  // namespace
@@ -98,7 +111,7 @@ msq_status msq_set_membership(const msq_model* model, const msq_points_def* poin
           point_array(def.coordinates, def.count, def.stride, def.coordinate_type, "coordinates");
       check_count(inside_count, array.count);
       if (array.count > 0) require(inside, "inside");
-      check_finite(array);
+      check_finite(array, known.context().executor);
       JobScope scope(work);
       array_membership(known, resolved, array, inside, work);
       scope.done();
