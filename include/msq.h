@@ -418,7 +418,7 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def *def, size_t size);
  * def may not be NULL. Cost: none; cells are built by the calls that need them, at a time that grows
  * with the number of their seeds. Errors: ARGUMENT, LIMIT (radius above the smallest cell size, cell
  * sizes that differ by more than 4 times, or density above 32768), UNSUPPORTED (METHOD_2 in a build
- * without CGAL; POINT or METHOD_2 with a density above 1), MEMORY.
+ * without CGAL; a method but AUTO and DIRECT with a density above 1), MEMORY.
  * Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. */
 MSQ_API msq_status msq_structure_foam(msq_context *context, const msq_foam_def *def,
                                       msq_structure **structure);

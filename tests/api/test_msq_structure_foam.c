@@ -262,6 +262,8 @@ static void other_methods_refuse_a_density(void** state) {
   def.method = MSQ_FOAM_POINT;
   assert_refused(create(context, &def), MSQ_E_UNSUPPORTED, "density reaches 2");
   assert_message_has("MSQ_FOAM_DIRECT");
+  def.method = MSQ_FOAM_METHOD_1;
+  assert_refused(create(context, &def), MSQ_E_UNSUPPORTED, "MSQ_FOAM_DIRECT");
   def.method = MSQ_FOAM_METHOD_2;
   assert_status(create(context, &def), MSQ_E_UNSUPPORTED);
   def.method = MSQ_FOAM_DIRECT;
