@@ -17,6 +17,12 @@ using namespace msq::test;
 
 namespace {
 
+/// A grid whose largest cell size is 1, so that foam units are model units.
+Neighbourhood turned_grid() {
+  const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(-1.1), t = std::sin(-1.1);
+  return {{0.3, 0.2, -0.7}, {1, 0.5, 0.75}, {{c, -s * d, s * t, s, c * d, -c * t, 0, t, d}}};
+}
+
 /// A box of cells [-half, half)^3, of which [-middle, middle]^3 is asked. Seeds beyond the box
 /// neither own nor cut edges there: balls that hold no seed have radius below 1.74.
 struct DensityRow {
@@ -24,17 +30,19 @@ struct DensityRow {
   double jitter;
   int half, middle;
   std::vector<double> radii;  ///< in cells
-  double low, high;           ///< density: along a line through 0, over `length`
+  double low, high;           ///< density: along a line through the grid's origin, over `length`
   double length;
   Vec3 direction;
+  Neighbourhood grid = {};
 
   Parameter density() const {
     if (low == high) return Parameter(low);
     const Vec3 reach = direction * (0.5 * length / msq::length(direction));
-    return Parameter(Ref<const Field>(make_ref<GradientField>(Vec3{} - reach, low, reach, high)));
+    return Parameter(Ref<const Field>(
+        make_ref<GradientField>(grid.origin - reach, low, grid.origin + reach, high)));
   }
   std::shared_ptr<const GradedSeeds> seeds() const {
-    return std::make_shared<const GradedSeeds>(FoamSeeds(77, jitter, {1, 1, 1}), Neighbourhood{},
+    return std::make_shared<const GradedSeeds>(FoamSeeds(77, jitter, grid.cell_size), grid,
                                                density());
   }
 };
@@ -47,6 +55,7 @@ std::vector<DensityRow> density_rows() {
       {"linear 1 to 64", 1, 6, 2, {0.02, 0.1, 0.3}, 1, 64, 4, oblique},
       {"step 1 to 512", 1, 5, 1, {0.01, 0.05, 0.2}, 1, 512, 0.2, oblique},
       {"linear 1 to 64, jitter 0.2", 0.2, 6, 2, {0.02, 0.1}, 1, 64, 4, x},
+      {"linear 1 to 100, turned, uneven", 1, 6, 2, {0.015, 0.1}, 1, 100, 3, x, turned_grid()},
   };
 }
 
@@ -115,21 +124,19 @@ Diagram diagram_of(const DensityRow& row) {
   return diagram;
 }
 
-void test_membership(void** state) {
-  const DensityRow& row = *static_cast<const DensityRow*>(*state);
-  const Diagram diagram = diagram_of(row);
+void check_membership(const DensityRow& row, const Diagram& diagram) {
   const size_t count = test_count(120000) / row.radii.size();
   Random random(3);
   for (double radius : row.radii) {
     const EdgeGrid grid(diagram.edges, row.middle, radius + 0.01);
-    const Ref<Foam> foam = make_ref<Foam>(make_ref<Context>(1u, uint64_t{0}, uint64_t{0}),
-                                          Neighbourhood{}, Parameter(radius), row.jitter,
-                                          uint64_t{77}, FoamMethod::direct, row.density());
+    const Ref<Foam> foam =
+        make_ref<Foam>(make_ref<Context>(1u, uint64_t{0}, uint64_t{0}), row.grid, Parameter(radius),
+                       row.jitter, uint64_t{77}, FoamMethod::direct, row.density());
     size_t held = 0, near = 0, differ = 0;
     for (size_t i = 0; i < count; ++i) {
-      const Vec3 p = random.in_box(Box3{}.grown(row.middle));
+      const Vec3 p = random.in_box(Box3{}.grown(row.middle)) * row.grid.cell_size;
       const double distance = grid.distance(p);
-      const bool is_inside = foam->inside(p);
+      const bool is_inside = foam->inside(row.grid.from_grid(p));
       held += is_inside;
       if (is_inside == (distance <= radius)) continue;
       if (std::abs(distance - radius) <= 1e-9) {
@@ -147,9 +154,7 @@ void test_membership(void** state) {
   }
 }
 
-void test_edges(void** state) {
-  const DensityRow& row = *static_cast<const DensityRow*>(*state);
-  const Diagram diagram = diagram_of(row);
+void check_edges(const DensityRow& row, const Diagram& diagram) {
   const std::shared_ptr<const GradedSeeds> seeds = row.seeds();
   const int side = seeds->brick_side(), bricks = (2 * row.middle + side - 1) / side;
   const auto corner = [&](int i) { return i * side - row.middle; };
@@ -170,7 +175,8 @@ void test_edges(void** state) {
     for (int y = 0; y < bricks; ++y)
       for (int x = 0; x < bricks; ++x) {
         const CellIndex cell{corner(x), corner(y), corner(z)};
-        const Vec3 shift{double(cell.x), double(cell.y), double(cell.z)};
+        const Vec3 shift =
+            Vec3{double(cell.x), double(cell.y), double(cell.z)} * row.grid.cell_size;
         const auto brick = graded_edge_brick(seeds, cell);
         // By their middles along x, so that partners are found fast.
         std::vector<std::pair<double, DualEdge>> built;
@@ -216,10 +222,16 @@ void test_edges(void** state) {
   assert_true(count > 1000);
 }
 
+void test_row(void** state) {
+  const DensityRow& row = *static_cast<const DensityRow*>(*state);
+  const Diagram diagram = diagram_of(row);
+  check_membership(row, diagram);
+  check_edges(row, diagram);
+}
+
 }  // namespace
 
 int main() {
   std::vector<DensityRow> rows = density_rows();
-  return run_for_each("membership", rows, test_membership) +
-         run_for_each("edges", rows, test_edges);
+  return run_for_each("graded foam", rows, test_row);
 }
