@@ -50,11 +50,13 @@ struct StructureRow {
   bool is_lattice() const { return kind.family.find("foam") == std::string::npos; }
   bool is_method_2() const { return kind.family == "foam METHOD_2"; }
   /// Methods whose cells, or whose points, are dear.
-  bool has_dear_cells() const { return is_method_2() || kind.family == "foam METHOD_1"; }
+  bool is_method_1() const { return kind.family == "foam METHOD_1"; }
+  bool has_dear_cells() const { return is_method_1() || is_method_2(); }
   bool has_dear_points() const { return kind.family == "foam POINT"; }
-  /// A test's number of samples, cut down where points are dear.
+  /// A test's number of samples, cut down where they are dear.
   size_t samples(size_t full) const {
-    return test_count(has_dear_points() ? full / 1000 : full) / family_rows + 2;
+    const size_t part = has_dear_points() ? 1000 : is_method_1() ? 10 : 1;
+    return test_count(full / part) / family_rows + 2;
   }
   double unit() const { return max_component(variant.grid.cell_size); }
   double radius() const { return kind.radius * unit(); }

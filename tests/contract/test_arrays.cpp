@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// keep_points answers as inside() does, at 10^6 points a family of structures: random points, and
+// keep_points answers as inside() does, at 10^6 points a family of structures (fewer of the slow
+// METHOD_1 and POINT): random points, and
 // points on borders and symmetry planes of cells, by the origin and 1000 cells away.
 #include "random.h"
 #include "structures.h"

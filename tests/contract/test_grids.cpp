@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// keep_rows answers as inside() does, at 10^6 samples a family of structures. Grids have their
+// keep_rows answers as inside() does, at 10^6 samples a family of structures (fewer of the slow
+// METHOD_1 and POINT). Grids have their
 // samples on borders, axes and symmetry planes of the cells, or anywhere; pitches of 1/3 to 1/100
 // of a cell; by the origin, at negative coordinates and 1000 cells away.
 #include "bit_rows.h"
@@ -51,7 +52,8 @@ SampleGrid make_grid(const StructureRow& row, const GridCase& c, size_t samples,
   if (!c.on_borders) grid.origin = grid.origin + size * random.in_box({{}, {1, 1, 1}});
   // Few samples or cells for the methods that they are dear to.
   grid.nx = row.has_dear_points()  ? 8
-            : row.has_dear_cells() ? std::min(70.0, 2 * c.samples_per_cell + 1) : 70 + random.below(70);
+            : row.has_dear_cells() ? std::min(70.0, 2 * c.samples_per_cell + 1)
+                                   : 70 + random.below(70);
   const double rest = std::sqrt(static_cast<double>(samples) / static_cast<double>(grid.nx));
   grid.ny = std::max<uint64_t>(2, static_cast<uint64_t>(rest));
   grid.nz = grid.ny;

@@ -52,9 +52,10 @@ void test_row(void** state) {
   Ref<RadiusOfPoint> radii = make_ref<RadiusOfPoint>(most);
   std::vector<Vec3> points;
   std::vector<double> thresholds;
-  for (size_t tries = test_count(row.is_lattice()        ? 6
-                                 : row.has_dear_cells() ? 60
-                                                         : 8);
+  for (size_t tries = test_count(row.is_lattice()    ? 6
+                                 : row.is_method_1() ? 15
+                                 : row.is_method_2() ? 60
+                                                     : 8);
        tries > 0; --tries) {
     const Vec3 cell = random.in_box({{-1, -1, -1}, {0.5, 0.5, 0.5}});
     const Vec3 p = n.from_grid(cell * n.cell_size);

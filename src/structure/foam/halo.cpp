@@ -49,8 +49,7 @@ std::vector<Vec3> seeds_that_matter(const std::vector<Vec3>& halo, Vec3 scale, d
   for (const Candidate& s : candidates) {
     const auto hides = [&](const Candidate& t) {
       const Vec3 d = halo[s.index] - halo[t.index];
-      const double swing =
-          std::abs(d.x) * half.x + std::abs(d.y) * half.y + std::abs(d.z) * half.z;
+      const double swing = std::abs(d.x) * half.x + std::abs(d.y) * half.y + std::abs(d.z) * half.z;
       return s.distance_squared - t.distance_squared - 2 * swing > margin;
     };
     if (std::none_of(kept.begin(), kept.end(), hides)) kept.push_back(s);

@@ -6,8 +6,8 @@
 // edge, its three seeds are among the nearest to v; if v is on the line of three seeds but not on
 // their edge, the seed nearest to v shows it. So seeds farther than e + r from all points of the
 // cell neither own nor clip an edge within r of it. A block of h cells on every side reaches h cell
-// sizes out of the cell: h = (e + r) / cell size, rounded up. With cubic cells e = sqrt(3), and h is
-// 2 up to r = 2 - sqrt(3) = 0.268, 3 up to 1.268. Source: paper, section "Fine-scale Structures"
+// sizes out of the cell: h = (e + r) / cell size, rounded up. With cubic cells e = sqrt(3), and h
+// is 2 up to r = 2 - sqrt(3) = 0.268, 3 up to 1.268. Source: paper, section "Fine-scale Structures"
 // (Voronoi Foams); the bound is ours.
 #pragma once
 

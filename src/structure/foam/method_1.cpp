@@ -4,10 +4,10 @@
 // cell; per sample, the projection onto the lines of the nearest seed and the test of validity.
 //
 // Lines are discarded if they miss the cell grown by r, since a capsule may reach in from outside,
-// or if they meet it only where their seeds are farther than the empty radius and cannot be nearest.
-// Seeds are discarded first, as the same section of the paper suggests, where they cannot contribute
-// to the cell (halo.h): of the 125 about a cell, with 317,750 triplets, a few tens are left. Beyond
-// that nothing is found out about validity before there is a sample.
+// or if they meet it only where their seeds are farther than the empty radius and cannot be
+// nearest. Seeds are discarded first, as the same section of the paper suggests, where they cannot
+// contribute to the cell (halo.h): of the 125 about a cell, with 317,750 triplets, a few tens are
+// left. Beyond that nothing is found out about validity before there is a sample.
 #include "structure/foam/method_1.h"
 
 #include <algorithm>

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Source: paper, section "Fine-scale Structures" (Voronoi Foams), after Martinez, Dumas and Lefebvre
-// 2016: find the seeds of the neighbourhood; find the nearest one; project the point onto the line
-// of every triplet that has it; last, check that the place is on an edge of the diagram.
+// Source: paper, section "Fine-scale Structures" (Voronoi Foams), after Martinez, Dumas and
+// Lefebvre 2016: find the seeds of the neighbourhood; find the nearest one; project the point onto
+// the line of every triplet that has it; last, check that the place is on an edge of the diagram.
 //
 // Two things differ, since the solid is that of capsules (edge_line.h). The edges within r of p may
-// be those of other seeds than the nearest one: their seeds are within d0 + 2 r of p (reaching_seeds.h),
-// and here every one of these takes the nearest one's part in turn, with all pairs of other seeds.
-// And the projection is a chord, not a foot: the part of the line within r of p, of which validity
-// must leave something. All seeds of a triplet are within d0 + 2 r, and only those that are can
-// clip its chord, which is what the definition (point.h) makes use of; the paper's query does not,
-// and neither does this one. What it tries beyond the definition's triplets and clips changes no
-// bit: a triplet with a seed farther than that is clipped away by a margin, and a clip by one does
-// not bind.
+// be those of other seeds than the nearest one: their seeds are within d0 + 2 r of p
+// (reaching_seeds.h), and here every one of these takes the nearest one's part in turn, with all
+// pairs of other seeds. And the projection is a chord, not a foot: the part of the line within r of
+// p, of which validity must leave something. All seeds of a triplet are within d0 + 2 r, and only
+// those that are can clip its chord, which is what the definition (point.h) makes use of; the
+// paper's query does not, and neither does this one. What it tries beyond the definition's triplets
+// and clips changes no bit: a triplet with a seed farther than that is clipped away by a margin,
+// and a clip by one does not bind.
 #include "structure/foam/naive_point.h"
 
 #include <algorithm>
