@@ -7,6 +7,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -77,20 +78,24 @@ inline std::vector<DualEdge> dual_edges(const std::vector<Vec3>& seeds) {
   return edges;
 }
 
-/// All edges among the seeds of cells [-half, half)^3 that have both ends. Those within two cells
-/// of the border of the box are not the foam's.
-inline std::vector<DiagramEdge> foam_diagram(const FoamSeeds& seeds, int half) {
+/// All edges among the seeds of cells [-half, half) along each axis that have both ends. Those
+/// within twice the empty radius of the border of the box are not the foam's.
+inline std::vector<DiagramEdge> foam_diagram(const FoamSeeds& seeds,
+                                             const std::array<int, 3>& half) {
   std::vector<CellIndex> cells;  // in order
   std::vector<Vec3> positions;
-  for (int z = -half; z < half; ++z)
-    for (int y = -half; y < half; ++y)
-      for (int x = -half; x < half; ++x) {
+  for (int z = -half[2]; z < half[2]; ++z)
+    for (int y = -half[1]; y < half[1]; ++y)
+      for (int x = -half[0]; x < half[0]; ++x) {
         cells.push_back({x, y, z});
         positions.push_back(seeds.at({0, 0, 0}, x, y, z));
       }
   std::vector<DiagramEdge> edges;
   for (const DualEdge& e : dual_edges(positions)) edges.push_back({e.a, e.b, cells[e.first]});
   return edges;
+}
+inline std::vector<DiagramEdge> foam_diagram(const FoamSeeds& seeds, int half) {
+  return foam_diagram(seeds, {half, half, half});
 }
 
 }  // namespace msq::test

@@ -4,6 +4,9 @@
 // Lattices: closed forms, exact for thin struts (cylinders minus what they share at nodes; the
 // cubic constant is that of Steinmetz bodies, the others were found numerically to six digits).
 // Foams: the edge statistics of one uniform seed a cell, measured with voro++ over 97,336 seeds.
+#include <array>
+#include <set>
+
 #include "bit_rows.h"
 #include "msq_test.h"
 #include "random.h"
@@ -164,6 +167,7 @@ void check_edges(double jitter, double faces, double length_per_volume, double m
     assert_true(std::abs(got - expected) <= 4 * error * others + digit);
   };
   // A cell with f faces has 3 (f - 2) edges, each of three cells.
+  check("faces a cell", edges.mean() + 2, edges.error(), faces, 0.0005);
   check("edges a seed", edges.mean(), edges.error(), faces - 2, 0.0005);
   check("edge length a volume", lengths.mean(), lengths.error(), length_per_volume, 0.0005);
   check("mean edge", lengths.mean() / edges.mean(), ratio.error(), mean_edge, 0.00005);
@@ -176,11 +180,59 @@ void test_edges(void**) {
   check_edges(1, 15.501, 5.787, 0.4286);
 }
 
+/// Without jitter the cells are cubes (derived): 6 faces of 4 edges, 12 edges, each 1 long and of
+/// four cells, so 3 a volume. Four seeds share an edge then, so bricks hold it more than once, and
+/// edges of no length at its ends.
+void test_cubes(void**) {
+  constexpr int64_t part = 1000;  // ends in thousandths
+  const FoamSeeds seeds(1, 0, {1, 1, 1});
+  std::set<std::array<int64_t, 6>> edges;
+  for (int z = -EdgeBrick::side; z <= EdgeBrick::side; z += EdgeBrick::side)
+    for (int y = -EdgeBrick::side; y <= EdgeBrick::side; y += EdgeBrick::side)
+      for (int x = -EdgeBrick::side; x <= EdgeBrick::side; x += EdgeBrick::side) {
+        const EdgeBrick brick(seeds, {x, y, z});
+        for (const FoamEdge& e : brick.edges()) {
+          std::array<int64_t, 3> a, b;
+          const int corner[3] = {x, y, z};
+          for (size_t axis = 0; axis < 3; ++axis) {
+            a[axis] = std::llround((e.a[axis] + corner[axis]) * part);
+            b[axis] = std::llround((e.b[axis] + corner[axis]) * part);
+          }
+          if (b < a) std::swap(a, b);
+          if (a != b) edges.insert({a[0], a[1], a[2], b[0], b[1], b[2]});
+        }
+      }
+  size_t in_box = 0, of_cell = 0;
+  size_t of_face[6] = {};
+  double total = 0;
+  for (const auto& e : edges) {
+    const Vec3 a{double(e[0]), double(e[1]), double(e[2])}, b{double(e[3]), double(e[4]), double(e[5])};
+    const Vec3 middle = (a + b) * (0.5 / part);
+    const double low = -0.25, high = EdgeBrick::side - 0.25;  // no edge is that near its border
+    if (min_component(middle) >= low && max_component(middle) < high) {
+      ++in_box;
+      total += length(b - a) / part;
+    }
+    const Box3 cell{Vec3{1, 1, 1} * part, Vec3{2, 2, 2} * part};
+    if (!cell.contains(a) || !cell.contains(b)) continue;
+    ++of_cell;
+    for (int axis = 0; axis < 3; ++axis) {
+      of_face[2 * axis] += a[axis] == cell.min[axis] && b[axis] == cell.min[axis];
+      of_face[2 * axis + 1] += a[axis] == cell.max[axis] && b[axis] == cell.max[axis];
+    }
+  }
+  const size_t volume = EdgeBrick::side * EdgeBrick::side * EdgeBrick::side;
+  assert_int_equal(in_box, 3 * volume);
+  assert_true(std::abs(total - 3.0 * static_cast<double>(volume)) <= 1e-9);
+  assert_int_equal(of_cell, 12);
+  for (size_t count : of_face) assert_int_equal(count, 4);
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(test_cubic), cmocka_unit_test(test_bcc),
                               cmocka_unit_test(test_octet), cmocka_unit_test(test_thin_foam),
-                              cmocka_unit_test(test_edges)};
+                              cmocka_unit_test(test_edges), cmocka_unit_test(test_cubes)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
