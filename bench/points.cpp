@@ -164,10 +164,8 @@ int main(int count, char** arguments) try {
     for (int cells : {32, 128}) bench_array(report, cells, coordinates);
   }
   // From 2 to 6.4 samples a cell along each axis.
-  for (int cells : {256, 160, 128, 104, 80}) {
-    bench_grid(report, cells, 512, MSQ_FOAM_POINT, "POINT");
+  for (int cells : {256, 160, 128, 104, 80})
     bench_grid(report, cells, 512, MSQ_FOAM_DIRECT, "DIRECT");
-  }
   report.write(count, arguments);
   return 0;
 } catch (const std::exception& error) {

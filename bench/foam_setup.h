@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The foam that the benchmarks of foams slice.
+#pragma once
+
+#include "bench.h"
+
+namespace bench {
+
+/// cells^3 cells to the unit cube, r = 0.1 cell.
+struct FoamSetup {
+  int cells;
+  int32_t method;
+  uint64_t cache_bytes = uint64_t{128} << 20;
+  uint32_t threads = 2;
+  double extent = 1;       ///< the shape: a cube from the origin with such sides
+  bool is_graded = false;  ///< r from 0.05 cell at one corner of the cube to 0.15 at the other
+};
+
+/// Seconds for the first `layers` layers of resolution^2 samples in the shape, from an empty cache,
+/// each layer handed as bits to a callback that reads it; and the bytes held at most.
+inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, uint64_t layers,
+                                 double& peak, double most_seconds = 3) {
+  msq_context_def context_def;
+  check(msq_context_def_init(&context_def, sizeof context_def));
+  context_def.threads = setup.threads;
+  context_def.cache_bytes = setup.cache_bytes;
+  msq_context* context;
+  check(msq_context_create(&context_def, &context));
+  const double low[3] = {0, 0, 0}, high[3] = {setup.extent, setup.extent, setup.extent};
+  msq_shape* cube;
+  check(msq_shape_from_box(context, low, high, &cube));
+  msq_foam_def def;
+  check(msq_foam_def_init(&def, sizeof def));
+  def.method = setup.method;
+  for (double& size : def.grid.cell_size) size = 1.0 / setup.cells;
+  def.radius.value = 0.1 / setup.cells;
+  msq_field* field = nullptr;
+  if (setup.is_graded) {
+    check(msq_field_gradient(context, low, 0.05 / setup.cells, high, 0.15 / setup.cells, &field));
+    def.radius = {0, field};
+  }
+  msq_structure* structure;
+  check(msq_structure_foam(context, &def, &structure));
+  msq_field_release(field);
+  const msq_scale_def scales[] = {{cube, nullptr}, {nullptr, structure}};
+  msq_model_def model_def;
+  check(msq_model_def_init(&model_def, sizeof model_def));
+  model_def.scales = scales;
+  model_def.scale_count = 2;
+  msq_model* model;
+  check(msq_model_create(context, &model_def, &model));
+  msq_structure_release(structure);
+  msq_shape_release(cube);
+
+  msq_slicer_def slicer_def;
+  check(msq_slicer_def_init(&slicer_def, sizeof slicer_def));
+  slicer_def.resolution[0] = slicer_def.resolution[1] = resolution;
+  slicer_def.layer_height = setup.extent / resolution;
+  msq_slicer* slicer;
+  check(msq_slicer_create(model, &slicer_def, &slicer));
+  Reader reader;
+  const double seconds = median_seconds(
+      [&] {
+        check(msq_cache_clear(context));
+        check(msq_slicer_run(slicer, 0, layers, Reader::take, &reader, nullptr));
+      },
+      most_seconds);
+  msq_memory_report memory{};
+  memory.struct_size = sizeof memory;
+  check(msq_context_memory(context, &memory));
+  peak = static_cast<double>(memory.peak_bytes);
+  msq_slicer_release(slicer);
+  msq_model_release(model);
+  msq_context_release(context);
+  return seconds;
+}
+
+/// "512^3, 32^3 cells"
+inline std::string foam_work(uint32_t resolution, int cells) {
+  return std::to_string(resolution) + "^3, " + std::to_string(cells) + "^3 cells";
+}
+
+}  // namespace bench
