@@ -77,11 +77,11 @@ uint64_t bytes_of(const TriangleSoup& soup) {
 }  // namespace
 
 Mesh::Mesh(TriangleSoup soup, WindingRule rule, std::shared_ptr<MemoryBudget> budget)
-    : rule_(rule) {
+    : rule_(rule), budget_(std::move(budget)) {
   check_soup(soup);
   // While it is built: the soup, its weld map and the sorted copies of the diagnosis.
   const uint64_t scratch = soup.vertices.size() * 48 + soup.triangles.size() * 48;
-  Reservation building(budget, bytes_of(soup) + scratch, "building a mesh");
+  Reservation building(budget_, bytes_of(soup) + scratch, "building a mesh");
   const uint64_t dropped = weld(soup);
   if (soup.triangles.empty())
     fail(Status::mesh, "all %llu triangles of the mesh are degenerate",
@@ -94,8 +94,13 @@ Mesh::Mesh(TriangleSoup soup, WindingRule rule, std::shared_ptr<MemoryBudget> bu
       TriangleBins(soup_, facts_.bounds, bins_for(count, 0.5, 4096), bins_for(count, 0.5, 4096));
   sheets_ = TriangleBins(soup_, facts_.bounds, 1, bins_for(count, 1.0, 16384));
   building = {};
-  reservation_ = Reservation(std::move(budget),
-                             bytes_of(soup_) + columns_.bytes() + sheets_.bytes(), "a mesh");
+  reservation_ =
+      Reservation(budget_, bytes_of(soup_) + columns_.bytes() + sheets_.bytes(), "a mesh");
+}
+
+const MeshBoundary& Mesh::boundary() const {
+  return boundary_.get(
+      [this] { return std::make_unique<MeshBoundary>(soup_, facts_, rule_, budget_); });
 }
 
 bool Mesh::inside(Vec3 p) const {

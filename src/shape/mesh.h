@@ -15,14 +15,14 @@
 #include <memory>
 #include <vector>
 
+#include "base/lazy.h"
 #include "base/memory.h"
 #include "base/triangle_soup.h"
+#include "shape/mesh_boundary.h"
 #include "shape/shape.h"
 #include "shape/triangle_bins.h"
 
 namespace msq {
-
-enum class WindingRule : int32_t { nonzero = 0, even_odd = 1, positive = 2 };
 
 class Mesh final : public Shape {
  public:
@@ -32,12 +32,17 @@ class Mesh final : public Shape {
 
   bool inside(Vec3 p) const override;
   void fill_rows(const RowBlock& block) const override;
+  void prepare_distance() const override { boundary(); }
   uint64_t self_intersections(const Job* job) const override;
 
   const std::vector<Vec3>& vertices() const { return soup_.vertices; }
   const std::vector<Triangle>& triangles() const { return soup_.triangles; }
 
+ protected:
+  double clearance(Vec3 p) const override { return boundary().clearance(p); }
+
  private:
+  const MeshBoundary& boundary() const;
   bool solid(int64_t winding) const {
     return rule_ == WindingRule::nonzero    ? winding != 0
            : rule_ == WindingRule::even_odd ? (winding & 1) != 0
@@ -47,9 +52,11 @@ class Mesh final : public Shape {
 
   TriangleSoup soup_;
   WindingRule rule_;
+  std::shared_ptr<MemoryBudget> budget_;
   Reservation reservation_;
   TriangleBins columns_;  // bins of y and z, for points
   TriangleBins sheets_;   // bins of z alone, for layers
+  Lazy<MeshBoundary> boundary_;
 };
 
 }  // namespace msq

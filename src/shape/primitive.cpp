@@ -5,7 +5,14 @@ namespace msq {
 
 namespace {
 constexpr double pi = 3.14159265358979323846;
+
+/// Distance from a point that lies beyond (positive) or within (negative) two walls at right angles
+/// to the edge or wall next to it.
+double corner_distance(double beyond_one, double beyond_other) {
+  if (beyond_one <= 0 && beyond_other <= 0) return std::min(-beyond_one, -beyond_other);
+  return std::hypot(std::max(beyond_one, 0.0), std::max(beyond_other, 0.0));
 }
+}  // namespace
 
 BoxShape::BoxShape(const Box3& box) {
   const Vec3 e = box.extent();
@@ -30,8 +37,16 @@ void BoxShape::fill_rows(const RowBlock& block) const {
   }
 }
 
+double BoxShape::clearance(Vec3 p) const {
+  const Vec3 beyond = max(bounds().min - p, p - bounds().max);
+  const Vec3 gap = max(beyond, Vec3{});
+  const double distance =
+      max_component(beyond) > 0 ? std::hypot(gap.x, gap.y, gap.z) : -max_component(beyond);
+  return distance * (1 - 0x1p-50);  // a difference and a root, each within a few units of 2^-53
+}
+
 SphereShape::SphereShape(Vec3 centre, double radius)
-    : centre_(centre), radius_squared_(radius * radius) {
+    : centre_(centre), radius_(radius), radius_squared_(radius * radius) {
   facts_.bounds = Box3{centre, centre}.grown(radius);
   facts_.volume = 4.0 / 3.0 * pi * radius * radius * radius;
   facts_.area = 4 * pi * radius * radius;
@@ -42,17 +57,28 @@ bool SphereShape::inside(Vec3 p) const {
   return bounds().contains(p) && dot(d, d) <= radius_squared_;
 }
 
+double SphereShape::clearance(Vec3 p) const {
+  const Vec3 d = p - centre_;
+  const double from_centre = std::hypot(d.x, d.y, d.z);
+  // Here and in inside(), d and its length lose a few units of 2^-53 of themselves; the bounds, of
+  // which inside() asks too, those of the centre's coordinates.
+  const double slack = 0x1p-48 * (from_centre + radius_ + max_magnitude(centre_));
+  return std::max(0.0, std::abs(from_centre - radius_) - slack);
+}
+
 CylinderShape::CylinderShape(Vec3 from, Vec3 to, double radius)
     : from_(from),
       axis_(to - from),
       axis_squared_(dot(axis_, axis_)),
+      radius_(radius),
       radius_squared_(radius * radius) {
   // A disc normal to the unit vector u reaches radius * sqrt(1 - u_i^2) along axis i.
   const double height = std::sqrt(axis_squared_);
   Vec3 reach;
   for (int i = 0; i < 3; ++i) {
-    const double u = axis_[i] / height;
-    reach[i] = radius * std::sqrt(std::max(0.0, 1 - u * u)) * (1 + 1e-12);
+    // 1 - u_i^2 from the other two, which leaves something of axes next to axis i.
+    const double u = axis_[(i + 1) % 3] / height, v = axis_[(i + 2) % 3] / height;
+    reach[i] = radius * std::sqrt(u * u + v * v) * (1 + 1e-12);
   }
   facts_.bounds = {min(from, to) - reach, max(from, to) + reach};
   facts_.volume = pi * radius * radius * height;
@@ -66,6 +92,20 @@ bool CylinderShape::inside(Vec3 p) const {
   if (t < 0 || t > axis_squared_) return false;
   const Vec3 across = cross(w, axis_);
   return dot(across, across) <= radius_squared_ * axis_squared_;
+}
+
+double CylinderShape::clearance(Vec3 p) const {
+  const Vec3 w = p - from_;
+  const double height = std::sqrt(axis_squared_);
+  const Vec3 direction = axis_ * (1 / height);
+  const double along = dot(w, direction);
+  const double across = length(cross(w, direction));
+  const double distance = corner_distance(across - radius_, std::max(-along, along - height));
+  // Each of w, the axis and the products loses a few units of 2^-53 of what it is made of, here and
+  // in inside().
+  const double slack =
+      0x1p-47 * (length(w) + height + radius_ + max_magnitude(from_) + max_magnitude(p));
+  return std::max(0.0, distance - slack);
 }
 
 }  // namespace msq

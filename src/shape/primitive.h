@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Box, sphere and cylinder as coarse shapes.
+// Box, sphere and cylinder as coarse shapes. Their distances are exact but for rounding.
 #pragma once
 
 #include "shape/shape.h"
@@ -11,6 +11,9 @@ class BoxShape final : public Shape {
   explicit BoxShape(const Box3& box);
   bool inside(Vec3 p) const override { return bounds().contains(p); }
   void fill_rows(const RowBlock& block) const override;
+
+ protected:
+  double clearance(Vec3 p) const override;
 };
 
 class SphereShape final : public Shape {
@@ -18,9 +21,12 @@ class SphereShape final : public Shape {
   SphereShape(Vec3 centre, double radius);
   bool inside(Vec3 p) const override;
 
+ protected:
+  double clearance(Vec3 p) const override;
+
  private:
   Vec3 centre_;
-  double radius_squared_;
+  double radius_, radius_squared_;
 };
 
 /// Flat-ended round cylinder.
@@ -29,9 +35,12 @@ class CylinderShape final : public Shape {
   CylinderShape(Vec3 from, Vec3 to, double radius);
   bool inside(Vec3 p) const override;
 
+ protected:
+  double clearance(Vec3 p) const override;
+
  private:
   Vec3 from_, axis_;  // axis_ from one end to the other
-  double axis_squared_, radius_squared_;
+  double axis_squared_, radius_, radius_squared_;
 };
 
 }  // namespace msq

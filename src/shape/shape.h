@@ -32,6 +32,13 @@ class Shape : public RefCounted {
   /// Membership of a finite point; the boundary is inside.
   virtual bool inside(Vec3 p) const = 0;
 
+  /// Signed distance of a finite point: at most 0 where inside(p), positive elsewhere, finite, and
+  /// never larger in magnitude than the distance from p to the boundary of the solid.
+  double distance(Vec3 p) const;
+  /// Builds what distance() needs, if anything; otherwise its first call does, or throws what this
+  /// throws.
+  virtual void prepare_distance() const {}
+
   /// Number of pairs of triangles that meet where they should not; none where there are no
   /// triangles.
   virtual uint64_t self_intersections(const Job*) const { return 0; }
@@ -41,6 +48,11 @@ class Shape : public RefCounted {
   virtual void fill_rows(const RowBlock& block) const;
 
  protected:
+  /// A lower bound of the distance from a point to the boundary of the solid, on either side of it;
+  /// finite, not negative, with the rounding of this function and of inside() subtracted. The point
+  /// lies no farther from bounds() than 2^60 times their size.
+  virtual double clearance(Vec3 p) const = 0;
+
   ShapeFacts facts_;
 };
 

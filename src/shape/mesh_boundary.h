@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The boundary of a mesh's solid, and the distance to it.
+//
+// The winding number of the +x ray from a point changes where the point crosses a triangle, and
+// where the ray crosses an edge whose triangles run along it more often one way than the other. A
+// closed mesh has no such edge: the boundary of its solid lies in its triangles. With open edges,
+// rays through a hole leave the solid bounded also by what the ray of a point on such an edge
+// sweeps backwards, a strip from the edge to the bounding box's side of least x, and by that side.
+// Those strips are kept as triangles too. Some of the triangles may bound nothing (two shells that
+// overlap); so the distance to the nearest one is a lower bound, exact where all of them do.
+#pragma once
+
+#include <memory>
+
+#include "base/memory.h"
+#include "base/triangle_soup.h"
+#include "shape/shape.h"
+#include "shape/triangle_tree.h"
+
+namespace msq {
+
+enum class WindingRule : int32_t { nonzero = 0, even_odd = 1, positive = 2 };
+
+class MeshBoundary {
+ public:
+  /// Throws Error(limit) where the budget has no room.
+  MeshBoundary(const TriangleSoup& soup, const ShapeFacts& facts, WindingRule rule,
+               const std::shared_ptr<MemoryBudget>& budget);
+
+  /// As Shape::clearance().
+  double clearance(Vec3 p) const;
+
+ private:
+  // Coordinates times a power of two, which rounds nothing, so that the largest extent is about 1.
+  double scale_;
+  double slack_;  // scaled, of points at the bounding box; what else is lost grows with distance
+  Reservation reservation_;
+  TriangleTree tree_;
+};
+
+}  // namespace msq

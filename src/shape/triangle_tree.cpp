@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shape/triangle_tree.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "strut/segment.h"
+
+namespace msq {
+
+namespace {
+
+constexpr uint32_t leaf_triangles = 8;
+/// Of balanced trees of up to 2^32 triangles, with room.
+constexpr size_t most_depth = 64;
+
+double longest_squared(const TreeTriangle& t) {
+  const Vec3 w = t.v - t.u;
+  return std::max({dot(t.u, t.u), dot(t.v, t.v), dot(w, w)});
+}
+
+/// Whether a triangle is so low that its normal means little: below 2^-24 of its longest edge.
+bool is_sliver(double normal_squared, double longest_squared) {
+  return normal_squared <= 0x1p-48 * longest_squared * longest_squared;
+}
+
+double edge_distance_squared(const TreeTriangle& t, Vec3 p, bool u, bool v, bool w) {
+  double least = std::numeric_limits<double>::infinity();
+  if (u) least = std::min(least, Segment(t.a, t.a + t.u).distance_squared(p));
+  if (v) least = std::min(least, Segment(t.a, t.a + t.v).distance_squared(p));
+  if (w) least = std::min(least, Segment(t.a + t.u, t.a + t.v).distance_squared(p));
+  return least;
+}
+
+/// Squared distance to a point of the triangle that is the nearest but for rounding: the foot of
+/// the perpendicular where it lies within, otherwise on one of the edges that it lies beyond. Where
+/// the triangle's plane is farther than sqrt(best), any number above best.
+double distance_squared(const TreeTriangle& t, Vec3 p, double best) {
+  const Vec3 normal = cross(t.u, t.v);
+  const double normal_squared = dot(normal, normal);
+  if (is_sliver(normal_squared, longest_squared(t)))
+    return edge_distance_squared(t, p, true, true, true);
+  const Vec3 w = p - t.a;
+  const double above = dot(w, normal);
+  if (above * above > best * normal_squared * (1 + 0x1p-20))
+    return std::numeric_limits<double>::infinity();
+  const double inverse = 1 / normal_squared;
+  const double of_u = dot(cross(w, t.v), normal) * inverse;
+  const double of_v = dot(cross(t.u, w), normal) * inverse;
+  const bool beyond_u = of_v < 0, beyond_v = of_u<0, beyond_w = of_u + of_v> 1;
+  if (beyond_u || beyond_v || beyond_w)
+    return edge_distance_squared(t, p, beyond_u, beyond_v, beyond_w);
+  const Vec3 d = w - t.u * of_u - t.v * of_v;
+  return dot(d, d);
+}
+
+/// By how much the distance above may be too large. Of a sliver only edges are asked, which every
+/// point of it is nearer to than its height. Otherwise the foot's coordinates in u and v are within
+/// 12 units of 2^-53 of |w| |u| |v| / |normal| over |u| and |v|, and the distance to the plane
+/// within as many. Up to the longest edge L from the triangle, |w| is at most 2 L: that makes 2^-46
+/// L^3 / |normal|. Farther away, an error of the foot is of second order and stays below 2^-47 of
+/// the distance, and that of the plane is below the 2^-20 that it must be too far by.
+double excess_of(const TreeTriangle& t) {
+  const Vec3 normal = cross(t.u, t.v);
+  const double squared = longest_squared(t), longest = std::sqrt(squared);
+  const double area = length(normal);
+  if (is_sliver(area * area, squared)) return 0x1p-22 * longest;
+  return 0x1p-46 * longest * squared / area;
+}
+
+}  // namespace
+
+uint64_t TriangleTree::bytes_to_build(uint64_t triangles) {
+  // The triangles as they came and leaf by leaf, their order, and leaves of four or more.
+  return triangles * (2 * sizeof(TreeTriangle) + sizeof(uint32_t) + sizeof(Node) / 4) +
+         sizeof(Node);
+}
+
+TriangleTree::TriangleTree(std::vector<TreeTriangle> triangles) {
+  const uint32_t count = static_cast<uint32_t>(triangles.size());
+  std::vector<uint32_t> order(count);
+  for (uint32_t i = 0; i < count; ++i) order[i] = i;
+  nodes_.reserve(count / 4 + 1);
+  build(order, triangles, {0, count});
+  triangles_.reserve(count);
+  for (const uint32_t i : order) {
+    triangles_.push_back(triangles[i]);
+    excess_ = std::max(excess_, excess_of(triangles[i]));
+  }
+  nodes_.shrink_to_fit();
+}
+
+double TriangleTree::Bound::distance_squared(Vec3 p) const {
+  const Vec3 gap = max(max(box.min - p, p - box.max), Vec3{});
+  const Vec3 w = p - centre;
+  const double along = dot(normal, w);
+  const double above = std::max(std::abs(along) - half_height, 0.0);
+  const double beyond = std::max(length(w - normal * along) - radius, 0.0);
+  return std::max(dot(gap, gap), above * above + beyond * beyond);
+}
+
+TriangleTree::Bound TriangleTree::bound_of(const std::vector<uint32_t>& order,
+                                           const std::vector<TreeTriangle>& triangles,
+                                           Range range) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Bound bound{{{far, far, far}, {-far, -far, -far}}, {}, {}, 0, 0};  // of no triangles
+  const auto for_corners = [&](auto&& use) {
+    for (uint32_t k = range.begin; k < range.end; ++k) {
+      const TreeTriangle& t = triangles[order[k]];
+      for (const Vec3 corner : {t.a, t.a + t.u, t.a + t.v}) use(corner);
+    }
+  };
+  for_corners([&](Vec3 corner) {
+    bound.box = {min(bound.box.min, corner), max(bound.box.max, corner)};
+  });
+  Vec3 sum;
+  for (uint32_t k = range.begin; k < range.end; ++k) {
+    const TreeTriangle& t = triangles[order[k]];
+    sum = sum + cross(t.u, t.v);
+  }
+  const double area = length(sum);
+  if (area > 0) bound.normal = sum * (1 / area);
+  const Vec3 middle = (bound.box.min + bound.box.max) * 0.5;
+  double low = far, high = -far;
+  for_corners([&](Vec3 corner) {
+    const double along = dot(bound.normal, corner - middle);
+    low = std::min(low, along);
+    high = std::max(high, along);
+  });
+  if (low > high) return bound;
+  bound.centre = middle + bound.normal * (0.5 * (low + high));
+  for_corners([&](Vec3 corner) {
+    const Vec3 w = corner - bound.centre;
+    const double along = dot(bound.normal, w);
+    bound.half_height = std::max(bound.half_height, std::abs(along));
+    bound.radius = std::max(bound.radius, length(w - bound.normal * along));
+  });
+  return bound;
+}
+
+uint32_t TriangleTree::build(std::vector<uint32_t>& order,
+                             const std::vector<TreeTriangle>& triangles, Range range) {
+  const uint32_t index = static_cast<uint32_t>(nodes_.size());
+  nodes_.emplace_back();
+  // Three times the centre.
+  const auto centre = [&](uint32_t i) {
+    return triangles[i].a * 3.0 + triangles[i].u + triangles[i].v;
+  };
+  Box3 centres{centre(order[range.begin]), centre(order[range.begin])};
+  for (uint32_t k = range.begin; k < range.end; ++k) {
+    const Vec3 c = centre(order[k]);
+    centres = {min(centres.min, c), max(centres.max, c)};
+  }
+  const Vec3 extent = centres.extent();
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  const uint32_t middle = range.begin + (range.end - range.begin) / 2;
+  std::nth_element(order.begin() + range.begin, order.begin() + middle, order.begin() + range.end,
+                   [&](uint32_t i, uint32_t j) {
+                     const double a = centre(i)[axis], b = centre(j)[axis];
+                     return a < b || (a == b && i < j);
+                   });
+  const Range halves[2] = {{range.begin, middle}, {middle, range.end}};
+  for (int side = 0; side < 2; ++side) {
+    const Range half = halves[side];
+    const uint32_t size = half.end - half.begin;
+    const bool is_leaf = size <= leaf_triangles;
+    nodes_[index].bound[side] = bound_of(order, triangles, half);
+    const uint32_t child = is_leaf ? half.begin : build(order, triangles, half);
+    nodes_[index].child[side] = child;
+    nodes_[index].count[side] = is_leaf ? size : 0;
+  }
+  return index;
+}
+
+double TriangleTree::distance(Vec3 p) const {
+  struct Waiting {
+    uint32_t node;
+    double distance_squared;
+  };
+  Waiting stack[most_depth];
+  size_t depth = 0;
+  stack[depth++] = {0, 0};
+  double best = std::numeric_limits<double>::infinity();
+  while (depth > 0) {
+    const Waiting next = stack[--depth];
+    if (next.distance_squared >= best) continue;
+    const Node& node = nodes_[next.node];
+    const double bounds[2] = {node.bound[0].distance_squared(p), node.bound[1].distance_squared(p)};
+    const int near = bounds[1] < bounds[0];
+    Waiting inner[2];
+    int inner_count = 0;
+    for (const int side : {near, 1 - near}) {
+      if (bounds[side] >= best) continue;
+      const uint32_t child = node.child[side], count = node.count[side];
+      if (count == 0) {
+        inner[inner_count++] = {child, bounds[side]};
+        continue;
+      }
+      for (uint32_t i = child; i < child + count; ++i)
+        best = std::min(best, distance_squared(triangles_[i], p, best));
+    }
+    while (inner_count > 0) stack[depth++] = inner[--inner_count];
+  }
+  return std::sqrt(best);
+}
+
+}  // namespace msq
