@@ -2,6 +2,8 @@
 // Scalar fields that drive parameters, and parameters: a number or a field.
 #pragma once
 
+#include <limits>
+
 #include "base/ref.h"
 #include "base/vec.h"
 
@@ -17,6 +19,9 @@ class Field : public RefCounted {
   /// Encloses at(p) for all p, and for all p of a box: proven, rounding included.
   virtual Interval range() const = 0;
   virtual Interval range(const Box3& box) const = 0;
+  /// No two points' values differ by more than this times their distance, but for the rounding that
+  /// range(box) of the points alone covers. Infinite where nothing is known, which is always right.
+  virtual double lipschitz() const { return std::numeric_limits<double>::infinity(); }
 };
 
 class Parameter {
@@ -31,6 +36,7 @@ class Parameter {
   Interval range(const Box3& box) const {
     return field_ ? field_->range(box) : Interval{value_, value_};
   }
+  double lipschitz() const { return field_ ? field_->lipschitz() : 0; }
 
  private:
   double value_ = 0;

@@ -21,6 +21,11 @@ Interval GradientField::range() const {
   return {std::min(from_value_, to_value_), std::max(from_value_, to_value_)};
 }
 
+double GradientField::lipschitz() const {
+  // The slope along the axis; clamping adds none. Rounded up by more than the three operations lose.
+  return std::abs(to_value_ - from_value_) / std::sqrt(axis_squared_) * (1 + 0x1p-50);
+}
+
 Interval GradientField::range(const Box3& box) const {
   const Vec3 half = box.extent() * 0.5;
   const double t = parameter((box.min + box.max) * 0.5);

@@ -13,6 +13,7 @@ class GradientField final : public Field {
   double at(Vec3 p) const override { return value(parameter(p)); }
   Interval range() const override;
   Interval range(const Box3& box) const override;
+  double lipschitz() const override;
 
  private:
   double parameter(Vec3 p) const { return dot(p - from_, axis_) / axis_squared_; }

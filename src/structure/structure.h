@@ -10,6 +10,7 @@
 #include "base/job.h"
 #include "base/ref.h"
 #include "base/sample_grid.h"
+#include "base/signed_distance.h"
 #include "base/vec.h"
 #include "cell/neighbourhood.h"
 
@@ -24,6 +25,16 @@ class Structure : public RefCounted {
 
   /// Membership of a point whose cell index is below max_cell_index; the boundary is inside.
   virtual bool inside(Vec3 p) const = 0;
+
+  /// Signed distance of the same points: at most 0 where inside(p), positive elsewhere, and never
+  /// larger in magnitude than the distance from p to the boundary of the solid.
+  double distance(Vec3 p) const { return signed_distance(inside(p), clearance(p)); }
+
+  /// A lower bound of the distance from a point to the boundary of the solid, on either side of it:
+  /// finite, not negative, and with the rounding of this function and of inside() subtracted. But
+  /// for that rounding it differs between two points by no more than their distance. A kind says
+  /// where its bound is exact. With no bound the answer is 0, which is always right.
+  virtual double clearance(Vec3) const { return 0; }
 
   /// Sets alive[i] to 0 where points[i] is outside; looks only at points with alive[i] != 0, which
   /// are 1. Fewer than 2^32 points, in any order.

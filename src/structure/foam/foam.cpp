@@ -6,9 +6,11 @@
 #include "structure/foam/method_1.h"
 #include "structure/foam/method_2.h"
 #include "structure/foam/naive_point.h"
+#include "structure/foam/onset.h"
 #include "structure/foam/point.h"
 #include "structure/foam/point_set.h"
 #include "structure/group_by_cell.h"
+#include "structure/strut_clearance.h"
 
 namespace msq {
 
@@ -34,6 +36,13 @@ bool Foam::inside(const Neighbourhood::Located& located, Vec3 p) const {
 
 bool Foam::inside(Vec3 p) const {
   return inside(neighbourhood().locate(p), p);
+}
+
+double Foam::clearance(Vec3 p) const {
+  const Neighbourhood::Located located = neighbourhood().locate(p);
+  const double onset = unit_ * foam_onset(seeds_, located.cell, located.fraction * seeds_.scale());
+  const double slack = onset_slack * unit_ + locating_slack(p - neighbourhood().origin, onset);
+  return strut_clearance(onset, slack, radius_, p);
 }
 
 void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {

@@ -33,6 +33,8 @@ class Foam final : public Structure {
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  /// Exact outside where the radius is constant.
+  double clearance(Vec3 p) const override;
 
   /// One in each cell; those of the foam unless it is graded.
   const FoamSeeds& seeds() const { return seeds_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/lattice/lattice.h"
 
+#include "structure/strut_clearance.h"
 #include "structure/strut_rows.h"
 
 namespace msq {
@@ -68,6 +69,18 @@ bool Lattice::inside(Vec3 p) const {
   for (const Segment& s : near_)
     if (s.distance_squared(q) <= r2) return true;
   return false;
+}
+
+double Lattice::clearance(Vec3 p) const {
+  const Vec3 size = neighbourhood().cell_size;
+  const NearestStruts& nearest =
+      nearest_.get([&] { return std::make_unique<NearestStruts>(struts_, size); });
+  const double onset = nearest.distance(neighbourhood().locate(p).fraction * size);
+  // Struts lie within a few cells of the origin of these coordinates and are rounded as the cells'
+  // sizes are.
+  const double slack = locating_slack(p - neighbourhood().origin, onset) +
+                       0x1p-46 * (max_component(size) + nearest.reach());
+  return strut_clearance(onset, slack, radius_, p);
 }
 
 void Lattice::keep_rows(const RowBlock& block, const Job* job) const {

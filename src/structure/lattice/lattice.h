@@ -5,7 +5,9 @@
 
 #include <vector>
 
+#include "base/lazy.h"
 #include "field/field.h"
+#include "structure/lattice/nearest_struts.h"
 #include "structure/lattice/unit_cell.h"
 #include "structure/structure.h"
 #include "strut/segment.h"
@@ -18,6 +20,8 @@ class Lattice final : public Structure {
 
   bool inside(Vec3 p) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  /// Exact outside where the radius is constant and the cell sizes differ by no more than 8 times.
+  double clearance(Vec3 p) const override;
 
  private:
   Parameter radius_;
@@ -25,6 +29,7 @@ class Lattice final : public Structure {
   Box3 reach_;                         // of all of them
   std::vector<Segment> near_;          // struts of the tiling within the greatest radius of a cell,
                                        // in model units from its corner
+  Lazy<NearestStruts> nearest_;
 };
 
 }  // namespace msq

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/onset.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "structure/foam/cell_seeds.h"
+#include "structure/foam/edge_line.h"
+
+namespace msq {
+
+namespace {
+
+/// Room for the rounding of distances; a seed too many never changes the answer.
+constexpr double slack = 1e-9;
+/// Most points of a foam with a seed a cell are within this of an edge.
+constexpr double first_radius = 0.25;
+
+/// A seed that may matter.
+struct NearSeed {
+  double plane;  // distance from q to the plane between the seed and the nearest one
+  double distance_squared;
+  uint32_t index;  // in the order of seeds
+  Vec3 position;
+};
+
+/// Whether the plane between two seeds is farther from q than `reach`.
+bool too_far(const NearSeed& a, const NearSeed& b, double reach) {
+  const Vec3 apart = a.position - b.position;
+  const double over = std::abs(a.distance_squared - b.distance_squared) - slack;
+  return over > 0 && over * over > 4 * reach * reach * dot(apart, apart);
+}
+
+/// Of three seeds in any order, as EdgeLine wants them.
+EdgeLine line_of(const NearSeed& a, const NearSeed& b, const NearSeed& c) {
+  const NearSeed *x = &a, *y = &b, *z = &c;
+  if (x->index > y->index) std::swap(x, y);
+  if (y->index > z->index) std::swap(y, z);
+  if (x->index > y->index) std::swap(x, y);
+  return EdgeLine(x->position, y->position, z->position);
+}
+
+}  // namespace
+
+double edge_within(const std::vector<Vec3>& seeds, Vec3 q, double radius) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  thread_local std::vector<NearSeed> near;
+  if (seeds.size() < 3) return none;
+  near.clear();
+  NearSeed nearest{0, none, 0, {}};
+  for (uint32_t i = 0; i < seeds.size(); ++i) {
+    const Vec3 d = seeds[i] - q;
+    near.push_back({0, dot(d, d), i, seeds[i]});
+    if (near.back().distance_squared < nearest.distance_squared) nearest = near.back();
+  }
+  for (NearSeed& s : near) {
+    const double apart = length(s.position - nearest.position);
+    s.plane = apart > 0 ? (s.distance_squared - nearest.distance_squared) / (2 * apart) : 0;
+  }
+  std::erase_if(near, [&](const NearSeed& s) { return s.plane > radius + slack; });
+  // Seeds first whose faces with the nearest one are near: they make the nearest edges and the cuts
+  // that bind.
+  std::sort(near.begin(), near.end(), [](const NearSeed& a, const NearSeed& b) {
+    return a.plane < b.plane || (a.plane == b.plane && a.index < b.index);
+  });
+
+  // As in the point query, with a ball that shrinks to the nearest edge found so far.
+  double best = none, reach = radius + slack, chord_squared = radius * radius;
+  const size_t count = near.size();
+  for (size_t c = 2; c < count && near[c].plane <= reach; ++c)
+    for (size_t b = 1; b < c; ++b) {
+      if (too_far(near[b], near[c], reach)) continue;
+      for (size_t a = 0; a < b; ++a) {
+        if (too_far(near[a], near[b], reach) || too_far(near[a], near[c], reach)) continue;
+        const EdgeLine line = line_of(near[a], near[b], near[c]);
+        if (!line.exists()) continue;
+        LineInterval part = line.chord(q, chord_squared);
+        for (size_t i = 0; i < count && line.holds(part); ++i)
+          if (i != a && i != b && i != c) line.cut(near[i].position, part);
+        if (!line.holds(part)) continue;
+        const Vec3 to_line = q - line.seed - line.offset;
+        const double foot = dot(to_line, line.direction) * line.inverse_squared;
+        const double t = std::max(part.low, std::min(part.high, foot));
+        best = std::min(best, length(to_line - line.direction * t));
+        reach = best + slack;
+        chord_squared = best * best;
+      }
+    }
+  return best;
+}
+
+double foam_onset(const FoamSeeds& seeds, CellIndex cell, Vec3 q) {
+  // Points come cell by cell where the caller can arrange it.
+  thread_local CellSeeds around;
+  thread_local std::vector<double> distance_squared;
+  thread_local std::vector<uint32_t> found;
+  thread_local std::vector<Vec3> positions;
+  around.move_to(seeds, cell);
+  // The nearest seed's cell, which holds q, has edges, and no point of it is farther from the seed
+  // than the empty radius.
+  const double most = 2 * seeds.empty_radius();
+  return nearest_edge(q, first_radius, most, [&](double radius) -> const std::vector<Vec3>& {
+    for (size_t step = 0;; ++step) {
+      const CellSeeds::Block& block = around.block(step);
+      const double nearest = std::sqrt(CellSeeds::distances(block, q, distance_squared));
+      const double needed = nearest + 2 * radius + slack;
+      if (needed > block.reach(q, seeds.scale())) continue;
+      CellSeeds::within(block, distance_squared, needed * needed, found);
+      positions.clear();
+      for (const uint32_t i : found) positions.push_back(block.position(i));
+      return positions;
+    }
+  });
+}
+
+}  // namespace msq

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Signed distances of structures: the sign is that of inside(), no ball of their size holds a point
+// on the other side, they change by no more than the distance of two points, over cell borders too,
+// and they are exact where the contract says so. 10^6 points in all.
+#include <limits>
+
+#include "random.h"
+#include "structures.h"
+#include "strut/segment.h"
+#include "suite.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+Vec3 direction(Random& random) {
+  for (;;) {
+    const Vec3 d = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+    if (const double l = length(d); l > 0.1 && l < 1) return d * (1 / l);
+  }
+}
+
+/// The direction in which the distance grows fastest, about.
+Vec3 gradient(const Structure& structure, Vec3 p, double step) {
+  Vec3 g;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 by;
+    by[axis] = step;
+    g[axis] = structure.distance(p + by) - structure.distance(p - by);
+  }
+  const double l = length(g);
+  return l > 0 ? g * (1 / l) : Vec3{1, 0, 0};
+}
+
+void check_point(const StructureRow& row, const Structure& structure, Vec3 p, double d,
+                 const char* what, bool holds) {
+  if (holds) return;
+  fail_msg("%s: at (%.17g, %.17g, %.17g), inside %d, distance %.17g: %s", row.name.c_str(), p.x,
+           p.y, p.z, structure.inside(p), d, what);
+}
+
+void test_row(void** state) {
+  const StructureRow& row = *static_cast<const StructureRow*>(*state);
+  const Neighbourhood& grid = row.variant.grid;
+  const double unit = row.unit();
+  Random random(row.index + 11);
+  for (Vec3 corner : {Vec3{-1, -1, -1}, Vec3{1000, -1001, 999}}) {
+    const Vec3 centre = grid.from_grid((corner + Vec3{1, 1, 1}) * grid.cell_size);
+    const Ref<const Structure> structure = row.make(centre);
+    // Coordinates 1000 cells away are rounded to 1e-13 of them.
+    const double rounding = 4e-9 * unit;
+    Vec3 last = centre;
+    double last_distance = structure->distance(centre);
+    const size_t count = test_count(1000000 / 190 / 2) + 1;
+    for (size_t i = 0; i < count; ++i) {
+      // Anywhere, or with coordinates on the borders and symmetry planes of cells.
+      Vec3 cell = random.in_box({{0, 0, 0}, {2, 2, 2}});
+      if (i % 4 == 0)
+        for (int axis = 0; axis < 3; ++axis) cell[axis] = std::round(cell[axis] * 4) / 4;
+      const Vec3 p = grid.from_grid((corner + cell) * grid.cell_size);
+      const double d = structure->distance(p);
+      const bool is_inside = structure->inside(p);
+      check_point(row, *structure, p, d, "the sign is wrong", is_inside ? d <= 0 : d > 0);
+      check_point(row, *structure, p, d, "it is not finite", std::isfinite(d));
+      check_point(row, *structure, p, d, "it changes too fast",
+                  std::abs(d - last_distance) <= length(p - last) + rounding);
+      last = p;
+      last_distance = d;
+      if (i % 16) continue;
+
+      // Balls: at random, and towards the boundary.
+      const Vec3 up = gradient(*structure, p, 1e-6 * unit);
+      const double size = std::abs(d);
+      for (int n = 0; n < 12; ++n) {
+        const Vec3 way = n == 0 ? up * (d > 0 ? -1.0 : 1.0) : direction(random);
+        const Vec3 other = p + way * (size * (n < 6 ? 1 - 1e-12 : random.unit()));
+        check_point(row, *structure, p, d, "its ball meets the boundary",
+                    structure->inside(other) == is_inside);
+      }
+      // Neighbours, over the borders of cells where coordinates lie on them.
+      const Vec3 next = p + direction(random) * (1e-7 * unit);
+      check_point(row, *structure, p, d, "it jumps",
+                  std::abs(structure->distance(next) - d) <= 1e-7 * unit + rounding);
+    }
+  }
+}
+
+UnitCell unit_cell_of(const StructureRow& row) {
+  return row.kind.family == "cubic"   ? cubic_unit_cell()
+         : row.kind.family == "BCC"   ? bcc_unit_cell()
+         : row.kind.family == "octet" ? octet_unit_cell()
+                                      : skew_unit_cell();
+}
+
+/// Outside and for constant radius, the distance to all struts of the tiling, less the radius.
+void test_exact(void** state) {
+  const StructureRow& row = *static_cast<const StructureRow*>(*state);
+  const Neighbourhood& grid = row.variant.grid;
+  const Ref<const Structure> structure = row.make({});
+  const UnitCell cell = unit_cell_of(row);
+  std::vector<Segment> struts;
+  constexpr int reach = 3;
+  for (int k = -reach; k <= reach; ++k)
+    for (int j = -reach; j <= reach; ++j)
+      for (int i = -reach; i <= reach; ++i)
+        for (const auto& [a, b] : cell.struts) {
+          const Vec3 shift{double(i), double(j), double(k)};
+          struts.emplace_back((cell.nodes[a] + shift) * grid.cell_size,
+                              (cell.nodes[b] + shift) * grid.cell_size);
+        }
+  Random random(row.index + 5);
+  const size_t count = test_count(600);
+  size_t outside = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const Vec3 q = random.in_box({{0, 0, 0}, grid.cell_size});
+    const Vec3 p = grid.from_grid(q);
+    double onset = std::numeric_limits<double>::infinity();
+    for (const Segment& s : struts) onset = std::min(onset, std::sqrt(s.distance_squared(q)));
+    const double d = structure->distance(p), wanted = onset - row.radius();
+    outside += wanted > 0;
+    if (std::abs(d - wanted) > 1e-11 * row.unit())
+      fail_msg("%s: distance %.17g at (%.17g, %.17g, %.17g), not %.17g", row.name.c_str(), d, p.x,
+               p.y, p.z, wanted);
+  }
+  if (count > 100) assert_in_range(outside, 1, count);
+}
+
+}  // namespace
+
+int main() {
+  std::vector<StructureRow> rows = structures_by_point(), lattices;
+  for (const StructureRow& row : rows)
+    if (row.is_lattice() && !row.is_graded) lattices.push_back(row);
+  return run_for_each("distance", rows, test_row) + run_for_each("exact", lattices, test_exact);
+}
