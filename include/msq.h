@@ -515,6 +515,48 @@ MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_d
                                       const msq_query_def *query, uint8_t *inside,
                                       uint64_t inside_count, msq_job *job);
 
+/* Signed distance of one point to the model's boundary, in model units: *distance becomes positive
+ * (at least 2.2e-308) where msq_point_membership answers 0, and 0 or negative where it answers 1.
+ * Always finite. query NULL: defaults.
+ *
+ * Its magnitude never exceeds the distance to the boundary of the resolved model, so a step of that
+ * length along a ray crosses no surface. It is that of one scale: of the coarsest that the point is
+ * outside of; where it is inside all, of the nearest of their boundaries.
+ * - Box, ball and cylinder: exact, on both sides.
+ * - Meshes: distance to the nearest triangle; exact where every triangle bounds the solid, as in
+ *   clean meshes, else a bound. With open edges, rays of msq_shape_from_mesh that pass a hole bound
+ *   the solid too: distances to what they sweep, from the hole towards lower x, count as well.
+ * - Lattices and foams: exact outside for constant radius (lattices whose cell sizes differ by more
+ *   than 8 times: within 8 times the smallest); inside a bound, the radius less the distance to the
+ *   nearest axis. With a radius that is a field of Lipschitz constant L (msq_field_gradient: the
+ *   difference of the values over the distance of the points) these are divided by 1 + L.
+ * - Points outside the coarse shape: distance to the shape, however far its structures are.
+ * "Exact" is up to rounding, which is subtracted from the magnitude: 1e-13 of the distance and of
+ * the coordinates (from the grid's origin, for structures), besides 1e-9 of the largest cell size for
+ * foams, 1e-12 of it for lattices and, for meshes with needle-like triangles, up to 3e-7 of the
+ * longest edge. The distance of each scale changes by no more than the distance between two points;
+ * that of a model may jump where the scale that it is taken from changes.
+ *
+ * Cost: a mesh builds a tree of its triangles at the first call that asks it (n log n, about a second
+ * for 2 million, and 130 bytes each until the shape is freed) and then searches about log n of it; a
+ * lattice, the struts that can be nearest; a foam, the edges of the seeds about (a few
+ * microseconds). Errors: ARGUMENT, LIMIT (the mesh's tree would pass the context's memory_limit),
+ * MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing",
+ * 1996, for the bound. */
+MSQ_API msq_status msq_point_distance(const msq_model *model, const double point[3],
+                                      const msq_query_def *query, double *distance);
+
+/* Signed distances of a set of points: distance[i] becomes, bit for bit, what msq_point_distance
+ * answers for point i. distance_count: length of that array, which must be the number of points.
+ * query, job NULL: defaults, no job. On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY
+ * distance may be partly written. Cost: as msq_point_distance, in parallel, and cheaper for foams
+ * where points of a cell follow each other; the building of a mesh's tree is not interrupted.
+ * Errors: ARGUMENT (also non-finite points, by index), CANCELLED, LIMIT, MEMORY.
+ * Source: paper, section "Set-based queries". */
+MSQ_API msq_status msq_set_distance(const msq_model *model, const msq_points_def *points,
+                                    const msq_query_def *query, double *distance,
+                                    uint64_t distance_count, msq_job *job);
+
 /* ---- slicing ------------------------------------------------------------------------- */
 
 typedef struct msq_slicer msq_slicer; /* a model and a plan of layers */

@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "api/guard.h"
+#include "query/distance.h"
 #include "query/membership.h"
 
 using namespace msq;
@@ -28,10 +29,10 @@ double read_length_scale(const msq_query_def* query) {
   return known.length_scale;
 }
 
-void check_count(uint64_t inside_count, uint64_t points) {
-  if (inside_count != points)
-    fail(Status::argument, "inside_count is %llu; there are %llu points",
-         static_cast<unsigned long long>(inside_count), static_cast<unsigned long long>(points));
+void check_count(uint64_t count, const char* name, uint64_t points) {
+  if (count != points)
+    fail(Status::argument, "%s is %llu; there are %llu points", name,
+         static_cast<unsigned long long>(count), static_cast<unsigned long long>(points));
 }
 
 SampleGrid read_grid(const msq_points_def& def) {
@@ -77,6 +78,45 @@ void check_finite(const PointArray& points, const Executor& executor) {
        static_cast<unsigned long long>(first.load()), p.x, p.y, p.z);
 }
 
+/// Where a set's answers go.
+template <class Answer>
+struct Answers {
+  Answer* values;
+  const char* name;
+  uint64_t count;
+  const char* count_name;
+};
+
+/// Checks the points of a set query and passes them on: to of_array(model, resolved, PointArray,
+/// values, job) or of_grid(model, resolved, SampleGrid, values, job).
+template <class Answer, class OfArray, class OfGrid>
+void ask_set(const msq_model* model, const msq_points_def* points, const msq_query_def* query,
+             const Answers<Answer>& answers, msq_job* job, OfArray&& of_array, OfGrid&& of_grid) {
+  const Model& known = object(model, "model");
+  const msq_points_def def = read_def(points, points_defaults(), "points");
+  const auto resolved = known.resolved(read_length_scale(query));
+  Job* work = job ? &object(job, "job") : nullptr;
+  require_reserved(def.reserved, "reserved");
+  if (require_range(def.kind, MSQ_POINTS_ARRAY, MSQ_POINTS_GRID, "kind") == MSQ_POINTS_ARRAY) {
+    const PointArray array =
+        point_array(def.coordinates, def.count, def.stride, def.coordinate_type, "coordinates");
+    check_count(answers.count, answers.count_name, array.count);
+    if (array.count > 0) require(answers.values, answers.name);
+    check_finite(array, known.context().executor);
+    JobScope scope(work);
+    of_array(known, resolved, array, answers.values, work);
+    scope.done();
+  } else {
+    const SampleGrid grid = read_grid(def);
+    check_count(answers.count, answers.count_name,
+                checked_product(checked_product(grid.nx, grid.ny, "points"), grid.nz, "points"));
+    require(answers.values, answers.name);
+    JobScope scope(work);
+    of_grid(known, resolved, grid, answers.values, work);
+    scope.done();
+  }
+}
+
 }  // namespace
 
 msq_status msq_query_def_init(msq_query_def* def, size_t size) {
@@ -101,28 +141,27 @@ msq_status msq_set_membership(const msq_model* model, const msq_points_def* poin
                               const msq_query_def* query, uint8_t* inside, uint64_t inside_count,
                               msq_job* job) {
   return guard([&] {
+    ask_set(model, points, query, Answers<uint8_t>{inside, "inside", inside_count, "inside_count"},
+            job, array_membership, grid_membership);
+  });
+}
+
+msq_status msq_point_distance(const msq_model* model, const double point[3],
+                              const msq_query_def* query, double* distance) {
+  return guard([&] {
     const Model& known = object(model, "model");
-    const msq_points_def def = read_def(points, points_defaults(), "points");
-    const auto resolved = known.resolved(read_length_scale(query));
-    Job* work = job ? &object(job, "job") : nullptr;
-    require_reserved(def.reserved, "reserved");
-    if (require_range(def.kind, MSQ_POINTS_ARRAY, MSQ_POINTS_GRID, "kind") == MSQ_POINTS_ARRAY) {
-      const PointArray array =
-          point_array(def.coordinates, def.count, def.stride, def.coordinate_type, "coordinates");
-      check_count(inside_count, array.count);
-      if (array.count > 0) require(inside, "inside");
-      check_finite(array, known.context().executor);
-      JobScope scope(work);
-      array_membership(known, resolved, array, inside, work);
-      scope.done();
-    } else {
-      const SampleGrid grid = read_grid(def);
-      check_count(inside_count,
-                  checked_product(checked_product(grid.nx, grid.ny, "points"), grid.nz, "points"));
-      require(inside, "inside");
-      JobScope scope(work);
-      grid_membership(known, resolved, grid, inside, work);
-      scope.done();
-    }
+    const Vec3 p = require_vector(point, "point");
+    require(distance, "distance");
+    *distance = known.distance(p, known.resolved(read_length_scale(query)));
+  });
+}
+
+msq_status msq_set_distance(const msq_model* model, const msq_points_def* points,
+                            const msq_query_def* query, double* distance, uint64_t distance_count,
+                            msq_job* job) {
+  return guard([&] {
+    ask_set(model, points, query,
+            Answers<double>{distance, "distance", distance_count, "distance_count"}, job,
+            array_distance, grid_distance);
   });
 }

@@ -37,4 +37,18 @@ bool Model::inside(Vec3 p, const std::vector<const Structure*>& resolved) const 
   return true;
 }
 
+// The solid is an intersection. Outside a scale, no part of the solid is nearer than that scale's
+// own: the coarsest such scale answers, as in the paper, and none but it is asked about points
+// where it has nothing. Inside all, the boundary is that of one of them: the nearest is near
+// enough.
+double Model::distance(Vec3 p, const std::vector<const Structure*>& resolved) const {
+  double distance = shape_->distance(p);
+  for (const Structure* structure : resolved) {
+    if (distance > 0) break;
+    const double of_scale = structure->distance(p);
+    distance = of_scale > 0 ? of_scale : std::max(distance, of_scale);
+  }
+  return distance;
+}
+
 }  // namespace msq

@@ -32,6 +32,9 @@ class Model final : public RefCounted {
 
   /// Membership of a finite point: the definition.
   bool inside(Vec3 p, const std::vector<const Structure*>& resolved) const;
+  /// Signed distance of a finite point: at most 0 where inside(p, resolved), positive elsewhere,
+  /// and never larger in magnitude than the distance from p to the model's boundary.
+  double distance(Vec3 p, const std::vector<const Structure*>& resolved) const;
 
  private:
   Ref<Context> context_;
