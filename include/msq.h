@@ -396,9 +396,7 @@ typedef struct msq_foam_def {
                              negative. No default: it must be set */
   double jitter;          /* 0: seeds at cell centres; 1 (default): anywhere in their cells */
   uint64_t seed;          /* any number picks another foam (default 0) */
-  msq_param density;      /* seeds in the volume of a cell, a number or a field, 0 to 32768; where
-                             it is below 1 it counts as 1 (default). Above 1 anywhere, only AUTO and
-                             DIRECT are supported */
+  msq_param density;      /* seeds in a cell's volume, 0 to 32768; below 1 counts as 1 (default) */
 } msq_foam_def;
 
 /* Sets defaults. Errors: ARGUMENT. */
@@ -406,19 +404,12 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def *def, size_t size);
 
 /* Open-cell Voronoi foam: the points within radius of the edges of the Voronoi diagram of one
  * jittered seed per neighbourhood cell, all space over. Struts are capsules, circular in model
- * units. The seeds follow from cell index and seed number alone, on every machine alike.
- *
- * Where density is above 1, cells are refined by recursive 2x2x2 subdivision, and each leaf has one
- * jittered seed. A node of the subdivision splits by the number m of seeds that density, taken at
- * its centre, lets expect in it: never for m <= 1, always for m >= 8, between with probability
- * (m - 1) / 7. So a constant density is met on average, and powers of 8 exactly; struts scale with
- * density^(-1/3), and features of a field that are finer than a leaf may be passed over. A density
- * field is asked when cells are built, at node centres, on any thread.
- *
- * def may not be NULL. Cost: none; cells are built by the calls that need them, at a time that grows
- * with the number of their seeds. Errors: ARGUMENT, LIMIT (radius above the smallest cell size, cell
- * sizes that differ by more than 4 times, or density above 32768), UNSUPPORTED (METHOD_2 in a build
- * without CGAL; a method but AUTO and DIRECT with a density above 1), MEMORY.
+ * units. Seeds follow from cell index and seed number alone, on every machine alike. Where density
+ * is above 1, cells are refined 2x2x2, recursively, one jittered seed a leaf, to that density on
+ * average (docs/concepts.md has the rule). def may not be NULL. Cost: none; cells are built by the
+ * calls that need them. Errors: ARGUMENT, LIMIT (radius above the smallest cell size, cell sizes
+ * that differ by more than 4 times, density above 32768), UNSUPPORTED (METHOD_2 without CGAL;
+ * others than AUTO and DIRECT with a density above 1), MEMORY.
  * Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. */
 MSQ_API msq_status msq_structure_foam(msq_context *context, const msq_foam_def *def,
                                       msq_structure **structure);
