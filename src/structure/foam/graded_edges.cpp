@@ -263,7 +263,7 @@ class CellBuilder {
         LineInterval part{-1e300, 1e300};
         for (size_t k = 0; k < count && line.holds(part); ++k)
           if (k != i && k != j) line.cut(by_distance_[k].at, part);
-        if (!line.holds(part)) continue;
+        if (!line.holds(part) || part.low == -1e300 || part.high == 1e300) continue;
         const Edge edge{line.at(part.low), line.at(part.high)};
         vertices_.push_back(edge.from);
         vertices_.push_back(edge.to);
