@@ -10,7 +10,7 @@
 #include "base/random.h"
 #include "bench.h"
 #include "query/point_groups.h"
-#include "structure/foam/foam.h"
+#include "structure/foam/point_set.h"
 
 namespace {
 
@@ -126,9 +126,12 @@ void bench_array(bench::Report& report, int cells, const std::vector<double>& co
   release(foam);
 }
 
-void bench_grid(bench::Report& report, int cells, uint32_t resolution, int32_t method,
-                const char* name) {
-  const Foam foam = make_foam(cells, method);
+constexpr uint32_t resolution = 512;
+constexpr uint64_t layers = resolution / 8;
+
+/// Slices by DIRECT, which asks samples one by one below its critical count.
+void bench_slices(bench::Report& report, int cells) {
+  const Foam foam = make_foam(cells, MSQ_FOAM_DIRECT);
   msq_slicer_def def;
   bench::check(msq_slicer_def_init(&def, sizeof def));
   def.resolution[0] = def.resolution[1] = resolution;
@@ -136,7 +139,6 @@ void bench_grid(bench::Report& report, int cells, uint32_t resolution, int32_t m
   msq_slicer* slicer;
   bench::check(msq_slicer_create(foam.model, &def, &slicer));
   bench::Reader reader;
-  const uint64_t layers = resolution / 8;
   const auto slice = [&] {
     reader = {};
     bench::check(msq_cache_clear(foam.context));
@@ -144,14 +146,50 @@ void bench_grid(bench::Report& report, int cells, uint32_t resolution, int32_t m
   };
   const double seconds = bench::median_seconds(slice);
   const double samples = static_cast<double>(resolution) * resolution * static_cast<double>(layers);
-  report.add(std::string(name) + ", an eighth of " + std::to_string(resolution) + "^3, " +
-                 std::to_string(cells) + "^3 cells",
-             seconds, samples, "sample");
+  report.add("an eighth of 512^3, " + std::to_string(cells) + "^3 cells, DIRECT", seconds, samples,
+             "sample");
   report.note("  processor time of all threads", processor_seconds(slice) / samples * 1e9,
               "ns / sample");
   report.note("  volume fraction", static_cast<double>(reader.inside) / samples, "");
   msq_slicer_release(slicer);
   release(foam);
+}
+
+/// The same samples, each asked.
+void bench_rows(bench::Report& report, int cells) {
+  const auto context = msq::make_ref<msq::Context>(2u, uint64_t{0}, uint64_t{0});
+  msq::Neighbourhood grid;
+  for (int axis = 0; axis < 3; ++axis) grid.cell_size[axis] = 1.0 / cells;
+  const msq::Foam foam(context, grid, msq::Parameter(0.1 / cells), 1, 0, msq::FoamMethod::direct);
+  msq::SampleGrid samples_at;
+  samples_at.nx = samples_at.ny = resolution;
+  samples_at.nz = layers;
+  for (int axis = 0; axis < 3; ++axis) {
+    samples_at.spacing[axis] = 1.0 / resolution;
+    samples_at.origin[axis] = 0.5 / resolution;
+  }
+  const uint64_t rows = 64, deep = std::max<uint64_t>(1, resolution / static_cast<unsigned>(cells));
+  const uint64_t across = resolution / rows, slabs = (layers + deep - 1) / deep;
+  const auto ask = [&] {
+    context->executor.for_each(across * slabs, [&](uint64_t task) {
+      msq::RowBlock block;
+      block.grid = &samples_at;
+      block.y0 = task % across * rows;
+      block.y1 = block.y0 + rows;
+      block.z0 = task / across * deep;
+      block.z1 = std::min(layers, block.z0 + deep);
+      block.row_stride = block.row_words();
+      block.layer_stride = block.row_stride * rows;
+      std::vector<uint64_t> words(block.layer_stride * block.layers(), ~uint64_t{0});
+      block.words = words.data();
+      msq::foam_keep_rows_by_point(foam, block, nullptr);
+    });
+  };
+  const double seconds = bench::median_seconds(ask);
+  const double samples = static_cast<double>(resolution) * resolution * static_cast<double>(layers);
+  report.add("  each sample asked", seconds, samples, "sample");
+  report.note("  processor time of all threads", processor_seconds(ask) / samples * 1e9,
+              "ns / sample");
 }
 
 }  // namespace
@@ -164,8 +202,10 @@ int main(int count, char** arguments) try {
     for (int cells : {32, 128}) bench_array(report, cells, coordinates);
   }
   // From 2 to 6.4 samples a cell along each axis.
-  for (int cells : {256, 160, 128, 104, 80})
-    bench_grid(report, cells, 512, MSQ_FOAM_DIRECT, "DIRECT");
+  for (int cells : {256, 160, 128, 104, 80}) {
+    bench_slices(report, cells);
+    bench_rows(report, cells);
+  }
   report.write(count, arguments);
   return 0;
 } catch (const std::exception& error) {

@@ -27,7 +27,7 @@ struct SetRow {
   double unit() const { return max_component(grid.cell_size); }
   Ref<const Foam> make(Parameter parameter) const {
     return make_ref<Foam>(shared_context(), grid, std::move(parameter), jitter, uint64_t{11},
-                          FoamMethod::point);
+                          FoamMethod::direct);
   }
 };
 

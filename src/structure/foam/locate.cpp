@@ -4,6 +4,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "base/simd.h"
 #include "structure/foam/locate.h"
 
@@ -12,8 +14,8 @@ namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Operations and their order are those of Neighbourhood::locate(). `points` has room for a vector
-// of them.
+// Operations and their order are those of Neighbourhood::locate(). Whole vectors of points only;
+// returns how many that is.
 size_t locate_vectors(const Neighbourhood& grid, Vec3 scale, const double* points, size_t count,
                       int32_t* const (&cell)[3], double* const (&place)[3]) {
   const hn::ScalableTag<double> d;
@@ -59,16 +61,21 @@ void LocatedPoints::locate(const Neighbourhood& grid, Vec3 scale, const Vec3* po
   }
   int32_t* const cells[3] = {cell[0].data(), cell[1].data(), cell[2].data()};
   double* const places[3] = {place[0].data(), place[1].data(), place[2].data()};
-  size_t i = 0;
+  size_t done = 0;
   if (count > 0)
-    i = HWY_DYNAMIC_DISPATCH(locate_vectors)(grid, scale, &points[0].x, count, cells, places);
-  for (; i < count; ++i) {
-    const Neighbourhood::Located located = grid.locate(points[i]);
-    cell[0][i] = located.cell.x;
-    cell[1][i] = located.cell.y;
-    cell[2][i] = located.cell.z;
-    const Vec3 q = located.fraction * scale;
-    for (int axis = 0; axis < 3; ++axis) place[axis][i] = q[axis];
+    done = HWY_DYNAMIC_DISPATCH(locate_vectors)(grid, scale, &points[0].x, count, cells, places);
+  if (done == count) return;
+  Vec3 rest[most_simd_doubles];
+  std::copy(points + done, points + count, rest);
+  int32_t rest_cell[3][most_simd_doubles];
+  double rest_place[3][most_simd_doubles];
+  int32_t* const rest_cells[3] = {rest_cell[0], rest_cell[1], rest_cell[2]};
+  double* const rest_places[3] = {rest_place[0], rest_place[1], rest_place[2]};
+  HWY_DYNAMIC_DISPATCH(locate_vectors)
+  (grid, scale, &rest[0].x, most_simd_doubles, rest_cells, rest_places);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::copy(rest_cell[axis], rest_cell[axis] + (count - done), cells[axis] + done);
+    std::copy(rest_place[axis], rest_place[axis] + (count - done), places[axis] + done);
   }
 }
 

@@ -15,7 +15,8 @@ struct LocatedPoints {
   std::vector<int32_t> cell[3];
   std::vector<double> place[3];
 
-  /// `scale`: cell size in foam units. The same bits as locate(p) and its fraction * scale.
+  /// `scale`: cell size in foam units. The same bits as locate(p) and its fraction * scale,
+  /// for points whose cell has a number; the cell of others is any.
   void locate(const Neighbourhood& grid, Vec3 scale, const Vec3* points, size_t count);
 };
 

@@ -26,7 +26,7 @@ struct AxisSamples {
   int axis;  // of the cells, that these lie along
   uint64_t begin;
   std::vector<double> place;  // foam units from the cell's corner
-  std::vector<Run> runs;      // ascending, none longer than a word
+  std::vector<Run> runs;      // ascending, none longer than a word; not of samples beyond all cells
 };
 
 /// The axis of the cells that an axis of the model runs along, or -1 if that is oblique to them:
@@ -50,12 +50,15 @@ AxisSamples along(const Foam& foam, const RowBlock& block, int model_axis, uint6
     p[model_axis] = model_axis == 0   ? block.grid->x(i)
                     : model_axis == 1 ? block.grid->y(i)
                                       : block.grid->z(i);
+    samples.place.push_back(0);
+    // Samples that no shape reaches are dead; their cells may have no number.
+    const int axis = samples.axis;
+    if (!(std::abs(grid.to_grid(p)[axis] / grid.cell_size[axis]) < 2 * max_cell_index)) continue;
     const Neighbourhood::Located located = grid.locate(p);
-    const int32_t cell = samples.axis == 0   ? located.cell.x
-                         : samples.axis == 1 ? located.cell.y
-                                             : located.cell.z;
-    samples.place.push_back((located.fraction * foam.seeds().scale())[samples.axis]);
-    if (samples.runs.empty() || samples.runs.back().cell != cell || i % bits_per_word == 0)
+    const int32_t cell = axis == 0 ? located.cell.x : axis == 1 ? located.cell.y : located.cell.z;
+    samples.place.back() = (located.fraction * foam.seeds().scale())[axis];
+    if (samples.runs.empty() || samples.runs.back().cell != cell || samples.runs.back().end != i ||
+        i % bits_per_word == 0)
       samples.runs.push_back({i, i, cell});
     samples.runs.back().end = i + 1;
   }
