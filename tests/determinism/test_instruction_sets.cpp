@@ -65,9 +65,9 @@ void all_instruction_sets_give_the_same_layers(void**) {
       },
       [](Ref<Context> c) {
         const Ref<const Field> field =
-            make_ref<GradientField>(Vec3{0, 0, 0}, 0.0, Vec3{1, 0.5, 0.2}, 0.03);
-        return make_ref<Foam>(c, Neighbourhood{{}, {0.1, 0.1, 0.06}, {}}, Parameter(field), 0.9,
-                              uint64_t{3}, FoamMethod::point);
+            make_ref<GradientField>(Vec3{0, 0, 0}, 0.0, Vec3{1, 0.5, 0.2}, 0.01);
+        return make_ref<Foam>(c, Neighbourhood{{}, {0.03, 0.03, 0.02}, {}}, Parameter(field), 0.9,
+                              uint64_t{3}, FoamMethod::direct);
       },
       [](Ref<Context> c) {
         const Ref<const Field> density =

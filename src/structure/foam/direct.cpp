@@ -12,8 +12,14 @@ namespace msq {
 
 namespace {
 
-/// Samples a cell above which building the cell's edges beats the point query (docs/benchmarks.md).
-constexpr double critical_samples = 8;
+/// Samples for each cell in reach of a block above which building the cells' edges and drawing them
+/// beats asking every sample, for a radius in foam units. What a sample costs grows with the square
+/// of the radius, from about 0.08 on (docs/benchmarks.md).
+double critical_samples(double radius) {
+  constexpr double at_tenth = 60;
+  const double r = std::max(radius, 0.08);
+  return at_tenth * 0.01 / (r * r);
+}
 /// The same for each leaf of a graded foam: 9 to 17 us for the edges of one, 1 to 2 us a point.
 constexpr double critical_samples_of_leaf = 10;
 
@@ -42,8 +48,8 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
   if (rows.empty()) return;
   const Box3 reach = grid.to_grid(rows.reach());
   const GradedSeeds* graded = foam.graded().get();
-  const double critical =
-      graded ? critical_samples_of_leaf * graded->mean_density(reach) : critical_samples;
+  const double critical = graded ? critical_samples_of_leaf * graded->mean_density(reach)
+                                 : critical_samples(foam.radius().range().high / unit);
   if (!rows.pays(grid, critical))
     return graded ? foam.Structure::keep_rows(block, job)
                   : foam_keep_rows_by_point(foam, block, job);
