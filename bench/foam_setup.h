@@ -16,10 +16,15 @@ struct FoamSetup {
   bool is_graded = false;  ///< r from 0.05 cell at one corner of the cube to 0.15 at the other
 };
 
+inline double wall_seconds(const std::function<void()>& work) {
+  return median_seconds(work);
+}
+
 /// Seconds for the first `layers` layers of resolution^2 samples in the shape, from an empty cache,
 /// each layer handed as bits to a callback that reads it; and the bytes held at most.
 inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, uint64_t layers,
-                                 double& peak, double most_seconds = 3) {
+                                 double& peak,
+                                 double (*measure)(const std::function<void()>&) = wall_seconds) {
   msq_context_def context_def;
   check(msq_context_def_init(&context_def, sizeof context_def));
   context_def.threads = setup.threads;
@@ -59,12 +64,10 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
   msq_slicer* slicer;
   check(msq_slicer_create(model, &slicer_def, &slicer));
   Reader reader;
-  const double seconds = median_seconds(
-      [&] {
-        check(msq_cache_clear(context));
-        check(msq_slicer_run(slicer, 0, layers, Reader::take, &reader, nullptr));
-      },
-      most_seconds);
+  const double seconds = measure([&] {
+    check(msq_cache_clear(context));
+    check(msq_slicer_run(slicer, 0, layers, Reader::take, &reader, nullptr));
+  });
   msq_memory_report memory{};
   memory.struct_size = sizeof memory;
   check(msq_context_memory(context, &memory));
