@@ -16,6 +16,13 @@ struct Interval {
 class Field : public RefCounted {
  public:
   virtual double at(Vec3 p) const = 0;
+  /// Whether at(p) is linear in p for all p of a box, up to 2^-40 of its range; if so, its
+  /// gradient.
+  virtual bool is_linear(const Box3& box, Vec3& gradient) const {
+    (void)box;
+    (void)gradient;
+    return false;
+  }
   /// Encloses at(p) for all p, and for all p of a box: proven, rounding included.
   virtual Interval range() const = 0;
   virtual Interval range(const Box3& box) const = 0;
@@ -32,6 +39,9 @@ class Parameter {
 
   bool is_constant() const { return !field_; }
   double at(Vec3 p) const { return field_ ? field_->at(p) : value_; }
+  bool is_linear(const Box3& box, Vec3& gradient) const {
+    return field_ && field_->is_linear(box, gradient);
+  }
   Interval range() const { return field_ ? field_->range() : Interval{value_, value_}; }
   Interval range(const Box3& box) const {
     return field_ ? field_->range(box) : Interval{value_, value_};

@@ -17,6 +17,20 @@ double GradientField::value(double t) const {
   return std::clamp(v, std::min(from_value_, to_value_), std::max(from_value_, to_value_));
 }
 
+bool GradientField::is_linear(const Box3& box, Vec3& gradient) const {
+  const Vec3 half = box.extent() * 0.5;
+  const double t = parameter((box.min + box.max) * 0.5);
+  const double reach =
+      (std::abs(axis_.x) * half.x + std::abs(axis_.y) * half.y + std::abs(axis_.z) * half.z) /
+      axis_squared_;
+  // Away from the ends by more than rounding, which stays below 2^-40 of the range.
+  const double magnitude = max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(from_);
+  if (!(t - reach > 1e-6 && t + reach < 1 - 1e-6)) return false;
+  if (!(magnitude < 1000 * std::sqrt(axis_squared_))) return false;
+  gradient = axis_ * ((to_value_ - from_value_) / axis_squared_);
+  return true;
+}
+
 Interval GradientField::range() const {
   return {std::min(from_value_, to_value_), std::max(from_value_, to_value_)};
 }

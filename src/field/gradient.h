@@ -11,6 +11,7 @@ class GradientField final : public Field {
   GradientField(Vec3 from, double from_value, Vec3 to, double to_value);
 
   double at(Vec3 p) const override { return value(parameter(p)); }
+  bool is_linear(const Box3& box, Vec3& gradient) const override;
   Interval range() const override;
   Interval range(const Box3& box) const override;
   double lipschitz() const override;

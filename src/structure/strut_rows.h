@@ -51,14 +51,8 @@ class StrutRows {
   }
   /// Draws the struts added so far.
   void flush() {
-    for (size_t i = 0; i < batch_.count; ++i) {
-      const Vec3 a = batch_.from(i), b = batch_.to(i);
-      const Interval r = radius_.is_constant()
-                             ? Interval{most_, most_}
-                             : radius_.range(Box3{min(a, b), max(a, b)}.grown(most_));
-      batch_.low[i] = r.low;
-      batch_.high[i] = r.high;
-    }
+    if (batch_.count == 0) return;
+    set_radii();
     raster_.add(batch_, margin_, [this](Vec3 p) { return radius_.at(p); });
     batch_.count = 0;
   }
@@ -70,6 +64,37 @@ class StrutRows {
   }
 
  private:
+  void set_radii() {
+    const auto extent = [&](size_t i) {
+      return Box3{min(batch_.from(i), batch_.to(i)), max(batch_.from(i), batch_.to(i))};
+    };
+    batch_.linear = false;
+    if (!radius_.is_constant()) {
+      Box3 all = extent(0);
+      for (size_t i = 1; i < batch_.count; ++i) {
+        const Box3 box = extent(i);
+        all = {min(all.min, box.min), max(all.max, box.max)};
+      }
+      batch_.linear = radius_.is_linear(all.grown(most_ * (1 + 1e-6)), batch_.gradient) &&
+                      max_magnitude(batch_.gradient) < StrutBatch::most_gradient;
+    }
+    for (size_t i = 0; i < batch_.count; ++i) {
+      Interval r{most_, most_};
+      if (batch_.linear) {
+        const Vec3 a = batch_.from(i), ab = batch_.to(i) - a, g = batch_.gradient;
+        const double at_a = radius_.at(a), along = dot(g, ab);
+        const double about = most_ * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) + 1e-9 * most_;
+        batch_.at_a[i] = at_a;
+        r = {std::max(radius_.range().low, at_a + std::min(along, 0.0) - about),
+             std::min(most_, at_a + std::max(along, 0.0) + about)};
+      } else if (!radius_.is_constant()) {
+        r = radius_.range(extent(i).grown(most_));
+      }
+      batch_.low[i] = r.low;
+      batch_.high[i] = r.high;
+    }
+  }
+
   /// Positions on either side carry a few units of 2^-53 of the largest magnitude; this is 2^-40.
   static double position_margin(const Box3& box, Vec3 origin) {
     return 0x1p-40 * (max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(origin));

@@ -24,8 +24,12 @@
 // by E / q where D >= E, by sqrt(2 E) below: by E / (max(q, sqrt(E)) - 0.3 sqrt(E)) everywhere. The
 // centre (g ux for the cylinder) and the sums err by 32 u (U / A + 1), and column numbers by the
 // target's slack.
-// Where the radius varies, the outer ends are those of the greatest and the inner ones those of the
-// least, each within these bounds.
+// Where the radius varies between bounds, the outer ends are those of the greatest and the inner
+// ones those of the least, each within these bounds.
+// Where it is linear, each row has bounds of its own. A row's span reaches R / sqrt(A) at most from
+// the cylinder's centre, or from the nearest of the columns between a and b if that is beyond them:
+// so the radius differs by |gx| R / sqrt(A) at most from that there. Computing it errs by 8 u U at
+// most: D by half of what it does anyway.
 #if defined(MSQ_STRUT_FAST_SPANS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_STRUT_FAST_SPANS_INL_H
 #undef MSQ_STRUT_FAST_SPANS_INL_H
@@ -53,8 +57,10 @@ struct LaneShape {
   HWY_ALIGN int32_t bit[2 * most_simd_doubles];  // from that of lane 0
 };
 
-/// `varying`: radii have a least and a greatest that differ.
-template <bool varying>
+/// Of one strut: all the same, between a least and a greatest, or linear in the position.
+enum class Radii { constant, bounded, linear };
+
+template <Radii radii>
 class FastSpans {
  public:
   FastSpans(const RasterTarget& target, const StrutBatch& batch, const StrutSetups& setups,
@@ -133,10 +139,10 @@ class FastSpans {
 };
 
 /// Vectors `begin` to `end` of the strut's.
-template <bool varying>
+template <Radii radii>
 template <class D>
-HWY_INLINE void FastSpans<varying>::add_vectors(D d, const LaneShape& shape, size_t strut,
-                                                size_t begin, size_t end) {
+HWY_INLINE void FastSpans<radii>::add_vectors(D d, const LaneShape& shape, size_t strut,
+                                              size_t begin, size_t end) {
   using V = hn::Vec<D>;
   using M = hn::Mask<D>;
   const hn::RebindToSigned<D> di;
@@ -151,7 +157,6 @@ HWY_INLINE void FastSpans<varying>::add_vectors(D d, const LaneShape& shape, siz
   const V base_error = set(setups_.end_error);
   const V root_less = hn::Mul(root_error, hn::Set(d, 0.3f));
   const V none = hn::Neg(error), zero = hn::Zero(d);
-  const V high2 = set(setups_.high2), low2 = set(setups_.low2);
   const V signed_ux2 = set(setups_.signed_ux2);
   const V v0 = set(setups_.v), w0 = set(setups_.w);
   const V row_step = hn::Set(d, row_step_), layer_step = hn::Set(d, layer_step_);
@@ -215,13 +220,26 @@ HWY_INLINE void FastSpans<varying>::add_vectors(D d, const LaneShape& shape, siz
       return hn::Min(body, hn::Min(low_d, high_d));
     };
 
+    V high2 = set(setups_.high2), low2 = set(setups_.low2);
+    if constexpr (radii == Radii::linear) {
+      const V middle =
+          hn::Min(hn::Max(body_centre, hn::Min(a_column, b_column)), hn::Max(a_column, b_column));
+      const auto slope = [&](double g) HWY_ATTR { return hn::Set(d, static_cast<float>(g)); };
+      V r = hn::MulAdd(hn::Sub(middle, a_column), slope(batch_.gradient.x), set(setups_.radius_a));
+      r = hn::MulAdd(v, slope(batch_.gradient.y), r);
+      r = hn::MulAdd(w, slope(batch_.gradient.z), r);
+      const V spread = set(setups_.spread);
+      const V most = hn::Add(r, spread), least = hn::Max(hn::Sub(r, spread), zero);
+      high2 = hn::Mul(most, most);
+      low2 = hn::Mul(least, least);
+    }
     V low, high, low_error, high_error;
     V least = ends(high2, low, high, low_error, high_error);
     const M met = hn::And(in, hn::Gt(least, none));
     if (hn::AllFalse(d, met)) continue;
     // Columns [x0, x1] may be inside, those of [i0, i1] are.
     V x0 = hn::Ceil(hn::Sub(low, low_error)), x1 = hn::Floor(hn::Add(high, high_error));
-    if constexpr (varying) least = ends(low2, low, high, low_error, high_error);
+    if constexpr (radii != Radii::constant) least = ends(low2, low, high, low_error, high_error);
     V i0 = hn::Ceil(hn::Add(low, low_error)), i1 = hn::Floor(hn::Sub(high, high_error));
     if (clipped) {
       const V first = set(setups_.first), last = set(setups_.last);
@@ -253,11 +271,11 @@ HWY_INLINE void FastSpans<varying>::add_vectors(D d, const LaneShape& shape, siz
 }
 
 /// Columns [x0, i0) and (i1, x1] of the doubtful lanes.
-template <bool varying>
+template <Radii radii>
 template <class D, class V>
-HWY_INLINE void FastSpans<varying>::add_doubts(D d, const LaneShape& shape, size_t strut, size_t j,
-                                               size_t k, hn::Mask<D> doubtful, V x0, V i0, V i1,
-                                               V x1) {
+HWY_INLINE void FastSpans<radii>::add_doubts(D d, const LaneShape& shape, size_t strut, size_t j,
+                                             size_t k, hn::Mask<D> doubtful, V x0, V i0, V i1,
+                                             V x1) {
   HWY_ALIGN float columns[4][2 * most_simd_doubles];
   hn::Store(x0, d, columns[0]);
   hn::Store(i0, d, columns[1]);

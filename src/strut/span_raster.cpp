@@ -15,10 +15,10 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 
-template <bool varying>
+template <Radii radii>
 HWY_INLINE void draw_struts(const RasterTarget& target, const StrutBatch& batch,
                             const StrutSetups& setups, DoubtfulSpans& doubts) {
-  FastSpans<varying> spans(target, batch, setups, doubts);
+  FastSpans<radii> spans(target, batch, setups, doubts);
   for (size_t i = 0; i < batch.count; ++i) {
     const auto index = [&](const int32_t* values) { return static_cast<size_t>(values[i]); };
     switch (setups.kernel[i]) {
@@ -42,10 +42,12 @@ void raster_struts(const RasterTarget& target, const StrutBatch& batch, bool var
                    DoubtfulSpans& doubts) {
   StrutSetups setups;
   set_up_struts(target, batch, setups);
-  if (varying)
-    draw_struts<true>(target, batch, setups, doubts);
+  if (!varying)
+    draw_struts<Radii::constant>(target, batch, setups, doubts);
+  else if (batch.linear)
+    draw_struts<Radii::linear>(target, batch, setups, doubts);
   else
-    draw_struts<false>(target, batch, setups, doubts);
+    draw_struts<Radii::bounded>(target, batch, setups, doubts);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -17,6 +17,11 @@ struct StrutBatch {
   size_t count = 0;
   double a[3][capacity + padding], b[3][capacity + padding];
   double low[capacity + padding], high[capacity + padding];
+  /// Where `linear`: the radius at p is, within the margin, at_a + dot(gradient, p - a).
+  static constexpr double most_gradient = 0.5;  // of each component
+  bool linear = false;
+  Vec3 gradient;
+  double at_a[capacity + padding];
 
   bool full() const { return count == capacity; }
   Vec3 from(size_t i) const { return {a[0][i], a[1][i], a[2][i]}; }

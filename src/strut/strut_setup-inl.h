@@ -55,6 +55,7 @@ struct StrutSetups {
   float signed_ux2[room];                            // ux |ux|
   float inverse_across[room];                        // 1 / (uy^2 + uz^2)
   float high2[room], low2[room];                     // squared radii; low2 negative: no inner span
+  float radius_a[room], spread[room];                // of a linear radius: at a; along a row
   float error[room], root_error[room], end_error[room];  // E, sqrt(E); see fast_spans-inl.h
 };
 
@@ -164,11 +165,15 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
         hn::Mul(inverse_across, hn::MulAdd(inverse_across, hn::MulAdd(both, both, across_error),
                                            hn::Mul(hn::Set(d, 2.0), hn::Mul(r, shift))));
     const V along = hn::Abs(hn::Mul(dx, inverse_length));
-    const V choices = hn::IfThenElse(hn::Gt(length2, hn::Mul(squared_error, hn::Set(d, 16.0))),
-                                     hn::Set(d, 2.0), hn::Set(d, 4.0));
-    const V error = hn::Mul(squared_error,
-                            hn::MulAdd(hn::Mul(choices, along),
-                                       hn::MulAdd(along, hn::Set(d, 1.05), hn::Set(d, 0.95)), one));
+    const V choices =
+        batch.linear ? hn::Set(d, 4.0)
+                     : hn::IfThenElse(hn::Gt(length2, hn::Mul(squared_error, hn::Set(d, 16.0))),
+                                      hn::Set(d, 2.0), hn::Set(d, 4.0));
+    const V choice = hn::MulAdd(hn::Mul(choices, along),
+                                hn::MulAdd(along, hn::Set(d, 1.05), hn::Set(d, 0.95)), one);
+    // The radius at a sample is computed, too, where it is linear.
+    const V room = hn::Mul(choice, hn::Set(d, batch.linear ? 1.5 : 1.0));
+    const V error = hn::Mul(squared_error, room);
     const V end_error = hn::MulAdd(hn::Set(d, 32 * u), hn::MulAdd(whole, inverse_across, one),
                                    hn::Set(d, target.slack));
 
@@ -243,6 +248,11 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     put(hn::Mul(error, hn::Set(d, 1.01)), setups.error);
     put(hn::Sqrt(hn::Mul(error, hn::Set(d, 1.01))), setups.root_error);
     put(end_error, setups.end_error);
+    if (!batch.linear) continue;
+    const V spread = hn::Mul(hn::Mul(r, hn::Sqrt(inverse_across)),
+                             hn::Set(d, 1.01 * std::abs(batch.gradient.x)));
+    put(hn::Mul(hn::LoadU(d, batch.at_a + i), scale), setups.radius_a);
+    put(spread, setups.spread);
   }
 }
 

@@ -21,7 +21,7 @@ void test_values(void**) {
 
 void test_range(void**) {
   Random random(6);
-  size_t outside = 0, loose = 0, boxes = test_count(40000);
+  size_t outside = 0, loose = 0, linear = 0, bent = 0, boxes = test_count(40000);
   for (size_t n = 0; n < boxes; ++n) {
     const double far = n % 3 ? 1 : 1e6, size = std::pow(10, random.between(-6, 2));
     const Vec3 from = random.in_box(Box3{}.grown(far));
@@ -32,6 +32,9 @@ void test_range(void**) {
     const Box3 box{corner, corner + random.in_box({{0, 0, 0}, {size, size, size}})};
     const Interval range = field.range(box), all = field.range();
     if (range.low < all.low || range.high > all.high) ++outside;
+    Vec3 gradient;
+    const bool is_linear = field.is_linear(box, gradient);
+    linear += is_linear;
     double least = 1e300, most = -1e300;
     for (int i = 0; i < 20; ++i) {
       Vec3 p = random.in_box(box);
@@ -40,6 +43,8 @@ void test_range(void**) {
              i & 4 ? box.max.z : box.min.z};
       const double v = field.at(p);
       outside += !(v >= range.low && v <= range.high);
+      const double along = field.at(box.min) + dot(gradient, p - box.min);
+      bent += is_linear && std::abs(v - along) > 0x1p-40 * std::abs(b - a);
       least = std::min(least, v);
       most = std::max(most, v);
     }
@@ -49,6 +54,8 @@ void test_range(void**) {
   }
   assert_int_equal(outside, 0);
   assert_int_equal(loose, 0);
+  assert_true(linear > boxes / 20);
+  assert_int_equal(bent, 0);
 }
 
 }  // namespace
