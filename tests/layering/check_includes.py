@@ -37,6 +37,7 @@ C_HEADERS = {f"{name}.h" for name in
 
 LINES_WARN, LINES_FAIL = 400, 600
 LINES_IN = ["src", "include", "tests", "examples", "bench", "bindings"]
+LINES_FREE = {"include/msq.h"}  # one header for hosts, however much it declares
 LINES_OF = {".h", ".hpp", ".c", ".cpp", ".py"}
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
@@ -100,6 +101,8 @@ def check_lengths(source):
     for folder in LINES_IN:
         for path in sorted((source / folder).rglob("*")):
             if path.suffix not in LINES_OF or not path.is_file():
+                continue
+            if path.relative_to(source).as_posix() in LINES_FREE:
                 continue
             lines = path.read_bytes().count(b"\n")
             text = f"{path.relative_to(source).as_posix()}: {lines} lines"
