@@ -138,6 +138,14 @@ void check_membership(const DensityRow& row, const Diagram& diagram) {
       const double distance = grid.distance(p);
       const bool is_inside = foam->inside(row.grid.from_grid(p));
       held += is_inside;
+      if (i % 4 == 0) {  // distances, as far as the edges at hand reach
+        const double d = foam->distance(row.grid.from_grid(p));
+        assert_true(is_inside ? d <= 0 : d > 0);
+        if (distance < radius + 0.009)
+          assert_true(std::abs(d - (distance - radius)) <= 3e-9);
+        else
+          assert_true(d > 0.008);
+      }
       if (is_inside == (distance <= radius)) continue;
       if (std::abs(distance - radius) <= 1e-9) {
         ++near;

@@ -40,7 +40,9 @@ bool Foam::inside(Vec3 p) const {
 
 double Foam::clearance(Vec3 p) const {
   const Neighbourhood::Located located = neighbourhood().locate(p);
-  const double onset = unit_ * foam_onset(seeds_, located.cell, located.fraction * seeds_.scale());
+  const Vec3 q = located.fraction * seeds_.scale();
+  const double onset = unit_ * (graded_ ? graded_onset(graded_, located.cell, q)
+                                        : foam_onset(seeds_, located.cell, q));
   const double slack = onset_slack * unit_ + locating_slack(p - neighbourhood().origin, onset);
   return strut_clearance(onset, slack, radius_, p);
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "structure/foam/meets_edge.h"
+#include "structure/foam/onset.h"
 #include "structure/foam/seed_trees.h"
 
 namespace msq {
@@ -67,6 +68,14 @@ void gather(SeedTrees& trees, CellIndex cell, Vec3 q, const LeafSeed& nearest,
   });
 }
 
+LeafSeed nearest_seed(SeedTrees& trees, CellIndex cell, Vec3 q, double& distance_squared) {
+  LeafSeed nearest = trees.at(cell, q);
+  const Vec3 d = nearest.position - q;
+  distance_squared = dot(d, d);
+  trees.nearest(cell, q, distance_squared, nearest, [](const LeafSeed&) { return true; });
+  return nearest;
+}
+
 }  // namespace
 
 bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q,
@@ -74,10 +83,8 @@ bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIn
   thread_local SeedTrees trees;
   thread_local NearSeeds near;
   trees.move_to(seeds);
-  LeafSeed nearest = trees.at(cell, q);
-  const Vec3 d = nearest.position - q;
-  double nearest_squared = dot(d, d);
-  trees.nearest(cell, q, nearest_squared, nearest, [](const LeafSeed&) { return true; });
+  double nearest_squared;
+  const LeafSeed nearest = nearest_seed(trees, cell, q, nearest_squared);
 
   // A radius of many leaves holds a crowd of seeds, and mostly an edge near p: growing radii find
   // it first. Points inside for one of them are inside for the last.
@@ -92,6 +99,23 @@ bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIn
     }
     if (tried >= radius) return false;
   }
+}
+
+double graded_onset(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q) {
+  thread_local SeedTrees trees;
+  thread_local NearSeeds near;
+  trees.move_to(seeds);
+  double nearest_squared;
+  const LeafSeed nearest = nearest_seed(trees, cell, q, nearest_squared);
+  const double unit = 1 << nearest.level;
+  // A coarse leaf may begin right behind a fine one: the last radius is that of cells.
+  const double most = 2 * seeds->cells().empty_radius() * unit;
+  const auto seeds_within = [&](double radius) -> const std::vector<Vec3>& {
+    gather(trees, cell, q, nearest, nearest_squared, radius / unit, near);
+    for (Vec3& position : near.positions) position = position * unit;
+    return near.positions;
+  };
+  return nearest_edge(q * unit, first_onset_radius, most, seeds_within) / unit;
 }
 
 }  // namespace msq

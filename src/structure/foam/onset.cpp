@@ -14,8 +14,6 @@ namespace {
 
 /// Room for the rounding of distances; a seed too many never changes the answer.
 constexpr double slack = 1e-9;
-/// Most points of a foam with a seed a cell are within this of an edge.
-constexpr double first_radius = 0.25;
 
 /// A seed that may matter.
 struct NearSeed {
@@ -100,7 +98,7 @@ double foam_onset(const FoamSeeds& seeds, CellIndex cell, Vec3 q) {
   // The nearest seed's cell, which holds q, has edges, and no point of it is farther from the seed
   // than the empty radius.
   const double most = 2 * seeds.empty_radius();
-  return nearest_edge(q, first_radius, most, [&](double radius) -> const std::vector<Vec3>& {
+  return nearest_edge(q, first_onset_radius, most, [&](double radius) -> const std::vector<Vec3>& {
     for (size_t step = 0;; ++step) {
       const CellSeeds::Block& block = around.block(step);
       const double nearest = std::sqrt(CellSeeds::distances(block, q, distance_squared));

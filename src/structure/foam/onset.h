@@ -19,6 +19,9 @@ namespace msq {
 /// 1e-5 of a cell from each other, and for the tolerances of EdgeLine.
 constexpr double onset_slack = 1e-9;
 
+/// Most points of a foam with a seed for each unit of volume are within this of an edge.
+constexpr double first_onset_radius = 0.25;
+
 /// Onset of q (foam units, from the corner of `cell`), in foam units.
 double foam_onset(const FoamSeeds& seeds, CellIndex cell, Vec3 q);
 
