@@ -528,8 +528,8 @@ MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_d
  * longest edge. The distance of each scale changes by no more than the distance between two points;
  * that of a model may jump where the scale that it is taken from changes.
  *
- * Cost: a mesh builds a tree of its triangles at the first call that asks it (n log n, about a second
- * for 2 million, and 130 bytes each until the shape is freed) and then searches about log n of it; a
+ * Cost: a mesh builds a tree of its triangles at the first call that asks it (n log n, seconds for
+ * millions, and about 120 bytes each until the shape is freed) and then searches about log n of it; a
  * lattice, the struts that can be nearest; a foam, the edges of the seeds about (a few
  * microseconds). Errors: ARGUMENT, LIMIT (the mesh's tree would pass the context's memory_limit),
  * MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing",

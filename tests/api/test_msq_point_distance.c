@@ -54,6 +54,8 @@ static void shapes_are_exact(void** state) {
   }
   assert_true(distance_of(box, 0, 1, 1) == 0);
   assert_true(!signbit(distance_of(box, 0, 1, 1)));
+  assert_true(distance_of(mesh, 0, 1, 1) == 0); /* the least that rounding leaves */
+  assert_true(!signbit(distance_of(mesh, 0, 1, 1)));
   assert_near(distance_of(round[0], 2, 2, 3.5), -0.5, 1e-12);
   assert_near(distance_of(round[0], 2, 5, 6), 3, 1e-12);
   assert_near(distance_of(round[1], 2, 2, 2.25), -0.75, 1e-12);
