@@ -16,14 +16,23 @@ namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Writes the components of those that meet the box [low, high] to `out`; returns how many.
-size_t select_segments(const SegmentSet& set, const float* low, const float* high,
-                       float* const* out) {
+/// Writes the components of those that meet the box [low, high] to `out`; returns how many. The
+/// segments' ends are numbers of nodes.
+template <class Number>
+size_t select(const SegmentSet& set, const Number* a, const Number* b, const float* low,
+              const float* high, float* const* out) {
   using D = hn::ScalableTag<float>;
   using V = hn::Vec<D>;
   const D d;
   const hn::RebindToSigned<D> di;
+  const hn::Rebind<Number, D> dn;
   const size_t lanes = hn::Lanes(d);
+  const auto numbers = [&](const Number* ends) HWY_ATTR {
+    if constexpr (sizeof(Number) == 2)
+      return hn::PromoteTo(di, hn::LoadU(dn, ends));
+    else
+      return hn::BitCast(di, hn::LoadU(dn, ends));
+  };
   const V lx = hn::Set(d, low[0]), ly = hn::Set(d, low[1]), lz = hn::Set(d, low[2]);
   const V hx = hn::Set(d, high[0]), hy = hn::Set(d, high[1]), hz = hn::Set(d, high[2]);
   size_t count = 0;
@@ -34,8 +43,12 @@ size_t select_segments(const SegmentSet& set, const float* low, const float* hig
     if (!meets) continue;
     const size_t end = set.run_end(run);
     for (size_t i = set.run_start(run); i < end; i += lanes) {
+      const auto at_a = numbers(a + i), at_b = numbers(b + i);
       V c[6];
-      for (int k = 0; k < 6; ++k) c[k] = hn::LoadU(d, set.component(k) + i);
+      for (int axis = 0; axis < 3; ++axis) {
+        c[axis] = hn::GatherIndex(d, set.nodes(axis), at_a);
+        c[axis + 3] = hn::GatherIndex(d, set.nodes(axis), at_b);
+      }
       auto in = hn::RebindMask(d, hn::FirstN(di, end - i));
       in = hn::And(in, hn::And(hn::Le(hn::Min(c[0], c[3]), hx), hn::Ge(hn::Max(c[0], c[3]), lx)));
       in = hn::And(in, hn::And(hn::Le(hn::Min(c[1], c[4]), hy), hn::Ge(hn::Max(c[1], c[4]), ly)));
@@ -48,6 +61,12 @@ size_t select_segments(const SegmentSet& set, const float* low, const float* hig
     }
   }
   return count;
+}
+
+size_t select_segments(const SegmentSet& set, const float* low, const float* high,
+                       float* const* out) {
+  return set.is_wide() ? select(set, set.wide_ends(0), set.wide_ends(1), low, high, out)
+                       : select(set, set.narrow_ends(0), set.narrow_ends(1), low, high, out);
 }
 
 /// a and b of `count` segments from components of them.

@@ -3,37 +3,75 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 namespace msq {
 
+SegmentSet::SegmentSet(const std::vector<Node>& nodes,
+                       const std::vector<std::array<uint32_t, 2>>& ends,
+                       const std::vector<uint32_t>& starts)
+    : count_(ends.size()), node_count_(nodes.size()), nodes_(3 * nodes.size()), starts_(starts) {
+  starts_.push_back(static_cast<uint32_t>(count_));
+  for (size_t i = 0; i < node_count_; ++i)
+    for (size_t axis = 0; axis < 3; ++axis) nodes_[axis * node_count_ + i] = nodes[i][axis];
+  const auto set_ends = [&](auto& numbers) {
+    using Number = typename std::decay_t<decltype(numbers)>::value_type;
+    numbers.resize(2 * count_ + padding);
+    for (size_t i = 0; i < count_; ++i)
+      for (size_t end = 0; end < 2; ++end)
+        numbers[end * count_ + i] = static_cast<Number>(ends[i][end]);
+  };
+  if (is_wide())
+    set_ends(wide_);
+  else
+    set_ends(narrow_);
+  set_bounds();
+}
+
 SegmentSet::SegmentSet(const std::vector<FloatSegment>& segments,
                        const std::vector<uint32_t>& starts)
-    : count_(segments.size()), components_(6 * count_ + padding), starts_(starts) {
-  starts_.push_back(static_cast<uint32_t>(count_));
-  for (size_t i = 0; i < count_; ++i)
-    for (size_t axis = 0; axis < 3; ++axis) {
-      components_[axis * count_ + i] = segments[i].a[axis];
-      components_[(axis + 3) * count_ + i] = segments[i].b[axis];
-    }
+    : SegmentSet(
+          [&] {
+            std::vector<Node> nodes;
+            for (const FloatSegment& s : segments) {
+              nodes.push_back({s.a[0], s.a[1], s.a[2]});
+              nodes.push_back({s.b[0], s.b[1], s.b[2]});
+            }
+            return nodes;
+          }(),
+          [&] {
+            std::vector<std::array<uint32_t, 2>> ends;
+            for (uint32_t i = 0; i < segments.size(); ++i) ends.push_back({2 * i, 2 * i + 1});
+            return ends;
+          }(),
+          starts) {}
+
+void SegmentSet::set_bounds() {
   constexpr float inf = std::numeric_limits<float>::infinity();
-  bounds_.assign(6 * runs() + padding, inf);
-  for (size_t run = 0; run < runs(); ++run)
-    for (size_t axis = 0; axis < 3; ++axis) {
-      float low = inf, high = -inf;
-      for (size_t i = run_start(run); i < run_end(run); ++i) {
-        low = std::min({low, segments[i].a[axis], segments[i].b[axis]});
-        high = std::max({high, segments[i].a[axis], segments[i].b[axis]});
+  bounds_.resize(6 * runs());
+  for (size_t run = 0; run < runs(); ++run) {
+    float low[3] = {inf, inf, inf}, high[3] = {-inf, -inf, -inf};
+    for (size_t i = run_start(run); i < run_end(run); ++i) {
+      const FloatSegment s = at(i);
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], std::min(s.a[axis], s.b[axis]));
+        high[axis] = std::max(high[axis], std::max(s.a[axis], s.b[axis]));
       }
-      bounds_[axis * runs() + run] = low;
-      bounds_[(axis + 3) * runs() + run] = high;
     }
+    for (size_t axis = 0; axis < 3; ++axis) {
+      bounds_[axis * runs() + run] = low[axis];
+      bounds_[(axis + 3) * runs() + run] = high[axis];
+    }
+  }
 }
 
 FloatSegment SegmentSet::at(size_t i) const {
+  const size_t a = is_wide() ? wide_ends(0)[i] : narrow_ends(0)[i];
+  const size_t b = is_wide() ? wide_ends(1)[i] : narrow_ends(1)[i];
   FloatSegment segment;
   for (int axis = 0; axis < 3; ++axis) {
-    segment.a[axis] = component(axis)[i];
-    segment.b[axis] = component(axis + 3)[i];
+    segment.a[axis] = nodes(axis)[a];
+    segment.b[axis] = nodes(axis)[b];
   }
   return segment;
 }

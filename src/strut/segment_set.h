@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Segments that are stored for long and drawn often: in single precision, relative to an origin
-// near by, component by component so that vectors of them can be read at once, and in runs of
-// neighbours, each with a box.
+// near by, each end once however many segments share it, and in runs of neighbours with a box each.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,35 +18,51 @@ struct FloatSegment {
 
 class SegmentSet {
  public:
+  using Node = std::array<float, 3>;
+
   SegmentSet() = default;
-  /// Run i holds the segments from starts[i] to starts[i + 1], the last one those from its start to
-  /// the end.
+  /// Segment i joins nodes[ends[i][0]] and nodes[ends[i][1]]. Run i holds the segments from
+  /// starts[i] to starts[i + 1], the last one those from its start to the end.
+  SegmentSet(const std::vector<Node>& nodes, const std::vector<std::array<uint32_t, 2>>& ends,
+             const std::vector<uint32_t>& starts);
+  /// The same of segments that share no nodes.
   SegmentSet(const std::vector<FloatSegment>& segments, const std::vector<uint32_t>& starts);
 
   size_t count() const { return count_; }
   FloatSegment at(size_t i) const;
-  /// Component 0 to 5 (a.x, a.y, a.z, b.x, b.y, b.z) of all; a vector may be read at any of them.
-  const float* component(int c) const {
-    return components_.data() + static_cast<size_t>(c) * count_;
+
+  /// Coordinates of the nodes.
+  const float* nodes(int axis) const {
+    return nodes_.data() + static_cast<size_t>(axis) * node_count_;
   }
+  /// First or second ends of all segments, as numbers of nodes, of 16 or 32 bits; a vector may be
+  /// read at any of them.
+  bool is_wide() const { return node_count_ > 0x10000; }
+  const uint16_t* narrow_ends(size_t end) const { return narrow_.data() + end * count_; }
+  const uint32_t* wide_ends(size_t end) const { return wide_.data() + end * count_; }
 
   size_t runs() const { return starts_.empty() ? 0 : starts_.size() - 1; }
   size_t run_start(size_t run) const { return starts_[run]; }
   size_t run_end(size_t run) const { return starts_[run + 1]; }
-  /// Bound 0 to 5 (least x, y, z, greatest x, y, z) of all runs; a vector may be read at any.
+  /// Bound 0 to 5 (least x, y, z, greatest x, y, z) of all runs.
   const float* bound(int b) const { return bounds_.data() + static_cast<size_t>(b) * runs(); }
 
   uint64_t bytes() const {
-    return (components_.capacity() + bounds_.capacity()) * sizeof(float) +
-           starts_.capacity() * sizeof(uint32_t);
+    return (nodes_.capacity() + bounds_.capacity()) * sizeof(float) +
+           narrow_.capacity() * sizeof(uint16_t) +
+           (wide_.capacity() + starts_.capacity()) * sizeof(uint32_t);
   }
 
  private:
-  static constexpr size_t padding = 2 * most_simd_doubles;  // floats of the widest vector
+  static constexpr size_t padding = 2 * most_simd_doubles;  // lanes of the widest vector of floats
 
-  size_t count_ = 0;
-  std::vector<float> components_, bounds_;  // one array after the other, then the padding
-  std::vector<uint32_t> starts_;            // and the end of the last run
+  void set_bounds();
+
+  size_t count_ = 0, node_count_ = 0;
+  std::vector<float> nodes_, bounds_;  // one array after the other
+  std::vector<uint16_t> narrow_;       // likewise, then the padding
+  std::vector<uint32_t> wide_;
+  std::vector<uint32_t> starts_;  // and the end of the last run
 };
 
 }  // namespace msq

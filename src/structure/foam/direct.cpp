@@ -28,13 +28,11 @@ void add_brick(const Foam& foam, const EdgeBrick& brick, CellIndex corner, const
                StrutRows& rows) {
   const Neighbourhood& grid = foam.neighbourhood();
   const double unit = foam.unit();
-  const Vec3 first_cell =
-      Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size;
-  const Vec3 origin = grid.from_grid(first_cell);
-  const Box3 from_brick{(reach.min - first_cell) * (1 / unit),
-                        (reach.max - first_cell) * (1 / unit)};
+  const Vec3 origin = Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
+                      brick.origin() * unit;
+  const Box3 from_brick{(reach.min - origin) * (1 / unit), (reach.max - origin) * (1 / unit)};
   const Box3 wanted = from_brick.grown(edge_error);
-  SegmentFrame frame{origin, grid.rotation.m};
+  SegmentFrame frame{grid.from_grid(origin), grid.rotation.m};
   for (double& m : frame.matrix) m *= unit;
   rows.add(brick.segments(), frame, wanted);
 }
@@ -54,13 +52,14 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
     return graded ? foam.Structure::keep_rows(block, job)
                   : foam_keep_rows_by_point(foam, block, job);
   const int side = graded ? graded->brick_side() : EdgeBrick::side;
+  const int lead = graded ? 0 : EdgeBrick::lead;
   // An edge that touches the reach has a point in it, and its owner within the empty radius of
   // that.
   const double owner_distance = foam.seeds().empty_radius() * unit * (1 + 1e-9);
   int64_t first[3], last[3];
   for (int axis = 0; axis < 3; ++axis) {
     const auto brick = [&](double g) {
-      return static_cast<int64_t>(std::floor(g / (grid.cell_size[axis] * side)));
+      return static_cast<int64_t>(std::floor((g / grid.cell_size[axis] + lead) / side));
     };
     first[axis] = brick(reach.min[axis] - owner_distance);
     last[axis] = brick(reach.max[axis] + owner_distance);
@@ -69,8 +68,9 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
     for (int64_t j = first[1]; j <= last[1]; ++j)
       for (int64_t i = first[0]; i <= last[0]; ++i) {
         check_cancelled(job);
-        const CellIndex corner{static_cast<int32_t>(i * side), static_cast<int32_t>(j * side),
-                               static_cast<int32_t>(k * side)};
+        const CellIndex corner{static_cast<int32_t>(i * side - lead),
+                               static_cast<int32_t>(j * side - lead),
+                               static_cast<int32_t>(k * side - lead)};
         if (graded && !graded->may_own_edges(corner, reach)) continue;
         const auto brick = foam.context().cache.fetch(foam.id(), corner, [&] {
           return graded ? graded_edge_brick(foam.graded(), corner)

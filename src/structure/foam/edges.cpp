@@ -7,6 +7,7 @@
 #include "structure/foam/edges.h"
 
 #include <algorithm>
+#include <array>
 
 #include "structure/foam/edge_line.h"
 #include "structure/foam/seed_block.h"
@@ -23,16 +24,27 @@ constexpr double first_distance_squared = 4.75;
 /// Works for one brick after another, in memory that it keeps.
 class EdgeBuilder {
  public:
-  void move_to(const FoamSeeds& seeds, CellIndex corner) {
-    block_.move_to(seeds, corner, EdgeBrick::side, first_distance_squared);
+  /// Nodes are relative to `origin`, which is from the brick's corner.
+  SegmentSet build(const FoamSeeds& seeds, CellIndex corner, Vec3 origin) {
+    constexpr int side = EdgeBrick::side;
+    block_.move_to(seeds, corner, side, first_distance_squared);
     shared_.reset(block_);
     most_squared_ = 4 * seeds.empty_radius() * seeds.empty_radius();
+    ends_.clear();
+    starts_.clear();
+    for (int z = 0; z < side; ++z)
+      for (int y = 0; y < side; ++y) {
+        starts_.push_back(static_cast<uint32_t>(ends_.size()));
+        for (int x = 0; x < side; ++x) add_owned_edges(block_.index(x, y, z));
+      }
+    number_nodes(origin);
+    return SegmentSet(nodes_, ends_, starts_);
   }
 
-  /// Appends the edges that a seed owns; seeds in the order of their cells.
-  void add_owned_edges(int x, int y, int z, std::vector<FoamEdge>& edges) {
-    const size_t own = block_.index(x, y, z);
-    const double needed = std::max(first_distance_squared, shared_.needed(block_, own));
+ private:
+  /// Seeds come in the order of their cells.
+  void add_owned_edges(size_t own) {
+    const double needed = std::max(first_distance_squared, shared_.needed(own));
     for (double d2 = std::min(needed, most_squared_);;) {
       const uint32_t before = static_cast<uint32_t>(block_.refill(cell_, own, d2));
       if (cell_.count() > VoronoiCell::most_planes) break;
@@ -41,32 +53,37 @@ class EdgeBuilder {
       // 1e-9: room for the rounding of vertices.
       if (d2 >= most_squared_ || 4 * cell_.radius_squared() * (1 + 1e-9) <= d2) {
         shared_.take(block_, own, before, cell_);
-        return add_edges(block_.position(own), before, edges);
+        const std::vector<uint32_t>& numbers = shared_.numbers();
+        // Planes are in the order of cells: those before the own come first.
+        cell_.for_each_edge(before, [&](size_t from, size_t to) {
+          ends_.push_back({numbers[from], numbers[to]});
+        });
+        return;
       }
       d2 = std::min(most_squared_, std::max(4 * cell_.radius_squared() * (1 + 1e-6), 1.25 * d2));
     }
-    add_by_definition(own, edges);
+    add_by_definition(own);
   }
 
- private:
-  static void put(Vec3 p, float* out) {
-    for (int axis = 0; axis < 3; ++axis) out[axis] = static_cast<float>(p[axis]);
-  }
-
-  /// Planes are in the order of cells: those before the own come first.
-  void add_edges(Vec3 seed, uint32_t before, std::vector<FoamEdge>& edges) {
-    float positions[VoronoiCell::most_vertices][3];
-    for (size_t v = 0; v < cell_.vertex_count(); ++v) put(seed + cell_.vertex(v), positions[v]);
-    cell_.for_each_edge(before, [&](size_t from, size_t to) {
-      FoamEdge edge;
-      std::copy_n(positions[from], 3, edge.a);
-      std::copy_n(positions[to], 3, edge.b);
-      edges.push_back(edge);
-    });
+  /// From numbers of all vertices found to those of the vertices that edges end at.
+  void number_nodes(Vec3 origin) {
+    constexpr uint32_t none = ~uint32_t{0};
+    node_.assign(shared_.count(), none);
+    nodes_.clear();
+    for (std::array<uint32_t, 2>& ends : ends_)
+      for (uint32_t& end : ends) {
+        if (node_[end] == none) {
+          node_[end] = static_cast<uint32_t>(nodes_.size());
+          const Vec3 p = shared_.position(end) - origin;
+          nodes_.push_back(
+              {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        }
+        end = node_[end];
+      }
   }
 
   /// Every pair of later neighbours, cut by all others.
-  void add_by_definition(size_t own, std::vector<FoamEdge>& edges) {
+  void add_by_definition(size_t own) {
     struct Neighbour {
       Vec3 position;  // relative to the own seed
       double distance_squared;
@@ -93,11 +110,9 @@ class EdgeBuilder {
         LineInterval part{-1e300, 1e300};
         for (size_t k = 0; k < count && line.holds(part); ++k)
           if (k != i && k != j) line.cut(neighbours[k].position, part);
-        if (!line.holds(part)) continue;
-        FoamEdge edge;
-        put(seed + line.at(part.low), edge.a);
-        put(seed + line.at(part.high), edge.b);
-        edges.push_back(edge);
+        if (line.holds(part))
+          ends_.push_back(
+              {shared_.take(seed + line.at(part.low)), shared_.take(seed + line.at(part.high))});
       }
     }
   }
@@ -106,27 +121,26 @@ class EdgeBuilder {
   SharedVertices shared_;
   VoronoiCell cell_;
   double most_squared_ = 0;
+  std::vector<std::array<uint32_t, 2>> ends_;  // numbers of shared_, later of nodes_
+  std::vector<uint32_t> starts_, node_;
+  std::vector<SegmentSet::Node> nodes_;
 };
 
 }  // namespace
 
-EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner) {
+EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner)
+    : origin_(seeds.scale() * (0.5 * side)) {
   thread_local EdgeBuilder builder;
-  thread_local std::vector<FoamEdge> edges;
-  std::vector<uint32_t> starts;
-  edges.clear();
-  builder.move_to(seeds, corner);
-  for (int z = 0; z < side; ++z)
-    for (int y = 0; y < side; ++y) {
-      starts.push_back(static_cast<uint32_t>(edges.size()));
-      for (int x = 0; x < side; ++x) builder.add_owned_edges(x, y, z, edges);
-    }
-  segments_ = SegmentSet(edges, starts);
+  segments_ = builder.build(seeds, corner, origin_);
 }
 
 std::vector<FoamEdge> EdgeBrick::edges() const {
   std::vector<FoamEdge> edges;
-  for (size_t i = 0; i < segments_.count(); ++i) edges.push_back(segments_.at(i));
+  for (size_t i = 0; i < segments_.count(); ++i) {
+    const FloatSegment s = segments_.at(i);
+    edges.push_back(
+        {origin_ + Vec3{s.a[0], s.a[1], s.a[2]}, origin_ + Vec3{s.b[0], s.b[1], s.b[2]}});
+  }
   return edges;
 }
 

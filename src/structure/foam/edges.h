@@ -13,31 +13,41 @@
 
 namespace msq {
 
-/// Ends in foam units from the corner of the brick's first cell, in single precision. Owners lie
-/// within the brick's 4 units and their edges within the empty radius, below 2, of them:
-/// coordinates stay below 8, roundings below 2^-22 in each and 4.2e-7 together. The rest of
+/// Foam units, from the corner of the brick's first cell.
+struct FoamEdge {
+  Vec3 a, b;
+};
+
+/// Segments are in single precision, from the middle of bricks of 8 cells and the corner of smaller
+/// ones. Owners lie within 4 units of that, and their edges within the empty radius, below 2, of
+/// owners: coordinates stay below 8, roundings below 2^-22 in each and 4.2e-7 together. The rest of
 /// edge_error is for the vertices themselves, in double precision.
-using FoamEdge = FloatSegment;
 constexpr double edge_error = 5e-7;
 
 /// The edges owned by the seeds of a brick of cells.
 class EdgeBrick final : public CellData {
  public:
-  static constexpr int side = 4;  ///< cells
+  /// Cells along each axis; and where bricks begin in space: `lead` before cell 0. Owners of edges
+  /// that come into a box are up to 2 cells (cubes) around it, so that boxes of 8 cells that begin
+  /// at multiples of 8, as those of whole parts and slabs often do, need few bricks.
+  static constexpr int side = 8, lead = 2;
 
   /// The brick whose first cell is `corner`.
   EdgeBrick(const FoamSeeds& seeds, CellIndex corner);
-  /// Of edges that are found another way, in runs as SegmentSet has them.
-  EdgeBrick(const std::vector<FoamEdge>& edges, const std::vector<uint32_t>& starts)
+  /// Of edges that are found another way, from the brick's corner, in runs as SegmentSet has them.
+  EdgeBrick(const std::vector<FloatSegment>& edges, const std::vector<uint32_t>& starts)
       : segments_(edges, starts) {}
 
-  /// In runs of the edges that a row of cells along x owns.
+  /// In runs of the edges that a row of cells along x owns; foam units, from origin().
   const SegmentSet& segments() const { return segments_; }
+  /// From the corner of the brick's first cell.
+  Vec3 origin() const { return origin_; }
   /// A copy, edge by edge.
   std::vector<FoamEdge> edges() const;
   uint64_t bytes() const override { return sizeof *this + segments_.bytes(); }
 
  private:
+  Vec3 origin_;
   SegmentSet segments_;
 };
 

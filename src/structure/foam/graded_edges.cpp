@@ -67,7 +67,7 @@ class CellBuilder {
   }
 
   /// Appends the edges that a seed owns.
-  void add_owned_edges(const LeafSeed& own, std::vector<FoamEdge>& edges) {
+  void add_owned_edges(const LeafSeed& own, std::vector<FloatSegment>& edges) {
     own_ = own;
     unit_ = 1.0 / (1 << own.level);
     gather();
@@ -75,7 +75,7 @@ class CellBuilder {
     if (!walk() && !clip()) try_pairs();
     for (const Edge& edge : edges_) {
       const Vec3 a = own.position + edge.from * unit_, b = own.position + edge.to * unit_;
-      FoamEdge& added = edges.emplace_back();
+      FloatSegment& added = edges.emplace_back();
       for (int axis = 0; axis < 3; ++axis) {
         added.a[axis] = static_cast<float>(a[axis]);
         added.b[axis] = static_cast<float>(b[axis]);
@@ -355,7 +355,7 @@ std::shared_ptr<const EdgeBrick> graded_edge_brick(const std::shared_ptr<const G
                                                    CellIndex corner) {
   thread_local CellBuilder builder;
   thread_local std::vector<LeafSeed> owners;
-  thread_local std::vector<FoamEdge> edges;
+  thread_local std::vector<FloatSegment> edges;
   builder.move_to(seeds, corner);
   owners.clear();
   edges.clear();

@@ -58,11 +58,16 @@ void planes_within(const SeedBlock::Fractions& fractions, const SeedBlock::Stret
     hn::StoreU(compressed(nx), d, planes.x + count);
     hn::StoreU(compressed(ny), d, planes.y + count);
     hn::StoreU(compressed(nz), d, planes.z + count);
-    hn::StoreU(compressed(hn::Mul(d2, half)), d, planes.offset + count);
     hn::StoreU(compressed(seed), du, planes.seed + count);
     count += hn::CountTrue(d, within);
   }
   planes.count = count;
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto nx = hn::LoadU(d, planes.x + i), ny = hn::LoadU(d, planes.y + i),
+               nz = hn::LoadU(d, planes.z + i);
+    const auto d2 = hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz)));
+    hn::StoreU(hn::Mul(d2, half), d, planes.offset + i);
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,6 +4,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "base/simd.h"
 #include "structure/foam/voronoi_cell.h"
 
@@ -251,6 +253,13 @@ struct Walk {
   }
 };
 
+/// Sets the bits of the planes of vertices from number `first` on.
+HWY_INLINE void mark_planes(const VoronoiCell::Graph& graph, size_t first, uint64_t (&bits)[2]) {
+  for (size_t v = first; v < graph.count; ++v)
+    for (const uint8_t plane : graph.vertices[v].plane)
+      bits[plane >> 6] |= uint64_t{1} << (plane & 63);
+}
+
 /// From `known` vertices of the graph, or from none.
 template <int known_vectors, class T>
 bool walk(const PlaneArrays<T>& planes, size_t plane_count, size_t known,
@@ -264,13 +273,8 @@ bool walk(const PlaneArrays<T>& planes, size_t plane_count, size_t known,
   if (!walk.template go_on<known_vectors>()) return false;
   graph.count = walk.count;
   uint64_t used[2] = {0, 0};
-  for (size_t v = 0; v < graph.count; ++v)
-    for (int i = 0; i < 3; ++i) {
-      const uint32_t plane = graph.vertices[v].plane[i];
-      used[plane >> 6] |= uint64_t{1} << (plane & 63);
-    }
-  const size_t faces =
-      static_cast<size_t>(__builtin_popcountll(used[0]) + __builtin_popcountll(used[1]));
+  mark_planes(graph, 0, used);
+  const size_t faces = static_cast<size_t>(std::popcount(used[0]) + std::popcount(used[1]));
   return graph.count == 2 * faces - 4;
 }
 
@@ -337,13 +341,13 @@ bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, Vorono
   }
   alignas(64) double x[VoronoiCell::most_planes], y[VoronoiCell::most_planes],
       z[VoronoiCell::most_planes], offset[VoronoiCell::most_planes];
-  for (size_t i = 0; i < count; ++i) {
+  const auto fill = [&](size_t i) {
     const Vec3 normal = seeds[planes.seed[i]] - own;
     x[i] = normal.x;
     y[i] = normal.y;
     z[i] = normal.z;
     offset[i] = 0.5 * dot(normal, normal);
-  }
+  };
   const PlaneArrays<float> single{planes.x, planes.y, planes.z, planes.offset, padded};
   const PlaneArrays<double> full{x, y, z, offset, padded};
 
@@ -351,11 +355,18 @@ bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, Vorono
   constexpr double most_beyond = 1e-10;
   const auto beyond = [&](const Vec3& p) {
     double most = 0;
-    for (size_t i = 0; i < count; ++i)
-      most = std::max(most, x[i] * p.x + y[i] * p.y + z[i] * p.z - offset[i]);
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3 normal = seeds[planes.seed[i]] - own;
+      most = std::max(most, dot(normal, p) - 0.5 * dot(normal, normal));
+    }
     return most;
   };
   const auto is_right = [&](size_t known) {
+    uint64_t used[2] = {0, 0};
+    mark_planes(graph, known, used);
+    for (size_t half = 0; half < 2; ++half)
+      for (uint64_t rest = used[half]; rest; rest &= rest - 1)
+        fill(64 * half + static_cast<size_t>(std::countr_zero(rest)));
     const Placement placement = place_vertices(full, known, graph);
     radius_squared = placement.radius_squared;
     if (!(placement.off <= most_beyond)) return false;
@@ -392,12 +403,14 @@ bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, Vorono
     radius_squared = std::max(radius_squared, known_radius_squared);
     return true;
   }
+  for (size_t i = 0; i < count; ++i) fill(i);
   for (size_t i = count; i < padded; ++i) {
     x[i] = y[i] = z[i] = 0;
     offset[i] = 1;
   }
   if (!walk<0>(full, count, 0, graph) || !is_right(0)) return false;
-  graph.known = graph.count;
+  graph.known = 0;
+  graph.found_anew = true;
   return true;
 }
 
@@ -431,6 +444,7 @@ void VoronoiCell::add(Vec3 neighbour) {
 VoronoiCell::Planes& VoronoiCell::refill(const Vec3* seeds, Vec3 own) {
   planes_.count = 0;
   graph_.known = 0;
+  graph_.found_anew = false;
   seeds_ = seeds;
   own_ = own;
   return planes_;

@@ -40,7 +40,8 @@ class VoronoiCell {
   struct Graph {
     Vertex vertices[most_vertices];
     size_t count = 0, known = 0;  // in all, and before the walk
-    std::vector<uint16_t> ends;   // of half-edge (a, b): epoch << 8 | vertex
+    bool found_anew = false;
+    std::vector<uint16_t> ends;  // of half-edge (a, b): epoch << 8 | vertex
     uint32_t epoch = 0;
 
     uint32_t end(uint32_t a, uint32_t b) const { return ends[a * most_planes + b] & 0xff; }
@@ -69,6 +70,10 @@ class VoronoiCell {
   /// cannot cut the cell.
   double radius_squared() const { return radius_squared_; }
 
+  /// After walk(): whether it came to its end in double precision only. Then it found all vertices
+  /// anew, also those that were known.
+  bool found_anew() const { return graph_.found_anew; }
+
   /// After walk(): relative to the seed.
   size_t vertex_count() const { return graph_.count; }
   Vec3 vertex(size_t i) const { return graph_.vertices[i].position; }
@@ -79,8 +84,8 @@ class VoronoiCell {
   void for_each_edge(uint32_t first, Visit&& visit) const;
 
   /// After walk(): visit(planes, position) for the vertices that were not known before, with the
-  /// numbers of their three planes, anticlockwise as seen from outside. A walk that came to its end
-  /// in double precision only has none: it found all anew.
+  /// numbers of their three planes, anticlockwise as seen from outside. They follow the known ones
+  /// in the order of vertex().
   template <class Visit>
   void for_each_new_vertex(Visit&& visit) const {
     for (size_t v = graph_.known; v < graph_.count; ++v)
