@@ -189,7 +189,7 @@ void test_random_boxes(void**) {
   Outcome outcome;
   Random random(11);
   for (size_t n = test_count(150); n > 0; --n) {
-    Vec3 scale{random.between(0.4, 1), random.between(0.4, 1), random.between(0.4, 1)};
+    Vec3 scale{random.between(0.25, 1), random.between(0.25, 1), random.between(0.25, 1)};
     scale[static_cast<int>(random.below(3))] = 1;
     if (n % 3 == 0) scale = {1, 1, 1};
     const FoamSeeds foam(random.bits(), random.between(0.1, 1), scale);
@@ -199,10 +199,19 @@ void test_random_boxes(void**) {
   report("random boxes", outcome);
 }
 
+/// More seeds about a cell than VoronoiCell has room for.
+void test_flat_cells(void**) {
+  Outcome outcome;
+  Random random(12);
+  for (const Vec3 scale : {Vec3{1, 1, 0.25}, Vec3{1, 0.25, 0.25}, Vec3{0.25, 1, 0.5}})
+    for (double jitter : {1.0, 0.1}) compare({random.bits(), jitter, scale}, {7, -3, 1}, outcome);
+  report("flat cells", outcome);
+}
+
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_fixed_box),
-                              cmocka_unit_test(test_random_boxes)};
+  const CMUnitTest tests[] = {cmocka_unit_test(test_fixed_box), cmocka_unit_test(test_random_boxes),
+                              cmocka_unit_test(test_flat_cells)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -37,6 +37,18 @@ class ClippedCell {
   const std::vector<Vertex>& vertices() const { return vertices_; }
   size_t made() const { return made_; }
 
+  /// visit(v, w) for the edges, from vertex v to vertex w, between two planes that both
+  /// wanted(plane).
+  template <class Wanted, class Visit>
+  void for_each_edge(Wanted&& wanted, Visit&& visit) const {
+    for (const Vertex& vertex : vertices_)
+      for (int i = 0; vertex.is_there && i < 3; ++i) {
+        const uint32_t a = vertex.plane[i], b = vertex.plane[(i + 1) % 3];
+        if (a < b && wanted(a) && wanted(b))
+          visit(vertex.position, vertices_[vertex.next[i]].position);
+      }
+  }
+
   /// By how much a vertex v may be beyond a plane: a part of |v|^2 or of 1.
   static constexpr double tolerance = 1e-12;
 

@@ -2,13 +2,16 @@
 // Each seed's Voronoi cell is found by a walk (voronoi_cell.h) among the seeds within some distance
 // D of it. It is the true cell if its farthest vertex is within D / 2: a seed farther than D is
 // farther than twice any vertex, and cuts nothing. If not, D grows, up to twice the empty radius,
-// beyond which no seed can matter. Where the walk fails (seeds on one sphere, low jitter), every
-// pair of neighbours is tried by the definition itself (edge_line.h), which needs no graph.
+// beyond which no seed can matter. Where it has no room (cells so flat or long that too many seeds
+// are within D) or fails (seeds on one sphere, low jitter), the cell is cut plane by plane
+// (clipped_cell.h). Where rounding defeats that too, every pair of neighbours is tried by the
+// definition itself (edge_line.h), which needs no graph.
 #include "structure/foam/edges.h"
 
 #include <algorithm>
 #include <array>
 
+#include "structure/foam/clipped_cell.h"
 #include "structure/foam/edge_line.h"
 #include "structure/foam/seed_block.h"
 #include "structure/foam/shared_vertices.h"
@@ -29,7 +32,8 @@ class EdgeBuilder {
     constexpr int side = EdgeBrick::side;
     block_.move_to(seeds, corner, side, first_distance_squared);
     shared_.reset(block_);
-    most_squared_ = 4 * seeds.empty_radius() * seeds.empty_radius();
+    empty_radius_ = seeds.empty_radius();
+    most_squared_ = 4 * empty_radius_ * empty_radius_;
     ends_.clear();
     starts_.clear();
     for (int z = 0; z < side; ++z)
@@ -62,7 +66,7 @@ class EdgeBuilder {
       }
       d2 = std::min(most_squared_, std::max(4 * cell_.radius_squared() * (1 + 1e-6), 1.25 * d2));
     }
-    add_by_definition(own);
+    if (!add_by_cuts(own)) add_by_definition(own);
   }
 
   /// From numbers of all vertices found to those of the vertices that edges end at.
@@ -82,25 +86,60 @@ class EdgeBuilder {
       }
   }
 
-  /// Every pair of later neighbours, cut by all others.
-  void add_by_definition(size_t own) {
-    struct Neighbour {
-      Vec3 position;  // relative to the own seed
-      double distance_squared;
-      bool after;
-    };
+  struct Neighbour {
+    Vec3 position;  // relative to the own seed
+    double distance_squared;
+    bool after;
+  };
+
+  /// Fills neighbours_ with all that may matter, by distance.
+  void find_neighbours(size_t own) {
     const Vec3 seed = block_.position(own);
-    std::vector<Neighbour> neighbours;
+    neighbours_.clear();
     for (size_t i = 0; i < block_.positions().size(); ++i) {
       const Vec3 d = block_.position(i) - seed;
       const double squared = dot(d, d);
       if (i != own && squared <= most_squared_ * (1 + 1e-9))
-        neighbours.push_back({d, squared, i > own});
+        neighbours_.push_back({d, squared, i > own});
     }
-    const size_t count = neighbours.size();
-    std::sort(neighbours.begin(), neighbours.end(), [](const Neighbour& a, const Neighbour& b) {
+    std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& a, const Neighbour& b) {
       return a.distance_squared < b.distance_squared;
     });
+  }
+
+  /// By neighbours from near to far, until no vertex is farther than half the distance. False, and
+  /// nothing is appended, if that cannot be done.
+  bool add_by_cuts(size_t own) {
+    find_neighbours(own);
+    // No point of the cell is farther than the empty radius from the seed: the cube takes nothing.
+    clipped_.start(1.001 * empty_radius_);
+    double farthest_squared = most_squared_;
+    for (const Neighbour& n : neighbours_) {
+      if (n.distance_squared > 4 * farthest_squared * (1 + 1e-9)) break;
+      if (!clipped_.cut(n.position)) return false;
+      if (clipped_.made() == clipped_.vertices().size()) continue;
+      farthest_squared = 0;
+      for (const ClippedCell::Vertex& vertex : clipped_.vertices())
+        if (vertex.is_there)
+          farthest_squared = std::max(farthest_squared, dot(vertex.position, vertex.position));
+    }
+    const Vec3 seed = block_.position(own);
+    const auto is_after = [&](uint32_t plane) {
+      return plane >= ClippedCell::first_neighbour &&
+             neighbours_[plane - ClippedCell::first_neighbour].after;
+    };
+    clipped_.for_each_edge(is_after, [&](Vec3 from, Vec3 to) {
+      ends_.push_back({shared_.take(seed + from), shared_.take(seed + to)});
+    });
+    return true;
+  }
+
+  /// Every pair of later neighbours, cut by all others.
+  void add_by_definition(size_t own) {
+    find_neighbours(own);
+    const Vec3 seed = block_.position(own);
+    const std::vector<Neighbour>& neighbours = neighbours_;
+    const size_t count = neighbours.size();
     for (size_t i = 0; i < count; ++i) {
       if (!neighbours[i].after) continue;
       for (size_t j = i + 1; j < count; ++j) {
@@ -120,7 +159,10 @@ class EdgeBuilder {
   SeedBlock block_;
   SharedVertices shared_;
   VoronoiCell cell_;
-  double most_squared_ = 0;
+  ClippedCell clipped_;
+  std::vector<Neighbour> neighbours_;
+  double empty_radius_ = 0;
+  double most_squared_ = 0;                    // twice that, squared
   std::vector<std::array<uint32_t, 2>> ends_;  // numbers of shared_, later of nodes_
   std::vector<uint32_t> starts_, node_;
   std::vector<SegmentSet::Node> nodes_;

@@ -237,12 +237,7 @@ class CellBuilder {
       return plane >= ClippedCell::first_neighbour &&
              by_distance_[plane - ClippedCell::first_neighbour].order > own_.order;
     };
-    for (const ClippedCell::Vertex& vertex : clipped_.vertices())
-      for (int i = 0; vertex.is_there && i < 3; ++i) {
-        const uint32_t a = vertex.plane[i], b = vertex.plane[(i + 1) % 3];
-        if (a < b && is_after(a) && is_after(b))
-          edges_.push_back({vertex.position, clipped_.vertices()[vertex.next[i]].position});
-      }
+    clipped_.for_each_edge(is_after, [&](Vec3 from, Vec3 to) { edges_.push_back({from, to}); });
     return true;
   }
 
