@@ -34,10 +34,18 @@ static void new_cache_is_empty(void** state) {
   msq_context_release(context);
 }
 
+/* A foam in a box of 8 x 8 x 4 cells, of several bricks. */
+static msq_model* make_wide_foam_model(msq_context* context, int32_t method) {
+  const double low[3] = {0, 0, 0}, high[3] = {8, 8, 4};
+  msq_shape* box;
+  assert_ok(msq_shape_from_box(context, low, high, &box));
+  return make_model(context, box, make_foam(context, method), NULL);
+}
+
 /* Slices a foam and returns its layers. */
 static layer_stack slice_foam(msq_context* context, int32_t method) {
-  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 40, 40, 0.2);
-  msq_model* model = make_foam_model(context, method);
+  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 64, 64, 0.2);
+  msq_model* model = make_wide_foam_model(context, method);
   msq_slicer* slicer = make_slicer(model, &def);
   layer_stack stack = run_all(slicer, MSQ_LAYER_BITS);
   msq_slicer_release(slicer);
@@ -61,8 +69,8 @@ static void check_method(int32_t method) {
   assert_within_limit(&first);
 
   /* The same slicer again finds all its cells. */
-  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 40, 40, 0.2);
-  msq_model* model = make_foam_model(roomy, method);
+  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 64, 64, 0.2);
+  msq_model* model = make_wide_foam_model(roomy, method);
   msq_slicer* slicer = make_slicer(model, &def);
   layer_stack once = run_all(slicer, MSQ_LAYER_BITS);
   const msq_cache_report before = cache_of(roomy);
