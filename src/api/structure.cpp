@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fields and structures.
 #include "api/guard.h"
+#include "api/neighbourhood.h"
 #include "field/gradient.h"
 #include "structure/foam/delaunay.h"
 #include "structure/foam/foam.h"
@@ -12,15 +13,6 @@ using namespace msq::api;
 namespace {
 
 constexpr uint64_t most_custom = 4096;  // nodes or struts of a unit cell
-
-msq_neighbourhood neighbourhood_defaults() {
-  msq_neighbourhood grid{};
-  for (int i = 0; i < 3; ++i) {
-    grid.cell_size[i] = 1;
-    grid.rotation[4 * i] = 1;
-  }
-  return grid;
-}
 
 msq_lattice_def lattice_defaults() {
   msq_lattice_def def{};
@@ -35,55 +27,6 @@ msq_foam_def foam_defaults() {
   def.jitter = 1;
   def.density.value = 1;
   return def;
-}
-
-/// The rotation next to a matrix that is one within 1e-9: two Newton steps R (3 I - R^T R) / 2
-/// towards the orthogonal polar factor (Higham 1986), after which R^T is its inverse to the last
-/// bits. Exact rotations stay as they are.
-Rotation nearest_rotation(Rotation r) {
-  for (int step = 0; step < 2; ++step) {
-    Rotation next;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        double sum = 0;
-        for (int k = 0; k < 3; ++k) {
-          double product = 0;  // (R^T R) at k, j
-          for (int l = 0; l < 3; ++l) product += r.m[3 * l + k] * r.m[3 * l + j];
-          sum += r.m[3 * i + k] * ((k == j ? 3.0 : 0.0) - product);
-        }
-        next.m[3 * i + j] = 0.5 * sum;
-      }
-    r = next;
-  }
-  return r;
-}
-
-Neighbourhood read_neighbourhood(const msq_neighbourhood& grid) {
-  Neighbourhood read;
-  read.origin = require_vector(grid.origin, "grid.origin");
-  for (int i = 0; i < 3; ++i) {
-    require_positive(grid.cell_size[i], "grid.cell_size");
-    if (grid.cell_size[i] < 1e-100 || grid.cell_size[i] > 1e100)
-      fail(Status::argument, "grid.cell_size[%d] is %g; it must be from 1e-100 to 1e100", i,
-           grid.cell_size[i]);
-  }
-  read.cell_size = {grid.cell_size[0], grid.cell_size[1], grid.cell_size[2]};
-  for (int i = 0; i < 9; ++i)
-    read.rotation.m[i] = require_finite(grid.rotation[i], "grid.rotation");
-  const auto& m = read.rotation.m;
-  const Vec3 rows[3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) {
-      const double product = dot(rows[i], rows[j]), wanted = i == j;
-      if (!(std::abs(product - wanted) <= 1e-9))
-        fail(Status::argument,
-             "rows %d and %d of grid.rotation have product %.17g; a rotation has %g within 1e-9", i,
-             j, product, wanted);
-    }
-  if (dot(rows[0], cross(rows[1], rows[2])) < 0)
-    fail(Status::argument, "grid.rotation mirrors; its determinant must be +1");
-  read.rotation = nearest_rotation(read.rotation);
-  return read;
 }
 
 /// The radius of struts, at most `most_cells` of the smallest cell size.
