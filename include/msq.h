@@ -414,6 +414,72 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def *def, size_t size);
 MSQ_API msq_status msq_structure_foam(msq_context *context, const msq_foam_def *def,
                                       msq_structure **structure);
 
+enum { /* functions of functional structures; x, y, z: 2 pi times the position within the cell */
+  MSQ_FUNCTION_EXPRESSION = 0, /* the text of the definition */
+  MSQ_FUNCTION_GYROID = 1,     /* sin x cos y + sin y cos z + sin z cos x */
+  MSQ_FUNCTION_SCHWARZ_P = 2,  /* cos x + cos y + cos z */
+  MSQ_FUNCTION_DIAMOND = 3,    /* sin x sin y sin z + sin x cos y cos z + cos x sin y cos z
+                                  + cos x cos y sin z */
+  MSQ_FUNCTION_I_WP = 4,       /* 2 (cos x cos y + cos y cos z + cos z cos x)
+                                  - (cos 2x + cos 2y + cos 2z) */
+  MSQ_FUNCTION_NEOVIUS = 5,    /* 3 (cos x + cos y + cos z) + 4 cos x cos y cos z */
+  MSQ_FUNCTION_F_RD = 6,       /* 4 cos x cos y cos z
+                                  - (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) */
+  MSQ_FUNCTION_LIDINOID = 7,   /* 0.5 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y)
+                                  - 0.5 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) + 0.15 */
+  MSQ_FUNCTION_SPLIT_P = 8     /* 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x)
+                                  - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x)
+                                  - 0.4 (cos 2x + cos 2y + cos 2z) */
+};
+
+enum {
+  MSQ_FUNCTIONAL_NETWORK = 1, /* solid where the function is at most the level */
+  MSQ_FUNCTIONAL_SHEET = 2    /* solid where its magnitude is at most the level */
+};
+
+typedef struct msq_named_value {
+  const char *name; /* letters, digits and _, no digit first, and none that expressions know already */
+  double value;
+} msq_named_value;
+
+typedef struct msq_functional_def {
+  uint32_t struct_size;
+  int32_t function;       /* MSQ_FUNCTION_*; default GYROID */
+  int32_t kind;           /* MSQ_FUNCTIONAL_*; default NETWORK */
+  uint32_t clusters;      /* parts along each axis into which the cell is divided to answer whole
+                             blocks at once: 1 (none) to 64; 0 (default): as many as pay. Same
+                             results at any number */
+  msq_neighbourhood grid; /* one period a cell */
+  msq_param level;        /* a number as the function gives it, not a length (default 0); of a sheet:
+                             constant > 0, field nowhere negative nor 0 everywhere */
+  const char *expression; /* EXPRESSION: text as below; else NULL */
+  const msq_named_value *parameters; /* EXPRESSION: parameter_count names that it may use */
+  uint64_t parameter_count;          /* at most 1024 */
+} msq_functional_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_functional_def_init(msq_functional_def *def, size_t size);
+
+/* Functional structure: the points where a function of the position within the cell is at most the
+ * level. def may not be NULL.
+ *
+ * Expressions are made of numbers, pi, parameters, x, y, z, + - * / ^, brackets, and pow(a, b),
+ * min(a, b), max(a, b), abs, sqrt, sin, cos, exp and log (natural). ^ binds tighter than a sign
+ * before it and groups to the right. x, y and z are angles, 2 pi times the position within the cell
+ * in cell sizes, 0 to 2 pi: a function that does not repeat by itself is made to, and jumps at the
+ * cell's border. Powers with whole constant exponents up to 65536 are products; others exp(b log(a)), so
+ * of a > 0. Where the value is no number (as sqrt(-1), 0 / 0) the point is outside. At most 4096 bytes,
+ * 100 brackets, signs and exponents within each other, 1024 different operations.
+ *
+ * Functions are computed of IEEE operations alone, not by the C library: the same bits on every machine.
+ * Cost: clusters^3 evaluations in intervals (milliseconds by default, a second at most).
+ * Errors: ARGUMENT (for expressions the message has the position, from 1, and the reason), LIMIT (expressions
+ * too long, too deep, with too many operations), MEMORY.
+ * Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and
+ * Nesper 1991. */
+MSQ_API msq_status msq_structure_functional(msq_context *context, const msq_functional_def *def,
+                                            msq_structure **structure);
+
 MSQ_API void msq_structure_retain(msq_structure *structure);
 MSQ_API void msq_structure_release(msq_structure *structure);
 

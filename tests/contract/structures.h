@@ -11,6 +11,9 @@
 #include "msq_test.h"
 #include "structure/foam/delaunay.h"
 #include "structure/foam/foam.h"
+#include "structure/functional/functional.h"
+#include "structure/functional/parser.h"
+#include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
 
 namespace msq::test {
@@ -26,7 +29,7 @@ using Factory = std::function<Ref<const Structure>(const Neighbourhood&, Paramet
 struct Kind {
   std::string family;  ///< counts of samples hold for all rows of a family together
   std::string name;
-  double radius;  ///< in units of the largest cell size
+  double radius;  ///< in units of the largest cell size; of functional structures the level
   double jitter;  ///< of foams; lattices: 1, as they have no ties that the methods may split
   Factory make;
 };
@@ -97,6 +100,14 @@ inline Factory graded_foam_factory(double jitter) {
   };
 }
 
+/// The radius of the suite stands for the level.
+inline Factory functional_factory(const char* expression, FunctionalKind kind, int clusters) {
+  const Tape tape = parse_expression(expression, {});
+  return [=](const Neighbourhood& grid, Parameter level) {
+    return Ref<const Structure>(make_ref<Functional>(grid, tape, kind, std::move(level), clusters));
+  };
+}
+
 /// Skew struts that start and end on faces, edges and corners of the cell, one that joins two
 /// cells' worth of nodes, and one alone in the middle.
 inline UnitCell skew_unit_cell() {
@@ -118,6 +129,17 @@ inline std::vector<Kind> kinds() {
       {"skew", "thin", 0.05, 1, lattice_factory(skew_unit_cell())},
       {"skew", "beyond its cell", 0.21, 1, lattice_factory(skew_unit_cell())},
   };
+  // A sum with the tables of a row, one of them with its magnitude taken, and what is none.
+  const FunctionalKind network = FunctionalKind::network, sheet = FunctionalKind::sheet;
+  const char* const choice =
+      "min(sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x), sqrt(4+cos(x)+cos(y)*cos(z))-2)";
+  kinds.push_back({"functional", "gyroid", 0.2, 1,
+                   functional_factory(preset_expressions[0], network, 0)});
+  kinds.push_back({"functional", "split P sheet", 0.1, 1,
+                   functional_factory(preset_expressions[7], sheet, 0)});
+  kinds.push_back({"functional", "choice", 0.15, 1, functional_factory(choice, network, 0)});
+  kinds.push_back({"functional", "choice sheet, few clusters", 0.1, 1,
+                   functional_factory(choice, sheet, 3)});
   struct Method {
     const char* family;
     FoamMethod method;

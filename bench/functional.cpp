@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functional structures in the unit cube, layers as bits.
+//
+// usage: functional [results.json] [largest slices, default 2048]
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "bench.h"
+
+namespace {
+
+constexpr const char* gyroid = "sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)";
+/// No sum of products: comparisons, a root and an exponential.
+constexpr const char* blend =
+    "min(sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x), sqrt(4+cos(x)+cos(y)*cos(z))-2)"
+    "+0.1*exp(sin(x)*sin(y)*sin(z))";
+
+struct Setting {
+  int cells = 32;
+  const char* expression = nullptr;  // NULL: the gyroid of the library
+  bool is_graded = false, is_turned = false;
+  uint32_t clusters = 0;
+  int32_t kind = MSQ_FUNCTIONAL_NETWORK;
+  double level = 0;
+};
+
+/// Seconds for the first `layers` of resolution^3 samples, on two threads.
+double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layers) {
+  msq_context_def context_def;
+  bench::check(msq_context_def_init(&context_def, sizeof context_def));
+  context_def.threads = 2;
+  msq_context* context;
+  bench::check(msq_context_create(&context_def, &context));
+  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
+  msq_shape* cube;
+  bench::check(msq_shape_from_box(context, low, high, &cube));
+  msq_functional_def def;
+  bench::check(msq_functional_def_init(&def, sizeof def));
+  if (setting.expression) {
+    def.function = MSQ_FUNCTION_EXPRESSION;
+    def.expression = setting.expression;
+  }
+  def.kind = setting.kind;
+  def.clusters = setting.clusters;
+  def.level.value = setting.level;
+  for (double& size : def.grid.cell_size) size = 1.0 / setting.cells;
+  if (setting.is_turned) {
+    // About two axes.
+    const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(0.4), t = std::sin(0.4);
+    const double turn[9] = {c, -s * d, s * t, s, c * d, -c * t, 0, t, d};
+    for (int i = 0; i < 9; ++i) def.grid.rotation[i] = turn[i];
+  }
+  msq_field* field = nullptr;
+  if (setting.is_graded) {
+    const double from[3] = {0, 0, 0}, to[3] = {1, 0.5, 0.25};
+    bench::check(msq_field_gradient(context, from, -0.8, to, 0.8, &field));
+    def.level.field = field;
+  }
+  msq_structure* structure;
+  bench::check(msq_structure_functional(context, &def, &structure));
+  const msq_scale_def scales[] = {{cube, nullptr}, {nullptr, structure}};
+  msq_model_def model_def;
+  bench::check(msq_model_def_init(&model_def, sizeof model_def));
+  model_def.scales = scales;
+  model_def.scale_count = 2;
+  msq_model* model;
+  bench::check(msq_model_create(context, &model_def, &model));
+  msq_slicer_def slicer_def;
+  bench::check(msq_slicer_def_init(&slicer_def, sizeof slicer_def));
+  slicer_def.resolution[0] = slicer_def.resolution[1] = resolution;
+  slicer_def.layer_height = 1.0 / resolution;
+  msq_slicer* slicer;
+  bench::check(msq_slicer_create(model, &slicer_def, &slicer));
+  bench::Reader reader;
+  const double seconds = bench::median_seconds([&] {
+    bench::check(msq_slicer_run(slicer, 0, layers, bench::Reader::take, &reader, nullptr));
+  });
+  msq_slicer_release(slicer);
+  msq_model_release(model);
+  msq_structure_release(structure);
+  msq_field_release(field);
+  msq_shape_release(cube);
+  msq_context_release(context);
+  return seconds;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  const uint32_t largest = count > 2 ? static_cast<uint32_t>(std::atoi(arguments[2])) : 2048;
+  bench::Report report("Functional structures, two threads");
+  const auto add = [&](const std::string& name, const Setting& setting, uint32_t resolution,
+                       uint64_t layers = UINT64_MAX) {
+    if (resolution > largest) return 0.0;
+    const double seconds = slice_seconds(setting, resolution, layers);
+    const double samples = double(resolution) * resolution *
+                           (layers == UINT64_MAX ? double(resolution) : double(layers));
+    report.add(name + ", " + std::to_string(resolution) + "^3" +
+                   (layers == UINT64_MAX ? "" : ", " + std::to_string(layers) + " layers"),
+               seconds, samples, "sample");
+    return seconds;
+  };
+  Setting setting;
+  add("gyroid, 32^3 cells", setting, 2048);
+  setting.cells = 256;
+  add("gyroid, 256^3 cells", setting, 2048);
+  setting.cells = 37;
+  add("gyroid, 37^3 cells, which no whole number of samples fills", setting, 2048);
+  setting.cells = 32;
+  setting.is_graded = true;
+  add("gyroid, 32^3 cells, graded level", setting, 2048);
+  setting.is_graded = false;
+  setting.is_turned = true;
+  add("gyroid, 32^3 cells, turned grid", setting, 2048, 256);
+  setting.is_turned = false;
+  setting.expression = gyroid;
+  add("gyroid as an expression, 32^3 cells", setting, 1024);
+  setting.expression = blend;
+  setting.cells = 9;
+  setting.level = 0.1;
+  const double with = add("expression with choices, 9^3 cells", setting, 512);
+  setting.clusters = 1;
+  const double without = add("the same without clusters", setting, 512);
+  if (with > 0) report.note("without clusters against with", without / with, "times");
+  report.write(count, arguments);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}

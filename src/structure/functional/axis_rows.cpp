@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every coordinate in the cell depends on one coordinate of the sample, to the last bit, so what a
+// tape computes from one coordinate is tabulated, and the tables hold the scalar evaluator's bits.
+// Where a tape is a sum of products with the tables, single precision decides all but the samples
+// within its error of the level (row_plan.cpp), which are asked one by one.
+#include "structure/functional/axis_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace msq {
+
+namespace {
+
+constexpr uint64_t most_group_rows = 16, most_group_layers = 8;
+static_assert(most_group_rows * most_group_layers <= batch_points);
+
+/// Samples in a cluster, along a row, above which clusters pay: where a sample costs as much as a
+/// few additions, whole words must be spared.
+constexpr double critical_linear = 32, critical_samples = 3;
+
+float at_most(double v) {
+  const float f = static_cast<float>(v);
+  return static_cast<double>(f) > v ? std::nextafter(f, -std::numeric_limits<float>::infinity())
+                                    : f;
+}
+float at_least(double v) {
+  return -at_most(-v);
+}
+
+double value_of(const Values& values, size_t i) {
+  return values.is_uniform ? *values.data : values.data[i];
+}
+
+}  // namespace
+
+AxisRows::AxisRows(const Functional& structure, const RowBlock& block)
+    : structure_(structure),
+      block_(block),
+      grid_(*block.grid),
+      words_(block.row_words()),
+      works_(structure.row_plans().size()) {
+  const Neighbourhood& cells = structure.neighbourhood();
+  const uint64_t first[3] = {0, block.y0, block.z0};
+  const uint64_t count[3] = {words_ * bits_per_word, block.rows(), block.layers()};
+  const auto& sample_axis = structure.sample_axis();
+  const double average_run =
+      cells.cell_size[static_cast<int>(std::find(sample_axis.begin(), sample_axis.end(), 0) -
+                                       sample_axis.begin())] /
+      (grid_.spacing.x * structure.clusters().side());
+  has_clusters_ =
+      structure.clusters().side() > 1 &&
+      average_run >= (structure.row_plans()[0].is_linear ? critical_linear : critical_samples);
+  for (int axis = 0; axis < 3; ++axis) {
+    // The other two coordinates do not matter.
+    std::vector<double> positions(count[axis] + batch_padding), angles[3];
+    for (uint64_t i = 0; i < count[axis]; ++i)
+      positions[i] = axis == 0   ? grid_.x(std::min(i, grid_.nx - 1))
+                     : axis == 1 ? grid_.y(first[1] + i)
+                                 : grid_.z(first[2] + i);
+    const double y = grid_.y(block.y0), z = grid_.z(block.z0);
+    const Values x_or = {axis == 0 ? positions.data() : &grid_.origin.x, axis != 0};
+    const Values y_or = {axis == 1 ? positions.data() : &y, axis != 1};
+    const Values z_or = {axis == 2 ? positions.data() : &z, axis != 2};
+    for (auto& a : angles) a.resize(count[axis] + batch_padding);
+    find_angles(cells, x_or, y_or, z_or, count[axis],
+                {angles[0].data(), angles[1].data(), angles[2].data()});
+    for (size_t a = 0; a < 3; ++a)
+      if (sample_axis[a] == axis) angles_[axis] = std::move(angles[a]);
+  }
+  if (structure.level().is_constant()) {
+    constant_level_ = structure.level().at({});
+    find_period();
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    numbers_[axis].resize(axis == 0 ? words_ * bits_per_word : count[axis]);
+    if (has_clusters_)
+      for (size_t i = 0; i < numbers_[axis].size(); ++i)
+        numbers_[axis][i] = structure.clusters().number(angles_[axis][i]);
+  }
+  const uint64_t columns = repeats_ ? words_ * bits_per_word : grid_.nx;
+  for (uint64_t i = 0; i < columns; ++i) {
+    if (i == 0 || numbers_[0][i] != columns_.back().cluster)
+      columns_.push_back({i, i, numbers_[0][i]});
+    columns_.back().end = i + 1;
+  }
+  certain_.resize(words_);
+  result_.resize(words_ + 1);
+  at_most_low_.resize(words_);
+  at_most_high_.resize(words_);
+}
+
+/// Rows whose angles repeat after some words are computed once and copied.
+void AxisRows::find_period() {
+  const std::vector<double>& angles = angles_[0];
+  for (size_t words = 1; 2 * words <= words_; ++words) {
+    const size_t period = words * bits_per_word;
+    if (angles[period] != angles[0]) continue;
+    bool is_period = true;
+    for (uint64_t i = period; i < grid_.nx && is_period; ++i)
+      is_period = angles[i] == angles[i - period];
+    if (!is_period) continue;
+    words_ = words;
+    repeats_ = true;
+    return;
+  }
+}
+
+void AxisRows::tabulate(Work& work) const {
+  const Program& program = work.plan.tables;
+  const size_t outputs = program.outputs.size(), columns = words_ * bits_per_word;
+  Batch batch(program);
+  work.tables.assign(outputs, std::vector<double>(columns + batch_padding));
+  for (size_t begin = 0; begin < columns; begin += batch_points) {
+    const size_t size = std::min(batch_points, columns - begin);
+    for (size_t a = 0; a < 3; ++a)
+      if (structure_.sample_axis()[a] == 0) batch.set_input(a, {angles_[0].data() + begin, false});
+    batch.run(size);
+    for (size_t o = 0; o < outputs; ++o) {
+      const Values values = batch.output(o);
+      for (size_t i = 0; i < size; ++i) work.tables[o][begin + i] = value_of(values, i);
+    }
+  }
+  work.has_tables = true;
+  if (!work.plan.is_linear) return;
+  for (const std::vector<double>& table : work.tables) {
+    work.float_tables.emplace_back(table.begin(), table.end());
+    work.float_pointers.push_back(work.float_tables.back().data());
+  }
+  work.low = {at_most(constant_level_ - work.plan.slack)};
+  work.high = {at_least(constant_level_ + work.plan.slack)};
+}
+
+Vec3 AxisRows::at(const Group& group, size_t row, uint64_t i) const {
+  const uint64_t rows = group.y1 - group.y0;
+  return grid_.at(i, group.y0 + row % rows, group.z0 + row / rows);
+}
+
+void AxisRows::keep(const Job* job) {
+  const auto end_of = [&](int axis, uint64_t begin, uint64_t first, uint64_t last, uint64_t most) {
+    uint64_t end = begin;
+    while (end < last && end - begin < most &&
+           numbers_[axis][end - first] == numbers_[axis][begin - first])
+      ++end;
+    return end;
+  };
+  for (Group group{0, 0, block_.z0, 0}; group.z0 < block_.z1; group.z0 = group.z1) {
+    check_cancelled(job);
+    group.z1 = end_of(2, group.z0, block_.z0, block_.z1, most_group_layers);
+    for (group.y0 = block_.y0; group.y0 < block_.y1; group.y0 = group.y1) {
+      group.y1 = end_of(1, group.y0, block_.y0, block_.y1, most_group_rows);
+      keep_group(group);
+    }
+  }
+}
+
+bool AxisRows::find_alive(const Group& group, uint64_t& first, uint64_t& last) const {
+  const size_t row_words = block_.row_words();
+  size_t low = row_words, high = 0;
+  for (uint64_t k = group.z0; k < group.z1; ++k)
+    for (uint64_t j = group.y0; j < group.y1; ++j) {
+      const uint64_t* row = block_.row(j, k);
+      for (size_t w = 0; w < low; ++w)
+        if (row[w]) low = w;
+      for (size_t w = row_words; w > std::max(high, low); --w)
+        if (row[w - 1]) high = w;
+    }
+  first = repeats_ ? 0 : low * bits_per_word;
+  last = repeats_ ? words_ * bits_per_word : std::min<uint64_t>(grid_.nx, high * bits_per_word);
+  return low < row_words;
+}
+
+void AxisRows::split(const Group& group, uint64_t first, uint64_t last) {
+  std::fill(certain_.begin(), certain_.end(), 0);
+  for (Work* work : used_) work->runs.clear();
+  used_.clear();
+  const auto add = [&](size_t tape, const Run& run) {
+    if (!works_[tape]) works_[tape] = std::make_unique<Work>(structure_.row_plans()[tape]);
+    Work& work = *works_[tape];
+    if (work.runs.empty()) used_.push_back(&work);
+    if (!work.runs.empty() && work.runs.back().end == run.begin)
+      work.runs.back().end = run.end;
+    else
+      work.runs.push_back(run);
+  };
+  if (!has_clusters_) return add(0, {first, last, 0});
+  int number[3] = {0, numbers_[1][group.y0 - block_.y0], numbers_[2][group.z0 - block_.z0]};
+  const auto& axis = structure_.sample_axis();
+  Interval level{constant_level_, constant_level_};
+  for (const Run& column : columns_) {
+    if (column.end <= first) continue;
+    if (column.begin >= last) break;
+    number[0] = column.cluster;
+    const Clusters::Cluster& cluster =
+        structure_.clusters().at(number[axis[0]], number[axis[1]], number[axis[2]]);
+    if (!structure_.level().is_constant())
+      level = structure_.level().range({grid_.at(column.begin, group.y0, group.z0),
+                                        grid_.at(column.end - 1, group.y1 - 1, group.z1 - 1)});
+    if (cluster.onset.low > level.high) continue;
+    if (cluster.onset.high <= level.low)
+      set_bits(certain_.data(), column.begin, column.end - 1);
+    else
+      add(cluster.tape, {std::max(first, column.begin), std::min(last, column.end), 0});
+  }
+}
+
+void AxisRows::prepare(Work& work, const Group& group) {
+  if (!work.has_tables) tabulate(work);
+  work.mask.assign(words_, 0);
+  for (const Run& run : work.runs) set_bits(work.mask.data(), run.begin, run.end - 1);
+  const uint64_t rows = group.y1 - group.y0;
+  std::vector<double> y(group.rows() + batch_padding), z(group.rows() + batch_padding);
+  for (size_t row = 0; row < group.rows(); ++row) {
+    y[row] = angles_[1][group.y0 - block_.y0 + row % rows];
+    z[row] = angles_[2][group.z0 - block_.z0 + row / rows];
+  }
+  for (size_t a = 0; a < 3; ++a) {
+    const int axis = structure_.sample_axis()[a];
+    work.rows.set_input(a, {axis == 2 ? z.data() : y.data(), false});
+  }
+  work.rows.run(group.rows());
+  if (work.plan.is_linear) {
+    work.words.clear();
+    for (uint32_t w = 0; w < words_; ++w)
+      if (work.mask[w]) work.words.push_back(w);
+    if (structure_.level().is_constant()) return;
+    const size_t chunks = words_ * bits_per_word / linear_chunk;
+    work.low.resize(chunks);
+    work.high.resize(chunks);
+    for (uint32_t w : work.words)
+      for (size_t c = w * bits_per_word / linear_chunk, end = c + bits_per_word / linear_chunk;
+           c < end; ++c) {
+        const uint64_t begin = std::min<uint64_t>(c * linear_chunk, grid_.nx - 1);
+        const uint64_t last = std::min<uint64_t>((c + 1) * linear_chunk, grid_.nx) - 1;
+        const Interval level = structure_.level().range(
+            {grid_.at(begin, group.y0, group.z0), grid_.at(last, group.y1 - 1, group.z1 - 1)});
+        work.low[c] = at_most(level.low - work.plan.slack);
+        work.high[c] = at_least(level.high + work.plan.slack);
+      }
+    return;
+  }
+  work.pieces.clear();
+  work.samples_at.clear();
+  for (const Run& run : work.runs)
+    for (uint64_t i = run.begin; i < run.end;) {
+      const uint64_t end = std::min(run.end, (i / bits_per_word + 1) * bits_per_word);
+      work.pieces.push_back({static_cast<uint32_t>(i / bits_per_word),
+                             static_cast<uint32_t>(i % bits_per_word),
+                             static_cast<uint32_t>(end - i), work.samples_at.size()});
+      for (; i < end; ++i) work.samples_at.push_back(i);
+    }
+  work.gathered.resize(work.tables.size());
+  for (size_t t = 0; t < work.tables.size(); ++t) {
+    work.gathered[t].resize(work.samples_at.size() + batch_padding);
+    for (size_t i = 0; i < work.samples_at.size(); ++i)
+      work.gathered[t][i] = work.tables[t][work.samples_at[i]];
+  }
+}
+
+void AxisRows::keep_group(const Group& group) {
+  uint64_t first, last;
+  if (!find_alive(group, first, last)) return;
+  split(group, first, last);
+  for (Work* work : used_) prepare(*work, group);
+  const uint64_t rows = group.y1 - group.y0;
+  const size_t row_words = block_.row_words();
+  for (size_t row = 0; row < group.rows(); ++row) {
+    uint64_t* words = block_.row(group.y0 + row % rows, group.z0 + row / rows);
+    if (std::all_of(words, words + row_words, [](uint64_t w) { return w == 0; })) continue;
+    std::copy(certain_.begin(), certain_.end(), result_.begin());
+    for (Work* work : used_) {
+      if (work->plan.is_linear)
+        decide_linear(*work, group, row);
+      else
+        decide_samples(*work, group, row);
+    }
+    for (size_t w = 0; w < row_words;)
+      for (size_t part = 0; part < words_ && w < row_words; ++part, ++w) words[w] &= result_[part];
+  }
+}
+
+void AxisRows::decide_linear(Work& work, const Group& group, size_t row) {
+  float coefficients[64];
+  const size_t terms = work.tables.size();
+  for (size_t t = 0; t < terms; ++t)
+    coefficients[t] = static_cast<float>(value_of(work.rows.output(t), row));
+  const LinearRow linear{work.float_pointers.data(), coefficients, terms,
+                         static_cast<float>(value_of(work.rows.output(terms), row)),
+                         work.plan.is_absolute};
+  compare_linear(linear, work.words.data(), work.words.size(), work.low.data(), work.high.data(),
+                 structure_.level().is_constant(), at_most_low_.data(), at_most_high_.data());
+  for (size_t n = 0; n < work.words.size(); ++n) {
+    const uint32_t w = work.words[n];
+    uint64_t in = at_most_low_[n];
+    for (uint64_t doubt = at_most_high_[n] & ~in & work.mask[w]; doubt; doubt &= doubt - 1) {
+      const uint64_t i = w * bits_per_word + static_cast<uint64_t>(std::countr_zero(doubt));
+      if (decide(work, linear, at(group, row, i), i)) in |= doubt & -doubt;
+    }
+    result_[w] |= in & work.mask[w];
+  }
+}
+
+bool AxisRows::decide(const Work& work, const LinearRow& row, Vec3 p, uint64_t i) const {
+  if (structure_.level().is_constant()) return structure_.inside(p);
+  float sum = row.constant;
+  for (size_t t = 0; t < row.terms; ++t) sum += row.tables[t][i] * row.coefficients[t];
+  if (row.is_absolute) sum = std::abs(sum);
+  const double level = structure_.level().at(p);
+  if (sum <= level - work.plan.slack) return true;
+  if (sum > level + work.plan.slack) return false;
+  return structure_.inside(p);
+}
+
+void AxisRows::decide_samples(Work& work, const Group& group, size_t row) {
+  const size_t tables = work.tables.size(), count = work.samples_at.size();
+  const size_t outputs = work.plan.rows.outputs.size();
+  for (size_t o = 0; o < outputs; ++o) {
+    const Values values = work.rows.output(o);
+    work.samples.set_input(tables + o, {values.is_uniform ? values.data : values.data + row, true});
+  }
+  const bool is_constant = structure_.level().is_constant();
+  levels_.resize(is_constant ? 1 : count + batch_padding);
+  if (is_constant)
+    levels_[0] = constant_level_;
+  else
+    for (size_t i = 0; i < count; ++i)
+      levels_[i] = structure_.level().at(at(group, row, work.samples_at[i]));
+  std::vector<uint64_t>& bits = at_most_low_;
+  bits.resize(std::max(bits.size(), words_ + 1));
+  for (size_t begin = 0; begin < count; begin += batch_points) {
+    const size_t size = std::min(batch_points, count - begin);
+    for (size_t t = 0; t < tables; ++t)
+      work.samples.set_input(t, {work.gathered[t].data() + begin, false});
+    work.samples.run(size);
+    compare_values(work.samples.output(0),
+                   {levels_.data() + (is_constant ? 0 : begin), is_constant}, size,
+                   bits.data() + begin / bits_per_word);
+  }
+  for (const Piece& piece : work.pieces) {
+    const size_t w = piece.from / bits_per_word, shift = piece.from % bits_per_word;
+    uint64_t part = bits[w] >> shift;
+    if (shift + piece.length > bits_per_word) part |= bits[w + 1] << (bits_per_word - shift);
+    part &= ~uint64_t{0} >> (bits_per_word - piece.length);
+    result_[piece.word] |= part << piece.shift;
+  }
+}
+
+}  // namespace msq

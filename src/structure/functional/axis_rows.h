@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of samples that run along an axis of a functional structure's grid.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "structure/functional/batch.h"
+#include "structure/functional/functional.h"
+
+namespace msq {
+
+class AxisRows {
+ public:
+  AxisRows(const Functional& structure, const RowBlock& block);
+
+  /// Clears the bits of samples that are outside.
+  void keep(const Job* job);
+
+ private:
+  /// Rows [y0, y1) of layers [z0, z1), in which y and z stay within a cluster each.
+  struct Group {
+    uint64_t y0, y1, z0, z1;
+    size_t rows() const { return (y1 - y0) * (z1 - z0); }
+  };
+  /// Samples [begin, end) of a row, within a cluster.
+  struct Run {
+    uint64_t begin, end;
+    int cluster;
+  };
+  /// Bits [shift, shift + length) of a word are the answers from number `from` on.
+  struct Piece {
+    uint32_t word, shift, length;
+    size_t from;
+  };
+  /// One of the structure's tapes: its tables, and the samples of a group that it decides.
+  struct Work {
+    explicit Work(const RowPlan& plan) : plan(plan), rows(plan.rows), samples(plan.samples) {}
+
+    const RowPlan& plan;
+    Batch rows, samples;
+    bool has_tables = false;
+    std::vector<std::vector<double>> tables;       // by position in the row
+    std::vector<std::vector<float>> float_tables;  // if linear
+    std::vector<const float*> float_pointers;
+
+    std::vector<uint64_t> mask;   // samples to decide
+    std::vector<Run> runs;        // the same
+    std::vector<uint32_t> words;  // if linear: words with such samples
+    std::vector<float> low, high;
+    // If not linear: the samples one after the other.
+    std::vector<Piece> pieces;
+    std::vector<uint64_t> samples_at;
+    std::vector<std::vector<double>> gathered;
+  };
+
+  void find_period();
+  void tabulate(Work& work) const;
+  void keep_group(const Group& group);
+  bool find_alive(const Group& group, uint64_t& first, uint64_t& last) const;
+  /// Splits the samples of a group's rows: certainly inside, certainly outside, to be decided.
+  void split(const Group& group, uint64_t first, uint64_t last);
+  void prepare(Work& work, const Group& group);
+  void decide_linear(Work& work, const Group& group, size_t row);
+  void decide_samples(Work& work, const Group& group, size_t row);
+  bool decide(const Work& work, const LinearRow& row, Vec3 p, uint64_t i) const;
+  Vec3 at(const Group& group, size_t row, uint64_t i) const;
+
+  const Functional& structure_;
+  const RowBlock& block_;
+  const SampleGrid& grid_;
+  bool has_clusters_ = false;
+  size_t words_;  // of a row that are computed; the others repeat them
+  bool repeats_ = false;
+  std::vector<double> angles_[3];  // by axis of the samples: of columns, of rows, of layers
+  std::vector<int> numbers_[3];    // of their clusters
+  std::vector<Run> columns_;       // a row's runs, by the cluster along it
+  std::vector<std::unique_ptr<Work>> works_;
+  std::vector<Work*> used_;  // in a group
+  std::vector<uint64_t> certain_, result_, at_most_low_, at_most_high_;
+  std::vector<double> levels_;
+  double constant_level_ = 0;
+};
+
+}  // namespace msq

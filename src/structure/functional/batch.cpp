@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "structure/functional/batch.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <cstring>
+
+#include "structure/functional/batch.h"
+#include "structure/functional/elementary-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace msq {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// One value in all lanes, or those from i on.
+template <bool is_uniform, class D>
+HWY_INLINE hn::Vec<D> load(D d, const double* data, size_t i) {
+  return is_uniform ? hn::Set(d, *data) : hn::LoadU(d, data + i);
+}
+
+template <Op op, bool a_uniform, bool b_uniform>
+HWY_INLINE void all_lanes(const double* a, const double* b, double* to, size_t count) {
+  const hn::ScalableTag<double> d;
+  const Lanes<hn::ScalableTag<double>> lanes;
+  for (size_t i = 0; i < count; i += hn::Lanes(d))
+    hn::StoreU(result<op>(lanes, load<a_uniform>(d, a, i), load<b_uniform>(d, b, i)), d, to + i);
+}
+
+void run_program(const Program& program, const Values* registers, double* const* to, size_t count) {
+  for (const Program::Instruction& instruction : program.code) {
+    const Values a = registers[instruction.a], b = registers[instruction.b];
+    double* out = to[instruction.to];
+    with_op(instruction.op, [&](auto which) HWY_ATTR {
+      constexpr Op op = decltype(which)::value;
+      if constexpr (has_one_operand(op)) {
+        if (a.is_uniform)
+          all_lanes<op, true, true>(a.data, a.data, out, count);
+        else
+          all_lanes<op, false, false>(a.data, a.data, out, count);
+      } else if (a.is_uniform) {
+        if (b.is_uniform)
+          all_lanes<op, true, true>(a.data, b.data, out, count);
+        else
+          all_lanes<op, true, false>(a.data, b.data, out, count);
+      } else if (b.is_uniform) {
+        all_lanes<op, false, true>(a.data, b.data, out, count);
+      } else {
+        all_lanes<op, false, false>(a.data, b.data, out, count);
+      }
+    });
+  }
+}
+
+/// The bits of a mask of lanes, at most 64.
+template <class D, class M>
+HWY_INLINE uint64_t bits_of(D d, M mask) {
+  uint64_t bits = 0;
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  std::memcpy(&bits, bytes, sizeof bits);
+  const size_t lanes = hn::Lanes(d);
+  return lanes >= 64 ? bits : bits & ((uint64_t{1} << lanes) - 1);
+}
+
+template <bool values_uniform, bool levels_uniform>
+HWY_INLINE void compare_lanes(const double* values, const double* levels, size_t count,
+                              uint64_t* bits) {
+  const hn::ScalableTag<double> d;
+  for (size_t word = 0; word * 64 < count; ++word) {
+    uint64_t all = 0;
+    for (size_t i = 0; i < 64 && word * 64 + i < count; i += hn::Lanes(d)) {
+      const size_t at = word * 64 + i;
+      all |= bits_of(d, hn::Le(load<values_uniform>(d, values, at),
+                               load<levels_uniform>(d, levels, at)))
+             << i;
+    }
+    bits[word] = all;
+  }
+}
+
+void compare_all(Values values, Values levels, size_t count, uint64_t* bits) {
+  if (values.is_uniform && levels.is_uniform)
+    compare_lanes<true, true>(values.data, levels.data, count, bits);
+  else if (values.is_uniform)
+    compare_lanes<true, false>(values.data, levels.data, count, bits);
+  else if (levels.is_uniform)
+    compare_lanes<false, true>(values.data, levels.data, count, bits);
+  else
+    compare_lanes<false, false>(values.data, levels.data, count, bits);
+}
+
+void angles_of_points(const Neighbourhood& grid, Values x, Values y, Values z, size_t count,
+                      double* const (&angles)[3]) {
+  const hn::ScalableTag<double> d;
+  const Values points[3] = {x, y, z};
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto from_origin = [&](int axis) HWY_ATTR {
+      const Values& v = points[axis];
+      return hn::Sub(v.is_uniform ? hn::Set(d, *v.data) : hn::LoadU(d, v.data + i),
+                     hn::Set(d, grid.origin[axis]));
+    };
+    const auto px = from_origin(0), py = from_origin(1), pz = from_origin(2);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto m = [&](int row) HWY_ATTR {
+        return hn::Set(d, grid.rotation.m[static_cast<size_t>(3 * row + axis)]);
+      };
+      const auto g = hn::Add(hn::Add(hn::Mul(m(0), px), hn::Mul(m(1), py)), hn::Mul(m(2), pz));
+      const auto c = hn::Div(g, hn::Set(d, grid.cell_size[axis]));
+      const auto fraction = hn::Sub(c, hn::Floor(c));
+      hn::StoreU(hn::Mul(fraction, hn::Set(d, two_pi)), d, angles[axis] + i);
+    }
+  }
+}
+
+template <size_t terms, bool has_one_level>
+HWY_INLINE void linear_words(const LinearRow& row, const uint32_t* words, size_t count,
+                             const float* low, const float* high, uint64_t* at_most_low,
+                             uint64_t* at_most_high) {
+  const hn::CappedTag<float, linear_chunk> d;
+  const size_t lanes = hn::Lanes(d);
+  const size_t all_terms = terms ? terms : row.terms;
+  const auto constant = hn::Set(d, row.constant);
+  const bool is_absolute = row.is_absolute;
+  for (size_t n = 0; n < count; ++n) {
+    const size_t begin = size_t{words[n]} * 64;
+    uint64_t in = 0, maybe = 0;
+    for (size_t i = 0; i < 64; i += lanes) {
+      auto sum = constant;
+      for (size_t t = 0; t < all_terms; ++t)
+        sum = hn::MulAdd(hn::LoadU(d, row.tables[t] + begin + i), hn::Set(d, row.coefficients[t]),
+                         sum);
+      if (is_absolute) sum = hn::Abs(sum);
+      const size_t chunk = has_one_level ? 0 : (begin + i) / linear_chunk;
+      in |= bits_of(d, hn::Le(sum, hn::Set(d, low[chunk]))) << i;
+      maybe |= bits_of(d, hn::Le(sum, hn::Set(d, high[chunk]))) << i;
+    }
+    at_most_low[n] = in;
+    at_most_high[n] = maybe;
+  }
+}
+
+template <bool has_one_level>
+HWY_INLINE void linear_row(const LinearRow& row, const uint32_t* words, size_t count,
+                           const float* low, const float* high, uint64_t* in, uint64_t* maybe) {
+  switch (row.terms) {
+    case 1:
+      return linear_words<1, has_one_level>(row, words, count, low, high, in, maybe);
+    case 2:
+      return linear_words<2, has_one_level>(row, words, count, low, high, in, maybe);
+    case 4:
+      return linear_words<4, has_one_level>(row, words, count, low, high, in, maybe);
+    default:
+      return linear_words<0, has_one_level>(row, words, count, low, high, in, maybe);
+  }
+}
+
+void linear(const LinearRow& row, const uint32_t* words, size_t count, const float* low,
+            const float* high, bool has_one_level, uint64_t* at_most_low, uint64_t* at_most_high) {
+  if (has_one_level)
+    linear_row<true>(row, words, count, low, high, at_most_low, at_most_high);
+  else
+    linear_row<false>(row, words, count, low, high, at_most_low, at_most_high);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace msq
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace msq {
+
+HWY_EXPORT(run_program);
+HWY_EXPORT(compare_all);
+HWY_EXPORT(angles_of_points);
+HWY_EXPORT(linear);
+
+Batch::Batch(const Program& program)
+    : program_(program),
+      temporaries_(program.temporaries * (batch_points + batch_padding)),
+      registers_(program.registers()),
+      targets_(program.registers()) {
+  for (size_t i = 0; i < program.constants.size(); ++i)
+    registers_[program.inputs + i] = {&program.constants[i], true};
+  const size_t first = program.inputs + program.constants.size();
+  for (size_t i = 0; i < program.temporaries; ++i) {
+    targets_[first + i] = temporaries_.data() + i * (batch_points + batch_padding);
+    registers_[first + i] = {targets_[first + i], false};
+  }
+}
+
+void Batch::run(size_t count) {
+  HWY_DYNAMIC_DISPATCH(run_program)(program_, registers_.data(), targets_.data(), count);
+}
+
+void compare_values(Values values, Values levels, size_t count, uint64_t* bits) {
+  HWY_DYNAMIC_DISPATCH(compare_all)(values, levels, count, bits);
+}
+
+void find_angles(const Neighbourhood& grid, Values x, Values y, Values z, size_t count,
+                 double* const (&angles)[3]) {
+  HWY_DYNAMIC_DISPATCH(angles_of_points)(grid, x, y, z, count, angles);
+}
+
+void compare_linear(const LinearRow& row, const uint32_t* words, size_t count, const float* low,
+                    const float* high, bool has_one_level, uint64_t* at_most_low,
+                    uint64_t* at_most_high) {
+  HWY_DYNAMIC_DISPATCH(linear)
+  (row, words, count, low, high, has_one_level, at_most_low, at_most_high);
+}
+
+}  // namespace msq
+#endif  // HWY_ONCE

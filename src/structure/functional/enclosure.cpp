@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rounding is monotone, so the ends of a sum, a difference, a product, a quotient or a root,
+// rounded as the evaluator rounds them, enclose its results without any slack. Sines, cosines,
+// exponentials and logarithms are not known to be monotone in the last bits: their ends move out by
+// `slack`, above twice their error (elementary-inl.h).
+#include "structure/functional/enclosure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace msq {
+
+namespace {
+
+constexpr double slack = 0x1p-48;
+constexpr double most_angle = 0x1p19;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Enclosure unbounded{-infinity, infinity};
+
+/// The sine of x + quarters pi / 2.
+Enclosure sine(const Enclosure& x, double quarters) {
+  Enclosure e{-1, 1};
+  if (x.low >= -most_angle && x.high <= most_angle) {
+    // Whether a crest, or a trough, lies between the ends, erring towards yes.
+    const auto holds = [&](double at) {
+      const double first = std::ceil(x.low / two_pi + (quarters - at) / 4 - 1e-9);
+      const double last = std::floor(x.high / two_pi + (quarters - at) / 4 + 1e-9);
+      return first <= last;
+    };
+    const Op op = quarters == 0 ? Op::sine : Op::cosine;
+    const double a = apply(op, x.low, 0), b = apply(op, x.high, 0);
+    if (!holds(1)) e.high = std::max(a, b);
+    if (!holds(3)) e.low = std::min(a, b);
+  }
+  return {e.low - slack, e.high + slack};
+}
+
+Enclosure product(const Enclosure& p, const Enclosure& q) {
+  const double all[] = {p.low * q.low, p.low * q.high, p.high * q.low, p.high * q.high};
+  return {*std::min_element(all, all + 4), *std::max_element(all, all + 4)};
+}
+
+Enclosure quotient(const Enclosure& p, const Enclosure& q) {
+  if (q.low <= 0 && q.high >= 0) return unbounded;
+  const double all[] = {p.low / q.low, p.low / q.high, p.high / q.low, p.high / q.high};
+  return {*std::min_element(all, all + 4), *std::max_element(all, all + 4)};
+}
+
+Enclosure magnitude(const Enclosure& p) {
+  const double a = std::abs(p.low), b = std::abs(p.high);
+  return {p.low <= 0 && p.high >= 0 ? 0 : std::min(a, b), std::max(a, b)};
+}
+
+Enclosure exponential(const Enclosure& p) {
+  return {apply(Op::exponential, p.low, 0) * (1 - slack),
+          apply(Op::exponential, p.high, 0) * (1 + slack) + std::numeric_limits<double>::min()};
+}
+
+Enclosure logarithm(const Enclosure& p) {
+  if (!(p.low > 0)) return unbounded;
+  const double a = apply(Op::logarithm, p.low, 0), b = apply(Op::logarithm, p.high, 0);
+  return {a - slack * (1 + std::abs(a)), b + slack * (1 + std::abs(b))};
+}
+
+Enclosure of(Op op, const Enclosure& p, const Enclosure& q, bool is_square) {
+  switch (op) {
+    case Op::add:
+      return {p.low + q.low, p.high + q.high};
+    case Op::subtract:
+      return {p.low - q.high, p.high - q.low};
+    case Op::multiply: {
+      if (!is_square) return product(p, q);
+      const Enclosure m = magnitude(p);
+      return {m.low * m.low, m.high * m.high};
+    }
+    case Op::divide:
+      return quotient(p, q);
+    case Op::minimum:
+      return {std::min(p.low, q.low), std::min(p.high, q.high)};
+    case Op::maximum:
+      return {std::max(p.low, q.low), std::max(p.high, q.high)};
+    case Op::negate:
+      return {-p.high, -p.low};
+    case Op::absolute:
+      return magnitude(p);
+    case Op::square_root:
+      return p.low >= 0 ? Enclosure{std::sqrt(p.low), std::sqrt(p.high)} : unbounded;
+    case Op::sine:
+      return sine(p, 0);
+    case Op::cosine:
+      return sine(p, 1);
+    case Op::exponential:
+      return exponential(p);
+    case Op::logarithm:
+      return logarithm(p);
+    default:
+      return unbounded;
+  }
+}
+
+}  // namespace
+
+void enclose(const Tape& tape, const Interval (&angles)[3], std::vector<Enclosure>& nodes) {
+  nodes.resize(tape.nodes.size());
+  for (size_t i = 0; i < tape.nodes.size(); ++i) {
+    const Node& node = tape.nodes[i];
+    Enclosure e = unbounded;
+    if (node.op == Op::constant) {
+      e = {node.value, node.value};
+    } else if (node.op < Op::add) {
+      e = angles[int(node.op) - int(Op::x)];
+    } else {
+      const Enclosure& p = nodes[node.a];
+      const Enclosure& q = has_two_operands(node.op) ? nodes[node.b] : p;
+      if (is_bounded(p) && is_bounded(q)) e = of(node.op, p, q, node.a == node.b);
+    }
+    nodes[i] = is_bounded(e) ? e : unbounded;  // NaN is not bounded either
+  }
+}
+
+Tape shortened(const Tape& tape, const std::vector<Enclosure>& nodes) {
+  TapeBuilder builder;
+  std::vector<uint32_t> number(tape.nodes.size());
+  for (size_t i = 0; i < tape.nodes.size(); ++i) {
+    const Node& node = tape.nodes[i];
+    if (node.op == Op::constant) {
+      number[i] = builder.constant(node.value);
+      continue;
+    }
+    if (node.op < Op::add) {
+      number[i] = builder.coordinate(int(node.op) - int(Op::x));
+      continue;
+    }
+    const uint32_t a = number[node.a], b = has_two_operands(node.op) ? number[node.b] : 0;
+    const Enclosure& p = nodes[node.a];
+    const Enclosure& q = nodes[has_two_operands(node.op) ? node.b : node.a];
+    const bool is_known = is_bounded(p) && is_bounded(q);
+    if (is_known && node.op == Op::minimum && p.high < q.low)
+      number[i] = a;
+    else if (is_known && node.op == Op::minimum && q.high <= p.low)
+      number[i] = b;
+    else if (is_known && node.op == Op::maximum && p.low > q.high)
+      number[i] = a;
+    else if (is_known && node.op == Op::maximum && p.high <= q.low)
+      number[i] = b;
+    else if (is_known && node.op == Op::absolute && p.low > 0)
+      number[i] = a;
+    else
+      number[i] = builder.apply(node.op, a, b);
+  }
+  return builder.finish(number.back());
+}
+
+}  // namespace msq

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scalar evaluator.
+#include <hwy/highway.h>
+
+#include "structure/functional/elementary-inl.h"
+#include "structure/functional/tape.h"
+
+namespace msq {
+
+double apply(Op op, double a, double b) {
+  double v = 0;
+  HWY_NAMESPACE::with_op(op, [&](auto which) {
+    v = HWY_NAMESPACE::result<decltype(which)::value>(HWY_NAMESPACE::Single(), a, b);
+  });
+  return v;
+}
+
+double evaluate(const Tape& tape, Vec3 angles) {
+  double values[most_tape_nodes];
+  const size_t count = tape.nodes.size();
+  for (size_t i = 0; i < count; ++i) {
+    const Node& node = tape.nodes[i];
+    switch (node.op) {
+      case Op::constant:
+        values[i] = node.value;
+        break;
+      case Op::x:
+        values[i] = angles.x;
+        break;
+      case Op::y:
+        values[i] = angles.y;
+        break;
+      case Op::z:
+        values[i] = angles.z;
+        break;
+      default:
+        values[i] = apply(node.op, values[node.a], values[node.b]);
+    }
+  }
+  return values[count - 1];
+}
+
+}  // namespace msq

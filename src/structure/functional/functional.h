@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functional structures: triply periodic functions of the position within the cell, above all those
+// near minimal surfaces. Onset of a point: the function g (network), or its magnitude (sheet); the
+// solid is where the onset is at most the level. A point at which g is no number is outside.
+#pragma once
+
+#include <array>
+
+#include "field/field.h"
+#include "structure/functional/clusters.h"
+#include "structure/functional/program.h"
+#include "structure/functional/row_plan.h"
+#include "structure/structure.h"
+
+namespace msq {
+
+enum class FunctionalKind : int32_t { network = 1, sheet = 2 };
+
+constexpr int most_clusters = 64;  // along an axis of the cell
+
+class Functional final : public Structure {
+ public:
+  /// `clusters`: along an axis of the cell; 1: none, 0: as many as pay.
+  Functional(const Neighbourhood& neighbourhood, const Tape& function, FunctionalKind kind,
+             Parameter level, int clusters);
+
+  bool inside(Vec3 p) const override;
+  void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  void keep_rows(const RowBlock& block, const Job* job) const override;
+
+  const Tape& onset() const { return onset_; }
+  const Parameter& level() const { return level_; }
+  const Clusters& clusters() const { return clusters_; }
+  /// For each axis of the grid the axis of the samples that it runs along; all -1 where the grid is
+  /// turned.
+  const std::array<int, 3>& sample_axis() const { return sample_axis_; }
+  /// One for each of the clusters' tapes; none where the grid is turned.
+  const std::vector<RowPlan>& row_plans() const { return row_plans_; }
+
+ private:
+  void keep_turned_rows(const RowBlock& block, const Job* job) const;
+
+  Parameter level_;
+  Tape onset_;
+  Program program_;
+  std::array<int, 3> sample_axis_;
+  Clusters clusters_;
+  std::vector<RowPlan> row_plans_;
+};
+
+}  // namespace msq

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// A parser by recursive descent: each rule of the grammar is a function.
+//
+//   sum     = product { ("+" | "-") product }
+//   product = signed { ("*" | "/") signed }
+//   signed  = ("-" | "+") signed | power
+//   power   = primary [ "^" signed ]
+//   primary = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
+#include "structure/functional/parser.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "base/status.h"
+
+namespace msq {
+
+namespace {
+
+struct Function {
+  std::string_view name;
+  Op op;
+  int operands;
+};
+/// pow has no operation of its own.
+constexpr Function functions[] = {
+    {"pow", Op::constant, 2}, {"min", Op::minimum, 2},      {"max", Op::maximum, 2},
+    {"abs", Op::absolute, 1}, {"sqrt", Op::square_root, 1}, {"sin", Op::sine, 1},
+    {"cos", Op::cosine, 1},   {"exp", Op::exponential, 1},  {"log", Op::logarithm, 1},
+};
+
+constexpr double most_whole_exponent = 65536;
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool begins_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool is_name(std::string_view text) {
+  if (text.empty() || !begins_name(text[0])) return false;
+  for (char c : text)
+    if (!begins_name(c) && !is_digit(c)) return false;
+  return true;
+}
+const Function* function_of(std::string_view name) {
+  for (const Function& f : functions)
+    if (f.name == name) return &f;
+  return nullptr;
+}
+bool is_taken(std::string_view name) {
+  return name == "x" || name == "y" || name == "z" || name == "pi" || function_of(name);
+}
+
+class Parser {
+ public:
+  Parser(std::string_view text, const std::vector<NamedValue>& parameters)
+      : text_(text), parameters_(parameters) {}
+
+  Tape parse() {
+    const uint32_t root = sum();
+    if (peek() != 0) refuse(at_, "expected an operator or the end, found %s", found().c_str());
+    return builder_.finish(root);
+  }
+
+ private:
+  template <class... Arguments>
+  [[noreturn]] void refuse(size_t at, const char* format, Arguments... arguments) const {
+    char reason[200];
+    std::snprintf(reason, sizeof reason, format, arguments...);
+    fail(Status::argument, "expression, character %zu: %s", at + 1, reason);
+  }
+  /// What stands at the current place, for messages.
+  std::string found() const {
+    if (at_ >= text_.size()) return "the end";
+    const char c = text_[at_];
+    if (c > ' ' && c < 127) return std::string("'") + c + "'";
+    char name[16];
+    std::snprintf(name, sizeof name, "byte 0x%02x", static_cast<unsigned char>(c));
+    return name;
+  }
+
+  /// The next character that is no space; 0 at the end.
+  char peek() {
+    while (at_ < text_.size() &&
+           (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
+      ++at_;
+    return at_ < text_.size() ? text_[at_] : 0;
+  }
+  bool take(char c) {
+    if (peek() != c) return false;
+    ++at_;
+    return true;
+  }
+  void expect(char c) {
+    if (!take(c)) refuse(at_, "expected '%c', found %s", c, found().c_str());
+  }
+
+  uint32_t apply(Op op, uint32_t a, uint32_t b = 0) {
+    const uint32_t node = builder_.apply(op, a, b);
+    if (builder_.size() > most_tape_nodes)
+      fail(Status::limit, "expression, character %zu: more than %u operations", at_ + 1,
+           most_tape_nodes);
+    return node;
+  }
+
+  uint32_t sum() {
+    uint32_t left = product();
+    for (;;) {
+      if (take('+'))
+        left = apply(Op::add, left, product());
+      else if (take('-'))
+        left = apply(Op::subtract, left, product());
+      else
+        return left;
+    }
+  }
+
+  uint32_t product() {
+    uint32_t left = with_sign();
+    for (;;) {
+      if (take('*'))
+        left = apply(Op::multiply, left, with_sign());
+      else if (take('/'))
+        left = apply(Op::divide, left, with_sign());
+      else
+        return left;
+    }
+  }
+
+  /// Every way to nest leads through here.
+  uint32_t with_sign() {
+    if (++depth_ > most_expression_depth)
+      fail(Status::limit, "expression, character %zu: nested deeper than %d", at_ + 1,
+           most_expression_depth);
+    uint32_t node;
+    if (take('-'))
+      node = apply(Op::negate, with_sign());
+    else if (take('+'))
+      node = with_sign();
+    else
+      node = power();
+    --depth_;
+    return node;
+  }
+
+  uint32_t power() {
+    const uint32_t base = primary();
+    return take('^') ? power_of(base, with_sign()) : base;
+  }
+
+  /// Whole constant exponents are products, by squaring; others exp(b log(a)).
+  uint32_t power_of(uint32_t base, uint32_t exponent) {
+    const Node e = builder_[exponent];
+    const double n = std::abs(e.value);
+    if (e.op != Op::constant || std::floor(n) != n || n > most_whole_exponent)
+      return apply(Op::exponential, apply(Op::multiply, exponent, apply(Op::logarithm, base)));
+    uint32_t result = builder_.constant(1), square = base;
+    bool has_result = false;
+    for (uint32_t rest = static_cast<uint32_t>(n); rest; rest >>= 1) {
+      if (rest & 1) result = has_result ? apply(Op::multiply, result, square) : square;
+      has_result = has_result || (rest & 1);
+      if (rest > 1) square = apply(Op::multiply, square, square);
+    }
+    return e.value < 0 ? apply(Op::divide, builder_.constant(1), result) : result;
+  }
+
+  uint32_t primary() {
+    const char c = peek();
+    if (take('(')) {
+      const uint32_t node = sum();
+      expect(')');
+      return node;
+    }
+    if (is_digit(c) || c == '.') return number();
+    if (begins_name(c)) return name();
+    refuse(at_, "expected a number, a name or '(', found %s", found().c_str());
+  }
+
+  uint32_t number() {
+    double value;
+    const char* const begin = text_.data() + at_;
+    const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
+    if (error == std::errc::result_out_of_range) refuse(at_, "the number is out of range");
+    if (error != std::errc()) refuse(at_, "malformed number");
+    at_ += static_cast<size_t>(end - begin);
+    return builder_.constant(value);
+  }
+
+  uint32_t name() {
+    const size_t begin = at_;
+    while (at_ < text_.size() && (begins_name(text_[at_]) || is_digit(text_[at_]))) ++at_;
+    const std::string_view name = text_.substr(begin, at_ - begin);
+    if (const Function* f = function_of(name)) return call(*f);
+    if (name == "pi") return builder_.constant(two_pi / 2);
+    for (int axis = 0; axis < 3; ++axis)
+      if (name.size() == 1 && name[0] == "xyz"[axis]) return builder_.coordinate(axis);
+    for (const NamedValue& p : parameters_)
+      if (p.name == name) return builder_.constant(p.value);
+    refuse(begin, "'%.*s' is neither x, y, z, pi, a function nor a parameter",
+           static_cast<int>(std::min<size_t>(name.size(), 40)), name.data());
+  }
+
+  uint32_t call(const Function& f) {
+    expect('(');
+    const uint32_t a = sum();
+    uint32_t b = 0;
+    if (f.operands == 2) {
+      expect(',');
+      b = sum();
+    }
+    expect(')');
+    return f.name == "pow" ? power_of(a, b) : apply(f.op, a, b);
+  }
+
+  std::string_view text_;
+  const std::vector<NamedValue>& parameters_;
+  size_t at_ = 0;
+  int depth_ = 0;
+  TapeBuilder builder_;
+};
+
+}  // namespace
+
+Tape parse_expression(std::string_view text, const std::vector<NamedValue>& parameters) {
+  if (text.size() > most_expression_bytes)
+    fail(Status::limit, "expression has %zu characters; the limit is %zu", text.size(),
+         most_expression_bytes);
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    const std::string& name = parameters[i].name;
+    if (!is_name(name))
+      fail(Status::argument, "the name of parameter %zu, '%.40s', is no name", i, name.c_str());
+    if (is_taken(name))
+      fail(Status::argument, "the name of parameter %zu, '%s', has a meaning of its own", i,
+           name.c_str());
+    for (size_t other = 0; other < i; ++other)
+      if (parameters[other].name == name)
+        fail(Status::argument, "parameters %zu and %zu are both named '%.40s'", other, i,
+             name.c_str());
+  }
+  return Parser(text, parameters).parse();
+}
+
+}  // namespace msq

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a tape is evaluated on rows of samples along an axis of its grid: what depends on the
+// position in the row alone is tabulated once for many rows, what does not depend on it is computed
+// once a row, and only the rest for each sample.
+#pragma once
+
+#include <array>
+
+#include "structure/functional/program.h"
+
+namespace msq {
+
+struct RowPlan {
+  /// sample_axis[a]: the axis of the samples along which the grid's axis a runs. Rows run along
+  /// axis 0 of the samples.
+  RowPlan(const Tape& tape, const std::array<int, 3>& sample_axis);
+
+  /// Inputs: the angles along the three axes of the grid. The outputs of `tables` are one for each
+  /// position in a row, those of `rows` one for each row.
+  Program tables, rows;
+
+  /// Whether the tape's value is a sum of the rows' first outputs times the tables, plus the rows'
+  /// last output; or the magnitude of such a sum. Then there is no program for samples.
+  bool is_linear = false, is_absolute = false;
+  /// Error of that sum in single precision against the tape.
+  double slack = 0;
+
+  /// Inputs: the tables, then the rows' outputs. Output: the tape's value.
+  Program samples;
+};
+
+}  // namespace msq
