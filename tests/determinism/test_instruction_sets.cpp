@@ -7,6 +7,9 @@
 #include "shape/primitive.h"
 #include "slice/slicer.h"
 #include "structure/foam/foam.h"
+#include "structure/functional/functional.h"
+#include "structure/functional/parser.h"
+#include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
 #include "suite.h"
 
@@ -74,6 +77,21 @@ void all_instruction_sets_give_the_same_layers(void**) {
             make_ref<GradientField>(Vec3{0.2, 0, 0}, 1, Vec3{0.5, 0.1, 0}, 60);
         return make_ref<Foam>(c, Neighbourhood{}, Parameter(0.03), 1.0, uint64_t{3},
                               FoamMethod::direct, Parameter(density));
+      },
+      [](Ref<Context>) {
+        return make_ref<Functional>(turned(), parse_expression(preset_expressions[0], {}),
+                                    FunctionalKind::network, Parameter(0.2), 0);
+      },
+      [](Ref<Context>) {
+        const Ref<const Field> field =
+            make_ref<GradientField>(Vec3{0, 0, 0}, -0.5, Vec3{1, 0.5, 0.2}, 0.5);
+        return make_ref<Functional>(Neighbourhood{}, parse_expression(preset_expressions[6], {}),
+                                    FunctionalKind::network, Parameter(field), 0);
+      },
+      [](Ref<Context>) {
+        const char* const text = "min(exp(sin(x)*cos(y))-1,max(log(2+cos(z)),sqrt(x+y)-2))";
+        return make_ref<Functional>(Neighbourhood{}, parse_expression(text, {}),
+                                    FunctionalKind::sheet, Parameter(0.2), 0);
       },
   };
   std::vector<int64_t> targets;

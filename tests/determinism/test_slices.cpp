@@ -12,6 +12,8 @@
 #include "slice/slicer.h"
 #include "structure/foam/delaunay.h"
 #include "structure/foam/foam.h"
+#include "structure/functional/functional.h"
+#include "structure/functional/parser.h"
 #include "structure/lattice/lattice.h"
 #include "suite.h"
 
@@ -73,6 +75,19 @@ std::vector<ModelRow> models() {
              c, make_ref<BoxShape>(Box3{{-0.5, -0.4, -0.2}, {0.5, 0.4, 0.2}}),
              Structures{make_ref<Foam>(c, cells_of(0.4, 0.3), Parameter(0.02), 1.0, uint64_t{6},
                                        FoamMethod::direct, Parameter(density))});
+       }});
+  rows.push_back(
+      {"graded expression in a gyroid", 8, [](Ref<Context> c) {
+         const Ref<const Field> field =
+             make_ref<GradientField>(Vec3{-1, 0, 0}, 0.1, Vec3{1, 0.5, 0.2}, 0.6);
+         const Tape gyroid = parse_expression("sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)", {});
+         const Tape choice = parse_expression("max(cos(x)+cos(y)*cos(z),sqrt(x)-exp(sin(y)))", {});
+         return make_ref<Model>(
+             c, make_ref<SphereShape>(Vec3{0, 0, 0}, 1.1),
+             Structures{make_ref<Functional>(cells_of(0.8, 0.2), gyroid, FunctionalKind::network,
+                                             Parameter(0.3), 0),
+                        make_ref<Functional>(cells_of(0.4, 0), choice, FunctionalKind::sheet,
+                                             Parameter(field), 0)});
        }});
   if (can_triangulate())
     rows.push_back({"foam by METHOD_2", 8, [](Ref<Context> c) {

@@ -59,7 +59,8 @@ class Parser {
 
   Tape parse() {
     const uint32_t root = sum();
-    if (peek() != 0) refuse(at_, "expected an operator or the end, found %s", found().c_str());
+    peek();
+    if (at_ < text_.size()) refuse(at_, "expected an operator or the end, found %s", found().c_str());
     return builder_.finish(root);
   }
 

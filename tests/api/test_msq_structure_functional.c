@@ -1,0 +1,380 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_functional_def_init, msq_structure_functional. */
+#include "structures.h"
+
+DEFINE_INIT(functional_def)
+
+static msq_functional_def functional_def(int32_t function, double level) {
+  msq_functional_def def;
+  assert_ok(msq_functional_def_init(&def, sizeof def));
+  def.function = function;
+  def.level.value = level;
+  return def;
+}
+
+static msq_functional_def expression_def(const char* text) {
+  msq_functional_def def = functional_def(MSQ_FUNCTION_EXPRESSION, 0);
+  def.expression = text;
+  return def;
+}
+
+static msq_status create(void* env, void* def) {
+  msq_structure* structure = (msq_structure*)untouched();
+  const msq_status status =
+      msq_structure_functional((msq_context*)env, (const msq_functional_def*)def, &structure);
+  if (status == MSQ_OK)
+    msq_structure_release(structure);
+  else
+    assert_ptr_equal(structure, untouched());
+  return status;
+}
+
+static void def_init_honours_every_size(void** state) {
+  (void)state;
+  check_def_init(init_functional_def, sizeof(msq_functional_def));
+}
+
+static void defaults_are_those_of_the_header(void** state) {
+  msq_functional_def def;
+  (void)state;
+  assert_ok(msq_functional_def_init(&def, sizeof def));
+  assert_int_equal(def.function, MSQ_FUNCTION_GYROID);
+  assert_int_equal(def.kind, MSQ_FUNCTIONAL_NETWORK);
+  assert_int_equal(def.clusters, 0);
+  for (int i = 0; i < 3; ++i) {
+    assert_true(def.grid.origin[i] == 0);
+    assert_true(def.grid.cell_size[i] == 1);
+  }
+  for (int i = 0; i < 9; ++i) assert_true(def.grid.rotation[i] == (i % 4 == 0));
+  assert_true(def.level.value == 0);
+  assert_null(def.level.field);
+  assert_null(def.expression);
+  assert_null(def.parameters);
+  assert_int_equal(def.parameter_count, 0);
+}
+
+static void create_honours_every_struct_size(void** state) {
+  msq_context* context = make_context();
+  const msq_functional_def def = functional_def(MSQ_FUNCTION_NEOVIUS, 0.1);
+  (void)state;
+  check_def_sizes(&def, sizeof def, create, context);
+  msq_context_release(context);
+}
+
+/* ---- the solid, against the C library's functions */
+
+static const double turn = 6.283185307179586;
+
+static double function_at(int32_t function, double x, double y, double z) {
+  const double cx = cos(x), cy = cos(y), cz = cos(z), sx = sin(x), sy = sin(y), sz = sin(z);
+  const double c2x = cos(2 * x), c2y = cos(2 * y), c2z = cos(2 * z);
+  const double s2x = sin(2 * x), s2y = sin(2 * y), s2z = sin(2 * z);
+  const double pairs = c2x * c2y + c2y * c2z + c2z * c2x;
+  switch (function) {
+    case MSQ_FUNCTION_GYROID: return sx * cy + sy * cz + sz * cx;
+    case MSQ_FUNCTION_SCHWARZ_P: return cx + cy + cz;
+    case MSQ_FUNCTION_DIAMOND: return sx * sy * sz + sx * cy * cz + cx * sy * cz + cx * cy * sz;
+    case MSQ_FUNCTION_I_WP: return 2 * (cx * cy + cy * cz + cz * cx) - (c2x + c2y + c2z);
+    case MSQ_FUNCTION_NEOVIUS: return 3 * (cx + cy + cz) + 4 * cx * cy * cz;
+    case MSQ_FUNCTION_F_RD: return 4 * cx * cy * cz - pairs;
+    case MSQ_FUNCTION_LIDINOID:
+      return 0.5 * (s2x * cy * sz + s2y * cz * sx + s2z * cx * sy) - 0.5 * pairs + 0.15;
+    case MSQ_FUNCTION_SPLIT_P:
+      return 1.1 * (s2x * sz * cy + s2y * sx * cz + s2z * sy * cx) - 0.2 * pairs -
+             0.4 * (c2x + c2y + c2z);
+    default: return NAN;
+  }
+}
+
+/* A box filled with the structure. */
+static msq_model* fill_box(msq_context* context, const msq_functional_def* def) {
+  const double low[3] = {-2, -2, -2}, high[3] = {2, 2, 2};
+  msq_shape* box;
+  msq_structure* structure;
+  msq_model_def model_def;
+  msq_model* model;
+  assert_ok(msq_shape_from_box(context, low, high, &box));
+  assert_ok(msq_structure_functional(context, def, &structure));
+  const msq_scale_def scales[2] = {{box, NULL}, {NULL, structure}};
+  assert_ok(msq_model_def_init(&model_def, sizeof model_def));
+  model_def.scales = scales;
+  model_def.scale_count = 2;
+  assert_ok(msq_model_create(context, &model_def, &model));
+  msq_structure_release(structure);
+  msq_shape_release(box);
+  return model;
+}
+
+enum { side = 24, samples = side * side * side };
+
+static void sample(const msq_model* model, double points[][3], uint8_t* inside) {
+  msq_points_def def;
+  assert_ok(msq_points_def_init(&def, sizeof def));
+  def.kind = MSQ_POINTS_GRID;
+  for (int axis = 0; axis < 3; ++axis) {
+    def.origin[axis] = -1.9 + 0.01 * axis;
+    def.spacing[axis] = 0.157;
+    def.counts[axis] = side;
+  }
+  for (int i = 0; i < samples; ++i) {
+    const int index[3] = {i % side, i / side % side, i / side / side};
+    for (int axis = 0; axis < 3; ++axis)
+      points[i][axis] = def.origin[axis] + index[axis] * def.spacing[axis];
+  }
+  assert_ok(msq_set_membership(model, &def, NULL, inside, samples, NULL));
+}
+
+static double points[samples][3];
+static uint8_t first[samples], second[samples];
+
+static void named_functions_are_those_of_the_header(void** state) {
+  msq_context* context = make_context();
+  const double c = cos(0.5), s = sin(0.5);
+  const double rotation[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
+  (void)state;
+  for (int32_t function = MSQ_FUNCTION_GYROID; function <= MSQ_FUNCTION_SPLIT_P; ++function)
+    for (int kind = MSQ_FUNCTIONAL_NETWORK; kind <= MSQ_FUNCTIONAL_SHEET; ++kind)
+      for (int is_turned = 0; is_turned < 2; ++is_turned) {
+        msq_functional_def def = functional_def(function, 0.25);
+        int held = 0;
+        def.kind = kind;
+        def.grid.cell_size[0] = 1.25;
+        def.grid.cell_size[2] = 0.75;
+        def.grid.origin[1] = 0.3;
+        if (is_turned) memcpy(def.grid.rotation, rotation, sizeof rotation);
+        msq_model* model = fill_box(context, &def);
+        sample(model, points, first);
+        for (int i = 0; i < samples; ++i) {
+          const double x = points[i][0], y = points[i][1] - 0.3, z = points[i][2];
+          const double gx = is_turned ? c * x + s * y : x, gy = is_turned ? c * y - s * x : y;
+          const double g = function_at(function, turn * gx / 1.25, turn * gy, turn * z / 0.75);
+          const double onset = kind == MSQ_FUNCTIONAL_SHEET ? fabs(g) : g;
+          held += first[i];
+          if (fabs(onset - 0.25) > 1e-12) assert_int_equal(first[i], onset <= 0.25);
+        }
+        assert_in_range(held, 1, samples - 1);
+        msq_model_release(model);
+      }
+  msq_context_release(context);
+}
+
+static void an_expression_is_its_function(void** state) {
+  /* By other signs and brackets of the same operations, the same bits. */
+  msq_context* context = make_context();
+  const msq_named_value values[2] = {{"two", 2}, {"share", 0.5}};
+  const char* texts[2] = {
+      " sin(x) * cos(y) + sin(y)*cos(z) + (sin(z)*cos(x)) ",
+      "share*(sin(two*x)*cos(y)*sin(z)+sin(two*y)*cos(z)*sin(x)+sin(two*z)*cos(x)*sin(y))-"
+      "share*(cos(two*x)*cos(two*y)+cos(two*y)*cos(two*z)+cos(two*z)*cos(two*x))+0.15"};
+  const int32_t functions[2] = {MSQ_FUNCTION_GYROID, MSQ_FUNCTION_LIDINOID};
+  (void)state;
+  for (int i = 0; i < 2; ++i) {
+    const msq_functional_def named = functional_def(functions[i], 0.1);
+    msq_functional_def written = expression_def(texts[i]);
+    written.level.value = 0.1;
+    written.parameters = values;
+    written.parameter_count = 2;
+    msq_model* a = fill_box(context, &named);
+    msq_model* b = fill_box(context, &written);
+    sample(a, points, first);
+    sample(b, points, second);
+    assert_memory_equal(first, second, sizeof first);
+    msq_model_release(a);
+    msq_model_release(b);
+  }
+  msq_context_release(context);
+}
+
+static void expressions_repeat_with_the_cell(void** state) {
+  /* x alone: the first part of each cell, up to the level. */
+  msq_context* context = make_context();
+  msq_functional_def def = expression_def("x");
+  (void)state;
+  def.level.value = turn / 4;
+  msq_model* model = fill_box(context, &def);
+  sample(model, points, first);
+  for (int i = 0; i < samples; ++i) {
+    const double part = points[i][0] - floor(points[i][0]);
+    if (fabs(part - 0.25) > 1e-12) assert_int_equal(first[i], part <= 0.25);
+  }
+  msq_model_release(model);
+  /* No number: outside. */
+  def = expression_def("sqrt(x-pi)-10");
+  model = fill_box(context, &def);
+  sample(model, points, first);
+  for (int i = 0; i < samples; ++i) {
+    const double part = points[i][0] - floor(points[i][0]);
+    if (fabs(part - 0.5) > 1e-12) assert_int_equal(first[i], part >= 0.5);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void inputs_are_copied(void** state) {
+  msq_context* context = make_context();
+  char text[] = "cos(x)+shift", name[] = "shift";
+  msq_named_value value = {name, 0.5};
+  msq_functional_def def = expression_def(text);
+  (void)state;
+  def.parameters = &value;
+  def.parameter_count = 1;
+  msq_model* model = fill_box(context, &def);
+  sample(model, points, first);
+  memset(text, '?', sizeof text - 1);
+  memset(name, '?', sizeof name - 1);
+  value.value = -5;
+  sample(model, points, second);
+  assert_memory_equal(first, second, sizeof first);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void level_may_be_a_field(void** state) {
+  msq_context* context = make_context();
+  const double from[3] = {-2, 0, 0}, to[3] = {2, 0, 0};
+  msq_functional_def def = functional_def(MSQ_FUNCTION_GYROID, 99);
+  msq_field* field;
+  (void)state;
+  assert_ok(msq_field_gradient(context, from, -1, to, 1, &field));
+  def.level.field = field;
+  msq_model* model = fill_box(context, &def);
+  msq_field_release(field);
+  sample(model, points, first);
+  for (int i = 0; i < samples; ++i) {
+    const double* p = points[i];
+    const double g = function_at(MSQ_FUNCTION_GYROID, turn * p[0], turn * p[1], turn * p[2]);
+    if (fabs(g - p[0] / 2) > 1e-12) assert_int_equal(first[i], g <= p[0] / 2);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+/* ---- refusals */
+
+static void null_arguments_are_refused(void** state) {
+  msq_context* context = make_context();
+  const msq_functional_def def = functional_def(MSQ_FUNCTION_GYROID, 0);
+  (void)state;
+  assert_makes_nothing(msq_structure, msq_structure_functional(NULL, &def, &made), MSQ_E_ARGUMENT,
+                       "context is NULL");
+  assert_makes_nothing(msq_structure, msq_structure_functional(context, NULL, &made),
+                       MSQ_E_ARGUMENT, "def is NULL");
+  assert_refused(msq_structure_functional(context, &def, NULL), MSQ_E_ARGUMENT,
+                 "structure is NULL");
+  msq_context_release(context);
+}
+
+static void wrong_numbers_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_functional_def def = functional_def(MSQ_FUNCTION_GYROID, 0.1);
+  (void)state;
+  for (int i = 0; i < 2; ++i) {
+    def.function = i ? 9 : -1;
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "function");
+    def.function = MSQ_FUNCTION_GYROID;
+    def.kind = i ? 3 : 0;
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "kind");
+    def.kind = MSQ_FUNCTIONAL_NETWORK;
+  }
+  def.clusters = 64;
+  assert_ok(create(context, &def));
+  def.clusters = 65;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "clusters is 65");
+  def.clusters = UINT32_MAX;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "clusters");
+  def.clusters = 1;
+  check_grid_refusals(&def.grid, create, context, &def);
+  for (int which = 0; which < 3; ++which) {
+    def.level.value = not_finite(which);
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "level is ");
+  }
+  def.level.value = -1.5;
+  assert_ok(create(context, &def));
+  def.kind = MSQ_FUNCTIONAL_SHEET;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "level");
+  assert_message_has("-1.5");
+  def.level.value = 0;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 everywhere");
+  msq_context_release(context);
+}
+
+static void texts_are_refused_with_position_and_reason(void** state) {
+  msq_context* context = make_context();
+  msq_functional_def def = expression_def("sin(x)+cos(q)");
+  (void)state;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "character 12");
+  assert_message_has("'q'");
+  def.expression = "";
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "character 1");
+  def.expression = NULL;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "expression is NULL");
+  def.function = MSQ_FUNCTION_GYROID;
+  def.expression = "x";
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "expression is given");
+  msq_context_release(context);
+}
+
+static void long_and_deep_texts_are_refused(void** state) {
+  msq_context* context = make_context();
+  static char text[20000];
+  msq_functional_def def = expression_def(text);
+  (void)state;
+  memset(text, '(', sizeof text - 1);
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "4096");
+  text[4000] = 0;
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "nested deeper than 100");
+  msq_context_release(context);
+}
+
+static void wrong_parameters_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_named_value values[2] = {{"a", 1}, {"b", 2}};
+  msq_functional_def def = expression_def("cos(x)+a*b");
+  (void)state;
+  def.parameter_count = 2;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameters is NULL");
+  def.parameters = values;
+  assert_ok(create(context, &def));
+  values[1].name = NULL;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameter 1 is NULL");
+  values[1].name = "a";
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameters 0 and 1");
+  values[1].name = "cos";
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "'cos'");
+  values[1].name = "1b";
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "'1b'");
+  values[1].name = "b";
+  for (int which = 0; which < 3; ++which) {
+    values[1].value = not_finite(which);
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "finite");
+  }
+  values[1].value = 2;
+  def.parameter_count = 1025;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameter_count is 1025");
+  def.parameter_count = UINT64_MAX;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameter_count");
+  def.parameter_count = 2;
+  def.function = MSQ_FUNCTION_DIAMOND;
+  def.expression = NULL;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameters are given");
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(def_init_honours_every_size),
+      cmocka_unit_test(defaults_are_those_of_the_header),
+      cmocka_unit_test(create_honours_every_struct_size),
+      cmocka_unit_test(named_functions_are_those_of_the_header),
+      cmocka_unit_test(an_expression_is_its_function),
+      cmocka_unit_test(expressions_repeat_with_the_cell),
+      cmocka_unit_test(inputs_are_copied),
+      cmocka_unit_test(level_may_be_a_field),
+      cmocka_unit_test(null_arguments_are_refused),
+      cmocka_unit_test(wrong_numbers_are_refused),
+      cmocka_unit_test(texts_are_refused_with_position_and_reason),
+      cmocka_unit_test(long_and_deep_texts_are_refused),
+      cmocka_unit_test(wrong_parameters_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

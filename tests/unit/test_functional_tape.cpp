@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// Expressions: what texts mean, which are refused and where; enclosures hold all samples, also
+// through shortened tapes; vectors give the bits of the scalar evaluator.
+#include <cstring>
+
+#include "base/status.h"
+#include "random.h"
+#include "structure/functional/batch.h"
+#include "structure/functional/enclosure.h"
+#include "structure/functional/parser.h"
+#include "structure/functional/presets.h"
+#include "suite.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+const std::vector<NamedValue> parameters = {{"a", 2.5}, {"b_2", -1}};
+
+double value(const char* text, Vec3 p = {1, 2, 3}) {
+  return evaluate(parse_expression(text, parameters), p);
+}
+
+void texts_mean_what_they_say(void**) {
+  const auto is = [](const char* text, double wanted) {
+    const double got = value(text);
+    if (std::abs(got - wanted) > 1e-14 * (1 + std::abs(wanted)))
+      fail_msg("%s is %.17g, not %.17g", text, got, wanted);
+  };
+  is("1+2*3", 7);
+  is(" ( 1 + 2 )\t*3\n", 9);
+  is("8-4-2", 2);
+  is("16/4/2", 2);
+  is("2^3^2", 512);
+  is("-2^2", -4);
+  is("2^-2", 0.25);
+  is("(-2)^3", -8);
+  is("--2", 2);
+  is("2*-3", -6);
+  is("+x", 1);
+  is("x+10*y+100*z", 321);
+  is("1.5e1+.5+2.", 17.5);
+  is("pi", 3.14159265358979323846);
+  is("a*b_2", -2.5);
+  is("min(x,y)+10*max(y,z)", 31);
+  is("abs(-z)", 3);
+  is("sqrt(x+z)", 2);
+  is("sin(x)+2*cos(y)", std::sin(1) + 2 * std::cos(2));
+  is("exp(x)+log(z)", std::exp(1) + std::log(3));
+  is("pow(y,3)", 8);
+  is("y^0.5", std::sqrt(2));
+  is("y^z", 8);
+  is("x^0", 1);
+  is("y^10", 1024);
+  is("y^-1", 0.5);
+  is("3^(1+1)", 9);
+  assert_true(std::isnan(value("sqrt(-1)")));
+  assert_true(std::isnan(value("(-y)^0.5")));
+  assert_true(std::isinf(value("1/0")));
+}
+
+void equal_parts_are_one(void**) {
+  const auto size = [](const char* text) { return parse_expression(text, {}).nodes.size(); };
+  assert_int_equal(size("sin(x)*sin(x)"), 3);
+  assert_int_equal(size("(x+y)*(y+x)"), 4);
+  assert_int_equal(size("x-x*0.5-0.5*x"), 5);
+  assert_int_equal(size("2*3+pi"), 1);
+  assert_int_equal(size(preset_expressions[0]), 3 + 6 + 3 + 2);
+}
+
+void bad_texts_are_refused_by_position(void**) {
+  struct Case {
+    std::string text;
+    const char *place, *reason;
+  };
+  const Case cases[] = {
+      {"", "character 1", "the end"},
+      {"   ", "character 4", "the end"},
+      {"1+", "character 3", "the end"},
+      {"1 + * 2", "character 5", "'*'"},
+      {"(1+2", "character 5", "expected ')'"},
+      {"1+2)", "character 4", "')'"},
+      {"sin x", "character 5", "expected '('"},
+      {"min(1)", "character 6", "expected ','"},
+      {"sin(1,2)", "character 6", "expected ')'"},
+      {"2*foo", "character 3", "'foo'"},
+      {"x y", "character 3", "'y'"},
+      {"2x", "character 2", "'x'"},
+      {"1..2", "character 3", "'.'"},
+      {".", "character 1", "malformed number"},
+      {"1e999", "character 1", "out of range"},
+      {"x # y", "character 3", "'#'"},
+      {"x \xc3\xa4", "character 3", "byte 0xc3"},
+      {"0x10", "character 2", "'x'"},
+      {"inf", "character 1", "'inf'"},
+      {std::string("x\0y", 3), "character 2", "byte 0x00"},
+  };
+  for (const Case& c : cases) try {
+      parse_expression(c.text, parameters);
+      fail_msg("'%s' is accepted", c.text.c_str());
+    } catch (const Error& error) {
+      const std::string message = error.what();
+      if (error.status != Status::argument || message.find(c.place) == std::string::npos ||
+          message.find(c.reason) == std::string::npos)
+        fail_msg("'%s': %s", c.text.c_str(), error.what());
+    }
+}
+
+void limits_hold(void**) {
+  const auto status_of = [](const std::string& text) {
+    try {
+      parse_expression(text, {});
+      return Status::ok;
+    } catch (const Error& error) {
+      return error.status;
+    }
+  };
+  const auto times = [](const std::string& part, size_t count) {
+    std::string all;
+    while (count-- > 0) all += part;
+    return all;
+  };
+  for (const char* part : {"(", "-", "sin(", "2^", "min(1,", "+(-"})
+    assert_true(status_of(times(part, 4000 / std::strlen(part))) == Status::limit);
+  for (size_t depth : {99, 100}) {
+    std::string nested = times("(", depth);
+    nested += 'x';
+    nested += times(")", depth);
+    assert_true(status_of(nested) == (depth < 100 ? Status::ok : Status::limit));
+  }
+  std::string padded = "x";
+  padded.resize(4096, ' ');
+  assert_true(status_of(padded) == Status::ok);
+  padded += ' ';
+  assert_true(status_of(padded) == Status::limit);
+  std::string many = "x";  // sums of different products
+  for (int i = 2; i < 600; ++i) many.append("+x*").append(std::to_string(i));
+  assert_true(many.size() < most_expression_bytes && status_of(many) == Status::limit);
+}
+
+void parameters_need_names(void**) {
+  const auto refused = [](std::vector<NamedValue> names, const char* reason) {
+    try {
+      parse_expression("x", names);
+      fail_msg("accepted: %s", reason);
+    } catch (const Error& error) {
+      assert_true(error.status == Status::argument);
+      assert_non_null(std::strstr(error.what(), reason));
+    }
+  };
+  refused({{"ok", 1}, {"", 1}}, "parameter 1");
+  refused({{"2a", 1}}, "'2a'");
+  refused({{"a b", 1}}, "'a b'");
+  for (const char* taken : {"x", "y", "z", "pi", "sin", "pow", "min"})
+    refused({{taken, 1}}, "meaning of its own");
+  refused({{"c", 1}, {"d", 2}, {"c", 3}}, "parameters 0 and 2");
+}
+
+/// Adds a random text of everything there is.
+void add_random_text(std::string& text, Random& random, int depth) {
+  static const char* const leaves[] = {"x", "y", "z", "1", "0.3", "pi", "x", "y", "z"};
+  if (depth == 0 || random.below(8) == 0) {
+    text += leaves[random.below(std::size(leaves))];
+    return;
+  }
+  static const char* const calls[][2] = {
+      {"sin(", ")"},        {"cos(", ")"}, {"abs(", ")"}, {"sqrt(abs(", "))"}, {"exp(0.1*", ")"},
+      {"log(1+abs(", "))"}, {"-(", ")"},   {"(", ")^2"},  {"(", ")^3"},        {"1/(2+", ")"}};
+  static const char* const pairs[][3] = {{"min(", ",", ")"}, {"max(", ",", ")"}, {"(", ")+(", ")"},
+                                         {"(", ")-(", ")"},  {"(", ")*(", ")"},  {"(", ")/(", ")"}};
+  if (random.below(2)) {
+    const auto& [before, after] = calls[random.below(std::size(calls))];
+    text += before;
+    add_random_text(text, random, depth - 1);
+    text += after;
+    return;
+  }
+  const auto& [before, between, after] = pairs[random.below(std::size(pairs))];
+  text += before;
+  add_random_text(text, random, depth - 1);
+  text += between;
+  add_random_text(text, random, depth - 1);
+  text += after;
+}
+
+std::vector<std::string> presets_and_random_texts(Random& random, size_t count, int depth) {
+  std::vector<std::string> texts(preset_expressions, std::end(preset_expressions));
+  while (count-- > 0) {
+    texts.emplace_back();
+    add_random_text(texts.back(), random, depth);
+  }
+  return texts;
+}
+
+bool same_bits(double a, double b) {
+  return std::isnan(a) ? std::isnan(b) : std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+void enclosures_hold_all_samples(void**) {
+  Random random(3);
+  const std::vector<std::string> texts = presets_and_random_texts(random, test_count(2000), 5);
+  size_t bounded = 0, shorter = 0, boxes = 0;
+  std::vector<Enclosure> nodes;
+  for (const std::string& text : texts) {
+    const Tape tape = parse_expression(text, {});
+    for (int round = 0; round < 6; ++round) {
+      const double size = two_pi / static_cast<double>(1 << (2 * (round % 3)));
+      Interval box[3];
+      for (Interval& side : box) {
+        side.low = random.between(0, two_pi - size);
+        side.high = side.low + size;
+      }
+      enclose(tape, box, nodes);
+      const Enclosure root = nodes.back();
+      const Tape less = shortened(tape, nodes);
+      ++boxes;
+      bounded += is_bounded(root);
+      shorter += less.nodes.size() < tape.nodes.size();
+      for (int i = 0; i < 40; ++i) {
+        Vec3 p;
+        for (int axis = 0; axis < 3; ++axis)
+          p[axis] = i < 8 ? (i >> axis & 1 ? box[axis].high : box[axis].low)
+                          : random.between(box[axis].low, box[axis].high);
+        const double v = evaluate(tape, p);
+        if (is_bounded(root) && !(v >= root.low && v <= root.high))
+          fail_msg("%s at (%.17g, %.17g, %.17g): %.17g is not from %.17g to %.17g", text.c_str(),
+                   p.x, p.y, p.z, v, root.low, root.high);
+        if (!same_bits(evaluate(less, p), v))
+          fail_msg("%s shortened: another value at (%.17g, %.17g, %.17g)", text.c_str(), p.x, p.y,
+                   p.z);
+      }
+    }
+  }
+  print_message("%zu boxes, %zu bounded, %zu shortened\n", boxes, bounded, shorter);
+  assert_true(bounded > boxes / 2 && shorter > boxes / 20);
+}
+
+void programs_give_the_scalar_bits(void**) {
+  Random random(4);
+  const std::vector<std::string> texts = presets_and_random_texts(random, test_count(2000), 6);
+  double angles[3][batch_points + batch_padding] = {};
+  for (const std::string& text : texts) {
+    const Tape tape = parse_expression(text, {});
+    const Program program = compile(tape);
+    Batch batch(program);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      for (size_t i = 0; i < batch_points; ++i) angles[axis][i] = random.between(0, two_pi);
+      batch.set_input(axis, {angles[axis], false});
+    }
+    batch.run(50);
+    const Values got = batch.output(0);
+    for (size_t i = 0; i < 50; ++i)
+      if (!same_bits(got.is_uniform ? *got.data : got.data[i],
+                     evaluate(tape, {angles[0][i], angles[1][i], angles[2][i]})))
+        fail_msg("%s: other bits in vectors", text.c_str());
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(texts_mean_what_they_say),
+      cmocka_unit_test(equal_parts_are_one),
+      cmocka_unit_test(bad_texts_are_refused_by_position),
+      cmocka_unit_test(limits_hold),
+      cmocka_unit_test(parameters_need_names),
+      cmocka_unit_test(enclosures_hold_all_samples),
+      cmocka_unit_test(programs_give_the_scalar_bits),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
