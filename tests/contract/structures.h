@@ -137,7 +137,7 @@ inline std::vector<Kind> kinds() {
                    functional_factory(preset_expressions[0], network, 0)});
   kinds.push_back({"functional", "split P sheet", 0.1, 1,
                    functional_factory(preset_expressions[7], sheet, 0)});
-  kinds.push_back({"functional", "choice", 0.15, 1, functional_factory(choice, network, 0)});
+  kinds.push_back({"functional", "choice", 0.05, 1, functional_factory(choice, network, 0)});
   kinds.push_back({"functional", "choice sheet, few clusters", 0.1, 1,
                    functional_factory(choice, sheet, 3)});
   struct Method {
