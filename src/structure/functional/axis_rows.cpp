@@ -8,32 +8,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <limits>
 
 namespace msq {
 
 namespace {
 
-constexpr uint64_t most_group_rows = 16, most_group_layers = 8;
-static_assert(most_group_rows * most_group_layers <= batch_points);
-
 /// Samples in a cluster, along a row, above which clusters pay: where a sample costs as much as a
 /// few additions, whole words must be spared.
 constexpr double critical_linear = 32, critical_samples = 3;
-
-float at_most(double v) {
-  const float f = static_cast<float>(v);
-  return static_cast<double>(f) > v ? std::nextafter(f, -std::numeric_limits<float>::infinity())
-                                    : f;
-}
-float at_least(double v) {
-  return -at_most(-v);
-}
-
-double value_of(const Values& values, size_t i) {
-  return values.is_uniform ? *values.data : values.data[i];
-}
 
 }  // namespace
 
@@ -121,7 +103,7 @@ void AxisRows::tabulate(Work& work) const {
     batch.run(size);
     for (size_t o = 0; o < outputs; ++o) {
       const Values values = batch.output(o);
-      for (size_t i = 0; i < size; ++i) work.tables[o][begin + i] = value_of(values, i);
+      for (size_t i = 0; i < size; ++i) work.tables[o][begin + i] = values[i];
     }
   }
   work.has_tables = true;
@@ -130,13 +112,7 @@ void AxisRows::tabulate(Work& work) const {
     work.float_tables.emplace_back(table.begin(), table.end());
     work.float_pointers.push_back(work.float_tables.back().data());
   }
-  work.low = {at_most(constant_level_ - work.plan.slack)};
-  work.high = {at_least(constant_level_ + work.plan.slack)};
-}
-
-Vec3 AxisRows::at(const Group& group, size_t row, uint64_t i) const {
-  const uint64_t rows = group.y1 - group.y0;
-  return grid_.at(i, group.y0 + row % rows, group.z0 + row / rows);
+  work.bounds.set(constant_level_, work.plan.slack);
 }
 
 void AxisRows::keep(const Job* job) {
@@ -147,7 +123,7 @@ void AxisRows::keep(const Job* job) {
       ++end;
     return end;
   };
-  for (Group group{0, 0, block_.z0, 0}; group.z0 < block_.z1; group.z0 = group.z1) {
+  for (RowGroup group{0, 0, block_.z0, 0}; group.z0 < block_.z1; group.z0 = group.z1) {
     check_cancelled(job);
     group.z1 = end_of(2, group.z0, block_.z0, block_.z1, most_group_layers);
     for (group.y0 = block_.y0; group.y0 < block_.y1; group.y0 = group.y1) {
@@ -157,7 +133,7 @@ void AxisRows::keep(const Job* job) {
   }
 }
 
-bool AxisRows::find_alive(const Group& group, uint64_t& first, uint64_t& last) const {
+bool AxisRows::find_alive(const RowGroup& group, uint64_t& first, uint64_t& last) const {
   const size_t row_words = block_.row_words();
   size_t low = row_words, high = 0;
   for (uint64_t k = group.z0; k < group.z1; ++k)
@@ -173,7 +149,7 @@ bool AxisRows::find_alive(const Group& group, uint64_t& first, uint64_t& last) c
   return low < row_words;
 }
 
-void AxisRows::split(const Group& group, uint64_t first, uint64_t last) {
+void AxisRows::split(const RowGroup& group, uint64_t first, uint64_t last) {
   std::fill(certain_.begin(), certain_.end(), 0);
   for (Work* work : used_) work->runs.clear();
   used_.clear();
@@ -207,15 +183,14 @@ void AxisRows::split(const Group& group, uint64_t first, uint64_t last) {
   }
 }
 
-void AxisRows::prepare(Work& work, const Group& group) {
+void AxisRows::prepare(Work& work, const RowGroup& group) {
   if (!work.has_tables) tabulate(work);
   work.mask.assign(words_, 0);
   for (const Run& run : work.runs) set_bits(work.mask.data(), run.begin, run.end - 1);
-  const uint64_t rows = group.y1 - group.y0;
   std::vector<double> y(group.rows() + batch_padding), z(group.rows() + batch_padding);
   for (size_t row = 0; row < group.rows(); ++row) {
-    y[row] = angles_[1][group.y0 - block_.y0 + row % rows];
-    z[row] = angles_[2][group.z0 - block_.z0 + row / rows];
+    y[row] = angles_[1][group.y(row) - block_.y0];
+    z[row] = angles_[2][group.z(row) - block_.z0];
   }
   for (size_t a = 0; a < 3; ++a) {
     const int axis = structure_.sample_axis()[a];
@@ -226,20 +201,8 @@ void AxisRows::prepare(Work& work, const Group& group) {
     work.words.clear();
     for (uint32_t w = 0; w < words_; ++w)
       if (work.mask[w]) work.words.push_back(w);
-    if (structure_.level().is_constant()) return;
-    const size_t chunks = words_ * bits_per_word / linear_chunk;
-    work.low.resize(chunks);
-    work.high.resize(chunks);
-    for (uint32_t w : work.words)
-      for (size_t c = w * bits_per_word / linear_chunk, end = c + bits_per_word / linear_chunk;
-           c < end; ++c) {
-        const uint64_t begin = std::min<uint64_t>(c * linear_chunk, grid_.nx - 1);
-        const uint64_t last = std::min<uint64_t>((c + 1) * linear_chunk, grid_.nx) - 1;
-        const Interval level = structure_.level().range(
-            {grid_.at(begin, group.y0, group.z0), grid_.at(last, group.y1 - 1, group.z1 - 1)});
-        work.low[c] = at_most(level.low - work.plan.slack);
-        work.high[c] = at_least(level.high + work.plan.slack);
-      }
+    if (!structure_.level().is_constant())
+      work.bounds.set(structure_.level(), work.plan.slack, grid_, group, work.words);
     return;
   }
   work.pieces.clear();
@@ -260,15 +223,14 @@ void AxisRows::prepare(Work& work, const Group& group) {
   }
 }
 
-void AxisRows::keep_group(const Group& group) {
+void AxisRows::keep_group(const RowGroup& group) {
   uint64_t first, last;
   if (!find_alive(group, first, last)) return;
   split(group, first, last);
   for (Work* work : used_) prepare(*work, group);
-  const uint64_t rows = group.y1 - group.y0;
   const size_t row_words = block_.row_words();
   for (size_t row = 0; row < group.rows(); ++row) {
-    uint64_t* words = block_.row(group.y0 + row % rows, group.z0 + row / rows);
+    uint64_t* words = block_.row(group.y(row), group.z(row));
     if (std::all_of(words, words + row_words, [](uint64_t w) { return w == 0; })) continue;
     std::copy(certain_.begin(), certain_.end(), result_.begin());
     for (Work* work : used_) {
@@ -282,22 +244,21 @@ void AxisRows::keep_group(const Group& group) {
   }
 }
 
-void AxisRows::decide_linear(Work& work, const Group& group, size_t row) {
+void AxisRows::decide_linear(Work& work, const RowGroup& group, size_t row) {
   float coefficients[64];
   const size_t terms = work.tables.size();
-  for (size_t t = 0; t < terms; ++t)
-    coefficients[t] = static_cast<float>(value_of(work.rows.output(t), row));
+  for (size_t t = 0; t < terms; ++t) coefficients[t] = static_cast<float>(work.rows.output(t)[row]);
   const LinearRow linear{work.float_pointers.data(), coefficients, terms,
-                         static_cast<float>(value_of(work.rows.output(terms), row)),
-                         work.plan.is_absolute};
-  compare_linear(linear, work.words.data(), work.words.size(), work.low.data(), work.high.data(),
-                 structure_.level().is_constant(), at_most_low_.data(), at_most_high_.data());
+                         static_cast<float>(work.rows.output(terms)[row]), work.plan.is_absolute};
+  compare_linear(linear, work.words.data(), work.words.size(), work.bounds.low.data(),
+                 work.bounds.high.data(), structure_.level().is_constant(), at_most_low_.data(),
+                 at_most_high_.data());
   for (size_t n = 0; n < work.words.size(); ++n) {
     const uint32_t w = work.words[n];
     uint64_t in = at_most_low_[n];
     for (uint64_t doubt = at_most_high_[n] & ~in & work.mask[w]; doubt; doubt &= doubt - 1) {
       const uint64_t i = w * bits_per_word + static_cast<uint64_t>(std::countr_zero(doubt));
-      if (decide(work, linear, at(group, row, i), i)) in |= doubt & -doubt;
+      if (decide(work, linear, grid_.at(i, group.y(row), group.z(row)), i)) in |= doubt & -doubt;
     }
     result_[w] |= in & work.mask[w];
   }
@@ -314,7 +275,7 @@ bool AxisRows::decide(const Work& work, const LinearRow& row, Vec3 p, uint64_t i
   return structure_.inside(p);
 }
 
-void AxisRows::decide_samples(Work& work, const Group& group, size_t row) {
+void AxisRows::decide_samples(Work& work, const RowGroup& group, size_t row) {
   const size_t tables = work.tables.size(), count = work.samples_at.size();
   const size_t outputs = work.plan.rows.outputs.size();
   for (size_t o = 0; o < outputs; ++o) {
@@ -327,7 +288,7 @@ void AxisRows::decide_samples(Work& work, const Group& group, size_t row) {
     levels_[0] = constant_level_;
   else
     for (size_t i = 0; i < count; ++i)
-      levels_[i] = structure_.level().at(at(group, row, work.samples_at[i]));
+      levels_[i] = structure_.level().at(grid_.at(work.samples_at[i], group.y(row), group.z(row)));
   std::vector<uint64_t>& bits = at_most_low_;
   bits.resize(std::max(bits.size(), words_ + 1));
   for (size_t begin = 0; begin < count; begin += batch_points) {

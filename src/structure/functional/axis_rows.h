@@ -8,6 +8,7 @@
 
 #include "structure/functional/batch.h"
 #include "structure/functional/functional.h"
+#include "structure/functional/level_bounds.h"
 
 namespace msq {
 
@@ -19,11 +20,6 @@ class AxisRows {
   void keep(const Job* job);
 
  private:
-  /// Rows [y0, y1) of layers [z0, z1), in which y and z stay within a cluster each.
-  struct Group {
-    uint64_t y0, y1, z0, z1;
-    size_t rows() const { return (y1 - y0) * (z1 - z0); }
-  };
   /// Samples [begin, end) of a row, within a cluster.
   struct Run {
     uint64_t begin, end;
@@ -48,7 +44,7 @@ class AxisRows {
     std::vector<uint64_t> mask;   // samples to decide
     std::vector<Run> runs;        // the same
     std::vector<uint32_t> words;  // if linear: words with such samples
-    std::vector<float> low, high;
+    LevelBounds bounds;
     // If not linear: the samples one after the other.
     std::vector<Piece> pieces;
     std::vector<uint64_t> samples_at;
@@ -57,15 +53,14 @@ class AxisRows {
 
   void find_period();
   void tabulate(Work& work) const;
-  void keep_group(const Group& group);
-  bool find_alive(const Group& group, uint64_t& first, uint64_t& last) const;
+  void keep_group(const RowGroup& group);
+  bool find_alive(const RowGroup& group, uint64_t& first, uint64_t& last) const;
   /// Splits the samples of a group's rows: certainly inside, certainly outside, to be decided.
-  void split(const Group& group, uint64_t first, uint64_t last);
-  void prepare(Work& work, const Group& group);
-  void decide_linear(Work& work, const Group& group, size_t row);
-  void decide_samples(Work& work, const Group& group, size_t row);
+  void split(const RowGroup& group, uint64_t first, uint64_t last);
+  void prepare(Work& work, const RowGroup& group);
+  void decide_linear(Work& work, const RowGroup& group, size_t row);
+  void decide_samples(Work& work, const RowGroup& group, size_t row);
   bool decide(const Work& work, const LinearRow& row, Vec3 p, uint64_t i) const;
-  Vec3 at(const Group& group, size_t row, uint64_t i) const;
 
   const Functional& structure_;
   const RowBlock& block_;

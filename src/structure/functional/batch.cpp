@@ -16,25 +16,29 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// One value in all lanes, or those from i on.
 template <bool is_uniform, class D>
-HWY_INLINE hn::Vec<D> load(D d, const double* data, size_t i) {
+HWY_INLINE hn::Vec<D> load(D d, const hn::TFromD<D>* data, size_t i) {
   return is_uniform ? hn::Set(d, *data) : hn::LoadU(d, data + i);
 }
 
-template <Op op, bool a_uniform, bool b_uniform>
-HWY_INLINE void all_lanes(const double* a, const double* b, double* to, size_t count) {
-  const hn::ScalableTag<double> d;
-  const Lanes<hn::ScalableTag<double>> lanes;
+template <Op op, bool a_uniform, bool b_uniform, class T>
+HWY_INLINE void all_lanes(const T* a, const T* b, T* to, size_t count) {
+  const hn::ScalableTag<T> d;
+  const Lanes<hn::ScalableTag<T>> lanes;
   for (size_t i = 0; i < count; i += hn::Lanes(d))
     hn::StoreU(result<op>(lanes, load<a_uniform>(d, a, i), load<b_uniform>(d, b, i)), d, to + i);
 }
 
-void run_program(const Program& program, const Values* registers, double* const* to, size_t count) {
+template <class T>
+HWY_INLINE void run(const Program& program, const ValuesOf<T>* registers, T* const* to,
+                    size_t count) {
   for (const Program::Instruction& instruction : program.code) {
-    const Values a = registers[instruction.a], b = registers[instruction.b];
-    double* out = to[instruction.to];
+    const ValuesOf<T> a = registers[instruction.a], b = registers[instruction.b];
+    T* out = to[instruction.to];
     with_op(instruction.op, [&](auto which) HWY_ATTR {
       constexpr Op op = decltype(which)::value;
-      if constexpr (has_one_operand(op)) {
+      if constexpr (!std::is_same_v<T, double> && !is_rational(op)) {
+        return;  // not in such programs
+      } else if constexpr (has_one_operand(op)) {
         if (a.is_uniform)
           all_lanes<op, true, true>(a.data, a.data, out, count);
         else
@@ -51,6 +55,15 @@ void run_program(const Program& program, const Values* registers, double* const*
       }
     });
   }
+}
+
+void run_doubles(const Program& program, const Values* registers, double* const* to, size_t count) {
+  run(program, registers, to, count);
+}
+
+void run_singles(const Program& program, const ValuesOf<float>* registers, float* const* to,
+                 size_t count) {
+  run(program, registers, to, count);
 }
 
 /// The bits of a mask of lanes, at most 64.
@@ -114,6 +127,45 @@ void angles_of_points(const Neighbourhood& grid, Values x, Values y, Values z, s
   }
 }
 
+void sums_of_angles(const float* a, const float* b, size_t words, const float* cosines,
+                    const float* sines, float* to) {
+  const hn::CappedTag<float, 16> d;
+  for (size_t i = 0; i < 64; i += hn::Lanes(d)) {
+    const auto c = hn::LoadU(d, cosines + i), s = hn::LoadU(d, sines + i);
+    for (size_t w = 0; w < words; ++w)
+      hn::StoreU(hn::MulAdd(c, hn::Set(d, a[w]), hn::Mul(s, hn::Set(d, b[w]))), d, to + w * 64 + i);
+  }
+}
+
+template <bool is_uniform, bool has_one_level>
+HWY_INLINE void compare_words(const float* values, const uint32_t* words, size_t count,
+                              const float* low, const float* high, uint64_t* at_most_low,
+                              uint64_t* at_most_high) {
+  const hn::CappedTag<float, linear_chunk> d;
+  for (size_t n = 0; n < count; ++n) {
+    uint64_t in = 0, maybe = 0;
+    for (size_t i = 0; i < 64; i += hn::Lanes(d)) {
+      const auto v = load<is_uniform>(d, values, n * 64 + i);
+      const size_t chunk = has_one_level ? 0 : (size_t{words[n]} * 64 + i) / linear_chunk;
+      in |= bits_of(d, hn::Le(v, hn::Set(d, low[chunk]))) << i;
+      maybe |= bits_of(d, hn::Le(v, hn::Set(d, high[chunk]))) << i;
+    }
+    at_most_low[n] = in;
+    at_most_high[n] = maybe;
+  }
+}
+
+void compare_all_singles(ValuesOf<float> values, const uint32_t* words, size_t count,
+                         const float* low, const float* high, bool has_one_level,
+                         uint64_t* at_most_low, uint64_t* at_most_high) {
+  if (values.is_uniform)
+    compare_words<true, false>(values.data, words, count, low, high, at_most_low, at_most_high);
+  else if (has_one_level)
+    compare_words<false, true>(values.data, words, count, low, high, at_most_low, at_most_high);
+  else
+    compare_words<false, false>(values.data, words, count, low, high, at_most_low, at_most_high);
+}
+
 template <size_t terms, bool has_one_level>
 HWY_INLINE void linear_words(const LinearRow& row, const uint32_t* words, size_t count,
                              const float* low, const float* high, uint64_t* at_most_low,
@@ -171,27 +223,56 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace msq {
 
-HWY_EXPORT(run_program);
+HWY_EXPORT(run_doubles);
+HWY_EXPORT(run_singles);
+HWY_EXPORT(sums_of_angles);
+HWY_EXPORT(compare_all_singles);
 HWY_EXPORT(compare_all);
 HWY_EXPORT(angles_of_points);
 HWY_EXPORT(linear);
 
-Batch::Batch(const Program& program)
+template <class T>
+constexpr size_t stride = (sizeof(T) == 4 ? single_points : batch_points) + batch_padding;
+
+template <class T>
+BatchOf<T>::BatchOf(const Program& program)
     : program_(program),
-      temporaries_(program.temporaries * (batch_points + batch_padding)),
+      constants_(program.constants.begin(), program.constants.end()),
+      temporaries_(program.temporaries * stride<T>),
       registers_(program.registers()),
       targets_(program.registers()) {
-  for (size_t i = 0; i < program.constants.size(); ++i)
-    registers_[program.inputs + i] = {&program.constants[i], true};
-  const size_t first = program.inputs + program.constants.size();
+  for (size_t i = 0; i < constants_.size(); ++i)
+    registers_[program.inputs + i] = {&constants_[i], true};
+  const size_t first = program.inputs + constants_.size();
   for (size_t i = 0; i < program.temporaries; ++i) {
-    targets_[first + i] = temporaries_.data() + i * (batch_points + batch_padding);
+    targets_[first + i] = temporaries_.data() + i * stride<T>;
     registers_[first + i] = {targets_[first + i], false};
   }
 }
 
-void Batch::run(size_t count) {
-  HWY_DYNAMIC_DISPATCH(run_program)(program_, registers_.data(), targets_.data(), count);
+template <>
+void BatchOf<double>::run(size_t count) {
+  HWY_DYNAMIC_DISPATCH(run_doubles)(program_, registers_.data(), targets_.data(), count);
+}
+
+template <>
+void BatchOf<float>::run(size_t count) {
+  HWY_DYNAMIC_DISPATCH(run_singles)(program_, registers_.data(), targets_.data(), count);
+}
+
+template class BatchOf<double>;
+template class BatchOf<float>;
+
+void add_angles(const float* a, const float* b, size_t words, const float* cosines,
+                const float* sines, float* to) {
+  HWY_DYNAMIC_DISPATCH(sums_of_angles)(a, b, words, cosines, sines, to);
+}
+
+void compare_singles(ValuesOf<float> values, const uint32_t* words, size_t count, const float* low,
+                     const float* high, bool has_one_level, uint64_t* at_most_low,
+                     uint64_t* at_most_high) {
+  HWY_DYNAMIC_DISPATCH(compare_all_singles)
+  (values, words, count, low, high, has_one_level, at_most_low, at_most_high);
 }
 
 void compare_values(Values values, Values levels, size_t count, uint64_t* bits) {

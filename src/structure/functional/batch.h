@@ -12,32 +12,45 @@ namespace msq {
 
 /// Points of a batch: the temporaries of usual tapes stay in a core's first cache.
 constexpr size_t batch_points = 256;
+constexpr size_t single_points = 512;
 /// Arrays of values are readable this far beyond their points.
 constexpr size_t batch_padding = 2 * most_simd_doubles;
 
 /// A value for each point, or one for all.
-struct Values {
-  const double* data = nullptr;
+template <class T>
+struct ValuesOf {
+  const T* data = nullptr;
   bool is_uniform = false;
-};
 
-class Batch {
+  T operator[](size_t i) const { return is_uniform ? *data : data[i]; }
+};
+using Values = ValuesOf<double>;
+
+/// Whether an operation can be done in single precision.
+constexpr bool is_rational(Op op) {
+  return op >= Op::add && op <= Op::absolute && op != Op::divide;
+}
+
+/// In double precision, as the scalar evaluator; or, for rational operations, in single precision.
+template <class T>
+class BatchOf {
  public:
-  explicit Batch(const Program& program);
+  explicit BatchOf(const Program& program);
 
   /// The values of an input for all batches from now on; must stay alive.
-  void set_input(size_t input, Values values) { registers_[input] = values; }
-  /// Evaluates up to batch_points points.
+  void set_input(size_t input, ValuesOf<T> values) { registers_[input] = values; }
+  /// Evaluates up to batch_points points, in single precision single_points.
   void run(size_t count);
   /// Valid until the next run.
-  Values output(size_t output) const { return registers_[program_.outputs[output]]; }
+  ValuesOf<T> output(size_t output) const { return registers_[program_.outputs[output]]; }
 
  private:
   const Program& program_;
-  std::vector<double> temporaries_;
-  std::vector<Values> registers_;
-  std::vector<double*> targets_;  // of the temporaries, by register
+  std::vector<T> constants_, temporaries_;
+  std::vector<ValuesOf<T>> registers_;
+  std::vector<T*> targets_;  // of the temporaries, by register
 };
+using Batch = BatchOf<double>;
 
 /// Bit i of `bits` (word i / 64), which is overwritten up to the last word: values[i] <= levels[i].
 void compare_values(Values values, Values levels, size_t count, uint64_t* bits);
@@ -46,6 +59,15 @@ void compare_values(Values values, Values levels, size_t count, uint64_t* bits);
 /// z and the angles are `count` values; uniform coordinates are allowed.
 void find_angles(const Neighbourhood& grid, Values x, Values y, Values z, size_t count,
                  double* const (&angles)[3]);
+
+/// For each word of 64 sines: a[w] cosines[i] + b[w] sines[i], in single precision.
+void add_angles(const float* a, const float* b, size_t words, const float* cosines,
+                const float* sines, float* to);
+
+/// As compare_linear, for values that are there, word after word.
+void compare_singles(ValuesOf<float> values, const uint32_t* words, size_t count, const float* low,
+                     const float* high, bool has_one_level, uint64_t* at_most_low,
+                     uint64_t* at_most_high);
 
 /// A row of samples whose value is a sum of coefficients times tables, plus a constant, in single
 /// precision.

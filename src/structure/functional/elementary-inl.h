@@ -70,12 +70,14 @@ struct Single {
   }
 };
 
-/// Arithmetic of the lanes of a vector of doubles.
+/// Arithmetic of the lanes of a vector of doubles; of floats as far as it makes sense.
 template <class D>
 struct Lanes {
   using V = hwy::HWY_NAMESPACE::Vec<D>;
   using M = hwy::HWY_NAMESPACE::Mask<D>;
-  HWY_INLINE V set(double v) const { return hwy::HWY_NAMESPACE::Set(D(), v); }
+  HWY_INLINE V set(double v) const {
+    return hwy::HWY_NAMESPACE::Set(D(), static_cast<hwy::HWY_NAMESPACE::TFromD<D>>(v));
+  }
   HWY_INLINE V add(V a, V b) const { return hwy::HWY_NAMESPACE::Add(a, b); }
   HWY_INLINE V subtract(V a, V b) const { return hwy::HWY_NAMESPACE::Sub(a, b); }
   HWY_INLINE V multiply(V a, V b) const { return hwy::HWY_NAMESPACE::Mul(a, b); }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/functional/functional.h"
 
-#include <algorithm>
-#include <bit>
+#include <cmath>
 
 #include "structure/functional/axis_rows.h"
 #include "structure/functional/batch.h"
+#include "structure/functional/turned_rows.h"
 
 namespace msq {
 
@@ -57,7 +57,9 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       program_(compile(onset_)),
       sample_axis_(sample_axes(neighbourhood.rotation)),
       clusters_(onset_, clusters ? clusters : automatic_clusters, level_.range()),
-      row_plans_(msq::row_plans(clusters_, sample_axis_)) {}
+      row_plans_(msq::row_plans(clusters_, sample_axis_)) {
+  if (sample_axis_[0] < 0) form_ = TrigonometricForm::of(onset_);
+}
 
 bool Functional::inside(Vec3 p) const {
   const Vec3 fraction = neighbourhood().locate(p).fraction;
@@ -91,42 +93,10 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
 void Functional::keep_rows(const RowBlock& block, const Job* job) const {
   if (sample_axis_[0] >= 0)
     AxisRows(*this, block).keep(job);
+  else if (form_)
+    TurnedRows(*this, block).keep(job);
   else
-    keep_turned_rows(block, job);
-}
-
-void Functional::keep_turned_rows(const RowBlock& block, const Job* job) const {
-  const SampleGrid& grid = *block.grid;
-  Batch batch(program_);
-  double x[batch_points + batch_padding] = {}, angles[3][batch_points + batch_padding];
-  double levels[batch_points + batch_padding] = {level_.at({})};
-  for (size_t axis = 0; axis < 3; ++axis) batch.set_input(axis, {angles[axis], false});
-  uint64_t* words[batch_points / 64];
-  for (uint64_t k = block.z0; k < block.z1; ++k) {
-    check_cancelled(job);
-    for (uint64_t j = block.y0; j < block.y1; ++j) {
-      const double y = grid.y(j), z = grid.z(k);
-      const size_t row_words = block.row_words();
-      for (size_t next = 0; next < row_words;) {
-        size_t size = 0;
-        for (; next < row_words && size < batch_points; ++next) {
-          uint64_t* word = block.row(j, k) + next;
-          if (*word == 0) continue;
-          words[size / 64] = word;
-          for (size_t i = 0; i < 64; ++i) x[size + i] = grid.x(next * 64 + i);
-          if (!level_.is_constant())
-            for (size_t i = 0; i < 64; ++i) levels[size + i] = level_.at({x[size + i], y, z});
-          size += 64;
-        }
-        find_angles(neighbourhood(), {x, false}, {&y, true}, {&z, true}, size,
-                    {angles[0], angles[1], angles[2]});
-        batch.run(size);
-        uint64_t bits[batch_points / 64];
-        compare_values(batch.output(0), {levels, level_.is_constant()}, size, bits);
-        for (size_t i = 0; i < size / 64; ++i) *words[i] &= bits[i];
-      }
-    }
-  }
+    keep_turned_rows(*this, block, job);
 }
 
 }  // namespace msq

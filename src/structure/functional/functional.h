@@ -10,6 +10,7 @@
 #include "structure/functional/clusters.h"
 #include "structure/functional/program.h"
 #include "structure/functional/row_plan.h"
+#include "structure/functional/trigonometric_form.h"
 #include "structure/structure.h"
 
 namespace msq {
@@ -29,6 +30,7 @@ class Functional final : public Structure {
   void keep_rows(const RowBlock& block, const Job* job) const override;
 
   const Tape& onset() const { return onset_; }
+  const Program& program() const { return program_; }
   const Parameter& level() const { return level_; }
   const Clusters& clusters() const { return clusters_; }
   /// For each axis of the grid the axis of the samples that it runs along; all -1 where the grid is
@@ -37,15 +39,17 @@ class Functional final : public Structure {
   /// One for each of the clusters' tapes; none where the grid is turned.
   const std::vector<RowPlan>& row_plans() const { return row_plans_; }
 
- private:
-  void keep_turned_rows(const RowBlock& block, const Job* job) const;
+  /// Of the onset; none for tapes of another form, or where the grid is not turned.
+  const std::optional<TrigonometricForm>& form() const { return form_; }
 
+ private:
   Parameter level_;
   Tape onset_;
   Program program_;
   std::array<int, 3> sample_axis_;
   Clusters clusters_;
   std::vector<RowPlan> row_plans_;
+  std::optional<TrigonometricForm> form_;
 };
 
 }  // namespace msq

@@ -60,7 +60,8 @@ class Parser {
   Tape parse() {
     const uint32_t root = sum();
     peek();
-    if (at_ < text_.size()) refuse(at_, "expected an operator or the end, found %s", found().c_str());
+    if (at_ < text_.size())
+      refuse(at_, "expected an operator or the end, found %s", found().c_str());
     return builder_.finish(root);
   }
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Thresholds in single precision on either side of the level.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/sample_grid.h"
+#include "field/field.h"
+#include "structure/functional/batch.h"
+
+namespace msq {
+
+/// Rows [y0, y1) of layers [z0, z1) of a grid, few enough for the level to change little among
+/// them.
+struct RowGroup {
+  uint64_t y0, y1, z0, z1;
+
+  size_t rows() const { return (y1 - y0) * (z1 - z0); }
+  uint64_t y(size_t row) const { return y0 + row % (y1 - y0); }
+  uint64_t z(size_t row) const { return z0 + row / (y1 - y0); }
+};
+constexpr uint64_t most_group_rows = 16, most_group_layers = 8;
+static_assert(most_group_rows * most_group_layers <= batch_points);
+
+/// A value of at most `low` is at most the level, one above `high` is not, if it is wrong by no
+/// more than `slack`: for all samples where the level is constant, else for chunks of them.
+struct LevelBounds {
+  std::vector<float> low, high;
+
+  void set(double level, double slack) {
+    low = {at_most(level - slack)};
+    high = {-at_most(-level - slack)};
+  }
+  /// For the listed words of a group's rows.
+  void set(const Parameter& level, double slack, const SampleGrid& grid, const RowGroup& group,
+           const std::vector<uint32_t>& words) {
+    low.resize(words_for(grid.nx) * bits_per_word / linear_chunk);
+    high.resize(low.size());
+    for (uint32_t w : words)
+      for (uint64_t i = w * bits_per_word; i < (w + 1) * bits_per_word; i += linear_chunk) {
+        const Interval range = level.range(
+            {grid.at(std::min(i, grid.nx - 1), group.y0, group.z0),
+             grid.at(std::min(i + linear_chunk, grid.nx) - 1, group.y1 - 1, group.z1 - 1)});
+        low[i / linear_chunk] = at_most(range.low - slack);
+        high[i / linear_chunk] = -at_most(-range.high - slack);
+      }
+  }
+
+ private:
+  static float at_most(double v) {
+    const float f = static_cast<float>(v);
+    return static_cast<double>(f) > v ? std::nextafter(f, -std::numeric_limits<float>::infinity())
+                                      : f;
+  }
+};
+
+}  // namespace msq
