@@ -119,9 +119,9 @@ int main(int count, char** arguments) try {
   setting.expression = blend;
   setting.cells = 9;
   setting.level = 0.1;
-  const double with = add("expression with choices, 9^3 cells", setting, 512);
+  const double with = add("expression with choices, 9^3 cells", setting, 1024, 128);
   setting.clusters = 1;
-  const double without = add("the same without clusters", setting, 512);
+  const double without = add("the same without clusters", setting, 1024, 128);
   if (with > 0) report.note("without clusters against with", without / with, "times");
   report.write(count, arguments);
   return 0;

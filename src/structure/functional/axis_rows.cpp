@@ -29,13 +29,10 @@ AxisRows::AxisRows(const Functional& structure, const RowBlock& block)
   const uint64_t first[3] = {0, block.y0, block.z0};
   const uint64_t count[3] = {words_ * bits_per_word, block.rows(), block.layers()};
   const auto& sample_axis = structure.sample_axis();
-  const double average_run =
-      cells.cell_size[static_cast<int>(std::find(sample_axis.begin(), sample_axis.end(), 0) -
-                                       sample_axis.begin())] /
-      (grid_.spacing.x * structure.clusters().side());
-  has_clusters_ =
-      structure.clusters().side() > 1 &&
-      average_run >= (structure.row_plans()[0].is_linear ? critical_linear : critical_samples);
+  const auto along = std::find(sample_axis.begin(), sample_axis.end(), 0) - sample_axis.begin();
+  const double samples = cells.cell_size[static_cast<int>(along)] / grid_.spacing.x;
+  clusters_ = structure.clusters().at_most(
+      samples / (structure.row_plans()[0].is_linear ? critical_linear : critical_samples));
   for (int axis = 0; axis < 3; ++axis) {
     // The other two coordinates do not matter.
     std::vector<double> positions(count[axis] + batch_padding), angles[3];
@@ -59,9 +56,9 @@ AxisRows::AxisRows(const Functional& structure, const RowBlock& block)
   }
   for (int axis = 0; axis < 3; ++axis) {
     numbers_[axis].resize(axis == 0 ? words_ * bits_per_word : count[axis]);
-    if (has_clusters_)
+    if (clusters_)
       for (size_t i = 0; i < numbers_[axis].size(); ++i)
-        numbers_[axis][i] = structure.clusters().number(angles_[axis][i]);
+        numbers_[axis][i] = clusters_->number(angles_[axis][i]);
   }
   const uint64_t columns = repeats_ ? words_ * bits_per_word : grid_.nx;
   for (uint64_t i = 0; i < columns; ++i) {
@@ -162,7 +159,7 @@ void AxisRows::split(const RowGroup& group, uint64_t first, uint64_t last) {
     else
       work.runs.push_back(run);
   };
-  if (!has_clusters_) return add(0, {first, last, 0});
+  if (!clusters_) return add(0, {first, last, 0});
   int number[3] = {0, numbers_[1][group.y0 - block_.y0], numbers_[2][group.z0 - block_.z0]};
   const auto& axis = structure_.sample_axis();
   Interval level{constant_level_, constant_level_};
@@ -171,7 +168,7 @@ void AxisRows::split(const RowGroup& group, uint64_t first, uint64_t last) {
     if (column.begin >= last) break;
     number[0] = column.cluster;
     const Clusters::Cluster& cluster =
-        structure_.clusters().at(number[axis[0]], number[axis[1]], number[axis[2]]);
+        clusters_->at(number[axis[0]], number[axis[1]], number[axis[2]]);
     if (!structure_.level().is_constant())
       level = structure_.level().range({grid_.at(column.begin, group.y0, group.z0),
                                         grid_.at(column.end - 1, group.y1 - 1, group.z1 - 1)});

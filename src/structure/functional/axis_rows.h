@@ -65,8 +65,8 @@ class AxisRows {
   const Functional& structure_;
   const RowBlock& block_;
   const SampleGrid& grid_;
-  bool has_clusters_ = false;
-  size_t words_;  // of a row that are computed; the others repeat them
+  const Clusters::Grid* clusters_;  // null: none
+  size_t words_;                    // of a row that are computed; the others repeat them
   bool repeats_ = false;
   std::vector<double> angles_[3];  // by axis of the samples: of columns, of rows, of layers
   std::vector<int> numbers_[3];    // of their clusters

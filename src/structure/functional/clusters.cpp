@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/functional/clusters.h"
 
+#include <algorithm>
 #include <cstring>
-#include <limits>
 #include <map>
 
 namespace msq {
@@ -25,13 +25,11 @@ std::vector<uint64_t> key_of(const Tape& tape) {
 
 }  // namespace
 
-Clusters::Clusters(const Tape& tape, int side, Interval levels) : side_(side) {
+Clusters::Clusters(const Tape& tape, int side, Interval levels) {
   tapes_.push_back(tape);
-  if (side == 1) {  // none: nothing is known
-    const double all = std::numeric_limits<double>::infinity();
-    clusters_.push_back({{-all, all}, 0});
-    return;
-  }
+  grids_.push_back({side, {}});
+  if (side == 1) return;
+  std::vector<Cluster>& clusters = grids_[0].clusters;
   bool has_choices = false;
   for (const Node& node : tape.nodes)
     has_choices =
@@ -43,8 +41,8 @@ Clusters::Clusters(const Tape& tape, int side, Interval levels) : side_(side) {
                     angle_of(i == side - 1 ? 1 : (i + 1 + 0x1p-40) / side)};
   };
   std::vector<Enclosure> nodes;
-  clusters_.reserve(static_cast<size_t>(side) * static_cast<size_t>(side) *
-                    static_cast<size_t>(side));
+  clusters.reserve(static_cast<size_t>(side) * static_cast<size_t>(side) *
+                   static_cast<size_t>(side));
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {
@@ -63,8 +61,34 @@ Clusters::Clusters(const Tape& tape, int side, Interval levels) : side_(side) {
             tapes_.push_back(std::move(shorter));
           }
         }
-        clusters_.push_back({onset, number});
+        clusters.push_back({onset, number});
       }
+  while (grids_.back().side % 2 == 0 && grids_.back().side > 4)
+    grids_.push_back(coarser(grids_.back()));
+}
+
+Clusters::Grid Clusters::coarser(const Grid& fine) {
+  Grid grid{fine.side / 2, {}};
+  grid.clusters.reserve(fine.clusters.size() / 8);
+  for (int z = 0; z < grid.side; ++z)
+    for (int y = 0; y < grid.side; ++y)
+      for (int x = 0; x < grid.side; ++x) {
+        Cluster all = fine.at(2 * x, 2 * y, 2 * z);
+        for (int i = 1; i < 8; ++i) {
+          const Cluster& part = fine.at(2 * x + (i & 1), 2 * y + (i >> 1 & 1), 2 * z + (i >> 2));
+          all.onset.low = std::min(all.onset.low, part.onset.low);
+          all.onset.high = std::max(all.onset.high, part.onset.high);
+          if (part.tape != all.tape) all.tape = 0;
+        }
+        grid.clusters.push_back(all);
+      }
+  return grid;
+}
+
+const Clusters::Grid* Clusters::at_most(double side) const {
+  for (const Grid& grid : grids_)
+    if (grid.side > 1 && grid.side <= side) return &grid;
+  return nullptr;
 }
 
 }  // namespace msq

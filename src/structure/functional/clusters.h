@@ -20,24 +20,38 @@ class Clusters {
     uint16_t tape;  ///< number of the tape to evaluate here
   };
 
-  /// `levels`: the levels that will be asked about.
+  /// `levels`: the levels that will be asked about. With side 1 nothing is known.
   Clusters(const Tape& tape, int side, Interval levels);
 
-  int side() const { return side_; }
-  /// The number of the cluster along an axis that an angle lies in.
-  int number(double angle) const {
-    const double i = angle * (side_ / two_pi);
-    return i < side_ ? static_cast<int>(i) : side_ - 1;
-  }
-  const Cluster& at(int x, int y, int z) const {
-    return clusters_[static_cast<size_t>((z * side_ + y) * side_ + x)];
-  }
+  int side() const { return grids_[0].side; }
+  /// The finest grid of clusters with at most so many along an axis of the cell; null if there is
+  /// none worth looking at.
+  class Grid;
+  const Grid* at_most(double side) const;
+
   /// The first is the whole tape.
   const std::vector<Tape>& tapes() const { return tapes_; }
 
+  class Grid {
+   public:
+    /// The number of the cluster along an axis that an angle lies in.
+    int number(double angle) const {
+      const double i = angle * (side / two_pi);
+      return i < side ? static_cast<int>(i) : side - 1;
+    }
+    const Cluster& at(int x, int y, int z) const {
+      return clusters[static_cast<size_t>((z * side + y) * side + x)];
+    }
+
+    int side;
+    std::vector<Cluster> clusters;
+  };
+
  private:
-  int side_;
-  std::vector<Cluster> clusters_;
+  /// Clusters of twice the size.
+  static Grid coarser(const Grid& fine);
+
+  std::vector<Grid> grids_;  // from the finest on
   std::vector<Tape> tapes_;
 };
 

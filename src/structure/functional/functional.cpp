@@ -11,7 +11,10 @@ namespace msq {
 
 namespace {
 
-constexpr int automatic_clusters = 16;
+/// Along an axis of the cell: fewer for tapes whose enclosures take long.
+int automatic_clusters(const Tape& tape) {
+  return tape.nodes.size() > 200 ? 16 : 32;
+}
 
 Tape onset_of(const Tape& function, FunctionalKind kind) {
   if (kind == FunctionalKind::network) return function;
@@ -56,7 +59,7 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       onset_(onset_of(function, kind)),
       program_(compile(onset_)),
       sample_axis_(sample_axes(neighbourhood.rotation)),
-      clusters_(onset_, clusters ? clusters : automatic_clusters, level_.range()),
+      clusters_(onset_, clusters ? clusters : automatic_clusters(onset_), level_.range()),
       row_plans_(msq::row_plans(clusters_, sample_axis_)) {
   if (sample_axis_[0] < 0) form_ = TrigonometricForm::of(onset_);
 }
