@@ -127,13 +127,30 @@ void angles_of_points(const Neighbourhood& grid, Values x, Values y, Values z, s
   }
 }
 
-void sums_of_angles(const float* a, const float* b, size_t words, const float* cosines,
-                    const float* sines, float* to) {
+void turn_one(double sine, double cosine, const double* cosines, const double* sines, size_t count,
+              float* to_sines, float* to_cosines) {
+  const hn::ScalableTag<double> d;
+  const hn::Rebind<float, decltype(d)> single;
+  const auto a = hn::Set(d, sine), b = hn::Set(d, cosine);
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto c = hn::LoadU(d, cosines + i), s = hn::LoadU(d, sines + i);
+    const auto sum = hn::Add(hn::Mul(a, c), hn::Mul(b, s));
+    const auto difference = hn::Sub(hn::Mul(b, c), hn::Mul(a, s));
+    hn::StoreU(hn::DemoteTo(single, sum), single, to_sines + i);
+    hn::StoreU(hn::DemoteTo(single, difference), single, to_cosines + i);
+  }
+}
+
+void turn_words(const float* sine, const float* cosine, size_t words, const float* cosines,
+                const float* sines, float* to_sines, float* to_cosines) {
   const hn::CappedTag<float, 16> d;
   for (size_t i = 0; i < 64; i += hn::Lanes(d)) {
     const auto c = hn::LoadU(d, cosines + i), s = hn::LoadU(d, sines + i);
-    for (size_t w = 0; w < words; ++w)
-      hn::StoreU(hn::MulAdd(c, hn::Set(d, a[w]), hn::Mul(s, hn::Set(d, b[w]))), d, to + w * 64 + i);
+    for (size_t w = 0; w < words; ++w) {
+      const auto a = hn::Set(d, sine[w]), b = hn::Set(d, cosine[w]);
+      hn::StoreU(hn::MulAdd(c, a, hn::Mul(s, b)), d, to_sines + w * 64 + i);
+      hn::StoreU(hn::NegMulAdd(s, a, hn::Mul(c, b)), d, to_cosines + w * 64 + i);
+    }
   }
 }
 
@@ -225,7 +242,8 @@ namespace msq {
 
 HWY_EXPORT(run_doubles);
 HWY_EXPORT(run_singles);
-HWY_EXPORT(sums_of_angles);
+HWY_EXPORT(turn_one);
+HWY_EXPORT(turn_words);
 HWY_EXPORT(compare_all_singles);
 HWY_EXPORT(compare_all);
 HWY_EXPORT(angles_of_points);
@@ -263,9 +281,14 @@ void BatchOf<float>::run(size_t count) {
 template class BatchOf<double>;
 template class BatchOf<float>;
 
-void add_angles(const float* a, const float* b, size_t words, const float* cosines,
-                const float* sines, float* to) {
-  HWY_DYNAMIC_DISPATCH(sums_of_angles)(a, b, words, cosines, sines, to);
+void turn_angle(double sine, double cosine, const double* cosines, const double* sines,
+                size_t count, float* to_sines, float* to_cosines) {
+  HWY_DYNAMIC_DISPATCH(turn_one)(sine, cosine, cosines, sines, count, to_sines, to_cosines);
+}
+
+void turn_angles(const float* sine, const float* cosine, size_t words, const float* cosines,
+                 const float* sines, float* to_sines, float* to_cosines) {
+  HWY_DYNAMIC_DISPATCH(turn_words)(sine, cosine, words, cosines, sines, to_sines, to_cosines);
 }
 
 void compare_singles(ValuesOf<float> values, const uint32_t* words, size_t count, const float* low,

@@ -60,9 +60,14 @@ void compare_values(Values values, Values levels, size_t count, uint64_t* bits);
 void find_angles(const Neighbourhood& grid, Values x, Values y, Values z, size_t count,
                  double* const (&angles)[3]);
 
-/// For each word of 64 sines: a[w] cosines[i] + b[w] sines[i], in single precision.
-void add_angles(const float* a, const float* b, size_t words, const float* cosines,
-                const float* sines, float* to);
+/// Sines and cosines of an angle plus each of the steps, whose cosines and sines are given.
+void turn_angle(double sine, double cosine, const double* cosines, const double* sines,
+                size_t count, float* to_sines, float* to_cosines);
+
+/// For each word w of 64 samples the sines and cosines of angles, from those at its first sample
+/// and those of the steps from there, in single precision.
+void turn_angles(const float* sine, const float* cosine, size_t words, const float* cosines,
+                 const float* sines, float* to_sines, float* to_cosines);
 
 /// As compare_linear, for values that are there, word after word.
 void compare_singles(ValuesOf<float> values, const uint32_t* words, size_t count, const float* low,

@@ -74,18 +74,6 @@ std::optional<TrigonometricForm> TrigonometricForm::of(const Tape& tape) {
   for (const Enclosure& e : nodes) form.most_.push_back(std::max(-e.low, e.high));
   if (!(form.slack(0) < 1e-2)) return std::nullopt;
 
-  TapeBuilder builder;
-  std::vector<uint32_t> coordinates, starts;
-  for (int axis = 0; axis < 3; ++axis) coordinates.push_back(builder.coordinate(axis));
-  for (const Wave& wave : form.waves_) {
-    const uint32_t angle = builder.apply(Op::multiply, builder.constant(wave.frequency),
-                                         coordinates[static_cast<size_t>(wave.axis)]);
-    starts.push_back(builder.apply(Op::sine, angle));
-    starts.push_back(builder.apply(Op::cosine, angle));
-  }
-  std::vector<Node> start_nodes;
-  for (uint32_t i = 0; i < builder.size(); ++i) start_nodes.push_back(builder[i]);
-  form.starts_ = compile(start_nodes, coordinates, starts);
   form.values_ = compile(tape.nodes, inputs, {static_cast<uint32_t>(count - 1)});
   return form;
 }

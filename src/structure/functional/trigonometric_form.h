@@ -23,8 +23,6 @@ class TrigonometricForm {
   static std::optional<TrigonometricForm> of(const Tape& tape);
 
   const std::vector<Wave>& waves() const { return waves_; }
-  /// Inputs: the three angles. Outputs: sine and cosine of each wave.
-  const Program& starts() const { return starts_; }
   /// Inputs: sine and cosine of each wave. Output: the tape's value; rational operations only.
   const Program& values() const { return values_; }
   /// Bound of the error of the value in single precision, where the angles of the samples that the
@@ -37,7 +35,7 @@ class TrigonometricForm {
   std::vector<int> frequency_;  // of each node that is a wave; else 0
   std::vector<double> most_;    // magnitude of each node
   std::vector<Wave> waves_;
-  Program starts_, values_;
+  Program values_;
 };
 
 }  // namespace msq

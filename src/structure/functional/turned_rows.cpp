@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the sines and cosines of the angles at the first of 64 samples, and those of the angles from
-// there to each of them, which are the same all over a block, follow those at all 64, by the sums
-// of angles; whole multiples make the wrap at a cell's border vanish. All that is done in single
-// precision, with a proven bound of the error (trigonometric_form.cpp); samples nearer to the level
-// than that are asked one by one.
+// From the sines and cosines of the angles at a row's first sample, and those of the angles from
+// there on, which are the same all over a block, follow those at all samples, by the sums of
+// angles; whole multiples make the wrap at a cell's border vanish. First those at the first of each
+// 64 samples, in double precision, then those at all, in single precision, with a proven bound of
+// the error (trigonometric_form.cpp); samples nearer to the level than that are asked one by one.
 #include "structure/functional/turned_rows.h"
 
 #include <algorithm>
@@ -23,49 +23,46 @@ TurnedRows::TurnedRows(const Functional& structure, const RowBlock& block)
       form_(*structure.form()),
       block_(block),
       grid_(*block.grid),
-      starts_(form_.starts()),
       values_(form_.values()) {
-  const size_t waves = form_.waves().size(), row_words = block.row_words();
+  const size_t waves = form_.waves().size();
   find_angle_error();
   find_steps();
   waves_.resize(2 * waves * (single_points + batch_padding));
   for (size_t i = 0; i < 2 * waves; ++i)
     values_.set_input(i, {waves_.data() + i * (single_points + batch_padding), false});
-  at_first_.resize(3 * waves * row_words);
-  x_.resize(row_words + batch_padding);
-  for (auto& angles : angles_) angles.resize(row_words + batch_padding);
+  at_first_.resize(2 * waves * padded_words());
   if (structure.level().is_constant()) bounds_.set(structure.level().at({}), slack_);
 }
 
 /// A coordinate in the grid, in cells, as the definition computes it, is a sum of three products
 /// divided by the cell size: within a dozen roundings, of 2^-53 of the sum of magnitudes, of the
-/// true one. The same holds for that of a word's first sample, and the angle between the two
-/// carries a few roundings more; 2^-48 is 32 of them.
+/// true one. The same holds for that of a row's first sample, and the angle between the two and its
+/// sine and cosine carry a few roundings more; 2^-47 is 64 of them.
 void TurnedRows::find_angle_error() {
   const Neighbourhood& cells = structure_.neighbourhood();
   const Box3 box = block_.box();
   const double most = 3 * (max_magnitude(box.min) + max_magnitude(box.max) +
                            max_magnitude(cells.origin) + bits_per_word * grid_.spacing.x);
   const double in_cells = 1 + most / min_component(cells.cell_size);
-  slack_ = form_.slack(two_pi * 0x1p-48 * in_cells);
+  slack_ = form_.slack(two_pi * 0x1p-47 * in_cells);
 }
 
 void TurnedRows::find_steps() {
   const Neighbourhood& cells = structure_.neighbourhood();
-  steps_.resize(form_.waves().size() * 2 * bits_per_word);
-  float* to = steps_.data();
   for (const TrigonometricForm::Wave& wave : form_.waves()) {
-    // The row's direction along the grid's axis, as an angle a sample.
+    // The row's direction along the grid's axis, in cells a sample.
     const double along = cells.rotation.m[static_cast<size_t>(wave.axis)] * grid_.spacing.x /
                          cells.cell_size[wave.axis];
-    for (size_t i = 0; i < bits_per_word; ++i) {
+    const auto step = [&](Op op, size_t samples) {
       // Whole turns are left out before precision is lost.
-      const double turns = along * static_cast<double>(i) * wave.frequency;
-      const double angle = angle_of(turns - std::round(turns));
-      to[i] = static_cast<float>(apply(Op::cosine, angle, 0));
-      to[bits_per_word + i] = static_cast<float>(apply(Op::sine, angle, 0));
+      const double turns = along * static_cast<double>(samples) * wave.frequency;
+      return apply(op, angle_of(turns - std::round(turns)), 0);
+    };
+    for (Op op : {Op::cosine, Op::sine}) {
+      for (size_t i = 0; i < bits_per_word; ++i) steps_.push_back(static_cast<float>(step(op, i)));
+      for (size_t w = 0; w < padded_words(); ++w)
+        word_steps_.push_back(w < block_.row_words() ? step(op, w * bits_per_word) : 0);
     }
-    to += 2 * bits_per_word;
   }
 }
 
@@ -82,12 +79,15 @@ void TurnedRows::keep(const Job* job) {
 
 void TurnedRows::keep_group(const RowGroup& group) {
   words_.clear();
-  for (uint32_t w = 0; w < block_.row_words(); ++w)
+  const auto is_alive = [&](uint32_t w) {
     for (size_t row = 0; row < group.rows(); ++row)
-      if (block_.row(group.y(row), group.z(row))[w]) {
-        words_.push_back(w);
-        break;
-      }
+      if (block_.row(group.y(row), group.z(row))[w]) return true;
+    return false;
+  };
+  uint32_t first = 0, last = static_cast<uint32_t>(block_.row_words());
+  while (first < last && !is_alive(first)) ++first;
+  while (first < last && !is_alive(last - 1)) --last;
+  for (uint32_t w = first; w < last; ++w) words_.push_back(w);
   if (words_.empty()) return;
   if (!structure_.level().is_constant())
     bounds_.set(structure_.level(), slack_, grid_, group, words_);
@@ -99,38 +99,28 @@ void TurnedRows::keep_group(const RowGroup& group) {
 }
 
 void TurnedRows::find_starts(uint64_t j, uint64_t k) {
-  const size_t count = words_.size(), waves = form_.waves().size();
-  const double y = grid_.y(j), z = grid_.z(k);
-  for (size_t n = 0; n < count; ++n) x_[n] = grid_.x(uint64_t{words_[n]} * bits_per_word);
-  find_angles(structure_.neighbourhood(), {x_.data(), false}, {&y, true}, {&z, true}, count,
-              {angles_[0].data(), angles_[1].data(), angles_[2].data()});
-  for (size_t begin = 0; begin < count; begin += batch_points) {
-    const size_t size = std::min(batch_points, count - begin);
-    for (size_t axis = 0; axis < 3; ++axis)
-      starts_.set_input(axis, {angles_[axis].data() + begin, false});
-    starts_.run(size);
-    for (size_t wave = 0; wave < waves; ++wave) {
-      const Values sines = starts_.output(2 * wave), cosines = starts_.output(2 * wave + 1);
-      float* to = at_first_.data() + 3 * wave * count + begin;
-      for (size_t n = 0; n < size; ++n) {
-        to[n] = static_cast<float>(sines[n]);
-        to[count + n] = static_cast<float>(cosines[n]);
-        to[2 * count + n] = -to[n];
-      }
-    }
+  const Vec3 p = grid_.at(uint64_t{words_[0]} * bits_per_word, j, k);
+  double angles[3][batch_padding];
+  find_angles(structure_.neighbourhood(), {&p.x, true}, {&p.y, true}, {&p.z, true}, 1,
+              {angles[0], angles[1], angles[2]});
+  float* to = at_first_.data();
+  const double* steps = word_steps_.data();
+  for (const TrigonometricForm::Wave& wave : form_.waves()) {
+    const double angle = wave.frequency * angles[wave.axis][0];
+    turn_angle(apply(Op::sine, angle, 0), apply(Op::cosine, angle, 0), steps,
+               steps + padded_words(), words_.size(), to, to + padded_words());
+    to += 2 * padded_words();
+    steps += 2 * padded_words();
   }
 }
 
 void TurnedRows::decide(const RowGroup& group, size_t row, size_t first, size_t count) {
-  const size_t all = words_.size();
+  constexpr size_t stride = single_points + batch_padding;
   for (size_t wave = 0; wave < form_.waves().size(); ++wave) {
-    const float* cosines = steps_.data() + 2 * wave * bits_per_word;
-    const float* sines = cosines + bits_per_word;
-    const float* from = at_first_.data() + 3 * wave * all + first;
-    float* to = waves_.data() + 2 * wave * (single_points + batch_padding);
-    add_angles(from, from + all, count, cosines, sines, to);
-    add_angles(from + all, from + 2 * all, count, cosines, sines,
-               to + single_points + batch_padding);
+    const float* steps = steps_.data() + 2 * wave * bits_per_word;
+    const float* from = at_first_.data() + 2 * wave * padded_words() + first;
+    float* to = waves_.data() + 2 * wave * stride;
+    turn_angles(from, from + padded_words(), count, steps, steps + bits_per_word, to, to + stride);
   }
   values_.run(count * bits_per_word);
   const ValuesOf<float> values = values_.output(0);

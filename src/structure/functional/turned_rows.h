@@ -18,6 +18,7 @@ class TurnedRows {
 
  private:
   void keep_group(const RowGroup& group);
+  size_t padded_words() const { return block_.row_words() + batch_padding; }
   void find_angle_error();
   void find_steps();
   /// The sines and cosines of the waves at the first sample of each listed word of a row.
@@ -30,14 +31,14 @@ class TurnedRows {
   const SampleGrid& grid_;
   double slack_ = 0;
   LevelBounds bounds_;
-  BatchOf<double> starts_;
   BatchOf<float> values_;
-  std::vector<float>
-      steps_;  // per wave: 64 cosines, then 64 sines, of the angle from a first sample
+  // Per wave: the cosines, then the sines, of the angles from a word's first sample to each of its
+  // samples, and from the first of the listed words to each of them.
+  std::vector<float> steps_;
+  std::vector<double> word_steps_;
+  std::vector<float> at_first_;  // per wave: sines, then cosines, at the first sample of each word
   std::vector<float> waves_;     // per wave: sines, then cosines, of a batch of words
-  std::vector<float> at_first_;  // per wave: sines, cosines and negated sines, by listed word
-  std::vector<uint32_t> words_;  // of a group's rows, with samples alive
-  std::vector<double> x_, angles_[3];
+  std::vector<uint32_t> words_;  // of a group's rows, from the first to the last with samples alive
 };
 
 /// The same for any tape: all samples in double precision.
