@@ -66,6 +66,10 @@ AxisRows::AxisRows(const Functional& structure, const RowBlock& block)
       columns_.push_back({i, i, numbers_[0][i]});
     columns_.back().end = i + 1;
   }
+  if (structure.row_plans()[0].is_linear || structure.row_plans().size() > 1) {
+    sample_numbers_.resize(words_ * bits_per_word + batch_padding);
+    for (size_t i = 0; i < sample_numbers_.size(); ++i) sample_numbers_[i] = static_cast<float>(i);
+  }
   certain_.resize(words_);
   result_.resize(words_ + 1);
   at_most_low_.resize(words_);
@@ -109,7 +113,9 @@ void AxisRows::tabulate(Work& work) const {
     work.float_tables.emplace_back(table.begin(), table.end());
     work.float_pointers.push_back(work.float_tables.back().data());
   }
-  work.bounds.set(constant_level_, work.plan.slack);
+  work.float_pointers.push_back(sample_numbers_.data());
+  work.slack = work.plan.slack();
+  work.bounds.set(constant_level_, work.slack);
 }
 
 void AxisRows::keep(const Job* job) {
@@ -198,9 +204,7 @@ void AxisRows::prepare(Work& work, const RowGroup& group) {
     work.words.clear();
     for (uint32_t w = 0; w < words_; ++w)
       if (work.mask[w]) work.words.push_back(w);
-    if (!structure_.level().is_constant())
-      work.bounds.set(structure_.level(), work.plan.slack, grid_, group, work.words);
-    return;
+    return prepare_levels(work, group);
   }
   work.pieces.clear();
   work.samples_at.clear();
@@ -241,34 +245,76 @@ void AxisRows::keep_group(const RowGroup& group) {
   }
 }
 
+/// A level that is linear along the rows is one term more: minus its slope, times the number of the
+/// sample. It starts from its value at a sample of each row, so it is in doubt by the departures of
+/// two values from a linear field, and the rounding of two positions.
+void AxisRows::prepare_levels(Work& work, const RowGroup& group) {
+  work.has_ramp = false;
+  if (structure_.level().is_constant() || work.words.empty()) return;
+  const uint64_t from = uint64_t{work.words.front()} * bits_per_word;
+  const uint64_t last = std::min(grid_.nx, (uint64_t{work.words.back()} + 1) * bits_per_word) - 1;
+  const Box3 box{grid_.at(from, group.y0, group.z0), grid_.at(last, group.y1 - 1, group.z1 - 1)};
+  Vec3 gradient;
+  if (!work.plan.is_absolute && grid_.nx < 1 << 24 && structure_.level().is_linear(box, gradient)) {
+    work.has_ramp = true;
+    work.ramp = gradient.x * grid_.spacing.x;
+    work.ramp_from = from;
+    const Interval range = structure_.level().range();
+    const double most = std::max(std::abs(range.low), std::abs(range.high));
+    const double steps = 2 * std::abs(work.ramp) * static_cast<double>(last);
+    const double departure =
+        0x1p-38 * (range.high - range.low) +
+        0x1p-48 * std::abs(gradient.x) * (max_magnitude(box.min) + max_magnitude(box.max));
+    work.bounds.set(0, work.plan.slack(2, most + steps) + departure);
+  } else {
+    work.bounds.set(structure_.level(), work.slack, grid_, group, work.words);
+  }
+}
+
 void AxisRows::decide_linear(Work& work, const RowGroup& group, size_t row) {
   float coefficients[64];
-  const size_t terms = work.tables.size();
+  size_t terms = work.tables.size();
   for (size_t t = 0; t < terms; ++t) coefficients[t] = static_cast<float>(work.rows.output(t)[row]);
+  double constant = work.rows.output(terms)[row];
+  if (work.has_ramp) {
+    const double level =
+        structure_.level().at(grid_.at(work.ramp_from, group.y(row), group.z(row)));
+    constant -= level - work.ramp * static_cast<double>(work.ramp_from);
+    coefficients[terms++] = static_cast<float>(-work.ramp);
+  }
   const LinearRow linear{work.float_pointers.data(), coefficients, terms,
-                         static_cast<float>(work.rows.output(terms)[row]), work.plan.is_absolute};
+                         static_cast<float>(constant), work.plan.is_absolute};
   compare_linear(linear, work.words.data(), work.words.size(), work.bounds.low.data(),
-                 work.bounds.high.data(), structure_.level().is_constant(), at_most_low_.data(),
-                 at_most_high_.data());
+                 work.bounds.high.data(), work.has_ramp || structure_.level().is_constant(),
+                 at_most_low_.data(), at_most_high_.data());
   for (size_t n = 0; n < work.words.size(); ++n) {
     const uint32_t w = work.words[n];
     uint64_t in = at_most_low_[n];
     for (uint64_t doubt = at_most_high_[n] & ~in & work.mask[w]; doubt; doubt &= doubt - 1) {
       const uint64_t i = w * bits_per_word + static_cast<uint64_t>(std::countr_zero(doubt));
-      if (decide(work, linear, grid_.at(i, group.y(row), group.z(row)), i)) in |= doubt & -doubt;
+      if (decide(work, linear, group, row, i)) in |= doubt & -doubt;
     }
     result_[w] |= in & work.mask[w];
   }
 }
 
-bool AxisRows::decide(const Work& work, const LinearRow& row, Vec3 p, uint64_t i) const {
-  if (structure_.level().is_constant()) return structure_.inside(p);
+bool AxisRows::decide(const Work& work, const LinearRow& row, const RowGroup& group,
+                      size_t row_number, uint64_t i) const {
+  // Samples that are not alive may lie where the definition must not be asked; of those that repeat
+  // any will do.
+  const uint64_t j = group.y(row_number), k = group.z(row_number);
+  const uint64_t* alive = block_.row(j, k);
+  const uint64_t step = words_ * bits_per_word;
+  while (i < grid_.nx && !(alive[i / bits_per_word] >> (i % bits_per_word) & 1)) i += step;
+  if (i >= grid_.nx) return false;
+  const Vec3 p = grid_.at(i, j, k);
+  if (structure_.level().is_constant() || work.has_ramp) return structure_.inside(p);
   float sum = row.constant;
   for (size_t t = 0; t < row.terms; ++t) sum += row.tables[t][i] * row.coefficients[t];
   if (row.is_absolute) sum = std::abs(sum);
   const double level = structure_.level().at(p);
-  if (sum <= level - work.plan.slack) return true;
-  if (sum > level + work.plan.slack) return false;
+  if (sum <= level - work.slack) return true;
+  if (sum > level + work.slack) return false;
   return structure_.inside(p);
 }
 

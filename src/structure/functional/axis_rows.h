@@ -39,12 +39,17 @@ class AxisRows {
     bool has_tables = false;
     std::vector<std::vector<double>> tables;       // by position in the row
     std::vector<std::vector<float>> float_tables;  // if linear
-    std::vector<const float*> float_pointers;
+    std::vector<const float*> float_pointers;      // to them, and to the numbers of the samples
+    double slack = 0;
 
     std::vector<uint64_t> mask;   // samples to decide
     std::vector<Run> runs;        // the same
     std::vector<uint32_t> words;  // if linear: words with such samples
     LevelBounds bounds;
+    // If the level is linear along the rows: by sample, from the first of a row's.
+    bool has_ramp = false;
+    double ramp = 0;
+    uint64_t ramp_from = 0;
     // If not linear: the samples one after the other.
     std::vector<Piece> pieces;
     std::vector<uint64_t> samples_at;
@@ -58,9 +63,11 @@ class AxisRows {
   /// Splits the samples of a group's rows: certainly inside, certainly outside, to be decided.
   void split(const RowGroup& group, uint64_t first, uint64_t last);
   void prepare(Work& work, const RowGroup& group);
+  void prepare_levels(Work& work, const RowGroup& group);
   void decide_linear(Work& work, const RowGroup& group, size_t row);
   void decide_samples(Work& work, const RowGroup& group, size_t row);
-  bool decide(const Work& work, const LinearRow& row, Vec3 p, uint64_t i) const;
+  bool decide(const Work& work, const LinearRow& row, const RowGroup& group, size_t row_number,
+              uint64_t i) const;
 
   const Functional& structure_;
   const RowBlock& block_;
@@ -75,6 +82,7 @@ class AxisRows {
   std::vector<Work*> used_;  // in a group
   std::vector<uint64_t> certain_, result_, at_most_low_, at_most_high_;
   std::vector<double> levels_;
+  std::vector<float> sample_numbers_;
   double constant_level_ = 0;
 };
 

@@ -218,6 +218,8 @@ HWY_INLINE void linear_row(const LinearRow& row, const uint32_t* words, size_t c
       return linear_words<1, has_one_level>(row, words, count, low, high, in, maybe);
     case 2:
       return linear_words<2, has_one_level>(row, words, count, low, high, in, maybe);
+    case 3:
+      return linear_words<3, has_one_level>(row, words, count, low, high, in, maybe);
     case 4:
       return linear_words<4, has_one_level>(row, words, count, low, high, in, maybe);
     default:

@@ -148,9 +148,8 @@ RowPlan::RowPlan(const Tape& tape, const std::array<int, 3>& sample_axis) {
     values.push_back(form->constant);
     tables = splitter.compile(bases);
     rows = splitter.compile(values);
-    const double terms = static_cast<double>(bases.size());
-    const double operations = 8 * static_cast<double>(splitter.size());
-    slack = 1.25 * form->most * ((terms + 3) * 0x1p-24 + operations * 0x1p-53) + 0x1p-120;
+    most_ = form->most;
+    operations_ = 8 * static_cast<double>(splitter.size());
     return;
   }
   is_absolute = false;
@@ -178,6 +177,11 @@ RowPlan::RowPlan(const Tape& tape, const std::array<int, 3>& sample_axis) {
   rows = splitter.compile(values);
   bases.insert(bases.end(), values.begin(), values.end());
   samples = splitter.compile(bases, {root});
+}
+
+double RowPlan::slack(size_t terms, double magnitude) const {
+  const double all = static_cast<double>(tables.outputs.size() + terms);
+  return 1.25 * (most_ + magnitude) * ((all + 3) * 0x1p-24 + operations_ * 0x1p-53) + 0x1p-120;
 }
 
 }  // namespace msq

@@ -22,11 +22,16 @@ struct RowPlan {
   /// Whether the tape's value is a sum of the rows' first outputs times the tables, plus the rows'
   /// last output; or the magnitude of such a sum. Then there is no program for samples.
   bool is_linear = false, is_absolute = false;
-  /// Error of that sum in single precision against the tape.
-  double slack = 0;
+  /// Bound of the error of that sum in single precision against the tape; with further terms, their
+  /// magnitudes at most `magnitude` together.
+  double slack(size_t terms = 0, double magnitude = 0) const;
 
   /// Inputs: the tables, then the rows' outputs. Output: the tape's value.
   Program samples;
+
+ private:
+  double most_ = 0;  // of the sum of the magnitudes of all products
+  double operations_ = 0;
 };
 
 }  // namespace msq
