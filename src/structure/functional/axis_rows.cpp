@@ -115,7 +115,6 @@ void AxisRows::tabulate(Work& work) const {
   }
   work.float_pointers.push_back(sample_numbers_.data());
   work.slack = work.plan.slack();
-  work.bounds.set(constant_level_, work.slack);
 }
 
 void AxisRows::keep(const Job* job) {
@@ -201,10 +200,11 @@ void AxisRows::prepare(Work& work, const RowGroup& group) {
   }
   work.rows.run(group.rows());
   if (work.plan.is_linear) {
-    work.words.clear();
+    mixed_words_.clear();
     for (uint32_t w = 0; w < words_; ++w)
-      if (work.mask[w]) work.words.push_back(w);
-    return prepare_levels(work, group);
+      if (work.mask[w]) mixed_words_.push_back(w);
+    work.segments.clear();
+    return add_segments(work, group, mixed_words_.data(), mixed_words_.size());
   }
   work.pieces.clear();
   work.samples_at.clear();
@@ -235,71 +235,92 @@ void AxisRows::keep_group(const RowGroup& group) {
     if (std::all_of(words, words + row_words, [](uint64_t w) { return w == 0; })) continue;
     std::copy(certain_.begin(), certain_.end(), result_.begin());
     for (Work* work : used_) {
-      if (work->plan.is_linear)
-        decide_linear(*work, group, row);
-      else
+      if (!work->plan.is_linear)
         decide_samples(*work, group, row);
+      else
+        for (const Segment& segment : work->segments) decide_linear(*work, segment, group, row);
     }
     for (size_t w = 0; w < row_words;)
       for (size_t part = 0; part < words_ && w < row_words; ++part, ++w) words[w] &= result_[part];
   }
 }
 
+void AxisRows::add_segments(Work& work, const RowGroup& group, const uint32_t* words,
+                            size_t count) const {
+  if (count == 0) return;
+  Segment segment;
+  segment.words.assign(words, words + count);
+  const Parameter& level = structure_.level();
+  if (level.is_constant()) {
+    segment.bounds.set(level.range(), work.slack);
+  } else {
+    segment.from = uint64_t{words[0]} * bits_per_word;
+    const uint64_t last = std::min(grid_.nx, (uint64_t{words[count - 1]} + 1) * bits_per_word) - 1;
+    const Box3 box{grid_.at(segment.from, group.y0, group.z0),
+                   grid_.at(last, group.y1 - 1, group.z1 - 1)};
+    const Interval range = level.range(box);
+    if (range.high - range.low <= work.slack) {
+      segment.bounds.set(range, work.slack);
+    } else if (!find_ramp(work, box, last, segment)) {
+      if (count > 1) {
+        add_segments(work, group, words, count / 2);
+        return add_segments(work, group, words + count / 2, count - count / 2);
+      }
+      segment.has_one_level = false;
+      segment.bounds.set(level, work.slack, grid_, group, segment.words);
+    }
+  }
+  work.segments.push_back(std::move(segment));
+}
+
 /// A level that is linear along the rows is one term more: minus its slope, times the number of the
 /// sample. It starts from its value at a sample of each row, so it is in doubt by the departures of
 /// two values from a linear field, and the rounding of two positions.
-void AxisRows::prepare_levels(Work& work, const RowGroup& group) {
-  work.has_ramp = false;
-  if (structure_.level().is_constant() || work.words.empty()) return;
-  const uint64_t from = uint64_t{work.words.front()} * bits_per_word;
-  const uint64_t last = std::min(grid_.nx, (uint64_t{work.words.back()} + 1) * bits_per_word) - 1;
-  const Box3 box{grid_.at(from, group.y0, group.z0), grid_.at(last, group.y1 - 1, group.z1 - 1)};
+bool AxisRows::find_ramp(const Work& work, const Box3& box, uint64_t last, Segment& segment) const {
   Vec3 gradient;
-  if (!work.plan.is_absolute && grid_.nx < 1 << 24 && structure_.level().is_linear(box, gradient)) {
-    work.has_ramp = true;
-    work.ramp = gradient.x * grid_.spacing.x;
-    work.ramp_from = from;
-    const Interval range = structure_.level().range();
-    const double most = std::max(std::abs(range.low), std::abs(range.high));
-    const double steps = 2 * std::abs(work.ramp) * static_cast<double>(last);
-    const double departure =
-        0x1p-38 * (range.high - range.low) +
-        0x1p-48 * std::abs(gradient.x) * (max_magnitude(box.min) + max_magnitude(box.max));
-    work.bounds.set(0, work.plan.slack(2, most + steps) + departure);
-  } else {
-    work.bounds.set(structure_.level(), work.slack, grid_, group, work.words);
-  }
+  if (work.plan.is_absolute || grid_.nx >= 1 << 24 || !structure_.level().is_linear(box, gradient))
+    return false;
+  segment.has_ramp = true;
+  segment.ramp = gradient.x * grid_.spacing.x;
+  const Interval range = structure_.level().range();
+  const double most = std::max(std::abs(range.low), std::abs(range.high));
+  const double steps = 2 * std::abs(segment.ramp) * static_cast<double>(last);
+  const double departure =
+      0x1p-38 * (range.high - range.low) +
+      0x1p-48 * std::abs(gradient.x) * (max_magnitude(box.min) + max_magnitude(box.max));
+  segment.bounds.set(Interval{0, 0}, work.plan.slack(2, most + steps) + departure);
+  return true;
 }
 
-void AxisRows::decide_linear(Work& work, const RowGroup& group, size_t row) {
+void AxisRows::decide_linear(Work& work, const Segment& segment, const RowGroup& group,
+                             size_t row) {
   float coefficients[64];
   size_t terms = work.tables.size();
   for (size_t t = 0; t < terms; ++t) coefficients[t] = static_cast<float>(work.rows.output(t)[row]);
   double constant = work.rows.output(terms)[row];
-  if (work.has_ramp) {
-    const double level =
-        structure_.level().at(grid_.at(work.ramp_from, group.y(row), group.z(row)));
-    constant -= level - work.ramp * static_cast<double>(work.ramp_from);
-    coefficients[terms++] = static_cast<float>(-work.ramp);
+  if (segment.has_ramp) {
+    const double level = structure_.level().at(grid_.at(segment.from, group.y(row), group.z(row)));
+    constant -= level - segment.ramp * static_cast<double>(segment.from);
+    coefficients[terms++] = static_cast<float>(-segment.ramp);
   }
   const LinearRow linear{work.float_pointers.data(), coefficients, terms,
                          static_cast<float>(constant), work.plan.is_absolute};
-  compare_linear(linear, work.words.data(), work.words.size(), work.bounds.low.data(),
-                 work.bounds.high.data(), work.has_ramp || structure_.level().is_constant(),
-                 at_most_low_.data(), at_most_high_.data());
-  for (size_t n = 0; n < work.words.size(); ++n) {
-    const uint32_t w = work.words[n];
+  compare_linear(linear, segment.words.data(), segment.words.size(), segment.bounds.low.data(),
+                 segment.bounds.high.data(), segment.has_one_level, at_most_low_.data(),
+                 at_most_high_.data());
+  for (size_t n = 0; n < segment.words.size(); ++n) {
+    const uint32_t w = segment.words[n];
     uint64_t in = at_most_low_[n];
     for (uint64_t doubt = at_most_high_[n] & ~in & work.mask[w]; doubt; doubt &= doubt - 1) {
       const uint64_t i = w * bits_per_word + static_cast<uint64_t>(std::countr_zero(doubt));
-      if (decide(work, linear, group, row, i)) in |= doubt & -doubt;
+      if (decide(work, segment, linear, group, row, i)) in |= doubt & -doubt;
     }
     result_[w] |= in & work.mask[w];
   }
 }
 
-bool AxisRows::decide(const Work& work, const LinearRow& row, const RowGroup& group,
-                      size_t row_number, uint64_t i) const {
+bool AxisRows::decide(const Work& work, const Segment& segment, const LinearRow& row,
+                      const RowGroup& group, size_t row_number, uint64_t i) const {
   // Samples that are not alive may lie where the definition must not be asked; of those that repeat
   // any will do.
   const uint64_t j = group.y(row_number), k = group.z(row_number);
@@ -308,7 +329,7 @@ bool AxisRows::decide(const Work& work, const LinearRow& row, const RowGroup& gr
   while (i < grid_.nx && !(alive[i / bits_per_word] >> (i % bits_per_word) & 1)) i += step;
   if (i >= grid_.nx) return false;
   const Vec3 p = grid_.at(i, j, k);
-  if (structure_.level().is_constant() || work.has_ramp) return structure_.inside(p);
+  if (structure_.level().is_constant() || segment.has_ramp) return structure_.inside(p);
   float sum = row.constant;
   for (size_t t = 0; t < row.terms; ++t) sum += row.tables[t][i] * row.coefficients[t];
   if (row.is_absolute) sum = std::abs(sum);

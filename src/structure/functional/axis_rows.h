@@ -30,6 +30,16 @@ class AxisRows {
     uint32_t word, shift, length;
     size_t from;
   };
+  /// Words of a group's rows, in order, whose levels are alike.
+  struct Segment {
+    std::vector<uint32_t> words;
+    LevelBounds bounds;
+    bool has_one_level = true;
+    // If the level is linear along the rows: by sample, from the first of a row's on.
+    bool has_ramp = false;
+    double ramp = 0;
+    uint64_t from = 0;
+  };
   /// One of the structure's tapes: its tables, and the samples of a group that it decides.
   struct Work {
     explicit Work(const RowPlan& plan) : plan(plan), rows(plan.rows), samples(plan.samples) {}
@@ -42,14 +52,9 @@ class AxisRows {
     std::vector<const float*> float_pointers;      // to them, and to the numbers of the samples
     double slack = 0;
 
-    std::vector<uint64_t> mask;   // samples to decide
-    std::vector<Run> runs;        // the same
-    std::vector<uint32_t> words;  // if linear: words with such samples
-    LevelBounds bounds;
-    // If the level is linear along the rows: by sample, from the first of a row's.
-    bool has_ramp = false;
-    double ramp = 0;
-    uint64_t ramp_from = 0;
+    std::vector<uint64_t> mask;     // samples to decide
+    std::vector<Run> runs;          // the same
+    std::vector<Segment> segments;  // if linear: words with such samples
     // If not linear: the samples one after the other.
     std::vector<Piece> pieces;
     std::vector<uint64_t> samples_at;
@@ -63,11 +68,12 @@ class AxisRows {
   /// Splits the samples of a group's rows: certainly inside, certainly outside, to be decided.
   void split(const RowGroup& group, uint64_t first, uint64_t last);
   void prepare(Work& work, const RowGroup& group);
-  void prepare_levels(Work& work, const RowGroup& group);
-  void decide_linear(Work& work, const RowGroup& group, size_t row);
+  void add_segments(Work& work, const RowGroup& group, const uint32_t* words, size_t count) const;
+  bool find_ramp(const Work& work, const Box3& box, uint64_t last, Segment& segment) const;
+  void decide_linear(Work& work, const Segment& segment, const RowGroup& group, size_t row);
   void decide_samples(Work& work, const RowGroup& group, size_t row);
-  bool decide(const Work& work, const LinearRow& row, const RowGroup& group, size_t row_number,
-              uint64_t i) const;
+  bool decide(const Work& work, const Segment& segment, const LinearRow& row, const RowGroup& group,
+              size_t row_number, uint64_t i) const;
 
   const Functional& structure_;
   const RowBlock& block_;
@@ -83,6 +89,7 @@ class AxisRows {
   std::vector<uint64_t> certain_, result_, at_most_low_, at_most_high_;
   std::vector<double> levels_;
   std::vector<float> sample_numbers_;
+  std::vector<uint32_t> mixed_words_;
   double constant_level_ = 0;
 };
 

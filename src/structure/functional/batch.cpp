@@ -69,12 +69,18 @@ void run_singles(const Program& program, const ValuesOf<float>* registers, float
 /// The bits of a mask of lanes, at most 64.
 template <class D, class M>
 HWY_INLINE uint64_t bits_of(D d, M mask) {
-  uint64_t bits = 0;
-  uint8_t bytes[8] = {};
+  uint8_t bytes[8];
   hn::StoreMaskBits(d, mask, bytes);
-  std::memcpy(&bits, bytes, sizeof bits);
   const size_t lanes = hn::Lanes(d);
-  return lanes >= 64 ? bits : bits & ((uint64_t{1} << lanes) - 1);
+  if (lanes <= 8) return bytes[0];
+  if (lanes == 16) {
+    uint16_t bits;
+    std::memcpy(&bits, bytes, sizeof bits);
+    return bits;
+  }
+  uint64_t bits = 0;
+  std::memcpy(&bits, bytes, lanes / 8);
+  return bits;
 }
 
 template <bool values_uniform, bool levels_uniform>

@@ -29,9 +29,9 @@ static_assert(most_group_rows * most_group_layers <= batch_points);
 struct LevelBounds {
   std::vector<float> low, high;
 
-  void set(double level, double slack) {
-    low = {at_most(level - slack)};
-    high = {-at_most(-level - slack)};
+  void set(Interval level, double slack) {
+    low = {at_most(level.low - slack)};
+    high = {-at_most(-level.high - slack)};
   }
   /// For the listed words of a group's rows.
   void set(const Parameter& level, double slack, const SampleGrid& grid, const RowGroup& group,

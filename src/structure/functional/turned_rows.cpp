@@ -31,7 +31,7 @@ TurnedRows::TurnedRows(const Functional& structure, const RowBlock& block)
   for (size_t i = 0; i < 2 * waves; ++i)
     values_.set_input(i, {waves_.data() + i * (single_points + batch_padding), false});
   at_first_.resize(2 * waves * padded_words());
-  if (structure.level().is_constant()) bounds_.set(structure.level().at({}), slack_);
+  if (structure.level().is_constant()) bounds_.set(structure.level().range(), slack_);
 }
 
 /// A coordinate in the grid, in cells, as the definition computes it, is a sum of three products
