@@ -472,7 +472,8 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def *def, size_t size)
  * 100 brackets, signs and exponents within each other, 1024 different operations.
  *
  * Functions are computed of IEEE operations alone, not by the C library: the same bits on every machine.
- * Cost: clusters^3 evaluations in intervals (milliseconds by default, a second at most).
+ * Cost: none; the first slice or grid takes clusters^3 evaluations in intervals (tens of milliseconds by
+ * default, a second at most).
  * Errors: ARGUMENT (for expressions the message has the position, from 1, and the reason), LIMIT (expressions
  * too long, too deep, with too many operations), MEMORY.
  * Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and

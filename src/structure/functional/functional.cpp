@@ -59,9 +59,17 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       onset_(onset_of(function, kind)),
       program_(compile(onset_)),
       sample_axis_(sample_axes(neighbourhood.rotation)),
-      clusters_(onset_, clusters ? clusters : automatic_clusters(onset_), level_.range()),
-      row_plans_(msq::row_plans(clusters_, sample_axis_)) {
+      side_(clusters ? clusters : automatic_clusters(onset_)) {
   if (sample_axis_[0] < 0) form_ = TrigonometricForm::of(onset_);
+}
+
+const Functional::Prepared& Functional::prepared() const {
+  std::call_once(once_, [this] {
+    Clusters clusters(onset_, side_, level_.range());
+    std::vector<RowPlan> plans = msq::row_plans(clusters, sample_axis_);
+    prepared_ = Prepared{std::move(clusters), std::move(plans)};
+  });
+  return *prepared_;
 }
 
 bool Functional::inside(Vec3 p) const {

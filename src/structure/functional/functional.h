@@ -5,6 +5,8 @@
 #pragma once
 
 #include <array>
+#include <mutex>
+#include <optional>
 
 #include "field/field.h"
 #include "structure/functional/clusters.h"
@@ -32,24 +34,33 @@ class Functional final : public Structure {
   const Tape& onset() const { return onset_; }
   const Program& program() const { return program_; }
   const Parameter& level() const { return level_; }
-  const Clusters& clusters() const { return clusters_; }
+  /// Built by the first call, on whatever thread.
+  const Clusters& clusters() const { return prepared().clusters; }
   /// For each axis of the grid the axis of the samples that it runs along; all -1 where the grid is
   /// turned.
   const std::array<int, 3>& sample_axis() const { return sample_axis_; }
   /// One for each of the clusters' tapes; none where the grid is turned.
-  const std::vector<RowPlan>& row_plans() const { return row_plans_; }
+  const std::vector<RowPlan>& row_plans() const { return prepared().row_plans; }
 
   /// Of the onset; none for tapes of another form, or where the grid is not turned.
   const std::optional<TrigonometricForm>& form() const { return form_; }
 
  private:
+  /// What rows along the axes take.
+  struct Prepared {
+    Clusters clusters;
+    std::vector<RowPlan> row_plans;
+  };
+  const Prepared& prepared() const;
+
   Parameter level_;
   Tape onset_;
   Program program_;
   std::array<int, 3> sample_axis_;
-  Clusters clusters_;
-  std::vector<RowPlan> row_plans_;
+  int side_;  // of the clusters
   std::optional<TrigonometricForm> form_;
+  mutable std::once_flag once_;
+  mutable std::optional<Prepared> prepared_;
 };
 
 }  // namespace msq
