@@ -35,9 +35,10 @@ namespace msq {
 namespace {
 
 /// D^2, in sizes of the own leaf: among leaves of one level about 43 seeds, which hold most cells.
-/// With fewer than `enough`, D grows.
+/// With fewer than `enough`, D grows; with more than `crowd`, as a coarse leaf has near fine ones,
+/// it shrinks: any D will do, and all vertices are compared with all seeds at hand.
 constexpr double first_reach_squared = 4.75;
-constexpr size_t enough = 32;
+constexpr size_t enough = 32, crowd = 2048;
 /// Of the seeds at hand, if there are more than `most_at_first`, so many of each octant are taken.
 constexpr size_t most_at_first = 64, octant_share = 6;
 /// How far beyond a plane a vertex v may be: a part of |v|^2 or of 1. More than ClippedCell leaves.
@@ -94,20 +95,30 @@ class CellBuilder {
   }
   static uint32_t octant(Vec3 v) { return (v.x > 0) | (v.y > 0) << 1 | (v.z > 0) << 2; }
 
-  /// The seeds within D, which grows until they are enough for a cell.
+  /// The seeds within D, which grows until they are enough for a cell, or shrinks until they are no
+  /// crowd.
   void gather() {
-    for (reach_squared_ = first_reach_squared;; reach_squared_ *= 2) {
+    reach_squared_ = first_reach_squared;
+    for (bool is_crowded = false;;) {
       near_.clear();
       const double squared = reach_squared_ * (unit_ * unit_);
       trees_.visit(
           home_, Box3{own_.position, own_.position}.grown(std::sqrt(squared) + 1e-9),
-          [&](const Box3& box) { return least_squared(box, own_.position) <= squared + 1e-9; },
+          [&](const Box3& box) {
+            return near_.size() <= crowd && least_squared(box, own_.position) <= squared + 1e-9;
+          },
           [&](const LeafSeed& seed) {
             if (seed.order == own_.order) return;
             const Neighbour n = neighbour(seed);
             if (2 * n.half_squared <= reach_squared_) near_.push_back(n);
           });
-      if (near_.size() >= enough) return;
+      if (near_.size() > crowd) {
+        is_crowded = true;
+        reach_squared_ *= 0.5;
+        continue;
+      }
+      if (is_crowded || near_.size() >= enough) return;
+      reach_squared_ *= 2;
     }
   }
 
