@@ -45,17 +45,18 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
   StrutRows rows(block, grid, foam.radius(), edge_error * unit);
   if (rows.empty()) return;
   const Box3 reach = grid.to_grid(rows.reach());
+  // An edge that touches the reach has a point in it, and its owner within the empty radius of
+  // that.
+  const double owner_distance = foam.seeds().empty_radius() * unit * (1 + 1e-9);
   const GradedSeeds* graded = foam.graded().get();
-  const double critical = graded ? critical_samples_of_leaf * graded->mean_density(reach)
-                                 : critical_samples(foam.radius().range().high / unit);
+  const double critical =
+      graded ? critical_samples_of_leaf * graded->mean_density(reach.grown(owner_distance))
+             : critical_samples(foam.radius().range().high / unit);
   if (!rows.pays(grid, critical))
     return graded ? foam.Structure::keep_rows(block, job)
                   : foam_keep_rows_by_point(foam, block, job);
   const int side = graded ? graded->brick_side() : EdgeBrick::side;
   const int lead = graded ? 0 : EdgeBrick::lead;
-  // An edge that touches the reach has a point in it, and its owner within the empty radius of
-  // that.
-  const double owner_distance = foam.seeds().empty_radius() * unit * (1 + 1e-9);
   int64_t first[3], last[3];
   for (int axis = 0; axis < 3; ++axis) {
     const auto brick = [&](double g) {
