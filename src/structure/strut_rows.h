@@ -65,6 +65,8 @@ class StrutRows {
 
  private:
   void set_radii() {
+    // The radius at samples that a strut may hold, which is off by less than the margin.
+    const double around = most_ + margin_;
     const auto extent = [&](size_t i) {
       return Box3{min(batch_.from(i), batch_.to(i)), max(batch_.from(i), batch_.to(i))};
     };
@@ -75,7 +77,7 @@ class StrutRows {
         const Box3 box = extent(i);
         all = {min(all.min, box.min), max(all.max, box.max)};
       }
-      batch_.linear = radius_.is_linear(all.grown(most_ * (1 + 1e-6)), batch_.gradient) &&
+      batch_.linear = radius_.is_linear(all.grown(around * (1 + 1e-6)), batch_.gradient) &&
                       max_magnitude(batch_.gradient) < StrutBatch::most_gradient;
     }
     for (size_t i = 0; i < batch_.count; ++i) {
@@ -83,12 +85,13 @@ class StrutRows {
       if (batch_.linear) {
         const Vec3 a = batch_.from(i), ab = batch_.to(i) - a, g = batch_.gradient;
         const double at_a = radius_.at(a), along = dot(g, ab);
-        const double about = most_ * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) + 1e-9 * most_;
+        const double about =
+            around * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) + 1e-9 * most_;
         batch_.at_a[i] = at_a;
         r = {std::max(radius_.range().low, at_a + std::min(along, 0.0) - about),
              std::min(most_, at_a + std::max(along, 0.0) + about)};
       } else if (!radius_.is_constant()) {
-        r = radius_.range(extent(i).grown(most_));
+        r = radius_.range(extent(i).grown(around));
       }
       batch_.low[i] = r.low;
       batch_.high[i] = r.high;
