@@ -10,7 +10,7 @@ namespace bench {
 struct FoamSetup {
   int cells;
   int32_t method;
-  uint64_t cache_bytes = uint64_t{208} << 20;
+  uint64_t cache_bytes = uint64_t{192} << 20;
   uint32_t threads = 2;
   double extent = 1;       ///< the shape: a cube from the origin with such sides
   bool is_graded = false;  ///< r from 0.05 cell at one corner of the cube to 0.15 at the other

@@ -20,12 +20,12 @@ SegmentSet::SegmentSet(const std::vector<Node>& nodes,
     for (size_t i = 0; i < count_; ++i)
       for (size_t end = 0; end < 2; ++end)
         numbers[end * count_ + i] = static_cast<Number>(ends[i][end]);
+    set_bounds(numbers);
   };
   if (is_wide())
     set_ends(wide_);
   else
     set_ends(narrow_);
-  set_bounds();
 }
 
 SegmentSet::SegmentSet(const std::vector<FloatSegment>& segments,
@@ -46,23 +46,23 @@ SegmentSet::SegmentSet(const std::vector<FloatSegment>& segments,
           }(),
           starts) {}
 
-void SegmentSet::set_bounds() {
+template <class Number>
+void SegmentSet::set_bounds(const std::vector<Number>& ends) {
   constexpr float inf = std::numeric_limits<float>::infinity();
   bounds_.resize(6 * runs());
-  for (size_t run = 0; run < runs(); ++run) {
-    float low[3] = {inf, inf, inf}, high[3] = {-inf, -inf, -inf};
-    for (size_t i = run_start(run); i < run_end(run); ++i) {
-      const FloatSegment s = at(i);
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], std::min(s.a[axis], s.b[axis]));
-        high[axis] = std::max(high[axis], std::max(s.a[axis], s.b[axis]));
-      }
-    }
+  for (size_t run = 0; run < runs(); ++run)
     for (size_t axis = 0; axis < 3; ++axis) {
-      bounds_[axis * runs() + run] = low[axis];
-      bounds_[(axis + 3) * runs() + run] = high[axis];
+      const float* coordinate = nodes_.data() + axis * node_count_;
+      float low = inf, high = -inf;
+      for (size_t end = 0; end < 2; ++end)
+        for (size_t i = run_start(run); i < run_end(run); ++i) {
+          const float x = coordinate[ends[end * count_ + i]];
+          low = std::min(low, x);
+          high = std::max(high, x);
+        }
+      bounds_[axis * runs() + run] = low;
+      bounds_[(axis + 3) * runs() + run] = high;
     }
-  }
 }
 
 FloatSegment SegmentSet::at(size_t i) const {

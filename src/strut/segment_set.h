@@ -56,7 +56,8 @@ class SegmentSet {
  private:
   static constexpr size_t padding = 2 * most_simd_doubles;  // lanes of the widest vector of floats
 
-  void set_bounds();
+  template <class Number>
+  void set_bounds(const std::vector<Number>& ends);
 
   size_t count_ = 0, node_count_ = 0;
   std::vector<float> nodes_, bounds_;  // one array after the other

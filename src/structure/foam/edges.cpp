@@ -41,7 +41,12 @@ class EdgeBuilder {
         starts_.push_back(static_cast<uint32_t>(ends_.size()));
         for (int x = 0; x < side; ++x) add_owned_edges(block_.index(x, y, z));
       }
-    number_nodes(origin);
+    // The few vertices that no edge of the brick has are not worth sorting out.
+    nodes_.resize(shared_.count());
+    for (uint32_t i = 0; i < nodes_.size(); ++i) {
+      const Vec3 p = shared_.position(i) - origin;
+      nodes_[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    }
     return SegmentSet(nodes_, ends_, starts_);
   }
 
@@ -67,23 +72,6 @@ class EdgeBuilder {
       d2 = std::min(most_squared_, std::max(4 * cell_.radius_squared() * (1 + 1e-6), 1.25 * d2));
     }
     if (!add_by_cuts(own)) add_by_definition(own);
-  }
-
-  /// From numbers of all vertices found to those of the vertices that edges end at.
-  void number_nodes(Vec3 origin) {
-    constexpr uint32_t none = ~uint32_t{0};
-    node_.assign(shared_.count(), none);
-    nodes_.clear();
-    for (std::array<uint32_t, 2>& ends : ends_)
-      for (uint32_t& end : ends) {
-        if (node_[end] == none) {
-          node_[end] = static_cast<uint32_t>(nodes_.size());
-          const Vec3 p = shared_.position(end) - origin;
-          nodes_.push_back(
-              {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-        }
-        end = node_[end];
-      }
   }
 
   struct Neighbour {
@@ -162,9 +150,9 @@ class EdgeBuilder {
   ClippedCell clipped_;
   std::vector<Neighbour> neighbours_;
   double empty_radius_ = 0;
-  double most_squared_ = 0;                    // twice that, squared
-  std::vector<std::array<uint32_t, 2>> ends_;  // numbers of shared_, later of nodes_
-  std::vector<uint32_t> starts_, node_;
+  double most_squared_ = 0;  // twice that, squared
+  std::vector<std::array<uint32_t, 2>> ends_;
+  std::vector<uint32_t> starts_;
   std::vector<SegmentSet::Node> nodes_;
 };
 

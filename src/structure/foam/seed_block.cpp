@@ -33,6 +33,19 @@ HWY_INLINE hn::Vec<D> load(const float* values, const ptrdiff_t* starts, size_t 
 #endif
 }
 
+/// Stores the first lanes. Mostly few are wanted, and stores of half a vector cross fewer lines of
+/// the cache.
+template <class V, class T>
+HWY_INLINE void store(V v, size_t wanted, T* to) {
+  const hn::DFromV<V> d;
+#if HWY_MAX_BYTES == 64 && !HWY_HAVE_SCALABLE
+  const hn::Half<decltype(d)> half;
+  if (wanted <= hn::Lanes(half)) return hn::StoreU(hn::LowerHalf(half, v), half, to);
+#endif
+  (void)wanted;
+  hn::StoreU(v, d, to);
+}
+
 void planes_within(const SeedBlock::Fractions& fractions, const SeedBlock::Stretches& stretches,
                    size_t own, float distance_squared, VoronoiCell::Planes& planes) {
   const D d;
@@ -55,11 +68,12 @@ void planes_within(const SeedBlock::Fractions& fractions, const SeedBlock::Stret
     const auto within = hn::Le(d2, most);
     const auto seed = hn::BitCast(du, hn::Add(own_seed, hn::LoadU(di, &stretches.seed[i])));
     const Compression<D> compressed(within);
-    hn::StoreU(compressed(nx), d, planes.x + count);
-    hn::StoreU(compressed(ny), d, planes.y + count);
-    hn::StoreU(compressed(nz), d, planes.z + count);
-    hn::StoreU(compressed(seed), du, planes.seed + count);
-    count += hn::CountTrue(d, within);
+    const size_t found = hn::CountTrue(d, within);
+    store(compressed(nx), found, planes.x + count);
+    store(compressed(ny), found, planes.y + count);
+    store(compressed(nz), found, planes.z + count);
+    store(compressed(seed), found, planes.seed + count);
+    count += found;
   }
   planes.count = count;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
