@@ -168,8 +168,8 @@ MSQ_API void msq_job_retain(msq_job *job);
 MSQ_API void msq_job_release(msq_job *job);
 
 /* Asks the call that works under the job to stop; it returns MSQ_E_CANCELLED when the tiles or layers
- * in work are done, mostly within tens of milliseconds. Stays set: calls made later under this job
- * stop at once. Any thread. Errors: ARGUMENT. */
+ * in work are done, mostly within tens of milliseconds (arrays asked of foams by MSQ_FOAM_POINT,
+ * seconds, at a large radius minutes). Stays set: calls made later under this job stop at once. Any thread. Errors: ARGUMENT. */
 MSQ_API msq_status msq_job_cancel(msq_job *job);
 
 /* Fraction done, 0 to 1, of the last call under the job; 1 only after success. Any thread.
@@ -381,9 +381,9 @@ enum {
                             the nearest, projection, validity; about 0.2 ms a point */
   MSQ_FOAM_METHOD_2 = 2, /* per cell, the edges of a Delaunay triangulation (CGAL) kept in the cache;
                             about 0.5 ms a cell and 0.3 us a point */
-  MSQ_FOAM_DIRECT = 3,   /* each edge built once, kept in the cache and written as spans; points where
-                            there are few samples a cell, and in arrays, are answered one by one by
-                            the definition */
+  MSQ_FOAM_DIRECT = 3,   /* each edge built once, kept in the cache and written as spans; arrays of
+                            points, and grids of few samples a cell, by the seeds near each point,
+                            grouped by cell and in vectors */
   MSQ_FOAM_METHOD_1 = 4  /* per cell, the lines of triplets of seeds kept in the cache, validity
                             tested per point; about 0.04 ms a cell and 0.3 us a point */
 };
