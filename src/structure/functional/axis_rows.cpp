@@ -189,7 +189,10 @@ void AxisRows::prepare(Work& work, const RowGroup& group) {
   if (!work.has_tables) tabulate(work);
   work.mask.assign(words_, 0);
   for (const Run& run : work.runs) set_bits(work.mask.data(), run.begin, run.end - 1);
-  std::vector<double> y(group.rows() + batch_padding), z(group.rows() + batch_padding);
+  // Kept: an angle may itself be one of the rows' values.
+  std::vector<double>&y = work.row_angles[0], &z = work.row_angles[1];
+  y.resize(group.rows() + batch_padding);
+  z.resize(group.rows() + batch_padding);
   for (size_t row = 0; row < group.rows(); ++row) {
     y[row] = angles_[1][group.y(row) - block_.y0];
     z[row] = angles_[2][group.z(row) - block_.z0];

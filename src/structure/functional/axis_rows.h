@@ -46,6 +46,7 @@ class AxisRows {
 
     const RowPlan& plan;
     Batch rows, samples;
+    std::vector<double> row_angles[2];  // of the group's rows, across them; inputs of `rows`
     bool has_tables = false;
     std::vector<std::vector<double>> tables;       // by position in the row
     std::vector<std::vector<float>> float_tables;  // if linear
