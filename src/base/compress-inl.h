@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include "base/mask_bits-inl.h"
+
 #ifndef MSQ_BASE_COMPRESS_TABLE
 #define MSQ_BASE_COMPRESS_TABLE
 #include <array>
@@ -43,7 +45,7 @@ class Compression {
             Float(),
             hwy::HWY_NAMESPACE::PromoteTo(
                 Bits(), hwy::HWY_NAMESPACE::LoadU(hwy::HWY_NAMESPACE::Rebind<uint8_t, D>(),
-                                                  compress_8_lanes[number(mask)].data())))) {}
+                                                  compress_8_lanes[bits_of(D(), mask)].data())))) {}
   template <class V>
   HWY_INLINE V operator()(V v) const {
     namespace hn = hwy::HWY_NAMESPACE;
@@ -53,12 +55,6 @@ class Compression {
  private:
   using Float = hwy::HWY_NAMESPACE::RebindToFloat<D>;
   using Bits = hwy::HWY_NAMESPACE::RebindToUnsigned<D>;
-
-  static HWY_INLINE size_t number(hwy::HWY_NAMESPACE::Mask<D> mask) {
-    uint8_t bits[8];
-    hwy::HWY_NAMESPACE::StoreMaskBits(D(), mask, bits);
-    return bits[0];
-  }
 
   decltype(hwy::HWY_NAMESPACE::IndicesFromVec(Float(), hwy::HWY_NAMESPACE::Zero(Bits()))) order_;
 #else

@@ -40,8 +40,8 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <cstring>
 
+#include "base/mask_bits-inl.h"
 #include "strut/span_buffer-inl.h"
 #include "strut/strut_setup-inl.h"
 
@@ -281,11 +281,7 @@ HWY_INLINE void FastSpans<radii>::add_doubts(D d, const LaneShape& shape, size_t
   hn::Store(i0, d, columns[1]);
   hn::Store(i1, d, columns[2]);
   hn::Store(x1, d, columns[3]);
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, doubtful, bits);
-  uint64_t rest;
-  std::memcpy(&rest, bits, sizeof rest);
-  for (; rest; rest &= rest - 1) {
+  for (uint64_t rest = bits_of(d, doubtful); rest; rest &= rest - 1) {
     const size_t l = static_cast<size_t>(std::countr_zero(rest));
     const auto add = [&](float from, float to) {
       if (from >= to) return;

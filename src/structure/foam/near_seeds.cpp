@@ -4,8 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <cstring>
-
+#include "base/mask_bits-inl.h"
 #include "structure/foam/edge_line.h"
 #include "structure/foam/near_seeds.h"
 #include "structure/foam/point.h"
@@ -14,28 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// The bits of a mask of up to 64 lanes.
-template <class D, class M>
-HWY_INLINE uint64_t bits_of(D d, M mask) {
-  uint8_t bytes[8];
-  hn::StoreMaskBits(d, mask, bytes);
-  const size_t lanes = hn::Lanes(d);
-  if (lanes <= 8) return bytes[0];
-  if (lanes == 16) {
-    uint16_t bits;
-    std::memcpy(&bits, bytes, sizeof bits);
-    return bits;
-  }
-  if (lanes == 32) {
-    uint32_t bits;
-    std::memcpy(&bits, bytes, sizeof bits);
-    return bits;
-  }
-  uint64_t bits;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
-}
 
 void block_of(const SeedTile& tile, size_t home, const int (&half)[3], Vec3 scale, float* x,
               float* y, float* z) {

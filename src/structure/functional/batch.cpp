@@ -4,8 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <cstring>
-
+#include "base/mask_bits-inl.h"
 #include "structure/functional/batch.h"
 #include "structure/functional/elementary-inl.h"
 
@@ -64,23 +63,6 @@ void run_doubles(const Program& program, const Values* registers, double* const*
 void run_singles(const Program& program, const ValuesOf<float>* registers, float* const* to,
                  size_t count) {
   run(program, registers, to, count);
-}
-
-/// The bits of a mask of lanes, at most 64.
-template <class D, class M>
-HWY_INLINE uint64_t bits_of(D d, M mask) {
-  uint8_t bytes[8];
-  hn::StoreMaskBits(d, mask, bytes);
-  const size_t lanes = hn::Lanes(d);
-  if (lanes <= 8) return bytes[0];
-  if (lanes == 16) {
-    uint16_t bits;
-    std::memcpy(&bits, bytes, sizeof bits);
-    return bits;
-  }
-  uint64_t bits = 0;
-  std::memcpy(&bits, bytes, lanes / 8);
-  return bits;
 }
 
 template <bool values_uniform, bool levels_uniform>

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lanes of a mask as bits. Included once for each instruction set.
+#if defined(MSQ_BASE_MASK_BITS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef MSQ_BASE_MASK_BITS_INL_H
+#undef MSQ_BASE_MASK_BITS_INL_H
+#else
+#define MSQ_BASE_MASK_BITS_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace msq {
+namespace HWY_NAMESPACE {
+
+/// Bit i is that of lane i; a vector has at most 64 lanes.
+template <class D>
+HWY_INLINE uint64_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
+  uint8_t bytes[8];
+  hwy::HWY_NAMESPACE::StoreMaskBits(d, mask, bytes);
+  const size_t lanes = hwy::HWY_NAMESPACE::Lanes(d);
+  if (lanes <= 8) return bytes[0];
+  if (lanes == 16) {
+    uint16_t bits;
+    std::memcpy(&bits, bytes, sizeof bits);
+    return bits;
+  }
+  uint64_t bits = 0;
+  std::memcpy(&bits, bytes, lanes / 8);
+  return bits;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace msq
+HWY_AFTER_NAMESPACE();
+
+#endif
