@@ -17,12 +17,16 @@ double GradientField::value(double t) const {
   return std::clamp(v, std::min(from_value_, to_value_), std::max(from_value_, to_value_));
 }
 
-bool GradientField::is_linear(const Box3& box, Vec3& gradient) const {
+GradientField::Parameters GradientField::parameters(const Box3& box) const {
   const Vec3 half = box.extent() * 0.5;
   const double t = parameter((box.min + box.max) * 0.5);
-  const double reach =
-      (std::abs(axis_.x) * half.x + std::abs(axis_.y) * half.y + std::abs(axis_.z) * half.z) /
-      axis_squared_;
+  return {t,
+          (std::abs(axis_.x) * half.x + std::abs(axis_.y) * half.y + std::abs(axis_.z) * half.z) /
+              axis_squared_};
+}
+
+bool GradientField::is_linear(const Box3& box, Vec3& gradient) const {
+  const auto [t, reach] = parameters(box);
   // Away from the ends by more than rounding, which stays below 2^-40 of the range.
   const double magnitude = max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(from_);
   if (!(t - reach > 1e-6 && t + reach < 1 - 1e-6)) return false;
@@ -36,16 +40,13 @@ Interval GradientField::range() const {
 }
 
 double GradientField::lipschitz() const {
-  // The slope along the axis; clamping adds none. Rounded up by more than the three operations lose.
+  // The slope along the axis; clamping adds none. Rounded up by more than the three operations
+  // lose.
   return std::abs(to_value_ - from_value_) / std::sqrt(axis_squared_) * (1 + 0x1p-50);
 }
 
 Interval GradientField::range(const Box3& box) const {
-  const Vec3 half = box.extent() * 0.5;
-  const double t = parameter((box.min + box.max) * 0.5);
-  const double reach =
-      (std::abs(axis_.x) * half.x + std::abs(axis_.y) * half.y + std::abs(axis_.z) * half.z) /
-      axis_squared_;
+  const auto [t, reach] = parameters(box);
   // t carries a few units of rounding of p, from_ and the products; 2^-40 of all that enters is
   // thousands of them.
   const double magnitude = max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(from_);

@@ -18,6 +18,11 @@ class GradientField final : public Field {
 
  private:
   double parameter(Vec3 p) const { return dot(p - from_, axis_) / axis_squared_; }
+  /// The parameters of a box: middle, and how far they are from it on either side.
+  struct Parameters {
+    double middle, reach;
+  };
+  Parameters parameters(const Box3& box) const;
   double value(double t) const;
 
   Vec3 from_, axis_;

@@ -30,8 +30,10 @@ struct NearSeeds {
   std::vector<uint32_t> order;
 };
 
+/// Positions come in sizes of the leaf of the nearest seed, all else is in foam units.
 void gather(SeedTrees& trees, CellIndex cell, Vec3 q, const LeafSeed& nearest,
             double nearest_squared, double radius, NearSeeds& near) {
+  const double unit = 1 << nearest.level;
   // Room for the rounding of distances; a seed too many never changes the answer.
   constexpr double slack = 1e-9, slack_squared = 1e-12;
   const double reach = std::sqrt(nearest_squared) + 2 * radius + slack;
@@ -55,7 +57,7 @@ void gather(SeedTrees& trees, CellIndex cell, Vec3 q, const LeafSeed& nearest,
         const Vec3 d = seed.position - q, apart = seed.position - nearest.position;
         const double squared = dot(d, d), apart_squared = dot(apart, apart);
         if (squared > reach_squared || too_far(squared - nearest_squared, apart_squared)) return;
-        near.positions.push_back(seed.position);
+        near.positions.push_back(seed.position * unit);
         near.planes.push_back(
             apart_squared > 0 ? (squared - nearest_squared) / std::sqrt(apart_squared) : -1);
       });
@@ -91,12 +93,10 @@ bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIn
   const double unit = 1 << nearest.level;
   for (double tried = std::min(radius, 1 / unit);; tried = std::min(radius, 2 * tried)) {
     gather(trees, cell, q, nearest, nearest_squared, tried, near);
-    if (near.order.size() >= 3) {
-      for (Vec3& position : near.positions) position = position * unit;
-      if (meets_edge(
-              near.order, [&](uint32_t i) { return near.positions[i]; }, q * unit, tried * unit))
-        return true;
-    }
+    if (near.order.size() >= 3 &&
+        meets_edge(
+            near.order, [&](uint32_t i) { return near.positions[i]; }, q * unit, tried * unit))
+      return true;
     if (tried >= radius) return false;
   }
 }
@@ -112,7 +112,6 @@ double graded_onset(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex c
   const double most = 2 * seeds->cells().empty_radius() * unit;
   const auto seeds_within = [&](double radius) -> const std::vector<Vec3>& {
     gather(trees, cell, q, nearest, nearest_squared, radius / unit, near);
-    for (Vec3& position : near.positions) position = position * unit;
     return near.positions;
   };
   return nearest_edge(q * unit, first_onset_radius, most, seeds_within) / unit;
