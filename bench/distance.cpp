@@ -5,38 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "bench.h"
+#include "rippled_torus.h"
 
 namespace {
-
-/// A torus with ripples about the middle of the unit cube: no two triangles alike, none along the
-/// axes.
-msq_shape* rippled_torus(msq_context* context, uint32_t around, uint32_t across) {
-  std::vector<double> vertices;
-  std::vector<uint32_t> triangles;
-  const double turn = 2 * std::acos(-1.0);
-  for (uint32_t i = 0; i < around; ++i)
-    for (uint32_t j = 0; j < across; ++j) {
-      const double u = turn * i / around, v = turn * j / across;
-      const double r = 0.18 + 0.02 * std::sin(9 * u) * std::cos(5 * v);
-      const double ring = 0.3 + r * std::cos(v);
-      vertices.insert(vertices.end(),
-                      {0.5 + ring * std::cos(u), 0.5 + ring * std::sin(u), 0.5 + r * std::sin(v)});
-      const uint32_t a = i * across + j, b = i * across + (j + 1) % across;
-      const uint32_t c = (i + 1) % around * across + j,
-                     d = (i + 1) % around * across + (j + 1) % across;
-      triangles.insert(triangles.end(), {a, c, d, a, d, b});
-    }
-  msq_mesh_def def;
-  bench::check(msq_mesh_def_init(&def, sizeof def));
-  def.vertices = vertices.data();
-  def.vertex_count = vertices.size() / 3;
-  def.triangles = triangles.data();
-  def.triangle_count = triangles.size() / 3;
-  msq_shape* shape;
-  bench::check(msq_shape_from_mesh(context, &def, &shape));
-  return shape;
-}
 
 /// Takes over the parts' references; the structure may be null.
 msq_model* make_model(msq_context* context, msq_shape* shape, msq_structure* structure) {
@@ -143,7 +114,8 @@ int main(int count, char** arguments) try {
     grid.def.counts[axis] = 64;
   }
 
-  msq_model* mesh = make_model(context, rippled_torus(context, 520, 260), nullptr);
+  msq_model* mesh =
+      make_model(context, bench::make_shape(context, bench::rippled_torus(520, 260)), nullptr);
   const uint64_t before = bytes_of(context);
   const double middle[3] = {0.5, 0.5, 0.5};
   double distance;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "bench.h"
+#include "rippled_torus.h"
 
 #if MSQ_WITH_CGAL
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -14,50 +14,19 @@
 
 namespace {
 
-struct Arrays {
-  std::vector<double> vertices;
-  std::vector<uint32_t> triangles;
-};
-
-/// A torus with ripples: no two triangles alike, none along the axes.
-Arrays rippled_torus(uint32_t around, uint32_t across) {
-  Arrays mesh;
-  const double turn = 2 * std::acos(-1.0);
-  for (uint32_t i = 0; i < around; ++i)
-    for (uint32_t j = 0; j < across; ++j) {
-      const double u = turn * i / around, v = turn * j / across;
-      const double r = 0.18 + 0.02 * std::sin(9 * u) * std::cos(5 * v);
-      const double ring = 0.3 + r * std::cos(v);
-      mesh.vertices.insert(mesh.vertices.end(), {0.5 + ring * std::cos(u), 0.5 + ring * std::sin(u),
-                                                 0.5 + r * std::sin(v)});
-      const uint32_t a = i * across + j, b = i * across + (j + 1) % across;
-      const uint32_t c = (i + 1) % around * across + j,
-                     d = (i + 1) % around * across + (j + 1) % across;
-      mesh.triangles.insert(mesh.triangles.end(), {a, c, d, a, d, b});
-    }
-  return mesh;
-}
-
 struct Sliced {
   msq_context* context;
   msq_model* model;
   msq_slicer* slicer;
 };
 
-Sliced make_slicer(const Arrays& mesh, uint32_t resolution, uint32_t slab_layers) {
+Sliced make_slicer(const bench::MeshArrays& mesh, uint32_t resolution, uint32_t slab_layers) {
   Sliced made{};
   msq_context_def context_def;
   bench::check(msq_context_def_init(&context_def, sizeof context_def));
   context_def.threads = 2;
   bench::check(msq_context_create(&context_def, &made.context));
-  msq_mesh_def mesh_def;
-  bench::check(msq_mesh_def_init(&mesh_def, sizeof mesh_def));
-  mesh_def.vertices = mesh.vertices.data();
-  mesh_def.vertex_count = mesh.vertices.size() / 3;
-  mesh_def.triangles = mesh.triangles.data();
-  mesh_def.triangle_count = mesh.triangles.size() / 3;
-  msq_shape* shape;
-  bench::check(msq_shape_from_mesh(made.context, &mesh_def, &shape));
+  msq_shape* shape = bench::make_shape(made.context, mesh);
   const msq_scale_def scale{shape, nullptr};
   msq_model_def model_def;
   bench::check(msq_model_def_init(&model_def, sizeof model_def));
@@ -99,7 +68,7 @@ std::vector<double> random_points(size_t count) {
 }
 
 #if MSQ_WITH_CGAL
-double cgal_seconds(const Arrays& mesh, const std::vector<double>& points) {
+double cgal_seconds(const bench::MeshArrays& mesh, const std::vector<double>& points) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
   Mesh surface;
@@ -123,7 +92,7 @@ double cgal_seconds(const Arrays& mesh, const std::vector<double>& points) {
 }  // namespace
 
 int main(int count, char** arguments) try {
-  const Arrays mesh = rippled_torus(520, 260);
+  const bench::MeshArrays mesh = bench::rippled_torus(520, 260);
   bench::Report report("mesh of " + std::to_string(mesh.triangles.size() / 3) + " triangles");
   const double rows = 1024.0 * 1024.0;
   const Sliced sliced = make_slicer(mesh, 1024, 0);
