@@ -11,15 +11,15 @@ namespace msq {
 
 class StrutRows {
  public:
-  /// `margin`: error of the strut ends against the scalar predicate, in model units; that of the
-  /// positions of samples and struts is added here.
+  /// `margin`: error of the strut ends and radii against the scalar predicate, in model units; that
+  /// of the positions of samples and struts is added here. `most_factor`: of the radius, of any
+  /// strut.
   StrutRows(const RowBlock& block, const Neighbourhood& grid, const Parameter& radius,
-            double margin)
+            double margin, double most_factor = 1)
       : radius_(radius),
-        most_(radius.range().high),
         raster_(block),
         margin_(margin + position_margin(raster_.box(), grid.origin)),
-        reach_(raster_.box().grown(most_ + margin_)) {}
+        reach_(raster_.box().grown(most_factor * radius.range().high + margin_)) {}
 
   /// No sample is alive: nothing to do.
   bool empty() const { return raster_.empty(); }
@@ -34,15 +34,22 @@ class StrutRows {
   /// Struts whose axis does not meet this box may be left out.
   const Box3& reach() const { return reach_; }
 
-  void add(Vec3 a, Vec3 b) {
+  /// A strut whose radius is the radius times `factor`. Struts of one factor are drawn together:
+  /// best add them one after the other.
+  void add(Vec3 a, Vec3 b, double factor) {
     const Box3 extent{min(a, b), max(a, b)};
     if (!extent.overlaps(reach_)) return;
+    if (factor != factor_) {
+      flush();
+      factor_ = factor;
+    }
     batch_.push(a, b);
     if (batch_.full()) flush();
   }
-  /// Adds those segments of a set that may touch `box` (the set's coordinates).
+  /// Adds those segments of a set that may touch `box` (the set's coordinates), of factor 1.
   void add(const SegmentSet& set, const SegmentFrame& frame, const Box3& box) {
     flush();
+    factor_ = 1;
     selection_.select(set, box);
     for (size_t first = 0; first < selection_.count(); first += StrutBatch::capacity) {
       selection_.place(frame, first, batch_);
@@ -53,7 +60,7 @@ class StrutRows {
   void flush() {
     if (batch_.count == 0) return;
     set_radii();
-    raster_.add(batch_, margin_, [this](Vec3 p) { return radius_.at(p); });
+    raster_.add(batch_, margin_, [this](Vec3 p) { return factor_ * radius_.at(p); });
     batch_.count = 0;
   }
   /// Clears the samples outside all struts; inside(p) decides those in doubt.
@@ -66,7 +73,8 @@ class StrutRows {
  private:
   void set_radii() {
     // The radius at samples that a strut may hold, which is off by less than the margin.
-    const double around = most_ + margin_;
+    const Interval range{factor_ * radius_.range().low, factor_ * radius_.range().high};
+    const double most = range.high, around = most + margin_;
     const auto extent = [&](size_t i) {
       return Box3{min(batch_.from(i), batch_.to(i)), max(batch_.from(i), batch_.to(i))};
     };
@@ -77,21 +85,22 @@ class StrutRows {
         const Box3 box = extent(i);
         all = {min(all.min, box.min), max(all.max, box.max)};
       }
-      batch_.linear = radius_.is_linear(all.grown(around * (1 + 1e-6)), batch_.gradient) &&
-                      max_magnitude(batch_.gradient) < StrutBatch::most_gradient;
+      batch_.linear = radius_.is_linear(all.grown(around * (1 + 1e-6)), batch_.gradient);
+      batch_.gradient = batch_.gradient * factor_;
+      batch_.linear = batch_.linear && max_magnitude(batch_.gradient) < StrutBatch::most_gradient;
     }
     for (size_t i = 0; i < batch_.count; ++i) {
-      Interval r{most_, most_};
+      Interval r{most, most};
       if (batch_.linear) {
         const Vec3 a = batch_.from(i), ab = batch_.to(i) - a, g = batch_.gradient;
-        const double at_a = radius_.at(a), along = dot(g, ab);
-        const double about =
-            around * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) + 1e-9 * most_;
+        const double at_a = factor_ * radius_.at(a), along = dot(g, ab);
+        const double about = around * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) + 1e-9 * most;
         batch_.at_a[i] = at_a;
-        r = {std::max(radius_.range().low, at_a + std::min(along, 0.0) - about),
-             std::min(most_, at_a + std::max(along, 0.0) + about)};
+        r = {std::max(range.low, at_a + std::min(along, 0.0) - about),
+             std::min(most, at_a + std::max(along, 0.0) + about)};
       } else if (!radius_.is_constant()) {
         r = radius_.range(extent(i).grown(around));
+        r = {factor_ * r.low, factor_ * r.high};
       }
       batch_.low[i] = r.low;
       batch_.high[i] = r.high;
@@ -104,10 +113,10 @@ class StrutRows {
   }
 
   const Parameter& radius_;
-  double most_;
   SpanRaster raster_;
   double margin_;
   Box3 reach_;
+  double factor_ = 1;  // of the batch
   StrutBatch batch_;
   SegmentSelection selection_;
 };

@@ -118,6 +118,13 @@ inline UnitCell skew_unit_cell() {
   return cell;
 }
 
+/// The same with struts of six radii.
+inline UnitCell factored_unit_cell() {
+  UnitCell cell = skew_unit_cell();
+  cell.factors = {1, 0.5, 1.75, 1, 0.25, 1.5};
+  return cell;
+}
+
 inline std::vector<Kind> kinds() {
   std::vector<Kind> kinds = {
       {"cubic", "thin", 0.08, 1, lattice_factory(cubic_unit_cell())},
@@ -128,6 +135,7 @@ inline std::vector<Kind> kinds() {
       {"octet", "ties", 0.125, 1, lattice_factory(octet_unit_cell())},
       {"skew", "thin", 0.05, 1, lattice_factory(skew_unit_cell())},
       {"skew", "beyond its cell", 0.21, 1, lattice_factory(skew_unit_cell())},
+      {"factors", "", 0.09, 1, lattice_factory(factored_unit_cell())},
   };
   // A sum with the tables of a row, one of them with its magnitude taken, and what is none.
   const FunctionalKind network = FunctionalKind::network, sheet = FunctionalKind::sheet;

@@ -90,28 +90,32 @@ void test_row(void** state) {
 /// The unit cell of a lattice's row; none of other structures.
 UnitCell unit_cell_of(const StructureRow& row) {
   const std::string& family = row.kind.family;
-  return family == "cubic"   ? cubic_unit_cell()
-         : family == "BCC"   ? bcc_unit_cell()
-         : family == "octet" ? octet_unit_cell()
-         : family == "skew"  ? skew_unit_cell()
-                             : UnitCell{};
+  return family == "cubic"     ? cubic_unit_cell()
+         : family == "BCC"     ? bcc_unit_cell()
+         : family == "octet"   ? octet_unit_cell()
+         : family == "skew"    ? skew_unit_cell()
+         : family == "factors" ? factored_unit_cell()
+                               : UnitCell{};
 }
 
-/// Outside and for constant radius, the distance to all struts of the tiling, less the radius.
+/// Outside and for constant radius, the least distance to all struts of the tiling less their
+/// radii.
 void test_exact(void** state) {
   const StructureRow& row = *static_cast<const StructureRow*>(*state);
   const Neighbourhood& grid = row.variant.grid;
   const Ref<const Structure> structure = row.make({});
   const UnitCell cell = unit_cell_of(row);
-  std::vector<Segment> struts;
+  std::vector<LatticeStrut> struts;
   constexpr int reach = 3;
   for (int k = -reach; k <= reach; ++k)
     for (int j = -reach; j <= reach; ++j)
       for (int i = -reach; i <= reach; ++i)
-        for (const auto& [a, b] : cell.struts) {
+        for (size_t s = 0; s < cell.struts.size(); ++s) {
+          const auto [a, b] = cell.struts[s];
           const Vec3 shift{double(i), double(j), double(k)};
-          struts.emplace_back((cell.nodes[a] + shift) * grid.cell_size,
-                              (cell.nodes[b] + shift) * grid.cell_size);
+          struts.push_back({Segment((cell.nodes[a] + shift) * grid.cell_size,
+                                    (cell.nodes[b] + shift) * grid.cell_size),
+                            cell.factor(s)});
         }
   Random random(row.index + 5);
   const size_t count = test_count(600);
@@ -119,9 +123,10 @@ void test_exact(void** state) {
   for (size_t i = 0; i < count; ++i) {
     const Vec3 q = random.in_box({{0, 0, 0}, grid.cell_size});
     const Vec3 p = grid.from_grid(q);
-    double onset = std::numeric_limits<double>::infinity();
-    for (const Segment& s : struts) onset = std::min(onset, std::sqrt(s.distance_squared(q)));
-    const double d = structure->distance(p), wanted = onset - row.radius();
+    double wanted = std::numeric_limits<double>::infinity();
+    for (const LatticeStrut& s : struts)
+      wanted = std::min(wanted, std::sqrt(s.axis.distance_squared(q)) - s.factor * row.radius());
+    const double d = structure->distance(p);
     outside += wanted > 0;
     if (std::abs(d - wanted) > 1e-11 * row.unit())
       fail_msg("%s: distance %.17g at (%.17g, %.17g, %.17g), not %.17g", row.name.c_str(), d, p.x,

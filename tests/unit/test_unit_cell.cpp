@@ -51,10 +51,24 @@ void test_custom(void**) {
   assert_int_equal(periodic_struts(cell).size(), 1);
 }
 
+void test_factors(void**) {
+  UnitCell cell;
+  // Two copies of one strut, the second thicker and turned round; and one that is thicker still.
+  cell.nodes = {{0, 0.2, 0.2}, {0, 0.8, 0.2}, {1, 0.2, 0.2}, {1, 0.8, 0.2}, {0.5, 0.5, 0.5}};
+  cell.struts = {{0, 1}, {3, 2}, {0, 4}};
+  cell.factors = {0.5, 2, 3};
+  const std::vector<PeriodicStrut> struts = periodic_struts(cell);
+  assert_int_equal(struts.size(), 2);
+  assert_true(struts[0].factor == 3 && struts[1].factor == 2);
+  cell.factors.clear();
+  for (const PeriodicStrut& s : periodic_struts(cell)) assert_true(s.factor == 1);
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(test_cubic), cmocka_unit_test(test_bcc),
-                              cmocka_unit_test(test_octet), cmocka_unit_test(test_custom)};
+                              cmocka_unit_test(test_octet), cmocka_unit_test(test_custom),
+                              cmocka_unit_test(test_factors)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -34,9 +34,12 @@ bool may_reach(const Segment& s, const Box3& box, double radius) {
 }  // namespace
 
 Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Parameter radius)
-    : Structure(neighbourhood), radius_(std::move(radius)), struts_(periodic_struts(cell)) {
+    : Structure(neighbourhood),
+      radius_(std::move(radius)),
+      struts_(periodic_struts(cell)),
+      most_factor_(struts_[0].factor) {
   const Vec3 size = neighbourhood.cell_size;
-  const double most = radius_.range().high;
+  const double most = most_factor_ * radius_.range().high;
   const Box3 corner_to_corner{{0, 0, 0}, size};
   reach_ = {struts_[0].a, struts_[0].a};
   for (const PeriodicStrut& s : struts_) {
@@ -57,35 +60,36 @@ Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Param
           const Segment segment((s.a + shift) * size, (s.b + shift) * size);
           const Vec3 b = segment.a + segment.ab;
           const Box3 extent{min(segment.a, b), max(segment.a, b)};
-          if (!extent.overlaps(corner_to_corner.grown(most * (1 + 1e-6)))) continue;
-          if (may_reach(segment, corner_to_corner, most)) near_.push_back(segment);
+          const double radius = s.factor * radius_.range().high;
+          if (!extent.overlaps(corner_to_corner.grown(radius * (1 + 1e-6)))) continue;
+          if (may_reach(segment, corner_to_corner, radius)) near_.push_back({segment, s.factor});
         }
 }
 
 bool Lattice::inside(Vec3 p) const {
   const double r = radius_.at(p);
   const Vec3 q = neighbourhood().locate(p).fraction * neighbourhood().cell_size;
-  const double r2 = r * r;
-  for (const Segment& s : near_)
-    if (s.distance_squared(q) <= r2) return true;
+  for (const LatticeStrut& s : near_)
+    if (s.holds(q, r)) return true;
   return false;
 }
 
 double Lattice::clearance(Vec3 p) const {
   const Vec3 size = neighbourhood().cell_size;
   const NearestStruts& nearest =
-      nearest_.get([&] { return std::make_unique<NearestStruts>(struts_, size); });
-  const double onset = nearest.distance(neighbourhood().locate(p).fraction * size);
+      nearest_.get([&] { return std::make_unique<NearestStruts>(struts_, size, radius_.range()); });
+  const Interval r = radius_.range(Box3{p, p});
+  const double gap = nearest.gap(neighbourhood().locate(p).fraction * size, r.low);
   // Struts lie within a few cells of the origin of these coordinates and are rounded as the cells'
   // sizes are.
-  const double slack = locating_slack(p - neighbourhood().origin, onset) +
+  const double slack = locating_slack(p - neighbourhood().origin, nearest.reach()) +
                        0x1p-46 * (max_component(size) + nearest.reach());
-  return strut_clearance(onset, slack, radius_, p);
+  return factored_clearance(gap, r, most_factor_, slack, radius_.lipschitz());
 }
 
 void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
   const Neighbourhood& grid = neighbourhood();
-  StrutRows rows(block, grid, radius_, 1e-9 * radius_.range().high);
+  StrutRows rows(block, grid, radius_, 1e-9 * most_factor_ * radius_.range().high, most_factor_);
   if (rows.empty()) return;
   if (!rows.pays(grid, critical_samples)) return Structure::keep_rows(block, job);
   const Box3 reach = grid.to_grid(rows.reach());
@@ -96,16 +100,22 @@ void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
     first[axis] = static_cast<int64_t>(std::floor(reach.min[axis] / size - reach_.max[axis]));
     last[axis] = static_cast<int64_t>(std::ceil(reach.max[axis] / size - reach_.min[axis]));
   }
-  for (int64_t k = first[2]; k <= last[2]; ++k)
-    for (int64_t j = first[1]; j <= last[1]; ++j) {
-      check_cancelled(job);
-      for (int64_t i = first[0]; i <= last[0]; ++i) {
-        const Vec3 corner{double(i), double(j), double(k)};
-        for (const PeriodicStrut& s : struts_)
-          rows.add(grid.from_grid((s.a + corner) * grid.cell_size),
-                   grid.from_grid((s.b + corner) * grid.cell_size));
+  // Those of one factor after each other, as rows take them best.
+  for (auto s = struts_.begin(); s != struts_.end();) {
+    const auto thinner = std::find_if(
+        s, struts_.end(), [&](const PeriodicStrut& other) { return other.factor != s->factor; });
+    for (int64_t k = first[2]; k <= last[2]; ++k)
+      for (int64_t j = first[1]; j <= last[1]; ++j) {
+        check_cancelled(job);
+        for (int64_t i = first[0]; i <= last[0]; ++i) {
+          const Vec3 corner{double(i), double(j), double(k)};
+          for (auto t = s; t != thinner; ++t)
+            rows.add(grid.from_grid((t->a + corner) * grid.cell_size),
+                     grid.from_grid((t->b + corner) * grid.cell_size), t->factor);
+        }
       }
-    }
+    s = thinner;
+  }
   rows.finish(job, [this](Vec3 p) { return inside(p); });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Periodic strut lattice. Onset of a point: its distance to the infinite tiling of the unit cell's
-// struts.
+// Periodic strut lattice: the points whose distance to some strut of the infinite tiling of the
+// unit cell is at most the radius there times that strut's factor.
 #pragma once
 
 #include <vector>
@@ -20,15 +20,16 @@ class Lattice final : public Structure {
 
   bool inside(Vec3 p) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
-  /// Exact outside where the radius is constant and the cell sizes differ by no more than 8 times.
+  /// Exact outside where the radius is constant and the cell sizes differ by no more than 8 times
+  /// (4 times where factors differ).
   double clearance(Vec3 p) const override;
 
  private:
   Parameter radius_;
-  std::vector<PeriodicStrut> struts_;  // in cell units
-  Box3 reach_;                         // of all of them
-  std::vector<Segment> near_;          // struts of the tiling within the greatest radius of a cell,
-                                       // in model units from its corner
+  std::vector<PeriodicStrut> struts_;  // in cell units, the thickest first
+  double most_factor_;
+  Box3 reach_;                      // of all of them
+  std::vector<LatticeStrut> near_;  // those of the tiling that may reach a cell, from its corner
   Lazy<NearestStruts> nearest_;
 };
 

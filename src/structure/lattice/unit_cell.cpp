@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/lattice/unit_cell.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace msq {
@@ -61,17 +62,26 @@ UnitCell octet_unit_cell() {
 
 std::vector<PeriodicStrut> periodic_struts(const UnitCell& cell) {
   std::vector<PeriodicStrut> unique;
-  for (const auto& [i, j] : cell.struts) {
+  for (size_t strut = 0; strut < cell.struts.size(); ++strut) {
     // Moved by whole cells until either end may serve as the first.
+    const auto [i, j] = cell.struts[strut];
+    const double factor = cell.factor(strut);
     const Vec3 p = cell.nodes[i], q = cell.nodes[j];
     const Vec3 from_p = floor_with_tolerance(p), from_q = floor_with_tolerance(q);
-    const PeriodicStrut forward{p - from_p, q - from_p}, backward{q - from_q, p - from_q};
-    bool known = false;
-    for (const PeriodicStrut& u : unique)
-      known = known || (close(u.a, forward.a) && close(u.b, forward.b)) ||
-              (close(u.a, backward.a) && close(u.b, backward.b));
-    if (!known) unique.push_back(forward);
+    const PeriodicStrut forward{p - from_p, q - from_p, factor}, backward{q - from_q, p - from_q};
+    bool is_known = false;
+    for (PeriodicStrut& u : unique) {
+      if (!(close(u.a, forward.a) && close(u.b, forward.b)) &&
+          !(close(u.a, backward.a) && close(u.b, backward.b)))
+        continue;
+      is_known = true;
+      u.factor = std::max(u.factor, factor);
+    }
+    if (!is_known) unique.push_back(forward);
   }
+  std::stable_sort(
+      unique.begin(), unique.end(),
+      [](const PeriodicStrut& s, const PeriodicStrut& t) { return s.factor > t.factor; });
   return unique;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "strut/segment.h"
 
 namespace msq {
 
@@ -14,6 +15,9 @@ namespace msq {
 struct UnitCell {
   std::vector<Vec3> nodes;
   std::vector<std::array<uint32_t, 2>> struts;
+  std::vector<double> factors;  ///< of the radius, one a strut; empty: all 1
+
+  double factor(size_t strut) const { return factors.empty() ? 1 : factors[strut]; }
 };
 
 UnitCell cubic_unit_cell();
@@ -25,7 +29,21 @@ UnitCell octet_unit_cell();
 /// strut once. In cell units; the first end lies in [0, 1).
 struct PeriodicStrut {
   Vec3 a, b;
+  double factor = 1;  ///< of the radius
 };
+/// Of struts whole cells apart, the thickest counts. The thickest come first.
 std::vector<PeriodicStrut> periodic_struts(const UnitCell& cell);
+
+/// A strut in model units.
+struct LatticeStrut {
+  Segment axis;
+  double factor = 1;
+
+  /// Whether it holds a point where the radius is r; this expression is the definition.
+  bool holds(Vec3 q, double r) const {
+    const double own = factor * r;
+    return axis.distance_squared(q) <= own * own;
+  }
+};
 
 }  // namespace msq
