@@ -4,7 +4,7 @@
 
 #include "api/guard.h"
 #include "api/neighbourhood.h"
-#include "structure/functional/parser.h"
+#include "expression/parser.h"
 #include "structure/functional/presets.h"
 
 using namespace msq;

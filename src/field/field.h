@@ -4,14 +4,11 @@
 
 #include <limits>
 
+#include "base/interval.h"
 #include "base/ref.h"
 #include "base/vec.h"
 
 namespace msq {
-
-struct Interval {
-  double low = 0, high = 0;
-};
 
 class Field : public RefCounted {
  public:

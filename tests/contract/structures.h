@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "expression/parser.h"
 #include "field/gradient.h"
 #include "msq_test.h"
 #include "structure/foam/delaunay.h"
 #include "structure/foam/foam.h"
 #include "structure/functional/functional.h"
-#include "structure/functional/parser.h"
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
 

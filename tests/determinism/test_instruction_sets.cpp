@@ -3,12 +3,12 @@
 #include <hwy/highway.h>
 
 #include "base/random.h"
+#include "expression/parser.h"
 #include "field/gradient.h"
 #include "shape/primitive.h"
 #include "slice/slicer.h"
 #include "structure/foam/foam.h"
 #include "structure/functional/functional.h"
-#include "structure/functional/parser.h"
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
 #include "suite.h"

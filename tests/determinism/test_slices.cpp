@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "base/random.h"
+#include "expression/parser.h"
 #include "field/gradient.h"
 #include "meshes.h"
 #include "query/membership.h"
@@ -13,7 +14,6 @@
 #include "structure/foam/delaunay.h"
 #include "structure/foam/foam.h"
 #include "structure/functional/functional.h"
-#include "structure/functional/parser.h"
 #include "structure/lattice/lattice.h"
 #include "suite.h"
 

@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["api", "slice", "ray", "query", "model", "structure", "cell", "field", "shape", "io",
+ROOMS = ["api", "slice", "ray", "query", "model", "structure", "cell", "field", "expression", "shape", "io",
          "strut", "base"]  # from the top down
 
 # Headers from outside src/, and the files of src/ that may include them; the first rule that fits a
@@ -21,8 +21,10 @@ OUTSIDE = [
     (r"msq\.h", ["api/*"]),
     # Files that are compiled once for each target include these themselves, between their own lines.
     (r"hwy/highway\.h", ["base/simd.cpp", "base/*-inl.h", "strut/*.cpp", "strut/*-inl.h",
-                         "slice/*.cpp", "structure/*/*.cpp", "structure/*/*-inl.h"]),
-    (r"hwy/foreach_target\.h", ["strut/*.cpp", "structure/*/*.cpp", "slice/*.cpp"]),
+                         "slice/*.cpp", "structure/*/*.cpp", "structure/*/*-inl.h",
+                         "expression/*.cpp", "expression/*-inl.h"]),
+    (r"hwy/foreach_target\.h", ["strut/*.cpp", "structure/*/*.cpp", "slice/*.cpp",
+                                "expression/*.cpp"]),
     (r"hwy/.*", ["base/simd.h", "base/simd.cpp"]),
     (r"(oneapi/)?tbb/.*", ["base/parallel.cpp"]),
     (r"execution", ["base/parallel.cpp"]),  # libstdc++ builds it upon TBB

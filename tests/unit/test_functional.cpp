@@ -6,9 +6,9 @@
 // (Schoen 1970), at levels away from 0 too.
 #include <functional>
 
+#include "expression/parser.h"
 #include "random.h"
 #include "structure/functional/functional.h"
-#include "structure/functional/parser.h"
 #include "structure/functional/presets.h"
 #include "suite.h"
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "structure/functional/batch.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/level_bounds.h"
+#include "structure/functional/row_kernels.h"
 
 namespace msq {
 

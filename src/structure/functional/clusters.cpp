@@ -5,6 +5,8 @@
 #include <cstring>
 #include <map>
 
+#include "structure/functional/row_kernels.h"
+
 namespace msq {
 
 namespace {

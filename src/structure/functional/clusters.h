@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "structure/functional/enclosure.h"
+#include "expression/enclosure.h"
 
 namespace msq {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "structure/functional/axis_rows.h"
-#include "structure/functional/batch.h"
+#include "structure/functional/row_kernels.h"
 #include "structure/functional/turned_rows.h"
 
 namespace msq {

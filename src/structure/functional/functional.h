@@ -8,9 +8,9 @@
 #include <mutex>
 #include <optional>
 
+#include "expression/program.h"
 #include "field/field.h"
 #include "structure/functional/clusters.h"
-#include "structure/functional/program.h"
 #include "structure/functional/row_plan.h"
 #include "structure/functional/trigonometric_form.h"
 #include "structure/structure.h"

@@ -8,7 +8,7 @@
 
 #include "base/sample_grid.h"
 #include "field/field.h"
-#include "structure/functional/batch.h"
+#include "structure/functional/row_kernels.h"
 
 namespace msq {
 

@@ -13,7 +13,7 @@
 #include <map>
 #include <optional>
 
-#include "structure/functional/enclosure.h"
+#include "expression/enclosure.h"
 
 namespace msq {
 

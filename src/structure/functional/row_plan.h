@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "structure/functional/program.h"
+#include "expression/program.h"
 
 namespace msq {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "structure/functional/batch.h"
+#include "expression/batch.h"
 
 namespace msq {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "structure/functional/enclosure.h"
-#include "structure/functional/program.h"
+#include "expression/enclosure.h"
+#include "expression/program.h"
 
 namespace msq {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "structure/functional/program.h"
+#include "expression/program.h"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "random.h"
-#include "structure/functional/batch.h"
+#include "structure/functional/row_kernels.h"
 #include "suite.h"
 
 using namespace msq;

@@ -1,56 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs evaluated for batches of points, in vectors: the bits of the scalar evaluator.
+// What points and rows of functional structures take beside their programs, in vectors.
 #pragma once
 
-#include <vector>
-
-#include "base/simd.h"
 #include "cell/neighbourhood.h"
-#include "structure/functional/program.h"
+#include "expression/batch.h"
+#include "expression/tape.h"
 
 namespace msq {
 
-/// Points of a batch: the temporaries of usual tapes stay in a core's first cache.
-constexpr size_t batch_points = 256;
-constexpr size_t single_points = 512;
-/// Arrays of values are readable this far beyond their points.
-constexpr size_t batch_padding = 2 * most_simd_doubles;
-
-/// A value for each point, or one for all.
-template <class T>
-struct ValuesOf {
-  const T* data = nullptr;
-  bool is_uniform = false;
-
-  T operator[](size_t i) const { return is_uniform ? *data : data[i]; }
-};
-using Values = ValuesOf<double>;
-
-/// Whether an operation can be done in single precision.
-constexpr bool is_rational(Op op) {
-  return op >= Op::add && op <= Op::absolute && op != Op::divide;
+/// The angle of a fraction of the cell.
+inline double angle_of(double fraction) {
+  return fraction * two_pi;
 }
-
-/// In double precision, as the scalar evaluator; or, for rational operations, in single precision.
-template <class T>
-class BatchOf {
- public:
-  explicit BatchOf(const Program& program);
-
-  /// The values of an input for all batches from now on; must stay alive.
-  void set_input(size_t input, ValuesOf<T> values) { registers_[input] = values; }
-  /// Evaluates up to batch_points points, in single precision single_points.
-  void run(size_t count);
-  /// Valid until the next run.
-  ValuesOf<T> output(size_t output) const { return registers_[program_.outputs[output]]; }
-
- private:
-  const Program& program_;
-  std::vector<T> constants_, temporaries_;
-  std::vector<ValuesOf<T>> registers_;
-  std::vector<T*> targets_;  // of the temporaries, by register
-};
-using Batch = BatchOf<double>;
 
 /// Bit i of `bits` (word i / 64), which is overwritten up to the last word: values[i] <= levels[i].
 void compare_values(Values values, Values levels, size_t count, uint64_t* bits);

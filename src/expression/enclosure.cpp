@@ -3,7 +3,7 @@
 // rounded as the evaluator rounds them, enclose its results without any slack. Sines, cosines,
 // exponentials and logarithms are not known to be monotone in the last bits: their ends move out by
 // `slack`, above twice their error (elementary-inl.h).
-#include "structure/functional/enclosure.h"
+#include "expression/enclosure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +101,7 @@ Enclosure of(Op op, const Enclosure& p, const Enclosure& q, bool is_square) {
 
 }  // namespace
 
-void enclose(const Tape& tape, const Interval (&angles)[3], std::vector<Enclosure>& nodes) {
+void enclose(const Tape& tape, const Interval (&box)[3], std::vector<Enclosure>& nodes) {
   nodes.resize(tape.nodes.size());
   for (size_t i = 0; i < tape.nodes.size(); ++i) {
     const Node& node = tape.nodes[i];
@@ -109,7 +109,7 @@ void enclose(const Tape& tape, const Interval (&angles)[3], std::vector<Enclosur
     if (node.op == Op::constant) {
       e = {node.value, node.value};
     } else if (node.op < Op::add) {
-      e = angles[int(node.op) - int(Op::x)];
+      e = box[int(node.op) - int(Op::x)];
     } else {
       const Enclosure& p = nodes[node.a];
       const Enclosure& q = has_two_operands(node.op) ? nodes[node.b] : p;

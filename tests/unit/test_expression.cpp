@@ -4,10 +4,10 @@
 #include <cstring>
 
 #include "base/status.h"
+#include "expression/batch.h"
+#include "expression/enclosure.h"
+#include "expression/parser.h"
 #include "random.h"
-#include "structure/functional/batch.h"
-#include "structure/functional/enclosure.h"
-#include "structure/functional/parser.h"
 #include "structure/functional/presets.h"
 #include "suite.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A function of the position within a cell, as a list of operations: the definition of functional
-// structures, of presets and of expressions alike.
+// A function of three coordinates, as a list of operations: what an expression means.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +14,7 @@ namespace msq {
 
 enum class Op : uint8_t {
   constant,
-  x,  // the coordinates: 2 pi times the fraction of the cell along an axis of the grid
+  x,  // the coordinates
   y,
   z,
   add,  // from here on of two operands
@@ -77,14 +76,10 @@ class TapeBuilder {
 /// every machine (elementary-inl.h).
 double apply(Op op, double a, double b);
 
-/// The value at a position, given as angles: 2 pi times the fraction of the cell along each axis.
-/// This is the definition that all other evaluators agree with bit for bit.
-double evaluate(const Tape& tape, Vec3 angles);
+/// The value at a position. This is the definition that all other evaluators agree with bit for
+/// bit.
+double evaluate(const Tape& tape, Vec3 position);
 
-/// The angle of a fraction of the cell.
 constexpr double two_pi = 6.283185307179586;
-inline double angle_of(double fraction) {
-  return fraction * two_pi;
-}
 
 }  // namespace msq

@@ -7,12 +7,12 @@
 // reduced by multiples of pi/2 and ln 2 in parts whose products are exact. The polynomials are
 // Taylor series, whose remainders on the reduced arguments are below 2^-54 of the result. Errors of
 // the results are below 2^-50, absolute for sines and cosines of arguments up to 2^19 and
-// logarithms about 0, relative for the others (tests/unit/test_functional_elementary.cpp).
-#if defined(MSQ_STRUCTURE_FUNCTIONAL_ELEMENTARY_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef MSQ_STRUCTURE_FUNCTIONAL_ELEMENTARY_INL_H
-#undef MSQ_STRUCTURE_FUNCTIONAL_ELEMENTARY_INL_H
+// logarithms about 0, relative for the others (tests/unit/test_expression_elementary.cpp).
+#if defined(MSQ_EXPRESSION_ELEMENTARY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef MSQ_EXPRESSION_ELEMENTARY_INL_H
+#undef MSQ_EXPRESSION_ELEMENTARY_INL_H
 #else
-#define MSQ_STRUCTURE_FUNCTIONAL_ELEMENTARY_INL_H
+#define MSQ_EXPRESSION_ELEMENTARY_INL_H
 #endif
 
 #include <hwy/highway.h>
@@ -22,7 +22,7 @@
 #include <cstring>
 #include <limits>
 
-#include "structure/functional/tape.h"
+#include "expression/tape.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace msq {

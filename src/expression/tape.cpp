@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "structure/functional/tape.h"
+#include "expression/tape.h"
 
 #include <algorithm>
 #include <cstring>

@@ -6,7 +6,7 @@
 //   signed  = ("-" | "+") signed | power
 //   power   = primary [ "^" signed ]
 //   primary = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
-#include "structure/functional/parser.h"
+#include "expression/parser.h"
 
 #include <charconv>
 #include <cmath>

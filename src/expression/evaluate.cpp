@@ -2,8 +2,8 @@
 // The scalar evaluator.
 #include <hwy/highway.h>
 
-#include "structure/functional/elementary-inl.h"
-#include "structure/functional/tape.h"
+#include "expression/elementary-inl.h"
+#include "expression/tape.h"
 
 namespace msq {
 
@@ -15,7 +15,7 @@ double apply(Op op, double a, double b) {
   return v;
 }
 
-double evaluate(const Tape& tape, Vec3 angles) {
+double evaluate(const Tape& tape, Vec3 position) {
   double values[most_tape_nodes];
   const size_t count = tape.nodes.size();
   for (size_t i = 0; i < count; ++i) {
@@ -25,13 +25,13 @@ double evaluate(const Tape& tape, Vec3 angles) {
         values[i] = node.value;
         break;
       case Op::x:
-        values[i] = angles.x;
+        values[i] = position.x;
         break;
       case Op::y:
-        values[i] = angles.y;
+        values[i] = position.y;
         break;
       case Op::z:
-        values[i] = angles.z;
+        values[i] = position.z;
         break;
       default:
         values[i] = apply(node.op, values[node.a], values[node.b]);

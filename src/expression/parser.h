@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "structure/functional/tape.h"
+#include "expression/tape.h"
 
 namespace msq {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "structure/functional/tape.h"
+#include "expression/tape.h"
 
 namespace msq {
 
@@ -30,7 +30,7 @@ struct Program {
 Program compile(const std::vector<Node>& nodes, const std::vector<uint32_t>& inputs,
                 const std::vector<uint32_t>& outputs);
 
-/// The program of a whole tape; its inputs are the three angles.
+/// The program of a whole tape; its inputs are the three coordinates.
 Program compile(const Tape& tape);
 
 }  // namespace msq

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "field/field.h"
-#include "structure/functional/tape.h"
+#include "base/interval.h"
+#include "expression/tape.h"
 
 namespace msq {
 
@@ -19,8 +19,8 @@ inline bool is_bounded(const Enclosure& e) {
   return e.low >= -1e300 && e.high <= 1e300;
 }
 
-/// Enclosures of all nodes over a box of angles, at most 2^19 in magnitude.
-void enclose(const Tape& tape, const Interval (&angles)[3], std::vector<Enclosure>& nodes);
+/// Enclosures of all nodes over a box of positions.
+void enclose(const Tape& tape, const Interval (&box)[3], std::vector<Enclosure>& nodes);
 
 /// The tape with the minima, maxima and magnitudes left out that the enclosures decide: the same
 /// bits throughout the box.
