@@ -20,10 +20,15 @@ struct UnitCell {
   double factor(size_t strut) const { return factors.empty() ? 1 : factors[strut]; }
 };
 
+// Named cells; unit_cell_presets.cpp says what they are and where they come from.
 UnitCell cubic_unit_cell();
 UnitCell bcc_unit_cell();
-/// Deshpande, Fleck and Ashby, "Effective properties of the octet-truss lattice material", 2001.
 UnitCell octet_unit_cell();
+UnitCell fcc_unit_cell();
+UnitCell kelvin_unit_cell();
+UnitCell diamond_unit_cell();
+UnitCell rhombic_dodecahedron_unit_cell();
+UnitCell reentrant_unit_cell();
 
 /// One strut of each class of struts that are whole cells apart: tiled, they give the lattice, each
 /// strut once. In cell units; the first end lies in [0, 1).
