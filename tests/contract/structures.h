@@ -15,6 +15,7 @@
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
+#include "structure/lattice/mixed_lattice.h"
 
 namespace msq::test {
 
@@ -125,6 +126,21 @@ inline UnitCell factored_unit_cell() {
   return cell;
 }
 
+/// Cubic, skew, octet and Kelvin cells, by a choice that grows along an oblique line and runs past
+/// both ends of the library.
+inline Factory mixed_factory() {
+  return [](const Neighbourhood& grid, Parameter radius) {
+    const Vec3 half = Vec3{1.5, 1.1, 0.8} * grid.cell_size;
+    const Parameter choice(Ref<const Field>(make_ref<GradientField>(
+        grid.from_grid(half * -1.0), -1.0, grid.from_grid(half), 4.0)));
+    return Ref<const Structure>(make_ref<MixedLattice>(
+        grid,
+        std::vector<UnitCell>{cubic_unit_cell(), factored_unit_cell(), octet_unit_cell(),
+                              kelvin_unit_cell()},
+        choice, std::move(radius)));
+  };
+}
+
 inline std::vector<Kind> kinds() {
   std::vector<Kind> kinds = {
       {"cubic", "thin", 0.08, 1, lattice_factory(cubic_unit_cell())},
@@ -136,6 +152,9 @@ inline std::vector<Kind> kinds() {
       {"skew", "thin", 0.05, 1, lattice_factory(skew_unit_cell())},
       {"skew", "beyond its cell", 0.21, 1, lattice_factory(skew_unit_cell())},
       {"factors", "", 0.09, 1, lattice_factory(factored_unit_cell())},
+      {"presets", "Kelvin", 0.05, 1, lattice_factory(kelvin_unit_cell())},
+      {"presets", "re-entrant", 0.07, 1, lattice_factory(reentrant_unit_cell())},
+      {"mixed", "", 0.07, 1, mixed_factory()},
   };
   // A sum with the tables of a row, one of them with its magnitude taken, and what is none.
   const FunctionalKind network = FunctionalKind::network, sheet = FunctionalKind::sheet;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/lattice/lattice.h"
 
+#include "structure/lattice/may_reach.h"
 #include "structure/strut_clearance.h"
 #include "structure/strut_rows.h"
 
@@ -11,25 +12,6 @@ namespace {
 /// Samples a cell above which spans beat the point query. Drawing a strut costs about as much as
 /// asking one sample of all struts near it.
 constexpr double critical_samples = 4;
-
-/// Whether a segment comes within radius of a box, erring towards yes. The distance to a convex set
-/// is convex along a segment, so a ternary search finds its minimum.
-bool may_reach(const Segment& s, const Box3& box, double radius) {
-  const auto distance_at = [&](double t) {
-    const Vec3 p = s.a + s.ab * t;
-    return length(p - max(box.min, min(box.max, p)));
-  };
-  double low = 0, high = 1;
-  for (int i = 0; i < 64; ++i) {
-    const double third = (high - low) / 3;
-    if (distance_at(low + third) <= distance_at(high - third))
-      high -= third;
-    else
-      low += third;
-  }
-  const double slack = 1e-6 * (length(s.ab) + radius + max_magnitude(box.max));
-  return distance_at((low + high) / 2) <= radius + slack;
-}
 
 }  // namespace
 
@@ -58,10 +40,7 @@ Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Param
         for (const PeriodicStrut& s : struts_) {
           const Vec3 shift{double(i), double(j), double(k)};
           const Segment segment((s.a + shift) * size, (s.b + shift) * size);
-          const Vec3 b = segment.a + segment.ab;
-          const Box3 extent{min(segment.a, b), max(segment.a, b)};
           const double radius = s.factor * radius_.range().high;
-          if (!extent.overlaps(corner_to_corner.grown(radius * (1 + 1e-6)))) continue;
           if (may_reach(segment, corner_to_corner, radius)) near_.push_back({segment, s.factor});
         }
 }

@@ -8,9 +8,6 @@ namespace msq {
 
 namespace {
 
-// Nodes closer than this, in cell units, are one node of the tiling.
-constexpr double same_node = 1e-9;
-
 bool close(Vec3 a, Vec3 b) {
   return max_magnitude(a - b) <= same_node;
 }

@@ -11,6 +11,9 @@
 
 namespace msq {
 
+/// Nodes closer than this, in cell units, are one node of the tiling.
+constexpr double same_node = 1e-9;
+
 /// Nodes in the unit cube and struts between them.
 struct UnitCell {
   std::vector<Vec3> nodes;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Strut lattice whose unit cell changes from one neighbourhood cell to the next. A field, the
+// choice, says which of a library of unit cells stands in a cell: its value at the cell's centre,
+// rounded to the nearest number and kept within the library. The graph is the union, over all
+// cells, of the struts of each cell's own unit cell; the solid is that of Lattice.
+//
+// All struts of a unit cell lie in the cell. So what may hold a point of a cell are the struts of
+// the cells within the greatest radius of it; for each such neighbour and each unit cell of the
+// library they are listed in advance.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "field/field.h"
+#include "structure/lattice/unit_cell.h"
+#include "structure/structure.h"
+
+namespace msq {
+
+/// Faces between cells that differ in their unit cells.
+struct MixedFaces {
+  uint64_t cells = 0;      ///< looked at
+  uint64_t faces = 0;      ///< between two of them that differ
+  uint64_t unmatched = 0;  ///< of these, with a node on one side that has no copy on the other
+  /// The first unmatched one, cells taken by z, then y, then x: between this cell and the next
+  /// along `axis`.
+  CellIndex cell;
+  int axis = 0;
+  size_t types[2] = {};
+};
+
+class MixedLattice final : public Structure {
+ public:
+  static constexpr size_t most_types = 256;
+
+  MixedLattice(const Neighbourhood& neighbourhood, std::vector<UnitCell> library, Parameter choice,
+               Parameter radius);
+
+  /// Which of the library stands in a cell.
+  size_t type_of(CellIndex cell) const;
+
+  bool inside(Vec3 p) const override;
+  void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  bool gains_by_groups() const override { return true; }
+  void keep_rows(const RowBlock& block, const Job* job) const override;
+  /// Exact outside where the radius is constant, up to twice the smallest cell size.
+  double clearance(Vec3 p) const override;
+
+  /// The cells that a box in model units has inner points in, the first and the last along each
+  /// axis; on turned grids those of its bounding box along the grid's axes.
+  struct CellRange {
+    double first[3], last[3];
+    double count() const;  ///< of all cells
+  };
+  CellRange cells(const Box3& box) const;
+  /// Faces between cells of a range of fewer than 2^31. Asks the choice once for each and keeps a
+  /// byte for each of a layer.
+  MixedFaces faces(const CellRange& range, const Job* job) const;
+
+ private:
+  struct Run {
+    uint32_t begin = 0, end = 0;
+  };
+  struct Neighbour {
+    int offset[3];
+    double gap;  ///< between its box and that of the cell
+  };
+  struct OwnStrut {
+    Vec3 a, b;  ///< in cell units
+    double factor;
+    Segment axis;  ///< in model units, from the cell's corner
+  };
+
+  std::span<const LatticeStrut> near(size_t neighbour, size_t type) const {
+    const Run run = near_runs_[neighbour * library_.size() + type];
+    return {near_.data() + run.begin, run.end - run.begin};
+  }
+  std::span<const OwnStrut> own(size_t type) const {
+    return {struts_.data() + own_runs_[type].begin, own_runs_[type].end - own_runs_[type].begin};
+  }
+  void find_neighbours();
+  void find_copies();
+
+  std::vector<UnitCell> library_;
+  Parameter choice_, radius_;
+  double most_factor_ = 0;
+  double reach_;                       // of clearance(): farther struts are not looked for
+  std::vector<Neighbour> neighbours_;  // cells within reach_ of a cell, the nearest first
+  size_t near_neighbours_ = 0;         // those first ones whose struts may hold its points
+  std::vector<LatticeStrut> near_;     // that may hold a point of a cell, from its corner
+  std::vector<Run> near_runs_;         // for each near neighbour and type
+  std::vector<OwnStrut> struts_;       // of all types, the thickest of a type first
+  std::vector<Run> own_runs_;          // for each type
+  std::vector<double> factors_;        // that occur, each once
+  std::vector<uint8_t> copies_;        // see find_copies()
+};
+
+}  // namespace msq
