@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Strut lattices, r = 0.1 cell, in the unit cube: layers as bits, and sets of points with and
+// without clusters.
+//
+// usage: lattice [results.json] [largest slices, default 2048]
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+
+#include "base/random.h"
+#include "bench.h"
+
+namespace {
+
+struct Setting {
+  int32_t unit_cell = MSQ_UNIT_CELL_BCC;
+  double cells = 32;        // along a side of the cube
+  bool is_graded = false;   // r from 0.05 cell at one corner of the cube to 0.15 at the other
+  bool is_turned = false;   // about two axes
+  uint32_t clusters = 0;
+};
+
+/// Wall and processor time, of two threads; half of the latter is what two free cores would take.
+struct Seconds {
+  double wall, processor;
+};
+
+class Solid {
+ public:
+  explicit Solid(const Setting* setting) {
+    msq_context_def context_def;
+    bench::check(msq_context_def_init(&context_def, sizeof context_def));
+    context_def.threads = 2;
+    bench::check(msq_context_create(&context_def, &context_));
+    const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
+    msq_shape* cube;
+    bench::check(msq_shape_from_box(context_, low, high, &cube));
+    msq_structure* structure = setting ? make(*setting) : nullptr;
+    const msq_scale_def scales[] = {{cube, nullptr}, {nullptr, structure}};
+    msq_model_def def;
+    bench::check(msq_model_def_init(&def, sizeof def));
+    def.scales = scales;
+    def.scale_count = structure ? 2 : 1;
+    bench::check(msq_model_create(context_, &def, &model_));
+    msq_structure_release(structure);
+    msq_shape_release(cube);
+  }
+  ~Solid() {
+    msq_model_release(model_);
+    msq_context_release(context_);
+  }
+  Solid(const Solid&) = delete;
+
+  Seconds slice(uint32_t resolution) const {
+    msq_slicer_def def;
+    bench::check(msq_slicer_def_init(&def, sizeof def));
+    def.resolution[0] = def.resolution[1] = resolution;
+    def.layer_height = 1.0 / resolution;
+    msq_slicer* slicer;
+    bench::check(msq_slicer_create(model_, &def, &slicer));
+    bench::Reader reader;
+    const Seconds seconds = measure([&] {
+      bench::check(msq_slicer_run(slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));
+    });
+    msq_slicer_release(slicer);
+    return seconds;
+  }
+
+  Seconds ask(const std::vector<double>& coordinates) const {
+    msq_points_def def;
+    bench::check(msq_points_def_init(&def, sizeof def));
+    def.kind = MSQ_POINTS_ARRAY;
+    def.coordinates = coordinates.data();
+    def.count = coordinates.size() / 3;
+    std::vector<uint8_t> inside(def.count);
+    return measure([&] {
+      bench::check(
+          msq_set_membership(model_, &def, nullptr, inside.data(), inside.size(), nullptr));
+    });
+  }
+
+ private:
+  static Seconds measure(const std::function<void()>& work) {
+    std::vector<double> processor;
+    const double wall = bench::median_seconds([&] {
+      const std::clock_t start = std::clock();
+      work();
+      processor.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    });
+    std::nth_element(processor.begin(), processor.begin() + processor.size() / 2, processor.end());
+    return {wall, processor[processor.size() / 2]};
+  }
+
+  msq_structure* make(const Setting& setting) const {
+    msq_lattice_def def;
+    bench::check(msq_lattice_def_init(&def, sizeof def));
+    def.unit_cell = setting.unit_cell;
+    for (double& size : def.grid.cell_size) size = 1 / setting.cells;
+    def.radius.value = 0.1 / setting.cells;
+    if (setting.is_turned) {
+      const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(0.4), t = std::sin(0.4);
+      const double turn[9] = {c, -s * d, s * t, s, c * d, -c * t, 0, t, d};
+      for (int i = 0; i < 9; ++i) def.grid.rotation[i] = turn[i];
+    }
+    msq_field* field = nullptr;
+    if (setting.is_graded) {
+      const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
+      bench::check(msq_field_gradient(context_, low, 0.05 / setting.cells, high,
+                                      0.15 / setting.cells, &field));
+      def.radius = {0, field};
+    }
+    msq_structure* structure;
+    bench::check(msq_structure_lattice(context_, &def, &structure));
+    msq_field_release(field);
+    return structure;
+  }
+
+  msq_context* context_;
+  msq_model* model_;
+};
+
+struct UnitCell {
+  int32_t number;
+  const char* name;
+};
+constexpr UnitCell unit_cells[] = {{MSQ_UNIT_CELL_BCC, "BCC"}, {MSQ_UNIT_CELL_OCTET, "octet"}};
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+void bench_slices(bench::Report& report, uint32_t resolution) {
+  const double samples = std::pow(double(resolution), 3);
+  const auto add = [&](const std::string& name, const Setting* setting) {
+    const Seconds seconds = Solid(setting).slice(resolution);
+    report.add(name + ", " + std::to_string(resolution) + "^3", seconds.wall, samples, "sample");
+    report.note("  processor time of both threads", seconds.processor, "s");
+  };
+  add("the cube alone", nullptr);
+  for (const UnitCell& cell : unit_cells) {
+    const auto add_cells = [&](double cells, bool is_graded, bool is_turned) {
+      const Setting setting{cell.number, cells, is_graded, is_turned, 0};
+      add(std::string(cell.name) + ", " + number_text(cells) + "^3 cells" +
+              (is_graded ? ", gradient of r" : "") + (is_turned ? ", turned grid" : ""),
+          &setting);
+    };
+    for (double cells : {32.0, 128.0, 256.0}) add_cells(cells, false, false);
+    for (double cells : {31.7, 127.3, 254.9}) add_cells(cells, false, false);  // no pitch tiles
+    for (double cells : {32.0, 254.9}) add_cells(cells, true, false);
+    if (cell.number == MSQ_UNIT_CELL_BCC) add_cells(31.7, false, true);
+  }
+}
+
+/// Each point by itself, in no order.
+void bench_points(bench::Report& report, size_t count) {
+  std::vector<double> coordinates(3 * count);
+  for (size_t i = 0; i < coordinates.size(); ++i)
+    coordinates[i] = static_cast<double>(msq::splitmix_output(1, i) >> 11) * 0x1p-53;
+  for (const UnitCell& cell : unit_cells)
+    for (bool is_graded : {false, true}) {
+      Setting setting{cell.number, 31.7, is_graded, false, 1};
+      const std::string name = std::string(cell.name) + (is_graded ? ", gradient of r, " : ", ") +
+                               std::to_string(count / 1000000) + " million points";
+      const double without = Solid(&setting).ask(coordinates).processor;
+      setting.clusters = 0;
+      const double with = Solid(&setting).ask(coordinates).processor;
+      report.add(name + ", no clusters (processor time)", without, double(count), "point");
+      report.add(name + ", clusters", with, double(count), "point");
+      report.note("  without against with", without / with, "times");
+    }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  bench::Report report("Strut lattices, r = 0.1 cell, two threads");
+  const uint32_t largest = count > 2 ? static_cast<uint32_t>(std::atoi(arguments[2])) : 2048;
+  bench_slices(report, largest);
+  bench_points(report, 4000000);
+  report.write(count, arguments);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
