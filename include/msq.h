@@ -318,6 +318,33 @@ typedef struct msq_field msq_field; /* a number at every point of space, of know
 MSQ_API msq_status msq_field_gradient(msq_context *context, const double from[3],
                                       double from_value, const double to[3], double to_value,
                                       msq_field **field);
+
+typedef struct msq_radial_field_def {
+  uint32_t struct_size;
+  uint32_t reserved;    /* 0 */
+  double center[3];     /* default 0 */
+  double axis[3];       /* of any length: distances count from the line along it through center;
+                           0 (default): from center */
+  double from_radius;   /* >= 0 (default 0) */
+  double from_value;
+  double to_radius;     /* > from_radius (default 1) */
+  double to_value;
+} msq_radial_field_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_radial_field_def_init(msq_radial_field_def *def, size_t size);
+
+/* Field that runs linearly with the distance from a point or a line: from_value up to from_radius, to
+ * to_value at to_radius and beyond. def may not be NULL. Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_field_radial(msq_context *context, const msq_radial_field_def *def,
+                                    msq_field **field);
+
+/* Field that is a piecewise linear curve over another field. curve: curve_count pairs (value of
+ * argument, value of this field), 1 to 65536 of them, ascending in the first, constant beyond the
+ * ends. Cost at a point: that of argument, and as log(curve_count). Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_field_map(msq_context *context, const msq_field *argument,
+                                 const double *curve, uint64_t curve_count, msq_field **field);
+
 MSQ_API void msq_field_retain(msq_field *field);
 MSQ_API void msq_field_release(msq_field *field);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields and structures.
 #include "api/guard.h"
 #include "api/neighbourhood.h"
-#include "field/gradient.h"
 #include "structure/foam/delaunay.h"
 #include "structure/foam/foam.h"
 #include "structure/lattice/lattice.h"
@@ -110,29 +108,6 @@ UnitCell read_unit_cell(const msq_lattice_def& def) {
 }
 
 }  // namespace
-
-msq_status msq_field_gradient(msq_context* context, const double from[3], double from_value,
-                              const double to[3], double to_value, msq_field** field) {
-  return guard([&] {
-    object(context, "context");
-    const Vec3 a = require_vector(from, "from"), b = require_vector(to, "to");
-    require_finite(from_value, "from_value");
-    require_finite(to_value, "to_value");
-    require(field, "field");
-    const double length_squared = dot(b - a, b - a);
-    if (!(length_squared > 0) || !std::isfinite(length_squared))
-      fail(Status::argument, "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ",
-           a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared));
-    *field = new_handle<msq_field>(Ref<Field>(make_ref<GradientField>(a, from_value, b, to_value)));
-  });
-}
-
-void msq_field_retain(msq_field* field) {
-  retain(field);
-}
-void msq_field_release(msq_field* field) {
-  release(field);
-}
 
 msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size) {
   return guard([&] { set_defaults(def, size, lattice_defaults(), "msq_lattice_def"); });

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "api/guard.h"
+#include "field/gradient.h"
+#include "field/map.h"
+#include "field/radial.h"
+
+using namespace msq;
+using namespace msq::api;
+
+namespace {
+
+constexpr uint64_t most_knots = 65536;
+
+msq_radial_field_def radial_defaults() {
+  msq_radial_field_def def{};
+  def.to_radius = 1;
+  return def;
+}
+
+double require_difference(double from, double to, const char* name) {
+  if (!std::isfinite(to - from))
+    fail(Status::argument, "%s run from %g to %g; their difference must be finite", name, from, to);
+  return to - from;
+}
+
+Curve read_curve(const double* curve, uint64_t count) {
+  if (count < 1 || count > most_knots)
+    fail(Status::argument, "curve_count is %llu; it must be from 1 to %llu",
+         static_cast<unsigned long long>(count), static_cast<unsigned long long>(most_knots));
+  require(curve, "curve");
+  std::vector<Curve::Knot> knots(count);
+  for (uint64_t i = 0; i < count; ++i) {
+    const double at = curve[2 * i], value = curve[2 * i + 1];
+    const auto number = static_cast<unsigned long long>(i);
+    if (!std::isfinite(at) || !std::isfinite(value))
+      fail(Status::argument, "pair %llu of curve is (%g, %g); it must be finite", number, at,
+           value);
+    if (i > 0) {
+      const Curve::Knot& last = knots[i - 1];
+      if (!(at > last.at))
+        fail(Status::argument,
+             "pair %llu of curve is at %g and the one before at %g; they must "
+             "ascend",
+             number, at, last.at);
+      require_difference(last.at, at, "places of curve");
+      require_difference(last.value, value, "values of curve");
+    }
+    knots[i] = {at, value};
+  }
+  return Curve(std::move(knots));
+}
+
+}  // namespace
+
+msq_status msq_field_gradient(msq_context* context, const double from[3], double from_value,
+                              const double to[3], double to_value, msq_field** field) {
+  return guard([&] {
+    object(context, "context");
+    const Vec3 a = require_vector(from, "from"), b = require_vector(to, "to");
+    require_finite(from_value, "from_value");
+    require_finite(to_value, "to_value");
+    require(field, "field");
+    const double length_squared = dot(b - a, b - a);
+    if (!(length_squared > 0) || !std::isfinite(length_squared))
+      fail(Status::argument, "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ",
+           a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared));
+    *field = new_handle<msq_field>(Ref<Field>(make_ref<GradientField>(a, from_value, b, to_value)));
+  });
+}
+
+void msq_field_retain(msq_field* field) {
+  retain(field);
+}
+void msq_field_release(msq_field* field) {
+  release(field);
+}
+
+msq_status msq_radial_field_def_init(msq_radial_field_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, radial_defaults(), "msq_radial_field_def"); });
+}
+
+msq_status msq_field_radial(msq_context* context, const msq_radial_field_def* def,
+                            msq_field** field) {
+  return guard([&] {
+    object(context, "context");
+    require(field, "field");
+    const msq_radial_field_def known = read_def(def, radial_defaults(), "def");
+    require_reserved(known.reserved, "reserved");
+    const Vec3 centre = require_vector(known.center, "center");
+    const Vec3 axis = require_vector(known.axis, "axis");
+    RadialField::Ramp ramp{require_finite(known.from_radius, "from_radius"),
+                           require_finite(known.from_value, "from_value"),
+                           require_finite(known.to_radius, "to_radius"),
+                           require_finite(known.to_value, "to_value")};
+    if (!(ramp.from_radius >= 0 && ramp.from_radius < ramp.to_radius))
+      fail(Status::argument,
+           "from_radius is %g and to_radius is %g; they must ascend, from 0 or more",
+           ramp.from_radius, ramp.to_radius);
+    require_difference(ramp.from_value, ramp.to_value, "values");
+    *field = new_handle<msq_field>(Ref<Field>(make_ref<RadialField>(centre, axis, ramp)));
+  });
+}
+
+msq_status msq_field_map(msq_context* context, const msq_field* argument, const double* curve,
+                         uint64_t curve_count, msq_field** field) {
+  return guard([&] {
+    object(context, "context");
+    const Field& known = object(argument, "argument");
+    Curve read = read_curve(curve, curve_count);
+    require(field, "field");
+    *field = new_handle<msq_field>(
+        Ref<Field>(make_ref<MapField>(Ref<const Field>(&known), std::move(read))));
+  });
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace msq {
+
+Curve::Curve(std::vector<Knot> knots) : knots_(std::move(knots)) {
+  for (size_t i = 1; i < knots_.size(); ++i) {
+    const Knot &a = knots_[i - 1], &b = knots_[i];
+    // Rounded up by more than the three operations lose.
+    const double slope = std::abs(b.value - a.value) / (b.at - a.at) * (1 + 0x1p-50);
+    lipschitz_ = std::max(lipschitz_, slope);
+  }
+}
+
+size_t Curve::knots_to(double v) const {
+  const auto above = std::upper_bound(knots_.begin(), knots_.end(), v,
+                                      [](double at, const Knot& knot) { return at < knot.at; });
+  return static_cast<size_t>(above - knots_.begin());
+}
+
+double Curve::operator()(double v) const {
+  const size_t n = knots_to(v);
+  if (n == 0) return knots_.front().value;
+  if (n == knots_.size()) return knots_.back().value;
+  const Knot &a = knots_[n - 1], &b = knots_[n];
+  // Each operation rounds monotonously, so this runs one way; the clamp keeps it short of b.
+  const double value = a.value + (v - a.at) / (b.at - a.at) * (b.value - a.value);
+  return std::clamp(value, std::min(a.value, b.value), std::max(a.value, b.value));
+}
+
+Interval Curve::range(Interval over) const {
+  const double first = (*this)(over.low), last = (*this)(over.high);
+  Interval range{std::min(first, last), std::max(first, last)};
+  for (size_t i = knots_to(over.low), end = knots_to(over.high); i < end; ++i) {
+    range.low = std::min(range.low, knots_[i].value);
+    range.high = std::max(range.high, knots_[i].value);
+  }
+  return range;
+}
+
+}  // namespace msq

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// A piecewise linear curve over another field.
+#pragma once
+
+#include <utility>
+
+#include "field/curve.h"
+#include "field/field.h"
+
+namespace msq {
+
+class MapField final : public Field {
+ public:
+  MapField(Ref<const Field> argument, Curve curve)
+      : argument_(std::move(argument)), curve_(std::move(curve)) {}
+
+  double at(Vec3 p) const override { return curve_(argument_->at(p)); }
+  /// Where the curve is constant over the box.
+  bool is_linear(const Box3& box, Vec3& gradient) const override {
+    const Interval over = range(box);
+    gradient = {};
+    return over.low == over.high;
+  }
+  // The curve's own values are those of at(), and it runs one way between its knots: what encloses
+  // the argument encloses the field.
+  Interval range() const override { return curve_.range(argument_->range()); }
+  Interval range(const Box3& box) const override { return curve_.range(argument_->range(box)); }
+  double lipschitz() const override {
+    // A constant curve stays one, however steep the argument.
+    return curve_.lipschitz() > 0 ? curve_.lipschitz() * argument_->lipschitz() * (1 + 0x1p-50) : 0;
+  }
+
+ private:
+  Ref<const Field> argument_;
+  Curve curve_;
+};
+
+}  // namespace msq

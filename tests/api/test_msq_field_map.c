@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_field_map. */
+#include "fields.h"
+
+static msq_field* make_ramp(msq_context* context) {
+  const double from[3] = {0, 0, 0}, to[3] = {10, 0, 0};
+  msq_field* field;
+  assert_ok(msq_field_gradient(context, from, 0, to, 10, &field));
+  return field;
+}
+
+static void curve_runs_over_the_other_field(void** state) {
+  const double curve[] = {1, 5, 2, 7, 4, -1};
+  msq_context* context = make_context();
+  msq_field *ramp = make_ramp(context), *field;
+  (void)state;
+  assert_ok(msq_field_map(context, ramp, curve, 3, &field));
+  msq_field_release(ramp); /* the map keeps it */
+  assert_near(field_at(context, field, 0, 0, 0), 5, 1e-6);
+  assert_near(field_at(context, field, 1.5, 8, 0), 6, 1e-6);
+  assert_near(field_at(context, field, 3, 0, 1), 3, 1e-6);
+  assert_near(field_at(context, field, 9, 0, 0), -1, 1e-6);
+  msq_field_release(field);
+  msq_context_release(context);
+}
+
+/* A range is that of the values that occur, not that of the curve. */
+static void a_radius_may_be_mapped_from_what_no_radius_could_be(void** state) {
+  const double curve[] = {-5, -1, 0, 0.1, 10, 0.3};
+  msq_context* context = make_context();
+  msq_field *ramp = make_ramp(context), *field;
+  msq_lattice_def def;
+  msq_structure* structure;
+  (void)state;
+  assert_ok(msq_field_map(context, ramp, curve, 3, &field));
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.radius.field = field;
+  assert_ok(msq_structure_lattice(context, &def, &structure));
+  msq_structure_release(structure);
+  msq_field_release(field);
+  msq_field_release(ramp);
+  msq_context_release(context);
+}
+
+static void null_arguments_are_refused(void** state) {
+  const double curve[] = {0, 1, 2, 3};
+  msq_context* context = make_context();
+  msq_field* ramp = make_ramp(context);
+  (void)state;
+  assert_makes_nothing(msq_field, msq_field_map(NULL, ramp, curve, 2, &made), MSQ_E_ARGUMENT,
+                       "context is NULL");
+  assert_makes_nothing(msq_field, msq_field_map(context, NULL, curve, 2, &made), MSQ_E_ARGUMENT,
+                       "argument is NULL");
+  assert_makes_nothing(msq_field, msq_field_map(context, ramp, NULL, 2, &made), MSQ_E_ARGUMENT,
+                       "curve is NULL");
+  assert_refused(msq_field_map(context, ramp, curve, 2, NULL), MSQ_E_ARGUMENT, "field is NULL");
+  msq_field_release(ramp);
+  msq_context_release(context);
+}
+
+static void bad_curves_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_field* ramp = make_ramp(context);
+  double curve[] = {0, 1, 2, 3, 4, 5};
+  (void)state;
+  assert_makes_nothing(msq_field, msq_field_map(context, ramp, curve, 0, &made), MSQ_E_ARGUMENT,
+                       "curve_count is 0");
+  assert_makes_nothing(msq_field, msq_field_map(context, ramp, curve, 65537, &made), MSQ_E_ARGUMENT,
+                       "65536");
+  for (int number = 0; number < 6; ++number)
+    for (int which = 0; which < 3; ++which) {
+      double bad[6];
+      memcpy(bad, curve, sizeof bad);
+      bad[number] = not_finite(which);
+      assert_makes_nothing(msq_field, msq_field_map(context, ramp, bad, 3, &made), MSQ_E_ARGUMENT,
+                           "finite");
+    }
+  curve[4] = 2;
+  assert_makes_nothing(msq_field, msq_field_map(context, ramp, curve, 3, &made), MSQ_E_ARGUMENT,
+                       "ascend");
+  assert_message_has("pair 2");
+  curve[4] = 4;
+  curve[1] = -1e308;
+  curve[3] = 1e308;
+  assert_makes_nothing(msq_field, msq_field_map(context, ramp, curve, 3, &made), MSQ_E_ARGUMENT,
+                       "difference");
+  msq_field_release(ramp);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(curve_runs_over_the_other_field),
+      cmocka_unit_test(a_radius_may_be_mapped_from_what_no_radius_could_be),
+      cmocka_unit_test(null_arguments_are_refused),
+      cmocka_unit_test(bad_curves_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
