@@ -32,7 +32,8 @@
  *  Inputs    Arrays and strings given to a constructor are copied; the caller keeps
  *            its own. NULL is refused save where a function gives it a meaning.
  *            Non-finite numbers are refused.
- *  Threads   Callbacks of a call run on the thread that made the call, and may call msq.
+ *  Threads   Callbacks of a call run on the thread that made the call, and may call msq. Only those of
+ *            objects that the host defined with concurrent = 1 may run on any thread of msq.
  *  Process   msq never prints, exits, aborts, installs a signal handler, reads the
  *            environment or changes locale or floating-point state, and lets no
  *            C++ exception out. (oneTBB, which runs the threads, prints its version
@@ -78,7 +79,8 @@ enum {
   MSQ_E_ARGUMENT = -1,    /* an argument is NULL, non-finite, out of range or inconsistent */
   MSQ_E_MEMORY = -2,      /* an allocation failed */
   MSQ_E_CANCELLED = -3,   /* the job was cancelled */
-  MSQ_E_HOST = -4,        /* a host callback asked to stop: msq_error_host_code() */
+  MSQ_E_HOST = -4,        /* a host callback asked to stop: msq_error_host_code(); or its answer
+                             cannot be: code 0 */
   MSQ_E_IO = -5,          /* a file cannot be opened or read */
   MSQ_E_UNSUPPORTED = -6, /* not in this build, or a file format that msq does not read */
   MSQ_E_MESH = -7,        /* mesh data that cannot be made sense of (not: a dirty mesh) */
@@ -175,6 +177,39 @@ MSQ_API msq_status msq_job_cancel(msq_job *job);
 /* Fraction done, 0 to 1, of the last call under the job; 1 only after success. Any thread.
  * Errors: ARGUMENT. */
 MSQ_API msq_status msq_job_progress(const msq_job *job, double *fraction);
+
+/* ---- objects that the host defines ----------------------------------------- */
+
+/* Fields, shapes and structures may be functions of the host's own, which msq calls with batches of
+ * points: msq_field_host, msq_shape_from_host, msq_structure_host, msq_structure_host_function. Of all of
+ * their callbacks it holds:
+ *
+ *  Answers   depend on the arguments alone: a point has the same answer, to the last bit, whenever it
+ *            is asked and whatever else is in its batch.
+ *  Threads   concurrent = 0 (default): they run on the thread that made the call to msq, one at a time,
+ *            and models with such an object are computed by that thread alone. (Calls that the host
+ *            makes at once call back at once, each on its own thread.) concurrent = 1: they may run on
+ *            any thread of msq, several at once.
+ *  Failure   They return 0 to go on; any other code, best negative, stops the call with MSQ_E_HOST.
+ *            So do answers that are no number or beyond what the definition states, with code 0. What
+ *            a failed set query was to write may then be partly written. Exceptions of the host's
+ *            language must not leave them.
+ *  Lifetime  Each gets the definition's user. release, if not NULL, gets it once, when the object is
+ *            freed and no callback will come any more, on the thread that let go of it last; not where
+ *            the constructor fails. They may call msq, not on what they are part of.
+ *
+ * Points and boxes belong to msq and are valid until the callback returns. Coordinates are triples
+ * x, y, z, and a batch has at most 4096 points. docs/hosts.md shows the smallest example. */
+
+typedef void (*msq_release_fn)(void *user);
+
+/* values[i] = the value at point i, for i < count. */
+typedef int32_t (*msq_values_fn)(void *user, const double *points, uint64_t count,
+                                 double *values);
+
+/* *low and *high: bounds, rounding included, of all values in the box from min to max. */
+typedef int32_t (*msq_range_fn)(void *user, const double min[3], const double max[3],
+                                double *low, double *high);
 
 /* ---- shapes: scale 0 ------------------------------------------------------ */
 
@@ -345,6 +380,28 @@ MSQ_API msq_status msq_field_radial(msq_context *context, const msq_radial_field
 MSQ_API msq_status msq_field_map(msq_context *context, const msq_field *argument,
                                  const double *curve, uint64_t curve_count, msq_field **field);
 
+typedef struct msq_host_field_def {
+  uint32_t struct_size;
+  int32_t concurrent;     /* 0 (default) or 1: see "objects that the host defines" */
+  msq_values_fn evaluate; /* values at points of space, anywhere, in model coordinates */
+  msq_range_fn range;     /* over a box in model coordinates; NULL (default): from lipschitz */
+  void *user;
+  msq_release_fn release;
+  double low, high;       /* finite; no value is ever outside. No default: they must be set */
+  double lipschitz;       /* no two values differ by more than this times the distance of their
+                             points; infinity (default): unknown */
+} msq_host_field_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_host_field_def_init(msq_host_field_def *def, size_t size);
+
+/* Field that the host computes. def may not be NULL. What msq does with whole blocks of points rests on
+ * the range over a box: without range and lipschitz it is low to high everywhere, which is right but slow
+ * where the field varies. Where lipschitz or range promise too much, answers are wrong, no worse. Cost:
+ * a point at a time in single queries and along struts, batches in sets and slices of functional
+ * structures. Errors: ARGUMENT, MEMORY; of calls that ask the field, HOST. */
+MSQ_API msq_status msq_field_host(msq_context *context, const msq_host_field_def *def,
+                                  msq_field **field);
 MSQ_API void msq_field_retain(msq_field *field);
 MSQ_API void msq_field_release(msq_field *field);
 

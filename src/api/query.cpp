@@ -93,6 +93,7 @@ template <class Answer, class OfArray, class OfGrid>
 void ask_set(const msq_model* model, const msq_points_def* points, const msq_query_def* query,
              const Answers<Answer>& answers, msq_job* job, OfArray&& of_array, OfGrid&& of_grid) {
   const Model& known = object(model, "model");
+  const Ref<const Model> keep(&known);  // callbacks may release the host's last reference
   const msq_points_def def = read_def(points, points_defaults(), "points");
   const auto resolved = known.resolved(read_length_scale(query));
   Job* work = job ? &object(job, "job") : nullptr;
@@ -131,6 +132,7 @@ msq_status msq_point_membership(const msq_model* model, const double point[3],
                                 const msq_query_def* query, int32_t* inside) {
   return guard([&] {
     const Model& known = object(model, "model");
+    const Ref<const Model> keep(&known);
     const Vec3 p = require_vector(point, "point");
     require(inside, "inside");
     *inside = known.inside(p, known.resolved(read_length_scale(query)));
@@ -150,6 +152,7 @@ msq_status msq_point_distance(const msq_model* model, const double point[3],
                               const msq_query_def* query, double* distance) {
   return guard([&] {
     const Model& known = object(model, "model");
+    const Ref<const Model> keep(&known);
     const Vec3 p = require_vector(point, "point");
     require(distance, "distance");
     *distance = known.distance(p, known.resolved(read_length_scale(query)));

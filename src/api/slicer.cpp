@@ -159,6 +159,7 @@ msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* bu
                            uint64_t buffer_bytes, msq_job* job) {
   return guard([&] {
     const Slicer& known = object(slicer, "slicer");
+    const Ref<const Slicer> keep(&known);
     require_layer(known, index);
     require(buffer, "buffer");
     if (buffer_bytes < known.layer_bytes())

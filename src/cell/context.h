@@ -28,6 +28,8 @@ class Context : public RefCounted {
   uint64_t new_structure_id() { return next_id_.fetch_add(1, std::memory_order_relaxed); }
 
   const Executor executor;
+  /// The calling thread alone.
+  const Executor serial{1};
   const std::shared_ptr<MemoryBudget> budget;
   CellCache cache;
 

@@ -2,6 +2,8 @@
 // Scalar fields that drive parameters, and parameters: a number or a field.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 
 #include "base/interval.h"
@@ -13,6 +15,13 @@ namespace msq {
 class Field : public RefCounted {
  public:
   virtual double at(Vec3 p) const = 0;
+  /// values[i] becomes at(points[i]), to the last bit.
+  virtual void values(const Vec3* points, size_t count, double* values) const {
+    for (size_t i = 0; i < count; ++i) values[i] = at(points[i]);
+  }
+  /// Whether any thread may ask it for values and ranges of boxes, several at once; otherwise only
+  /// the thread that made the host's call. A field over other fields asks them.
+  virtual bool is_concurrent() const { return true; }
   /// Whether at(p) is linear in p for all p of a box, up to 2^-40 of its range; if so, its
   /// gradient.
   virtual bool is_linear(const Box3& box, Vec3& gradient) const {
@@ -36,6 +45,13 @@ class Parameter {
 
   bool is_constant() const { return !field_; }
   double at(Vec3 p) const { return field_ ? field_->at(p) : value_; }
+  void values(const Vec3* points, size_t count, double* values) const {
+    if (field_)
+      field_->values(points, count, values);
+    else
+      std::fill_n(values, count, value_);
+  }
+  bool is_concurrent() const { return !field_ || field_->is_concurrent(); }
   bool is_linear(const Box3& box, Vec3& gradient) const {
     return field_ && field_->is_linear(box, gradient);
   }

@@ -7,8 +7,12 @@ namespace msq {
 
 Model::Model(Ref<Context> context, Ref<const Shape> shape,
              std::vector<Ref<const Structure>> structures)
-    : context_(std::move(context)), shape_(std::move(shape)), structures_(std::move(structures)) {
+    : context_(std::move(context)),
+      shape_(std::move(shape)),
+      structures_(std::move(structures)),
+      is_concurrent_(shape_->is_concurrent()) {
   for (size_t i = 0; i < structures_.size(); ++i) {
+    is_concurrent_ = is_concurrent_ && structures_[i]->is_concurrent();
     const Neighbourhood& grid = structures_[i]->neighbourhood();
     const Box3 box = grid.to_grid(bounds());
     for (int axis = 0; axis < 3; ++axis) {

@@ -18,6 +18,11 @@ class Model final : public RefCounted {
   Model(Ref<Context> context, Ref<const Shape> shape, std::vector<Ref<const Structure>> structures);
 
   Context& context() const { return *context_; }
+  /// Who computes the answers of this model: the context's threads, or the calling thread alone
+  /// where an object that the host defines wants no other.
+  const Executor& executor() const {
+    return is_concurrent_ ? context_->executor : context_->serial;
+  }
   const Shape& shape() const { return *shape_; }
   const Box3& bounds() const { return shape_->bounds(); }
   size_t scale_count() const { return 1 + structures_.size(); }
@@ -40,6 +45,7 @@ class Model final : public RefCounted {
   Ref<Context> context_;
   Ref<const Shape> shape_;
   std::vector<Ref<const Structure>> structures_;
+  bool is_concurrent_;
 };
 
 }  // namespace msq

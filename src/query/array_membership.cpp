@@ -27,14 +27,14 @@ uint64_t working_bytes(uint64_t chunk, unsigned threads) {
 
 /// As many points as the memory limit has room for, cached cells set aside; at least
 /// least_in_chunk.
-uint64_t chunk_of(const Context& context, uint64_t count) {
+uint64_t chunk_of(const Context& context, uint64_t count, unsigned threads) {
   const MemoryBudget& budget = *context.budget;
   uint64_t chunk = std::clamp(count, least_in_chunk, most_in_chunk);
   if (budget.limit() == 0) return chunk;
   const uint64_t cached = context.cache.counters().bytes;
   const uint64_t others = budget.held() - std::min(cached, budget.held());
   const uint64_t room = budget.limit() - std::min(others, budget.limit());
-  while (chunk > least_in_chunk && working_bytes(chunk, context.executor.threads()) > room)
+  while (chunk > least_in_chunk && working_bytes(chunk, threads) > room)
     chunk = std::max(least_in_chunk, chunk / 2);
   return chunk;
 }
@@ -45,10 +45,10 @@ void array_membership(const Model& model, const std::vector<const Structure*>& r
                       const PointArray& points, uint8_t* inside, Job* job) {
   if (points.count == 0) return;
   const Context& context = model.context();
-  const Executor& executor = context.executor;
+  const Executor& executor = model.executor();
   bool is_grouped = false;
   for (const Structure* structure : resolved) is_grouped |= structure->gains_by_groups();
-  const uint64_t chunk = is_grouped ? chunk_of(context, points.count) : most_in_chunk;
+  const uint64_t chunk = is_grouped ? chunk_of(context, points.count, executor.threads()) : most_in_chunk;
   Reservation reservation;
   if (is_grouped)
     reservation = Reservation(context.budget, working_bytes(chunk, executor.threads()),

@@ -16,7 +16,7 @@ void for_chunks(const Model& model, uint64_t count, Job* job, Fill&& fill) {
   if (count > 0) model.shape().prepare_distance();
   const uint64_t chunks = count / chunk + (count % chunk != 0);
   std::atomic<uint64_t> done{0};
-  model.context().executor.for_each(chunks, [&](uint64_t c) {
+  model.executor().for_each(chunks, [&](uint64_t c) {
     check_cancelled(job);
     fill(c * chunk, std::min(count, (c + 1) * chunk));
     const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;

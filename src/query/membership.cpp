@@ -26,7 +26,7 @@ uint64_t tile_rows(const SampleGrid& grid, uint64_t layers, unsigned threads) {
 uint64_t fill_slab_scratch_words(const Model& model, const std::vector<const Structure*>& resolved,
                                  const SampleGrid& grid, uint64_t layers) {
   if (resolved.empty()) return 0;
-  const unsigned threads = model.context().executor.threads();
+  const unsigned threads = model.executor().threads();
   const uint64_t rows = std::min(grid.ny, tile_rows(grid, layers, threads));
   return threads * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
 }
@@ -43,7 +43,7 @@ void fill_slab(const Model& model, const std::vector<const Structure*>& resolved
   slab.words = words;
   slab.row_stride = row_words;
   slab.layer_stride = row_words * grid.ny;
-  const Executor& executor = model.context().executor;
+  const Executor& executor = model.executor();
 
   executor.for_each(z1 - z0, [&](uint64_t layer) {
     check_cancelled(job);
@@ -89,7 +89,7 @@ void grid_membership(const Model& model, const std::vector<const Structure*>& re
   for (uint64_t z0 = 0; z0 < grid.nz; z0 += slab_layers) {
     const uint64_t z1 = std::min(grid.nz, z0 + slab_layers);
     fill_slab(model, resolved, grid, z0, z1, words.data(), job);
-    model.context().executor.for_each((z1 - z0) * grid.ny, [&](uint64_t r) {
+    model.executor().for_each((z1 - z0) * grid.ny, [&](uint64_t r) {
       const uint64_t* row = words.data() + r * row_words;
       uint8_t* out = inside + (z0 * grid.ny + r) * grid.nx;
       for (uint64_t i = 0; i < grid.nx; ++i)

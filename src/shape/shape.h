@@ -31,6 +31,9 @@ class Shape : public RefCounted {
 
   /// Membership of a finite point; the boundary is inside.
   virtual bool inside(Vec3 p) const = 0;
+  /// Whether any thread may ask it, several at once; otherwise only the thread that made the host's
+  /// call.
+  virtual bool is_concurrent() const { return true; }
 
   /// Signed distance of a finite point: at most 0 where inside(p), positive elsewhere, finite, and
   /// never larger in magnitude than the distance from p to the boundary of the solid.

@@ -139,7 +139,7 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
     const uint64_t z1 = std::min(last, z0 + deep), z2 = std::min(last, z1 + deep);
     std::optional<Executor::Task> ahead;
     if (z1 < last)
-      ahead.emplace(model_->context().executor, [&, z1, z2] {
+      ahead.emplace(model_->executor(), [&, z1, z2] {
         fill_slab(*model_, resolved_, grid_, z1, z2, next.data(), &ahead_job);
       });
     try {

@@ -26,6 +26,10 @@ class Structure : public RefCounted {
   /// Membership of a point whose cell index is below max_cell_index; the boundary is inside.
   virtual bool inside(Vec3 p) const = 0;
 
+  /// Whether any thread may ask it, several at once; otherwise only the thread that made the host's
+  /// call. A structure with parameters asks them: their fields may be the host's.
+  virtual bool is_concurrent() const { return true; }
+
   /// Signed distance of the same points: at most 0 where inside(p), positive elsewhere, and never
   /// larger in magnitude than the distance from p to the boundary of the solid.
   double distance(Vec3 p) const { return signed_distance(inside(p), clearance(p)); }

@@ -22,7 +22,8 @@ Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter r
       radius_(std::move(radius)),
       unit_(max_component(neighbourhood.cell_size)),
       seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
-      method_(method == FoamMethod::automatic ? FoamMethod::direct : method) {
+      method_(method == FoamMethod::automatic ? FoamMethod::direct : method),
+      is_concurrent_(radius_.is_concurrent() && density.is_concurrent()) {
   if (density.range().high > 1)
     graded_ = std::make_shared<const GradedSeeds>(seeds_, neighbourhood, std::move(density));
 }

@@ -30,6 +30,7 @@ class Foam final : public Structure {
        uint64_t seed, FoamMethod method, Parameter density = Parameter(1));
 
   bool inside(Vec3 p) const override;
+  bool is_concurrent() const override { return is_concurrent_; }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
@@ -56,6 +57,7 @@ class Foam final : public Structure {
   FoamSeeds seeds_;
   std::shared_ptr<const GradedSeeds> graded_;
   FoamMethod method_;
+  bool is_concurrent_;
 };
 
 }  // namespace msq

@@ -25,6 +25,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "structure/foam/clipped_cell.h"
 #include "structure/foam/edge_line.h"
 #include "structure/foam/seed_trees.h"
@@ -359,12 +360,12 @@ class CellBuilder {
 
 std::shared_ptr<const EdgeBrick> graded_edge_brick(const std::shared_ptr<const GradedSeeds>& seeds,
                                                    CellIndex corner) {
-  thread_local CellBuilder builder;
-  thread_local std::vector<LeafSeed> owners;
-  thread_local std::vector<FloatSegment> edges;
+  // The density may be the host's.
+  const Borrowed<CellBuilder> borrowed_builder;
+  CellBuilder& builder = *borrowed_builder;
+  std::vector<LeafSeed> owners;
+  std::vector<FloatSegment> edges;
   builder.move_to(seeds, corner);
-  owners.clear();
-  edges.clear();
   const int side = seeds->brick_side();
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)

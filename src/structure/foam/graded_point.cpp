@@ -15,6 +15,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "structure/foam/meets_edge.h"
 #include "structure/foam/onset.h"
 #include "structure/foam/seed_trees.h"
@@ -82,8 +83,11 @@ LeafSeed nearest_seed(SeedTrees& trees, CellIndex cell, Vec3 q, double& distance
 
 bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q,
                          double radius) {
-  thread_local SeedTrees trees;
-  thread_local NearSeeds near;
+  // The density may be the host's.
+  const Borrowed<SeedTrees> borrowed_trees;
+  const Borrowed<NearSeeds> borrowed_near;
+  SeedTrees& trees = *borrowed_trees;
+  NearSeeds& near = *borrowed_near;
   trees.move_to(seeds);
   double nearest_squared;
   const LeafSeed nearest = nearest_seed(trees, cell, q, nearest_squared);
@@ -102,8 +106,11 @@ bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIn
 }
 
 double graded_onset(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q) {
-  thread_local SeedTrees trees;
-  thread_local NearSeeds near;
+  // The density may be the host's.
+  const Borrowed<SeedTrees> borrowed_trees;
+  const Borrowed<NearSeeds> borrowed_near;
+  SeedTrees& trees = *borrowed_trees;
+  NearSeeds& near = *borrowed_near;
   trees.move_to(seeds);
   double nearest_squared;
   const LeafSeed nearest = nearest_seed(trees, cell, q, nearest_squared);

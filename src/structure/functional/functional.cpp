@@ -82,6 +82,7 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
   Batch batch(program_);
   double coordinates[3][batch_points + batch_padding] = {};
   double angles[3][batch_points + batch_padding], levels[batch_points + batch_padding] = {};
+  Vec3 asked[batch_points];
   size_t index[batch_points];
   for (size_t axis = 0; axis < 3; ++axis) batch.set_input(axis, {angles[axis], false});
   for (size_t next = 0; next < count;) {
@@ -89,9 +90,10 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
     for (; next < count && size < batch_points; ++next) {
       if (!alive[next]) continue;
       for (int axis = 0; axis < 3; ++axis) coordinates[axis][size] = points[next][axis];
-      levels[size] = level_.at(points[next]);
+      asked[size] = points[next];
       index[size++] = next;
     }
+    level_.values(asked, size, levels);
     find_angles(neighbourhood(), {coordinates[0], false}, {coordinates[1], false},
                 {coordinates[2], false}, size, {angles[0], angles[1], angles[2]});
     batch.run(size);

@@ -28,6 +28,7 @@ class Functional final : public Structure {
              Parameter level, int clusters);
 
   bool inside(Vec3 p) const override;
+  bool is_concurrent() const override { return level_.is_concurrent(); }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
 

@@ -19,6 +19,7 @@ class Lattice final : public Structure {
   Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Parameter radius);
 
   bool inside(Vec3 p) const override;
+  bool is_concurrent() const override { return radius_.is_concurrent(); }
   void keep_rows(const RowBlock& block, const Job* job) const override;
   /// Exact outside where the radius is constant and the cell sizes differ by no more than 8 times
   /// (4 times where factors differ).
