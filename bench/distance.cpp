@@ -11,7 +11,9 @@ namespace {
 
 /// Takes over the parts' references; the structure may be null.
 msq_model* make_model(msq_context* context, msq_shape* shape, msq_structure* structure) {
-  const msq_scale_def scales[] = {{shape, nullptr}, {nullptr, structure}};
+  msq_scale_def scales[2] = {};
+  scales[0].shape = shape;
+  scales[1].structure = structure;
   msq_model_def def;
   bench::check(msq_model_def_init(&def, sizeof def));
   def.scales = scales;

@@ -47,7 +47,9 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
   msq_structure* structure;
   check(msq_structure_foam(context, &def, &structure));
   msq_field_release(field);
-  const msq_scale_def scales[] = {{cube, nullptr}, {nullptr, structure}};
+  msq_scale_def scales[2] = {};
+  scales[0].shape = cube;
+  scales[1].structure = structure;
   msq_model_def model_def;
   check(msq_model_def_init(&model_def, sizeof model_def));
   model_def.scales = scales;

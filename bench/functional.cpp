@@ -59,7 +59,9 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   }
   msq_structure* structure;
   bench::check(msq_structure_functional(context, &def, &structure));
-  const msq_scale_def scales[] = {{cube, nullptr}, {nullptr, structure}};
+  msq_scale_def scales[2] = {};
+  scales[0].shape = cube;
+  scales[1].structure = structure;
   msq_model_def model_def;
   bench::check(msq_model_def_init(&model_def, sizeof model_def));
   model_def.scales = scales;

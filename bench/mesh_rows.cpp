@@ -27,7 +27,8 @@ Sliced make_slicer(const bench::MeshArrays& mesh, uint32_t resolution, uint32_t 
   context_def.threads = 2;
   bench::check(msq_context_create(&context_def, &made.context));
   msq_shape* shape = bench::make_shape(made.context, mesh);
-  const msq_scale_def scale{shape, nullptr};
+  msq_scale_def scale{};
+  scale.shape = shape;
   msq_model_def model_def;
   bench::check(msq_model_def_init(&model_def, sizeof model_def));
   model_def.scales = &scale;

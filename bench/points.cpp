@@ -35,7 +35,9 @@ Foam make_foam(int cells, int32_t method) {
   def.radius.value = 0.1 / cells;
   msq_structure* structure;
   bench::check(msq_structure_foam(foam.context, &def, &structure));
-  const msq_scale_def scales[] = {{cube, nullptr}, {nullptr, structure}};
+  msq_scale_def scales[2] = {};
+  scales[0].shape = cube;
+  scales[1].structure = structure;
   msq_model_def model_def;
   bench::check(msq_model_def_init(&model_def, sizeof model_def));
   model_def.scales = scales;

@@ -572,9 +572,12 @@ MSQ_API void msq_structure_release(msq_structure *structure);
 
 typedef struct msq_model msq_model; /* a coarse shape and the structures that fill it, scale by scale */
 
-typedef struct msq_scale_def { /* exactly one of the two */
-  const msq_shape *shape;         /* for scale 0 */
-  const msq_structure *structure; /* for scales 1 and finer */
+typedef struct msq_scale_def {    /* {0} but for what is set: it may grow */
+  const msq_shape *shape;         /* for scale 0, else NULL */
+  const msq_structure *structure; /* for scales 1 and finer, else NULL */
+  msq_param skin;                 /* thickness, in model units, of the solid skin that the scale leaves
+                                     under the coarse surface; nowhere negative; 0: none. Not for
+                                     scale 0 */
 } msq_scale_def;
 
 typedef struct msq_model_def {
@@ -588,9 +591,14 @@ typedef struct msq_model_def {
 /* Sets defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_model_def_init(msq_model_def *def, size_t size);
 
-/* Makes the model whose solid is the intersection of its scales. def may not be NULL. Errors: ARGUMENT, LIMIT (the
- * shape reaches 2^24 cells of a structure from its grid's origin), MEMORY.
- * Source: paper, section "Multiscale Shape-Material Modeling API". */
+/* Makes the model whose solid is the intersection of its scales: of the shape with each structure
+ * or, where the scale leaves a skin, with the structure and the skin together. The skin holds the
+ * points of the shape whose depth, the distance to its boundary as in msq_point_distance, is at
+ * most the skin's thickness at the point, where that is above 0. def may not be NULL.
+ * Cost: none; with a skin, the first call that asks it builds the tree of a mesh's triangles.
+ * Errors: ARGUMENT, LIMIT (the shape reaches 2^24 cells of a structure from its grid's origin),
+ * UNSUPPORTED (a skin in a shape that does not know depths), MEMORY.
+ * Source: paper, section "Multiscale Shape-Material Modeling API"; the skin is ours. */
 MSQ_API msq_status msq_model_create(msq_context *context, const msq_model_def *def,
                                     msq_model **model);
 MSQ_API void msq_model_retain(msq_model *model);
@@ -672,6 +680,8 @@ MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_d
  *   than 8 times: within 8 times the smallest); inside a bound, the radius less the distance to the
  *   nearest axis. With a radius that is a field of Lipschitz constant L (msq_field_gradient: the
  *   difference of the values over the distance of the points) these are divided by 1 + L.
+ * - Skins: the difference of depth and thickness, divided by 1 + L; a scale that leaves one has the
+ *   lesser of its structure's and its skin's distance.
  * - Points outside the coarse shape: distance to the shape, however far its structures are.
  * "Exact" is up to rounding, which is subtracted from the magnitude: 1e-13 of the distance and of
  * the coordinates (from the grid's origin, for structures), besides 1e-9 of the largest cell size for

@@ -102,8 +102,9 @@ class InfillProvider {
     lattice.radius.value = settings.radius;
     const auto filling = Structure::make(msq_structure_lattice, context.get(), &lattice);
 
-    const std::array<msq_scale_def, 2> scales = {{{.shape = part.get(), .structure = nullptr},
-                                                  {.shape = nullptr, .structure = filling.get()}}};
+    std::array<msq_scale_def, 2> scales = {};
+    scales[0].shape = part.get();
+    scales[1].structure = filling.get();
     auto definition = defaults(msq_model_def_init);
     definition.scales = scales.data();
     definition.scale_count = static_cast<uint32_t>(scales.size());

@@ -8,8 +8,9 @@ namespace {
 
 constexpr uint32_t most_scales = 64;
 
-/// Size of msq_scale_def in version 0.1: never changes.
-constexpr uint32_t first_scale_size = 2 * sizeof(void*);
+/// Sizes of msq_scale_def: in version 0.1, which never changes, and before it had a skin.
+constexpr uint32_t default_scale_size = sizeof(msq_scale_def);
+constexpr uint32_t least_scale_size = offsetof(msq_scale_def, skin);
 
 msq_model_def model_defaults() {
   return {};
@@ -27,6 +28,16 @@ msq_scale_def read_scale(const msq_model_def& def, uint32_t i) {
   return scale;
 }
 
+/// Throws Error(argument) unless it is a length nowhere negative.
+Parameter read_skin(const msq_param& skin, uint32_t scale) {
+  const Parameter thickness = skin.field ? Parameter(Ref<const Field>(&object(skin.field, "field")))
+                                         : Parameter(require_finite(skin.value, "skin"));
+  if (thickness.range().low < 0)
+    fail(Status::argument, "the skin of scale %u is %g%s; it must not be negative", scale,
+         thickness.range().low, skin.field ? " somewhere" : "");
+  return thickness;
+}
+
 }  // namespace
 
 msq_status msq_model_def_init(msq_model_def* def, size_t size) {
@@ -38,29 +49,32 @@ msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_
     Context& owner = object(context, "context");
     require(model, "model");
     msq_model_def known = read_def(def, model_defaults(), "def");
-    if (known.scale_size == 0) known.scale_size = first_scale_size;
+    if (known.scale_size == 0) known.scale_size = default_scale_size;
     require_reserved(known.reserved, "reserved");
     if (known.scale_count < 1 || known.scale_count > most_scales)
       fail(Status::argument, "scale_count is %u; it must be from 1 to %u", known.scale_count,
            most_scales);
     require(known.scales, "scales");
-    if (known.scale_size < first_scale_size || known.scale_size > 4096)
+    if (known.scale_size < least_scale_size || known.scale_size > 4096)
       fail(Status::argument, "scale_size is %u; it must be sizeof(msq_scale_def)",
            known.scale_size);
     Ref<const Shape> shape;
-    std::vector<Ref<const Structure>> structures;
+    std::vector<Model::ScaleParts> scales;
     for (uint32_t i = 0; i < known.scale_count; ++i) {
       const msq_scale_def scale = read_scale(known, i);
       if (i == 0 ? !scale.shape || scale.structure : !scale.structure || scale.shape)
         fail(Status::argument, "scale %u must have a %s and no %s", i,
              i == 0 ? "shape" : "structure", i == 0 ? "structure" : "shape");
+      if (i == 0 && (scale.skin.value != 0 || scale.skin.field))
+        fail(Status::argument, "scale 0 is to leave a skin; only finer ones can");
       if (i == 0)
         shape = Ref<const Shape>(&object(scale.shape, "shape"));
       else
-        structures.emplace_back(&object(scale.structure, "structure"));
+        scales.push_back({Ref<const Structure>(&object(scale.structure, "structure")),
+                          read_skin(scale.skin, i)});
     }
     *model = new_handle<msq_model>(
-        make_ref<Model>(Ref<Context>(&owner), std::move(shape), std::move(structures)));
+        make_ref<Model>(Ref<Context>(&owner), std::move(shape), std::move(scales)));
   });
 }
 

@@ -5,15 +5,14 @@
 
 namespace msq {
 
-Model::Model(Ref<Context> context, Ref<const Shape> shape,
-             std::vector<Ref<const Structure>> structures)
+Model::Model(Ref<Context> context, Ref<const Shape> shape, std::vector<ScaleParts> scales)
     : context_(std::move(context)),
       shape_(std::move(shape)),
-      structures_(std::move(structures)),
       is_concurrent_(shape_->is_concurrent()) {
-  for (size_t i = 0; i < structures_.size(); ++i) {
-    is_concurrent_ = is_concurrent_ && structures_[i]->is_concurrent();
-    const Neighbourhood& grid = structures_[i]->neighbourhood();
+  for (ScaleParts& parts : scales) {
+    is_concurrent_ =
+        is_concurrent_ && parts.structure->is_concurrent() && parts.skin.is_concurrent();
+    const Neighbourhood& grid = parts.structure->neighbourhood();
     const Box3 box = grid.to_grid(bounds());
     for (int axis = 0; axis < 3; ++axis) {
       const double cells =
@@ -22,22 +21,26 @@ Model::Model(Ref<Context> context, Ref<const Shape> shape,
         fail(Status::limit,
              "the shape reaches %g cells of scale %zu from its grid's origin along axis %d; the "
              "limit is %g",
-             cells, i + 1, axis, max_cell_index);
+             cells, scales_.size() + 1, axis, max_cell_index);
     }
+    scales_.push_back({std::move(parts.structure), Skin(shape_, std::move(parts.skin))});
+    if (!scales_.back().skin.is_none() && !shape_->knows_depth())
+      fail(Status::unsupported, "scale %zu is to leave a skin in a shape whose depth is not known",
+           scales_.size());
   }
 }
 
-std::vector<const Structure*> Model::resolved(double length_scale) const {
-  std::vector<const Structure*> resolved;
-  for (const auto& structure : structures_)
-    if (structure->characteristic_length() >= length_scale) resolved.push_back(structure.get());
+Scales Model::resolved(double length_scale) const {
+  Scales resolved;
+  for (const Scale& scale : scales_)
+    if (scale.structure->characteristic_length() >= length_scale) resolved.push_back(&scale);
   return resolved;
 }
 
-bool Model::inside(Vec3 p, const std::vector<const Structure*>& resolved) const {
+bool Model::inside(Vec3 p, const Scales& resolved) const {
   if (!shape_->inside(p)) return false;
-  for (const Structure* structure : resolved)
-    if (!structure->inside(p)) return false;
+  for (const Scale* scale : resolved)
+    if (!scale->inside(p)) return false;
   return true;
 }
 
@@ -45,14 +48,20 @@ bool Model::inside(Vec3 p, const std::vector<const Structure*>& resolved) const 
 // own: the coarsest such scale answers, as in the paper, and none but it is asked about points
 // where it has nothing. Inside all, the boundary is that of one of them: the nearest is near
 // enough.
-double Model::distance(Vec3 p, const std::vector<const Structure*>& resolved) const {
+double Model::distance(Vec3 p, const Scales& resolved) const {
   double distance = shape_->distance(p);
-  for (const Structure* structure : resolved) {
+  const double depth = -distance;
+  for (const Scale* scale : resolved) {
     if (distance > 0) break;
-    const double of_scale = structure->distance(p);
+    const double of_scale = scale->distance(p, depth);
     distance = of_scale > 0 ? of_scale : std::max(distance, of_scale);
   }
   return distance;
+}
+
+void Model::prepare_skins(const Scales& resolved) const {
+  for (const Scale* scale : resolved)
+    if (!scale->skin.is_none()) return shape_->prepare_distance();
 }
 
 }  // namespace msq

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A coarse shape and the structures that fill it, scale by scale; the solid is their intersection.
+// A coarse shape and the structures that fill it, scale by scale; the solid is the shape cut with
+// each structure, save for the skin that a scale may leave.
 // Source: paper, section "Multiscale Shape-Material Modeling API".
 #pragma once
 
@@ -7,15 +8,29 @@
 #include <vector>
 
 #include "cell/context.h"
+#include "model/scale.h"
 #include "shape/shape.h"
-#include "structure/structure.h"
 
 namespace msq {
 
 class Model final : public RefCounted {
  public:
-  /// Throws Error(limit) if a structure has more than max_cell_index cells across the shape.
-  Model(Ref<Context> context, Ref<const Shape> shape, std::vector<Ref<const Structure>> structures);
+  /// What a scale but the coarsest is made of.
+  struct ScaleParts {
+    ScaleParts(Ref<const Structure> structure, Parameter skin = {})
+        : structure(std::move(structure)), skin(std::move(skin)) {}
+
+    Ref<const Structure> structure;
+    Parameter skin;  ///< its thickness
+  };
+  /// Throws Error(limit) if a structure has more than max_cell_index cells across the shape,
+  /// Error(unsupported) if a skin is asked for whose depth the shape does not know.
+  Model(Ref<Context> context, Ref<const Shape> shape, std::vector<ScaleParts> scales);
+  /// Structures alone.
+  Model(Ref<Context> context, Ref<const Shape> shape,
+        const std::vector<Ref<const Structure>>& structures)
+      : Model(std::move(context), std::move(shape),
+              std::vector<ScaleParts>(structures.begin(), structures.end())) {}
 
   Context& context() const { return *context_; }
   /// Who computes the answers of this model: the context's threads, or the calling thread alone
@@ -25,26 +40,29 @@ class Model final : public RefCounted {
   }
   const Shape& shape() const { return *shape_; }
   const Box3& bounds() const { return shape_->bounds(); }
-  size_t scale_count() const { return 1 + structures_.size(); }
+  size_t scale_count() const { return 1 + scales_.size(); }
   /// Of scale 0: infinite.
   double scale_length(size_t scale) const {
     return scale == 0 ? std::numeric_limits<double>::infinity()
-                      : structures_[scale - 1]->characteristic_length();
+                      : scales_[scale - 1].structure->characteristic_length();
   }
 
-  /// The structures, coarsest first, that a query at a length scale resolves.
-  std::vector<const Structure*> resolved(double length_scale) const;
+  /// The scales but the coarsest that a query at a length scale resolves.
+  Scales resolved(double length_scale) const;
 
   /// Membership of a finite point: the definition.
-  bool inside(Vec3 p, const std::vector<const Structure*>& resolved) const;
+  bool inside(Vec3 p, const Scales& resolved) const;
   /// Signed distance of a finite point: at most 0 where inside(p, resolved), positive elsewhere,
   /// and never larger in magnitude than the distance from p to the model's boundary.
-  double distance(Vec3 p, const std::vector<const Structure*>& resolved) const;
+  double distance(Vec3 p, const Scales& resolved) const;
+  /// Builds what answers of these scales need of the shape's depth, if anything. What else they ask
+  /// would find out on a worker, with answers written already.
+  void prepare_skins(const Scales& resolved) const;
 
  private:
   Ref<Context> context_;
   Ref<const Shape> shape_;
-  std::vector<Ref<const Structure>> structures_;
+  std::vector<Scale> scales_;
   bool is_concurrent_;
 };
 

@@ -41,14 +41,16 @@ uint64_t chunk_of(const Context& context, uint64_t count, unsigned threads) {
 
 }  // namespace
 
-void array_membership(const Model& model, const std::vector<const Structure*>& resolved,
-                      const PointArray& points, uint8_t* inside, Job* job) {
+void array_membership(const Model& model, const Scales& resolved, const PointArray& points,
+                      uint8_t* inside, Job* job) {
   if (points.count == 0) return;
+  model.prepare_skins(resolved);
   const Context& context = model.context();
   const Executor& executor = model.executor();
   bool is_grouped = false;
-  for (const Structure* structure : resolved) is_grouped |= structure->gains_by_groups();
-  const uint64_t chunk = is_grouped ? chunk_of(context, points.count, executor.threads()) : most_in_chunk;
+  for (const Scale* scale : resolved) is_grouped |= scale->structure->gains_by_groups();
+  const uint64_t chunk =
+      is_grouped ? chunk_of(context, points.count, executor.threads()) : most_in_chunk;
   Reservation reservation;
   if (is_grouped)
     reservation = Reservation(context.budget, working_bytes(chunk, executor.threads()),
@@ -82,18 +84,18 @@ void array_membership(const Model& model, const std::vector<const Structure*>& r
       for (uint64_t i = r * run; i < end; ++i)
         alive[i] = model.shape().inside(points.at(first + i));
     });
-    for (const Structure* structure : resolved) {
-      if (!structure->gains_by_groups()) {
+    for (const Scale* scale : resolved) {
+      if (!scale->structure->gains_by_groups()) {
         for_each(runs, [&](uint64_t r) {
           const uint64_t begin = r * run, end = std::min(count, begin + run);
           std::vector<Vec3> positions;
           positions.reserve(end - begin);
           for (uint64_t i = begin; i < end; ++i) positions.push_back(points.at(first + i));
-          structure->keep_points(positions.data(), alive + begin, positions.size());
+          scale->keep_points(positions.data(), alive + begin, positions.size());
         });
         continue;
       }
-      groups.group(executor, structure->neighbourhood(), points, first, count, alive, job);
+      groups.group(executor, scale->structure->neighbourhood(), points, first, count, alive, job);
       for_each(groups.size(), [&](uint64_t g) {
         const std::span<const uint32_t> group = groups[g];
         std::vector<Vec3> positions;
@@ -103,7 +105,7 @@ void array_membership(const Model& model, const std::vector<const Structure*>& r
           positions.push_back(points.at(first + group[k]));
         }
         std::vector<uint8_t> kept(group.size(), 1);
-        structure->keep_points(positions.data(), kept.data(), group.size());
+        scale->keep_points(positions.data(), kept.data(), group.size());
         for (size_t k = 0; k < group.size(); ++k) alive[group[k]] = kept[k];
       });
     }

@@ -26,15 +26,15 @@ void for_chunks(const Model& model, uint64_t count, Job* job, Fill&& fill) {
 
 }  // namespace
 
-void array_distance(const Model& model, const std::vector<const Structure*>& resolved,
-                    const PointArray& points, double* distance, Job* job) {
+void array_distance(const Model& model, const Scales& resolved, const PointArray& points,
+                    double* distance, Job* job) {
   for_chunks(model, points.count, job, [&](uint64_t first, uint64_t end) {
     for (uint64_t i = first; i < end; ++i) distance[i] = model.distance(points.at(i), resolved);
   });
 }
 
-void grid_distance(const Model& model, const std::vector<const Structure*>& resolved,
-                   const SampleGrid& grid, double* distance, Job* job) {
+void grid_distance(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                   double* distance, Job* job) {
   const uint64_t row = grid.nx, layer = grid.nx * grid.ny;
   for_chunks(model, layer * grid.nz, job, [&](uint64_t first, uint64_t end) {
     for (uint64_t i = first; i < end; ++i)

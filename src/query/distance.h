@@ -12,11 +12,11 @@
 namespace msq {
 
 /// All points must be finite.
-void array_distance(const Model& model, const std::vector<const Structure*>& resolved,
-                    const PointArray& points, double* distance, Job* job);
+void array_distance(const Model& model, const Scales& resolved, const PointArray& points,
+                    double* distance, Job* job);
 
 /// distance[i + nx (j + ny k)] is that of sample (i, j, k).
-void grid_distance(const Model& model, const std::vector<const Structure*>& resolved,
-                   const SampleGrid& grid, double* distance, Job* job);
+void grid_distance(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                   double* distance, Job* job);
 
 }  // namespace msq

@@ -23,16 +23,19 @@ uint64_t tile_rows(const SampleGrid& grid, uint64_t layers, unsigned threads) {
 
 }  // namespace
 
-uint64_t fill_slab_scratch_words(const Model& model, const std::vector<const Structure*>& resolved,
-                                 const SampleGrid& grid, uint64_t layers) {
+uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                                 uint64_t layers) {
   if (resolved.empty()) return 0;
   const unsigned threads = model.executor().threads();
   const uint64_t rows = std::min(grid.ny, tile_rows(grid, layers, threads));
-  return threads * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
+  uint64_t tiles = 1;
+  for (const Scale* scale : resolved)
+    if (!scale->skin.is_none()) tiles = 2;
+  return tiles * threads * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
 }
 
-void fill_slab(const Model& model, const std::vector<const Structure*>& resolved,
-               const SampleGrid& grid, uint64_t z0, uint64_t z1, uint64_t* words, const Job* job) {
+void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
+               uint64_t z1, uint64_t* words, const Job* job) {
   const size_t row_words = words_for(grid.nx);
   RowBlock slab;
   slab.grid = &grid;
@@ -45,6 +48,7 @@ void fill_slab(const Model& model, const std::vector<const Structure*>& resolved
   slab.layer_stride = row_words * grid.ny;
   const Executor& executor = model.executor();
 
+  model.prepare_skins(resolved);
   executor.for_each(z1 - z0, [&](uint64_t layer) {
     check_cancelled(job);
     RowBlock block = slab;
@@ -69,12 +73,12 @@ void fill_slab(const Model& model, const std::vector<const Structure*>& resolved
     block.z0 = z0 + tile / across * tile_layers;
     block.z1 = std::min(z1, block.z0 + tile_layers);
     block.words = slab.row(block.y0, block.z0);
-    for (const Structure* structure : resolved) structure->keep_rows(block, job);
+    for (const Scale* scale : resolved) scale->keep_rows(block, job);
   });
 }
 
-void grid_membership(const Model& model, const std::vector<const Structure*>& resolved,
-                     const SampleGrid& grid, uint8_t* inside, Job* job) {
+void grid_membership(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                     uint8_t* inside, Job* job) {
   const size_t row_words = words_for(grid.nx);
   const uint64_t layer_words = row_words * grid.ny;
   // Slabs of at most 16 MiB, or a layer.

@@ -14,19 +14,19 @@ namespace msq {
 
 /// Bits of layers [z0, z1) of a grid, rows tightly packed in words_for(nx) words; `words` is
 /// overwritten. The whole of a layer at a time, in parallel.
-void fill_slab(const Model& model, const std::vector<const Structure*>& resolved,
-               const SampleGrid& grid, uint64_t z0, uint64_t z1, uint64_t* words, const Job* job);
+void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
+               uint64_t z1, uint64_t* words, const Job* job);
 
 /// Words of working memory that fill_slab takes beyond its output, for slabs of so many layers.
-uint64_t fill_slab_scratch_words(const Model& model, const std::vector<const Structure*>& resolved,
-                                 const SampleGrid& grid, uint64_t layers);
+uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                                 uint64_t layers);
 
 /// inside[i] becomes 0 or 1. All points must be finite.
-void array_membership(const Model& model, const std::vector<const Structure*>& resolved,
-                      const PointArray& points, uint8_t* inside, Job* job);
+void array_membership(const Model& model, const Scales& resolved, const PointArray& points,
+                      uint8_t* inside, Job* job);
 
 /// inside[i + nx (j + ny k)] becomes 0 or 1.
-void grid_membership(const Model& model, const std::vector<const Structure*>& resolved,
-                     const SampleGrid& grid, uint8_t* inside, Job* job);
+void grid_membership(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                     uint8_t* inside, Job* job);
 
 }  // namespace msq

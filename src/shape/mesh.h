@@ -33,6 +33,8 @@ class Mesh final : public Shape {
   bool inside(Vec3 p) const override;
   void fill_rows(const RowBlock& block) const override;
   void prepare_distance() const override { boundary(); }
+  bool knows_depth() const override { return true; }
+  double depth_error() const override { return boundary().error(); }
   uint64_t self_intersections(const Job* job) const override;
 
   const std::vector<Vec3>& vertices() const { return soup_.vertices; }

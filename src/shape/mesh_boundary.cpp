@@ -85,6 +85,9 @@ MeshBoundary::MeshBoundary(const TriangleSoup& soup, const ShapeFacts& facts, Wi
       scale_ * std::max(max_magnitude(facts.bounds.min), max_magnitude(facts.bounds.max));
   // inside() and the tree lose a few units of 2^-53 of the coordinates.
   slack_ = tree_.excess() + 0x1p-46 * magnitude;
+  // Distances in the box, whose largest extent is below 2, are below 4: what clearance() takes off
+  // them and what the tree may add to or lose of them.
+  error_ = 2 * (slack_ + 0x1p-43) / scale_;
   reservation_ = {};
   reservation_ = Reservation(budget, tree_.bytes(), "the distances of a mesh");
 }

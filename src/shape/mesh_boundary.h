@@ -29,10 +29,14 @@ class MeshBoundary {
 
   /// As Shape::clearance().
   double clearance(Vec3 p) const;
+  /// Bound of what clearance() may differ by from the distance to the triangles, of points in the
+  /// mesh's bounding box.
+  double error() const { return error_; }
 
  private:
   // Coordinates times a power of two, which rounds nothing, so that the largest extent is about 1.
   double scale_;
+  double error_;
   double slack_;  // scaled, of points at the bounding box; what else is lost grows with distance
   Reservation reservation_;
   TriangleTree tree_;

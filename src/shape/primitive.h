@@ -6,7 +6,18 @@
 
 namespace msq {
 
-class BoxShape final : public Shape {
+/// What primitives have in common.
+class Primitive : public Shape {
+ public:
+  bool knows_depth() const override { return true; }
+  /// Distances are exact but for rounding and what is subtracted for it, each less than 2^-44 of
+  /// the bounds' coordinates.
+  double depth_error() const override {
+    return 0x1p-43 * (max_magnitude(bounds().min) + max_magnitude(bounds().max));
+  }
+};
+
+class BoxShape final : public Primitive {
  public:
   explicit BoxShape(const Box3& box);
   bool inside(Vec3 p) const override { return bounds().contains(p); }
@@ -16,7 +27,7 @@ class BoxShape final : public Shape {
   double clearance(Vec3 p) const override;
 };
 
-class SphereShape final : public Shape {
+class SphereShape final : public Primitive {
  public:
   SphereShape(Vec3 centre, double radius);
   bool inside(Vec3 p) const override;
@@ -30,7 +41,7 @@ class SphereShape final : public Shape {
 };
 
 /// Flat-ended round cylinder.
-class CylinderShape final : public Shape {
+class CylinderShape final : public Primitive {
  public:
   CylinderShape(Vec3 from, Vec3 to, double radius);
   bool inside(Vec3 p) const override;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "base/job.h"
 #include "base/ref.h"
@@ -41,6 +42,12 @@ class Shape : public RefCounted {
   /// Builds what distance() needs, if anything; otherwise its first call does, or throws what this
   /// throws.
   virtual void prepare_distance() const {}
+
+  /// How deep a point of the shape lies under the boundary: -distance(p) where inside(p).
+  double depth(Vec3 p) const { return clearance(p); }
+  /// Whether that is, within depth_error() for points in bounds(), the distance to some closed set.
+  virtual bool knows_depth() const { return false; }
+  virtual double depth_error() const { return std::numeric_limits<double>::infinity(); }
 
   /// Number of pairs of triangles that meet where they should not; none where there are no
   /// triangles.

@@ -107,7 +107,7 @@ void Slicer::plan_slabs() {
   double layers = automatic_slab_layers;
   if (!resolved_.empty() && height > 0) {  // whole cells, at least one
     // As many layers to a cell as there are in exact numbers.
-    const double cell = resolved_.back()->neighbourhood().cell_size.z / height;
+    const double cell = resolved_.back()->structure->neighbourhood().cell_size.z / height;
     constexpr double up = 1 + 1e-9;
     layers = std::floor(std::max(1.0, std::floor(automatic_slab_layers / cell * up)) * cell * up);
   }

@@ -58,7 +58,7 @@ class Slicer final : public RefCounted {
 
   Ref<const Model> model_;
   SlicePlan plan_;
-  std::vector<const Structure*> resolved_;
+  Scales resolved_;
   SampleGrid grid_;
   uint64_t slab_layers_ = 1;
 };

@@ -201,7 +201,7 @@ static inline msq_structure* make_foam(msq_context* context, int32_t method) {
 /* Takes over one reference of each part; the structures may be NULL. */
 static inline msq_model* make_model(msq_context* context, msq_shape* shape, msq_structure* coarse,
                                     msq_structure* fine) {
-  msq_scale_def scales[3] = {{shape, NULL}, {NULL, coarse}, {NULL, fine}};
+  msq_scale_def scales[3] = {{.shape = shape}, {.structure = coarse}, {.structure = fine}};
   msq_model_def def;
   msq_model* model;
   assert_ok(msq_model_def_init(&def, sizeof def));

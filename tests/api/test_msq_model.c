@@ -59,7 +59,7 @@ static void defaults_are_those_of_the_header(void** state) {
 
 static void create_honours_every_struct_size(void** state) {
   parts p = make_parts();
-  const msq_scale_def scales[2] = {{p.shape, NULL}, {NULL, p.structure}};
+  const msq_scale_def scales[2] = {{.shape = p.shape}, {.structure = p.structure}};
   const msq_model_def def = model_def(scales, 2);
   (void)state;
   check_def_sizes(&def, sizeof def, create, p.context);
@@ -84,7 +84,7 @@ static void model_is_the_intersection_of_its_scales(void** state) {
 
 static void model_keeps_its_parts_alive(void** state) {
   parts p = make_parts();
-  const msq_scale_def scales[2] = {{p.shape, NULL}, {NULL, p.structure}};
+  const msq_scale_def scales[2] = {{.shape = p.shape}, {.structure = p.structure}};
   const msq_model_def def = model_def(scales, 2);
   msq_model* model;
   (void)state;
@@ -108,7 +108,7 @@ static void release_of_null_does_nothing(void** state) {
 /* 64 scales, the most there may be, all the same structure. */
 static void most_scales_are_64(void** state) {
   parts p = make_parts();
-  msq_scale_def scales[65];
+  msq_scale_def scales[65] = {{0}};
   (void)state;
   for (int i = 0; i < 65; ++i) {
     scales[i].shape = i ? NULL : p.shape;
@@ -126,7 +126,7 @@ static void most_scales_are_64(void** state) {
 
 static void null_arguments_are_refused(void** state) {
   parts p = make_parts();
-  const msq_scale_def scales[1] = {{p.shape, NULL}};
+  const msq_scale_def scales[1] = {{.shape = p.shape}};
   msq_model_def def = model_def(scales, 1);
   (void)state;
   assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "context is NULL");
@@ -139,12 +139,13 @@ static void null_arguments_are_refused(void** state) {
 
 static void scales_are_a_shape_then_structures(void** state) {
   parts p = make_parts();
-  const msq_scale_def wrong[6][2] = {{{NULL, NULL}, {NULL, p.structure}},
-                                     {{NULL, p.structure}, {NULL, p.structure}},
-                                     {{p.shape, p.structure}, {NULL, p.structure}},
-                                     {{p.shape, NULL}, {NULL, NULL}},
-                                     {{p.shape, NULL}, {p.shape, NULL}},
-                                     {{p.shape, NULL}, {p.shape, p.structure}}};
+  const msq_scale_def wrong[6][2] = {
+      {{.shape = NULL}, {.structure = p.structure}},
+      {{.structure = p.structure}, {.structure = p.structure}},
+      {{.shape = p.shape, .structure = p.structure}, {.structure = p.structure}},
+      {{.shape = p.shape}, {.shape = NULL}},
+      {{.shape = p.shape}, {.shape = p.shape}},
+      {{.shape = p.shape}, {.shape = p.shape, .structure = p.structure}}};
   (void)state;
   for (int i = 0; i < 6; ++i) {
     msq_model_def def = model_def(wrong[i], 2);
@@ -161,7 +162,7 @@ typedef struct later_scale { /* of a host that is newer than the library */
 
 static void scales_of_a_newer_host_must_be_zero_in_the_rest(void** state) {
   parts p = make_parts();
-  later_scale scales[2] = {{{p.shape, NULL}, 0}, {{NULL, p.structure}, 0}};
+  later_scale scales[2] = {{{.shape = p.shape}, 0}, {{.structure = p.structure}, 0}};
   msq_model_def def = model_def(&scales[0].known, 2);
   (void)state;
   def.scale_size = sizeof(later_scale);
@@ -173,20 +174,82 @@ static void scales_of_a_newer_host_must_be_zero_in_the_rest(void** state) {
 
 static void scale_size_of_0_is_that_of_version_0_1(void** state) {
   parts p = make_parts();
-  const msq_scale_def scales[2] = {{p.shape, NULL}, {NULL, p.structure}};
+  const msq_scale_def scales[2] = {{.shape = p.shape}, {.structure = p.structure}};
   msq_model_def def = model_def(scales, 2);
   (void)state;
   def.scale_size = 0;
   assert_ok(create(p.context, &def));
+  release_parts(&p);
+}
+
+static void scales_of_an_older_host_have_no_skin(void** state) {
+  parts p = make_parts();
+  const void* scales[4] = {p.shape, NULL, NULL, p.structure};
+  msq_model_def def = model_def((const msq_scale_def*)scales, 2);
+  (void)state;
   def.scale_size = 2 * sizeof(void*);
   assert_ok(create(p.context, &def));
   release_parts(&p);
 }
 
+static void skin_is_solid_under_the_surface(void** state) {
+  parts p = make_parts();
+  const double bottom[3] = {0, 0, 0}, top[3] = {0, 0, 4};
+  msq_scale_def scales[2] = {{.shape = p.shape}, {.structure = p.structure}};
+  msq_model_def def = model_def(scales, 2);
+  msq_model* model;
+  msq_field* field;
+  (void)state;
+  def.scale_size = sizeof scales[0];
+  scales[1].skin.value = 0.25;
+  assert_ok(msq_model_create(p.context, &def, &model));
+  assert_int_equal(is_inside(model, 0.2, 1.5, 2), 1);
+  assert_int_equal(is_inside(model, 0.25, 1.5, 2), 1);
+  assert_int_equal(is_inside(model, 0.25 + 1e-12, 1.5, 2), 0);
+  assert_int_equal(is_inside(model, 2.5, 2.5, 2.5), 1); /* a strut */
+  assert_int_equal(is_inside(model, -1e-9, 1.5, 2), 0);
+  msq_model_release(model);
+  /* From 0 at the bottom to 1 at the top. */
+  assert_ok(msq_field_gradient(p.context, bottom, 0, top, 1, &field));
+  scales[1].skin.field = field;
+  assert_ok(msq_model_create(p.context, &def, &model));
+  msq_field_release(field);
+  assert_int_equal(is_inside(model, 0, 1.5, 0), 0);
+  assert_int_equal(is_inside(model, 0.49, 1.5, 2), 1);
+  assert_int_equal(is_inside(model, 0.51, 1.5, 2), 0);
+  msq_model_release(model);
+  release_parts(&p);
+}
+
+static void wrong_skins_are_refused(void** state) {
+  parts p = make_parts();
+  const double from[3] = {0, 0, 0}, to[3] = {0, 0, 4};
+  msq_scale_def scales[2] = {{.shape = p.shape}, {.structure = p.structure}};
+  msq_model_def def = model_def(scales, 2);
+  msq_field* field;
+  (void)state;
+  def.scale_size = sizeof scales[0];
+  scales[1].skin.value = -0.5;
+  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "the skin of scale 1 is -0.5");
+  for (int i = 0; i < 3; ++i) {
+    scales[1].skin.value = not_finite(i);
+    assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "skin");
+  }
+  scales[1].skin.value = 0;
+  assert_ok(msq_field_gradient(p.context, from, -0.25, to, 1, &field));
+  scales[1].skin.field = field;
+  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "-0.25 somewhere");
+  msq_field_release(field);
+  scales[1].skin.field = NULL;
+  scales[0].skin.value = 1;
+  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale 0");
+  release_parts(&p);
+}
+
 static void wrong_sizes_are_refused(void** state) {
   parts p = make_parts();
-  const msq_scale_def scales[1] = {{p.shape, NULL}};
-  const uint32_t refused[] = {1, sizeof(msq_scale_def) - 1, UINT32_MAX};
+  const msq_scale_def scales[1] = {{.shape = p.shape}};
+  const uint32_t refused[] = {1, 2 * sizeof(void*) - 1, UINT32_MAX};
   msq_model_def def = model_def(scales, 1);
   (void)state;
   for (int i = 0; i < 3; ++i) {
@@ -208,7 +271,7 @@ static void too_many_cells_are_refused(void** state) {
   for (int exponent = -22; exponent <= -21; ++exponent) {
     msq_structure* fine =
         make_lattice_of(context, MSQ_UNIT_CELL_BCC, ldexp(1, exponent), ldexp(1, exponent - 3));
-    const msq_scale_def scales[2] = {{shape, NULL}, {NULL, fine}};
+    const msq_scale_def scales[2] = {{.shape = shape}, {.structure = fine}};
     msq_model_def def = model_def(scales, 2);
     if (exponent == -21) {
       assert_ok(create(context, &def));
@@ -235,6 +298,9 @@ int main(void) {
       cmocka_unit_test(scales_are_a_shape_then_structures),
       cmocka_unit_test(scales_of_a_newer_host_must_be_zero_in_the_rest),
       cmocka_unit_test(scale_size_of_0_is_that_of_version_0_1),
+      cmocka_unit_test(scales_of_an_older_host_have_no_skin),
+      cmocka_unit_test(skin_is_solid_under_the_surface),
+      cmocka_unit_test(wrong_skins_are_refused),
       cmocka_unit_test(wrong_sizes_are_refused),
       cmocka_unit_test(too_many_cells_are_refused),
   };

@@ -95,7 +95,7 @@ static msq_model* fill_box(msq_context* context, const msq_functional_def* def) 
   msq_model* model;
   assert_ok(msq_shape_from_box(context, low, high, &box));
   assert_ok(msq_structure_functional(context, def, &structure));
-  const msq_scale_def scales[2] = {{box, NULL}, {NULL, structure}};
+  const msq_scale_def scales[2] = {{.shape = box}, {.structure = structure}};
   assert_ok(msq_model_def_init(&model_def, sizeof model_def));
   model_def.scales = scales;
   model_def.scale_count = 2;

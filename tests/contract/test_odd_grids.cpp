@@ -37,7 +37,9 @@ Model make_model(double low, double high, double cell, int32_t foam_method,
     if (rotation) std::memcpy(def.grid.rotation, rotation, sizeof def.grid.rotation);
     assert_ok(msq_structure_lattice(made.context, &def, &structure));
   }
-  const msq_scale_def scales[] = {{shape, nullptr}, {nullptr, structure}};
+  msq_scale_def scales[2] = {};
+  scales[0].shape = shape;
+  scales[1].structure = structure;
   msq_model_def def;
   assert_ok(msq_model_def_init(&def, sizeof def));
   def.scales = scales;

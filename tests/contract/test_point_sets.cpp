@@ -145,7 +145,7 @@ void rows_of_turned_cells_answer_as_points_do(void**) {
 struct ArrayModel {
   Ref<Context> context;
   Ref<const Model> model;
-  std::vector<const Structure*> resolved;
+  Scales resolved;
 
   explicit ArrayModel(unsigned threads, uint64_t limit = 0, bool is_nested = false)
       : context(make_ref<Context>(threads, uint64_t{1} << 26, limit, true)) {

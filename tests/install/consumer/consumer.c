@@ -8,7 +8,7 @@ int main(void) {
   msq_context *context = NULL;
   msq_shape *box = NULL;
   msq_model *model = NULL;
-  msq_scale_def scale = {NULL, NULL};
+  msq_scale_def scale = {0};
   msq_model_def def;
   int32_t inside = 0;
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/skin.h"
+
+#include <bit>
+
+#include "base/status.h"
+#include "structure/strut_clearance.h"
+
+namespace msq {
+
+namespace {
+
+/// Index of the first bit set from `from` on, below `count`; count if there is none.
+uint64_t next_bit(const uint64_t* row, uint64_t from, uint64_t count) {
+  for (uint64_t w = from / bits_per_word; w < words_for(count); ++w) {
+    uint64_t word = row[w];
+    if (w == from / bits_per_word) word &= ~uint64_t{0} << (from % bits_per_word);
+    if (word) return w * bits_per_word + static_cast<unsigned>(std::countr_zero(word));
+  }
+  return count;
+}
+
+}  // namespace
+
+Skin::Skin(Ref<const Shape> shape, Parameter thickness)
+    : shape_(std::move(shape)), thickness_(std::move(thickness)) {}
+
+double Skin::clearance(Vec3 p, double depth) const {
+  return strut_clearance(depth, shape_->depth_error(), thickness_, p);
+}
+
+// From a sample on, all those of the row that are no farther than its clearance are answered with
+// it.
+void Skin::mark_rows(const RowBlock& alive, const RowBlock& skin, const Job* job) const {
+  const SampleGrid& grid = *alive.grid;
+  const Interval thickness = thickness_.range();
+  const double error = shape_->depth_error();
+  // Positions of samples are rounded; what that moves them by is far below 2^-40 of a coordinate.
+  const double rounding =
+      0x1p-40 * (max_magnitude(grid.at(0, alive.y0, alive.z0)) + std::abs(grid.x(grid.nx - 1)));
+  for (uint64_t k = alive.z0; k < alive.z1; ++k)
+    for (uint64_t j = alive.y0; j < alive.y1; ++j) {
+      if (j % 16 == 0) check_cancelled(job);
+      const uint64_t* row = alive.row(j, k);
+      for (uint64_t i = next_bit(row, 0, grid.nx); i < grid.nx;) {
+        const Vec3 p = grid.at(i, j, k);
+        const double depth = shape_->depth(p);
+        // Where nothing is known of how fast the thickness varies, its range still is.
+        const double reach =
+            std::max(clearance(p, depth),
+                     std::max(depth - thickness.high, thickness.low - depth) - error) -
+            rounding;
+        const double steps = std::clamp(std::floor(reach / grid.spacing.x), 0.0,
+                                        static_cast<double>(grid.nx - 1 - i));
+        const uint64_t last = i + static_cast<uint64_t>(steps);
+        if (holds(p, depth)) set_bits(skin.row(j, k), i, last);
+        i = next_bit(row, last + 1, grid.nx);
+      }
+      for (size_t w = 0; w < alive.row_words(); ++w) skin.row(j, k)[w] &= row[w];
+    }
+}
+
+}  // namespace msq
