@@ -37,7 +37,9 @@ class Solid {
     msq_shape* cube;
     bench::check(msq_shape_from_box(context_, low, high, &cube));
     msq_structure* structure = setting ? make(*setting) : nullptr;
-    const msq_scale_def scales[] = {{cube, nullptr}, {nullptr, structure}};
+    msq_scale_def scales[2] = {};
+    scales[0].shape = cube;
+    scales[1].structure = structure;
     msq_model_def def;
     bench::check(msq_model_def_init(&def, sizeof def));
     def.scales = scales;
