@@ -682,6 +682,11 @@ MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_d
  *   difference of the values over the distance of the points) these are divided by 1 + L.
  * - Skins: the difference of depth and thickness, divided by 1 + L; a scale that leaves one has the
  *   lesser of its structure's and its skin's distance.
+ * - Functional structures: a bound on both sides, the difference of onset and level over G + L: G the
+ *   greatest slope of the function over its cell, proven by intervals (0 to 30 % above the true one
+ *   for the named functions), L the level's Lipschitz constant. Where a function does not repeat by
+ *   itself, no more than the distance to the cell's border along that axis. Where its slope has no
+ *   bound (poles, roots and logarithms that reach 0, x^y with y no whole number), 0.
  * - Points outside the coarse shape: distance to the shape, however far its structures are.
  * "Exact" is up to rounding, which is subtracted from the magnitude: 1e-13 of the distance and of
  * the coordinates (from the grid's origin, for structures), besides 1e-9 of the largest cell size for
@@ -692,7 +697,8 @@ MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_d
  * Cost: a mesh builds a tree of its triangles at the first call that asks it (n log n, seconds for
  * millions, and about 120 bytes each until the shape is freed) and then searches about log n of it; a
  * lattice, the struts that can be nearest; a foam, the edges of the seeds about (a few
- * microseconds). Errors: ARGUMENT, LIMIT (the mesh's tree would pass the context's memory_limit),
+ * microseconds); a functional structure takes some ten milliseconds at the first call for the greatest
+ * slope. Errors: ARGUMENT, LIMIT (the mesh's tree would pass the context's memory_limit),
  * MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing",
  * 1996, for the bound. */
 MSQ_API msq_status msq_point_distance(const msq_model *model, const double point[3],

@@ -63,7 +63,9 @@ Enclosure logarithm(const Enclosure& p) {
   return {a - slack * (1 + std::abs(a)), b + slack * (1 + std::abs(b))};
 }
 
-Enclosure of(Op op, const Enclosure& p, const Enclosure& q, bool is_square) {
+}  // namespace
+
+Enclosure enclose_result(Op op, const Enclosure& p, const Enclosure& q, bool is_square) {
   switch (op) {
     case Op::add:
       return {p.low + q.low, p.high + q.high};
@@ -99,8 +101,6 @@ Enclosure of(Op op, const Enclosure& p, const Enclosure& q, bool is_square) {
   }
 }
 
-}  // namespace
-
 void enclose(const Tape& tape, const Interval (&box)[3], std::vector<Enclosure>& nodes) {
   nodes.resize(tape.nodes.size());
   for (size_t i = 0; i < tape.nodes.size(); ++i) {
@@ -113,7 +113,7 @@ void enclose(const Tape& tape, const Interval (&box)[3], std::vector<Enclosure>&
     } else {
       const Enclosure& p = nodes[node.a];
       const Enclosure& q = has_two_operands(node.op) ? nodes[node.b] : p;
-      if (is_bounded(p) && is_bounded(q)) e = of(node.op, p, q, node.a == node.b);
+      if (is_bounded(p) && is_bounded(q)) e = enclose_result(node.op, p, q, node.a == node.b);
     }
     nodes[i] = is_bounded(e) ? e : unbounded;  // NaN is not bounded either
   }

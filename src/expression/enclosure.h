@@ -19,6 +19,10 @@ inline bool is_bounded(const Enclosure& e) {
   return e.low >= -1e300 && e.high <= 1e300;
 }
 
+/// Encloses what an operation gives, and its true value, for operands from bounded enclosures.
+/// `is_square`: both operands are the same node.
+Enclosure enclose_result(Op op, const Enclosure& p, const Enclosure& q, bool is_square);
+
 /// Enclosures of all nodes over a box of positions.
 void enclose(const Tape& tape, const Interval (&box)[3], std::vector<Enclosure>& nodes);
 

@@ -135,10 +135,20 @@ void test_exact(void** state) {
   if (count > 100) assert_in_range(outside, 1, count);
 }
 
+/// Jumps at the cells' borders along x and y, which no other row of the suite may.
+Kind jumping_kind() {
+  return {"functional", "jumps", 0.1, 1,
+          functional_factory("0.15*x-0.2*cos(y/2)+0.1*cos(z)", FunctionalKind::network, 0)};
+}
+
 }  // namespace
 
 int main() {
   std::vector<StructureRow> rows = structures_by_point(), lattices;
+  for (const GridVariant& variant : grid_variants(true))
+    for (bool is_graded : {false, true})
+      rows.push_back({"jumps, " + variant.name + (is_graded ? ", graded" : ""), jumping_kind(),
+                      variant, is_graded, 8, rows.size()});
   for (const StructureRow& row : rows)
     if (!row.is_graded && !unit_cell_of(row).struts.empty()) lattices.push_back(row);
   return run_for_each("distance", rows, test_row) + run_for_each("exact", lattices, test_exact);

@@ -3,9 +3,11 @@
 
 #include <cmath>
 
+#include "expression/period.h"
 #include "structure/functional/axis_rows.h"
 #include "structure/functional/row_kernels.h"
 #include "structure/functional/turned_rows.h"
+#include "structure/strut_clearance.h"
 
 namespace msq {
 
@@ -59,7 +61,8 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       onset_(onset_of(function, kind)),
       program_(compile(onset_)),
       sample_axis_(sample_axes(neighbourhood.rotation)),
-      side_(clusters ? clusters : automatic_clusters(onset_)) {
+      side_(clusters ? clusters : automatic_clusters(onset_)),
+      repeats_(repeats(onset_)) {
   if (sample_axis_[0] < 0) form_ = TrigonometricForm::of(onset_);
 }
 
@@ -76,6 +79,36 @@ bool Functional::inside(Vec3 p) const {
   const Vec3 fraction = neighbourhood().locate(p).fraction;
   const Vec3 angles{angle_of(fraction.x), angle_of(fraction.y), angle_of(fraction.z)};
   return evaluate(onset_, angles) <= level_.at(p);
+}
+
+double Functional::clearance(Vec3 p) const {
+  const Neighbourhood& grid = neighbourhood();
+  const Slope& slope = slope_.get([&] {
+    // Angles are rounded, and two_pi is.
+    const Interval cell{0, two_pi};
+    const Vec3 angles_per_unit{two_pi / grid.cell_size.x, two_pi / grid.cell_size.y,
+                               two_pi / grid.cell_size.z};
+    return std::make_unique<const Slope>(
+        bound_slope(onset_, {cell, cell, cell}, angles_per_unit * (1 + 0x1p-50), 0x1p-49));
+  });
+  if (!std::isfinite(slope.most)) return 0;
+  const Vec3 fraction = grid.locate(p).fraction;
+  const Vec3 angles{angle_of(fraction.x), angle_of(fraction.y), angle_of(fraction.z)};
+  const double onset = evaluate(onset_, angles);
+  const Interval level = level_.range(Box3{p, p});
+  // What the level is wrong by there, and as much at the boundary.
+  const double rounding = 2 * (level.high - level.low) + 2 * slope.error;
+  const double gap = std::max(onset - level.high, level.low - onset) - rounding;
+  // The grid's rotation may stretch distances in the last bits; a constant function has no
+  // boundary.
+  double clearance = std::min((1 - 0x1p-40) * gap / (slope.most + level_.lipschitz()),
+                              0x1p30 * characteristic_length());
+  for (int axis = 0; axis < 3; ++axis)
+    if (!repeats_[static_cast<size_t>(axis)])
+      clearance =
+          std::min(clearance, std::min(fraction[axis], 1 - fraction[axis]) * grid.cell_size[axis]);
+  if (!(clearance > 0)) return 0;
+  return std::max(0.0, clearance - 2 * locating_slack(p - grid.origin, clearance));
 }
 
 void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {

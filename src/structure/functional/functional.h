@@ -8,7 +8,9 @@
 #include <mutex>
 #include <optional>
 
+#include "base/lazy.h"
 #include "expression/program.h"
+#include "expression/slope.h"
 #include "field/field.h"
 #include "structure/functional/clusters.h"
 #include "structure/functional/row_plan.h"
@@ -29,6 +31,10 @@ class Functional final : public Structure {
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return level_.is_concurrent(); }
+  /// The difference of onset and level over the sum of their Lipschitz constants, that of the onset
+  /// being the same throughout the cell. Along axes on which the function does not repeat by itself
+  /// no more than the distance to the cell's border. 0 everywhere where the slope is not bounded.
+  double clearance(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
 
@@ -60,6 +66,8 @@ class Functional final : public Structure {
   std::array<int, 3> sample_axis_;
   int side_;  // of the clusters
   std::optional<TrigonometricForm> form_;
+  std::array<bool, 3> repeats_;
+  Lazy<Slope> slope_;
   mutable std::once_flag once_;
   mutable std::optional<Prepared> prepared_;
 };

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// Beside the enclosure of a node's computed values (enclosure.cpp) go enclosures of the derivatives
+// of its true value, and a bound of the difference of the two values. u = 2^-53 of a result is what
+// an IEEE operation loses; sines, cosines, exponentials and logarithms lose up to 2^-50
+// (elementary-inl.h). Every interval of true values is widened by 2^-50 of its ends, above the
+// rounding of the few operations that it took.
+#include "expression/slope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "expression/enclosure.h"
+
+namespace msq {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double u = 0x1p-53, of_function = 0x1p-50, least = 0x1p-1000;
+constexpr double most_angle = 0x1p19;
+
+double magnitude(Interval v) {
+  return std::max(std::abs(v.low), std::abs(v.high));
+}
+/// The least magnitude of the numbers of an interval.
+double distance_from_zero(Interval v) {
+  return std::max({0.0, v.low, -v.high});
+}
+Interval widened(Interval v, double by = 0) {
+  return {v.low - by - 0x1p-50 * std::abs(v.low) - least,
+          v.high + by + 0x1p-50 * std::abs(v.high) + least};
+}
+/// Most derivatives are those along other axes.
+bool is_zero(Interval v) {
+  return v.low == 0 && v.high == 0;
+}
+Interval sum(Interval a, Interval b) {
+  if (is_zero(a)) return b;
+  if (is_zero(b)) return a;
+  return widened({a.low + b.low, a.high + b.high});
+}
+Interval negative(Interval a) {
+  return {-a.high, -a.low};
+}
+Interval product(Interval a, Interval b) {
+  if (is_zero(a) || is_zero(b)) return {0, 0};
+  const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, t = a.high * b.high;
+  return widened(
+      {std::min(std::min(p, q), std::min(r, t)), std::max(std::max(p, q), std::max(r, t))});
+}
+/// 1 / a, of an interval without 0.
+Interval inverse(Interval a) {
+  return widened({1 / a.high, 1 / a.low});
+}
+Interval hull(Interval a, Interval b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+/// A node over a box.
+struct Part {
+  Interval value;  // of its true values
+  Interval along[3];
+  double error = 0;
+};
+
+class Differentiation {
+ public:
+  Differentiation(const Tape& tape, double coordinate_error)
+      : tape_(tape), coordinate_error_(coordinate_error), parts_(tape.nodes.size()) {}
+
+  /// The root's part; null where something is unbounded.
+  const Part* over(const Interval (&box)[3]) {
+    Interval wider[3];
+    for (int i = 0; i < 3; ++i) wider[i] = widened(box[i], coordinate_error_);
+    enclose(tape_, wider, computed_);
+    for (uint32_t i = 0; i < parts_.size(); ++i)
+      if (!find(i)) return nullptr;
+    return &parts_.back();
+  }
+
+ private:
+  bool find(uint32_t i) {
+    const Node& node = tape_.nodes[i];
+    Part& part = parts_[i];
+    part.along[0] = part.along[1] = part.along[2] = {0, 0};
+    part.error = 0;
+    if (!is_bounded(computed_[i])) return false;
+    if (node.op == Op::constant) {
+      part.value = {node.value, node.value};
+      return true;
+    }
+    if (node.op < Op::add) {
+      part.value = computed_[i];
+      part.along[static_cast<int>(node.op) - static_cast<int>(Op::x)] = {1, 1};
+      part.error = coordinate_error_;
+      return true;
+    }
+    const Part& a = parts_[node.a];
+    const Part& b = parts_[has_two_operands(node.op) ? node.b : node.a];
+    const double rounding = u * magnitude(computed_[i]) + least;
+    switch (node.op) {
+      case Op::add:
+      case Op::subtract:
+        for (int k = 0; k < 3; ++k)
+          part.along[k] = sum(a.along[k], node.op == Op::add ? b.along[k] : negative(b.along[k]));
+        part.error = a.error + b.error + rounding;
+        break;
+      case Op::multiply:
+        for (int k = 0; k < 3; ++k)
+          part.along[k] = sum(product(a.value, b.along[k]), product(b.value, a.along[k]));
+        part.error = a.error * magnitude(b.value) + b.error * magnitude(a.value) +
+                     a.error * b.error + rounding;
+        break;
+      case Op::divide: {
+        const double divisor =
+            std::min(distance_from_zero(b.value), distance_from_zero(computed_[node.b]));
+        if (!(divisor > 0)) return false;
+        const Interval by = inverse(b.value), quotient = product(a.value, by);
+        for (int k = 0; k < 3; ++k)
+          part.along[k] = product(sum(a.along[k], negative(product(quotient, b.along[k]))), by);
+        part.error = (a.error + magnitude(quotient) * b.error) / divisor + rounding;
+        break;
+      }
+      case Op::minimum:
+      case Op::maximum: {
+        const Interval &p = a.value, &q = b.value;
+        const bool is_a = node.op == Op::minimum ? p.high < q.low : p.low > q.high;
+        const bool is_b = node.op == Op::minimum ? q.high < p.low : q.low > p.high;
+        for (int k = 0; k < 3; ++k)
+          part.along[k] = is_a ? a.along[k] : is_b ? b.along[k] : hull(a.along[k], b.along[k]);
+        part.error = std::max(a.error, b.error);
+        break;
+      }
+      case Op::negate:
+        for (int k = 0; k < 3; ++k) part.along[k] = negative(a.along[k]);
+        part.error = a.error;
+        break;
+      case Op::absolute:
+        for (int k = 0; k < 3; ++k)
+          part.along[k] = a.value.low > 0    ? a.along[k]
+                          : a.value.high < 0 ? negative(a.along[k])
+                                             : hull(a.along[k], negative(a.along[k]));
+        part.error = a.error;
+        break;
+      case Op::square_root: {
+        if (!(a.value.low > 0)) return false;
+        const double lowest = std::sqrt(a.value.low) * (1 - 0x1p-50);
+        const Interval roots{lowest, std::sqrt(a.value.high) * (1 + 0x1p-50)};
+        for (int k = 0; k < 3; ++k)
+          part.along[k] = product(a.along[k], product({0.5, 0.5}, inverse(roots)));
+        part.error = a.error / lowest + rounding;
+        break;
+      }
+      case Op::sine:
+      case Op::cosine: {
+        if (magnitude(a.value) > most_angle) return false;
+        const Interval cosines = enclose_result(Op::cosine, a.value, a.value, false);
+        const Interval sines = enclose_result(Op::sine, a.value, a.value, false);
+        for (int k = 0; k < 3; ++k)
+          part.along[k] = product(a.along[k], node.op == Op::sine ? cosines : negative(sines));
+        part.error = a.error + of_function;
+        break;
+      }
+      case Op::exponential: {
+        if (!(a.error < 0.5)) return false;
+        const double most = magnitude(computed_[i]) + least;
+        part.error = most * (4 * a.error + 2 * of_function) + least;
+        const Interval values = widened(computed_[i], part.error);
+        for (int k = 0; k < 3; ++k) part.along[k] = product(a.along[k], values);
+        break;
+      }
+      case Op::logarithm:
+        if (!(a.value.low > 0)) return false;
+        for (int k = 0; k < 3; ++k) part.along[k] = product(a.along[k], inverse(a.value));
+        part.error = 2 * a.error / std::min(a.value.low, computed_[node.a].low) +
+                     of_function * (1 + magnitude(computed_[i]));
+        break;
+      default:
+        return false;
+    }
+    part.error *= 1 + 0x1p-40;  // the rounding of these bounds
+    part.value = widened(computed_[i], part.error);
+    return is_bounded(part.value) && is_bounded(part.along[0]) && is_bounded(part.along[1]) &&
+           is_bounded(part.along[2]);
+  }
+
+  const Tape& tape_;
+  double coordinate_error_;
+  std::vector<Enclosure> computed_;
+  std::vector<Part> parts_;
+};
+
+/// Part of the box, and its slopes.
+struct Piece {
+  Interval box[3];
+  double least = 0, most = infinity, error = infinity;
+  uint32_t number = 0;  // so that no two are equal
+};
+
+bool is_flatter(const Piece& a, const Piece& b) {
+  return a.most < b.most || (a.most == b.most && a.number < b.number);
+}
+
+}  // namespace
+
+Slope bound_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale, double coordinate_error) {
+  // Some ten milliseconds of work; halved so often, what is unbounded will stay so.
+  const size_t pieces = std::clamp<size_t>((1 << 18) / tape.nodes.size(), 256, 8192);
+  constexpr double narrow = 0x1p-8, near = 1 + 0x1p-6;
+
+  Differentiation differentiation(tape, coordinate_error);
+  std::vector<Piece> heap;  // the steepest first
+  uint32_t count = 0;
+  const auto add = [&](Piece piece) {
+    piece.number = ++count;
+    piece.least = 0;
+    piece.most = piece.error = infinity;
+    if (const Part* root = differentiation.over(piece.box)) {
+      double low = 0, high = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double a = distance_from_zero(root->along[k]) * scale[k];
+        const double b = magnitude(root->along[k]) * scale[k];
+        low += a * a;
+        high += b * b;
+      }
+      piece.least = std::sqrt(low);
+      piece.most = std::sqrt(high) * (1 + 0x1p-50) + least;
+      piece.error = root->error;
+    }
+    heap.push_back(piece);
+    std::push_heap(heap.begin(), heap.end(), is_flatter);
+  };
+
+  add({{box[0], box[1], box[2]}});
+  while (heap.size() < pieces && !(heap[0].most <= near * heap[0].least)) {
+    const Piece whole = heap[0];
+    int widest = 0;
+    double widths[3];
+    for (int k = 0; k < 3; ++k) {
+      widths[k] = (whole.box[k].high - whole.box[k].low) / (box[k].high - box[k].low);
+      if (widths[k] > widths[widest]) widest = k;
+    }
+    if (whole.most == infinity && widths[widest] <= narrow) break;
+    std::pop_heap(heap.begin(), heap.end(), is_flatter);
+    heap.pop_back();
+    Piece half = whole;
+    const double middle = 0.5 * (whole.box[widest].low + whole.box[widest].high);
+    half.box[widest].high = middle;
+    add(half);
+    half.box[widest] = {middle, whole.box[widest].high};
+    add(half);
+  }
+  Slope slope{heap[0].most, 0};
+  for (const Piece& piece : heap) slope.error = std::max(slope.error, piece.error);
+  return slope;
+}
+
+}  // namespace msq
