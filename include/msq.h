@@ -303,17 +303,41 @@ MSQ_API msq_status msq_shape_from_sphere(msq_context *context, const double cent
 MSQ_API msq_status msq_shape_from_cylinder(msq_context *context, const double from[3],
                                            const double to[3], double radius, msq_shape **shape);
 
+/* inside[i] = 0 where point i is outside, any other value where it is inside or on the boundary. */
+typedef int32_t (*msq_inside_fn)(void *user, const double *points, uint64_t count,
+                                 uint8_t *inside);
+
+typedef struct msq_host_shape_def {
+  uint32_t struct_size;
+  int32_t concurrent;     /* 0 (default) or 1: see "objects that the host defines" */
+  msq_inside_fn inside;   /* of points in the box, in model coordinates */
+  msq_values_fn distance; /* of any points: at most the distance to the boundary, on either side of it;
+                             the sign is nothing. NULL (default): the distance to the box */
+  void *user;
+  msq_release_fn release;
+  double min[3], max[3];  /* box outside of which nothing is inside. No default: must be set */
+} msq_host_shape_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_host_shape_def_init(msq_host_shape_def *def, size_t size);
+
+/* Shape that the host computes: the points of a box, up to 1e75 in model units, that its callback
+ * finds inside. Slices and arrays of points ask in batches, distances point by point. def may not be
+ * NULL. Errors: ARGUMENT unless min < max in each axis; MEMORY; of calls that ask the shape, HOST. */
+MSQ_API msq_status msq_shape_from_host(msq_context *context, const msq_host_shape_def *def,
+                                       msq_shape **shape);
+
 MSQ_API void msq_shape_retain(msq_shape *shape);
 MSQ_API void msq_shape_release(msq_shape *shape);
 
 typedef struct msq_shape_report {
   uint32_t struct_size;
-  int32_t is_mesh;     /* 1 for meshes; 0 for primitives, whose counts below are 0 */
+  int32_t is_mesh;     /* 1 for meshes; 0 for others, whose counts below are 0 */
   double min[3];       /* bounding box */
   double max[3];
   double volume;       /* cubic model units; meshes: signed sum over triangles, exact for closed
-                          ones but for rounding, negative if inside out */
-  double area;         /* square model units */
+                          ones but for rounding, negative if inside out; NaN of a host's shape */
+  double area;         /* square model units; NaN of a host's shape */
   uint64_t vertices;             /* after welding */
   uint64_t triangles;            /* kept */
   uint64_t degenerate_triangles; /* without area. Those with fewer than three distinct vertices are

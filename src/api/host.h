@@ -29,6 +29,14 @@ inline std::function<void(const Vec3*, size_t, double*)> values_call(msq_values_
   };
 }
 
+inline std::function<void(const Vec3*, size_t, uint8_t*)> inside_call(msq_inside_fn fn, void* user,
+                                                                      const char* callback) {
+  return [=](const Vec3* points, size_t count, uint8_t* inside) {
+    std::fill_n(inside, count, uint8_t{0});
+    check_code(fn(user, coordinates(points), count, inside), callback);
+  };
+}
+
 /// Null where `fn` is.
 inline std::function<Interval(const Box3&)> range_call(msq_range_fn fn, void* user,
                                                        const char* callback) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/guard.h"
+#include "api/shape_size.h"
 #include "io/mesh_file.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
@@ -48,14 +49,6 @@ FileRequest file_request(const msq_file_def* def, const Context& owner) {
   request.options.budget = owner.budget;
   request.rule = winding_rule(known.winding_rule);
   return request;
-}
-
-void check_size(double radius, Vec3 centre) {
-  constexpr double most = 1e75;  // fourth powers of lengths stay finite
-  if (radius > most || max_magnitude(centre) > most)
-    fail(Status::argument,
-         "a shape of radius or size %g at (%g, %g, %g) is too large; the limit is %g for each",
-         radius, centre.x, centre.y, centre.z, most);
 }
 
 }  // namespace
@@ -124,13 +117,8 @@ msq_status msq_shape_from_box(msq_context* context, const double min[3], const d
                               msq_shape** shape) {
   return guard([&] {
     object(context, "context");
-    const Box3 box{require_vector(min, "min"), require_vector(max, "max")};
+    const Box3 box = read_box(min, max);
     require(shape, "shape");
-    for (int axis = 0; axis < 3; ++axis)
-      if (!(box.min[axis] < box.max[axis]))
-        fail(Status::argument, "min[%d] is %g and max[%d] is %g; min must be less", axis,
-             box.min[axis], axis, box.max[axis]);
-    check_size(max_magnitude(box.extent()), box.min);
     *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<BoxShape>(box)));
   });
 }

@@ -81,8 +81,10 @@ void array_membership(const Model& model, const Scales& resolved, const PointArr
     const uint64_t runs = (count + run - 1) / run;
     for_each(runs, [&](uint64_t r) {
       const uint64_t end = std::min(count, (r + 1) * run);
-      for (uint64_t i = r * run; i < end; ++i)
-        alive[i] = model.shape().inside(points.at(first + i));
+      std::vector<Vec3> positions;
+      positions.reserve(run);
+      for (uint64_t i = r * run; i < end; ++i) positions.push_back(points.at(first + i));
+      model.shape().find_inside(positions.data(), positions.size(), alive + r * run);
     });
     for (const Scale* scale : resolved) {
       if (!scale->structure->gains_by_groups()) {

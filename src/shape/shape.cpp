@@ -20,21 +20,11 @@ double Shape::distance(Vec3 p) const {
 }
 
 void Shape::fill_rows(const RowBlock& block) const {
-  const SampleGrid& grid = *block.grid;
-  const Box3& box = bounds();
-  const uint64_t first = first_sample_from(grid.origin.x, grid.spacing.x, grid.nx, box.min.x);
-  const uint64_t end = first_sample_from<true>(grid.origin.x, grid.spacing.x, grid.nx, box.max.x);
-  for (uint64_t k = block.z0; k < block.z1; ++k) {
-    const double z = grid.z(k);
-    if (z < box.min.z || z > box.max.z) continue;
-    for (uint64_t j = block.y0; j < block.y1; ++j) {
-      const double y = grid.y(j);
-      if (y < box.min.y || y > box.max.y) continue;
-      uint64_t* row = block.row(j, k);
-      for (uint64_t i = first; i < end; ++i)
-        if (inside({grid.x(i), y, z})) row[i / bits_per_word] |= uint64_t{1} << (i % bits_per_word);
-    }
-  }
+  for_each_row_in_bounds(block,
+                         [&](double y, double z, uint64_t* row, uint64_t first, uint64_t end) {
+                           for (uint64_t i = first; i < end; ++i)
+                             if (inside({block.grid->x(i), y, z})) set_bits(row, i, i);
+                         });
 }
 
 }  // namespace msq

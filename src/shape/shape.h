@@ -3,6 +3,7 @@
 // it bit for bit.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -32,6 +33,10 @@ class Shape : public RefCounted {
 
   /// Membership of a finite point; the boundary is inside.
   virtual bool inside(Vec3 p) const = 0;
+  /// inside[i] becomes inside(points[i]), 0 or 1.
+  virtual void find_inside(const Vec3* points, size_t count, uint8_t* inside) const {
+    for (size_t i = 0; i < count; ++i) inside[i] = this->inside(points[i]);
+  }
   /// Whether any thread may ask it, several at once; otherwise only the thread that made the host's
   /// call.
   virtual bool is_concurrent() const { return true; }
@@ -63,7 +68,30 @@ class Shape : public RefCounted {
   /// lies no farther from bounds() than 2^60 times their size.
   virtual double clearance(Vec3 p) const = 0;
 
+  /// Calls visit(y, z, row, first, end) for each row of a block that has samples first to end - 1
+  /// in bounds().
+  template <class Visit>
+  void for_each_row_in_bounds(const RowBlock& block, Visit&& visit) const;
+
   ShapeFacts facts_;
 };
+
+template <class Visit>
+void Shape::for_each_row_in_bounds(const RowBlock& block, Visit&& visit) const {
+  const SampleGrid& grid = *block.grid;
+  const Box3& box = bounds();
+  const uint64_t first = first_sample_from(grid.origin.x, grid.spacing.x, grid.nx, box.min.x);
+  const uint64_t end = first_sample_from<true>(grid.origin.x, grid.spacing.x, grid.nx, box.max.x);
+  if (first >= end) return;
+  for (uint64_t k = block.z0; k < block.z1; ++k) {
+    const double z = grid.z(k);
+    if (z < box.min.z || z > box.max.z) continue;
+    for (uint64_t j = block.y0; j < block.y1; ++j) {
+      const double y = grid.y(j);
+      if (y < box.min.y || y > box.max.y) continue;
+      visit(y, z, block.row(j, k), first, end);
+    }
+  }
+}
 
 }  // namespace msq

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "meshes.h"
+#include "shape/host.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
 
@@ -109,6 +110,18 @@ inline std::vector<ShapeRow> shape_rows() {
   });
   add("slanted cylinder", [] {
     return Ref<const Shape>(make_ref<CylinderShape>(Vec3{-1, 0.3, 0.1}, Vec3{1, 1, 0.8}, 0.3));
+  });
+  // A ball again, in a box that is larger.
+  add("host's ball", [] {
+    HostShapeCalls calls;
+    calls.inside = [](const Vec3* points, size_t count, uint8_t* inside) {
+      for (size_t i = 0; i < count; ++i) inside[i] = length(points[i]) <= 0.625 ? 2 : 0;
+    };
+    calls.distance = [](const Vec3* points, size_t count, double* bounds) {
+      for (size_t i = 0; i < count; ++i) bounds[i] = 0.9 * (length(points[i]) - 0.625);
+    };
+    return Ref<const Shape>(
+        make_ref<HostShape>(calls, Box3{{-0.7, -0.625, -0.75}, {0.625, 0.8, 0.625}}, true));
   });
   return rows;
 }

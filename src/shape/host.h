@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A shape that the host computes: membership of points in a box, and a bound of the distance if it
+// has one.
+#pragma once
+
+#include <functional>
+
+#include "base/host.h"
+#include "shape/shape.h"
+
+namespace msq {
+
+struct HostShapeCalls {
+  /// inside[i] becomes other than 0 where points[i] is inside.
+  std::function<void(const Vec3* points, size_t count, uint8_t* inside)> inside;
+  /// Lower bounds of the distance to the boundary, of either sign; may be empty.
+  std::function<void(const Vec3* points, size_t count, double* bounds)> distance;
+};
+
+class HostShape final : public Shape {
+ public:
+  HostShape(HostShapeCalls calls, const Box3& bounds, bool is_concurrent);
+
+  bool inside(Vec3 p) const override;
+  void find_inside(const Vec3* points, size_t count, uint8_t* inside) const override;
+  bool is_concurrent() const override { return is_concurrent_; }
+  void fill_rows(const RowBlock& block) const override;
+
+  HostUser& user() { return user_; }
+
+ protected:
+  double clearance(Vec3 p) const override;
+
+ private:
+  HostUser user_;
+  HostShapeCalls calls_;
+  bool is_concurrent_;
+};
+
+}  // namespace msq

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_host_shape_def_init, msq_shape_from_host. */
+#include "hosts.h"
+
+DEFINE_INIT(host_shape_def)
+
+static const double centre[3] = {2, 1.75, 2.25};
+static const double radius = 1.5;
+
+static double squared_from_centre(const double* p) {
+  const double d[3] = {p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]};
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+}
+
+static int32_t inside_ball(void* user, const double* points, uint64_t count, uint8_t* inside) {
+  host_log* log = (host_log*)user;
+  const int32_t code = note_call(log, count);
+  if (code) return code;
+  for (uint64_t i = 0; i < count; ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(fabs(points[3 * i + axis] - centre[axis]) <= radius)) log->wrong = "point";
+    /* 0 is there already */
+    if (squared_from_centre(points + 3 * i) <= radius * radius) inside[i] = i % 2 ? 1 : 255;
+  }
+  return 0;
+}
+
+/* Half of the signed distance: a bound of either sign. */
+static int32_t bound_of_ball(void* user, const double* points, uint64_t count, double* values) {
+  host_log* log = (host_log*)user;
+  const int32_t code = note_call(log, count);
+  if (code) return code;
+  for (uint64_t i = 0; i < count; ++i)
+    values[i] = 0.5 * (sqrt(squared_from_centre(points + 3 * i)) - radius);
+  if (log->bad) values[0] = NAN;
+  return 0;
+}
+
+static msq_host_shape_def ball_def(host_log* log) {
+  msq_host_shape_def def;
+  assert_ok(msq_host_shape_def_init(&def, sizeof def));
+  def.inside = inside_ball;
+  def.user = log;
+  def.release = note_release;
+  for (int axis = 0; axis < 3; ++axis) {
+    def.min[axis] = centre[axis] - radius;
+    def.max[axis] = centre[axis] + radius;
+  }
+  return def;
+}
+
+static msq_shape* make_ball(msq_context* context, const msq_host_shape_def* def) {
+  msq_shape* shape;
+  assert_ok(msq_shape_from_host(context, def, &shape));
+  return shape;
+}
+
+static msq_shape* make_own_ball(msq_context* context) {
+  msq_shape* shape;
+  assert_ok(msq_shape_from_sphere(context, centre, radius, &shape));
+  return shape;
+}
+
+static msq_status create(void* env, void* def) {
+  msq_shape* shape = (msq_shape*)untouched();
+  const msq_status status =
+      msq_shape_from_host((msq_context*)env, (msq_host_shape_def*)def, &shape);
+  if (status == MSQ_OK)
+    msq_shape_release(shape);
+  else
+    assert_ptr_equal(shape, untouched());
+  return status;
+}
+
+static void definitions_honour_every_size(void** state) {
+  msq_context* context = make_context();
+  host_log log = make_log();
+  const msq_host_shape_def def = ball_def(&log);
+  (void)state;
+  check_def_init(init_host_shape_def, sizeof(msq_host_shape_def));
+  check_def_sizes(&def, sizeof def, create, context);
+  msq_context_release(context);
+}
+
+static void defaults_are_those_of_the_header(void** state) {
+  msq_host_shape_def def;
+  (void)state;
+  assert_ok(msq_host_shape_def_init(&def, sizeof def));
+  assert_int_equal(def.concurrent, 0);
+  assert_true(def.inside == NULL && def.distance == NULL && def.release == NULL);
+  assert_null(def.user);
+  for (int axis = 0; axis < 3; ++axis) assert_true(isnan(def.min[axis]) && isnan(def.max[axis]));
+}
+
+static void a_ball_is_a_ball(void** state) {
+  (void)state;
+  for (int filled = 0; filled < 2; ++filled) {
+    msq_context* context = make_context();
+    host_log log = make_log();
+    const msq_host_shape_def def = ball_def(&log);
+    msq_model* model =
+        make_model(context, make_ball(context, &def), filled ? make_lattice(context) : NULL, NULL);
+    msq_model* own =
+        make_model(context, make_own_ball(context), filled ? make_lattice(context) : NULL, NULL);
+    const uint64_t inside = assert_same_solid(model, own, 0, 4);
+    assert_in_range(inside, host_samples / 100, host_samples / 3);
+    assert_right(&log);
+    msq_model_release(own);
+    msq_context_release(context);
+    assert_int_equal(log.released, 0);
+    msq_model_release(model);
+    assert_int_equal(log.released, 1);
+  }
+}
+
+static void sets_ask_in_batches(void** state) {
+  static uint8_t inside[host_samples];
+  static double points[host_samples][3];
+  msq_context* context = make_context();
+  host_log log = make_log();
+  const msq_host_shape_def def = ball_def(&log);
+  msq_model* model = make_shape_model(context, make_ball(context, &def));
+  const msq_points_def grid = host_grid(0.6, 3.2);
+  msq_points_def array;
+  (void)state;
+  for (int i = 0; i < host_samples; ++i) memcpy(points[i], centre, sizeof centre);
+  assert_ok(msq_points_def_init(&array, sizeof array));
+  array.coordinates = points;
+  array.count = host_samples;
+  assert_ok(msq_set_membership(model, &array, NULL, inside, host_samples, NULL));
+  assert_filled(inside, host_samples, 1);
+  assert_int_equal(log.points, host_samples);
+  assert_int_equal(log.calls, (host_samples + 4095) / 4096);
+  log.calls = 0;
+  assert_ok(msq_set_membership(model, &grid, NULL, inside, host_samples, NULL));
+  assert_in_range(log.calls, 1, host_side);
+  assert_right(&log);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void distances_are_bounds_with_the_sign_of_membership(void** state) {
+  const double tips[3] = {centre[0] + 3 * radius, centre[1] + 0.5, centre[2] - 2 * radius};
+  (void)state;
+  for (int known = 0; known < 2; ++known) {
+    msq_context* context = make_context();
+    host_log log = make_log();
+    msq_host_shape_def def = ball_def(&log);
+    if (known) def.distance = bound_of_ball;
+    msq_model* model = make_shape_model(context, make_ball(context, &def));
+    uint64_t seed = 3;
+    double d;
+    for (int i = 0; i < 2000; ++i) {
+      double p[3];
+      for (int axis = 0; axis < 3; ++axis) p[axis] = random_between(&seed, -1, 5);
+      const double exact = sqrt(squared_from_centre(p)) - radius;
+      assert_ok(msq_point_distance(model, p, NULL, &d));
+      assert_true(fabs(d) <= fabs(exact) * (1 + 1e-12) + 1e-300);
+      assert_int_equal(d <= 0, exact <= 0);
+      if (known) assert_true(fabs(d) >= 0.499 * fabs(exact));
+    }
+    /* outside the box, at least that of the box */
+    assert_ok(msq_point_distance(model, tips, NULL, &d));
+    assert_near(d, sqrt(5) * radius, 1e-9);
+    assert_right(&log);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+}
+
+static void volume_and_area_are_not_known(void** state) {
+  msq_context* context = make_context();
+  host_log log = make_log();
+  const msq_host_shape_def def = ball_def(&log);
+  msq_shape* shape = make_ball(context, &def);
+  const msq_shape_report report = info_of(shape);
+  (void)state;
+  assert_int_equal(report.is_mesh, 0);
+  assert_true(isnan(report.volume) && isnan(report.area));
+  assert_true(report.min[1] == centre[1] - radius && report.max[2] == centre[2] + radius);
+  assert_int_equal(report.triangles, 0);
+  msq_shape_release(shape);
+  msq_context_release(context);
+}
+
+static void callbacks_that_fail_stop_the_call(void** state) {
+  static uint8_t inside[host_samples];
+  static double distance[host_samples];
+  const msq_points_def grid = host_grid(0.6, 3.2);
+  msq_context* context = make_context();
+  host_log log = make_log();
+  msq_host_shape_def def = ball_def(&log);
+  def.distance = bound_of_ball;
+  msq_model* model = make_shape_model(context, make_ball(context, &def));
+  (void)state;
+  log.fail_at = 2;
+  log.code = 9;
+  assert_refused(msq_set_membership(model, &grid, NULL, inside, host_samples, NULL), MSQ_E_HOST,
+                 "inside returned 9");
+  assert_int_equal(msq_error_host_code(), 9);
+  assert_int_equal(log.calls, 2);
+  log.calls = 0;
+  assert_refused(msq_set_distance(model, &grid, NULL, distance, host_samples, NULL), MSQ_E_HOST,
+                 "returned 9");
+  log.fail_at = 0;
+  log.bad = 1;
+  assert_refused(msq_point_distance(model, centre, NULL, distance), MSQ_E_HOST, "nan");
+  assert_int_equal(msq_error_host_code(), 0);
+  msq_model_release(model);
+  msq_context_release(context);
+  assert_int_equal(log.released, 1);
+}
+
+static void what_is_refused_is_not_released(void** state) {
+  msq_context* context = make_context();
+  host_log log = make_log();
+  msq_host_shape_def def = ball_def(&log);
+  (void)state;
+  assert_makes_nothing(msq_shape, msq_shape_from_host(NULL, &def, &made), MSQ_E_ARGUMENT,
+                       "context");
+  assert_makes_nothing(msq_shape, msq_shape_from_host(context, NULL, &made), MSQ_E_ARGUMENT, "def");
+  assert_refused(msq_shape_from_host(context, &def, NULL), MSQ_E_ARGUMENT, "shape is NULL");
+  def.inside = NULL;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "inside is NULL");
+  def = ball_def(&log);
+  def.concurrent = -1;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "concurrent is -1");
+  def = ball_def(&log);
+  def.min[1] = def.max[1];
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "min[1]");
+  for (int which = 0; which < 3; ++which) {
+    def = ball_def(&log);
+    def.max[2] = not_finite(which);
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "finite");
+  }
+  def = ball_def(&log);
+  def.max[0] = 1e76;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "1e+75");
+  assert_int_equal(log.released, 0);
+  assert_int_equal(log.calls, 0);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(definitions_honour_every_size),
+      cmocka_unit_test(defaults_are_those_of_the_header),
+      cmocka_unit_test(a_ball_is_a_ball),
+      cmocka_unit_test(sets_ask_in_batches),
+      cmocka_unit_test(distances_are_bounds_with_the_sign_of_membership),
+      cmocka_unit_test(volume_and_area_are_not_known),
+      cmocka_unit_test(callbacks_that_fail_stop_the_call),
+      cmocka_unit_test(what_is_refused_is_not_released),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
