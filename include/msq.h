@@ -125,7 +125,7 @@ typedef struct msq_context_def {
                             machine has: one a core; 1: the calling thread alone */
   uint64_t cache_bytes;  /* limit of the FIFO cache of cell data (default 1 GiB); 0: no cache. Same
                             results at any size. */
-  uint64_t memory_limit; /* bytes that meshes, slabs, cached cells and the reading of files (8 times
+  uint64_t memory_limit; /* bytes that meshes, images, slabs, cached cells and the reading of files (8 times
                             the file's size) may hold at once; cached cells give way to the rest.
                             0 (default): no limit */
 } msq_context_def;
@@ -141,7 +141,7 @@ MSQ_API void msq_context_release(msq_context *context);
 typedef struct msq_memory_report {
   uint32_t struct_size;
   uint32_t reserved;    /* 0 */
-  uint64_t bytes;       /* held now by meshes, slabs and cached cells */
+  uint64_t bytes;       /* held now by meshes, images, slabs and cached cells */
   uint64_t peak_bytes;  /* most ever held at once */
   uint64_t limit_bytes; /* as in the definition; 0: no limit */
 } msq_memory_report;
@@ -222,7 +222,13 @@ enum {
   MSQ_WINDING_POSITIVE = 2 /* only parts with outward normals are solid */
 };
 
-enum { MSQ_FLOAT32 = 1, MSQ_FLOAT64 = 2 }; /* type of host coordinates */
+enum { /* type of a host's numbers; coordinates are of the first two */
+  MSQ_FLOAT32 = 1,
+  MSQ_FLOAT64 = 2,
+  MSQ_UINT8 = 3,
+  MSQ_INT16 = 4,
+  MSQ_UINT16 = 5
+};
 
 enum { /* mesh file formats; the only ones read */
   MSQ_FORMAT_AUTO = 0, /* by the file's extension */
@@ -233,6 +239,31 @@ enum { /* mesh file formats; the only ones read */
   MSQ_FORMAT_3MF = 5,
   MSQ_FORMAT_AMF = 6
 };
+
+/* The grid of neighbourhood cells that a structure stands on, or an image. Cell (i, j, k) holds the points
+ * origin + rotation * ((i, j, k) + u) * cell_size, 0 <= u < 1 in each component.
+ * Source: paper, section "Multiscale Shape-Material Modeling API". */
+typedef struct msq_neighbourhood {
+  double origin[3];    /* default 0 */
+  double cell_size[3]; /* > 0, along the grid's own axes (default 1) */
+  double rotation[9];  /* row-major, orthonormal within 1e-9 (the nearest rotation is taken),
+                          determinant +1 (default identity) */
+} msq_neighbourhood;
+
+/* An image: numbers on a regular grid, linear between them along x, y and z. Where one is given, its
+ * values are copied, and about 1/8 byte a value kept besides. */
+typedef struct msq_image {
+  const void *values;    /* value (i, j, k) after i of its row, j rows of its layer, k layers */
+  int32_t value_type;    /* MSQ_UINT8, INT16, UINT16, FLOAT32 or FLOAT64; no default: it must be set.
+                            Floating-point values: at most 1e100 in magnitude */
+  uint32_t reserved;     /* 0 */
+  uint64_t size[3];      /* values along x, y and z, 1 to 2^20 */
+  uint64_t row_stride;   /* bytes from one row to the next; 0 (default): tightly packed */
+  uint64_t layer_stride; /* bytes from one layer to the next; 0 (default): size[1] rows */
+  msq_neighbourhood grid; /* value (i, j, k) stands at the corner of the grid's cell (i, j, k) that is
+                             nearest to its origin: origin + rotation * ((i, j, k) * cell_size), so
+                             cell_size is the spacing of the values */
+} msq_image;
 
 typedef struct msq_file_def {
   uint32_t struct_size;
@@ -426,6 +457,22 @@ MSQ_API msq_status msq_host_field_def_init(msq_host_field_def *def, size_t size)
  * structures. Errors: ARGUMENT, MEMORY; of calls that ask the field, HOST. */
 MSQ_API msq_status msq_field_host(msq_context *context, const msq_host_field_def *def,
                                   msq_field **field);
+typedef struct msq_grid_field_def {
+  uint32_t struct_size;
+  uint32_t reserved; /* 0 */
+  msq_image image;
+} msq_grid_field_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_grid_field_def_init(msq_grid_field_def *def, size_t size);
+
+/* Field that is an image: trilinear between its values, and beyond it what it is at the nearest point of
+ * its border. Its Lipschitz constant is that of the steepest neighbours. def may not be NULL. Cost:
+ * linear in the values, on the calling thread (a second for 10^8); at a point, nanoseconds. Errors:
+ * ARGUMENT, LIMIT (the image would pass the context's memory_limit), MEMORY. */
+MSQ_API msq_status msq_field_grid(msq_context *context, const msq_grid_field_def *def,
+                                  msq_field **field);
+
 MSQ_API void msq_field_retain(msq_field *field);
 MSQ_API void msq_field_release(msq_field *field);
 
@@ -438,16 +485,6 @@ typedef struct msq_param {
 /* ---- structures: scales 1 and finer -------------------------------------------- */
 
 typedef struct msq_structure msq_structure; /* a fine-scale structure that fills all space */
-
-/* The grid of neighbourhood cells that a structure stands on. Cell (i, j, k) holds the points
- * origin + rotation * ((i, j, k) + u) * cell_size, 0 <= u < 1 in each component.
- * Source: paper, section "Multiscale Shape-Material Modeling API". */
-typedef struct msq_neighbourhood {
-  double origin[3];    /* default 0 */
-  double cell_size[3]; /* > 0, along the grid's own axes (default 1) */
-  double rotation[9];  /* row-major, orthonormal within 1e-9 (the nearest rotation is taken),
-                          determinant +1 (default identity) */
-} msq_neighbourhood;
 
 enum { /* unit cells of strut lattices, by nodes and struts in the unit cube */
   MSQ_UNIT_CELL_CUSTOM = 0, /* nodes and struts of the definition */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/guard.h"
+#include "api/image.h"
 #include "field/gradient.h"
+#include "field/grid.h"
 #include "field/map.h"
 #include "field/radial.h"
 
@@ -14,6 +16,12 @@ constexpr uint64_t most_knots = 65536;
 msq_radial_field_def radial_defaults() {
   msq_radial_field_def def{};
   def.to_radius = 1;
+  return def;
+}
+
+msq_grid_field_def grid_defaults() {
+  msq_grid_field_def def{};
+  def.image = image_defaults();
   return def;
 }
 
@@ -98,6 +106,21 @@ msq_status msq_field_radial(msq_context* context, const msq_radial_field_def* de
            ramp.from_radius, ramp.to_radius);
     require_difference(ramp.from_value, ramp.to_value, "values");
     *field = new_handle<msq_field>(Ref<Field>(make_ref<RadialField>(centre, axis, ramp)));
+  });
+}
+
+msq_status msq_grid_field_def_init(msq_grid_field_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, grid_defaults(), "msq_grid_field_def"); });
+}
+
+msq_status msq_field_grid(msq_context* context, const msq_grid_field_def* def, msq_field** field) {
+  return guard([&] {
+    const Context& owner = object(context, "context");
+    require(field, "field");
+    const msq_grid_field_def known = read_def(def, grid_defaults(), "def");
+    require_reserved(known.reserved, "reserved");
+    *field = new_handle<msq_field>(
+        Ref<Field>(make_ref<GridField>(read_image(known.image, 1, owner.budget))));
   });
 }
 

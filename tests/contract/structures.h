@@ -9,6 +9,9 @@
 
 #include "expression/parser.h"
 #include "field/gradient.h"
+#include "field/grid.h"
+#include "field/map.h"
+#include "images.h"
 #include "msq_test.h"
 #include "structure/foam/delaunay.h"
 #include "structure/foam/foam.h"
@@ -27,13 +30,38 @@ inline Ref<Context> shared_context() {
 
 using Factory = std::function<Ref<const Structure>(const Neighbourhood&, Parameter)>;
 
+using FieldRef = Ref<const Field>;
+
 struct Kind {
   std::string family;  ///< counts of samples hold for all rows of a family together
   std::string name;
   double radius;  ///< in units of the largest cell size; of functional structures the level
   double jitter;  ///< of foams; lattices: 1, as they have no ties that the methods may split
   Factory make;
+  /// What a varying radius is in place of a linear one; NULL: that.
+  FieldRef (*vary)(const Neighbourhood&, FieldRef linear) = nullptr;
 };
+
+/// Through a bent curve.
+inline FieldRef mapped(const Neighbourhood&, FieldRef linear) {
+  const auto [low, high] = linear->range();
+  const auto between = [low = low, high = high](double part) { return low + part * (high - low); };
+  return make_ref<MapField>(
+      linear,
+      Curve(
+          {{low, low}, {between(0.4), between(0.7)}, {between(0.7), between(0.5)}, {high, high}}));
+}
+
+/// Sampled about the grid's origin, on a turned grid of its own.
+inline FieldRef sampled_field(const Neighbourhood& grid, FieldRef linear) {
+  const ImageFrame frame{grid.origin - Vec3{4, 4, 4} * max_component(grid.cell_size),
+                         grid.cell_size * 0.7, skew_rotation()};
+  const ImageSize size{16, 17, 18};
+  const auto values = sampled<double>(size, [&](Vec3 u) {
+    return linear->at(frame.rotation.apply(u * frame.spacing) + frame.origin);
+  });
+  return make_ref<GridField>(make_image(values, size, frame));
+}
 
 struct GridVariant {
   std::string name;
@@ -71,9 +99,10 @@ struct StructureRow {
     const double most = radius() + extra;
     if (!is_graded) return kind.make(variant.grid, Parameter(most));
     const Vec3 half = Vec3{1.1, 0.9, 0.7} * unit();
-    return kind.make(variant.grid,
-                     Parameter(Ref<const Field>(make_ref<GradientField>(
-                         centre - half, graded_from * radius() + extra, centre + half, most))));
+    FieldRef field =
+        make_ref<GradientField>(centre - half, graded_from * radius() + extra, centre + half, most);
+    if (kind.vary) field = kind.vary(variant.grid, field);
+    return kind.make(variant.grid, Parameter(field));
   }
 };
 
@@ -94,8 +123,8 @@ inline Factory foam_factory(FoamMethod method, double jitter) {
 inline Factory graded_foam_factory(double jitter) {
   return [=](const Neighbourhood& grid, Parameter radius) {
     const Vec3 half = Vec3{1.6, 1.2, 0.9} * grid.cell_size;
-    const Parameter density(Ref<const Field>(make_ref<GradientField>(
-        grid.from_grid(half * -1.0), 1.0, grid.from_grid(half), 30.0)));
+    const Parameter density(Ref<const Field>(
+        make_ref<GradientField>(grid.from_grid(half * -1.0), 1.0, grid.from_grid(half), 30.0)));
     return Ref<const Structure>(make_ref<Foam>(shared_context(), grid, std::move(radius), jitter,
                                                uint64_t{7}, FoamMethod::direct, density));
   };
@@ -160,13 +189,13 @@ inline std::vector<Kind> kinds() {
   const FunctionalKind network = FunctionalKind::network, sheet = FunctionalKind::sheet;
   const char* const choice =
       "min(sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x), sqrt(4+cos(x)+cos(y)*cos(z))-2)";
-  kinds.push_back({"functional", "gyroid", 0.2, 1,
-                   functional_factory(preset_expressions[0], network, 0)});
-  kinds.push_back({"functional", "split P sheet", 0.1, 1,
-                   functional_factory(preset_expressions[7], sheet, 0)});
+  kinds.push_back(
+      {"functional", "gyroid", 0.2, 1, functional_factory(preset_expressions[0], network, 0)});
+  kinds.push_back(
+      {"functional", "split P sheet", 0.1, 1, functional_factory(preset_expressions[7], sheet, 0)});
   kinds.push_back({"functional", "choice", 0.05, 1, functional_factory(choice, network, 0)});
-  kinds.push_back({"functional", "choice sheet, few clusters", 0.1, 1,
-                   functional_factory(choice, sheet, 3)});
+  kinds.push_back(
+      {"functional", "choice sheet, few clusters", 0.1, 1, functional_factory(choice, sheet, 3)});
   struct Method {
     const char* family;
     FoamMethod method;
@@ -190,6 +219,12 @@ inline std::vector<Kind> kinds() {
       std::snprintf(name, sizeof name, "density 1 to 30, jitter %g r %g", jitter, radius);
       kinds.push_back({"foam DIRECT", name, radius, jitter, graded_foam_factory(jitter)});
     }
+  // Fields that are not linear.
+  kinds.push_back({"BCC", "mapped radius", 0.15, 1, lattice_factory(bcc_unit_cell()), mapped});
+  kinds.push_back({"functional", "gyroid, sampled level", 0.2, 1,
+                   functional_factory(preset_expressions[0], network, 0), sampled_field});
+  kinds.push_back({"foam DIRECT", "sampled radius 0.1", 0.1, 1, foam_factory(FoamMethod::direct, 1),
+                   sampled_field});
   return kinds;
 }
 
@@ -231,8 +266,9 @@ inline std::vector<StructureRow> structures_by_point() {
 }
 
 /// Where METHOD_2 may differ from the point query, by the contract: with seeds so nearly on spheres
-/// that rounding decides which of them end an edge, within 1e-9 of the boundary. A point is that near if the structure with a
-/// radius smaller by that leaves it out and the one with a larger radius holds it.
+/// that rounding decides which of them end an edge, within 1e-9 of the boundary. A point is that
+/// near if the structure with a radius smaller by that leaves it out and the one with a larger
+/// radius holds it.
 inline bool may_differ(const StructureRow& row, Vec3 centre, Vec3 p) {
   if (!row.is_method_2() || row.kind.jitter >= 0.01) return false;
   const double near = 1e-9 * row.unit();

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Samples on a regular grid, linear between them, those of the border beyond it.
+#pragma once
+
+#include <utility>
+
+#include "field/field.h"
+#include "shape/image.h"
+
+namespace msq {
+
+class GridField final : public Field {
+ public:
+  explicit GridField(Image image) : image_(std::move(image)) {}
+
+  double at(Vec3 p) const override { return image_.at(p); }
+  /// Where it is constant.
+  bool is_linear(const Box3& box, Vec3& gradient) const override {
+    gradient = {};
+    return image_.is_constant(box);
+  }
+  Interval range() const override { return image_.range(); }
+  Interval range(const Box3& box) const override { return image_.range(box); }
+  double lipschitz() const override { return image_.lipschitz(); }
+
+ private:
+  Image image_;
+};
+
+}  // namespace msq

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shape/image.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include "base/checked.h"
+
+namespace msq {
+
+namespace {
+
+/// Throws for the first value that is not one.
+template <class T>
+void check_values(const T* values, const uint64_t (&size)[3]) {
+  if constexpr (std::is_floating_point_v<T>) {
+    const uint64_t count = size[0] * size[1] * size[2];
+    for (uint64_t i = 0; i < count; ++i)
+      if (!(std::abs(static_cast<double>(values[i])) <= Image::most_value))
+        fail(Status::argument,
+             "value (%llu, %llu, %llu) of the image is %g; it must be finite, at most %g in "
+             "magnitude",
+             static_cast<unsigned long long>(i % size[0]),
+             static_cast<unsigned long long>(i / size[0] % size[1]),
+             static_cast<unsigned long long>(i / size[0] / size[1]), double(values[i]),
+             Image::most_value);
+  }
+}
+
+/// Differences of neighbours that cannot overflow, and are exact for whole numbers.
+template <class T>
+using Wide = std::conditional_t<std::is_floating_point_v<T>, double, int32_t>;
+
+/// Greatest magnitude of the differences of samples that are `step` apart.
+template <class T>
+double steepest(const T* a, uint64_t count, uint64_t step) {
+  Wide<T> most = 0;
+  for (uint64_t i = 0; i < count; ++i) {
+    const Wide<T> d = static_cast<Wide<T>>(a[i + step]) - static_cast<Wide<T>>(a[i]);
+    most = std::max(most, d < 0 ? -d : d);
+  }
+  return static_cast<double>(most);
+}
+
+/// Along each axis, of all cells.
+template <class T>
+Vec3 steepest(const T* v, const uint64_t (&size)[3]) {
+  Vec3 most;
+  for (uint64_t row = 0, rows = size[1] * size[2]; row < rows; ++row) {
+    const T* at = v + row * size[0];
+    most.x = std::max(most.x, steepest(at, size[0] - 1, 1));
+    if ((row + 1) % size[1] != 0) most.y = std::max(most.y, steepest(at, size[0], size[0]));
+    if (row + size[1] < rows) most.z = std::max(most.z, steepest(at, size[0], size[0] * size[1]));
+  }
+  return most;
+}
+
+}  // namespace
+
+uint64_t Image::bytes_of(Type type) {
+  constexpr uint64_t bytes[] = {1, 2, 2, 4, 8};
+  return bytes[static_cast<int>(type)];
+}
+
+Image::Image(const Source& source, const ImageFrame& frame, std::shared_ptr<MemoryBudget> budget)
+    : type_(source.type),
+      size_{source.size[0], source.size[1], source.size[2]},
+      frame_(frame),
+      scale_{1 / frame.spacing.x, 1 / frame.spacing.y, 1 / frame.spacing.z} {
+  const uint64_t count =
+      checked_product(checked_product(size_[0], size_[1], "an image"), size_[2], "an image");
+  const uint64_t bytes = checked_product(count, bytes_of(type_), "an image");
+  reservation_ = Reservation(std::move(budget), bytes + ImageBounds::bytes_for(size_), "an image");
+  bytes_.reset(new unsigned char[bytes]);
+  const auto* from = static_cast<const unsigned char*>(source.values);
+  const uint64_t row = size_[0] * bytes_of(type_);
+  for (uint64_t k = 0; k < size_[2]; ++k)
+    for (uint64_t j = 0; j < size_[1]; ++j)
+      std::memcpy(bytes_.get() + (k * size_[1] + j) * row,
+                  from + k * source.layer_stride + j * source.row_stride, row);
+  visit([&](const auto* values) {
+    check_values(values, size_);
+    bounds_ = ImageBounds(values, size_);
+    const auto [low, high] = std::minmax_element(values, values + count);
+    range_ = {static_cast<double>(*low), static_cast<double>(*high)};
+    // Within a cell the slope along an axis is a mean of those of its edges.
+    const Vec3 slope = steepest(values, size_) * scale_;
+    lipschitz_ = std::hypot(slope.x, slope.y, slope.z) * (1 + 0x1p-48);
+  });
+  // Each of seven joins loses at most five units of 2^-53 of the greatest sample, three in a row.
+  value_slack_ = 0x1p-48 * std::max(std::abs(range_.low), std::abs(range_.high));
+}
+
+double Image::value(Vec3 u) const {
+  const Located x = locate(u.x, 0), y = locate(u.y, 1), z = locate(u.z, 2);
+  return visit([&](const auto* values) {
+    const auto line = row(values, y, z);
+    const uint64_t next = x.cell + (size_[0] > 1);
+    return cut(join(line.at(x.cell), line.at(next), x.fraction));
+  });
+}
+
+Box3 Image::to_voxels(const Box3& box) const {
+  const Vec3 centre = (box.min + box.max) * 0.5, half = box.extent() * 0.5;
+  const auto& m = frame_.rotation.m;
+  const Vec3 c = to_voxels(centre);
+  const double slack = position_slack(max_magnitude(box.min) + max_magnitude(box.max));
+  Box3 out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double reach = std::abs(m[axis]) * half.x + std::abs(m[3 + axis]) * half.y +
+                         std::abs(m[6 + axis]) * half.z;
+    const double around = (reach + slack) * scale_[axis];
+    out.min[axis] = c[axis] - around;
+    out.max[axis] = c[axis] + around;
+  }
+  return out;
+}
+
+CellRange Image::cells_in(const Box3& voxels) const {
+  CellRange range;
+  for (int axis = 0; axis < 3; ++axis) {
+    range.low[axis] = locate(voxels.min[axis], axis).cell;
+    // Not a number: all of them.
+    range.high[axis] = voxels.max[axis] < static_cast<double>(size_[axis])
+                           ? locate(voxels.max[axis], axis).cell
+                           : cells(axis) - 1;
+  }
+  return range;
+}
+
+bool Image::is_constant(const Box3& box) const {
+  if (range_.low == range_.high) return true;
+  const Interval range = bounds_.over(cells_in(to_voxels(box)));
+  return range.low == range.high;
+}
+
+Interval Image::range(const Box3& box) const {
+  const Box3 voxels = to_voxels(box);
+  const CellRange cells = cells_in(voxels);
+  const Interval bound = bounds_.over(cells);
+  if (bound.low == bound.high) return {cut(bound.low), cut(bound.high)};
+  Interval range = bound;
+  // Within a cell the function is linear along each axis, so its extremes over a part of the cell
+  // are at the part's corners: few parts are looked at one by one.
+  constexpr int most_places = 4;
+  double places[3][most_places];
+  int counts[3];
+  uint64_t corners = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double top = static_cast<double>(size_[axis] - 1);
+    counts[axis] = 0;
+    const uint64_t between = cells.high[axis] - cells.low[axis];
+    if (between > most_places - 2) {
+      corners = UINT64_MAX;
+      break;
+    }
+    // Not a number: the border, as in cells_in().
+    places[axis][counts[axis]++] = voxels.min[axis] > 0 ? std::min(voxels.min[axis], top) : 0;
+    for (uint64_t i = 1; i <= between; ++i)
+      places[axis][counts[axis]++] = static_cast<double>(cells.low[axis] + i);
+    places[axis][counts[axis]++] = voxels.max[axis] < top ? std::max(voxels.max[axis], 0.0) : top;
+    corners *= static_cast<uint64_t>(counts[axis]);
+  }
+  constexpr uint64_t most_corners = 27;
+  if (corners <= most_corners) {
+    range = {most_value, -most_value};
+    for (int z = 0; z < counts[2]; ++z)
+      for (int y = 0; y < counts[1]; ++y)
+        for (int x = 0; x < counts[0]; ++x) {
+          const double v = value({places[0][x], places[1][y], places[2][z]});
+          range = {std::min(range.low, v), std::max(range.high, v)};
+        }
+  }
+  return {cut(range.low - 2 * value_slack_), cut(range.high + 2 * value_slack_)};
+}
+
+}  // namespace msq

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Samples on a regular grid in a frame of its own, linear between them along each axis.
+//
+// One scalar definition, value(): the cell's samples are joined along z, then y, then x, each time
+// as a + f (b - a). So on a row along the image's own x all of it but the last step depends on the
+// sample's column alone. What rounding may carry beyond the least and the greatest sample is cut
+// off.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "base/memory.h"
+#include "base/vec.h"
+#include "shape/image_bounds.h"
+
+namespace msq {
+
+/// Sample (i, j, k) stands at origin + rotation * ((i, j, k) * spacing).
+struct ImageFrame {
+  Vec3 origin, spacing{1, 1, 1};
+  Rotation rotation;
+
+  bool is_turned() const { return rotation.m != Rotation{}.m; }
+};
+
+class Image {
+ public:
+  enum class Type { uint8, int16, uint16, float32, float64 };
+  static constexpr uint64_t most_size = 1 << 20;  ///< samples along an axis
+  static constexpr double most_value = 1e100;     ///< in magnitude
+
+  /// A host's samples, x fastest; strides in bytes.
+  struct Source {
+    const void* values;
+    Type type;
+    uint64_t size[3];
+    uint64_t row_stride, layer_stride;
+  };
+  /// Copies them. Throws Error(argument) for values that are not finite or too large, Error(limit)
+  /// where the budget has no room.
+  Image(const Source& source, const ImageFrame& frame, std::shared_ptr<MemoryBudget> budget);
+
+  const ImageFrame& frame() const { return frame_; }
+  uint64_t size(int axis) const { return size_[axis]; }
+  uint64_t cells(int axis) const { return size_[axis] > 1 ? size_[axis] - 1 : 1; }
+  const ImageBounds& bounds() const { return bounds_; }
+  /// Least and greatest sample.
+  Interval range() const { return range_; }
+  /// What value() may be off from the function without rounding.
+  double value_slack() const { return value_slack_; }
+  /// In model units; of the function without rounding.
+  double lipschitz() const { return lipschitz_; }
+
+  /// Sample (i, j, k) is at (i, j, k).
+  Vec3 to_voxels(Vec3 p) const { return frame_.rotation.apply_inverse(p - frame_.origin) * scale_; }
+  /// Holds to_voxels() of the points of a box, as computed and without rounding.
+  Box3 to_voxels(const Box3& box) const;
+  /// Bound of the rounding of to_voxels(p), in model units, for points up to such a magnitude.
+  double position_slack(double magnitude) const {
+    return 0x1p-47 * (magnitude + max_magnitude(frame_.origin));
+  }
+  /// 1 / spacing as to_voxels() has it.
+  Vec3 scale() const { return scale_; }
+
+  /// The cell that holds a coordinate, and how far in it that is: within the image.
+  struct Located {
+    uint64_t cell;
+    double fraction;
+  };
+  Located locate(double u, int axis) const {
+    const double top = static_cast<double>(size_[axis] - 1);
+    const double within = u > 0 ? (u < top ? u : top) : 0;  // not a number: 0
+    const uint64_t cell = std::min(static_cast<uint64_t>(within), cells(axis) - 1);
+    return {cell, within - static_cast<double>(cell)};
+  }
+  static double join(double a, double b, double f) { return a + f * (b - a); }
+
+  /// The samples of one row of cells along x, joined along z and y: value() of a point of the row
+  /// is cut(join(at(i), at(i + 1), fraction)).
+  template <class T>
+  struct Row {
+    const T *v00, *v01, *v10, *v11;  ///< first bit y, second z
+    double y, z;
+    double at(uint64_t i) const {
+      return join(join(v00[i], v01[i], z), join(v10[i], v11[i], z), y);
+    }
+  };
+  template <class T>
+  Row<T> row(const T* values, Located y, Located z) const {
+    const uint64_t dy = size_[1] > 1 ? size_[0] : 0, dz = size_[2] > 1 ? size_[0] * size_[1] : 0;
+    const T* v = values + (z.cell * size_[1] + y.cell) * size_[0];
+    return {v, v + dz, v + dy, v + dy + dz, y.fraction, z.fraction};
+  }
+  double cut(double v) const { return std::clamp(v, range_.low, range_.high); }
+
+  /// At voxel coordinates; beyond the image, that of its border.
+  double value(Vec3 u) const;
+  double at(Vec3 p) const { return value(to_voxels(p)); }
+  /// Encloses at(p) for all p of a box.
+  Interval range(const Box3& box) const;
+  /// Whether at(p) is the same for all p of a box, to the last bit.
+  bool is_constant(const Box3& box) const;
+
+  /// Calls body(first sample) with a pointer of the samples' type.
+  template <class Body>
+  decltype(auto) visit(Body&& body) const {
+    const void* values = bytes_.get();
+    switch (type_) {
+      case Type::uint8:
+        return body(static_cast<const uint8_t*>(values));
+      case Type::int16:
+        return body(static_cast<const int16_t*>(values));
+      case Type::uint16:
+        return body(static_cast<const uint16_t*>(values));
+      case Type::float32:
+        return body(static_cast<const float*>(values));
+      default:
+        return body(static_cast<const double*>(values));
+    }
+  }
+  static uint64_t bytes_of(Type type);
+
+ private:
+  CellRange cells_in(const Box3& voxels) const;
+
+  Type type_;
+  uint64_t size_[3];
+  ImageFrame frame_;
+  Vec3 scale_;
+  Reservation reservation_;
+  std::unique_ptr<unsigned char[]> bytes_;  // new aligns it for any number
+  ImageBounds bounds_;
+  Interval range_;
+  double value_slack_ = 0, lipschitz_ = 0;
+};
+
+}  // namespace msq
