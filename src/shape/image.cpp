@@ -137,41 +137,51 @@ bool Image::is_constant(const Box3& box) const {
 Interval Image::range(const Box3& box) const {
   const Box3 voxels = to_voxels(box);
   const CellRange cells = cells_in(voxels);
-  const Interval bound = bounds_.over(cells);
-  if (bound.low == bound.high) return {cut(bound.low), cut(bound.high)};
-  Interval range = bound;
-  // Within a cell the function is linear along each axis, so its extremes over a part of the cell
-  // are at the part's corners: few parts are looked at one by one.
-  constexpr int most_places = 4;
-  double places[3][most_places];
-  int counts[3];
-  uint64_t corners = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double top = static_cast<double>(size_[axis] - 1);
-    counts[axis] = 0;
-    const uint64_t between = cells.high[axis] - cells.low[axis];
-    if (between > most_places - 2) {
-      corners = UINT64_MAX;
-      break;
+  constexpr uint64_t most_samples = 64;
+  uint64_t samples = 1;
+  for (int axis = 0; axis < 3 && samples <= most_samples; ++axis)
+    samples *= cells.high[axis] - cells.low[axis] + 2;
+  if (samples > most_samples) {
+    const Interval bound = bounds_.over(cells);
+    return {cut(bound.low), cut(bound.high)};
+  }
+  const Spread spread = visit([&](const auto* values) { return spread_of(values, cells); });
+  if (spread.range.low == spread.range.high) return spread.range;
+  // From the middle to any point of the box the function changes by no more than the steepest edge
+  // along each axis lets it; beyond the image, by nothing.
+  const Vec3 half = voxels.extent() * 0.5;
+  const double middle = value((voxels.min + voxels.max) * 0.5);
+  const double reach = dot(spread.slope, half) * (1 + 0x1p-40) + 2 * value_slack_;
+  return {cut(std::max(middle - reach, spread.range.low - value_slack_)),
+          cut(std::min(middle + reach, spread.range.high + value_slack_))};
+}
+
+template <class T>
+Image::Spread Image::spread_of(const T* values, const CellRange& cells) const {
+  uint64_t count[3];
+  for (int axis = 0; axis < 3; ++axis)
+    count[axis] = cells.high[axis] - cells.low[axis] + (size_[axis] > 1 ? 2 : 1);
+  const uint64_t dy = size_[0], dz = size_[0] * size_[1];
+  const T* corner = values + cells.low[2] * dz + cells.low[1] * dy + cells.low[0];
+  Wide<T> least = *corner, most = least, x_slope = 0, y_slope = 0, z_slope = 0;
+  const auto steepen = [](Wide<T>& slope, Wide<T> from, Wide<T> to) {
+    slope = std::max(slope, to > from ? to - from : from - to);
+  };
+  for (uint64_t k = 0; k < count[2]; ++k)
+    for (uint64_t j = 0; j < count[1]; ++j) {
+      const T* row = corner + k * dz + j * dy;
+      for (uint64_t i = 0; i < count[0]; ++i) {
+        const Wide<T> v = row[i];
+        least = std::min(least, v);
+        most = std::max(most, v);
+        if (i > 0) steepen(x_slope, row[i - 1], v);
+        if (j > 0) steepen(y_slope, *(row + i - dy), v);
+        if (k > 0) steepen(z_slope, *(row + i - dz), v);
+      }
     }
-    // Not a number: the border, as in cells_in().
-    places[axis][counts[axis]++] = voxels.min[axis] > 0 ? std::min(voxels.min[axis], top) : 0;
-    for (uint64_t i = 1; i <= between; ++i)
-      places[axis][counts[axis]++] = static_cast<double>(cells.low[axis] + i);
-    places[axis][counts[axis]++] = voxels.max[axis] < top ? std::max(voxels.max[axis], 0.0) : top;
-    corners *= static_cast<uint64_t>(counts[axis]);
-  }
-  constexpr uint64_t most_corners = 27;
-  if (corners <= most_corners) {
-    range = {most_value, -most_value};
-    for (int z = 0; z < counts[2]; ++z)
-      for (int y = 0; y < counts[1]; ++y)
-        for (int x = 0; x < counts[0]; ++x) {
-          const double v = value({places[0][x], places[1][y], places[2][z]});
-          range = {std::min(range.low, v), std::max(range.high, v)};
-        }
-  }
-  return {cut(range.low - 2 * value_slack_), cut(range.high + 2 * value_slack_)};
+  return {
+      {static_cast<double>(least), static_cast<double>(most)},
+      {static_cast<double>(x_slope), static_cast<double>(y_slope), static_cast<double>(z_slope)}};
 }
 
 }  // namespace msq

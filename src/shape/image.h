@@ -124,6 +124,14 @@ class Image {
 
  private:
   CellRange cells_in(const Box3& voxels) const;
+  /// Of the samples of some cells: their range, and along each axis the greatest difference of
+  /// neighbours.
+  struct Spread {
+    Interval range;
+    Vec3 slope;
+  };
+  template <class T>
+  Spread spread_of(const T* values, const CellRange& cells) const;
 
   Type type_;
   uint64_t size_[3];
