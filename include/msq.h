@@ -490,8 +490,59 @@ enum { /* unit cells of strut lattices, by nodes and struts in the unit cube */
   MSQ_UNIT_CELL_CUSTOM = 0, /* nodes and struts of the definition */
   MSQ_UNIT_CELL_CUBIC = 1,  /* the cube's edges: 3 struts a cell */
   MSQ_UNIT_CELL_BCC = 2,    /* centre to the 8 corners */
-  MSQ_UNIT_CELL_OCTET = 3   /* corners to face centres, and the octahedron of face centres */
+  MSQ_UNIT_CELL_OCTET = 3,  /* corners to face centres, and the octahedron of face centres: 24 */
+  MSQ_UNIT_CELL_FCC = 4,    /* the diagonals of the faces: 12 */
+  MSQ_UNIT_CELL_KELVIN = 5, /* the edges of truncated octahedra that fill space: 24 */
+  MSQ_UNIT_CELL_DIAMOND = 6, /* the bonds of the diamond crystal: 16 */
+  MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7, /* the edges of rhombic dodecahedra that fill space: 32 */
+  MSQ_UNIT_CELL_REENTRANT = 8 /* uprights along z, 3/4 of the cell high, every second half a cell
+                                 higher than those beside it, and slanted struts from their ends back
+                                 to the ends of their four neighbours: 22. Auxetic: pulled along z it
+                                 widens in x and y */
 };
+
+/* A unit cell by itself: a named one, or nodes and struts. */
+typedef struct msq_unit_cell_def {
+  uint32_t struct_size;
+  int32_t unit_cell;      /* MSQ_UNIT_CELL_*; default BCC */
+  const double *nodes;    /* CUSTOM: node_count triples in [0, 1] of the cell */
+  uint64_t node_count;    /* at most 4096 */
+  const uint32_t *struts; /* CUSTOM: strut_count pairs of node indices */
+  uint64_t strut_count;   /* at most 4096; of a named cell needed with strut_factors alone */
+  const double *strut_factors; /* of the radius, one a strut, 0.001 to 1000; NULL (default): all 1 */
+} msq_unit_cell_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_unit_cell_def_init(msq_unit_cell_def *def, size_t size);
+
+typedef struct msq_unit_cell_report {
+  uint32_t struct_size;
+  int32_t is_periodic;        /* 1 if unmatched_count is 0 */
+  uint64_t node_count;        /* of the definition, or of the named cell */
+  uint64_t strut_count;
+  uint64_t tiled_strut_count; /* struts a cell of the tiling: those whole cells apart count once */
+  double tiled_length;        /* of these, in a cell of size 1 */
+  uint64_t low_nodes[3];      /* nodes on the face at 0 of each axis */
+  uint64_t high_nodes[3];     /* and on that at 1 */
+  uint64_t unmatched_nodes[3]; /* of both, those without a copy on the opposite face */
+  uint64_t unmatched_count;   /* nodes that have none along one axis or more */
+} msq_unit_cell_report;
+
+/* Counts the nodes and struts of a unit cell, and says which nodes on its faces meet those of the next
+ * cell, wherever struts end; a cell that is not periodic may be used as any other, but its struts may
+ * end there without joining another. unmatched: becomes the indices of the unmatched nodes, ascending,
+ * the first unmatched_room of them; NULL if unmatched_room is 0. Nodes within 1e-9 of the cell size
+ * of each other are the same. Cost: the squares of the numbers of nodes and of struts, less than a
+ * second. Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_unit_cell_info(const msq_unit_cell_def *cell, msq_unit_cell_report *report,
+                                      uint32_t *unmatched, uint64_t unmatched_room);
+
+/* Copies the nodes of a unit cell, node_count triples, and its struts, strut_count pairs of node
+ * indices, into the host's arrays, in the order that strut_factors takes: to draw a named cell, or to
+ * change it. The counts must be those of msq_unit_cell_info. Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_unit_cell_geometry(const msq_unit_cell_def *cell, double *nodes,
+                                          uint64_t node_count, uint32_t *struts,
+                                          uint64_t strut_count);
 
 typedef struct msq_lattice_def {
   uint32_t struct_size;
@@ -503,18 +554,55 @@ typedef struct msq_lattice_def {
   uint64_t node_count;    /* at most 4096 */
   const uint32_t *struts; /* CUSTOM: strut_count pairs of node indices */
   uint64_t strut_count;   /* at most 4096 */
+  const double *strut_factors; /* as in msq_unit_cell_def */
+  const msq_unit_cell_def *cells; /* NULL (default): the unit cell above; else a library of cell_count
+                             of them, all of one struct_size, and unit_cell does not count. Together
+                             at most 4096 nodes and 4096 struts */
+  uint32_t cell_count;    /* 1 to 256 */
+  uint32_t reserved;      /* 0 */
+  msq_param cell_choice;  /* which of the library stands in each neighbourhood cell: its value at the
+                             cell's centre, rounded to the nearest index, half up, and kept within
+                             the library */
 } msq_lattice_def;
 
 /* Sets defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_lattice_def_init(msq_lattice_def *def, size_t size);
 
-/* Periodic strut lattice: the points within radius of the unit cell's struts, tiled without end.
- * Struts are capsules: round at their ends, circular in model units whatever the cell sizes, and
- * they reach over cell borders. def may not be NULL. Cost: as the struts that can reach one cell;
- * milliseconds for the presets, seconds for thousands of struts as wide as cells. Errors: ARGUMENT, LIMIT (radius above 4 times the smallest cell
- * size), MEMORY. */
+/* Periodic strut lattice: the points within radius, times the strut's factor, of the unit cell's
+ * struts, tiled without end. Struts are capsules: round at their ends, circular in model units
+ * whatever the cell sizes, and they reach over cell borders. With a library, each cell holds the
+ * struts of the unit cell that the choice names there, and struts reach over borders likewise; where
+ * the nodes of two unlike cells do not match (msq_lattice_faces), struts end at the face. def may not
+ * be NULL. Cost: as the struts that can reach one cell;
+ * milliseconds for the presets, seconds for thousands of struts as wide as cells. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell
+ * size, too large a library), MEMORY. */
 MSQ_API msq_status msq_structure_lattice(msq_context *context, const msq_lattice_def *def,
                                          msq_structure **structure);
+
+typedef struct msq_lattice_faces_report {
+  uint32_t struct_size;
+  int32_t axis;         /* of the first unmatched face: 0, 1, 2: normal to x, y, z of the grid; -1:
+                           there is none, and the fields below are 0 */
+  uint64_t cells;       /* looked at */
+  uint64_t faces;       /* between two of them with different unit cells of the library */
+  uint64_t unmatched;   /* of these faces, with a node on one side that has no copy on the other */
+  int32_t cell[3];      /* index of the cell below the first unmatched face; the other is the next
+                           along the axis. First: cells taken by z, then y, then x */
+  uint32_t reserved;    /* 0 */
+  uint32_t types[2];    /* what stands in the two cells, as indices in the library */
+  double point[3];      /* centre of the face, in model units */
+} msq_lattice_faces_report;
+
+/* Says how many faces between neighbouring cells of a lattice have unit cells on either side whose
+ * nodes there do not match, and where the first is. The cells are those that the box from min to max,
+ * in model units, has inner points in (msq_model_bounds: those of a model); on turned grids those of
+ * its bounding box along the grid's axes. A lattice without a library has no such faces:
+ * msq_unit_cell_info tells whether it is periodic. job NULL: none. Cost: asks the choice once a cell, a byte for each cell of a layer.
+ * Errors: ARGUMENT (also: a structure that is no lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 from the
+ * grid's origin), MEMORY. */
+MSQ_API msq_status msq_lattice_faces(const msq_structure *lattice, const double min[3],
+                                     const double max[3], msq_lattice_faces_report *report,
+                                     msq_job *job);
 
 /* How the points of sets, grids and slices are answered: the same solid, at different cost. Single
  * points (msq_point_membership) are answered by the definition whatever the method. POINT, METHOD_1
@@ -738,7 +826,8 @@ MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_d
  *   clean meshes, else a bound. With open edges, rays of msq_shape_from_mesh that pass a hole bound
  *   the solid too: distances to what they sweep, from the hole towards lower x, count as well.
  * - Lattices and foams: exact outside for constant radius (lattices whose cell sizes differ by more
- *   than 8 times: within 8 times the smallest); inside a bound, the radius less the distance to the
+ *   than 8 times, 4 times with strut factors: within as many times the smallest; with a library of
+ *   unit cells: within twice the smallest); inside a bound, the radius less the distance to the
  *   nearest axis. With a radius that is a field of Lipschitz constant L (msq_field_gradient: the
  *   difference of the values over the distance of the points) these are divided by 1 + L.
  * - Skins: the difference of depth and thickness, divided by 1 + L; a scale that leaves one has the
@@ -748,6 +837,8 @@ MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_d
  *   for the named functions), L the level's Lipschitz constant. Where a function does not repeat by
  *   itself, no more than the distance to the cell's border along that axis. Where its slope has no
  *   bound (poles, roots and logarithms that reach 0, x^y with y no whole number), 0.
+ *   difference of the values over the distance of the points) these are divided by 1 + L, L times the
+ *   greatest strut factor.
  * - Points outside the coarse shape: distance to the shape, however far its structures are.
  * "Exact" is up to rounding, which is subtracted from the magnitude: 1e-13 of the distance and of
  * the coordinates (from the grid's origin, for structures), besides 1e-9 of the largest cell size for

@@ -107,6 +107,8 @@ template <class T>
 inline constexpr size_t first_size = sizeof(T);
 template <>
 inline constexpr size_t first_size<msq_foam_def> = offsetof(msq_foam_def, density);
+template <>
+inline constexpr size_t first_size<msq_lattice_def> = offsetof(msq_lattice_def, strut_factors);
 /// More is a struct_size that was never set.
 constexpr size_t most_size = 4096;
 

@@ -4,6 +4,9 @@
 
 DEFINE_INIT(lattice_def)
 
+/* Bytes of the definition when it was published. */
+enum { first_size = offsetof(msq_lattice_def, strut_factors) };
+
 /* A cell with nothing in common with the named ones. */
 static const double custom_nodes[4][3] = {
     {0, 0, 0}, {0.25, 0.25, 0.25}, {0.5, 0.5, 0}, {0.9, 0.1, 1}};
@@ -36,7 +39,7 @@ static msq_status create(void* env, void* def) {
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
-  check_def_init(init_lattice_def, sizeof(msq_lattice_def));
+  check_grown_def_init(init_lattice_def, first_size, sizeof(msq_lattice_def));
 }
 
 static void defaults_are_those_of_the_header(void** state) {
@@ -52,13 +55,16 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_null(def.radius.field);
   assert_null(def.nodes);
   assert_null(def.struts);
+  assert_null(def.strut_factors);
+  assert_null(def.cells);
+  assert_int_equal(def.cell_count, 0);
 }
 
 static void create_honours_every_struct_size(void** state) {
   msq_context* context = make_context();
   const msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_OCTET, 0.1);
   (void)state;
-  check_def_sizes(&def, sizeof def, create, context);
+  check_grown_def_sizes(&def, first_size, sizeof def, create, context);
   msq_context_release(context);
 }
 
@@ -289,9 +295,9 @@ static void unknown_unit_cells_are_refused(void** state) {
   msq_lattice_def def = lattice_def(-1, 0.1);
   (void)state;
   assert_refused(create(context, &def), MSQ_E_ARGUMENT, "unit_cell is -1");
-  def.unit_cell = 4;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "unit_cell is 4");
-  assert_message_has("from 0 to 3");
+  def.unit_cell = 9;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "unit_cell is 9");
+  assert_message_has("from 0 to 8");
   msq_context_release(context);
 }
 

@@ -19,10 +19,18 @@
 
 namespace msq {
 
+/// The first and the last cell along each axis.
+struct CellRange {
+  double first[3], last[3];
+  double count() const;  ///< of all cells
+};
+/// The cells that a box in model units has inner points in; on turned grids those of its bounding
+/// box along the grid's axes.
+CellRange cells_of(const Neighbourhood& grid, const Box3& box);
+
 /// Faces between cells that differ in their unit cells.
 struct MixedFaces {
-  uint64_t cells = 0;      ///< looked at
-  uint64_t faces = 0;      ///< between two of them that differ
+  uint64_t faces = 0;
   uint64_t unmatched = 0;  ///< of these, with a node on one side that has no copy on the other
   /// The first unmatched one, cells taken by z, then y, then x: between this cell and the next
   /// along `axis`.
@@ -48,16 +56,9 @@ class MixedLattice final : public Structure {
   /// Exact outside where the radius is constant, up to twice the smallest cell size.
   double clearance(Vec3 p) const override;
 
-  /// The cells that a box in model units has inner points in, the first and the last along each
-  /// axis; on turned grids those of its bounding box along the grid's axes.
-  struct CellRange {
-    double first[3], last[3];
-    double count() const;  ///< of all cells
-  };
-  CellRange cells(const Box3& box) const;
   /// Faces between cells of a range of fewer than 2^31. Asks the choice once for each and keeps a
   /// byte for each of a layer.
-  MixedFaces faces(const CellRange& range, const Job* job) const;
+  MixedFaces faces(const CellRange& range, Job* job) const;
 
  private:
   struct Run {

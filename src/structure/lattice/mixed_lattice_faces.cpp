@@ -4,15 +4,14 @@
 
 namespace msq {
 
-double MixedLattice::CellRange::count() const {
+double CellRange::count() const {
   double count = 1;
   for (int axis = 0; axis < 3; ++axis) count *= last[axis] - first[axis] + 1;
   return count;
 }
 
-MixedLattice::CellRange MixedLattice::cells(const Box3& box) const {
+CellRange cells_of(const Neighbourhood& grid, const Box3& box) {
   constexpr double rounding = 1e-9;
-  const Neighbourhood& grid = neighbourhood();
   const Box3 extent = grid.to_grid(box);
   CellRange range;
   for (int axis = 0; axis < 3; ++axis) {
@@ -23,7 +22,7 @@ MixedLattice::CellRange MixedLattice::cells(const Box3& box) const {
   return range;
 }
 
-MixedFaces MixedLattice::faces(const CellRange& range, const Job* job) const {
+MixedFaces MixedLattice::faces(const CellRange& range, Job* job) const {
   const size_t types = library_.size();
   std::vector<uint8_t> unmatched(3 * types * types);
   const auto is_unmatched = [&](size_t low, size_t high, int axis) -> uint8_t& {
@@ -44,7 +43,8 @@ MixedFaces MixedLattice::faces(const CellRange& range, const Job* job) const {
   }
   std::vector<uint8_t> layer(counts[0] * counts[1]);  // types of the cells looked at last
   MixedFaces found;
-  for (size_t k = 0; k < counts[2]; ++k)
+  for (size_t k = 0; k < counts[2]; ++k) {
+    if (job) job->set_progress(static_cast<double>(k) / static_cast<double>(counts[2]));
     for (size_t j = 0; j < counts[1]; ++j) {
       check_cancelled(job);
       for (size_t i = 0; i < counts[0]; ++i) {
@@ -69,9 +69,9 @@ MixedFaces MixedLattice::faces(const CellRange& range, const Job* job) const {
           found.types[1] = type;
         }
         layer[here] = static_cast<uint8_t>(type);
-        ++found.cells;
       }
     }
+  }
   return found;
 }
 
