@@ -12,10 +12,14 @@
 
 static const char usage[] =
     "usage: slice_stl FILE [options]\n"
+    "       slice_stl --block MM [options]\n"
     "Slices FILE (STL, OBJ, PLY, OFF, 3MF or AMF), filled with a foam or a lattice.\n"
     "\n"
+    "  --block MM         a cube with sides of this length instead of a file\n"
     "  --foam MM          Voronoi foam with cells of this size (default: --foam 4)\n"
-    "  --lattice NAME     strut lattice instead: cubic, bcc or octet\n"
+    "  --lattice NAME     strut lattice instead: cubic, bcc, octet, fcc, kelvin, diamond, dodeca\n"
+    "                     (rhombic dodecahedron) or reentrant; several, as bcc,octet: one after\n"
+    "                     the other from left to right\n"
     "  --cell MM          its cell size (default 4)\n"
     "  --solid            the part alone, unfilled by any structure\n"
     "  --radius MM        radius of the struts (default 0.4)\n"
@@ -53,15 +57,33 @@ static int read_count(const char* text, uint64_t most, uint64_t* value) {
   return *text >= '0' && *text <= '9' && *end == '\0' && errno == 0 && *value <= most ? 0 : -1;
 }
 
-static int read_unit_cell(const char* text, int32_t* unit_cell) {
-  static const char* const names[] = {"cubic", "bcc", "octet"};
-  static const int32_t cells[] = {MSQ_UNIT_CELL_CUBIC, MSQ_UNIT_CELL_BCC, MSQ_UNIT_CELL_OCTET};
-  for (int i = 0; i < 3; ++i) {
-    if (strcmp(text, names[i]) != 0) continue;
-    *unit_cell = cells[i];
-    return 0;
+/* Names with commas between them. */
+static int read_unit_cells(const char* text, slice_options* o) {
+  enum { MOST = sizeof o->unit_cells / sizeof o->unit_cells[0] };
+  static const struct {
+    const char* name;
+    int32_t cell;
+  } known[] = {{"cubic", MSQ_UNIT_CELL_CUBIC},
+               {"bcc", MSQ_UNIT_CELL_BCC},
+               {"octet", MSQ_UNIT_CELL_OCTET},
+               {"fcc", MSQ_UNIT_CELL_FCC},
+               {"kelvin", MSQ_UNIT_CELL_KELVIN},
+               {"diamond", MSQ_UNIT_CELL_DIAMOND},
+               {"dodeca", MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON},
+               {"reentrant", MSQ_UNIT_CELL_REENTRANT}};
+  for (o->unit_cell_count = 0; o->unit_cell_count < MOST;) {
+    const size_t length = strcspn(text, ",");
+    size_t i = 0;
+    while (i < sizeof known / sizeof known[0] &&
+           (strlen(known[i].name) != length || strncmp(text, known[i].name, length) != 0)) {
+      ++i;
+    }
+    if (i == sizeof known / sizeof known[0]) return -1;
+    o->unit_cells[o->unit_cell_count++] = known[i].cell;
+    text += length;
+    if (*text++ == '\0') return 0;
   }
-  return -1;
+  return -1; /* too many */
 }
 
 int slice_options_read(slice_options* o, int argc, char** argv) {
@@ -71,7 +93,7 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
       {"seed", 1, NULL, 'S'},  {"layer", 1, NULL, 'z'},   {"pitch", 1, NULL, 'p'},
       {"unit", 1, NULL, 'u'},  {"every", 1, NULL, 'e'},   {"threads", 1, NULL, 't'},
       {"out", 1, NULL, 'o'},   {"help", 0, NULL, 'h'},    {"density", 1, NULL, 'd'},
-      {NULL, 0, NULL, 0}};
+      {"block", 1, NULL, 'b'}, {NULL, 0, NULL, 0}};
   const slice_options defaults = {.out = "out",
                                   .foam = 4,
                                   .cell = 4,
@@ -85,8 +107,9 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
   const struct {
     int option;
     double* value;
-  } lengths[] = {{'f', &o->foam},  {'c', &o->cell},  {'r', &o->radius}, {'R', &o->radius_top},
-                 {'z', &o->layer}, {'p', &o->pitch}, {'u', &o->unit},   {'d', &o->density}};
+  } lengths[] = {{'f', &o->foam},       {'c', &o->cell},    {'r', &o->radius},
+                 {'R', &o->radius_top}, {'z', &o->layer},   {'p', &o->pitch},
+                 {'u', &o->unit},       {'d', &o->density}, {'b', &o->block}};
   for (int option; (option = getopt_long(argc, argv, "o:h", longs, NULL)) != -1;) {
     int bad = 0;
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; ++i) {
@@ -96,14 +119,15 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
     if (option == 'h') return fputs(usage, stdout) < 0 ? -1 : 1;
     if (option == 'o') o->out = optarg;
     if (option == 's') o->solid = 1;
-    if (option == 'f') o->unit_cell = 0;
+    if (option == 'f') o->unit_cell_count = 0;
     if (option == 'R') o->graded = 1;
-    if (option == 'l') bad = read_unit_cell(optarg, &o->unit_cell);
+    if (option == 'l') bad = read_unit_cells(optarg, o);
     if (option == 'S') bad = read_count(optarg, UINT64_MAX, &o->seed);
     if (option == 'e') bad = read_count(optarg, UINT64_MAX, &o->every);
     if (option == 't') bad = read_count(optarg, UINT32_MAX, &o->threads);
     if (bad) return refuse(optarg, ": not a value for this option");
   }
+  if (o->block > 0) return optind == argc ? 0 : refuse(argv[optind], ": a file besides --block");
   if (optind == argc) return refuse("no file to slice", "");
   if (optind < argc - 1) return refuse(argv[optind + 1], ": one file at a time, please");
   o->file = argv[optind];

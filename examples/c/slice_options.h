@@ -8,13 +8,15 @@
 
 typedef struct slice_options {
   const char *file, *out;
+  double block;              /* side of a cube instead of a file; 0: a file */
   double foam, cell;         /* cell sizes of the foam and of the lattice */
   double radius, radius_top; /* of the struts */
   double density;            /* of the foam's seeds at the greatest x, from 1 at the least */
   double layer, pitch, unit;
-  int32_t unit_cell; /* of the lattice, MSQ_UNIT_CELL_*; 0: a foam */
-  int solid;         /* 1: the part alone */
-  int graded;        /* 1: radius_top counts */
+  int32_t unit_cells[8];    /* of the lattice, MSQ_UNIT_CELL_*, from the least x to the greatest */
+  uint32_t unit_cell_count; /* 0: a foam */
+  int solid;                /* 1: the part alone */
+  int graded;               /* 1: radius_top counts */
   uint64_t seed, every, threads;
 } slice_options;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Slices a mesh file filled with a foam or a lattice into one PNG a layer, with a contact sheet and
- * a shaded preview. Try: slice_stl examples/parts/bracket.stl -o out
+ * Slices a mesh file, or a cube, filled with a foam or a lattice into one PNG a layer, with a
+ * contact sheet and a shaded preview. Try: slice_stl examples/parts/bracket.stl -o out
  */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
@@ -25,6 +25,7 @@ typedef struct scene {
   msq_shape* part;
   msq_field* radius;
   msq_field* density;
+  msq_field* choice; /* of unit cells */
   msq_structure* filling;
   msq_model* model;
   msq_slicer* slicer; /* of the model */
@@ -36,6 +37,7 @@ static void release(scene* s) {
   msq_slicer_release(s->slicer);
   msq_model_release(s->model);
   msq_structure_release(s->filling);
+  msq_field_release(s->choice);
   msq_field_release(s->density);
   msq_field_release(s->radius);
   msq_shape_release(s->part);
@@ -54,11 +56,37 @@ static msq_status read_part(scene* s, const slice_options* o, msq_shape_report* 
   context.threads = (uint32_t)o->threads;
   TRY(msq_context_create(&context, &s->context));
 
+  if (o->block > 0) {
+    const double low[3] = {0, 0, 0}, high[3] = {o->block, o->block, o->block};
+    TRY(msq_shape_from_box(s->context, low, high, &s->part));
+    return msq_shape_info(s->part, part);
+  }
   msq_file_def file;
   TRY(msq_file_def_init(&file, sizeof file));
   file.unit_mm = o->unit;
   TRY(msq_shape_from_file(s->context, o->file, &file, &s->part));
   return msq_shape_info(s->part, part);
+}
+
+static msq_status make_lattice(scene* s, const slice_options* o, const msq_shape_report* part,
+                               msq_param radius) {
+  enum { MOST = sizeof o->unit_cells / sizeof o->unit_cells[0] };
+  const double left[3] = {part->min[0], 0, 0}, right[3] = {part->max[0], 0, 0};
+  msq_unit_cell_def cells[MOST];
+  for (uint32_t i = 0; i < o->unit_cell_count; ++i) {
+    TRY(msq_unit_cell_def_init(cells + i, sizeof cells[i]));
+    cells[i].unit_cell = o->unit_cells[i];
+  }
+  /* The choice is rounded: each unit cell gets an equal part of the way. */
+  TRY(msq_field_gradient(s->context, left, -0.5, right, o->unit_cell_count - 0.5, &s->choice));
+  msq_lattice_def lattice;
+  TRY(msq_lattice_def_init(&lattice, sizeof lattice));
+  lattice.cells = cells;
+  lattice.cell_count = o->unit_cell_count;
+  lattice.cell_choice.field = s->choice;
+  lattice.radius = radius;
+  for (int a = 0; a < 3; ++a) lattice.grid.cell_size[a] = o->cell;
+  return msq_structure_lattice(s->context, &lattice, &s->filling);
 }
 
 static msq_status make_filling(scene* s, const slice_options* o, const msq_shape_report* part) {
@@ -67,14 +95,7 @@ static msq_status make_filling(scene* s, const slice_options* o, const msq_shape
     TRY(msq_field_gradient(s->context, bottom, o->radius, top, o->radius_top, &s->radius));
   }
   const msq_param radius = {o->radius, s->radius}; /* the number counts where the field is NULL */
-  if (o->unit_cell) {
-    msq_lattice_def lattice;
-    TRY(msq_lattice_def_init(&lattice, sizeof lattice));
-    lattice.unit_cell = o->unit_cell;
-    lattice.radius = radius;
-    for (int a = 0; a < 3; ++a) lattice.grid.cell_size[a] = o->cell;
-    return msq_structure_lattice(s->context, &lattice, &s->filling);
-  }
+  if (o->unit_cell_count) return make_lattice(s, o, part, radius);
   msq_foam_def foam;
   TRY(msq_foam_def_init(&foam, sizeof foam));
   foam.radius = radius;
@@ -181,6 +202,10 @@ static int32_t take_layer(void* user, const msq_layer* layer) {
 }
 
 static void describe_part(const slice_options* o, const msq_shape_report* part) {
+  if (!part->is_mesh) {
+    printf("a cube of %.4g mm\n", o->block);
+    return;
+  }
   printf("%s: %llu triangles, ", o->file, (unsigned long long)part->triangles);
   if (part->closed) {
     printf("closed");
