@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/guard.h"
+#include "api/image.h"
 #include "api/shape_size.h"
 #include "io/mesh_file.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
+#include "shape/voxels.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -22,6 +24,12 @@ msq_file_def file_defaults() {
 msq_mesh_def mesh_defaults() {
   msq_mesh_def def{};
   def.coordinate_type = MSQ_FLOAT64;
+  return def;
+}
+
+msq_voxels_def voxels_defaults() {
+  msq_voxels_def def{};
+  def.image = image_defaults();
   return def;
 }
 
@@ -147,6 +155,30 @@ msq_status msq_shape_from_cylinder(msq_context* context, const double from[3], c
     if (!(dot(b - a, b - a) > 0))
       fail(Status::argument, "from and to are both (%g, %g, %g); they must differ", a.x, a.y, a.z);
     *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<CylinderShape>(a, b, radius)));
+  });
+}
+
+msq_status msq_voxels_def_init(msq_voxels_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, voxels_defaults(), "msq_voxels_def"); });
+}
+
+msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_def* def,
+                                 msq_shape** shape) {
+  return guard([&] {
+    const Context& owner = object(context, "context");
+    require(shape, "shape");
+    const msq_voxels_def known = read_def(def, voxels_defaults(), "def");
+    const auto solid = static_cast<Voxels::Solid>(
+        require_range(known.solid, MSQ_SOLID_ABOVE, MSQ_SOLID_BELOW, "solid"));
+    require_finite(known.threshold, "threshold");
+    double reach = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      reach += static_cast<double>(known.image.size[axis]) * known.image.grid.cell_size[axis];
+    const Vec3 origin = require_vector(known.image.grid.origin, "grid.origin");
+    Image image = read_image(known.image, 2, owner.budget);
+    check_size(reach, origin);
+    *shape = new_handle<msq_shape>(
+        Ref<Shape>(make_ref<Voxels>(std::move(image), known.threshold, solid)));
   });
 }
 

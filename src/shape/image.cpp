@@ -96,7 +96,7 @@ double Image::value(Vec3 u) const {
   return visit([&](const auto* values) {
     const auto line = row(values, y, z);
     const uint64_t next = x.cell + (size_[0] > 1);
-    return cut(join(line.at(x.cell), line.at(next), x.fraction));
+    return join(line.at(x.cell), line.at(next), x.fraction);
   });
 }
 
@@ -128,6 +128,10 @@ CellRange Image::cells_in(const Box3& voxels) const {
   return range;
 }
 
+Interval Image::samples_of(const CellRange& cells) const {
+  return visit([&](const auto* values) { return spread_of(values, cells).range; });
+}
+
 bool Image::is_constant(const Box3& box) const {
   if (range_.low == range_.high) return true;
   const Interval range = bounds_.over(cells_in(to_voxels(box)));
@@ -143,17 +147,15 @@ Interval Image::range(const Box3& box) const {
     samples *= cells.high[axis] - cells.low[axis] + 2;
   if (samples > most_samples) {
     const Interval bound = bounds_.over(cells);
-    return {cut(bound.low), cut(bound.high)};
+    return {std::max(bound.low, range_.low), std::min(bound.high, range_.high)};
   }
   const Spread spread = visit([&](const auto* values) { return spread_of(values, cells); });
-  if (spread.range.low == spread.range.high) return spread.range;
   // From the middle to any point of the box the function changes by no more than the steepest edge
   // along each axis lets it; beyond the image, by nothing.
   const Vec3 half = voxels.extent() * 0.5;
   const double middle = value((voxels.min + voxels.max) * 0.5);
   const double reach = dot(spread.slope, half) * (1 + 0x1p-40) + 2 * value_slack_;
-  return {cut(std::max(middle - reach, spread.range.low - value_slack_)),
-          cut(std::min(middle + reach, spread.range.high + value_slack_))};
+  return {std::max(middle - reach, spread.range.low), std::min(middle + reach, spread.range.high)};
 }
 
 template <class T>

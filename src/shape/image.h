@@ -2,9 +2,9 @@
 // Samples on a regular grid in a frame of its own, linear between them along each axis.
 //
 // One scalar definition, value(): the cell's samples are joined along z, then y, then x, each time
-// as a + f (b - a). So on a row along the image's own x all of it but the last step depends on the
-// sample's column alone. What rounding may carry beyond the least and the greatest sample is cut
-// off.
+// as a + f (b - a), kept between a and b. So no value leaves the range of its cell's samples, and
+// on a row along the image's own x all of it but the last step depends on the sample's column
+// alone.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ class Image {
   const ImageBounds& bounds() const { return bounds_; }
   /// Least and greatest sample.
   Interval range() const { return range_; }
-  /// What value() may be off from the function without rounding.
+  /// Bound of what value() is off from the function without rounding, at the same coordinates.
   double value_slack() const { return value_slack_; }
   /// In model units; of the function without rounding.
   double lipschitz() const { return lipschitz_; }
@@ -57,6 +57,8 @@ class Image {
   Vec3 to_voxels(Vec3 p) const { return frame_.rotation.apply_inverse(p - frame_.origin) * scale_; }
   /// Holds to_voxels() of the points of a box, as computed and without rounding.
   Box3 to_voxels(const Box3& box) const;
+  /// Those that hold points of the box, in voxel coordinates, or are nearest to them.
+  CellRange cells_in(const Box3& voxels) const;
   /// Bound of the rounding of to_voxels(p), in model units, for points up to such a magnitude.
   double position_slack(double magnitude) const {
     return 0x1p-47 * (magnitude + max_magnitude(frame_.origin));
@@ -75,10 +77,12 @@ class Image {
     const uint64_t cell = std::min(static_cast<uint64_t>(within), cells(axis) - 1);
     return {cell, within - static_cast<double>(cell)};
   }
-  static double join(double a, double b, double f) { return a + f * (b - a); }
+  static double join(double a, double b, double f) {
+    return std::clamp(a + f * (b - a), std::min(a, b), std::max(a, b));
+  }
 
   /// The samples of one row of cells along x, joined along z and y: value() of a point of the row
-  /// is cut(join(at(i), at(i + 1), fraction)).
+  /// is join(at(i), at(i + 1), fraction).
   template <class T>
   struct Row {
     const T *v00, *v01, *v10, *v11;  ///< first bit y, second z
@@ -93,13 +97,13 @@ class Image {
     const T* v = values + (z.cell * size_[1] + y.cell) * size_[0];
     return {v, v + dz, v + dy, v + dy + dz, y.fraction, z.fraction};
   }
-  double cut(double v) const { return std::clamp(v, range_.low, range_.high); }
-
   /// At voxel coordinates; beyond the image, that of its border.
   double value(Vec3 u) const;
   double at(Vec3 p) const { return value(to_voxels(p)); }
   /// Encloses at(p) for all p of a box.
   Interval range(const Box3& box) const;
+  /// Least and greatest sample of cells, looked at one by one.
+  Interval samples_of(const CellRange& cells) const;
   /// Whether at(p) is the same for all p of a box, to the last bit.
   bool is_constant(const Box3& box) const;
 
@@ -123,7 +127,6 @@ class Image {
   static uint64_t bytes_of(Type type);
 
  private:
-  CellRange cells_in(const Box3& voxels) const;
   /// Of the samples of some cells: their range, and along each axis the greatest difference of
   /// neighbours.
   struct Spread {

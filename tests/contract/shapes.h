@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shapes that the contract suite runs over: clean and dirty meshes under every winding rule,
-// and primitives.
+// primitives, and voxel images.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "images.h"
 #include "meshes.h"
+#include "random.h"
 #include "shape/host.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
+#include "shape/voxels.h"
 
 namespace msq::test {
 
@@ -45,6 +48,51 @@ inline TriangleSoup roof() {
   soup.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
                     {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
   return soup;
+}
+
+/// Two crossing balls, 0 to 255 over about two voxels of their surface, cut off by the image's
+/// border.
+inline double balls(Vec3 u) {
+  const double one = 7 - length(u - Vec3{8, 8, 8}), other = 6 - length(u - Vec3{19, 9, 3});
+  return std::clamp(128 + 64 * std::max(one, other), 0.0, 255.0);
+}
+
+template <class T>
+void append_voxels(std::vector<ShapeRow>& rows, const char* name, const std::vector<T>& values,
+                   ImageSize size, double threshold, double least, double most) {
+  const Rotation quarter{{0, -1, 0, 1, 0, 0, 0, 0, 1}};
+  const struct {
+    const char* name;
+    ImageFrame frame;
+  } frames[] = {{"", {}},
+                {", uneven", {{-3, 0.5, 10}, {0.25, 0.375, 0.75}, {}}},
+                {", quarter turn", {{0, 0, 0}, {0.5, 0.25, 0.25}, quarter}},
+                {", turned", {{1, 2, 3}, {0.3, 0.2, 0.4}, skew_rotation()}}};
+  for (const auto& [frame_name, frame] : frames)
+    for (const auto solid : {Voxels::Solid::above, Voxels::Solid::below}) {
+      const bool is_above = solid == Voxels::Solid::above;
+      rows.push_back({std::string("voxels, ") + name + frame_name + (is_above ? "" : ", below"),
+                      [=, frame = frame]() -> Ref<const Shape> {
+                        return make_ref<Voxels>(make_image(values, size, frame), threshold, solid);
+                      },
+                      is_above ? least : 0.02, is_above ? most : 1});
+    }
+}
+
+inline void append_voxels(std::vector<ShapeRow>& rows) {
+  const ImageSize size{25, 17, 13};
+  append_voxels(rows, "balls", sampled<uint8_t>(size, balls), size, 127.5, 0.05, 0.8);
+  append_voxels(rows, "balls that reach a value", sampled<int16_t>(size, balls), size, 128, 0.05,
+                0.8);
+  Random random(12);
+  append_voxels(rows, "noise", sampled<float>({9, 5, 14}, [&](Vec3) { return random.unit(); }),
+                {9, 5, 14}, 0.6, 0.02, 0.8);
+  append_voxels(
+      rows, "bits",
+      sampled<uint16_t>({9, 10, 6}, [&](Vec3 u) { return u.x < 5 && random.unit() < 0.8; }),
+      {9, 10, 6}, 1, 0.0005, 0.8);
+  append_voxels(rows, "solid throughout", sampled<double>({2, 3, 2}, [](Vec3) { return 0.3; }),
+                {2, 3, 2}, 0.3, 0.1, 1);
 }
 
 inline std::vector<ShapeRow> shape_rows() {
@@ -123,6 +171,7 @@ inline std::vector<ShapeRow> shape_rows() {
     return Ref<const Shape>(
         make_ref<HostShape>(calls, Box3{{-0.7, -0.625, -0.75}, {0.625, 0.8, 0.625}}, true));
   });
+  append_voxels(rows);
   return rows;
 }
 
