@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+"""msq: lattices and foams inside a part, without ever meshing them.
+
+    part = msq.Shape.from_file("bracket.stl")
+    model = msq.Model(part, [msq.Foam(cell_size=4, radius=0.4)])
+    inside = model.contains(points)                # (n, 3) float32 or float64, read where it lies
+    for layer in model.slicer(layer_height=0.1, pitch=0.1):
+        save(layer.index, layer.data)
+
+Lengths are in the model's unit, millimetres with files. What the words mean exactly:
+docs/concepts.md of msq; msq.h says the rest. Objects are immutable, and any thread may use them;
+calls let other Python threads run. Failures are exceptions with the library's message: see Error.
+"""
+from .context import (BuildInfo, CacheInfo, Context, Job, MemoryInfo, build_info)
+from .errors import (ArgumentError, CancelledError, Error, FileError, HostError, InternalError,
+                     LimitError, MeshError, OutOfMemoryError, UnsupportedError)
+from .field import Field, Param
+from .model import Model, PointGrid
+from .shape import Shape, ShapeInfo
+from .slicer import Layer, Slicer
+from .structure import Foam, Functional, Lattice, Structure
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "ArgumentError", "BuildInfo", "CacheInfo", "CancelledError", "Context", "Error", "Field",
+    "FileError", "Foam", "Functional", "HostError", "InternalError", "Job", "Lattice", "Layer",
+    "LimitError", "MemoryInfo", "MeshError", "Model", "OutOfMemoryError", "Param", "PointGrid",
+    "Shape", "ShapeInfo", "Slicer", "Structure", "UnsupportedError", "build_info",
+]

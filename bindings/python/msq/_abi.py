@@ -1,0 +1,378 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The declarations of msq.h. Made from it by make_abi.py: change those."""
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int32, c_size_t, c_uint32,
+                    c_uint64, c_uint8, c_void_p)
+
+MSQ_VERSION_MAJOR = 0
+MSQ_VERSION_MINOR = 1
+MSQ_VERSION_PATCH = 0
+MSQ_VERSION = 100
+MSQ_OK = 0
+MSQ_E_ARGUMENT = -1
+MSQ_E_MEMORY = -2
+MSQ_E_CANCELLED = -3
+MSQ_E_HOST = -4
+MSQ_E_IO = -5
+MSQ_E_UNSUPPORTED = -6
+MSQ_E_MESH = -7
+MSQ_E_LIMIT = -8
+MSQ_E_INTERNAL = -9
+MSQ_WINDING_NONZERO = 0
+MSQ_WINDING_EVEN_ODD = 1
+MSQ_WINDING_POSITIVE = 2
+MSQ_FLOAT32 = 1
+MSQ_FLOAT64 = 2
+MSQ_UINT8 = 3
+MSQ_INT16 = 4
+MSQ_UINT16 = 5
+MSQ_FORMAT_AUTO = 0
+MSQ_FORMAT_STL = 1
+MSQ_FORMAT_OBJ = 2
+MSQ_FORMAT_PLY = 3
+MSQ_FORMAT_OFF = 4
+MSQ_FORMAT_3MF = 5
+MSQ_FORMAT_AMF = 6
+MSQ_UNIT_CELL_CUSTOM = 0
+MSQ_UNIT_CELL_CUBIC = 1
+MSQ_UNIT_CELL_BCC = 2
+MSQ_UNIT_CELL_OCTET = 3
+MSQ_UNIT_CELL_FCC = 4
+MSQ_UNIT_CELL_KELVIN = 5
+MSQ_UNIT_CELL_DIAMOND = 6
+MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7
+MSQ_UNIT_CELL_REENTRANT = 8
+MSQ_FOAM_AUTO = 0
+MSQ_FOAM_POINT = 1
+MSQ_FOAM_METHOD_2 = 2
+MSQ_FOAM_DIRECT = 3
+MSQ_FOAM_METHOD_1 = 4
+MSQ_FUNCTION_EXPRESSION = 0
+MSQ_FUNCTION_GYROID = 1
+MSQ_FUNCTION_SCHWARZ_P = 2
+MSQ_FUNCTION_DIAMOND = 3
+MSQ_FUNCTION_I_WP = 4
+MSQ_FUNCTION_NEOVIUS = 5
+MSQ_FUNCTION_F_RD = 6
+MSQ_FUNCTION_LIDINOID = 7
+MSQ_FUNCTION_SPLIT_P = 8
+MSQ_FUNCTIONAL_NETWORK = 1
+MSQ_FUNCTIONAL_SHEET = 2
+MSQ_POINTS_ARRAY = 1
+MSQ_POINTS_GRID = 2
+MSQ_LAYER_BITS = 1
+MSQ_LAYER_BYTES = 2
+
+
+class msq_context(Structure):
+    """Opaque."""
+
+
+class msq_job(Structure):
+    """Opaque."""
+
+
+class msq_shape(Structure):
+    """Opaque."""
+
+
+class msq_field(Structure):
+    """Opaque."""
+
+
+class msq_structure(Structure):
+    """Opaque."""
+
+
+class msq_model(Structure):
+    """Opaque."""
+
+
+class msq_slicer(Structure):
+    """Opaque."""
+
+
+class msq_build_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("version", c_uint32), ("with_assimp", c_int32),
+                ("with_cgal", c_int32), ("licence", c_char_p), ("simd", c_char_p)]
+
+
+class msq_context_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("threads", c_uint32), ("cache_bytes", c_uint64),
+                ("memory_limit", c_uint64)]
+
+
+class msq_memory_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("bytes", c_uint64),
+                ("peak_bytes", c_uint64), ("limit_bytes", c_uint64)]
+
+
+class msq_cache_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("hits", c_uint64),
+                ("misses", c_uint64), ("evictions", c_uint64), ("bytes", c_uint64),
+                ("peak_bytes", c_uint64), ("limit_bytes", c_uint64)]
+
+
+msq_release_fn = CFUNCTYPE(None, c_void_p)
+
+
+msq_values_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(c_double), c_uint64, POINTER(c_double))
+
+
+msq_range_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double),
+                         POINTER(c_double))
+
+
+class msq_neighbourhood(Structure):
+    _fields_ = [("origin", c_double * 3), ("cell_size", c_double * 3), ("rotation", c_double * 9)]
+
+
+class msq_image(Structure):
+    _fields_ = [("values", c_void_p), ("value_type", c_int32), ("reserved", c_uint32),
+                ("size", c_uint64 * 3), ("row_stride", c_uint64), ("layer_stride", c_uint64),
+                ("grid", msq_neighbourhood)]
+
+
+class msq_file_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("format", c_int32), ("winding_rule", c_int32),
+                ("reserved", c_uint32), ("unit_mm", c_double), ("max_bytes", c_uint64),
+                ("max_triangles", c_uint64)]
+
+
+class msq_mesh_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("coordinate_type", c_int32), ("winding_rule", c_int32),
+                ("reserved", c_uint32), ("vertices", c_void_p), ("vertex_count", c_uint64),
+                ("vertex_stride", c_uint64), ("triangles", POINTER(c_uint32)),
+                ("triangle_count", c_uint64)]
+
+
+msq_inside_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(c_double), c_uint64, POINTER(c_uint8))
+
+
+class msq_host_shape_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("concurrent", c_int32), ("inside", msq_inside_fn),
+                ("distance", msq_values_fn), ("user", c_void_p), ("release", msq_release_fn),
+                ("min", c_double * 3), ("max", c_double * 3)]
+
+
+class msq_shape_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("is_mesh", c_int32), ("min", c_double * 3),
+                ("max", c_double * 3), ("volume", c_double), ("area", c_double),
+                ("vertices", c_uint64), ("triangles", c_uint64), ("degenerate_triangles", c_uint64),
+                ("duplicate_triangles", c_uint64), ("open_edges", c_uint64),
+                ("non_manifold_edges", c_uint64), ("flipped_edges", c_uint64), ("closed", c_int32),
+                ("reserved", c_int32)]
+
+
+class msq_radial_field_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("center", c_double * 3),
+                ("axis", c_double * 3), ("from_radius", c_double), ("from_value", c_double),
+                ("to_radius", c_double), ("to_value", c_double)]
+
+
+class msq_host_field_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("concurrent", c_int32), ("evaluate", msq_values_fn),
+                ("range", msq_range_fn), ("user", c_void_p), ("release", msq_release_fn),
+                ("low", c_double), ("high", c_double), ("lipschitz", c_double)]
+
+
+class msq_grid_field_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("image", msq_image)]
+
+
+class msq_param(Structure):
+    _fields_ = [("value", c_double), ("field", POINTER(msq_field))]
+
+
+class msq_unit_cell_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("unit_cell", c_int32), ("nodes", POINTER(c_double)),
+                ("node_count", c_uint64), ("struts", POINTER(c_uint32)), ("strut_count", c_uint64),
+                ("strut_factors", POINTER(c_double))]
+
+
+class msq_unit_cell_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("is_periodic", c_int32), ("node_count", c_uint64),
+                ("strut_count", c_uint64), ("tiled_strut_count", c_uint64),
+                ("tiled_length", c_double), ("low_nodes", c_uint64 * 3),
+                ("high_nodes", c_uint64 * 3), ("unmatched_nodes", c_uint64 * 3),
+                ("unmatched_count", c_uint64)]
+
+
+class msq_lattice_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("unit_cell", c_int32), ("grid", msq_neighbourhood),
+                ("radius", msq_param), ("nodes", POINTER(c_double)), ("node_count", c_uint64),
+                ("struts", POINTER(c_uint32)), ("strut_count", c_uint64),
+                ("strut_factors", POINTER(c_double)), ("cells", POINTER(msq_unit_cell_def)),
+                ("cell_count", c_uint32), ("reserved", c_uint32), ("cell_choice", msq_param)]
+
+
+class msq_lattice_faces_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("axis", c_int32), ("cells", c_uint64),
+                ("faces", c_uint64), ("unmatched", c_uint64), ("cell", c_int32 * 3),
+                ("reserved", c_uint32), ("types", c_uint32 * 2), ("point", c_double * 3)]
+
+
+class msq_foam_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("method", c_int32), ("grid", msq_neighbourhood),
+                ("radius", msq_param), ("jitter", c_double), ("seed", c_uint64),
+                ("density", msq_param)]
+
+
+class msq_named_value(Structure):
+    _fields_ = [("name", c_char_p), ("value", c_double)]
+
+
+class msq_functional_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("function", c_int32), ("kind", c_int32),
+                ("clusters", c_uint32), ("grid", msq_neighbourhood), ("level", msq_param),
+                ("expression", c_char_p), ("parameters", POINTER(msq_named_value)),
+                ("parameter_count", c_uint64)]
+
+
+class msq_scale_def(Structure):
+    _fields_ = [("shape", POINTER(msq_shape)), ("structure", POINTER(msq_structure)),
+                ("skin", msq_param)]
+
+
+class msq_model_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("scale_count", c_uint32),
+                ("scales", POINTER(msq_scale_def)), ("scale_size", c_uint32),
+                ("reserved", c_uint32)]
+
+
+class msq_query_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("length_scale", c_double)]
+
+
+class msq_points_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("coordinates", c_void_p),
+                ("count", c_uint64), ("stride", c_uint64), ("coordinate_type", c_int32),
+                ("reserved", c_uint32), ("origin", c_double * 3), ("spacing", c_double * 3),
+                ("counts", c_uint64 * 3)]
+
+
+class msq_slicer_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("output", c_int32), ("pitch", c_double * 2),
+                ("resolution", c_uint32 * 2), ("layer_height", c_double), ("layer_count", c_uint64),
+                ("has_region", c_int32), ("slab_layers", c_uint32), ("region_min", c_double * 3),
+                ("region_max", c_double * 3), ("layer_z", POINTER(c_double)),
+                ("layer_z_count", c_uint64), ("length_scale", c_double)]
+
+
+class msq_slicer_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("slab_layers", c_uint32), ("width", c_uint32),
+                ("height", c_uint32), ("layer_count", c_uint64), ("stride", c_uint64),
+                ("layer_bytes", c_uint64), ("origin", c_double * 2), ("pitch", c_double * 2)]
+
+
+class msq_layer(Structure):
+    _fields_ = [("struct_size", c_uint32), ("output", c_int32), ("index", c_uint64),
+                ("z", c_double), ("data", POINTER(c_uint8)), ("stride", c_uint64),
+                ("width", c_uint32), ("height", c_uint32), ("inside_count", c_uint64)]
+
+
+msq_layer_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_layer))
+
+
+# name: [result, arguments ...]
+FUNCTIONS = {
+    "msq_version": [c_uint32],
+    "msq_status_name": [c_char_p, c_int32],
+    "msq_error_message": [c_char_p],
+    "msq_error_host_code": [c_int32],
+    "msq_build_info": [c_int32, POINTER(msq_build_report)],
+    "msq_context_def_init": [c_int32, POINTER(msq_context_def), c_size_t],
+    "msq_context_create": [c_int32, POINTER(msq_context_def), POINTER(POINTER(msq_context))],
+    "msq_context_retain": [None, POINTER(msq_context)],
+    "msq_context_release": [None, POINTER(msq_context)],
+    "msq_context_memory": [c_int32, POINTER(msq_context), POINTER(msq_memory_report)],
+    "msq_cache_stats": [c_int32, POINTER(msq_context), POINTER(msq_cache_report)],
+    "msq_cache_clear": [c_int32, POINTER(msq_context)],
+    "msq_job_create": [c_int32, POINTER(POINTER(msq_job))],
+    "msq_job_retain": [None, POINTER(msq_job)],
+    "msq_job_release": [None, POINTER(msq_job)],
+    "msq_job_cancel": [c_int32, POINTER(msq_job)],
+    "msq_job_progress": [c_int32, POINTER(msq_job), POINTER(c_double)],
+    "msq_file_def_init": [c_int32, POINTER(msq_file_def), c_size_t],
+    "msq_shape_from_file": [c_int32, POINTER(msq_context), c_char_p, POINTER(msq_file_def),
+                            POINTER(POINTER(msq_shape))],
+    "msq_shape_from_memory": [c_int32, POINTER(msq_context), c_void_p, c_uint64,
+                              POINTER(msq_file_def), POINTER(POINTER(msq_shape))],
+    "msq_mesh_def_init": [c_int32, POINTER(msq_mesh_def), c_size_t],
+    "msq_shape_from_mesh": [c_int32, POINTER(msq_context), POINTER(msq_mesh_def),
+                            POINTER(POINTER(msq_shape))],
+    "msq_shape_from_box": [c_int32, POINTER(msq_context), POINTER(c_double), POINTER(c_double),
+                           POINTER(POINTER(msq_shape))],
+    "msq_shape_from_sphere": [c_int32, POINTER(msq_context), POINTER(c_double), c_double,
+                              POINTER(POINTER(msq_shape))],
+    "msq_shape_from_cylinder": [c_int32, POINTER(msq_context), POINTER(c_double), POINTER(c_double),
+                                c_double, POINTER(POINTER(msq_shape))],
+    "msq_host_shape_def_init": [c_int32, POINTER(msq_host_shape_def), c_size_t],
+    "msq_shape_from_host": [c_int32, POINTER(msq_context), POINTER(msq_host_shape_def),
+                            POINTER(POINTER(msq_shape))],
+    "msq_shape_retain": [None, POINTER(msq_shape)],
+    "msq_shape_release": [None, POINTER(msq_shape)],
+    "msq_shape_info": [c_int32, POINTER(msq_shape), POINTER(msq_shape_report)],
+    "msq_shape_self_intersections": [c_int32, POINTER(msq_shape), POINTER(c_uint64),
+                                     POINTER(msq_job)],
+    "msq_field_gradient": [c_int32, POINTER(msq_context), POINTER(c_double), c_double,
+                           POINTER(c_double), c_double, POINTER(POINTER(msq_field))],
+    "msq_radial_field_def_init": [c_int32, POINTER(msq_radial_field_def), c_size_t],
+    "msq_field_radial": [c_int32, POINTER(msq_context), POINTER(msq_radial_field_def),
+                         POINTER(POINTER(msq_field))],
+    "msq_field_map": [c_int32, POINTER(msq_context), POINTER(msq_field), POINTER(c_double),
+                      c_uint64, POINTER(POINTER(msq_field))],
+    "msq_host_field_def_init": [c_int32, POINTER(msq_host_field_def), c_size_t],
+    "msq_field_host": [c_int32, POINTER(msq_context), POINTER(msq_host_field_def),
+                       POINTER(POINTER(msq_field))],
+    "msq_grid_field_def_init": [c_int32, POINTER(msq_grid_field_def), c_size_t],
+    "msq_field_grid": [c_int32, POINTER(msq_context), POINTER(msq_grid_field_def),
+                       POINTER(POINTER(msq_field))],
+    "msq_field_retain": [None, POINTER(msq_field)],
+    "msq_field_release": [None, POINTER(msq_field)],
+    "msq_unit_cell_def_init": [c_int32, POINTER(msq_unit_cell_def), c_size_t],
+    "msq_unit_cell_info": [c_int32, POINTER(msq_unit_cell_def), POINTER(msq_unit_cell_report),
+                           POINTER(c_uint32), c_uint64],
+    "msq_unit_cell_geometry": [c_int32, POINTER(msq_unit_cell_def), POINTER(c_double), c_uint64,
+                               POINTER(c_uint32), c_uint64],
+    "msq_lattice_def_init": [c_int32, POINTER(msq_lattice_def), c_size_t],
+    "msq_structure_lattice": [c_int32, POINTER(msq_context), POINTER(msq_lattice_def),
+                              POINTER(POINTER(msq_structure))],
+    "msq_lattice_faces": [c_int32, POINTER(msq_structure), POINTER(c_double), POINTER(c_double),
+                          POINTER(msq_lattice_faces_report), POINTER(msq_job)],
+    "msq_foam_def_init": [c_int32, POINTER(msq_foam_def), c_size_t],
+    "msq_structure_foam": [c_int32, POINTER(msq_context), POINTER(msq_foam_def),
+                           POINTER(POINTER(msq_structure))],
+    "msq_functional_def_init": [c_int32, POINTER(msq_functional_def), c_size_t],
+    "msq_structure_functional": [c_int32, POINTER(msq_context), POINTER(msq_functional_def),
+                                 POINTER(POINTER(msq_structure))],
+    "msq_structure_retain": [None, POINTER(msq_structure)],
+    "msq_structure_release": [None, POINTER(msq_structure)],
+    "msq_model_def_init": [c_int32, POINTER(msq_model_def), c_size_t],
+    "msq_model_create": [c_int32, POINTER(msq_context), POINTER(msq_model_def),
+                         POINTER(POINTER(msq_model))],
+    "msq_model_retain": [None, POINTER(msq_model)],
+    "msq_model_release": [None, POINTER(msq_model)],
+    "msq_model_bounds": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(c_double)],
+    "msq_model_scale_length": [c_int32, POINTER(msq_model), c_uint32, POINTER(c_double)],
+    "msq_query_def_init": [c_int32, POINTER(msq_query_def), c_size_t],
+    "msq_points_def_init": [c_int32, POINTER(msq_points_def), c_size_t],
+    "msq_point_membership": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(msq_query_def),
+                             POINTER(c_int32)],
+    "msq_set_membership": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
+                           POINTER(msq_query_def), POINTER(c_uint8), c_uint64, POINTER(msq_job)],
+    "msq_point_distance": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(msq_query_def),
+                           POINTER(c_double)],
+    "msq_set_distance": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
+                         POINTER(msq_query_def), POINTER(c_double), c_uint64, POINTER(msq_job)],
+    "msq_slicer_def_init": [c_int32, POINTER(msq_slicer_def), c_size_t],
+    "msq_slicer_create": [c_int32, POINTER(msq_model), POINTER(msq_slicer_def),
+                          POINTER(POINTER(msq_slicer))],
+    "msq_slicer_retain": [None, POINTER(msq_slicer)],
+    "msq_slicer_release": [None, POINTER(msq_slicer)],
+    "msq_slicer_info": [c_int32, POINTER(msq_slicer), POINTER(msq_slicer_report)],
+    "msq_slicer_layer_z": [c_int32, POINTER(msq_slicer), c_uint64, POINTER(c_double)],
+    "msq_slicer_run": [c_int32, POINTER(msq_slicer), c_uint64, c_uint64, msq_layer_fn, c_void_p,
+                       POINTER(msq_job)],
+    "msq_slice_layer": [c_int32, POINTER(msq_slicer), c_uint64, POINTER(c_uint8), c_uint64,
+                        POINTER(msq_job)],
+}

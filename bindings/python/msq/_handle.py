@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Objects of msq as Python objects: released with the last Python reference, or by close()."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, ClassVar, Optional, Type, TypeVar
+
+from . import _abi
+from ._library import lib
+
+
+class Reference:
+    """One reference to an object of msq, dropped with this one.
+
+    Calls pass this object itself as their argument, so one that works on another thread keeps the
+    object although the handle is closed meanwhile.
+    """
+
+    __slots__ = ("_as_parameter_", "_release")
+
+    def __init__(self, pointer: Any, release: Any) -> None:
+        self._as_parameter_ = pointer
+        self._release = release
+
+    def __del__(self) -> None:
+        self._release(self._as_parameter_)
+
+
+SelfT = TypeVar("SelfT", bound="Handle")
+
+
+class Handle:
+    """An object of msq. `with` closes it at the end; else it goes with the last reference to it."""
+
+    _kind: ClassVar[str] = ""  # as in msq_<kind>_release
+    _reference: Optional[Reference] = None
+
+    @classmethod
+    def _create(cls, create: Any, *arguments: Any) -> Reference:
+        """Calls a constructor of msq, whose last argument is the new handle."""
+        pointer = ctypes.POINTER(getattr(_abi, f"msq_{cls._kind}"))()
+        create(*arguments, ctypes.byref(pointer))
+        return Reference(pointer, getattr(lib, f"msq_{cls._kind}_release"))
+
+    @classmethod
+    def _wrap(cls: Type[SelfT], reference: Reference) -> SelfT:
+        """A new object of the class that holds the reference, without __init__."""
+        made = cls.__new__(cls)
+        made._reference = reference
+        return made
+
+    @property
+    def _ref(self) -> Reference:
+        """What calls to msq take."""
+        reference = self._reference
+        if reference is None:
+            raise ValueError(f"this {type(self).__name__} is closed")
+        return reference
+
+    @property
+    def _pointer(self) -> Any:
+        """For fields of structs; whoever reads it keeps this object until the call is over."""
+        return self._ref._as_parameter_
+
+    @property
+    def closed(self) -> bool:
+        """Whether close() was called."""
+        return self._reference is None
+
+    def close(self) -> None:
+        """Drops this object's reference. What was built from it, and calls on it, go on."""
+        self._reference = None
+
+    def __enter__(self: SelfT) -> SelfT:
+        return self
+
+    def __exit__(self, *_exception: Any) -> None:
+        self.close()

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Contexts, jobs, and what the library says of itself."""
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+import numbers
+import operator
+import threading
+from typing import Any, Optional, Tuple, Type, TypeVar
+
+from . import _abi
+from ._handle import Handle
+from ._library import defaults, lib, report
+
+RecordT = TypeVar("RecordT")
+
+
+def record(kind: Type[RecordT], filled: ctypes.Structure) -> RecordT:
+    """A dataclass of the same field names as a report struct."""
+    values = {}
+    for field in dataclasses.fields(kind):  # type: ignore[arg-type]
+        value = getattr(filled, field.name)
+        if isinstance(value, ctypes.Array):
+            value = tuple(value)
+        elif isinstance(value, bytes):
+            value = value.decode()
+        elif field.type == "bool":
+            value = bool(value)
+        values[field.name] = value
+    return kind(**values)
+
+
+@dataclasses.dataclass(frozen=True)
+class BuildInfo:
+    """How the loaded library was built."""
+
+    version: int  #: major * 10000 + minor * 100 + patch
+    with_assimp: bool  #: mesh files can be read
+    with_cgal: bool  #: foam method 2 and Shape.self_intersections are there
+    licence: str  #: effective SPDX licence of the binary
+    simd: str  #: instruction set that the kernels use on this machine
+
+
+@dataclasses.dataclass(frozen=True)
+class MemoryInfo:
+    """Memory accounted to a context."""
+
+    bytes: int  #: held now by meshes, slabs and cached cells
+    peak_bytes: int
+    limit_bytes: int  #: 0: no limit
+
+
+@dataclasses.dataclass(frozen=True)
+class CacheInfo:
+    """Counters of a context's cell cache."""
+
+    hits: int
+    misses: int
+    evictions: int
+    bytes: int
+    peak_bytes: int
+    limit_bytes: int
+
+
+def build_info() -> BuildInfo:
+    """Says how the loaded library was built."""
+    filled = _abi.msq_build_report()
+    filled.struct_size = ctypes.sizeof(filled)
+    lib.msq_build_info(ctypes.byref(filled))
+    return record(BuildInfo, filled)
+
+
+class Context(Handle):
+    """Threads, cell cache and memory limit that objects share.
+
+    threads: of a call, the caller's included; 0: one a core. cache_bytes: of cell data, default
+    1 GiB. memory_limit: bytes that meshes, slabs and cached cells may hold; 0: no limit. Results
+    never depend on them. Objects made without a context share that of what they are made from, or
+    one of defaults.
+    """
+
+    _kind = "context"
+
+    def __init__(self, *, threads: int = 0, cache_bytes: Optional[int] = None,
+                 memory_limit: int = 0) -> None:
+        definition = defaults(_abi.msq_context_def)
+        definition.threads = unsigned(threads, 32, "threads")
+        if cache_bytes is not None:
+            definition.cache_bytes = unsigned(cache_bytes, 64, "cache_bytes")
+        definition.memory_limit = unsigned(memory_limit, 64, "memory_limit")
+        self._reference = self._create(lib.msq_context_create, ctypes.byref(definition))
+
+    @property
+    def memory(self) -> MemoryInfo:
+        """Memory held now, at most so far, and the limit."""
+        return record(MemoryInfo, report(_abi.msq_memory_report, lib.msq_context_memory, self._ref))
+
+    @property
+    def cache(self) -> CacheInfo:
+        """Counters of the cell cache since the context was made."""
+        return record(CacheInfo, report(_abi.msq_cache_report, lib.msq_cache_stats, self._ref))
+
+    def clear_cache(self) -> None:
+        """Drops all cached cells. Counters stay."""
+        lib.msq_cache_clear(self._ref)
+
+
+_default: Optional[Context] = None
+_default_lock = threading.Lock()
+
+
+def context_of(context: Optional[Context], *parts: Any) -> Context:
+    """The context given, else that of the first part that has one, else one of defaults."""
+    global _default
+    if context is not None:
+        if not isinstance(context, Context):
+            raise TypeError(f"context is a {type(context).__name__}; it must be a Context")
+        return context
+    for part in parts:
+        found = getattr(part, "context", None)
+        if isinstance(found, Context) and not found.closed:
+            return found
+    with _default_lock:
+        if _default is None or _default.closed:
+            _default = Context()
+        return _default
+
+
+class Job(Handle):
+    """One long call: its progress, and the means to cancel it, from any thread."""
+
+    _kind = "job"
+
+    def __init__(self) -> None:
+        self._reference = self._create(lib.msq_job_create)
+
+    def cancel(self) -> None:
+        """Asks the call under the job to stop, with CancelledError; later ones stop at once."""
+        lib.msq_job_cancel(self._ref)
+
+    @property
+    def progress(self) -> float:
+        """Fraction done of the last call under the job; 1 only after success."""
+        fraction = ctypes.c_double()
+        lib.msq_job_progress(self._ref, ctypes.byref(fraction))
+        return fraction.value
+
+
+def job_reference(job: Optional[Job]) -> Any:
+    """What calls take for a job or None."""
+    if job is not None and not isinstance(job, Job):
+        raise TypeError(f"job is a {type(job).__name__}; it must be a Job")
+    return None if job is None else job._ref
+
+
+def unsigned(value: int, bits: int, name: str) -> int:
+    """The value, which ctypes would cut to the field's size without a word."""
+    value = operator.index(value)
+    if not 0 <= value < 2**bits:
+        raise ValueError(f"{name} is {value}; it must be from 0 to {2**bits - 1}")
+    return value
+
+
+def triple(value: Any, name: str) -> Tuple[float, float, float]:
+    """Three numbers; one number stands for all three."""
+    if isinstance(value, numbers.Real):
+        return (float(value),) * 3
+    values = tuple(float(number) for number in value)
+    if len(values) != 3:
+        raise ValueError(f"{name} has {len(values)} numbers; it must have 3")
+    return values  # type: ignore[return-value]
+
+
+def doubles(value: Any, name: str) -> Any:
+    """Three numbers as `const double[3]`."""
+    return (ctypes.c_double * 3)(*triple(value, name))

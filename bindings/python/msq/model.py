@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Models, and sets of points asked of them."""
+from __future__ import annotations
+
+import ctypes
+import dataclasses
+from typing import Any, Callable, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _abi
+from ._arrays import output, pointer, triples
+from ._handle import Handle
+from ._interrupt import interruptible
+from ._library import defaults, lib
+from .context import Context, Job, context_of, doubles, triple, unsigned
+from .shape import Shape
+from .slicer import Slicer
+from .structure import Structure
+
+# Sets of fewer points are not worth the thread that makes them interruptible: some 0.1 ms.
+_LONG = 1 << 15
+
+
+@dataclasses.dataclass(frozen=True)
+class PointGrid:
+    """A regular grid of points, never stored: point (i, j, k) is origin + (i, j, k) * spacing.
+
+    counts: nx, ny, nz. Answers have shape (nz, ny, nx), as a stack of images with x fastest; `.T`
+    gives them by [i, j, k].
+    """
+
+    origin: Sequence[float]
+    spacing: Union[float, Sequence[float]]
+    counts: Tuple[int, int, int]
+
+    @property
+    def shape(self) -> Tuple[int, int, int]:
+        """Of the answers: (nz, ny, nx)."""
+        nx, ny, nz = (unsigned(count, 64, "counts") for count in self.counts)
+        return (nz, ny, nx)
+
+
+class Model(Handle):
+    """A coarse shape and the structures that fill it: the solid is their intersection.
+
+    structures: coarsest first, one or a sequence of them; none for the shape alone.
+    """
+
+    _kind = "model"
+
+    def __init__(self, shape: Shape, structures: Union[Structure, Sequence[Structure]] = (), *,
+                 context: Optional[Context] = None) -> None:
+        if not isinstance(shape, Shape):
+            raise TypeError(f"shape is a {type(shape).__name__}; it must be a Shape")
+        parts = (structures,) if isinstance(structures, Structure) else tuple(structures)
+        for part in parts:
+            if not isinstance(part, Structure):
+                raise TypeError(f"structures have a {type(part).__name__}; it must be a Structure")
+        scales = (_abi.msq_scale_def * (1 + len(parts)))()
+        scales[0].shape = shape._pointer
+        for scale, part in zip(scales[1:], parts):
+            scale.structure = part._pointer
+        definition = defaults(_abi.msq_model_def)
+        definition.scales = scales
+        definition.scale_count = len(scales)
+        definition.scale_size = ctypes.sizeof(_abi.msq_scale_def)
+        context = context_of(context, shape, *parts)
+        self._reference = self._create(lib.msq_model_create, context._ref, ctypes.byref(definition))
+        self.context = context
+
+    @property
+    def bounds(self) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
+        """Smallest and largest corner of the coarse shape's bounding box."""
+        low, high = (ctypes.c_double * 3)(), (ctypes.c_double * 3)()
+        lib.msq_model_bounds(self._ref, low, high)
+        return tuple(low), tuple(high)
+
+    def scale_length(self, scale: int) -> float:
+        """Characteristic length of a scale: its largest cell size; infinite for scale 0."""
+        length = ctypes.c_double()
+        lib.msq_model_scale_length(self._ref, unsigned(scale, 32, "scale"),
+                                   ctypes.byref(length))
+        return length.value
+
+    def contains(self, points: Any, *, out: Optional[np.ndarray] = None, length_scale: float = 0.0,
+                 job: Optional[Job] = None) -> Any:
+        """Whether points are in the model or on its boundary.
+
+        points: an array (..., 3) of float32 or float64, read where it lies, or a PointGrid. Returns
+        bools of shape (...); a single point, (3,), gives one bool. out: an array of that shape,
+        contiguous, of bool or uint8, to write to instead. Only scales whose characteristic length
+        is at least length_scale are resolved: 0 all, infinity the coarse shape alone.
+        """
+        return self._ask(lib.msq_set_membership, points, out, (np.bool_, np.uint8), ctypes.c_uint8,
+                         length_scale, job, self._contains_point)
+
+    def distance(self, points: Any, *, out: Optional[np.ndarray] = None, length_scale: float = 0.0,
+                 job: Optional[Job] = None) -> Any:
+        """Signed distances to the model's boundary: positive outside, never too large in magnitude.
+
+        points, length_scale and job are as in contains; out is of float64.
+        """
+        return self._ask(lib.msq_set_distance, points, out, (np.float64,), ctypes.c_double,
+                         length_scale, job, self._point_distance)
+
+    def slicer(self, *, layer_height: Optional[float] = None, pitch: Any = None,
+               resolution: Any = None, layer_count: int = 0, region: Any = None,
+               layer_z: Any = None, output: str = "bits", slab_layers: int = 0,
+               length_scale: float = 0.0) -> Slicer:
+        """Plans layers normal to z: see Slicer."""
+        return Slicer(self, layer_height=layer_height, pitch=pitch, resolution=resolution,
+                      layer_count=layer_count, region=region, layer_z=layer_z, output=output,
+                      slab_layers=slab_layers, length_scale=length_scale)
+
+    def _contains_point(self, point: Any, query: Any) -> bool:
+        inside = ctypes.c_int32()
+        lib.msq_point_membership(self._ref, point, query, ctypes.byref(inside))
+        return inside.value == 1
+
+    def _point_distance(self, point: Any, query: Any) -> float:
+        distance = ctypes.c_double()
+        lib.msq_point_distance(self._ref, point, query, ctypes.byref(distance))
+        return distance.value
+
+    def _ask(self, ask: Any, points: Any, out: Optional[np.ndarray], dtypes: Sequence[Any],
+             kind: Any, length_scale: float, job: Optional[Job],
+             ask_one: Callable[[Any, Any], Any]) -> Any:
+        query = defaults(_abi.msq_query_def)
+        query.length_scale = length_scale
+        array = None if isinstance(points, PointGrid) else triples(points)
+        if array is not None and array.shape == () and out is None:
+            return ask_one(doubles(array.array, "point"), ctypes.byref(query))
+        definition = defaults(_abi.msq_points_def)
+        if array is None:
+            definition.kind = _abi.MSQ_POINTS_GRID
+            definition.origin[:] = triple(points.origin, "origin")
+            definition.spacing[:] = triple(points.spacing, "spacing")
+            definition.counts[:] = points.shape[::-1]
+            answers = output(out, points.shape, dtypes)
+        else:
+            definition.kind = _abi.MSQ_POINTS_ARRAY
+            definition.coordinates = array.address
+            definition.count = array.count
+            definition.stride = array.stride
+            definition.coordinate_type = array.coordinate_type
+            answers = output(out, array.shape, dtypes, array.array)
+        reference = self._ref
+
+        def call(work: Any, _keep: Any = array) -> None:
+            # Holds both arrays for as long as the call, whatever becomes of the caller.
+            ask(reference, ctypes.byref(definition), ctypes.byref(query), pointer(answers, kind),
+                answers.size, work)
+
+        interruptible(call, job, answers.size >= _LONG)
+        return answers

@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Layers of a model as arrays."""
+from __future__ import annotations
+
+import ctypes
+import operator
+import weakref
+from typing import TYPE_CHECKING, Any, Callable, Iterator, List, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _abi
+from ._arrays import output as output_array
+from ._arrays import pointer, vector
+from ._handle import Handle
+from ._interrupt import HeldSignals, interruptible
+from ._library import constant, defaults, keep_exception, lib, report
+from .context import Job, job_reference, triple, unsigned
+from .errors import HostError
+
+if TYPE_CHECKING:
+    from .model import Model
+
+_STOPPED = 1  # the callback's code for "enough"; exceptions have negative ones
+_MOST_AHEAD_BYTES = 64 << 20  # of layers that an iterator holds
+
+Region = Tuple[Sequence[float], Sequence[float]]
+
+
+class Layer:
+    """One layer: `data` has its bytes, `pixels` a bool for each pixel.
+
+    Row 0 is the one of smallest y, so pictures shown with row 0 on top are mirrored.
+    """
+
+    __slots__ = ("index", "z", "output", "width", "height", "inside_count", "rows")
+
+    def __init__(self, index: int, z: float, output: str, width: int, height: int,
+                 inside_count: int, rows: np.ndarray) -> None:
+        self.index = index  #: in the plan
+        self.z = z
+        self.output = output  #: `bits` or `bytes`
+        self.width = width  #: pixels in x
+        self.height = height  #: pixels in y
+        self.inside_count = inside_count  #: pixels inside
+        self.rows = rows  #: (height, stride) of uint8, with what pads the rows: 0
+
+    @property
+    def data(self) -> np.ndarray:
+        """The rows without what pads them, as a view.
+
+        Bits: (height, (width + 7) // 8), leftmost pixel in the high bit, as PNG and PBM have them;
+        bytes: (height, width), 255 inside and 0 outside.
+        """
+        return self.rows[:, :(self.width + 7) // 8 if self.output == "bits" else self.width]
+
+    @property
+    def pixels(self) -> np.ndarray:
+        """A new array of bools, (height, width)."""
+        if self.output == "bits":
+            return np.unpackbits(self.data, axis=1, count=self.width).view(np.bool_)
+        return self.data != 0
+
+    def copy(self) -> Layer:
+        """A layer of its own memory, to keep beyond the callback of Slicer.run."""
+        return Layer(self.index, self.z, self.output, self.width, self.height, self.inside_count,
+                     self.rows.copy())
+
+    def __repr__(self) -> str:
+        return (f"<msq.Layer {self.index} at z = {self.z:g}: {self.width} x {self.height}, "
+                f"{self.inside_count} inside>")
+
+
+class Slicer(Handle):
+    """A plan of layers normal to z; one sample a pixel, at its centre.
+
+        for layer in model.slicer(layer_height=0.1, pitch=0.05):
+            save(layer.index, layer.data)
+
+    pitch, resolution: size of a pixel and number of pixels, one or two numbers each; one of them
+    follows from the other and the region. region: (min, max), else the model's bounding box.
+    layer_height, or layer_z: a list of heights. layer_count 0: as many as cover the region.
+    output: `bits` or `bytes`. slab_layers: computed at once, 0: as many as pay. length_scale: as in
+    Model.contains.
+
+    Slicers are sequences: len(slicer), slicer[i] (one layer, by itself) and iteration (slab by
+    slab, faster).
+    """
+
+    _kind = "slicer"
+
+    def __init__(self, model: Model, *, layer_height: Optional[float] = None, pitch: Any = None,
+                 resolution: Any = None, layer_count: int = 0, region: Optional[Region] = None,
+                 layer_z: Any = None, output: str = "bits", slab_layers: int = 0,
+                 length_scale: float = 0.0) -> None:
+        definition = defaults(_abi.msq_slicer_def)
+        definition.output = constant("MSQ_LAYER_", output, "output")
+        if pitch is not None:
+            definition.pitch[:] = _pair(pitch, "pitch")
+        if resolution is not None:
+            definition.resolution[:] = [unsigned(count, 32, "resolution")
+                                        for count in _pair(resolution, "resolution")]
+        if layer_height is not None:
+            definition.layer_height = layer_height
+        definition.layer_count = unsigned(layer_count, 64, "layer_count")
+        definition.slab_layers = unsigned(slab_layers, 32, "slab_layers")
+        if region is not None:
+            low, high = region
+            definition.has_region = 1
+            definition.region_min[:] = triple(low, "region")
+            definition.region_max[:] = triple(high, "region")
+        heights = None if layer_z is None else vector(layer_z, np.float64, (-1,), "layer_z")
+        if heights is not None:
+            definition.layer_z = pointer(heights, ctypes.c_double)
+            definition.layer_z_count = len(heights)
+        definition.length_scale = length_scale
+        self._reference = self._create(lib.msq_slicer_create, model._ref, ctypes.byref(definition))
+        self._output = output
+        plan = report(_abi.msq_slicer_report, lib.msq_slicer_info, self._ref)
+        self.width: int = plan.width  #: pixels in x
+        self.height: int = plan.height  #: pixels in y
+        self.layer_count: int = plan.layer_count
+        self.slab_layers: int = plan.slab_layers  #: layers computed at once
+        self.stride: int = plan.stride  #: bytes from one row to the next
+        self.layer_bytes: int = plan.layer_bytes
+        self.origin: Tuple[float, float] = tuple(plan.origin)  #: centre of pixel (0, 0)
+        #: pixel (i, j) is sampled at origin + (i, j) * pitch
+        self.pitch: Tuple[float, float] = tuple(plan.pitch)
+
+    @property
+    def output(self) -> str:
+        """`bits` or `bytes`."""
+        return self._output
+
+    def z(self, index: int) -> float:
+        """z of a layer's samples."""
+        z = ctypes.c_double()
+        lib.msq_slicer_layer_z(self._ref, self._index(index), ctypes.byref(z))
+        return z.value
+
+    def __len__(self) -> int:
+        return self.layer_count
+
+    def __getitem__(self, index: int) -> Layer:
+        return self.layer(index)
+
+    def __iter__(self) -> Iterator[Layer]:
+        return self.layers()
+
+    def layer(self, index: int, *, out: Optional[np.ndarray] = None,
+              job: Optional[Job] = None) -> Layer:
+        """Computes one layer; for many in order, iteration is two to three times as fast.
+
+        out: uint8 (height, stride), contiguous, to write to; else memory of its own.
+        """
+        index = self._index(index)
+        rows = output_array(out, (self.height, self.stride), (np.uint8,))
+        lib.msq_slice_layer(self._ref, index, pointer(rows, ctypes.c_uint8), rows.nbytes,
+                            job_reference(job))
+        inside = _count_bits(rows) if self._output == "bits" else int(np.count_nonzero(rows))
+        return Layer(index, self.z(index), self._output, self.width, self.height, inside, rows)
+
+    def layers(self, first: int = 0, count: Optional[int] = None, *,
+               job: Optional[Job] = None) -> Iterator[Layer]:
+        """Iterates over layers, each with memory of its own.
+
+        Computes a slab of slab_layers at a time (fewer where they hold more than 64 MiB), when its
+        first layer is asked for. A loop that is left needs no tidying up, and an interrupt cancels
+        the slab in work. job: its progress is that of a slab.
+        """
+        first, last = self._range(first, count)
+        deep = max(1, min(self.slab_layers, _MOST_AHEAD_BYTES // max(1, self.layer_bytes)))
+        for at in range(first, last, deep):
+            slab: List[Layer] = []
+
+            def call(work: Any, first: int = at, slab: List[Layer] = slab) -> None:
+                self._run(lambda layer: slab.append(layer.copy()), first, min(deep, last - first),
+                          work, HeldSignals())
+
+            interruptible(call, job)
+            slab.reverse()
+            while slab:
+                yield slab.pop()
+
+    def run(self, take: Callable[[Layer], Any], first: int = 0, count: Optional[int] = None, *,
+            job: Optional[Job] = None) -> bool:
+        """Computes layers and calls take(layer) for each, in order, on this thread, while others
+        compute the next slab. What is the fastest, and copies nothing.
+
+        The layer's arrays are views of memory that is valid until take returns: keep layer.copy(),
+        or what follows from it. A view that is kept is a BufferError. take stops the run by
+        returning False, and run returns False then; exceptions stop it too, and are raised here.
+        """
+        first, last = self._range(first, count)
+        with HeldSignals() as signals:
+            goes_on = self._run(take, first, last - first, job_reference(job), signals)
+        if signals.raised:  # after the last callback
+            raise signals.raised
+        return goes_on
+
+    def _run(self, take: Callable[[Layer], Any], first: int, count: int, job: Any,
+             signals: HeldSignals) -> bool:
+        byte_array = ctypes.c_uint8 * self.layer_bytes
+
+        def take_layer(_user: Any, pointer_to_layer: Any) -> int:
+            try:
+                if signals.raised:
+                    raised, signals.raised = signals.raised, None
+                    raise raised
+                signals.allowed = True
+                given = pointer_to_layer.contents
+                memory = np.frombuffer(
+                    byte_array.from_address(ctypes.addressof(given.data.contents)), np.uint8)
+                memory.flags.writeable = False
+                is_kept = weakref.ref(memory)  # every view refers to it
+                layer = Layer(given.index, given.z, self._output, given.width, given.height,
+                              given.inside_count, memory.reshape(given.height, given.stride))
+                del memory
+                goes_on = take(layer) is not False
+                index = layer.index
+                del layer
+                if is_kept() is not None:
+                    raise BufferError(f"a view of layer {index} is kept beyond the callback, and "
+                                      "its memory is not: keep layer.copy()")
+                signals.allowed = False
+                return 0 if goes_on else _STOPPED
+            except BaseException as error:  # none may pass through C
+                signals.allowed = False
+                return keep_exception(error)
+
+        try:
+            lib.msq_slicer_run(self._ref, first, count, _abi.msq_layer_fn(take_layer), None, job)
+        except HostError as error:
+            if error.code == _STOPPED:
+                return False
+            raise
+        return True
+
+    def _index(self, index: int) -> int:
+        index = operator.index(index)
+        found = index + self.layer_count if index < 0 else index
+        if not 0 <= found < self.layer_count:
+            raise IndexError(f"layer {index} does not exist; there are {self.layer_count} layers")
+        return found
+
+    def _range(self, first: int, count: Optional[int]) -> Tuple[int, int]:
+        first = operator.index(first)
+        last = self.layer_count if count is None else first + operator.index(count)
+        if not 0 <= first <= last <= self.layer_count:
+            raise IndexError(f"layers {first} to {last} do not exist; there are {self.layer_count} "
+                             "layers")
+        return first, last
+
+
+def _pair(value: Any, name: str) -> Tuple[Any, Any]:
+    values = (value, value) if np.ndim(value) == 0 else tuple(value)
+    if len(values) != 2:
+        raise ValueError(f"{name} has {len(values)} numbers; it must have 2")
+    return values  # type: ignore[return-value]
+
+
+_BITS_OF = np.array([bin(byte).count("1") for byte in range(256)], np.uint8)
+
+
+def _count_bits(rows: np.ndarray) -> int:
+    return int(_BITS_OF[rows].sum(dtype=np.int64))

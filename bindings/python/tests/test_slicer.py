@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Layers: the three ways give the same, the same as points and as the example in C."""
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+import unittest
+import zlib
+
+import numpy as np
+
+import msq
+from support import SOURCE, box_model, reference_model
+
+
+def read_png(path):
+    """Pixels of a 1-bit greyscale PNG without filters, row 0 on top."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        length, = struct.unpack_from(">I", data, at)
+        kind, body = data[at + 4:at + 8], data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack_from(">IIBB", body)
+            assert (depth, colour) == (1, 0)
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    rows = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, -1)
+    assert not rows[:, 0].any()
+    return np.unpackbits(rows[:, 1:], axis=1, count=width).astype(bool)
+
+
+class Layers(unittest.TestCase):
+    def check_ways(self, slicer):
+        """Iteration, callback and random access give the same layers; returns them."""
+        layers = list(slicer)
+        self.assertEqual([layer.index for layer in layers], list(range(len(slicer))))
+        called = []
+        self.assertTrue(slicer.run(lambda layer: called.append(layer.copy())))
+        for layers_of_a_way in (called, [slicer[i] for i in range(len(slicer))]):
+            self.assertEqual(len(layers_of_a_way), len(layers))
+            for ours, theirs in zip(layers, layers_of_a_way):
+                self.assertTrue(np.array_equal(ours.rows, theirs.rows))
+                self.assertEqual((ours.index, ours.z, ours.inside_count, ours.width, ours.height),
+                                 (theirs.index, theirs.z, theirs.inside_count, theirs.width,
+                                  theirs.height))
+        return layers
+
+    def test_are_the_same_in_every_way_and_those_of_points(self):
+        model = reference_model()
+        bits = self.check_ways(model.slicer(layer_height=0.5, pitch=0.125, slab_layers=4))
+        bytes_ = self.check_ways(model.slicer(layer_height=0.5, pitch=0.125, output="bytes"))
+        slicer = model.slicer(layer_height=0.5, pitch=0.125)
+        self.assertEqual(len(bits), 18)
+        for ours, theirs in zip(bits, bytes_):
+            self.assertEqual(ours.pixels.shape, (slicer.height, slicer.width))
+            self.assertEqual(ours.pixels.dtype, np.bool_)
+            self.assertTrue(np.array_equal(ours.pixels, theirs.pixels))
+            self.assertEqual(ours.data.shape, (slicer.height, (slicer.width + 7) // 8))
+            self.assertEqual(set(np.unique(theirs.data)), {0, 255})
+            self.assertEqual(ours.pixels.sum(), ours.inside_count)
+            grid = msq.PointGrid((*slicer.origin, slicer.z(ours.index)), (*slicer.pitch, 1),
+                                 (slicer.width, slicer.height, 1))
+            self.assertEqual(ours.z, slicer.z(ours.index))
+            self.assertTrue(np.array_equal(ours.pixels, model.contains(grid)[0]))
+
+    def test_are_those_of_the_example(self):
+        program = os.environ.get("MSQ_SLICE_STL")
+        if not program or os.environ.get("MSQ_WITH_ASSIMP") != "1":
+            self.skipTest("slice_stl is not built, or without mesh files")
+        bracket = SOURCE / "examples" / "parts" / "bracket.stl"
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([program, str(bracket), "--foam", "4", "--radius", "0.2", "--radius-top",
+                            "0.7", "--layer", "2", "--pitch", "0.25", "-o", folder],
+                           check=True, stdout=subprocess.DEVNULL)
+            pictures = sorted(pathlib.Path(folder).glob("layer_*.png"))
+            part = msq.Shape.from_file(bracket)
+            low, high = part.info.min, part.info.max
+            radius = msq.Field.gradient((0, 0, low[2]), 0.2, (0, 0, high[2]), 0.7)
+            slicer = msq.Model(part, msq.Foam(cell_size=4, radius=radius)).slicer(
+                layer_height=2, pitch=0.25)
+            self.assertEqual(len(pictures), len(slicer))
+            for layer, picture in zip(slicer, pictures):
+                self.assertTrue(np.array_equal(layer.pixels, read_png(picture)[::-1]), picture.name)
+
+    def test_plans_as_asked(self):
+        model = box_model(foam=False)
+        slicer = model.slicer(region=((-1, -1, 0), (9, 7, 4)), resolution=(20, 16),
+                              layer_z=[0.5, 1.5, 2.25])
+        self.assertEqual((slicer.width, slicer.height, len(slicer)), (20, 16, 3))
+        self.assertEqual(slicer.pitch, (0.5, 0.5))
+        self.assertEqual(slicer.origin, (-0.75, -0.75))
+        self.assertEqual([layer.z for layer in slicer], [0.5, 1.5, 2.25])
+        self.assertEqual(slicer[0].inside_count, 16 * 12)
+        self.assertEqual(slicer[-1].index, 2)
+        self.assertEqual(slicer.output, "bits")
+        counted = model.slicer(pitch=(0.5, 1), layer_height=0.25, layer_count=7)
+        self.assertEqual((counted.width, counted.height, len(counted)), (16, 6, 7))
+        full = box_model().slicer(pitch=0.5, layer_height=0.5, length_scale=float("inf"))
+        self.assertEqual(full[0].inside_count, 16 * 12)
+
+    def test_ranges(self):
+        slicer = box_model().slicer(pitch=0.25, layer_height=0.25, slab_layers=3)
+        self.assertEqual([layer.index for layer in slicer.layers(5, 8)], list(range(5, 13)))
+        self.assertEqual(list(slicer.layers(16)), [])
+        seen = []
+        self.assertTrue(slicer.run(lambda layer: seen.append(layer.index), 14))
+        self.assertEqual(seen, [14, 15])
+        for bad in (lambda: slicer[16], lambda: slicer[-17], lambda: list(slicer.layers(17)),
+                    lambda: list(slicer.layers(3, 14)), lambda: slicer.run(print, -1)):
+            with self.assertRaisesRegex(IndexError, "there are 16 layers"):
+                bad()
+        with self.assertRaises(TypeError):
+            slicer[1.5]
+
+    def test_fills_the_given_array(self):
+        slicer = box_model().slicer(pitch=0.25, layer_height=0.25)
+        out = np.full((slicer.height, slicer.stride), 7, np.uint8)
+        layer = slicer.layer(5, out=out)
+        self.assertIs(layer.rows, out)
+        self.assertTrue(np.array_equal(out, slicer[5].rows))
+        with self.assertRaisesRegex(ValueError, "shape"):
+            slicer.layer(5, out=out[1:])
+
+    def test_iterators_know_nothing_of_each_other(self):
+        slicer = box_model().slicer(pitch=0.25, layer_height=0.25, slab_layers=4)
+        for one, other in zip(slicer, slicer.layers(1)):
+            self.assertEqual(one.index + 1, other.index)
+        for layer in slicer:
+            if layer.index == 5:
+                break  # leaves nothing behind
+        self.assertEqual(next(iter(slicer)).index, 0)
+
+
+class Callbacks(unittest.TestCase):
+    def setUp(self):
+        self.slicer = box_model().slicer(pitch=0.25, layer_height=0.25, slab_layers=4)
+
+    def test_stop_by_false(self):
+        seen = []
+
+        def take(layer):
+            seen.append(layer.index)
+            return layer.index < 6
+
+        self.assertFalse(self.slicer.run(take))
+        self.assertEqual(seen, list(range(7)))
+
+    def test_exceptions_are_raised_as_they_are(self):
+        class Own(Exception):
+            pass
+
+        def take(layer):
+            if layer.index == 5:
+                raise Own("at five")
+
+        names = []
+        try:
+            self.slicer.run(take)
+        except Own as error:
+            trace = error.__traceback__
+            while trace:
+                names.append(trace.tb_frame.f_code.co_name)
+                trace = trace.tb_next
+        self.assertIn("take", names)
+        for kind in (KeyboardInterrupt, SystemExit, StopIteration, msq.LimitError):
+            def fail(_layer, kind=kind):
+                raise kind("x")
+            with self.assertRaises(kind):
+                self.slicer.run(fail)
+
+    def test_may_call_msq(self):
+        inner = []
+
+        def take(layer):
+            inner.append(np.array_equal(self.slicer[layer.index].rows, layer.rows))
+            if layer.index == 2:
+                def fail(_layer):
+                    raise KeyError("inner")
+                with self.assertRaises(KeyError):
+                    self.slicer.run(fail)
+
+        self.assertTrue(self.slicer.run(take))
+        self.assertEqual(inner, [True] * 16)
+
+    def test_views_are_of_the_memory_of_c_and_may_not_be_kept(self):
+        kept = []
+        for keep in (lambda layer: layer, lambda layer: layer.rows,
+                     lambda layer: layer.data[1:, ::2]):
+            def take(layer, keep=keep):
+                self.assertFalse(layer.rows.flags.owndata or layer.rows.flags.writeable)
+                kept.append(keep(layer))
+            with self.assertRaisesRegex(BufferError, "layer 0 is kept"):
+                self.slicer.run(take)
+            kept.clear()
+        self.assertTrue(self.slicer.run(lambda layer: kept.append((layer.copy(), layer.pixels))))
+        self.assertTrue(np.array_equal(kept[3][0].rows, self.slicer[3].rows))
+
+
+if __name__ == "__main__":
+    unittest.main()
