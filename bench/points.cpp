@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "bench.h"
+#include "query/array_points.h"
 #include "query/point_groups.h"
 #include "structure/foam/point_set.h"
 
@@ -70,8 +71,8 @@ std::vector<double> random_points(size_t count) {
 void bench_grouping(bench::Report& report, int cells, const std::vector<double>& coordinates) {
   const msq::Executor executor(2);
   const size_t count = coordinates.size() / 3;
-  const msq::PointArray points{reinterpret_cast<const unsigned char*>(coordinates.data()), count,
-                               3 * sizeof(double), false};
+  const msq::ArrayPoints points(
+      {reinterpret_cast<const unsigned char*>(coordinates.data()), count, 3 * sizeof(double), false});
   constexpr size_t chunk = size_t{1} << 21;
   msq::Neighbourhood grid;
   for (int axis = 0; axis < 3; ++axis) grid.cell_size[axis] = 1.0 / cells;

@@ -178,6 +178,21 @@ MSQ_API msq_status msq_job_cancel(msq_job *job);
  * Errors: ARGUMENT. */
 MSQ_API msq_status msq_job_progress(const msq_job *job, double *fraction);
 
+typedef struct msq_job_report {
+  uint32_t struct_size;
+  uint32_t reserved;  /* 0 */
+  uint64_t points;    /* of a set query, answered */
+  uint64_t by_shape;  /* of these, answered by the coarse shape alone: outside it, or no finer scale resolved */
+  uint64_t by_point;  /* asked of structures one by one: counted once for each structure that is asked */
+  uint64_t by_set;    /* asked of structures in groups, likewise */
+  uint64_t groups;    /* into which by_set fell; of grids, tiles of rows */
+} msq_job_report;
+
+/* What answered the points of the last call under the job, a set query or statistic (0 for others),
+ * as far as it has come. Any thread. Errors: ARGUMENT.
+ * Source: paper, section "Structured and Unstructured Set Queries" (critical number of points). */
+MSQ_API msq_status msq_job_info(const msq_job *job, msq_job_report *report);
+
 /* ---- objects that the host defines ----------------------------------------- */
 
 /* Fields, shapes and structures may be functions of the host's own, which msq calls with batches of
@@ -789,18 +804,26 @@ MSQ_API msq_status msq_model_scale_length(const msq_model *model, uint32_t scale
 
 /* ---- queries ------------------------------------------------------------------------ */
 
+enum { /* how a structure is asked about the points of a set: the same answers, at different cost */
+  MSQ_QUERY_AUTO = 0,  /* by sets, and point by point where a group has few points */
+  MSQ_QUERY_POINT = 1, /* each point by itself */
+  MSQ_QUERY_SET = 2    /* groups of points that lie close together at once, however small */
+};
+
 typedef struct msq_query_def {
   uint32_t struct_size;
-  uint32_t reserved;   /* 0 */
+  int32_t method;      /* of msq_set_membership: MSQ_QUERY_*; default AUTO */
   double length_scale; /* scales whose characteristic length is at least this are resolved; finer
                           ones are taken as solid. 0 (default): all are resolved; infinity: the
                           coarse shape alone */
+  uint64_t critical_count; /* AUTO: points that a group must have at least to be asked as a set; 0
+                              (default): as measured for each kind of structure */
 } msq_query_def;
 
 /* Sets defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_query_def_init(msq_query_def *def, size_t size);
 
-enum { MSQ_POINTS_ARRAY = 1, MSQ_POINTS_GRID = 2 };
+enum { MSQ_POINTS_ARRAY = 1, MSQ_POINTS_GRID = 2, MSQ_POINTS_STRATIFIED = 3 };
 
 typedef struct msq_points_def {
   uint32_t struct_size;
@@ -815,10 +838,25 @@ typedef struct msq_points_def {
   double origin[3];
   double spacing[3];       /* > 0 */
   uint64_t counts[3];      /* nx, ny, nz, each 1 to 2^31 - 1 */
+  /* STRATIFIED: per_cell random points, uniform, in each cell of a box of nx * ny * nz cells. Cell
+     (i, j, k) has its corner at origin + rotation * ((i, j, k) * spacing) and measures spacing; its
+     point s has index s + per_cell * (i + nx * (j + ny * k)). Points follow from their index and the
+     seed alone, on every machine alike, and are never stored */
+  uint64_t seed;           /* any number picks another sample (default 0) */
+  uint32_t per_cell;       /* at least 1 (default); at least 2 for standard errors */
+  uint32_t reserved2;      /* 0 */
+  double rotation[9];      /* as in msq_neighbourhood (default identity) */
 } msq_points_def;
 
 /* Sets defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_points_def_init(msq_points_def *def, size_t size);
+
+/* Writes points first .. first + count - 1 of a set, of any kind, as count triples x, y, z into
+ * coordinates: the very numbers that queries of the set see. Cost: about 5 ns a point, on the calling
+ * thread; call for ranges from several threads for more. Errors: ARGUMENT (also points past the set's end).
+ * Source: paper, section "Structured and Unstructured Set Queries"; Steele, Lea and Flood 2014 (SplitMix64). */
+MSQ_API msq_status msq_points_generate(const msq_points_def *points, uint64_t first, uint64_t count,
+                                       double *coordinates);
 
 /* Membership of one point: *inside becomes 1 in the model or on its boundary (for meshes see
  * msq_shape_from_mesh), else 0. query NULL: defaults. This is the definition that all other paths agree with bit for bit
@@ -830,11 +868,12 @@ MSQ_API msq_status msq_point_membership(const msq_model *model, const double poi
 
 /* Membership of a set of points: inside[i] becomes 1 or 0 for point i. inside_count: length of that
  * array, which must be the number of points. query, job NULL: defaults, no job. Scale by scale, from
- * the coarsest; points that a scale answers are not asked of finer ones.
+ * the coarsest; points that a scale answers are not asked of finer ones (msq_job_info counts them).
  * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY inside may be partly written.
  * Cost: arrays as their points, each as in msq_point_membership but in parallel; in foams points are
  * grouped by cell first, whatever their order, and cost far less each. Memory for that: 6 bytes a
  * point, at most 15 MB; less where the memory limit leaves no room. Grids as slices, far less a point.
+ * Stratified samples come grouped as they are, and need no such memory.
  * Errors: ARGUMENT (also non-finite points, by index), CANCELLED, LIMIT, MEMORY.
  * Source: paper, section "Set-based queries". */
 MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_def *points,

@@ -83,6 +83,19 @@ msq_status msq_job_cancel(msq_job* job) {
   return guard([&] { object(job, "job").cancel(); });
 }
 
+msq_status msq_job_info(const msq_job* job, msq_job_report* report) {
+  return guard([&] {
+    const QueryCounts& counts = object(job, "job").counts();
+    msq_job_report known{};
+    known.points = counts.points;
+    known.by_shape = counts.by_shape;
+    known.by_point = counts.by_point;
+    known.by_set = counts.by_set;
+    known.groups = counts.groups;
+    write_report(report, known, "report");
+  });
+}
+
 msq_status msq_job_progress(const msq_job* job, double* fraction) {
   return guard([&] {
     const double now = object(job, "job").progress();

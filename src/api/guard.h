@@ -109,6 +109,10 @@ template <>
 inline constexpr size_t first_size<msq_foam_def> = offsetof(msq_foam_def, density);
 template <>
 inline constexpr size_t first_size<msq_lattice_def> = offsetof(msq_lattice_def, strut_factors);
+template <>
+inline constexpr size_t first_size<msq_query_def> = offsetof(msq_query_def, critical_count);
+template <>
+inline constexpr size_t first_size<msq_points_def> = offsetof(msq_points_def, seed);
 /// More is a struct_size that was never set.
 constexpr size_t most_size = 4096;
 

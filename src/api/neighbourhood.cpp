@@ -39,6 +39,24 @@ msq_neighbourhood neighbourhood_defaults() {
   return grid;
 }
 
+Rotation read_rotation(const double (&matrix)[9], const char* name) {
+  Rotation read;
+  for (size_t i = 0; i < 9; ++i) read.m[i] = require_finite(matrix[i], name);
+  const auto& m = read.m;
+  const Vec3 rows[3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) {
+      const double product = dot(rows[i], rows[j]), wanted = i == j;
+      if (!(std::abs(product - wanted) <= 1e-9))
+        fail(Status::argument,
+             "rows %d and %d of %s have product %.17g; a rotation has %g within 1e-9", i, j, name,
+             product, wanted);
+    }
+  if (dot(rows[0], cross(rows[1], rows[2])) < 0)
+    fail(Status::argument, "%s mirrors; its determinant must be +1", name);
+  return nearest_rotation(read);
+}
+
 Neighbourhood read_neighbourhood(const msq_neighbourhood& grid) {
   Neighbourhood read;
   read.origin = require_vector(grid.origin, "grid.origin");
@@ -49,21 +67,7 @@ Neighbourhood read_neighbourhood(const msq_neighbourhood& grid) {
            grid.cell_size[i]);
   }
   read.cell_size = {grid.cell_size[0], grid.cell_size[1], grid.cell_size[2]};
-  for (int i = 0; i < 9; ++i)
-    read.rotation.m[i] = require_finite(grid.rotation[i], "grid.rotation");
-  const auto& m = read.rotation.m;
-  const Vec3 rows[3] = {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}};
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) {
-      const double product = dot(rows[i], rows[j]), wanted = i == j;
-      if (!(std::abs(product - wanted) <= 1e-9))
-        fail(Status::argument,
-             "rows %d and %d of grid.rotation have product %.17g; a rotation has %g within 1e-9", i,
-             j, product, wanted);
-    }
-  if (dot(rows[0], cross(rows[1], rows[2])) < 0)
-    fail(Status::argument, "grid.rotation mirrors; its determinant must be +1");
-  read.rotation = nearest_rotation(read.rotation);
+  read.rotation = read_rotation(grid.rotation, "grid.rotation");
   return read;
 }
 

@@ -9,6 +9,9 @@ namespace msq::api {
 
 msq_neighbourhood neighbourhood_defaults();
 
+/// Throws Error(argument), which names the matrix, unless it is a rotation.
+Rotation read_rotation(const double (&matrix)[9], const char* name);
+
 /// Throws Error(argument) where the grid makes no sense.
 Neighbourhood read_neighbourhood(const msq_neighbourhood& grid);
 

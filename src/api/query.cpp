@@ -1,124 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <atomic>
-
-#include "api/guard.h"
+#include "api/points.h"
 #include "query/distance.h"
 #include "query/membership.h"
 
 using namespace msq;
 using namespace msq::api;
-
-namespace {
-
-msq_query_def query_defaults() {
-  return {};
-}
-
-msq_points_def points_defaults() {
-  msq_points_def def{};
-  def.kind = MSQ_POINTS_ARRAY;
-  def.coordinate_type = MSQ_FLOAT64;
-  return def;
-}
-
-double read_length_scale(const msq_query_def* query) {
-  const msq_query_def known = query ? read_def(query, query_defaults(), "query") : query_defaults();
-  require_reserved(known.reserved, "reserved");
-  if (!(known.length_scale >= 0))
-    fail(Status::argument, "length_scale is %g; it must not be negative", known.length_scale);
-  return known.length_scale;
-}
-
-void check_count(uint64_t count, const char* name, uint64_t points) {
-  if (count != points)
-    fail(Status::argument, "%s is %llu; there are %llu points", name,
-         static_cast<unsigned long long>(count), static_cast<unsigned long long>(points));
-}
-
-SampleGrid read_grid(const msq_points_def& def) {
-  SampleGrid grid;
-  grid.origin = require_vector(def.origin, "origin");
-  uint64_t counts[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    grid.spacing[axis] = require_positive(def.spacing[axis], "spacing");
-    counts[axis] = def.counts[axis];
-    if (counts[axis] < 1 || counts[axis] > INT32_MAX)
-      fail(Status::argument, "counts[%d] is %llu; it must be from 1 to %d", axis,
-           static_cast<unsigned long long>(counts[axis]), INT32_MAX);
-    const double last = static_cast<double>(counts[axis] - 1);
-    require_finite(grid.origin[axis] + last * grid.spacing[axis], "the last point's coordinate");
-    const double step = grid.spacing[axis], origin = grid.origin[axis];
-    if (last > 0 && (origin + step == origin || origin + last * step == origin + (last - 1) * step))
-      fail(Status::argument, "spacing[%d] is %g; points %g away from 0 would coincide", axis, step,
-           std::max(std::abs(origin), std::abs(origin + last * step)));
-  }
-  grid.nx = counts[0];
-  grid.ny = counts[1];
-  grid.nz = counts[2];
-  return grid;
-}
-
-/// Names the first point that is not finite.
-void check_finite(const PointArray& points, const Executor& executor) {
-  constexpr uint64_t run = 65536;
-  std::atomic<uint64_t> first{points.count};
-  executor.for_each((points.count + run - 1) / run, [&](uint64_t r) {
-    const uint64_t end = std::min(points.count, (r + 1) * run);
-    for (uint64_t i = r * run; i < end; ++i) {
-      if (is_finite(points.at(i))) continue;
-      uint64_t known = first.load();
-      while (i < known && !first.compare_exchange_weak(known, i)) {
-      }
-      return;
-    }
-  });
-  if (first == points.count) return;
-  const Vec3 p = points.at(first);
-  fail(Status::argument, "point %llu is (%g, %g, %g); it must be finite",
-       static_cast<unsigned long long>(first.load()), p.x, p.y, p.z);
-}
-
-/// Where a set's answers go.
-template <class Answer>
-struct Answers {
-  Answer* values;
-  const char* name;
-  uint64_t count;
-  const char* count_name;
-};
-
-/// Checks the points of a set query and passes them on: to of_array(model, resolved, PointArray,
-/// values, job) or of_grid(model, resolved, SampleGrid, values, job).
-template <class Answer, class OfArray, class OfGrid>
-void ask_set(const msq_model* model, const msq_points_def* points, const msq_query_def* query,
-             const Answers<Answer>& answers, msq_job* job, OfArray&& of_array, OfGrid&& of_grid) {
-  const Model& known = object(model, "model");
-  const Ref<const Model> keep(&known);  // callbacks may release the host's last reference
-  const msq_points_def def = read_def(points, points_defaults(), "points");
-  const auto resolved = known.resolved(read_length_scale(query));
-  Job* work = job ? &object(job, "job") : nullptr;
-  require_reserved(def.reserved, "reserved");
-  if (require_range(def.kind, MSQ_POINTS_ARRAY, MSQ_POINTS_GRID, "kind") == MSQ_POINTS_ARRAY) {
-    const PointArray array =
-        point_array(def.coordinates, def.count, def.stride, def.coordinate_type, "coordinates");
-    check_count(answers.count, answers.count_name, array.count);
-    if (array.count > 0) require(answers.values, answers.name);
-    check_finite(array, known.context().executor);
-    JobScope scope(work);
-    of_array(known, resolved, array, answers.values, work);
-    scope.done();
-  } else {
-    const SampleGrid grid = read_grid(def);
-    check_count(answers.count, answers.count_name,
-                checked_product(checked_product(grid.nx, grid.ny, "points"), grid.nz, "points"));
-    require(answers.values, answers.name);
-    JobScope scope(work);
-    of_grid(known, resolved, grid, answers.values, work);
-    scope.done();
-  }
-}
-
-}  // namespace
 
 msq_status msq_query_def_init(msq_query_def* def, size_t size) {
   return guard([&] { set_defaults(def, size, query_defaults(), "msq_query_def"); });
@@ -128,6 +14,28 @@ msq_status msq_points_def_init(msq_points_def* def, size_t size) {
   return guard([&] { set_defaults(def, size, points_defaults(), "msq_points_def"); });
 }
 
+msq_status msq_points_generate(const msq_points_def* points, uint64_t first, uint64_t count,
+                               double* coordinates) {
+  return guard([&] {
+    const std::unique_ptr<PointSet> set = read_points(points);
+    if (first > set->count() || count > set->count() - first)
+      fail(Status::argument, "points %llu to %llu + %llu are wanted; there are %llu",
+           static_cast<unsigned long long>(first), static_cast<unsigned long long>(first),
+           static_cast<unsigned long long>(count), static_cast<unsigned long long>(set->count()));
+    if (count == 0) return;
+    require(coordinates, "coordinates");
+    constexpr uint64_t at_once = 256;
+    Vec3 positions[at_once];
+    for (uint64_t done = 0; done < count; done += at_once) {
+      const uint64_t size = std::min(at_once, count - done);
+      set->read(first + done, size, positions);
+      for (uint64_t i = 0; i < size; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+          coordinates[3 * (done + i) + static_cast<uint64_t>(axis)] = positions[i][axis];
+    }
+  });
+}
+
 msq_status msq_point_membership(const msq_model* model, const double point[3],
                                 const msq_query_def* query, int32_t* inside) {
   return guard([&] {
@@ -135,7 +43,7 @@ msq_status msq_point_membership(const msq_model* model, const double point[3],
     const Ref<const Model> keep(&known);
     const Vec3 p = require_vector(point, "point");
     require(inside, "inside");
-    *inside = known.inside(p, known.resolved(read_length_scale(query)));
+    *inside = known.inside(p, known.resolved(read_query(query).length_scale));
   });
 }
 
@@ -143,8 +51,8 @@ msq_status msq_set_membership(const msq_model* model, const msq_points_def* poin
                               const msq_query_def* query, uint8_t* inside, uint64_t inside_count,
                               msq_job* job) {
   return guard([&] {
-    ask_set(model, points, query, Answers<uint8_t>{inside, "inside", inside_count, "inside_count"},
-            job, array_membership, grid_membership);
+    ask_set(model, points, query, inside, "inside", inside_count, "inside_count", job,
+            set_membership);
   });
 }
 
@@ -155,7 +63,7 @@ msq_status msq_point_distance(const msq_model* model, const double point[3],
     const Ref<const Model> keep(&known);
     const Vec3 p = require_vector(point, "point");
     require(distance, "distance");
-    *distance = known.distance(p, known.resolved(read_length_scale(query)));
+    *distance = known.distance(p, known.resolved(read_query(query).length_scale));
   });
 }
 
@@ -163,8 +71,8 @@ msq_status msq_set_distance(const msq_model* model, const msq_points_def* points
                             const msq_query_def* query, double* distance, uint64_t distance_count,
                             msq_job* job) {
   return guard([&] {
-    ask_set(model, points, query,
-            Answers<double>{distance, "distance", distance_count, "distance_count"}, job,
-            array_distance, grid_distance);
+    ask_set(model, points, query, distance, "distance", distance_count, "distance_count", job,
+            [](const Model& known, const Scales& resolved, const PointSet& set, const QueryPlan&,
+               double* values, Job* work) { set_distance(known, resolved, set, values, work); });
   });
 }

@@ -3,11 +3,30 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 
 #include "base/ref.h"
 #include "base/status.h"
 
 namespace msq {
+
+/// What answered the points of a set query. Any thread adds to it.
+struct QueryCounts {
+  std::atomic<uint64_t> points{0};    ///< answered
+  std::atomic<uint64_t> by_shape{0};  ///< of these, by the coarse shape alone
+  /// Asked of structures, one by one and in groups: one for each point and structure.
+  std::atomic<uint64_t> by_point{0}, by_set{0};
+  std::atomic<uint64_t> groups{0};
+
+  void add_group(uint64_t living) {
+    by_set += living;
+    ++groups;
+  }
+  void clear() {
+    for (std::atomic<uint64_t>* count : {&points, &by_shape, &by_point, &by_set, &groups})
+      *count = 0;
+  }
+};
 
 class Job : public RefCounted {
  public:
@@ -26,12 +45,16 @@ class Job : public RefCounted {
     while (now < fraction && !progress_.compare_exchange_weak(now, fraction)) {
     }
   }
+  /// Of the last call.
+  QueryCounts& counts() { return counts_; }
+  const QueryCounts& counts() const { return counts_; }
   double progress() const { return progress_.load(std::memory_order_relaxed); }
 
  private:
   const Job* parent_ = nullptr;
   std::atomic<bool> cancelled_{false};
   std::atomic<double> progress_{0.0};
+  QueryCounts counts_;
 };
 
 /// Marks a call's begin and its successful end in a job, which may be null.
@@ -53,7 +76,10 @@ inline void check_cancelled(const Job* job) {
 }
 
 inline JobScope::JobScope(Job* job) : job_(job) {
-  if (job_) job_->set_progress(0);
+  if (job_) {
+    job_->set_progress(0);
+    job_->counts().clear();
+  }
   check_cancelled(job_);
 }
 

@@ -5,40 +5,25 @@
 
 namespace msq {
 
-namespace {
-
-/// Calls fill(first, end) for chunks of [0, count): milliseconds of work each, so that a cancelled
-/// job ends soon.
-template <class Fill>
-void for_chunks(const Model& model, uint64_t count, Job* job, Fill&& fill) {
-  constexpr uint64_t chunk = 1024;
+void set_distance(const Model& model, const Scales& resolved, const PointSet& points,
+                  double* distance, Job* job) {
   // Here, and not on a worker while the others wait.
-  if (count > 0) model.shape().prepare_distance();
-  const uint64_t chunks = count / chunk + (count % chunk != 0);
+  if (points.count() > 0) model.shape().prepare_distance();
+  const uint64_t parts = points.parts();
   std::atomic<uint64_t> done{0};
-  model.executor().for_each(chunks, [&](uint64_t c) {
-    check_cancelled(job);
-    fill(c * chunk, std::min(count, (c + 1) * chunk));
+  model.executor().for_each(parts, [&](uint64_t index) {
+    PointSet::Part part;
+    points.read_part(index, part);
+    for (size_t i = 0; i < part.numbers.size(); ++i) {
+      // Few at a time, milliseconds of work, so that a cancelled job ends soon.
+      if (i % 1024 == 0) check_cancelled(job);
+      distance[part.numbers[i]] = model.distance(part.positions[i], resolved);
+    }
     const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
-    if (job) job->raise_progress(static_cast<double>(now) / static_cast<double>(chunks));
-  });
-}
-
-}  // namespace
-
-void array_distance(const Model& model, const Scales& resolved, const PointArray& points,
-                    double* distance, Job* job) {
-  for_chunks(model, points.count, job, [&](uint64_t first, uint64_t end) {
-    for (uint64_t i = first; i < end; ++i) distance[i] = model.distance(points.at(i), resolved);
-  });
-}
-
-void grid_distance(const Model& model, const Scales& resolved, const SampleGrid& grid,
-                   double* distance, Job* job) {
-  const uint64_t row = grid.nx, layer = grid.nx * grid.ny;
-  for_chunks(model, layer * grid.nz, job, [&](uint64_t first, uint64_t end) {
-    for (uint64_t i = first; i < end; ++i)
-      distance[i] = model.distance(grid.at(i % row, i / row % grid.ny, i / layer), resolved);
+    if (!job) return;
+    job->counts().points += part.numbers.size();
+    job->counts().by_point += part.numbers.size();
+    job->raise_progress(static_cast<double>(now) / static_cast<double>(parts));
   });
 }
 

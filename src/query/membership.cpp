@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "query/membership.h"
 
+#include <bit>
 #include <cstring>
 
 #include "base/memory.h"
@@ -21,6 +22,16 @@ uint64_t tile_rows(const SampleGrid& grid, uint64_t layers, unsigned threads) {
                               std::max(least_tile_rows, grid.ny));
 }
 
+/// Bits that are set.
+uint64_t samples_of(const RowBlock& block) {
+  uint64_t samples = 0;
+  for (uint64_t k = block.z0; k < block.z1; ++k)
+    for (uint64_t j = block.y0; j < block.y1; ++j)
+      for (size_t w = 0; w < block.row_words(); ++w)
+        samples += static_cast<uint64_t>(std::popcount(block.row(j, k)[w]));
+  return samples;
+}
+
 }  // namespace
 
 uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, const SampleGrid& grid,
@@ -35,7 +46,7 @@ uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, con
 }
 
 void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
-               uint64_t z1, uint64_t* words, const Job* job) {
+               uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts) {
   const size_t row_words = words_for(grid.nx);
   RowBlock slab;
   slab.grid = &grid;
@@ -57,6 +68,11 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
     block.words = slab.row(0, block.z0);
     std::memset(block.words, 0, slab.layer_stride * sizeof(uint64_t));
     model.shape().fill_rows(block);
+    if (counts) {
+      const uint64_t points = grid.nx * grid.ny;
+      counts->points += points;
+      counts->by_shape += resolved.empty() ? points : points - samples_of(block);
+    }
   });
   if (resolved.empty()) return;
 
@@ -73,7 +89,10 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
     block.z0 = z0 + tile / across * tile_layers;
     block.z1 = std::min(z1, block.z0 + tile_layers);
     block.words = slab.row(block.y0, block.z0);
-    for (const Scale* scale : resolved) scale->keep_rows(block, job);
+    for (const Scale* scale : resolved) {
+      if (const uint64_t living = counts ? samples_of(block) : 0) counts->add_group(living);
+      scale->keep_rows(block, job);
+    }
   });
 }
 
@@ -92,7 +111,7 @@ void grid_membership(const Model& model, const Scales& resolved, const SampleGri
   std::vector<uint64_t> words(slab_layers * layer_words);
   for (uint64_t z0 = 0; z0 < grid.nz; z0 += slab_layers) {
     const uint64_t z1 = std::min(grid.nz, z0 + slab_layers);
-    fill_slab(model, resolved, grid, z0, z1, words.data(), job);
+    fill_slab(model, resolved, grid, z0, z1, words.data(), job, job ? &job->counts() : nullptr);
     model.executor().for_each((z1 - z0) * grid.ny, [&](uint64_t r) {
       const uint64_t* row = words.data() + r * row_words;
       uint8_t* out = inside + (z0 * grid.ny + r) * grid.nx;

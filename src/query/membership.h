@@ -8,24 +8,25 @@
 #include "base/job.h"
 #include "base/sample_grid.h"
 #include "model/model.h"
-#include "query/point_array.h"
+#include "query/ask_group.h"
+#include "query/point_set.h"
 
 namespace msq {
 
 /// Bits of layers [z0, z1) of a grid, rows tightly packed in words_for(nx) words; `words` is
 /// overwritten. The whole of a layer at a time, in parallel.
 void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
-               uint64_t z1, uint64_t* words, const Job* job);
+               uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts = nullptr);
 
 /// Words of working memory that fill_slab takes beyond its output, for slabs of so many layers.
 uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, const SampleGrid& grid,
                                  uint64_t layers);
 
 /// inside[i] becomes 0 or 1. All points must be finite.
-void array_membership(const Model& model, const Scales& resolved, const PointArray& points,
-                      uint8_t* inside, Job* job);
+void set_membership(const Model& model, const Scales& resolved, const PointSet& points,
+                    const QueryPlan& plan, uint8_t* inside, Job* job);
 
-/// inside[i + nx (j + ny k)] becomes 0 or 1.
+/// The same for a grid, by rows.
 void grid_membership(const Model& model, const Scales& resolved, const SampleGrid& grid,
                      uint8_t* inside, Job* job);
 

@@ -67,9 +67,8 @@ uint64_t PointGroups::bytes(uint64_t most) {
          (most_boxes + most / most_in_group) * sizeof(Group);
 }
 
-void PointGroups::group(const Executor& executor, const Neighbourhood& grid,
-                        const PointArray& points, uint64_t first, uint64_t count,
-                        const uint8_t* alive, const Job* job) {
+void PointGroups::group(const Executor& executor, const Neighbourhood& grid, const PointSet& points,
+                        uint64_t first, uint64_t count, const uint8_t* alive, const Job* job) {
   groups_.clear();
   const uint64_t slices = slices_of(count);
   const auto for_each_slice = [&](auto&& work) {
@@ -79,6 +78,18 @@ void PointGroups::group(const Executor& executor, const Neighbourhood& grid,
     });
   };
 
+  // Calls visit(i, position) for the points alive of a slice.
+  const auto for_each_alive = [&](uint64_t begin, uint64_t end, auto&& visit) {
+    constexpr uint64_t read_at_once = 256;
+    Vec3 positions[read_at_once];
+    for (uint64_t i = begin; i < end; i += read_at_once) {
+      const uint64_t size = std::min(read_at_once, end - i);
+      points.read(first + i, size, positions);
+      for (uint64_t p = 0; p < size; ++p)
+        if (alive[i + p]) visit(i + p, positions[p]);
+    }
+  };
+
   struct Extent {
     Box3 box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
     uint64_t points = 0;
@@ -86,13 +97,12 @@ void PointGroups::group(const Executor& executor, const Neighbourhood& grid,
   std::vector<Extent> extents(slices);
   for_each_slice([&](uint64_t s, uint64_t begin, uint64_t end) {
     Extent extent;
-    for (uint64_t i = begin; i < end; ++i) {
-      if (!alive[i]) continue;
-      const Vec3 g = grid.to_grid(points.at(first + i));
+    for_each_alive(begin, end, [&](uint64_t, Vec3 p) {
+      const Vec3 g = grid.to_grid(p);
       extent.box.min = min(extent.box.min, g);
       extent.box.max = max(extent.box.max, g);
       ++extent.points;
-    }
+    });
     extents[s] = extent;
   });
   Extent all;
@@ -107,12 +117,12 @@ void PointGroups::group(const Executor& executor, const Neighbourhood& grid,
   for_each_slice([&](uint64_t s, uint64_t begin, uint64_t end) {
     uint32_t* counts = counts_.data() + s * most_boxes;
     std::fill(counts, counts + boxes.count(), 0);
-    for (uint64_t i = begin; i < end; ++i) {
-      box_[i] = no_box;
-      if (!alive[i]) continue;
-      box_[i] = static_cast<uint16_t>(boxes.number(points.at(first + i)));
+    std::fill(box_.begin() + static_cast<ptrdiff_t>(begin),
+              box_.begin() + static_cast<ptrdiff_t>(end), no_box);
+    for_each_alive(begin, end, [&](uint64_t i, Vec3 p) {
+      box_[i] = static_cast<uint16_t>(boxes.number(p));
       ++counts[box_[i]];
-    }
+    });
   });
 
   uint32_t start = 0;

@@ -10,7 +10,7 @@
 #include "base/job.h"
 #include "base/parallel.h"
 #include "cell/neighbourhood.h"
-#include "query/point_array.h"
+#include "query/point_set.h"
 
 namespace msq {
 
@@ -21,7 +21,7 @@ class PointGroups {
   static uint64_t bytes(uint64_t most);
 
   /// Groups the points first ... first + count - 1 that have alive[i] != 0, i counted from first.
-  void group(const Executor& executor, const Neighbourhood& grid, const PointArray& points,
+  void group(const Executor& executor, const Neighbourhood& grid, const PointSet& points,
              uint64_t first, uint64_t count, const uint8_t* alive, const Job* job);
 
   /// How many groups there are, of points that are close to each other, and the points of one, as

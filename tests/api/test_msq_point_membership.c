@@ -18,14 +18,15 @@ static msq_status ask(void* env, void* def) {
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
-  check_def_init(init_query_def, sizeof(msq_query_def));
+  check_grown_def_init(init_query_def, offsetof(msq_query_def, critical_count), sizeof(msq_query_def));
 }
 
 static void defaults_are_those_of_the_header(void** state) {
   msq_query_def def;
   (void)state;
   assert_ok(msq_query_def_init(&def, sizeof def));
-  assert_int_equal(def.reserved, 0);
+  assert_int_equal(def.method, MSQ_QUERY_AUTO);
+  assert_int_equal(def.critical_count, 0);
   assert_true(def.length_scale == 0);
 }
 
@@ -35,7 +36,7 @@ static void query_honours_every_struct_size(void** state) {
   msq_query_def def;
   (void)state;
   assert_ok(msq_query_def_init(&def, sizeof def));
-  check_def_sizes(&def, sizeof def, ask, model);
+  check_grown_def_sizes(&def, offsetof(msq_query_def, critical_count), sizeof def, ask, model);
   msq_model_release(model);
   msq_context_release(context);
 }
@@ -132,8 +133,8 @@ static void wrong_queries_are_refused(void** state) {
     assert_message_has(texts[i]);
   }
   assert_ok(msq_query_def_init(&def, sizeof def));
-  def.reserved = 3;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "reserved is 3");
+  def.method = 3;
+  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "method is 3");
   msq_model_release(model);
   msq_context_release(context);
 }

@@ -33,7 +33,7 @@ static msq_status ask(void* env, void* def) {
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
-  check_def_init(init_points_def, sizeof(msq_points_def));
+  check_grown_def_init(init_points_def, offsetof(msq_points_def, seed), sizeof(msq_points_def));
 }
 
 static void defaults_are_those_of_the_header(void** state) {
@@ -51,7 +51,7 @@ static void query_honours_every_struct_size(void** state) {
   msq_model* model = make_lattice_model(context);
   const msq_points_def def = array_of(few_points(), few);
   (void)state;
-  check_def_sizes(&def, sizeof def, ask, model);
+  check_grown_def_sizes(&def, offsetof(msq_points_def, seed), sizeof def, ask, model);
   msq_model_release(model);
   msq_context_release(context);
 }
@@ -281,7 +281,7 @@ static void null_arguments_are_refused(void** state) {
 }
 
 static void unknown_numbers_are_refused(void** state) {
-  const int32_t refused[] = {-1, 0, 3};
+  const int32_t refused[] = {-1, 0, 4};
   msq_context* context = make_context();
   msq_model* model = make_lattice_model(context);
   (void)state;
@@ -291,6 +291,7 @@ static void unknown_numbers_are_refused(void** state) {
     def.kind = refused[i];
     snprintf(text, sizeof text, "kind is %d;", (int)refused[i]);
     assert_refused(ask(model, &def), MSQ_E_ARGUMENT, text);
+    assert_message_has("from 1 to 3");
     def = array_of(few_points(), few);
     def.coordinate_type = refused[i];
     snprintf(text, sizeof text, "coordinate_type is %d;", (int)refused[i]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "query/array_points.h"
 #include "query/membership.h"
 #include "random.h"
 #include "shape/primitive.h"
@@ -162,7 +163,7 @@ struct ArrayModel {
   }
   std::vector<uint8_t> ask(const PointArray& array) const {
     std::vector<uint8_t> inside(array.count + 1, 7);
-    array_membership(*model, resolved, array, inside.data(), nullptr);
+    set_membership(*model, resolved, ArrayPoints(array), {}, inside.data(), nullptr);
     assert_int_equal(inside.back(), 7);
     inside.pop_back();
     return inside;
@@ -256,7 +257,8 @@ void any_spread_is_answered(void**) {
   for (size_t i = 0; i < test_count(20000); ++i)
     points.push_back(random.in_box({{-1e6, -1e6, -1e6}, {1e6, 1e6, 1e6}}));
   std::vector<uint8_t> inside(points.size());
-  array_membership(*wide, wide->resolved(0), ArrayModel::array_of(points), inside.data(), nullptr);
+  set_membership(*wide, wide->resolved(0), ArrayPoints(ArrayModel::array_of(points)), {},
+                 inside.data(), nullptr);
   for (size_t i = 0; i < points.size(); ++i)
     assert_int_equal(inside[i], wide->inside(points[i], wide->resolved(0)));
 }

@@ -7,6 +7,7 @@
 #include "expression/parser.h"
 #include "field/gradient.h"
 #include "meshes.h"
+#include "query/array_points.h"
 #include "query/membership.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
@@ -210,7 +211,7 @@ void test_queries(void** state) {
       points[i] = grid.at(other(i) % grid.nx, other(i) / grid.nx, k);
     const PointArray array{reinterpret_cast<const unsigned char*>(points.data()), layer,
                            sizeof(Vec3), false};
-    array_membership(*model, resolved, array, alone.data(), nullptr);
+    set_membership(*model, resolved, ArrayPoints(array), {}, alone.data(), nullptr);
     for (uint64_t i = 0; i < layer; ++i) {
       held += alone[i];
       assert_int_equal(alone[i], sliced[k * layer + other(i)]);
