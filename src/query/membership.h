@@ -26,7 +26,11 @@ uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, con
 void set_membership(const Model& model, const Scales& resolved, const PointSet& points,
                     const QueryPlan& plan, uint8_t* inside, Job* job);
 
-/// The same for a grid, by rows.
+/// The same for some points on the calling thread; `inside` is overwritten.
+void ask_points(const Model& model, const Scales& resolved, const QueryPlan& plan,
+                const Vec3* points, uint8_t* inside, size_t count, Job* job);
+
+/// Of all points of a grid, by rows.
 void grid_membership(const Model& model, const Scales& resolved, const SampleGrid& grid,
                      uint8_t* inside, Job* job);
 

@@ -71,9 +71,7 @@ void ask_by_parts(const Model& model, const Scales& resolved, const PointSet& po
     points.read_part(index, part);
     const size_t count = part.positions.size();
     std::vector<uint8_t> alive(count);
-    ask_shape(model, !resolved.empty(), part.positions.data(), alive.data(), count, job);
-    for (const Scale* scale : resolved)
-      ask_group(*scale, plan, part.positions.data(), alive.data(), count, job);
+    ask_points(model, resolved, plan, part.positions.data(), alive.data(), count, job);
     for (size_t i = 0; i < count; ++i) inside[part.numbers[i]] = alive[i];
   });
 }
@@ -124,6 +122,12 @@ void ask_by_groups(const Model& model, const Scales& resolved, const PointSet& p
 }
 
 }  // namespace
+
+void ask_points(const Model& model, const Scales& resolved, const QueryPlan& plan,
+                const Vec3* points, uint8_t* inside, size_t count, Job* job) {
+  ask_shape(model, !resolved.empty(), points, inside, count, job);
+  for (const Scale* scale : resolved) ask_group(*scale, plan, points, inside, count, job);
+}
 
 void set_membership(const Model& model, const Scales& resolved, const PointSet& points,
                     const QueryPlan& plan, uint8_t* inside, Job* job) {

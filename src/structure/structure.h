@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "base/job.h"
 #include "base/ref.h"
@@ -39,6 +40,17 @@ class Structure : public RefCounted {
   /// for that rounding it differs between two points by no more than their distance. A kind says
   /// where its bound is exact. With no bound the answer is 0, which is always right.
   virtual double clearance(Vec3) const { return 0; }
+
+  /// Whether onset() is known.
+  virtual bool has_onset() const { return false; }
+  /// The least value of the parameter, radius or level, at which p is inside, were it the same
+  /// everywhere; infinity where there is none, or where it is above onset_limit(). The comparison
+  /// with the parameter is inside(p) but for rounding, 1e-9 of a cell at most.
+  virtual double onset(Vec3) const { return std::numeric_limits<double>::infinity(); }
+  /// The greatest value that the parameter may have.
+  virtual double onset_limit() const { return std::numeric_limits<double>::infinity(); }
+  /// Whether every cell is like every other, but for what fields do.
+  virtual bool is_periodic() const { return false; }
 
   /// Sets alive[i] to 0 where points[i] is outside; looks only at points with alive[i] != 0, which
   /// are 1. Fewer than 2^32 points, in any order.

@@ -39,13 +39,17 @@ bool Foam::inside(Vec3 p) const {
   return inside(neighbourhood().locate(p), p);
 }
 
-double Foam::clearance(Vec3 p) const {
+double Foam::onset(Vec3 p) const {
   const Neighbourhood::Located located = neighbourhood().locate(p);
   const Vec3 q = located.fraction * seeds_.scale();
-  const double onset = unit_ * (graded_ ? graded_onset(graded_, located.cell, q)
-                                        : foam_onset(seeds_, located.cell, q));
-  const double slack = onset_slack * unit_ + locating_slack(p - neighbourhood().origin, onset);
-  return strut_clearance(onset, slack, radius_, p);
+  return unit_ * (graded_ ? graded_onset(graded_, located.cell, q)
+                          : foam_onset(seeds_, located.cell, q));
+}
+
+double Foam::clearance(Vec3 p) const {
+  const double axis = onset(p);
+  const double slack = onset_slack * unit_ + locating_slack(p - neighbourhood().origin, axis);
+  return strut_clearance(axis, slack, radius_, p);
 }
 
 void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {

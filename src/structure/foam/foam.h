@@ -36,6 +36,9 @@ class Foam final : public Structure {
   void keep_rows(const RowBlock& block, const Job* job) const override;
   /// Exact outside where the radius is constant.
   double clearance(Vec3 p) const override;
+  bool has_onset() const override { return true; }
+  double onset(Vec3 p) const override;
+  double onset_limit() const override { return min_component(neighbourhood().cell_size); }
 
   /// One in each cell; those of the foam unless it is graded.
   const FoamSeeds& seeds() const { return seeds_; }

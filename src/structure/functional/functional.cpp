@@ -75,10 +75,19 @@ const Functional::Prepared& Functional::prepared() const {
   return *prepared_;
 }
 
-bool Functional::inside(Vec3 p) const {
+double Functional::value(Vec3 p) const {
   const Vec3 fraction = neighbourhood().locate(p).fraction;
   const Vec3 angles{angle_of(fraction.x), angle_of(fraction.y), angle_of(fraction.z)};
-  return evaluate(onset_, angles) <= level_.at(p);
+  return evaluate(onset_, angles);
+}
+
+double Functional::onset(Vec3 p) const {
+  const double onset = value(p);
+  return std::isnan(onset) ? std::numeric_limits<double>::infinity() : onset;
+}
+
+bool Functional::inside(Vec3 p) const {
+  return value(p) <= level_.at(p);
 }
 
 double Functional::clearance(Vec3 p) const {

@@ -37,6 +37,9 @@ class Functional final : public Structure {
   double clearance(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  bool has_onset() const override { return true; }
+  double onset(Vec3 p) const override;
+  bool is_periodic() const override { return true; }
 
   const Tape& onset() const { return onset_; }
   const Program& program() const { return program_; }
@@ -59,6 +62,8 @@ class Functional final : public Structure {
     std::vector<RowPlan> row_plans;
   };
   const Prepared& prepared() const;
+  /// Of the onset's tape.
+  double value(Vec3 p) const;
 
   Parameter level_;
   Tape onset_;

@@ -66,6 +66,17 @@ double Lattice::clearance(Vec3 p) const {
   return factored_clearance(gap, r, most_factor_, slack, radius_.lipschitz());
 }
 
+double Lattice::onset_limit() const {
+  return most_radius * min_component(neighbourhood().cell_size) / most_factor_;
+}
+
+double Lattice::onset(Vec3 p) const {
+  const Vec3 size = neighbourhood().cell_size;
+  const StrutOnsets& onsets = onsets_.get(
+      [&] { return std::make_unique<StrutOnsets>(struts_, size, onset_limit()); });
+  return onsets.onset(neighbourhood().locate(p).fraction * size);
+}
+
 void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
   const Neighbourhood& grid = neighbourhood();
   StrutRows rows(block, grid, radius_, 1e-9 * most_factor_ * radius_.range().high, most_factor_);

@@ -8,6 +8,7 @@
 #include "base/lazy.h"
 #include "field/field.h"
 #include "structure/lattice/nearest_struts.h"
+#include "structure/lattice/strut_onsets.h"
 #include "structure/lattice/unit_cell.h"
 #include "structure/structure.h"
 #include "strut/segment.h"
@@ -24,6 +25,13 @@ class Lattice final : public Structure {
   /// Exact outside where the radius is constant and the cell sizes differ by no more than 8 times
   /// (4 times where factors differ).
   double clearance(Vec3 p) const override;
+  bool has_onset() const override { return true; }
+  double onset(Vec3 p) const override;
+  double onset_limit() const override;
+  bool is_periodic() const override { return true; }
+
+  /// The greatest radius of a strut, in the smallest cell sizes.
+  static constexpr double most_radius = 4;
 
  private:
   Parameter radius_;
@@ -32,6 +40,7 @@ class Lattice final : public Structure {
   Box3 reach_;                      // of all of them
   std::vector<LatticeStrut> near_;  // those of the tiling that may reach a cell, from its corner
   Lazy<NearestStruts> nearest_;
+  Lazy<StrutOnsets> onsets_;
 };
 
 }  // namespace msq
