@@ -60,6 +60,20 @@ class Report {
     std::fflush(stdout);
     json_["notes"].push_back({{"what", what}, {"value", value}, {"unit", unit}});
   }
+  /// A note that an issue of the project sets a mark for.
+  void mark(const std::string& what, double value, const std::string& unit, double target,
+            bool at_least) {
+    const bool is_met = at_least ? value >= target : value <= target;
+    std::printf("%-64s %12.4g %s (to reach: %s %g: %s)\n", what.c_str(), value, unit.c_str(),
+                at_least ? "at least" : "at most", target, is_met ? "met" : "not met");
+    std::fflush(stdout);
+    json_["marks"].push_back({{"what", what},
+                              {"value", value},
+                              {"unit", unit},
+                              {"target", target},
+                              {"at_least", at_least},
+                              {"met", is_met}});
+  }
   void write(int count, char** arguments) const {
     if (count > 1) std::ofstream(arguments[1]) << json_.dump(2) << '\n';
   }

@@ -2,7 +2,8 @@
 // Foams asked point by point: sets of random points in no order, and grids of few samples a cell.
 // r = 0.1 cell, in the unit cube, two threads.
 //
-// usage: points [results.json] [millions of points, default 10]
+// usage: points [results.json] [millions of points, default 10] [0: sets alone]
+#include <cmath>
 #include <cstdlib>
 #include <ctime>
 #include <string>
@@ -71,8 +72,8 @@ std::vector<double> random_points(size_t count) {
 void bench_grouping(bench::Report& report, int cells, const std::vector<double>& coordinates) {
   const msq::Executor executor(2);
   const size_t count = coordinates.size() / 3;
-  const msq::ArrayPoints points(
-      {reinterpret_cast<const unsigned char*>(coordinates.data()), count, 3 * sizeof(double), false});
+  const msq::ArrayPoints points({reinterpret_cast<const unsigned char*>(coordinates.data()), count,
+                                 3 * sizeof(double), false});
   constexpr size_t chunk = size_t{1} << 21;
   msq::Neighbourhood grid;
   for (int axis = 0; axis < 3; ++axis) grid.cell_size[axis] = 1.0 / cells;
@@ -85,28 +86,69 @@ void bench_grouping(bench::Report& report, int cells, const std::vector<double>&
   };
   const double seconds = bench::median_seconds(group_all);
   report.add("  grouping alone", seconds, static_cast<double>(count), "point");
+  report.mark("  grouping", static_cast<double>(count) / seconds / 1e6, "million points / s", 50,
+              true);
   report.note("  processor time of all threads",
               processor_seconds(group_all) / static_cast<double>(count) * 1e9, "ns / point");
 }
 
-void bench_array(bench::Report& report, int cells, const std::vector<double>& coordinates) {
-  const size_t count = coordinates.size() / 3;
-  const Foam foam = make_foam(cells, MSQ_FOAM_DIRECT);
+msq_points_def array_of(const std::vector<double>& coordinates, size_t count) {
   msq_points_def points;
   bench::check(msq_points_def_init(&points, sizeof points));
   points.coordinates = coordinates.data();
   points.count = count;
+  return points;
+}
+
+/// Median seconds of a set query.
+double set_seconds(const Foam& foam, const msq_points_def& points, int32_t method,
+                   uint32_t group_parts, std::vector<uint8_t>& inside, msq_job* job = nullptr) {
+  msq_query_def query;
+  bench::check(msq_query_def_init(&query, sizeof query));
+  query.method = method;
+  query.group_parts = group_parts;
+  return bench::median_seconds([&] {
+    bench::check(
+        msq_set_membership(foam.model, &points, &query, inside.data(), inside.size(), job));
+  });
+}
+
+/// The paper's point query, each point by itself: nanoseconds a point.
+double paper_nanoseconds(int cells, const std::vector<double>& coordinates) {
+  const size_t count = 2000;
+  const Foam foam = make_foam(cells, MSQ_FOAM_POINT);
   std::vector<uint8_t> inside(count);
+  const double seconds = set_seconds(foam, array_of(coordinates, count), MSQ_QUERY_SET, 0, inside);
+  release(foam);
+  return seconds / static_cast<double>(count) * 1e9;
+}
+
+void bench_array(bench::Report& report, int cells, const std::vector<double>& coordinates) {
+  const size_t count = coordinates.size() / 3;
+  const double points_in_all = static_cast<double>(count);
+  const std::string name = std::to_string(cells) + "^3 cells";
+  const Foam foam = make_foam(cells, MSQ_FOAM_DIRECT);
+  std::vector<uint8_t> inside(count);
+  const msq_points_def points = array_of(coordinates, count);
   const auto ask_set = [&] {
     bench::check(
         msq_set_membership(foam.model, &points, nullptr, inside.data(), inside.size(), nullptr));
   };
   const double set = bench::median_seconds(ask_set);
-  report.add("set of random points, " + std::to_string(cells) + "^3 cells", set,
-             static_cast<double>(count), "point");
-  report.note("  processor time of all threads",
-              processor_seconds(ask_set) / static_cast<double>(count) * 1e9, "ns / point");
+  report.add("set of random points, " + name, set, points_in_all, "point");
+  report.note("  processor time of all threads", processor_seconds(ask_set) / points_in_all * 1e9,
+              "ns / point");
+  msq_memory_report memory{};
+  memory.struct_size = sizeof memory;
+  bench::check(msq_context_memory(foam.context, &memory));
+  report.mark("  memory beyond the host's arrays",
+              static_cast<double>(memory.peak_bytes) / points_in_all, "bytes / point", 12, false);
   bench_grouping(report, cells, coordinates);
+  for (uint32_t parts : {1u, 4u}) {
+    const double seconds = set_seconds(foam, points, MSQ_QUERY_SET, parts, inside);
+    report.add("  grouped by " + std::to_string(parts) + "^3 parts of a cell", seconds,
+               points_in_all, "point");
+  }
 
   const size_t sample = std::min<size_t>(count, 200000);
   size_t differ = 0;
@@ -117,15 +159,52 @@ void bench_array(bench::Report& report, int cells, const std::vector<double>& co
       differ += answer != inside[i];
     }
   });
-  report.add("  one by one, one thread", alone, static_cast<double>(sample), "point");
-  report.note("  set against one by one",
-              alone / static_cast<double>(sample) / (set / static_cast<double>(count)),
-              "times faster");
+  report.add("  one by one, msq_point_membership, one thread", alone, static_cast<double>(sample),
+             "point");
   report.note("  answers that differ", static_cast<double>(differ), "");
-  msq_memory_report memory{};
-  memory.struct_size = sizeof memory;
-  bench::check(msq_context_memory(foam.context, &memory));
-  report.note("  peak memory", static_cast<double>(memory.peak_bytes) / 1e6, "MB");
+  std::vector<uint8_t> some(std::min<size_t>(count, 2000000));
+  const double by_point =
+      set_seconds(foam, array_of(coordinates, some.size()), MSQ_QUERY_POINT, 0, some);
+  report.add("  the set by MSQ_QUERY_POINT, two threads", by_point,
+             static_cast<double>(some.size()), "point");
+  const double paper = paper_nanoseconds(cells, coordinates);
+  report.note("  the paper's point query (MSQ_FOAM_POINT), two threads", paper, "ns / point");
+  const double a_point = set / points_in_all * 1e9;
+  report.mark("  set against the paper's point query", paper / a_point, "times faster", 20, true);
+  report.mark("  set against msq_point_membership, one thread",
+              alone / static_cast<double>(sample) * 1e9 / a_point, "times faster", 20, true);
+  report.note("  set against MSQ_QUERY_POINT, two threads",
+              by_point / static_cast<double>(some.size()) * 1e9 / a_point, "times faster");
+  release(foam);
+}
+
+/// As many points as in the array, some in each of the foam's cells.
+void bench_stratified(bench::Report& report, int cells, size_t count) {
+  const Foam foam = make_foam(cells, MSQ_FOAM_DIRECT);
+  const uint64_t side = 2 * static_cast<uint64_t>(cells);
+  msq_points_def points;
+  bench::check(msq_points_def_init(&points, sizeof points));
+  points.kind = MSQ_POINTS_STRATIFIED;
+  points.per_cell = static_cast<uint32_t>(
+      std::max<double>(1, std::round(static_cast<double>(count) / std::pow(side, 3))));
+  for (int axis = 0; axis < 3; ++axis) {
+    points.counts[axis] = side;
+    points.spacing[axis] = 1.0 / static_cast<double>(side);
+  }
+  const uint64_t all = side * side * side * points.per_cell;
+  std::vector<uint8_t> inside(all);
+  msq_job* job;
+  bench::check(msq_job_create(&job));
+  const double seconds = set_seconds(foam, points, MSQ_QUERY_AUTO, 0, inside, job);
+  report.add("stratified points, " + std::to_string(points.per_cell) + " in each of (2 * " +
+                 std::to_string(cells) + ")^3 strata",
+             seconds, static_cast<double>(all), "point");
+  msq_job_report counts{};
+  counts.struct_size = sizeof counts;
+  bench::check(msq_job_info(job, &counts));
+  report.note("  points a group",
+              static_cast<double>(counts.by_set) / static_cast<double>(counts.groups), "");
+  msq_job_release(job);
   release(foam);
 }
 
@@ -203,9 +282,12 @@ int main(int count, char** arguments) try {
   {
     const std::vector<double> coordinates = random_points(millions * 1000000);
     for (int cells : {32, 128}) bench_array(report, cells, coordinates);
+    for (int cells : {32, 128}) bench_stratified(report, cells, coordinates.size() / 3);
   }
   // From 2 to 6.4 samples a cell along each axis.
+  const bool has_slices = count <= 3 || std::atoi(arguments[3]) != 0;
   for (int cells : {256, 160, 128, 104, 80}) {
+    if (!has_slices) break;
     bench_slices(report, cells);
     bench_rows(report, cells);
   }

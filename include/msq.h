@@ -818,6 +818,10 @@ typedef struct msq_query_def {
                           coarse shape alone */
   uint64_t critical_count; /* AUTO: points that a group must have at least to be asked as a set; 0
                               (default): as measured for each kind of structure */
+  uint32_t group_parts;    /* parts of a cell along each axis that arrays are grouped by, where parts hold
+                              hundreds of points: 1 (by cell) to 64, rounded down to a power of 2; 0
+                              (default): as measured. Same results at any number */
+  uint32_t reserved;       /* 0 */
 } msq_query_def;
 
 /* Sets defaults. Errors: ARGUMENT. */

@@ -123,6 +123,12 @@ Query read_query(const msq_query_def* query) {
   read.plan.method = static_cast<QueryMethod>(
       require_range(known.method, MSQ_QUERY_AUTO, MSQ_QUERY_SET, "method"));
   read.plan.critical_count = known.critical_count;
+  constexpr uint32_t most_parts = 64;
+  if (known.group_parts > most_parts)
+    fail(Status::argument, "group_parts is %u; it must be at most %u", known.group_parts,
+         most_parts);
+  read.plan.group_parts = known.group_parts;
+  require_reserved(known.reserved, "reserved");
   return read;
 }
 

@@ -13,6 +13,7 @@ enum class QueryMethod : int32_t { automatic = 0, point = 1, set = 2 };
 struct QueryPlan {
   QueryMethod method = QueryMethod::automatic;
   uint64_t critical_count = 0;  ///< 0: as Structure::critical_count()
+  uint32_t group_parts = 0;     ///< 0: as Structure::group_parts()
 };
 
 /// As Scale::keep_points, by the method of the plan.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A counting sort in one pass over at most 4096 boxes, so that the places written to at a time stay
-// in a core's own cache and page table: the side of the boxes, in cells, is the least power of two
-// for which the points' bounding box has no more of them than that, nor than leaves each 512 points
-// on average. Points that sit in few of the boxes still make groups that are right, only less
-// compact. The sort is stable and its slices are fixed, so groups do not depend on threads.
+// in a core's own cache and page table: the side of the boxes, in cells or parts of a cell, is the
+// least power of two for which the points' bounding box has no more of them than that, nor than
+// leaves each 512 points on average. Points that sit in few of the boxes still make groups that are
+// right, only less compact. The sort is stable and its slices are fixed, so groups do not depend on
+// threads.
 #include "query/point_groups.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace msq {
 
@@ -24,8 +26,9 @@ uint64_t slices_of(uint64_t count) {
 class Boxes {
  public:
   /// For points in the box `extent` of grid coordinates.
-  Boxes(const Neighbourhood& grid, const Box3& extent, uint64_t most) : grid_(grid) {
-    for (double side = 1;; side *= 2) {
+  Boxes(const Neighbourhood& grid, const Box3& extent, uint64_t most, uint32_t parts)
+      : grid_(grid) {
+    for (double side = 1.0 / std::bit_floor(parts);; side *= 2) {
       double boxes = 1;
       for (int axis = 0; axis < 3; ++axis) {
         inverse_[axis] = 1 / (grid.cell_size[axis] * side);
@@ -68,7 +71,8 @@ uint64_t PointGroups::bytes(uint64_t most) {
 }
 
 void PointGroups::group(const Executor& executor, const Neighbourhood& grid, const PointSet& points,
-                        uint64_t first, uint64_t count, const uint8_t* alive, const Job* job) {
+                        uint64_t first, uint64_t count, const uint8_t* alive, const Job* job,
+                        uint32_t parts) {
   groups_.clear();
   const uint64_t slices = slices_of(count);
   const auto for_each_slice = [&](auto&& work) {
@@ -112,7 +116,8 @@ void PointGroups::group(const Executor& executor, const Neighbourhood& grid, con
     all.points += extent.points;
   }
   if (all.points == 0) return;
-  const Boxes boxes(grid, all.box, std::clamp<uint64_t>(all.points / usual_in_box, 1, most_boxes));
+  const Boxes boxes(grid, all.box, std::clamp<uint64_t>(all.points / usual_in_box, 1, most_boxes),
+                    parts);
 
   for_each_slice([&](uint64_t s, uint64_t begin, uint64_t end) {
     uint32_t* counts = counts_.data() + s * most_boxes;

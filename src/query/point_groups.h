@@ -20,9 +20,12 @@ class PointGroups {
   explicit PointGroups(uint64_t most);
   static uint64_t bytes(uint64_t most);
 
-  /// Groups the points first ... first + count - 1 that have alive[i] != 0, i counted from first.
+  /// Groups the points first ... first + count - 1 that have alive[i] != 0, i counted from first. A
+  /// cell is divided into up to `parts` parts along each axis, to the next lower power of two,
+  /// where they hold hundreds of points.
   void group(const Executor& executor, const Neighbourhood& grid, const PointSet& points,
-             uint64_t first, uint64_t count, const uint8_t* alive, const Job* job);
+             uint64_t first, uint64_t count, const uint8_t* alive, const Job* job,
+             uint32_t parts = 1);
 
   /// How many groups there are, of points that are close to each other, and the points of one, as
   /// numbers i. A group has at most most_in_group points.

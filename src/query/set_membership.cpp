@@ -108,7 +108,9 @@ void ask_by_groups(const Model& model, const Scales& resolved, const PointSet& p
         });
         continue;
       }
-      groups.group(executor, scale->structure->neighbourhood(), points, first, count, alive, job);
+      const uint32_t parts = plan.group_parts ? plan.group_parts : scale->structure->group_parts();
+      groups.group(executor, scale->structure->neighbourhood(), points, first, count, alive, job,
+                   parts);
       run_stage(executor, groups.size(), stage++, stages, job, [&](uint64_t g) {
         const std::span<const uint32_t> group = groups[g];
         std::vector<Vec3> positions(group.size());

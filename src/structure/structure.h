@@ -58,7 +58,11 @@ class Structure : public RefCounted {
   /// Whether keep_points is faster for points that share cells: then large sets come in groups, each
   /// from a box of few cells.
   virtual bool gains_by_groups() const { return false; }
-  /// Points of a group from which on keep_points is faster than asking each: as measured.
+  /// Into how many parts along each axis a cell is best divided for that; groups are from parts of
+  /// cells only where these hold hundreds of points.
+  virtual uint32_t group_parts() const { return 1; }
+  /// Points of a group from which on keep_points is faster than asking each: as measured
+  /// (docs/benchmarks.md).
   virtual uint64_t critical_count() const { return 1; }
 
   /// Clears the bits of samples that are outside. Stops early, by Error(cancelled), with the job.

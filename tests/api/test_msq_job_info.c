@@ -159,6 +159,36 @@ static void the_critical_count_decides(void** state) {
   msq_context_release(context);
 }
 
+/* Grouped by parts of cells the answers are the same. */
+static void cells_can_be_divided(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_foam_model(context, MSQ_FOAM_AUTO);
+  msq_points_def def = definition(MSQ_POINTS_ARRAY);
+  uint8_t inside[2][count];
+  msq_job_report report[2];
+  (void)state;
+  for (uint32_t i = 0; i < 2; ++i) {
+    msq_query_def query;
+    msq_job* job;
+    double near[count][3]; /* all in one cell and by its border */
+    const double(*points)[3] = (const double(*)[3])random_points();
+    for (int k = 0; k < count; ++k)
+      for (int axis = 0; axis < 3; ++axis) near[k][axis] = 1 + points[k][axis] / 4;
+    def.coordinates = near;
+    assert_ok(msq_query_def_init(&query, sizeof query));
+    query.group_parts = i ? 64 : 1;
+    assert_ok(msq_job_create(&job));
+    assert_ok(msq_set_membership(model, &def, &query, inside[i], count, job));
+    report[i] = counts_of(job);
+    msq_job_release(job);
+  }
+  assert_memory_equal(inside[0], inside[1], count);
+  assert_int_equal(report[0].by_set + report[0].by_point, report[1].by_set + report[1].by_point);
+  assert_true(report[1].groups > report[0].groups);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 /* A call begins with all numbers 0. */
 static void numbers_are_those_of_the_last_call(void** state) {
   msq_context* context = make_context();
@@ -186,6 +216,7 @@ int main(void) {
       cmocka_unit_test(every_struct_size_is_honoured),
       cmocka_unit_test(what_a_scale_answers_is_not_asked_of_finer_ones),
       cmocka_unit_test(the_critical_count_decides),
+      cmocka_unit_test(cells_can_be_divided),
       cmocka_unit_test(numbers_are_those_of_the_last_call),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -135,6 +135,12 @@ static void wrong_queries_are_refused(void** state) {
   assert_ok(msq_query_def_init(&def, sizeof def));
   def.method = 3;
   assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "method is 3");
+  def.method = 0;
+  def.group_parts = 65;
+  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "group_parts is 65");
+  def.group_parts = 0;
+  def.reserved = 2;
+  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "reserved is 2");
   msq_model_release(model);
   msq_context_release(context);
 }

@@ -52,6 +52,12 @@ double Foam::clearance(Vec3 p) const {
   return strut_clearance(axis, slack, radius_, p);
 }
 
+uint64_t Foam::critical_count() const {
+  // Below, setting up a batch costs more than it saves: from 16 points on where they share a cell,
+  // from 48 on where they are spread over 8^3. The methods of the paper are asked as they are.
+  return method_ == FoamMethod::direct && !graded_ ? 32 : 1;
+}
+
 void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   if (method_ == FoamMethod::point) return naive_keep_points(*this, points, alive, count);
   if (method_ == FoamMethod::method_1) return method_1_keep_points(*this, points, alive, count);

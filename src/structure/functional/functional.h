@@ -37,6 +37,7 @@ class Functional final : public Structure {
   double clearance(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  uint64_t critical_count() const override { return 3; }
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   bool is_periodic() const override { return true; }
