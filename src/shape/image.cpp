@@ -116,8 +116,8 @@ Box3 Image::to_voxels(const Box3& box) const {
   return out;
 }
 
-CellRange Image::cells_in(const Box3& voxels) const {
-  CellRange range;
+VoxelRange Image::cells_in(const Box3& voxels) const {
+  VoxelRange range;
   for (int axis = 0; axis < 3; ++axis) {
     range.low[axis] = locate(voxels.min[axis], axis).cell;
     // Not a number: all of them.
@@ -128,7 +128,7 @@ CellRange Image::cells_in(const Box3& voxels) const {
   return range;
 }
 
-Interval Image::samples_of(const CellRange& cells) const {
+Interval Image::samples_of(const VoxelRange& cells) const {
   return visit([&](const auto* values) { return spread_of(values, cells).range; });
 }
 
@@ -140,7 +140,7 @@ bool Image::is_constant(const Box3& box) const {
 
 Interval Image::range(const Box3& box) const {
   const Box3 voxels = to_voxels(box);
-  const CellRange cells = cells_in(voxels);
+  const VoxelRange cells = cells_in(voxels);
   constexpr uint64_t most_samples = 64;
   uint64_t samples = 1;
   for (int axis = 0; axis < 3 && samples <= most_samples; ++axis)
@@ -159,7 +159,7 @@ Interval Image::range(const Box3& box) const {
 }
 
 template <class T>
-Image::Spread Image::spread_of(const T* values, const CellRange& cells) const {
+Image::Spread Image::spread_of(const T* values, const VoxelRange& cells) const {
   uint64_t count[3];
   for (int axis = 0; axis < 3; ++axis)
     count[axis] = cells.high[axis] - cells.low[axis] + (size_[axis] > 1 ? 2 : 1);

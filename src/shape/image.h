@@ -58,7 +58,7 @@ class Image {
   /// Holds to_voxels() of the points of a box, as computed and without rounding.
   Box3 to_voxels(const Box3& box) const;
   /// Those that hold points of the box, in voxel coordinates, or are nearest to them.
-  CellRange cells_in(const Box3& voxels) const;
+  VoxelRange cells_in(const Box3& voxels) const;
   /// Bound of the rounding of to_voxels(p), in model units, for points up to such a magnitude.
   double position_slack(double magnitude) const {
     return 0x1p-47 * (magnitude + max_magnitude(frame_.origin));
@@ -103,7 +103,7 @@ class Image {
   /// Encloses at(p) for all p of a box.
   Interval range(const Box3& box) const;
   /// Least and greatest sample of cells, looked at one by one.
-  Interval samples_of(const CellRange& cells) const;
+  Interval samples_of(const VoxelRange& cells) const;
   /// Whether at(p) is the same for all p of a box, to the last bit.
   bool is_constant(const Box3& box) const;
 
@@ -134,7 +134,7 @@ class Image {
     Vec3 slope;
   };
   template <class T>
-  Spread spread_of(const T* values, const CellRange& cells) const;
+  Spread spread_of(const T* values, const VoxelRange& cells) const;
 
   Type type_;
   uint64_t size_[3];

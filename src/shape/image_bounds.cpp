@@ -96,7 +96,7 @@ void ImageBounds::add_levels() {
   }
 }
 
-Interval ImageBounds::over(const CellRange& cells) const {
+Interval ImageBounds::over(const VoxelRange& cells) const {
   uint64_t low[3], high[3], most = 0;
   for (int axis = 0; axis < 3; ++axis) {
     low[axis] = cells.low[axis] >> leaf_bits;

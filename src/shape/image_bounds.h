@@ -14,7 +14,7 @@
 namespace msq {
 
 /// Cells low to high, both included, along each axis.
-struct CellRange {
+struct VoxelRange {
   uint64_t low[3], high[3];
 };
 
@@ -41,7 +41,7 @@ class ImageBounds {
   ImageBounds(const T* values, const uint64_t (&size)[3]);
 
   /// Encloses the samples of the cells; at most twice too wide a part of them is looked at.
-  Interval over(const CellRange& cells) const;
+  Interval over(const VoxelRange& cells) const;
   /// Finest first; the last has one block.
   const std::vector<Level>& levels() const { return levels_; }
 
