@@ -6,6 +6,7 @@
 #include "api/neighbourhood.h"
 #include "expression/parser.h"
 #include "structure/functional/presets.h"
+#include "structure/functional/wall_thickness.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -51,18 +52,45 @@ Tape read_function(const msq_functional_def& def) {
   return parse_expression(text, parameters);
 }
 
+Parameter read_parameter(const msq_param& parameter, const char* name) {
+  if (parameter.field) return Parameter(Ref<const Field>(&object(parameter.field, name)));
+  return Parameter(require_finite(parameter.value, name));
+}
+
 Parameter read_level(const msq_param& level, FunctionalKind kind) {
-  Parameter read;
-  if (level.field)
-    read = Parameter(Ref<const Field>(&object(level.field, "level.field")));
-  else
-    read = Parameter(require_finite(level.value, "level"));
+  Parameter read = read_parameter(level, "level");
   const Interval range = read.range();
   if (kind == FunctionalKind::sheet && !(range.low >= 0 && range.high > 0))
     fail(Status::argument,
-         "level runs from %g to %g; that of a sheet must not be negative, nor 0 everywhere",
+         "level runs from %g to %g; that of a sheet without thickness must not be negative, nor 0 "
+         "everywhere",
          range.low, range.high);
   return read;
+}
+
+bool is_given(const msq_param& parameter) {
+  return parameter.field || parameter.value != 0;
+}
+
+/// The level of walls as thick as that.
+Parameter read_thickness(const msq_functional_def& def, FunctionalKind kind, const Tape& function,
+                         Vec3 cell_size) {
+  if (kind != FunctionalKind::sheet)
+    fail(Status::argument, "thickness is given, but kind is %d: only sheets have walls", def.kind);
+  if (is_given(def.level))
+    fail(Status::argument, "both level and thickness are given; a sheet takes one of them");
+  const Parameter thickness = read_parameter(def.thickness, "thickness");
+  const Interval range = thickness.range();
+  if (!(range.low >= 0 && range.high > 0))
+    fail(Status::argument,
+         "thickness runs from %g to %g; it must not be negative, nor 0 everywhere", range.low,
+         range.high);
+  WallThickness walls(function, cell_size);
+  if (range.high > walls.most())
+    fail(Status::argument, "thickness runs to %g; walls of %g fill all of the cell", range.high,
+         walls.most());
+  if (thickness.is_constant()) return Parameter(walls.level(range.high));
+  return Parameter(Ref<const Field>(make_ref<LevelOfThickness>(std::move(walls), thickness)));
 }
 
 }  // namespace
@@ -84,7 +112,10 @@ msq_status msq_structure_functional(msq_context* context, const msq_functional_d
       fail(Status::argument, "clusters is %u; it must be from 0 to %d", known.clusters,
            most_clusters);
     const Tape function = read_function(known);
+    Parameter level = is_given(known.thickness)
+                          ? read_thickness(known, kind, function, grid.cell_size)
+                          : read_level(known.level, kind);
     *structure = new_handle<msq_structure>(Ref<Structure>(make_ref<Functional>(
-        grid, function, kind, read_level(known.level, kind), static_cast<int>(known.clusters))));
+        grid, function, kind, std::move(level), static_cast<int>(known.clusters))));
   });
 }

@@ -48,6 +48,8 @@ static void defaults_are_those_of_the_header(void** state) {
   for (int i = 0; i < 9; ++i) assert_true(def.grid.rotation[i] == (i % 4 == 0));
   assert_true(def.level.value == 0);
   assert_null(def.level.field);
+  assert_true(def.thickness.value == 0);
+  assert_null(def.thickness.field);
   assert_null(def.expression);
   assert_null(def.parameters);
   assert_int_equal(def.parameter_count, 0);
@@ -249,7 +251,87 @@ static void level_may_be_a_field(void** state) {
   msq_context_release(context);
 }
 
+/* Walls of constant thickness: |sin x| <= c has two of 2 asin(c) / 2 pi cells. */
+static void thickness_is_that_of_the_walls(void** state) {
+  msq_context* context = make_context();
+  msq_functional_def def = expression_def("sin(x)");
+  (void)state;
+  def.kind = MSQ_FUNCTIONAL_SHEET;
+  for (int axis = 0; axis < 3; ++axis) def.grid.cell_size[axis] = 2;
+  def.thickness.value = 0.3;
+  msq_model* model = fill_box(context, &def);
+  sample(model, points, first);
+  int held = 0;
+  for (int i = 0; i < samples; ++i) {
+    const double off = fabs(points[i][0] - round(points[i][0]));
+    held += first[i];
+    if (fabs(off - 0.15) > 1e-3) assert_int_equal(first[i], off <= 0.15);
+  }
+  assert_in_range(held, 1, samples - 1);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void thickness_may_be_a_field(void** state) {
+  msq_context* context = make_context();
+  const double from[3] = {0, -2, 0}, to[3] = {0, 2, 0};
+  msq_functional_def def = expression_def("sin(x)");
+  msq_field* field;
+  (void)state;
+  def.kind = MSQ_FUNCTIONAL_SHEET;
+  assert_ok(msq_field_gradient(context, from, 0, to, 0.4, &field));
+  def.thickness.field = field;
+  msq_model* model = fill_box(context, &def);
+  msq_field_release(field);
+  sample(model, points, first);
+  for (int i = 0; i < samples; ++i) {
+    const double off = fabs(2 * points[i][0] - round(2 * points[i][0])) / 2;
+    const double half = (points[i][1] + 2) * 0.05;
+    if (fabs(off - half) > 1e-3) assert_int_equal(first[i], off <= half);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 /* ---- refusals */
+
+static void wrong_thicknesses_are_refused(void** state) {
+  msq_context* context = make_context();
+  const double from[3] = {0, 0, 0}, to[3] = {1, 0, 0};
+  msq_functional_def def = functional_def(MSQ_FUNCTION_GYROID, 0);
+  msq_field* field;
+  (void)state;
+  def.thickness.value = 0.1;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "only sheets have walls");
+  def.kind = MSQ_FUNCTIONAL_SHEET;
+  assert_ok(create(context, &def));
+  def.level.value = 0.2;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "both level and thickness");
+  def.level.value = 0;
+  for (int which = 0; which < 3; ++which) {
+    def.thickness.value = not_finite(which);
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "thickness is ");
+  }
+  def.thickness.value = -0.25;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "-0.25");
+  def.thickness.value = 0.4; /* all of the cell: 1 / 3.09 */
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "walls of 0.32");
+  assert_message_has("0.4");
+  assert_ok(msq_field_gradient(context, from, -0.1, to, 0.1, &field));
+  def.thickness.field = field;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "thickness runs from -0.1");
+  msq_field_release(field);
+  def.thickness.field = NULL;
+  def.thickness.value = 0.1;
+  def.function = MSQ_FUNCTION_EXPRESSION;
+  def.expression = "2+sin(x)";
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 nowhere");
+  def.expression = "0";
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 nowhere");
+  def.expression = "sqrt(-1-x)";
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 nowhere");
+  msq_context_release(context);
+}
 
 static void null_arguments_are_refused(void** state) {
   msq_context* context = make_context();
@@ -370,6 +452,9 @@ int main(void) {
       cmocka_unit_test(expressions_repeat_with_the_cell),
       cmocka_unit_test(inputs_are_copied),
       cmocka_unit_test(level_may_be_a_field),
+      cmocka_unit_test(thickness_is_that_of_the_walls),
+      cmocka_unit_test(thickness_may_be_a_field),
+      cmocka_unit_test(wrong_thicknesses_are_refused),
       cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(wrong_numbers_are_refused),
       cmocka_unit_test(texts_are_refused_with_position_and_reason),
