@@ -764,6 +764,108 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def *def, size_t size)
 MSQ_API msq_status msq_structure_functional(msq_context *context, const msq_functional_def *def,
                                             msq_structure **structure);
 
+/* Points as a structure of the host sees them: valid until the callback returns. */
+typedef struct msq_host_points {
+  uint32_t struct_size;    /* out: sizeof(msq_host_points) of the library */
+  uint32_t reserved;
+  uint64_t count;          /* at most 4096 */
+  const double *points;    /* triples x, y, z in model coordinates */
+  const double *positions; /* triples: from the corner of the point's cell, in model units along the
+                              grid's axes; each from 0 to the cell size */
+  const int32_t *cells;    /* triples i, j, k: the cell that each point lies in */
+} msq_host_points;
+
+/* inside[i] = 0 where point i is outside, any other value where it is inside or on the boundary. */
+typedef int32_t (*msq_points_inside_fn)(void *user, const msq_host_points *points,
+                                        uint8_t *inside);
+
+/* distances[i]: at most the distance from point i to the boundary, on either side of it; the sign is
+ * nothing. */
+typedef int32_t (*msq_points_distance_fn)(void *user, const msq_host_points *points,
+                                          double *distances);
+
+/* *data: what is to be known of a cell, NULL where that is nothing; *bytes: its size in memory. */
+typedef int32_t (*msq_build_cell_fn)(void *user, const int32_t cell[3], void **data,
+                                     uint64_t *bytes);
+
+/* As msq_points_inside_fn, of points that all lie in one cell, whose data this is. */
+typedef int32_t (*msq_evaluate_cell_fn)(void *user, const void *data,
+                                        const msq_host_points *points, uint8_t *inside);
+
+/* Frees data that is not NULL. */
+typedef void (*msq_free_cell_fn)(void *user, void *data);
+
+enum { /* what is known of all points of a box */
+  MSQ_BOX_MIXED = 0,
+  MSQ_BOX_OUTSIDE = 1,
+  MSQ_BOX_INSIDE = 2
+};
+
+/* *answer: MSQ_BOX_* of the box from min to max, boundary included, in model coordinates; MIXED where
+ * it is not known. */
+typedef int32_t (*msq_box_fn)(void *user, const double min[3], const double max[3],
+                              int32_t *answer);
+
+typedef struct msq_host_structure_def {
+  uint32_t struct_size;
+  int32_t concurrent;                 /* 0 (default) or 1: see "objects that the host defines" */
+  msq_neighbourhood grid;
+  msq_points_inside_fn inside;        /* this, or both of the next two, must be there; where all are,
+                                         single points are asked of this one, sets of those */
+  msq_build_cell_fn build_cell;
+  msq_evaluate_cell_fn evaluate_cell;
+  msq_free_cell_fn free_cell;         /* may be NULL, as what follows */
+  msq_box_fn box;                     /* spares asking the points of boxes without boundary */
+  msq_points_distance_fn distance;    /* NULL: 0, which is right and of no use to sphere tracing */
+  void *user;
+  msq_release_fn release;
+} msq_host_structure_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_host_structure_def_init(msq_host_structure_def *def, size_t size);
+
+/* Structure that the host computes; everything works with inside alone. def may not be NULL.
+ *
+ * Cells are built when points in them are asked about, once for as long as the context's cache keeps
+ * them, else again; two threads may build the same cell at once. Those that the cache drops are freed
+ * when the next is built, or with the structure. Neighbouring cells know nothing of each other:
+ * what reaches from one into the other must be in the data of both.
+ * Cost: sets, grids and slices ask in batches; with build_cell they are grouped by cell, and without
+ * given in their own order. Single points and distances ask point by point.
+ * Errors: ARGUMENT, MEMORY; of calls that ask the structure, HOST.
+ * Source: paper, section "Multiscale Shape-Material Modeling API". */
+MSQ_API msq_status msq_structure_host(msq_context *context, const msq_host_structure_def *def,
+                                      msq_structure **structure);
+
+typedef struct msq_host_function_def {
+  uint32_t struct_size;
+  int32_t concurrent;     /* 0 (default) or 1: see "objects that the host defines" */
+  int32_t kind;           /* MSQ_FUNCTIONAL_*; default NETWORK */
+  uint32_t clusters;      /* as in msq_functional_def; of no use without range and lipschitz */
+  msq_neighbourhood grid; /* one period a cell */
+  msq_param level;        /* as in msq_functional_def */
+  msq_values_fn evaluate; /* of triples of angles, 2 pi times the position within the cell, 0 to 2 pi */
+  msq_range_fn range;     /* over a box of angles, from -1e-9 to 2 pi + 1e-9; NULL (default): from
+                             lipschitz */
+  void *user;
+  msq_release_fn release;
+  double lipschitz;       /* no two values differ by more than this times the distance of their angles;
+                             infinity (default): unknown */
+} msq_host_function_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_host_function_def_init(msq_host_function_def *def, size_t size);
+
+/* Functional structure, as msq_structure_functional, of a function that the host computes. It may be
+ * infinite, but must be a number. Where range or lipschitz are given, blocks that are inside or outside
+ * as a whole are answered without asking points. def may not be NULL. Cost: clusters^3 calls of range (32768
+ * by default), and as many points of evaluate where lipschitz is given.
+ * Errors: ARGUMENT, HOST, MEMORY; of calls that ask the structure, HOST.
+ * Source: paper, section "Preprocessing for Repeating Structures". */
+MSQ_API msq_status msq_structure_host_function(msq_context *context,
+                                               const msq_host_function_def *def,
+                                               msq_structure **structure);
+
 MSQ_API void msq_structure_retain(msq_structure *structure);
 MSQ_API void msq_structure_release(msq_structure *structure);
 

@@ -3,6 +3,7 @@
 #include "structure/functional/functional.h"
 
 #include "api/guard.h"
+#include "api/level.h"
 #include "api/neighbourhood.h"
 #include "expression/parser.h"
 #include "structure/functional/presets.h"
@@ -52,22 +53,6 @@ Tape read_function(const msq_functional_def& def) {
   return parse_expression(text, parameters);
 }
 
-Parameter read_parameter(const msq_param& parameter, const char* name) {
-  if (parameter.field) return Parameter(Ref<const Field>(&object(parameter.field, name)));
-  return Parameter(require_finite(parameter.value, name));
-}
-
-Parameter read_level(const msq_param& level, FunctionalKind kind) {
-  Parameter read = read_parameter(level, "level");
-  const Interval range = read.range();
-  if (kind == FunctionalKind::sheet && !(range.low >= 0 && range.high > 0))
-    fail(Status::argument,
-         "level runs from %g to %g; that of a sheet without thickness must not be negative, nor 0 "
-         "everywhere",
-         range.low, range.high);
-  return read;
-}
-
 bool is_given(const msq_param& parameter) {
   return parameter.field || parameter.value != 0;
 }
@@ -114,7 +99,7 @@ msq_status msq_structure_functional(msq_context* context, const msq_functional_d
     const Tape function = read_function(known);
     Parameter level = is_given(known.thickness)
                           ? read_thickness(known, kind, function, grid.cell_size)
-                          : read_level(known.level, kind);
+                          : read_level(known.level, known.kind);
     *structure = new_handle<msq_structure>(Ref<Structure>(make_ref<Functional>(
         grid, function, kind, std::move(level), static_cast<int>(known.clusters))));
   });

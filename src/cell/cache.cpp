@@ -73,6 +73,18 @@ bool CellCache::drop_oldest() {
   return true;
 }
 
+void CellCache::drop(uint64_t structure) {
+  std::lock_guard lock(mutex_);
+  std::erase_if(order_, [&](const Key& key) {
+    if (key.structure != structure) return false;
+    const auto found = entries_.find(key);
+    counters_.bytes -= found->second.bytes;
+    budget_->give_back(found->second.bytes);
+    entries_.erase(found);
+    return true;
+  });
+}
+
 void CellCache::clear() {
   std::lock_guard lock(mutex_);
   budget_->give_back(counters_.bytes);

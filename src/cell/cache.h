@@ -39,6 +39,8 @@ class CellCache {
       const std::function<std::shared_ptr<const CellData>()>& build);
 
   void clear();
+  /// Drops the cells of a structure.
+  void drop(uint64_t structure);
   /// Drops the oldest cell, if there is one.
   bool drop_oldest();
   Counters counters() const;

@@ -15,6 +15,7 @@ class MapField final : public Field {
       : argument_(std::move(argument)), curve_(std::move(curve)) {}
 
   double at(Vec3 p) const override { return curve_(argument_->at(p)); }
+  bool is_concurrent() const override { return argument_->is_concurrent(); }
   /// Where the curve is constant over the box.
   bool is_linear(const Box3& box, Vec3& gradient) const override {
     const Interval over = range(box);

@@ -17,6 +17,8 @@
 
 namespace msq {
 
+enum class Coverage { mixed, outside, inside };
+
 class Structure : public RefCounted {
  public:
   explicit Structure(const Neighbourhood& neighbourhood) : neighbourhood_(neighbourhood) {}
@@ -64,6 +66,11 @@ class Structure : public RefCounted {
   /// Points of a group from which on keep_points is faster than asking each: as measured
   /// (docs/benchmarks.md).
   virtual uint64_t critical_count() const { return 1; }
+
+  /// What is known of all points of a box together; `mixed` is always right. Asked of kinds that
+  /// know_boxes() before their points are.
+  virtual Coverage coverage(const Box3&) const { return Coverage::mixed; }
+  virtual bool knows_boxes() const { return false; }
 
   /// Clears the bits of samples that are outside. Stops early, by Error(cancelled), with the job.
   virtual void keep_rows(const RowBlock& block, const Job* job) const;

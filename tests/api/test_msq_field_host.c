@@ -114,18 +114,45 @@ static void defaults_are_those_of_the_header(void** state) {
 
 /* ---- what is built with a field of the host is what it is with msq's own */
 
-enum { radius_of_lattice, radius_of_foam, density_of_foam, level_of_function, uses };
+enum {
+  radius_of_lattice,
+  choice_of_lattice,
+  radius_of_foam,
+  density_of_foam,
+  level_of_function,
+  mapped_level,
+  uses
+};
 
 /* Takes over one reference of the field. */
 static msq_structure* make_with(msq_context* context, int use, msq_field* field) {
   msq_structure* structure;
-  if (use == radius_of_lattice) {
+  if (use == mapped_level) {
+    const double curve[2][2] = {{0.05, 0.05}, {0.3, 0.3}};
+    msq_field* mapped;
+    assert_ok(msq_field_map(context, field, curve[0], 2, &mapped));
+    msq_field_release(field);
+    field = mapped;
+  }
+  if (use == radius_of_lattice || use == choice_of_lattice) {
     msq_lattice_def def;
+    msq_unit_cell_def library[2];
     assert_ok(msq_lattice_def_init(&def, sizeof def));
     def.unit_cell = MSQ_UNIT_CELL_CUBIC;
-    def.radius.field = field;
+    def.radius.value = 0.1;
+    if (use == choice_of_lattice) {
+      for (int i = 0; i < 2; ++i) {
+        assert_ok(msq_unit_cell_def_init(&library[i], sizeof library[i]));
+        library[i].unit_cell = i ? MSQ_UNIT_CELL_CUBIC : MSQ_UNIT_CELL_BCC;
+      }
+      def.cells = library;
+      def.cell_count = 2;
+      def.cell_choice.field = field;
+    } else {
+      def.radius.field = field;
+    }
     assert_ok(msq_structure_lattice(context, &def, &structure));
-  } else if (use == level_of_function) {
+  } else if (use == level_of_function || use == mapped_level) {
     msq_functional_def def;
     assert_ok(msq_functional_def_init(&def, sizeof def));
     def.level.field = field;
@@ -145,10 +172,10 @@ static msq_structure* make_with(msq_context* context, int use, msq_field* field)
 }
 
 static double low_of(int use) {
-  return use == density_of_foam ? 1 : 0.05;
+  return use == density_of_foam ? 1 : use == choice_of_lattice ? -0.2 : 0.05;
 }
 static double high_of(int use) {
-  return use == density_of_foam ? 12 : 0.3;
+  return use == density_of_foam ? 12 : use == choice_of_lattice ? 1.3 : 0.3;
 }
 
 /* Takes over one reference of the field. */

@@ -11,6 +11,7 @@
 #include "field/gradient.h"
 #include "field/grid.h"
 #include "field/map.h"
+#include "host_structures.h"
 #include "images.h"
 #include "msq_test.h"
 #include "structure/foam/delaunay.h"
@@ -196,6 +197,25 @@ inline std::vector<Kind> kinds() {
   kinds.push_back({"functional", "choice", 0.05, 1, functional_factory(choice, network, 0)});
   kinds.push_back(
       {"functional", "choice sheet, few clusters", 0.1, 1, functional_factory(choice, sheet, 3)});
+  for (bool by_cell : {false, true})
+    kinds.push_back({"host", by_cell ? "lattice by cells" : "lattice by points", 0.12, 1,
+                     [=](const Neighbourhood& grid, Parameter radius) {
+                       return make_copy(shared_context(), octet_unit_cell(), grid,
+                                        std::move(radius), by_cell);
+                     }});
+  struct Function {
+    const char* name;
+    bool is_sheet, has_range;
+    double lipschitz;
+  };
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  for (const Function& f : {Function{"function", false, false, unknown},
+                            Function{"function of bounded slope", false, false, 3.4642},
+                            Function{"sheet of known ranges", true, true, unknown}})
+    kinds.push_back({"host", f.name, 0.2, 1, [=](const Neighbourhood& grid, Parameter level) {
+                       return make_host_gyroid(grid, std::move(level), f.is_sheet, f.has_range,
+                                               f.lipschitz);
+                     }});
   struct Method {
     const char* family;
     FoamMethod method;

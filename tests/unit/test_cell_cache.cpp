@@ -48,6 +48,22 @@ uint64_t entry_bytes(uint64_t size) {
   return bytes;
 }
 
+void test_drop(void**) {
+  const uint64_t entry = entry_bytes(100);
+  const auto shared = budget();
+  CellCache cache(6 * entry, shared);
+  for (int i = 0; i < 6; ++i) fetch(cache, i % 2 ? uint64_t{1} : uint64_t{2}, {i, 0, 0}, 100);
+  cache.drop(1);
+  assert_int_equal(cache.counters().bytes, 3 * entry);
+  assert_int_equal(shared->held(), 3 * entry);
+  for (int i = 0; i < 6; i += 2) assert_false(fetch(cache, 2, {i, 0, 0}, 100));
+  for (int i = 1; i < 6; i += 2) assert_true(fetch(cache, 1, {i, 0, 0}, 100));
+  assert_true(fetch(cache, 3, {0, 0, 0}, 100));
+  assert_true(fetch(cache, 2, {0, 0, 0}, 100));  // evicted, as the first that was left
+  cache.drop(4);
+  assert_int_equal(cache.counters().bytes, 6 * entry);
+}
+
 void test_order(void**) {
   const uint64_t entry = entry_bytes(100);
   CellCache cache(4 * entry, budget());
@@ -172,8 +188,9 @@ void test_threads(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_order),         cmocka_unit_test(test_keys),
-                              cmocka_unit_test(test_too_large),     cmocka_unit_test(test_budget),
-                              cmocka_unit_test(test_failing_build), cmocka_unit_test(test_threads)};
+  const CMUnitTest tests[] = {cmocka_unit_test(test_order),  cmocka_unit_test(test_drop),
+                              cmocka_unit_test(test_keys),   cmocka_unit_test(test_too_large),
+                              cmocka_unit_test(test_budget), cmocka_unit_test(test_failing_build),
+                              cmocka_unit_test(test_threads)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

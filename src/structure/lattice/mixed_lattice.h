@@ -49,6 +49,9 @@ class MixedLattice final : public Structure {
   /// Which of the library stands in a cell.
   size_t type_of(CellIndex cell) const;
 
+  bool is_concurrent() const override {
+    return choice_.is_concurrent() && radius_.is_concurrent();
+  }
   bool inside(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return true; }

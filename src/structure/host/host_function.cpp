@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Clusters of the unit cell as in the paper, section "Preprocessing for Repeating Structures": each
+// with an interval of the onset, which the host proves by an interval of its own or by a Lipschitz
+// constant.
+#include "structure/host/host_function.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace msq {
+
+namespace {
+
+constexpr double two_pi = 6.283185307179586;
+constexpr int automatic_clusters = 32;
+/// Clusters of a box beyond which it is not worth looking at each.
+constexpr int most_in_box = 4096;
+
+Vec3 angles_of(Vec3 fraction) {
+  return fraction * two_pi;
+}
+
+}  // namespace
+
+HostFunction::HostFunction(const Neighbourhood& neighbourhood, HostFunctionCalls calls,
+                           bool is_sheet, Parameter level, int clusters, double lipschitz,
+                           bool is_concurrent)
+    : Structure(neighbourhood),
+      calls_(std::move(calls)),
+      is_sheet_(is_sheet),
+      is_concurrent_(is_concurrent && level.is_concurrent()),
+      level_(std::move(level)),
+      side_(clusters ? clusters : automatic_clusters) {
+  if (side_ > 1 && (calls_.range || std::isfinite(lipschitz))) build_clusters(lipschitz);
+}
+
+void HostFunction::evaluate(const Vec3* angles, size_t count, double* onsets) const {
+  for (size_t first = 0; first < count; first += host_batch)
+    calls_.evaluate(angles + first, std::min(host_batch, count - first), onsets + first);
+  for (size_t i = 0; i < count; ++i) {
+    if (std::isnan(onsets[i]))
+      fail(Status::host, "the host's function is no number at the angles (%g, %g, %g)", angles[i].x,
+           angles[i].y, angles[i].z);
+    if (is_sheet_) onsets[i] = std::abs(onsets[i]);
+  }
+}
+
+Interval HostFunction::onset_of(Interval function) const {
+  if (!is_sheet_ || function.low >= 0) return function;
+  if (function.high <= 0) return {-function.high, -function.low};
+  return {0, std::max(-function.low, function.high)};
+}
+
+int HostFunction::number(double angle) const {
+  return std::clamp(static_cast<int>(angle * (side_ / two_pi)), 0, side_ - 1);
+}
+
+void HostFunction::build_clusters(double lipschitz) {
+  // A little wider than the rounding of angles and of number().
+  constexpr double margin = 1e-10;
+  const double size = two_pi / side_;
+  std::vector<Vec3> middles;
+  std::vector<Interval> functions;
+  for (int z = 0; z < side_; ++z)
+    for (int y = 0; y < side_; ++y)
+      for (int x = 0; x < side_; ++x) {
+        const Vec3 low = Vec3{double(x), double(y), double(z)} * size;
+        const Box3 box = Box3{low, low + Vec3{size, size, size}}.grown(margin);
+        middles.push_back((box.min + box.max) * 0.5);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        Interval function{-infinity, infinity};
+        if (calls_.range) function = calls_.range(box);
+        if (!(function.low <= function.high))
+          fail(Status::host,
+               "the host's function runs from %g to %g over the angles (%g, %g, %g) to "
+               "(%g, %g, %g)",
+               function.low, function.high, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y,
+               box.max.z);
+        functions.push_back(function);
+      }
+  if (std::isfinite(lipschitz)) {
+    std::vector<double> values(middles.size());
+    for (size_t first = 0; first < middles.size(); first += host_batch)
+      calls_.evaluate(middles.data() + first, std::min(host_batch, middles.size() - first),
+                      values.data() + first);
+    const double reach = lipschitz * std::sqrt(3.0) * (0.5 * size + 2 * margin);
+    for (size_t i = 0; i < values.size(); ++i) {
+      if (std::isnan(values[i]))
+        fail(Status::host, "the host's function is no number at the angles (%g, %g, %g)",
+             middles[i].x, middles[i].y, middles[i].z);
+      const double slack = reach + 0x1p-40 * std::abs(values[i]);
+      if (!std::isfinite(slack)) continue;
+      functions[i] = {std::max(functions[i].low, values[i] - slack),
+                      std::min(functions[i].high, values[i] + slack)};
+    }
+  }
+  clusters_.reserve(functions.size());
+  for (const Interval& function : functions) clusters_.push_back(onset_of(function));
+}
+
+bool HostFunction::inside(Vec3 p) const {
+  const Vec3 angles = angles_of(neighbourhood().locate(p).fraction);
+  double onset;
+  evaluate(&angles, 1, &onset);
+  return onset <= level_.at(p);
+}
+
+void HostFunction::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  const Interval levels = level_.range();
+  const size_t most = std::min(count, host_batch);
+  std::vector<Vec3> asked, angles;
+  std::vector<size_t> index;
+  std::vector<double> onsets(most), level(most);
+  asked.reserve(most);
+  angles.reserve(most);
+  index.reserve(most);
+  for (size_t next = 0; next < count;) {
+    asked.clear();
+    angles.clear();
+    index.clear();
+    for (; next < count && asked.size() < most; ++next) {
+      if (!alive[next]) continue;
+      const Vec3 a = angles_of(neighbourhood().locate(points[next]).fraction);
+      if (!clusters_.empty()) {
+        const Interval& onset = cluster(number(a.x), number(a.y), number(a.z));
+        if (onset.high <= levels.low) continue;
+        if (onset.low > levels.high) {
+          alive[next] = 0;
+          continue;
+        }
+      }
+      asked.push_back(points[next]);
+      angles.push_back(a);
+      index.push_back(next);
+    }
+    if (asked.empty()) continue;
+    evaluate(angles.data(), angles.size(), onsets.data());
+    level_.values(asked.data(), asked.size(), level.data());
+    for (size_t i = 0; i < asked.size(); ++i)
+      if (!(onsets[i] <= level[i])) alive[index[i]] = 0;
+  }
+}
+
+Coverage HostFunction::coverage(const Box3& box) const {
+  if (clusters_.empty()) return Coverage::mixed;
+  const Neighbourhood& grid = neighbourhood();
+  const Box3 in_grid = grid.to_grid(box);
+  // What locating a point and to_grid() may be off by, many times over, and that of angles.
+  const double off =
+      0x1p-46 * (max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(grid.origin));
+  int first[3], count[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cell = grid.cell_size[axis];
+    const double slack = off / cell + 1e-9;
+    const double low = in_grid.min[axis] / cell - slack, high = in_grid.max[axis] / cell + slack;
+    if (!(high - low < 1)) {
+      first[axis] = 0;
+      count[axis] = side_;
+      continue;
+    }
+    const double start = std::floor(low);
+    first[axis] = static_cast<int>((low - start) * side_);
+    const int last = static_cast<int>((high - start) * side_);
+    count[axis] = std::min(last - first[axis] + 1, side_);
+  }
+  if (count[0] * count[1] * count[2] > most_in_box) return Coverage::mixed;
+  const Interval levels = level_.range(box);
+  bool may_be_inside = false, may_be_outside = false;
+  for (int z = 0; z < count[2]; ++z)
+    for (int y = 0; y < count[1]; ++y)
+      for (int x = 0; x < count[0]; ++x) {
+        const Interval& onset =
+            cluster((first[0] + x) % side_, (first[1] + y) % side_, (first[2] + z) % side_);
+        may_be_inside |= onset.low <= levels.high;
+        may_be_outside |= onset.high > levels.low;
+        if (may_be_inside && may_be_outside) return Coverage::mixed;
+      }
+  return may_be_inside ? Coverage::inside : Coverage::outside;
+}
+
+}  // namespace msq

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// A functional structure whose function the host computes: the solid is where the onset, the
+// function of the position within the cell (network) or its magnitude (sheet), is at most the
+// level.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/host.h"
+#include "field/field.h"
+#include "structure/structure.h"
+
+namespace msq {
+
+struct HostFunctionCalls {
+  /// The function at triples of angles, 2 pi times the position within the cell.
+  std::function<void(const Vec3* angles, size_t count, double* values)> evaluate;
+  /// Encloses it over a box of angles; may be empty.
+  std::function<Interval(const Box3& angles)> range;
+};
+
+class HostFunction final : public Structure {
+ public:
+  static constexpr int most_clusters = 64;
+
+  /// `clusters`: along an axis of the cell, 0: as many as pay. `lipschitz`: of angles, infinite
+  /// where unknown. Asks for the ranges of the clusters at once.
+  HostFunction(const Neighbourhood& neighbourhood, HostFunctionCalls calls, bool is_sheet,
+               Parameter level, int clusters, double lipschitz, bool is_concurrent);
+
+  bool inside(Vec3 p) const override;
+  bool is_concurrent() const override { return is_concurrent_; }
+  void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  Coverage coverage(const Box3& box) const override;
+  bool knows_boxes() const override { return !clusters_.empty(); }
+
+  HostUser& user() { return user_; }
+
+ private:
+  /// The onsets at angles.
+  void evaluate(const Vec3* angles, size_t count, double* onsets) const;
+  void build_clusters(double lipschitz);
+  Interval onset_of(Interval function) const;
+  int number(double angle) const;
+  const Interval& cluster(int x, int y, int z) const {
+    return clusters_[static_cast<size_t>((z * side_ + y) * side_ + x)];
+  }
+
+  HostUser user_;
+  HostFunctionCalls calls_;
+  bool is_sheet_, is_concurrent_;
+  Parameter level_;
+  int side_;                        // of the clusters
+  std::vector<Interval> clusters_;  // the onset in each; none where nothing is known
+};
+
+}  // namespace msq

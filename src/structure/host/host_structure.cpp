@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/host/host_structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace msq {
+
+namespace {
+
+// Cells go to the host as they are.
+static_assert(sizeof(CellIndex) == 3 * sizeof(int32_t));
+
+/// Points gathered for a callback.
+class Batch {
+ public:
+  /// For up to `count` points, as far as a callback takes them.
+  Batch(const Neighbourhood& grid, size_t count)
+      : cell_size_(grid.cell_size), most_(std::min(count, host_batch)) {
+    points_.reserve(most_);
+    positions_.reserve(most_);
+    cells_.reserve(most_);
+    index_.reserve(most_);
+    inside_.resize(most_);
+  }
+
+  void add(Vec3 p, const Neighbourhood::Located& located, size_t index) {
+    points_.push_back(p);
+    positions_.push_back(located.fraction * cell_size_);
+    cells_.push_back(located.cell);
+    index_.push_back(index);
+  }
+  bool is_full() const { return points_.size() == most_; }
+
+  /// Calls ask(points, inside), sets alive[i] to 0 where point i is outside, and is empty again.
+  template <class Ask>
+  void keep(uint8_t* alive, Ask&& ask) {
+    if (points_.empty()) return;
+    ask(HostPoints{points_.data(), positions_.data(), cells_.data(), points_.size()},
+        inside_.data());
+    for (size_t i = 0; i < points_.size(); ++i)
+      if (!inside_[i]) alive[index_[i]] = 0;
+    points_.clear();
+    positions_.clear();
+    cells_.clear();
+    index_.clear();
+  }
+
+ private:
+  const Vec3 cell_size_;
+  const size_t most_;
+  std::vector<Vec3> points_, positions_;
+  std::vector<CellIndex> cells_;
+  std::vector<size_t> index_;
+  std::vector<uint8_t> inside_;
+};
+
+/// One point as the host sees it.
+struct SinglePoint {
+  SinglePoint(const Neighbourhood& grid, Vec3 p) : point(p) {
+    const Neighbourhood::Located located = grid.locate(p);
+    position = located.fraction * grid.cell_size;
+    cell = located.cell;
+  }
+  HostPoints view() const { return {&point, &position, &cell, 1}; }
+
+  Vec3 point, position;
+  CellIndex cell;
+};
+
+}  // namespace
+
+class HostStructure::Cell final : public CellData {
+ public:
+  explicit Cell(std::shared_ptr<RetiredCells> retired)
+      : retired_(std::move(retired)), cell_(std::make_unique<RetiredCells::Cell>()) {}
+  ~Cell() override {
+    if (cell_->data) retired_->add(std::move(cell_));
+  }
+
+  void build(const HostStructureCalls& calls, CellIndex index) {
+    cell_->data = calls.build_cell(index, bytes_);
+  }
+  const void* data() const { return cell_->data; }
+  uint64_t bytes() const override {
+    constexpr uint64_t most = uint64_t{1} << 60;  // sums with it stay right
+    return std::min(bytes_, most) + sizeof *this + sizeof *cell_;
+  }
+
+ private:
+  std::shared_ptr<RetiredCells> retired_;
+  std::unique_ptr<RetiredCells::Cell> cell_;
+  uint64_t bytes_ = 0;
+};
+
+HostStructure::HostStructure(Ref<Context> context, const Neighbourhood& neighbourhood,
+                             HostStructureCalls calls, bool is_concurrent)
+    : Structure(neighbourhood),
+      context_(std::move(context)),
+      id_(context_->new_structure_id()),
+      calls_(std::move(calls)),
+      is_concurrent_(is_concurrent),
+      retired_(std::make_shared<RetiredCells>()) {}
+
+HostStructure::~HostStructure() {
+  context_->cache.drop(id_);
+  free_retired();
+}
+
+void HostStructure::free_retired() const {
+  retired_->free_all([this](void* data) {
+    if (calls_.free_cell) calls_.free_cell(data);
+  });
+}
+
+std::shared_ptr<const CellData> HostStructure::cell(CellIndex index) const {
+  return context_->cache.fetch(id_, index, [&] {
+    free_retired();
+    auto cell = std::make_shared<Cell>(retired_);
+    cell->build(calls_, index);
+    return cell;
+  });
+}
+
+bool HostStructure::inside(Vec3 p) const {
+  const SinglePoint point(neighbourhood(), p);
+  uint8_t inside = 0;
+  if (calls_.inside) {
+    calls_.inside(point.view(), &inside);
+  } else {
+    const auto data = cell(point.cell);
+    calls_.evaluate_cell(static_cast<const Cell&>(*data).data(), point.view(), &inside);
+  }
+  return inside != 0;
+}
+
+double HostStructure::clearance(Vec3 p) const {
+  if (!calls_.distance) return 0;
+  const SinglePoint point(neighbourhood(), p);
+  double bound;
+  calls_.distance(point.view(), &bound);
+  if (!std::isfinite(bound))
+    fail(Status::host,
+         "the host's structure has the distance %g at (%g, %g, %g); it must be finite", bound, p.x,
+         p.y, p.z);
+  return std::abs(bound);
+}
+
+void HostStructure::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  if (count == 0) return;
+  Batch batch(neighbourhood(), count);
+  if (calls_.build_cell) {
+    const std::vector<LocatedPoint> grouped = group_by_cell(neighbourhood(), points, alive, count);
+    for_each_cell(grouped, [&](CellIndex index, std::span<const LocatedPoint> of_cell) {
+      const auto data = cell(index);
+      const auto ask = [&](const HostPoints& asked, uint8_t* inside) {
+        calls_.evaluate_cell(static_cast<const Cell&>(*data).data(), asked, inside);
+      };
+      for (const LocatedPoint& point : of_cell) {
+        batch.add(points[point.index], point.located, point.index);
+        if (batch.is_full()) batch.keep(alive, ask);
+      }
+      batch.keep(alive, ask);
+    });
+    return;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    if (alive[i]) batch.add(points[i], neighbourhood().locate(points[i]), i);
+    if (batch.is_full()) batch.keep(alive, calls_.inside);
+  }
+  batch.keep(alive, calls_.inside);
+}
+
+}  // namespace msq

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// A structure that the host computes: membership of points, or of points of one cell at a time from
+// data that the host builds for it and the cache keeps.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "base/host.h"
+#include "cell/context.h"
+#include "structure/group_by_cell.h"
+#include "structure/host/retired_cells.h"
+#include "structure/structure.h"
+
+namespace msq {
+
+/// Points as the host sees them.
+struct HostPoints {
+  const Vec3* points;      ///< model coordinates
+  const Vec3* positions;   ///< from the corner of their cell, in model units along the grid's axes
+  const CellIndex* cells;  ///< that they lie in
+  size_t count;            ///< at most host_batch
+};
+
+struct HostStructureCalls {
+  /// inside[i] becomes other than 0 where point i is inside; may be empty if cells are built.
+  std::function<void(const HostPoints& points, uint8_t* inside)> inside;
+  /// Answers the data of a cell, which may be null, and sets its size in memory; may be empty.
+  std::function<void*(CellIndex cell, uint64_t& bytes)> build_cell;
+  /// As inside(), for points of one cell.
+  std::function<void(const void* data, const HostPoints& points, uint8_t* inside)> evaluate_cell;
+  /// May be empty. Not asked to free null.
+  std::function<void(void* data)> free_cell;
+  /// May be empty.
+  std::function<Coverage(const Box3& box)> coverage;
+  /// Lower bounds of the distance to the boundary, of either sign; may be empty.
+  std::function<void(const HostPoints& points, double* bounds)> distance;
+};
+
+class HostStructure final : public Structure {
+ public:
+  HostStructure(Ref<Context> context, const Neighbourhood& neighbourhood, HostStructureCalls calls,
+                bool is_concurrent);
+  ~HostStructure() override;
+
+  bool inside(Vec3 p) const override;
+  double clearance(Vec3 p) const override;
+  bool is_concurrent() const override { return is_concurrent_; }
+  void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  bool gains_by_groups() const override { return static_cast<bool>(calls_.build_cell); }
+  Coverage coverage(const Box3& box) const override {
+    return calls_.coverage ? calls_.coverage(box) : Coverage::mixed;
+  }
+  bool knows_boxes() const override { return static_cast<bool>(calls_.coverage); }
+
+  HostUser& user() { return user_; }
+
+ private:
+  class Cell;
+
+  std::shared_ptr<const CellData> cell(CellIndex index) const;
+  void free_retired() const;
+
+  HostUser user_;
+  Ref<Context> context_;
+  uint64_t id_;
+  HostStructureCalls calls_;
+  bool is_concurrent_;
+  std::shared_ptr<RetiredCells> retired_;
+};
+
+}  // namespace msq

@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_host_function_def_init, msq_structure_host_function. */
+#include "hosts.h"
+#include "structures.h"
+
+DEFINE_INIT(host_function_def)
+
+static double schwarz_p(const double* a) {
+  return cos(a[0]) + cos(a[1]) + cos(a[2]);
+}
+
+static int32_t evaluate(void* user, const double* angles, uint64_t count, double* values) {
+  host_log* log = (host_log*)user;
+  const int32_t code = note_call(log, count);
+  if (code && !log->bad) return code;
+  for (uint64_t i = 0; i < count; ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(angles[3 * i + axis] >= -1e-9 && angles[3 * i + axis] <= 6.2831853072 + 1e-9))
+        log->wrong = "angle";
+    values[i] = schwarz_p(angles + 3 * i);
+  }
+  if (is_bad_call(log)) values[0] = NAN;
+  return 0;
+}
+
+/* By the Lipschitz constants of the terms. */
+static int32_t range(void* user, const double min[3], const double max[3], double* low,
+                     double* high) {
+  host_log* log = (host_log*)user;
+  const int32_t code = note_call(log, 1);
+  double middle[3], off = 0;
+  if (code && !log->bad) return code;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(min[axis] >= -1e-9 && min[axis] < max[axis] && max[axis] <= 6.2831853072 + 1e-9))
+      log->wrong = "box";
+    middle[axis] = (min[axis] + max[axis]) / 2;
+    off += (max[axis] - min[axis]) / 2;
+  }
+  *low = schwarz_p(middle) - off;
+  *high = is_bad_call(log) ? *low - 1 : schwarz_p(middle) + off;
+  return 0;
+}
+
+static msq_host_function_def function_def(host_log* log, double level) {
+  msq_host_function_def def;
+  assert_ok(msq_host_function_def_init(&def, sizeof def));
+  def.evaluate = evaluate;
+  def.user = log;
+  def.release = note_release;
+  def.level.value = level;
+  return def;
+}
+
+static msq_model* fill_box(msq_context* context, const msq_host_function_def* def) {
+  msq_structure* structure;
+  assert_ok(msq_structure_host_function(context, def, &structure));
+  return make_model(context, make_box(context), structure, NULL);
+}
+
+static msq_status create(void* env, void* def) {
+  msq_structure* structure = (msq_structure*)untouched();
+  const msq_status status =
+      msq_structure_host_function((msq_context*)env, (msq_host_function_def*)def, &structure);
+  if (status == MSQ_OK)
+    msq_structure_release(structure);
+  else
+    assert_ptr_equal(structure, untouched());
+  return status;
+}
+
+static void definitions_honour_every_size(void** state) {
+  msq_context* context = make_context();
+  host_log log = make_log();
+  const msq_host_function_def def = function_def(&log, 0);
+  (void)state;
+  check_def_init(init_host_function_def, sizeof(msq_host_function_def));
+  check_def_sizes(&def, sizeof def, create, context);
+  msq_context_release(context);
+}
+
+static void defaults_are_those_of_the_header(void** state) {
+  msq_host_function_def def;
+  msq_functional_def own;
+  (void)state;
+  assert_ok(msq_host_function_def_init(&def, sizeof def));
+  assert_ok(msq_functional_def_init(&own, sizeof own));
+  assert_memory_equal(&def.grid, &own.grid, sizeof def.grid);
+  assert_int_equal(def.kind, MSQ_FUNCTIONAL_NETWORK);
+  assert_int_equal(def.clusters, 0);
+  assert_int_equal(def.concurrent, 0);
+  assert_true(def.level.value == 0 && !def.level.field);
+  assert_true(!def.evaluate && !def.range && !def.user && !def.release);
+  assert_true(isinf(def.lipschitz) && def.lipschitz > 0);
+}
+
+/* Against msq's own, whose functions are not the C library's: within rounding of the level, which
+ * no sample of these is. */
+static void a_function_is_that_function(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {4, 1, 0};
+  (void)state;
+  for (int kind = MSQ_FUNCTIONAL_NETWORK; kind <= MSQ_FUNCTIONAL_SHEET; ++kind)
+    for (int known = 0; known < 4; ++known) /* bit 0: range, bit 1: lipschitz */
+      for (int graded = 0; graded < 2; ++graded) {
+        msq_context* context = make_context();
+        host_log log = make_log();
+        msq_host_function_def def = function_def(&log, 0.3);
+        msq_functional_def own;
+        msq_field* field;
+        msq_structure* structure;
+        assert_ok(msq_field_gradient(context, from, 0.1, to, 0.9, &field));
+        def.kind = kind;
+        def.grid.cell_size[1] = 1.25;
+        def.grid.origin[0] = -0.3;
+        if (known & 1) def.range = range;
+        if (known & 2) def.lipschitz = 1.7320509;
+        if (known & 1) def.clusters = 9;
+        if (graded) def.level.field = field;
+        assert_ok(msq_functional_def_init(&own, sizeof own));
+        own.function = MSQ_FUNCTION_SCHWARZ_P;
+        own.kind = kind;
+        own.grid = def.grid;
+        own.level = def.level;
+        msq_model* model = fill_box(context, &def);
+        assert_int_equal(log.points > 0, known > 0);
+        assert_ok(msq_structure_functional(context, &own, &structure));
+        msq_model* same = make_model(context, make_box(context), structure, NULL);
+        msq_field_release(field);
+        log.points = 0;
+        const uint64_t inside = assert_same_solid(model, same, 0.013, 3.97);
+        assert_in_range(inside, host_samples / 10, host_samples - host_samples / 10);
+        assert_right(&log);
+        msq_model_release(same);
+        msq_context_release(context);
+        assert_int_equal(log.released, 0);
+        msq_model_release(model);
+        assert_int_equal(log.released, 1);
+      }
+}
+
+static void clusters_spare_points(void** state) {
+  static uint8_t inside[host_samples];
+  const msq_points_def grid = host_grid(0.013, 3.97);
+  uint64_t points[2];
+  (void)state;
+  for (int known = 0; known < 2; ++known) {
+    msq_context* context = make_context();
+    host_log log = make_log();
+    msq_host_function_def def = function_def(&log, 0.3);
+    if (known) def.lipschitz = 1.7320509;
+    msq_model* model = fill_box(context, &def);
+    log.points = 0;
+    assert_ok(msq_set_membership(model, &grid, NULL, inside, host_samples, NULL));
+    points[known] = log.points;
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+  assert_int_equal(points[0], host_samples);
+  assert_in_range(points[1], 1, host_samples / 4);
+}
+
+static void callbacks_that_fail_stop_the_call(void** state) {
+  static uint8_t inside[host_samples];
+  const msq_points_def grid = host_grid(0.013, 3.97);
+  msq_context* context = make_context();
+  host_log log = make_log();
+  msq_host_function_def def = function_def(&log, 0.3);
+  msq_model* model = fill_box(context, &def);
+  (void)state;
+  log.fail_at = 3;
+  log.code = 12;
+  assert_refused(msq_set_membership(model, &grid, NULL, inside, host_samples, NULL), MSQ_E_HOST,
+                 "evaluate returned 12");
+  assert_int_equal(msq_error_host_code(), 12);
+  log.calls = 0;
+  log.bad = 1;
+  assert_refused(msq_set_membership(model, &grid, NULL, inside, host_samples, NULL), MSQ_E_HOST,
+                 "no number");
+  assert_int_equal(msq_error_host_code(), 0);
+  msq_model_release(model);
+  assert_int_equal(log.released, 1);
+
+  /* in the constructor, which then releases nothing */
+  for (int bad = 0; bad < 2; ++bad)
+    for (int by_range = 0; by_range < 2; ++by_range) {
+      log = make_log();
+      log.fail_at = 2;
+      log.code = 12;
+      log.bad = bad;
+      def = function_def(&log, 0.3);
+      if (by_range)
+        def.range = range;
+      else
+        def.lipschitz = 1.75;
+      assert_refused(create(context, &def), MSQ_E_HOST,
+                     !bad       ? "returned 12"
+                     : by_range ? "runs from"
+                                : "no number");
+      assert_int_equal(msq_error_host_code(), bad ? 0 : 12);
+      assert_int_equal(log.released, 0);
+    }
+  msq_context_release(context);
+}
+
+static void what_is_refused_is_not_released(void** state) {
+  msq_context* context = make_context();
+  host_log log = make_log();
+  msq_host_function_def def = function_def(&log, 0.3);
+  (void)state;
+  assert_makes_nothing(msq_structure, msq_structure_host_function(NULL, &def, &made),
+                       MSQ_E_ARGUMENT, "context");
+  assert_makes_nothing(msq_structure, msq_structure_host_function(context, NULL, &made),
+                       MSQ_E_ARGUMENT, "def");
+  assert_refused(msq_structure_host_function(context, &def, NULL), MSQ_E_ARGUMENT,
+                 "structure is NULL");
+  def.evaluate = NULL;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "evaluate is NULL");
+  def = function_def(&log, NAN);
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "level");
+  def = function_def(&log, 0);
+  def.kind = MSQ_FUNCTIONAL_SHEET;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "level runs from 0 to 0");
+  def.kind = 3;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "kind is 3");
+  def = function_def(&log, 0);
+  def.clusters = 65;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "clusters is 65");
+  def = function_def(&log, 0);
+  def.lipschitz = -1;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "lipschitz is -1");
+  def = function_def(&log, 0);
+  def.concurrent = 2;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "concurrent is 2");
+  assert_int_equal(log.released, 0);
+  def = function_def(&log, 0);
+  def.release = NULL;
+  check_grid_refusals(&def.grid, create, context, &def);
+  assert_int_equal(log.calls, 0);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(definitions_honour_every_size),
+      cmocka_unit_test(defaults_are_those_of_the_header),
+      cmocka_unit_test(a_function_is_that_function),
+      cmocka_unit_test(clusters_spare_points),
+      cmocka_unit_test(callbacks_that_fail_stop_the_call),
+      cmocka_unit_test(what_is_refused_is_not_released),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
