@@ -515,6 +515,56 @@ MSQ_API msq_status msq_grid_field_def_init(msq_grid_field_def *def, size_t size)
 MSQ_API msq_status msq_field_grid(msq_context *context, const msq_grid_field_def *def,
                                   msq_field **field);
 
+typedef struct msq_named_value {
+  const char *name; /* letters, digits and _, no digit first, and none that expressions know already */
+  double value;
+} msq_named_value;
+
+typedef struct msq_expression_field_def {
+  uint32_t struct_size;
+  uint32_t reserved;                 /* 0 */
+  const char *expression;            /* as in msq_structure_functional */
+  const msq_named_value *parameters; /* parameter_count names that it may use */
+  uint64_t parameter_count;          /* at most 1024 */
+  double low, high;                  /* finite, low <= high (default 0); no value is ever outside */
+} msq_expression_field_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_expression_field_def_init(msq_expression_field_def *def, size_t size);
+
+/* Field that is an expression (msq_structure_functional says of what), cut to low and high; low where
+ * it is no number. x, y and z are the model's coordinates, in its unit, not angles. def may not be NULL. A
+ * Lipschitz constant is not known: distances to surfaces that depend on it are 0. Errors: ARGUMENT, LIMIT
+ * (as msq_structure_functional), MEMORY. */
+MSQ_API msq_status msq_field_expression(msq_context *context, const msq_expression_field_def *def,
+                                        msq_field **field);
+
+typedef struct msq_shape_distance_field_def {
+  uint32_t struct_size;
+  uint32_t reserved;     /* 0 */
+  const msq_shape *shape;
+  const double *curve;   /* curve_count pairs (signed distance, value), as in msq_field_map; distances are
+                            negative inside */
+  uint64_t curve_count;
+  double step;           /* 0 (default): the distance itself at every point; > 0: samples of it this far
+                            apart, trilinear between them */
+} msq_shape_distance_field_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_shape_distance_field_def_init(msq_shape_distance_field_def *def, size_t size);
+
+/* Field that is a piecewise linear curve over the signed distance to a shape, that of msq_point_distance: a
+ * lower bound of its magnitude where the shape is dirty, voxels or the host's. def may not be NULL.
+ * With a step the distance is sampled once over the shape's box, on the context's threads, and is what
+ * it is at the box's border beyond it; it is off by less than the step times sqrt(3), and by far less away
+ * from edges and middle surfaces. Cost: without a step that of msq_point_distance at every point and strut
+ * that is asked (microseconds: slices of fine structures take many times longer); with one, as
+ * msq_field_grid of 4-byte values. Errors: ARGUMENT, LIMIT (samples, or the mesh's tree, would pass
+ * the context's memory_limit), HOST, MEMORY. */
+MSQ_API msq_status msq_field_shape_distance(msq_context *context,
+                                            const msq_shape_distance_field_def *def,
+                                            msq_field **field);
+
 MSQ_API void msq_field_retain(msq_field *field);
 MSQ_API void msq_field_release(msq_field *field);
 
@@ -711,11 +761,6 @@ enum {
   MSQ_FUNCTIONAL_NETWORK = 1, /* solid where the function is at most the level */
   MSQ_FUNCTIONAL_SHEET = 2    /* solid where its magnitude is at most the level */
 };
-
-typedef struct msq_named_value {
-  const char *name; /* letters, digits and _, no digit first, and none that expressions know already */
-  double value;
-} msq_named_value;
 
 typedef struct msq_functional_def {
   uint32_t struct_size;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "api/expression.h"
 #include "api/guard.h"
 #include "api/image.h"
+#include "field/expression.h"
 #include "field/gradient.h"
 #include "field/grid.h"
 #include "field/map.h"
 #include "field/radial.h"
+#include "field/shape_distance.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -121,6 +124,55 @@ msq_status msq_field_grid(msq_context* context, const msq_grid_field_def* def, m
     require_reserved(known.reserved, "reserved");
     *field = new_handle<msq_field>(
         Ref<Field>(make_ref<GridField>(read_image(known.image, 1, owner.budget))));
+  });
+}
+
+msq_status msq_shape_distance_field_def_init(msq_shape_distance_field_def* def, size_t size) {
+  return guard([&] {
+    set_defaults(def, size, msq_shape_distance_field_def{}, "msq_shape_distance_field_def");
+  });
+}
+
+msq_status msq_field_shape_distance(msq_context* context, const msq_shape_distance_field_def* def,
+                                    msq_field** field) {
+  return guard([&] {
+    const Context& owner = object(context, "context");
+    require(field, "field");
+    const msq_shape_distance_field_def known = read_def(def, msq_shape_distance_field_def{}, "def");
+    require_reserved(known.reserved, "reserved");
+    const Ref<const Shape> shape(&object(known.shape, "shape"));
+    Curve curve = read_curve(known.curve, known.curve_count);
+    if (!(known.step >= 0) || !std::isfinite(known.step))
+      fail(Status::argument, "step is %g; it must be finite and not negative", known.step);
+    Ref<const Field> distance;
+    if (known.step > 0)
+      distance =
+          make_ref<GridField>(sample_distance(*shape, known.step, owner.executor, owner.budget));
+    else
+      distance = make_ref<ShapeDistanceField>(shape);
+    *field = new_handle<msq_field>(
+        Ref<Field>(make_ref<MapField>(std::move(distance), std::move(curve))));
+  });
+}
+
+msq_status msq_expression_field_def_init(msq_expression_field_def* def, size_t size) {
+  return guard(
+      [&] { set_defaults(def, size, msq_expression_field_def{}, "msq_expression_field_def"); });
+}
+
+msq_status msq_field_expression(msq_context* context, const msq_expression_field_def* def,
+                                msq_field** field) {
+  return guard([&] {
+    object(context, "context");
+    require(field, "field");
+    const msq_expression_field_def known = read_def(def, msq_expression_field_def{}, "def");
+    require_reserved(known.reserved, "reserved");
+    Tape tape = read_expression(known.expression, known.parameters, known.parameter_count);
+    const Interval range{require_finite(known.low, "low"), require_finite(known.high, "high")};
+    if (!(range.low <= range.high))
+      fail(Status::argument, "low is %g and high is %g; low must be no more", range.low,
+           range.high);
+    *field = new_handle<msq_field>(Ref<Field>(make_ref<ExpressionField>(std::move(tape), range)));
   });
 }
 

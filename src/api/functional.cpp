@@ -2,6 +2,7 @@
 // Functional structures.
 #include "structure/functional/functional.h"
 
+#include "api/expression.h"
 #include "api/guard.h"
 #include "api/level.h"
 #include "api/neighbourhood.h"
@@ -13,8 +14,6 @@ using namespace msq;
 using namespace msq::api;
 
 namespace {
-
-constexpr uint64_t most_parameters = 1024;
 
 msq_functional_def functional_defaults() {
   msq_functional_def def{};
@@ -33,24 +32,7 @@ Tape read_function(const msq_functional_def& def) {
       fail(Status::argument, "parameters are given, but function is %d", preset);
     return parse_expression(preset_expressions[preset - 1], {});
   }
-  require(def.expression, "expression");
-  if (def.parameter_count > most_parameters)
-    fail(Status::argument, "parameter_count is %llu; the limit is %llu",
-         static_cast<unsigned long long>(def.parameter_count),
-         static_cast<unsigned long long>(most_parameters));
-  if (def.parameter_count) require(def.parameters, "parameters");
-  std::vector<NamedValue> parameters;
-  for (uint64_t i = 0; i < def.parameter_count; ++i) {
-    const char* name = def.parameters[i].name;
-    if (!name)
-      fail(Status::argument, "the name of parameter %llu is NULL",
-           static_cast<unsigned long long>(i));
-    // No more of a name is looked at than could stand in an expression.
-    parameters.push_back({std::string(name, strnlen(name, most_expression_bytes)),
-                          require_finite(def.parameters[i].value, "the value of a parameter")});
-  }
-  const std::string_view text(def.expression, strnlen(def.expression, most_expression_bytes + 1));
-  return parse_expression(text, parameters);
+  return read_expression(def.expression, def.parameters, def.parameter_count);
 }
 
 bool is_given(const msq_param& parameter) {

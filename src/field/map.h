@@ -15,6 +15,10 @@ class MapField final : public Field {
       : argument_(std::move(argument)), curve_(std::move(curve)) {}
 
   double at(Vec3 p) const override { return curve_(argument_->at(p)); }
+  void values(const Vec3* points, size_t count, double* values) const override {
+    argument_->values(points, count, values);
+    for (size_t i = 0; i < count; ++i) values[i] = curve_(values[i]);
+  }
   bool is_concurrent() const override { return argument_->is_concurrent(); }
   /// Where the curve is constant over the box.
   bool is_linear(const Box3& box, Vec3& gradient) const override {

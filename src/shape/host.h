@@ -25,6 +25,8 @@ class HostShape final : public Shape {
   void find_inside(const Vec3* points, size_t count, uint8_t* inside) const override;
   bool is_concurrent() const override { return is_concurrent_; }
   void fill_rows(const RowBlock& block) const override;
+  /// The host's bounds may jump.
+  bool has_steady_distance() const override { return !calls_.distance; }
 
   HostUser& user() { return user_; }
 

@@ -44,6 +44,9 @@ class Shape : public RefCounted {
   /// Signed distance of a finite point: at most 0 where inside(p), positive elsewhere, finite, and
   /// never larger in magnitude than the distance from p to the boundary of the solid.
   double distance(Vec3 p) const;
+  /// Whether that of two points differs by no more than the way between them, but for 2^-21 of the
+  /// diagonal of bounds() and 2^-41 of the points' coordinates and distances.
+  virtual bool has_steady_distance() const { return true; }
   /// Builds what distance() needs, if anything; otherwise its first call does, or throws what this
   /// throws.
   virtual void prepare_distance() const {}

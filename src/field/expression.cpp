@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/expression.h"
+
+#include <vector>
+
+#include "expression/enclosure.h"
+
+namespace msq {
+
+bool ExpressionField::is_linear(const Box3& box, Vec3& gradient) const {
+  // Only where it is constant.
+  const Interval over = range(box);
+  gradient = {};
+  return over.low == over.high;
+}
+
+Interval ExpressionField::range(const Box3& box) const {
+  thread_local std::vector<Enclosure> nodes;
+  enclose(tape_, {{box.min.x, box.max.x}, {box.min.y, box.max.y}, {box.min.z, box.max.z}}, nodes);
+  // What is not bounded may be no number as well, which counts as the least.
+  const Enclosure& e = nodes.back();
+  if (!is_bounded(e)) return range_;
+  return {cut(e.low), cut(e.high)};
+}
+
+}  // namespace msq

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// An expression in the model's coordinates, cut to a range.
+#pragma once
+
+#include <utility>
+
+#include "expression/tape.h"
+#include "field/field.h"
+
+namespace msq {
+
+class ExpressionField final : public Field {
+ public:
+  /// Where the expression is no number, the field is range.low.
+  ExpressionField(Tape tape, Interval range) : tape_(std::move(tape)), range_(range) {}
+
+  double at(Vec3 p) const override { return cut(evaluate(tape_, p)); }
+  bool is_linear(const Box3& box, Vec3& gradient) const override;
+  Interval range() const override { return range_; }
+  Interval range(const Box3& box) const override;
+
+ private:
+  double cut(double v) const { return v > range_.low ? std::min(v, range_.high) : range_.low; }
+
+  Tape tape_;
+  Interval range_;
+};
+
+}  // namespace msq
