@@ -15,16 +15,18 @@ from .context import (BuildInfo, CacheInfo, Context, Job, MemoryInfo, build_info
 from .errors import (ArgumentError, CancelledError, Error, FileError, HostError, InternalError,
                      LimitError, MeshError, OutOfMemoryError, UnsupportedError)
 from .field import Field, Param
-from .model import Model, PointGrid
+from .model import Model, PointGrid, Scale
 from .shape import Shape, ShapeInfo
 from .slicer import Layer, Slicer
-from .structure import Foam, Functional, Lattice, Structure
+from .structure import Foam, Functional, Lattice, LatticeFaces, Structure
+from .unit_cell import UnitCell, UnitCellInfo
 
 __version__ = "0.1.0"
 
 __all__ = [
     "ArgumentError", "BuildInfo", "CacheInfo", "CancelledError", "Context", "Error", "Field",
-    "FileError", "Foam", "Functional", "HostError", "InternalError", "Job", "Lattice", "Layer",
-    "LimitError", "MemoryInfo", "MeshError", "Model", "OutOfMemoryError", "Param", "PointGrid",
-    "Shape", "ShapeInfo", "Slicer", "Structure", "UnsupportedError", "build_info",
+    "FileError", "Foam", "Functional", "HostError", "InternalError", "Job", "Lattice",
+    "LatticeFaces", "Layer", "LimitError", "MemoryInfo", "MeshError", "Model", "OutOfMemoryError",
+    "Param", "PointGrid", "Scale", "Shape", "ShapeInfo", "Slicer", "Structure", "UnitCell",
+    "UnitCellInfo", "UnsupportedError", "build_info",
 ]

@@ -2,11 +2,23 @@
 """Objects of msq as Python objects: released with the last Python reference, or by close()."""
 from __future__ import annotations
 
+import atexit
 import ctypes
 from typing import Any, ClassVar, Optional, Type, TypeVar
 
 from . import _abi
 from ._library import lib
+from ._signals import held
+
+
+_is_ending = False
+
+
+@atexit.register
+def _end() -> None:
+    """From here on nothing is released: what C would call is taken apart."""
+    global _is_ending
+    _is_ending = True
 
 
 class Reference:
@@ -23,7 +35,8 @@ class Reference:
         self._release = release
 
     def __del__(self) -> None:
-        self._release(self._as_parameter_)
+        if not _is_ending:
+            self._release(self._as_parameter_)
 
 
 SelfT = TypeVar("SelfT", bound="Handle")
@@ -39,7 +52,8 @@ class Handle:
     def _create(cls, create: Any, *arguments: Any) -> Reference:
         """Calls a constructor of msq, whose last argument is the new handle."""
         pointer = ctypes.POINTER(getattr(_abi, f"msq_{cls._kind}"))()
-        create(*arguments, ctypes.byref(pointer))
+        with held():
+            create(*arguments, ctypes.byref(pointer))
         return Reference(pointer, getattr(lib, f"msq_{cls._kind}_release"))
 
     @classmethod

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Optional, Sequence, Union
+import math
+from typing import Any, Callable, Optional, Sequence, Union
+
+import numpy as np
 
 from . import _abi
+from ._arrays import pointer, vector
+from ._grid import Cell, set_image
 from ._handle import Handle
-from ._library import lib
-from .context import Context, context_of, doubles
+from ._host import create
+from ._library import defaults, lib
+from .context import Context, context_of, doubles, triple
 
 
 class Field(Handle):
@@ -33,6 +39,54 @@ class Field(Handle):
         in that through end; constant beyond both."""
         return cls._make(context_of(context), lib.msq_field_gradient, doubles(start, "start"),
                          start_value, doubles(end, "end"), end_value)
+
+    @classmethod
+    def radial(cls, center: Sequence[float], start_radius: float, start_value: float,
+               end_radius: float, end_value: float, *, axis: Optional[Sequence[float]] = None,
+               context: Optional[Context] = None) -> Field:
+        """Linear with the distance from center, or with axis from the line along it through center:
+        start_value up to start_radius, end_value from end_radius on."""
+        definition = defaults(_abi.msq_radial_field_def)
+        definition.center[:] = triple(center, "center")
+        if axis is not None:
+            definition.axis[:] = triple(axis, "axis")
+        definition.from_radius, definition.from_value = start_radius, start_value
+        definition.to_radius, definition.to_value = end_radius, end_value
+        return cls._make(context_of(context), lib.msq_field_radial, ctypes.byref(definition))
+
+    @classmethod
+    def grid(cls, values: Any, *, spacing: Cell = 1.0, origin: Sequence[float] = (0, 0, 0),
+             rotation: Any = None, context: Optional[Context] = None) -> Field:
+        """Trilinear between values (nz, ny, nx), constant beyond them. values[k, j, i] stands at
+        origin + rotation @ ((i, j, k) * spacing)."""
+        definition = defaults(_abi.msq_grid_field_def)
+        _kept = set_image(definition.image, values, spacing, origin, rotation)
+        return cls._make(context_of(context), lib.msq_field_grid, ctypes.byref(definition))
+
+    @classmethod
+    def host(cls, evaluate: Callable[[np.ndarray], Any], low: float, high: float, *,
+             lipschitz: float = math.inf, range: Optional[Callable[[Any, Any], Any]] = None,
+             concurrent: bool = False, context: Optional[Context] = None) -> Field:
+        """A function of Python: evaluate(points) answers points (n, 3) by n values, low to high.
+
+        The same point must always have the same value. The array of points is valid until evaluate
+        returns. lipschitz: no two values differ by more than this times the distance of their
+        points; or range(min, max) gives bounds of the values in a box: without either, slices are
+        slow. Long calls from the main thread call it on another thread, one at a time, and on
+        several with concurrent=True.
+        """
+        definition = defaults(_abi.msq_host_field_def)
+        definition.low, definition.high, definition.lipschitz = low, high, lipschitz
+        context = context_of(context)
+        return create(lambda: cls._make(context, lib.msq_field_host, ctypes.byref(definition)),
+                      definition, concurrent, evaluate=evaluate, range=range)
+
+    def map(self, curve: Any, *, context: Optional[Context] = None) -> Field:
+        """A piecewise linear curve over this field: pairs (n, 2) of this one's value, ascending,
+        and the new one's; constant beyond the ends."""
+        pairs = vector(curve, np.float64, (-1, 2), "curve")
+        return self._make(context_of(context, self), lib.msq_field_map, self._ref,
+                          pointer(pairs, ctypes.c_double), len(pairs))
 
 
 Param = Union[float, Field]  #: a number, or a field of it

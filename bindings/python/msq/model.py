@@ -13,7 +13,9 @@ from ._arrays import output, pointer, triples
 from ._handle import Handle
 from ._interrupt import interruptible
 from ._library import defaults, lib
+from ._signals import held
 from .context import Context, Job, context_of, doubles, triple, unsigned
+from .field import Param, set_param
 from .shape import Shape
 from .slicer import Slicer
 from .structure import Structure
@@ -41,31 +43,47 @@ class PointGrid:
         return (nz, ny, nx)
 
 
+@dataclasses.dataclass(frozen=True)
+class Scale:
+    """A structure and what it leaves of the coarse shape: skin, the thickness of a solid skin under
+    its surface."""
+
+    structure: Structure
+    skin: Param = 0.0
+
+
+Part = Union[Structure, Scale]  #: what a model is filled with
+
+
 class Model(Handle):
     """A coarse shape and the structures that fill it: the solid is their intersection.
 
-    structures: coarsest first, one or a sequence of them; none for the shape alone.
+    structures: coarsest first, a Structure or a Scale or a sequence of them; none for the shape
+    alone.
     """
 
     _kind = "model"
 
-    def __init__(self, shape: Shape, structures: Union[Structure, Sequence[Structure]] = (), *,
+    def __init__(self, shape: Shape, structures: Union[Part, Sequence[Part]] = (), *,
                  context: Optional[Context] = None) -> None:
         if not isinstance(shape, Shape):
             raise TypeError(f"shape is a {type(shape).__name__}; it must be a Shape")
-        parts = (structures,) if isinstance(structures, Structure) else tuple(structures)
+        given = (structures,) if isinstance(structures, (Structure, Scale)) else tuple(structures)
+        parts = [Scale(part) if isinstance(part, Structure) else part for part in given]
         for part in parts:
-            if not isinstance(part, Structure):
-                raise TypeError(f"structures have a {type(part).__name__}; it must be a Structure")
+            if not isinstance(part, Scale) or not isinstance(part.structure, Structure):
+                raise TypeError(f"structures have a {type(part).__name__}; it must be a Structure "
+                                "or a Scale of one")
         scales = (_abi.msq_scale_def * (1 + len(parts)))()
         scales[0].shape = shape._pointer
-        for scale, part in zip(scales[1:], parts):
-            scale.structure = part._pointer
+        for scale, part in zip(list(scales)[1:], parts):
+            scale.structure = part.structure._pointer
+            set_param(scale.skin, part.skin)
         definition = defaults(_abi.msq_model_def)
         definition.scales = scales
         definition.scale_count = len(scales)
         definition.scale_size = ctypes.sizeof(_abi.msq_scale_def)
-        context = context_of(context, shape, *parts)
+        context = context_of(context, shape)
         self._reference = self._create(lib.msq_model_create, context._ref, ctypes.byref(definition))
         self.context = context
 
@@ -130,7 +148,8 @@ class Model(Handle):
         query.length_scale = length_scale
         array = None if isinstance(points, PointGrid) else triples(points)
         if array is not None and array.shape == () and out is None:
-            return ask_one(doubles(array.array, "point"), ctypes.byref(query))
+            with held():
+                return ask_one(doubles(array.array, "point"), ctypes.byref(query))
         definition = defaults(_abi.msq_points_def)
         if array is None:
             definition.kind = _abi.MSQ_POINTS_GRID

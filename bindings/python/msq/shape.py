@@ -5,16 +5,17 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import os
-from typing import Any, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _abi
 from ._arrays import pointer, triples, vector
 from ._handle import Handle
+from ._host import create
 from ._interrupt import interruptible
 from ._library import constant, defaults, lib, report
-from .context import Context, Job, context_of, doubles, record, unsigned
+from .context import Context, Job, context_of, doubles, record, triple, unsigned
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,8 +25,8 @@ class ShapeInfo:
     is_mesh: bool  #: the counts below are 0 for other shapes
     min: Tuple[float, float, float]
     max: Tuple[float, float, float]
-    volume: float  #: meshes: signed sum over triangles, negative if inside out
-    area: float
+    volume: float  #: meshes: signed sum over triangles, negative if inside out; NaN of host's
+    area: float  #: NaN where it is not known
     vertices: int  #: after welding
     triangles: int  #: kept
     degenerate_triangles: int
@@ -126,6 +127,23 @@ class Shape(Handle):
         """Flat-ended round cylinder between two points, boundary included."""
         return cls._make(context_of(context), lib.msq_shape_from_cylinder, doubles(start, "start"),
                          doubles(end, "end"), radius)
+
+    @classmethod
+    def host(cls, inside: Callable[[np.ndarray], Any], min: Sequence[float],
+             max: Sequence[float], *, distance: Optional[Callable[[np.ndarray], Any]] = None,
+             concurrent: bool = False, context: Optional[Context] = None) -> Shape:
+        """A function of Python: inside(points) answers points (n, 3), all in the box from min to
+        max, by n bools; nothing is inside beyond the box.
+
+        distance(points): n numbers, each at most the distance to the boundary, on either side. The
+        rest is as for Field.host.
+        """
+        definition = defaults(_abi.msq_host_shape_def)
+        definition.min[:] = triple(min, "min")
+        definition.max[:] = triple(max, "max")
+        context = context_of(context)
+        return create(lambda: cls._make(context, lib.msq_shape_from_host, ctypes.byref(definition)),
+                      definition, concurrent, inside=inside, distance=distance)
 
     @property
     def info(self) -> ShapeInfo:

@@ -13,8 +13,9 @@ from . import _abi
 from ._arrays import output as output_array
 from ._arrays import pointer, vector
 from ._handle import Handle
-from ._interrupt import HeldSignals, interruptible
+from ._interrupt import interruptible
 from ._library import constant, defaults, keep_exception, lib, report
+from ._signals import HeldSignals
 from .context import Job, job_reference, triple, unsigned
 from .errors import HostError
 
@@ -155,8 +156,9 @@ class Slicer(Handle):
         """
         index = self._index(index)
         rows = output_array(out, (self.height, self.stride), (np.uint8,))
-        lib.msq_slice_layer(self._ref, index, pointer(rows, ctypes.c_uint8), rows.nbytes,
-                            job_reference(job))
+        reference = self._ref
+        interruptible(lambda work: lib.msq_slice_layer(
+            reference, index, pointer(rows, ctypes.c_uint8), rows.nbytes, work), job, is_long=False)
         inside = _count_bits(rows) if self._output == "bits" else int(np.count_nonzero(rows))
         return Layer(index, self.z(index), self._output, self.width, self.height, inside, rows)
 
@@ -193,10 +195,7 @@ class Slicer(Handle):
         """
         first, last = self._range(first, count)
         with HeldSignals() as signals:
-            goes_on = self._run(take, first, last - first, job_reference(job), signals)
-        if signals.raised:  # after the last callback
-            raise signals.raised
-        return goes_on
+            return self._run(take, first, last - first, job_reference(job), signals)
 
     def _run(self, take: Callable[[Layer], Any], first: int, count: int, job: Any,
              signals: HeldSignals) -> bool:
@@ -204,9 +203,7 @@ class Slicer(Handle):
 
         def take_layer(_user: Any, pointer_to_layer: Any) -> int:
             try:
-                if signals.raised:
-                    raised, signals.raised = signals.raised, None
-                    raise raised
+                signals.raise_held()
                 signals.allowed = True
                 given = pointer_to_layer.contents
                 memory = np.frombuffer(

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Mapping, Optional, Sequence, Union
-
-import numpy as np
+import dataclasses
+from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _abi
-from ._arrays import pointer, vector
+from ._grid import Cell, set_grid
 from ._handle import Handle
+from ._interrupt import interruptible
 from ._library import constant, defaults, lib
-from .context import Context, context_of, triple, unsigned
+from .context import Context, Job, context_of, doubles, record, unsigned
 from .field import Param, set_param
-
-Cell = Union[float, Sequence[float]]  #: size of a cell: one number, or one for each axis
+from .unit_cell import UnitCellLike
+from .unit_cell import unit_cell as as_unit_cell
 
 
 class Structure(Handle):
@@ -35,38 +35,56 @@ class Structure(Handle):
         self.context = context
 
 
-def _set_grid(grid: _abi.msq_neighbourhood, cell_size: Cell, origin: Sequence[float],
-              rotation: Any) -> None:
-    grid.cell_size[:] = triple(cell_size, "cell_size")
-    grid.origin[:] = triple(origin, "origin")
-    if rotation is not None:
-        grid.rotation[:] = vector(rotation, np.float64, (3, 3), "rotation").ravel().tolist()
+@dataclasses.dataclass(frozen=True)
+class LatticeFaces:
+    """Faces between neighbouring cells of a lattice that have different unit cells."""
+
+    axis: int  #: of the first unmatched face, normal to x, y or z of the grid; -1: there is none
+    cells: int  #: looked at
+    faces: int  #: between two with different unit cells
+    unmatched: int  #: of these, with a node on one side that has no copy on the other
+    cell: Tuple[int, int, int]  #: index of the cell below the first unmatched face
+    types: Tuple[int, int]  #: what stands in the two cells beside it
+    point: Tuple[float, float, float]  #: its centre
 
 
 class Lattice(Structure):
     """Periodic strut lattice: the points within radius of a unit cell's struts.
 
-    unit_cell: a name (`cubic`, `bcc`, `octet`), or a pair of nodes (n, 3) in [0, 1] of the cell and
-    struts (m, 2) of node indices.
+    unit_cell: a name (`cubic`, `bcc`, `octet`, ...: see UnitCell), a UnitCell, or a pair of nodes
+    (n, 3) and struts (m, 2); or with cell_choice a list of those, of which the choice, rounded to
+    an index, names the one that stands in each cell.
     """
 
-    def __init__(self, unit_cell: Union[str, Sequence[Any]] = "bcc", *, radius: Param,
-                 cell_size: Cell = 1.0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
+    def __init__(self, unit_cell: Union[UnitCellLike, Sequence[UnitCellLike]] = "bcc", *,
+                 radius: Param, cell_choice: Optional[Param] = None, cell_size: Cell = 1.0,
+                 origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_lattice_def)
-        _set_grid(definition.grid, cell_size, origin, rotation)
+        set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.radius, radius)
-        if isinstance(unit_cell, str):
-            definition.unit_cell = constant("MSQ_UNIT_CELL_", unit_cell, "unit_cell")
+        if cell_choice is None:
+            kept = [as_unit_cell(unit_cell)]
+            for label in ("unit_cell", "nodes", "node_count", "struts", "strut_count",
+                          "strut_factors"):
+                setattr(definition, label, getattr(kept[0]._definition, label))
         else:
-            nodes = vector(unit_cell[0], np.float64, (-1, 3), "nodes")
-            struts = vector(unit_cell[1], np.uint32, (-1, 2), "struts")
-            definition.unit_cell = _abi.MSQ_UNIT_CELL_CUSTOM
-            definition.nodes = pointer(nodes, ctypes.c_double)
-            definition.node_count = len(nodes)
-            definition.struts = pointer(struts, ctypes.c_uint32)
-            definition.strut_count = len(struts)
-        self._make(context_of(context, radius), lib.msq_structure_lattice, definition)
+            kept = [as_unit_cell(cell) for cell in unit_cell]
+            definition.cells = (_abi.msq_unit_cell_def * len(kept))(
+                *(cell._definition for cell in kept))
+            definition.cell_count = len(kept)
+            set_param(definition.cell_choice, cell_choice)
+        self._make(context_of(context, radius, cell_choice), lib.msq_structure_lattice, definition)
+
+    def faces(self, min: Sequence[float], max: Sequence[float], *,
+              job: Optional[Job] = None) -> LatticeFaces:
+        """Says whether the unit cells of neighbours meet, in the box from min to max."""
+        filled = _abi.msq_lattice_faces_report()
+        filled.struct_size = ctypes.sizeof(filled)
+        reference, low, high = self._ref, doubles(min, "min"), doubles(max, "max")
+        interruptible(lambda work: lib.msq_lattice_faces(reference, low, high, ctypes.byref(filled),
+                                                         work), job)
+        return record(LatticeFaces, filled)
 
 
 class Foam(Structure):
@@ -81,7 +99,7 @@ class Foam(Structure):
                  density: Param = 1.0, method: str = "auto", origin: Sequence[float] = (0, 0, 0),
                  rotation: Any = None, context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_foam_def)
-        _set_grid(definition.grid, cell_size, origin, rotation)
+        set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.radius, radius)
         set_param(definition.density, density)
         definition.jitter = jitter
@@ -107,7 +125,7 @@ class Functional(Structure):
         if (function is None) == (expression is None):
             raise TypeError("Functional takes a function's name or an expression, one of the two")
         definition = defaults(_abi.msq_functional_def)
-        _set_grid(definition.grid, cell_size, origin, rotation)
+        set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.level, level)
         definition.kind = constant("MSQ_FUNCTIONAL_", kind, "kind")
         definition.clusters = unsigned(clusters, 32, "clusters")

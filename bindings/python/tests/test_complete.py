@@ -14,23 +14,11 @@ NOT_NEEDED = {"msq_status_name": "exceptions have the name"}
 NOT_NEEDED.update({name: "Python counts its own references" for name in _abi.FUNCTIONS
                    if name.endswith("_retain")})
 # Functions, reports, and fields of definitions as "struct.field", still to be bound.
-NOT_YET = {"msq_field_grid", "msq_field_host", "msq_field_map", "msq_field_radial",
-           "msq_grid_field_def.image", "msq_grid_field_def_init", "msq_host_field_def.concurrent",
-           "msq_host_field_def.evaluate", "msq_host_field_def.high", "msq_host_field_def.lipschitz",
-           "msq_host_field_def.low", "msq_host_field_def.range", "msq_host_field_def_init",
-           "msq_host_shape_def.concurrent", "msq_host_shape_def.distance",
-           "msq_host_shape_def.inside", "msq_host_shape_def.max", "msq_host_shape_def.min",
-           "msq_host_shape_def_init", "msq_lattice_def.cell_choice", "msq_lattice_def.cell_count",
-           "msq_lattice_def.cells", "msq_lattice_def.strut_factors", "msq_lattice_faces",
-           "msq_lattice_faces_report", "msq_radial_field_def.axis", "msq_radial_field_def.center",
-           "msq_radial_field_def.from_radius", "msq_radial_field_def.from_value",
-           "msq_radial_field_def.to_radius", "msq_radial_field_def.to_value",
-           "msq_radial_field_def_init", "msq_scale_def.skin", "msq_shape_from_host",
-           "msq_unit_cell_def.strut_factors", "msq_unit_cell_def_init", "msq_unit_cell_geometry",
-           "msq_unit_cell_info", "msq_unit_cell_report"}
+NOT_YET = set()
 
 REPORTS = {"msq_build_report": msq.BuildInfo, "msq_memory_report": msq.MemoryInfo,
-           "msq_cache_report": msq.CacheInfo, "msq_shape_report": msq.ShapeInfo}
+           "msq_cache_report": msq.CacheInfo, "msq_shape_report": msq.ShapeInfo,
+           "msq_unit_cell_report": msq.UnitCellInfo, "msq_lattice_faces_report": msq.LatticeFaces}
 SET_BY_NAME = {"struct_size", "reserved", "user", "release"}
 
 
@@ -57,7 +45,7 @@ class Complete(unittest.TestCase):
             if name.endswith("_def") and isinstance(kind, type):
                 missing |= {f"{name}.{label}" for label, _ in kind._fields_
                             if label not in SET_BY_NAME
-                            and not re.search(rf"\.{label}\b", self.text)}
+                            and not re.search(rf"\.{label}\b|\b{label}={label}\b", self.text)}
         return missing
 
     def test_every_function_is_bound(self):
@@ -72,8 +60,8 @@ class Complete(unittest.TestCase):
 
     def test_the_list_of_what_is_not_yet_bound_is_up_to_date(self):
         reports = {name for name in vars(_abi) if name.endswith("_report")} - set(REPORTS)
-        self.assertEqual(sorted(NOT_YET - self.missing_functions() - self.missing_fields() - reports),
-                         [])
+        missing = self.missing_functions() | self.missing_fields() | reports
+        self.assertEqual(sorted(NOT_YET - missing), [])
 
     def test_reports_are_whole(self):
         for name, kind in vars(_abi).items():

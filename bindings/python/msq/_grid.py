@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Grids of neighbourhood cells, and images on them, as msq takes them."""
+from __future__ import annotations
+
+from typing import Any, Sequence, Union
+
+import numpy as np
+
+from . import _abi
+from ._arrays import address_of, vector
+from .context import triple
+
+Cell = Union[float, Sequence[float]]  #: size of a cell: one number, or one for each axis
+
+_TYPES = {np.dtype(np.uint8): _abi.MSQ_UINT8, np.dtype(np.int16): _abi.MSQ_INT16,
+          np.dtype(np.uint16): _abi.MSQ_UINT16, np.dtype(np.float32): _abi.MSQ_FLOAT32,
+          np.dtype(np.float64): _abi.MSQ_FLOAT64}
+
+
+def set_grid(grid: _abi.msq_neighbourhood, cell_size: Cell, origin: Sequence[float],
+             rotation: Any) -> None:
+    """Writes a grid; rotation None leaves that of the defaults."""
+    grid.cell_size[:] = triple(cell_size, "cell_size")
+    grid.origin[:] = triple(origin, "origin")
+    if rotation is not None:
+        grid.rotation[:] = vector(rotation, np.float64, (3, 3), "rotation").ravel().tolist()
+
+
+def set_image(image: _abi.msq_image, values: Any, spacing: Cell, origin: Sequence[float],
+              rotation: Any) -> np.ndarray:
+    """Writes an image; returns the array, which the caller keeps until msq has copied it."""
+    array = np.asarray(values)
+    if array.ndim != 3:
+        raise ValueError(f"values have shape {array.shape}; it must be (nz, ny, nx)")
+    if array.dtype not in _TYPES:
+        names = ", ".join(dtype.name for dtype in _TYPES)
+        raise TypeError(f"values are of dtype {array.dtype}; they must be one of {names}, in "
+                        "native byte order")
+    depth, height, width = array.shape
+    layer, row, step = array.strides
+    packed = width * array.itemsize
+    row = row if height > 1 else packed
+    layer = layer if depth > 1 else row * height
+    is_along_x = width <= 1 or step == array.itemsize
+    if array.size and (not is_along_x or row < packed or layer < row * height):
+        raise ValueError(
+            f"values of shape {array.shape} with strides {array.strides} cannot be passed without "
+            "a copy: they must go along x in memory, rows along y and layers along z; "
+            "numpy.ascontiguousarray makes one, and `.T` turns [i, j, k] into [k, j, i]")
+    image.values = address_of(array)
+    image.value_type = _TYPES[array.dtype]
+    image.size[:] = (width, height, depth)
+    image.row_stride = row
+    image.layer_stride = layer
+    set_grid(image.grid, spacing, origin, rotation)
+    return array

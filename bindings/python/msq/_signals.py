@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Signals, such as the interrupt from the keyboard, while C calls back.
+
+Python runs the handlers of signals on the main thread, between its own bytecodes: for a callback
+from C before its first statement, out of reach of its `try`. There ctypes prints what the handler
+raises and answers 0, which means to go on. So meanwhile it is held, and raised where it is not lost.
+"""
+from __future__ import annotations
+
+import contextlib
+import signal
+import threading
+from typing import Any, Callable, ContextManager, Dict, Optional
+
+from ._library import lib
+
+
+class HeldSignals:
+    """Within `with`, on the main thread, what a handler of signals raises is held: to its end, or
+    to the next callback that asks for it.
+
+    A callback calls raise_held first and then sets `allowed`, inside its `try`, and unsets it
+    there: between the two handlers raise as ever. job: cancelled when something is held.
+    """
+
+    def __init__(self, job: Any = None) -> None:
+        self.allowed = False
+        self._held: Optional[BaseException] = None
+        self._job = job
+        self._handlers: Dict[int, Callable[[int, Any], Any]] = {}
+
+    def __enter__(self) -> HeldSignals:
+        if threading.current_thread() is threading.main_thread():
+            for number in signal.valid_signals():
+                handler = signal.getsignal(number)
+                if callable(handler):
+                    self._handlers[number] = handler
+                    signal.signal(number, self._handle)
+        return self
+
+    def __exit__(self, *_exception: Any) -> None:
+        for number, handler in self._handlers.items():
+            if signal.getsignal(number) == self._handle:  # else the callback has set its own
+                signal.signal(number, handler)
+        self.raise_held()
+
+    def raise_held(self) -> None:
+        """Raises what is held, if anything is."""
+        held, self._held = self._held, None
+        if held is not None:
+            raise held
+
+    def _handle(self, number: int, frame: Any) -> None:
+        try:
+            self._handlers[number](number, frame)
+        except BaseException as error:
+            if self.allowed:
+                raise
+            self._held = self._held or error
+            if self._job is not None:
+                lib.msq_job_cancel(self._job)
+
+
+# Whether msq may call functions of Python in any call, and not only in Slicer.run.
+_calls_back = False
+
+
+def expect_callbacks() -> None:
+    """To be said before the first such function is given to msq."""
+    global _calls_back
+    _calls_back = True
+
+
+def may_call_back() -> bool:
+    return _calls_back
+
+
+def held(job: Any = None) -> ContextManager[Any]:
+    """Signals held if msq may call back."""
+    return HeldSignals(job) if _calls_back else contextlib.nullcontext()
