@@ -3,7 +3,8 @@
 
 Python runs the handlers of signals on the main thread, between its own bytecodes: for a callback
 from C before its first statement, out of reach of its `try`. There ctypes prints what the handler
-raises and answers 0, which means to go on. So meanwhile it is held, and raised where it is not lost.
+raises and answers 0, which means to go on. So meanwhile it is held, and raised where it is not
+lost.
 """
 from __future__ import annotations
 
@@ -13,6 +14,11 @@ import threading
 from typing import Any, Callable, ContextManager, Dict, Optional
 
 from ._library import lib
+
+
+# Those whose handlers may well raise; to look through all would cost as much as many a call.
+_NUMBERS = [getattr(signal, name) for name in
+            ("SIGINT", "SIGTERM", "SIGALRM", "SIGHUP", "SIGUSR1", "SIGUSR2") if hasattr(signal, name)]
 
 
 class HeldSignals:
@@ -31,7 +37,7 @@ class HeldSignals:
 
     def __enter__(self) -> HeldSignals:
         if threading.current_thread() is threading.main_thread():
-            for number in signal.valid_signals():
+            for number in _NUMBERS:
                 handler = signal.getsignal(number)
                 if callable(handler):
                     self._handlers[number] = handler

@@ -144,12 +144,15 @@ class Model(Handle):
     def _ask(self, ask: Any, points: Any, out: Optional[np.ndarray], dtypes: Sequence[Any],
              kind: Any, length_scale: float, job: Optional[Job],
              ask_one: Callable[[Any, Any], Any]) -> Any:
-        query = defaults(_abi.msq_query_def)
-        query.length_scale = length_scale
+        query = None
+        if length_scale != 0:
+            query_definition = defaults(_abi.msq_query_def)
+            query_definition.length_scale = length_scale
+            query = ctypes.byref(query_definition)
         array = None if isinstance(points, PointGrid) else triples(points)
         if array is not None and array.shape == () and out is None:
             with held():
-                return ask_one(doubles(array.array, "point"), ctypes.byref(query))
+                return ask_one(doubles(array.array, "point"), query)
         definition = defaults(_abi.msq_points_def)
         if array is None:
             definition.kind = _abi.MSQ_POINTS_GRID
@@ -168,8 +171,8 @@ class Model(Handle):
 
         def call(work: Any, _keep: Any = array) -> None:
             # Holds both arrays for as long as the call, whatever becomes of the caller.
-            ask(reference, ctypes.byref(definition), ctypes.byref(query), pointer(answers, kind),
-                answers.size, work)
+            ask(reference, ctypes.byref(definition), query, pointer(answers, kind), answers.size,
+                work)
 
         interruptible(call, job, answers.size >= _LONG)
         return answers

@@ -165,7 +165,9 @@ class Lifetimes(unittest.TestCase):
     def test_functions_live_as_long_as_what_is_built_of_them(self):
         gc.collect()
         before = _host.count()
-        model = msq.Model(ball(), msq.Lattice(radius=msq.Field.host(along_x, 0.2, 0.4), cell_size=1))
+        radius = msq.Field.host(along_x, 0.2, 0.4)
+        model = msq.Model(ball(), msq.Lattice(radius=radius))
+        del radius
         self.assertEqual(_host.count(), before + 2)
         gc.collect()
         self.assertTrue(model.contains((4, 3, 2)))
