@@ -15,9 +15,9 @@ namespace {
 
 struct Setting {
   int32_t unit_cell = MSQ_UNIT_CELL_BCC;
-  double cells = 32;        // along a side of the cube
-  bool is_graded = false;   // r from 0.05 cell at one corner of the cube to 0.15 at the other
-  bool is_turned = false;   // about two axes
+  double cells = 32;       // along a side of the cube
+  bool is_graded = false;  // r from 0.05 cell at one corner of the cube to 0.15 at the other
+  bool is_turned = false;  // about two axes
   uint32_t clusters = 0;
 };
 

@@ -4,6 +4,7 @@
 // Source: paper, section "Multiscale Shape-Material Modeling API".
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -43,6 +44,21 @@ struct Neighbourhood {
     locate_axis(g.y, cell_size.y, located.cell.y, located.fraction.y);
     locate_axis(g.z, cell_size.z, located.cell.z, located.fraction.z);
     return located;
+  }
+
+  /// For each axis of the grid the axis of the samples that it runs along; all -1 where the grid is
+  /// turned by other than quarter turns. Those permute the axes: each coordinate in the grid is then,
+  /// to the last bit, a function of one coordinate of the sample, as the products with 0 add nothing.
+  std::array<int, 3> sample_axes() const {
+    std::array<int, 3> axes{-1, -1, -1};
+    for (size_t i = 0; i < 9; ++i) {
+      const double m = std::abs(rotation.m[i]);
+      if (m == 1)
+        axes[i % 3] = static_cast<int>(i / 3);
+      else if (m != 0)
+        return {-1, -1, -1};
+    }
+    return axes;
   }
 
   /// Bounding box, in grid coordinates, of a box in model coordinates.

@@ -31,20 +31,6 @@ Tape onset_of(const Tape& function, FunctionalKind kind) {
   return builder.finish(builder.apply(Op::absolute, number.back()));
 }
 
-/// Rotations by quarter turns permute the axes: each coordinate in the grid is then, to the last
-/// bit, a function of one coordinate of the sample, as the products with 0 add nothing.
-std::array<int, 3> sample_axes(const Rotation& rotation) {
-  std::array<int, 3> axes{-1, -1, -1};
-  for (int i = 0; i < 9; ++i) {
-    const double m = std::abs(rotation.m[static_cast<size_t>(i)]);
-    if (m == 1)
-      axes[static_cast<size_t>(i % 3)] = i / 3;
-    else if (m != 0)
-      return {-1, -1, -1};
-  }
-  return axes;
-}
-
 std::vector<RowPlan> row_plans(const Clusters& clusters, const std::array<int, 3>& sample_axis) {
   std::vector<RowPlan> plans;
   if (sample_axis[0] >= 0)
@@ -60,7 +46,7 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       level_(std::move(level)),
       onset_(onset_of(function, kind)),
       program_(compile(onset_)),
-      sample_axis_(sample_axes(neighbourhood.rotation)),
+      sample_axis_(neighbourhood.sample_axes()),
       side_(clusters ? clusters : automatic_clusters(onset_)),
       repeats_(repeats(onset_)) {
   if (sample_axis_[0] < 0) form_ = TrigonometricForm::of(onset_);

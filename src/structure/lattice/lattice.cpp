@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/lattice/lattice.h"
 
+#include "structure/lattice/axis_rows.h"
 #include "structure/lattice/may_reach.h"
 #include "structure/strut_clearance.h"
 #include "structure/strut_rows.h"
@@ -19,7 +20,12 @@ Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Param
     : Structure(neighbourhood),
       radius_(std::move(radius)),
       struts_(periodic_struts(cell)),
-      most_factor_(struts_[0].factor) {
+      most_factor_(struts_[0].factor),
+      row_axes_{-1, -1, -1} {
+  const std::array<int, 3> sample_axes = neighbourhood.sample_axes();
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (sample_axes[axis] >= 0)
+      row_axes_[static_cast<size_t>(sample_axes[axis])] = static_cast<int>(axis);
   const Vec3 size = neighbourhood.cell_size;
   const double most = most_factor_ * radius_.range().high;
   const Box3 corner_to_corner{{0, 0, 0}, size};
@@ -79,6 +85,14 @@ double Lattice::onset(Vec3 p) const {
 
 void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
   const Neighbourhood& grid = neighbourhood();
+  if (row_axes_[0] >= 0) {
+    const RowStruts& struts = row_struts_.get([&] {
+      return std::make_unique<RowStruts>(struts_, grid.cell_size, row_axes_, radius_.range().high);
+    });
+    return AxisRows(grid, row_axes_, struts, radius_, block).keep(job, [this](Vec3 p) {
+      return inside(p);
+    });
+  }
   StrutRows rows(block, grid, radius_, 1e-9 * most_factor_ * radius_.range().high, most_factor_);
   if (rows.empty()) return;
   if (!rows.pays(grid, critical_samples)) return Structure::keep_rows(block, job);

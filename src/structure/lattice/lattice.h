@@ -8,6 +8,7 @@
 #include "base/lazy.h"
 #include "field/field.h"
 #include "structure/lattice/nearest_struts.h"
+#include "structure/lattice/row_struts.h"
 #include "structure/lattice/strut_onsets.h"
 #include "structure/lattice/unit_cell.h"
 #include "structure/structure.h"
@@ -41,6 +42,8 @@ class Lattice final : public Structure {
   std::vector<LatticeStrut> near_;  // those of the tiling that may reach a cell, from its corner
   Lazy<NearestStruts> nearest_;
   Lazy<StrutOnsets> onsets_;
+  std::array<int, 3> row_axes_;  // of the grid, that the samples' axes run along; all -1: turned
+  Lazy<RowStruts> row_struts_;
 };
 
 }  // namespace msq

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+// In the plane across the rows a strut, with its copies along them, is the segment that its axis
+// projects to: a row meets it if it comes within the radius r of that, and then in one interval of
+// x, as a capsule is convex. With a = (ax, ay, az) the first end, d the vector to the other, (v, w)
+// the row from a, e = v dy + w dz and A = dy^2 + dz^2, points of the axis's line are at s = (x dx +
+// e) / |d|^2 of d; the row is k = |v dz - w dy| / sqrt(A) from that line, and cuts the cylinder
+// about it at x = dx e / A -+ sqrt((r^2 - k^2) |d|^2 / A). Where s < 0 or s > 1 there, the sphere
+// about that end makes the interval's end.
+//
+// Bounds. All is computed in double precision from coordinates of at most S (RowStruts::extent)
+// with errors of a few 2^-53 S, so that squared distances and discriminants, times A / |d|^2, err
+// by less than 2^-48 S^2, whatever the direction: what is divided by A is a product with d across
+// the row. For the level r + m, m = 2^-24 S, the squared radius is larger by 2 r m + m^2 > 2^-48
+// S^2: the interval found holds that of r. The same way that of r is held by the one found for r -
+// m. The ends themselves, and the buckets that they lie in, are off by some 2^-50 S more, which is
+// less than the m by which ends move at least.
+//
+// The samples of whole buckets within the inner interval are inside. What the outer interval, in
+// whole buckets, holds beyond is compared with the strut sample by sample: its distance, from the
+// difference vector, errs by less than 2^-48 S. Within the margin the predicate decides.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "structure/lattice/row_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/mask_bits-inl.h"
+#include "base/sample_grid.h"
+#include "base/simd.h"
+#include "structure/lattice/row_kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace msq {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Doubles = hn::ScalableTag<double>;
+using V = hn::Vec<Doubles>;
+
+/// The columns of a part in a range of buckets: the sets at both ends and what to flip for ranges
+/// that go round.
+struct BucketRange {
+  static constexpr int32_t all = ColumnSets::buckets;
+  int32_t from, to;
+  uint64_t flip;
+
+  /// Buckets [begin, end) of the line that the cell is rolled up from.
+  BucketRange(int32_t begin, int32_t end) : from(0), to(0), flip(0) {
+    if (end <= begin) return;
+    if (end - begin >= all) {
+      flip = ~uint64_t{0};
+      return;
+    }
+    from = begin & (all - 1);
+    to = end & (all - 1);
+    flip = to < from ? ~uint64_t{0} : 0;
+  }
+};
+
+template <size_t section_words>
+class LatticeRows {
+ public:
+  LatticeRows(const RowTask& task, std::vector<LeftSample>& left)
+      : task_(task),
+        left_(left),
+        size_(task.struts->cell_size[0]),
+        to_buckets_(ColumnSets::buckets / size_) {}
+
+  HWY_INLINE void draw(const RowStrut& strut);
+
+ private:
+  /// Of a vector of rows, level by level, the buckets of the interval's ends; none where high <
+  /// low.
+  struct Ends {
+    HWY_ALIGN int32_t low[RowTask::most_levels][most_simd_doubles];
+    HWY_ALIGN int32_t high[RowTask::most_levels][most_simd_doubles];
+  };
+
+  HWY_INLINE void draw_row(size_t lane, size_t row);
+  HWY_INLINE void decide(size_t lane, size_t row, size_t samples);
+
+  const RowTask& task_;
+  std::vector<LeftSample>& left_;
+  const double size_, to_buckets_;
+
+  // Of the strut at hand.
+  double ax_, dx_, dy_, dz_, factor_, inverse_squared_;
+  double w_;
+  HWY_ALIGN double v_[most_simd_doubles];
+  Ends ends_;
+  // Samples of a row to compare with it.
+  int32_t low_ = 0, high_ = 0;  // of the widest interval
+  static constexpr size_t most_columns = ColumnSets::most_parts * ColumnSets::part_words * 64;
+  uint64_t doubtful_[most_columns / 64 + 1];
+  uint32_t first_column_[most_columns / 64 + 1];
+  uint32_t column_[most_columns + most_simd_doubles];
+  HWY_ALIGN double x_[most_columns + most_simd_doubles], r_[most_columns + most_simd_doubles];
+};
+
+template <size_t section_words>
+HWY_INLINE void LatticeRows<section_words>::draw(const RowStrut& strut) {
+  const Doubles d;
+  const hn::Rebind<int32_t, Doubles> di;
+  const size_t lanes = hn::Lanes(d);
+  ax_ = strut.a[0];
+  dx_ = strut.ab[0];
+  dy_ = strut.ab[1];
+  dz_ = strut.ab[2];
+  factor_ = strut.factor;
+  w_ = task_.z - strut.a[2];
+  const double across = dy_ * dy_ + dz_ * dz_, squared = dx_ * dx_ + across;
+  const RowLevel widest = task_.levels[task_.widest];
+  inverse_squared_ = squared > 0 ? 1 / squared : 0;
+  // So nearly along the rows that the projection is a point within the error of S.
+  const bool is_along = !(across > 1e-28 * squared);
+  const double inverse_across = is_along ? 0 : 1 / across;
+
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const V dx = hn::Set(d, dx_), dy = hn::Set(d, dy_), dz = hn::Set(d, dz_), w = hn::Set(d, w_);
+  const V inverse = hn::Set(d, inverse_across), factor = hn::Set(d, factor_);
+  const V length2 = hn::Set(d, squared), ax = hn::Set(d, ax_), scale = hn::Set(d, to_buckets_);
+  const V stretch = hn::Set(d, squared * inverse_across), slide = hn::Set(d, dx_ * inverse_across);
+  const V wb = hn::Sub(w, dz), w2 = hn::Mul(w, w), wb2 = hn::Mul(wb, wb);
+
+  for (size_t j = 0; j < task_.rows; j += lanes) {
+    const V v = hn::Sub(hn::LoadU(d, task_.y + j), hn::Set(d, strut.a[1]));
+    const V e = hn::MulAdd(v, dy, hn::Mul(w, dz));
+    const V t = hn::Min(hn::Max(hn::Mul(e, inverse), zero), one);
+    const V flat_v = hn::NegMulAdd(t, dy, v), flat_w = hn::NegMulAdd(t, dz, w);
+    const V flat2 = hn::MulAdd(flat_v, flat_v, hn::Mul(flat_w, flat_w));
+    const V of_row = task_.of_row ? hn::LoadU(d, task_.of_row + j) : zero;
+    const auto radius_of = [&](const RowLevel& level) HWY_ATTR {
+      const V r =
+          hn::MulAdd(hn::Add(of_row, hn::Set(d, level.radius)), factor, hn::Set(d, level.margin));
+      return hn::Max(r, zero);
+    };
+    const V reach = radius_of(widest);
+    uint64_t met = bits_of(d, hn::Le(flat2, hn::Mul(reach, reach)));
+    if (task_.rows - j < lanes) met &= (uint64_t{1} << (task_.rows - j)) - 1;
+    if (!met) continue;
+
+    const V cross = hn::MulSub(v, dz, hn::Mul(w, dy));
+    const V k2 = hn::Mul(hn::Mul(cross, cross), inverse);
+    const V vb = hn::Sub(v, dy);
+    const V rho2_a = hn::MulAdd(v, v, w2), rho2_b = hn::MulAdd(vb, vb, wb2);
+    const V centre = hn::Mul(slide, e);
+    for (size_t l = 0; l < task_.levels.size(); ++l) {
+      const V r = radius_of(task_.levels[l]), r2 = hn::Mul(r, r);
+      V low, high;
+      if (is_along) {
+        const V root = hn::Sqrt(hn::Max(hn::Sub(r2, hn::Min(rho2_a, rho2_b)), zero));
+        low = hn::Sub(hn::Min(zero, dx), root);
+        high = hn::Add(hn::Max(zero, dx), root);
+      } else {
+        const V root = hn::Sqrt(hn::Mul(hn::Max(hn::Sub(r2, k2), zero), stretch));
+        low = hn::Sub(centre, root);
+        high = hn::Add(centre, root);
+        const V s_low = hn::MulAdd(low, dx, e), s_high = hn::MulAdd(high, dx, e);
+        const auto low_a = hn::Lt(s_low, zero), low_b = hn::Gt(s_low, length2);
+        const auto high_a = hn::Lt(s_high, zero), high_b = hn::Gt(s_high, length2);
+        const auto root_of = [&](hn::Mask<Doubles> at_b) HWY_ATTR {
+          return hn::Sqrt(hn::Max(hn::Sub(r2, hn::IfThenElse(at_b, rho2_b, rho2_a)), zero));
+        };
+        const auto low_round = hn::Or(low_a, low_b), high_round = hn::Or(high_a, high_b);
+        if (!hn::AllFalse(d, hn::Or(low_round, high_round))) {
+          const V low_end = hn::Sub(hn::IfThenElseZero(low_b, dx), root_of(low_b));
+          const V high_end = hn::Add(hn::IfThenElseZero(high_b, dx), root_of(high_b));
+          low = hn::IfThenElse(low_round, low_end, low);
+          high = hn::IfThenElse(high_round, high_end, high);
+        }
+      }
+      const auto is_met = hn::And(hn::Le(flat2, r2), hn::Gt(r, zero));
+      low = hn::Floor(hn::Mul(hn::Add(low, ax), scale));
+      high = hn::Floor(hn::Mul(hn::Add(high, ax), scale));
+      high = hn::IfThenElse(is_met, high, hn::Sub(low, one));
+      hn::Store(hn::DemoteTo(di, low), di, ends_.low[l]);
+      hn::Store(hn::DemoteTo(di, high), di, ends_.high[l]);
+    }
+    hn::Store(v, d, v_);
+    for (; met; met &= met - 1) {
+      const auto lane = static_cast<size_t>(std::countr_zero(met));
+      if (task_.alive[j + lane]) draw_row(lane, j + lane);
+    }
+  }
+}
+
+template <size_t section_words>
+HWY_INLINE void LatticeRows<section_words>::draw_row(size_t lane, size_t row) {
+  const hn::CappedTag<uint64_t, section_words> d;
+  const size_t lanes = hn::Lanes(d);
+  const uint64_t* const alive = task_.alive[row];
+  uint64_t* const inside = task_.inside + row * task_.row_words();
+  low_ = ends_.low[task_.widest][lane];
+  high_ = ends_.high[task_.widest][lane];
+  size_t words = 0, samples = 0;  // doubtful
+  for (size_t first = 0, section = 0; first < task_.words; first += section_words, ++section) {
+    const size_t o = task_.outer[section], i = task_.inner[section];
+    const BucketRange outer(ends_.low[o][lane], ends_.high[o][lane] + 1);
+    const BucketRange inner(ends_.low[i][lane] + 1, ends_.high[i][lane]);
+    const size_t part = first / ColumnSets::part_words, offset = first % ColumnSets::part_words;
+    const uint64_t* const outer_from = task_.columns->before(outer.from, part) + offset;
+    const uint64_t* const outer_to = task_.columns->before(outer.to, part) + offset;
+    const uint64_t* const inner_from = task_.columns->before(inner.from, part) + offset;
+    const uint64_t* const inner_to = task_.columns->before(inner.to, part) + offset;
+    const auto outer_flip = hn::Set(d, outer.flip), inner_flip = hn::Set(d, inner.flip);
+    HWY_ALIGN uint64_t doubtful[section_words];
+    auto any = hn::Zero(d);
+    for (size_t word = 0; word < section_words; word += lanes) {
+      const auto most = hn::Xor(
+          hn::Xor(hn::LoadU(d, outer_from + word), hn::LoadU(d, outer_to + word)), outer_flip);
+      const auto least = hn::Xor(
+          hn::Xor(hn::LoadU(d, inner_from + word), hn::LoadU(d, inner_to + word)), inner_flip);
+      const auto now = hn::Or(hn::LoadU(d, inside + first + word), least);
+      hn::StoreU(now, d, inside + first + word);
+      const auto rest = hn::AndNot(now, most);
+      hn::StoreU(rest, d, doubtful + word);
+      any = hn::Or(any, rest);
+    }
+    if (hn::AllTrue(d, hn::Eq(any, hn::Zero(d)))) continue;
+    const size_t end = std::min(section_words, task_.words - first);
+    for (size_t word = 0; word < end; ++word) {
+      const uint64_t rest = doubtful[word] & alive[first + word];
+      doubtful_[words] = rest;
+      first_column_[words] = static_cast<uint32_t>((first + word) * bits_per_word);
+      words += rest != 0;
+      samples += static_cast<size_t>(std::popcount(rest));
+    }
+  }
+  if (samples > 0) decide(lane, row, samples);
+}
+
+/// Compares the samples of doubtful_ with the strut.
+template <size_t section_words>
+HWY_INLINE void LatticeRows<section_words>::decide(size_t lane, size_t row, size_t samples) {
+  // One loop, so that the processor need not guess how many samples each word has.
+  uint64_t rest = doubtful_[0];
+  for (size_t n = 0, word = 0; n < samples; ++n) {
+    column_[n] = first_column_[word] + static_cast<uint32_t>(std::countr_zero(rest));
+    x_[n] = task_.x[column_[n]];
+    rest &= rest - 1;
+    word += rest == 0;
+    rest = rest ? rest : doubtful_[word];
+  }
+  double radius = task_.radius + (task_.of_row ? task_.of_row[row] : 0);
+  if (task_.field)
+    for (size_t n = 0; n < samples; ++n)
+      r_[n] = task_.field->at({task_.sample_x[column_[n]], task_.sample_y[row], task_.sample_z});
+  const double v = v_[lane];
+  const Doubles dd;
+  const V zero = hn::Zero(dd), one = hn::Set(dd, 1.0);
+  const V dx = hn::Set(dd, dx_), dy = hn::Set(dd, dy_), dz = hn::Set(dd, dz_);
+  const V vv = hn::Set(dd, v), ww = hn::Set(dd, w_), e = hn::Set(dd, v * dy_ + w_ * dz_);
+  const V inverse = hn::Set(dd, inverse_squared_), margin = hn::Set(dd, task_.margin);
+  // The copy whose interval's middle is the nearest; where intervals meet their neighbours, those
+  // on either side, too.
+  const double middle = (low_ + 0.5 * (high_ + 1 - low_)) / to_buckets_;
+  const int beyond =
+      high_ - low_ + 3 >= ColumnSets::buckets ? (high_ - low_ + 3) / ColumnSets::buckets : 0;
+  const V size = hn::Set(dd, size_), inverse_size = hn::Set(dd, 1 / size_);
+  const hn::Rebind<int32_t, Doubles> di;
+  for (size_t n = 0; n < samples; n += hn::Lanes(dd)) {
+    V x = hn::Sub(hn::LoadU(dd, x_ + n), hn::Set(dd, middle));
+    x = hn::NegMulAdd(hn::Round(hn::Mul(x, inverse_size)), size, x);
+    x = hn::Add(x, hn::Set(dd, middle - ax_));
+    V least = hn::Set(dd, 1e300);
+    for (int copy = -beyond; copy <= beyond; ++copy) {
+      const V from_a = hn::Add(x, hn::Set(dd, copy * size_));
+      const V t = hn::Min(hn::Max(hn::Mul(hn::MulAdd(from_a, dx, e), inverse), zero), one);
+      const V px = hn::NegMulAdd(t, dx, from_a), py = hn::NegMulAdd(t, dy, vv),
+              pz = hn::NegMulAdd(t, dz, ww);
+      least = hn::Min(least, hn::MulAdd(px, px, hn::MulAdd(py, py, hn::Mul(pz, pz))));
+    }
+    V r;
+    if (task_.field) {
+      r = hn::LoadU(dd, r_ + n);
+    } else {
+      const auto columns = hn::LoadU(di, reinterpret_cast<const int32_t*>(column_) + n);
+      r = hn::MulAdd(hn::PromoteTo(dd, columns), hn::Set(dd, task_.slope), hn::Set(dd, radius));
+    }
+    r = hn::Mul(r, hn::Set(dd, factor_));
+    const V thick = hn::Add(r, margin), thin = hn::Sub(r, margin);
+    const size_t here = std::min(hn::Lanes(dd), samples - n);
+    const uint64_t some = here == 64 ? ~uint64_t{0} : (uint64_t{1} << here) - 1;
+    const uint64_t in =
+        some & bits_of(dd, hn::And(hn::Gt(thin, zero), hn::Lt(least, hn::Mul(thin, thin))));
+    const uint64_t near = some & ~in & bits_of(dd, hn::Le(least, hn::Mul(thick, thick)));
+    uint64_t* const bits = task_.inside + row * task_.row_words();
+    for (uint64_t rest = in; rest; rest &= rest - 1) {
+      const uint32_t column = column_[n + static_cast<size_t>(std::countr_zero(rest))];
+      bits[column / bits_per_word] |= uint64_t{1} << (column % bits_per_word);
+    }
+    for (uint64_t rest = near; rest; rest &= rest - 1)
+      left_.push_back(
+          {static_cast<uint32_t>(row), column_[n + static_cast<size_t>(std::countr_zero(rest))]});
+  }
+}
+
+template <size_t section_words>
+HWY_INLINE void mark_sections(const RowTask& task, std::vector<LeftSample>& left) {
+  LatticeRows<section_words> rows(task, left);
+  size_t most_left = size_t{1} << 16;
+  const RowLevel widest = task.levels[task.widest];
+  const double most_of_row =
+      task.of_row ? *std::max_element(task.of_row, task.of_row + task.rows) : 0;
+  for (const RowStrut& strut : task.struts->struts) {
+    const double reach = strut.factor * (widest.radius + most_of_row) + widest.margin;
+    const double w = task.z - strut.a[2];
+    if (w - std::max(strut.ab[2], 0.0) > reach || std::min(strut.ab[2], 0.0) - w > reach) continue;
+    rows.draw(strut);
+    if (left.size() < most_left) continue;
+    // Struts that share a surface leave the same samples.
+    std::sort(left.begin(), left.end());
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    most_left = std::max(most_left, 2 * left.size());
+  }
+}
+
+void mark_rows(const RowTask& task, std::vector<LeftSample>& left) {
+  if (task.section_words == 8)
+    mark_sections<8>(task, left);
+  else if (task.section_words == 4)
+    mark_sections<4>(task, left);
+  else
+    mark_sections<2>(task, left);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace msq
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace msq {
+
+namespace {
+
+HWY_EXPORT(mark_rows);
+
+}  // namespace
+
+void mark_inside(const RowTask& task, std::vector<LeftSample>& left) {
+  HWY_DYNAMIC_DISPATCH(mark_rows)(task, left);
+}
+
+}  // namespace msq
+#endif  // HWY_ONCE
