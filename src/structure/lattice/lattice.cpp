@@ -14,13 +14,21 @@ namespace {
 /// asking one sample of all struts near it.
 constexpr double critical_samples = 4;
 
+/// Along an axis of the cell.
+constexpr int automatic_clusters = 24;
+/// Fewer points are asked of all struts near their cells: clusters take milliseconds to find.
+constexpr size_t least_clustered = 512;
+constexpr size_t batch = 256;
+
 }  // namespace
 
-Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Parameter radius)
+Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Parameter radius,
+                 int clusters)
     : Structure(neighbourhood),
       radius_(std::move(radius)),
       struts_(periodic_struts(cell)),
       most_factor_(struts_[0].factor),
+      side_(clusters),
       row_axes_{-1, -1, -1} {
   const std::array<int, 3> sample_axes = neighbourhood.sample_axes();
   for (size_t axis = 0; axis < 3; ++axis)
@@ -59,12 +67,36 @@ bool Lattice::inside(Vec3 p) const {
   return false;
 }
 
+const StrutClusters& Lattice::clusters() const {
+  return clusters_.get([&] {
+    const int side = side_ > 1 ? side_ : automatic_clusters;
+    return std::make_unique<StrutClusters>(struts_, neighbourhood().cell_size, radius_.range(),
+                                           side);
+  });
+}
+
+void Lattice::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  if (side_ == 1 || count < least_clustered) return Structure::keep_points(points, alive, count);
+  const StrutClusters& clusters = this->clusters();
+  const Neighbourhood grid = neighbourhood();
+  double radii[batch];
+  for (size_t first = 0; first < count; first += batch) {
+    const size_t size = std::min(batch, count - first);
+    radius_.values(points + first, size, radii);
+    for (size_t i = 0; i < size; ++i) {
+      if (!alive[first + i]) continue;
+      const Vec3 fraction = grid.locate(points[first + i]).fraction;
+      alive[first + i] = clusters.holds(fraction, fraction * grid.cell_size, radii[i]);
+    }
+  }
+}
+
 double Lattice::clearance(Vec3 p) const {
   const Vec3 size = neighbourhood().cell_size;
-  const NearestStruts& nearest =
-      nearest_.get([&] { return std::make_unique<NearestStruts>(struts_, size, radius_.range()); });
+  const StrutClusters& nearest = clusters();
   const Interval r = radius_.range(Box3{p, p});
-  const double gap = nearest.gap(neighbourhood().locate(p).fraction * size, r.low);
+  const Vec3 fraction = neighbourhood().locate(p).fraction;
+  const double gap = nearest.gap(fraction, fraction * size, r.low);
   // Struts lie within a few cells of the origin of these coordinates and are rounded as the cells'
   // sizes are.
   const double slack = locating_slack(p - neighbourhood().origin, nearest.reach()) +

@@ -7,8 +7,8 @@
 
 #include "base/lazy.h"
 #include "field/field.h"
-#include "structure/lattice/nearest_struts.h"
 #include "structure/lattice/row_struts.h"
+#include "structure/lattice/strut_clusters.h"
 #include "structure/lattice/strut_onsets.h"
 #include "structure/lattice/unit_cell.h"
 #include "structure/structure.h"
@@ -18,10 +18,13 @@ namespace msq {
 
 class Lattice final : public Structure {
  public:
-  Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Parameter radius);
+  /// `clusters`: along an axis of the cell, for sets of points; 1: none, 0: as many as pay.
+  Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Parameter radius,
+          int clusters = 0);
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return radius_.is_concurrent(); }
+  void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
   /// Exact outside where the radius is constant and the cell sizes differ by no more than 8 times
   /// (4 times where factors differ).
@@ -35,12 +38,15 @@ class Lattice final : public Structure {
   static constexpr double most_radius = 4;
 
  private:
+  const StrutClusters& clusters() const;
+
   Parameter radius_;
   std::vector<PeriodicStrut> struts_;  // in cell units, the thickest first
   double most_factor_;
   Box3 reach_;                      // of all of them
   std::vector<LatticeStrut> near_;  // those of the tiling that may reach a cell, from its corner
-  Lazy<NearestStruts> nearest_;
+  int side_;                        // of the clusters
+  Lazy<StrutClusters> clusters_;
   Lazy<StrutOnsets> onsets_;
   std::array<int, 3> row_axes_;  // of the grid, that the samples' axes run along; all -1: turned
   Lazy<RowStruts> row_struts_;

@@ -97,6 +97,7 @@ class LatticeRows {
   uint64_t doubtful_[most_columns / 64 + 1];
   uint32_t first_column_[most_columns / 64 + 1];
   uint32_t column_[most_columns + most_simd_doubles];
+  std::vector<Vec3> samples_;
   HWY_ALIGN double x_[most_columns + most_simd_doubles], r_[most_columns + most_simd_doubles];
 };
 
@@ -245,9 +246,12 @@ HWY_INLINE void LatticeRows<section_words>::decide(size_t lane, size_t row, size
     rest = rest ? rest : doubtful_[word];
   }
   double radius = task_.radius + (task_.of_row ? task_.of_row[row] : 0);
-  if (task_.field)
+  if (task_.field) {
+    samples_.clear();
     for (size_t n = 0; n < samples; ++n)
-      r_[n] = task_.field->at({task_.sample_x[column_[n]], task_.sample_y[row], task_.sample_z});
+      samples_.push_back({task_.sample_x[column_[n]], task_.sample_y[row], task_.sample_z});
+    task_.field->values(samples_.data(), samples, r_);
+  }
   const double v = v_[lane];
   const Doubles dd;
   const V zero = hn::Zero(dd), one = hn::Set(dd, 1.0);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "structure/lattice/nearest_struts.h"
+#include "structure/lattice/strut_clusters.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace msq {
 
-NearestStruts::NearestStruts(const std::vector<PeriodicStrut>& struts, Vec3 cell_size,
-                             Interval radius)
-    : box_size_(cell_size * (1.0 / parts)),
+StrutClusters::StrutClusters(const std::vector<PeriodicStrut>& struts, Vec3 cell_size,
+                             Interval radius, int side)
+    : side_(side),
+      cluster_size_(cell_size * (1.0 / side)),
       reach_(8 * min_component(cell_size)),
-      most_factor_(0),
       radius_(radius) {
   // Each strut of the tiling that may be the nearest to a point of the cell, whose axis is no
   // farther than `most` from it: half the cell's diagonal and the distance of one of its own struts
@@ -43,13 +45,18 @@ NearestStruts::NearestStruts(const std::vector<PeriodicStrut>& struts, Vec3 cell
   }
   std::vector<uint32_t> all(struts_.size());
   for (uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-  lists_.resize(parts * parts * parts);
-  divide({0, 0, 0}, parts, all);
+  slack_ = 1e-9 * (length(cell_size) + reach_);
+  const size_t count = static_cast<size_t>(side);
+  clusters_.resize(count * count * count);
+  divide({{0, 0, 0}, {side, side, side}}, all);
 }
 
-void NearestStruts::divide(std::array<int, 3> first, int side, const std::vector<uint32_t>& from) {
-  const Vec3 low = Vec3{double(first[0]), double(first[1]), double(first[2])} * box_size_;
-  const Vec3 half = box_size_ * (0.5 * side);
+void StrutClusters::divide(const Box& box, const std::vector<uint32_t>& from) {
+  const auto vector = [](const std::array<int, 3>& v) {
+    return Vec3{double(v[0]), double(v[1]), double(v[2])};
+  };
+  const Vec3 low = vector(box.first) * cluster_size_;
+  const Vec3 half = vector(box.size) * cluster_size_ * 0.5;
   const Vec3 centre = low + half;
   const double half_diagonal = length(half);
   struct Gaps {  // at either end of the radii
@@ -66,40 +73,66 @@ void NearestStruts::divide(std::array<int, 3> first, int side, const std::vector
     if (gaps.back().thin < thin.thin) thin = gaps.back();
     if (gaps.back().thick < thick.thick) thick = gaps.back();
   }
-  const double room = 2 * half_diagonal + 1e-9 * (half_diagonal + reach_);
+  const double room = 2 * half_diagonal + slack_;
   const auto rules_out = [&](const Gaps& t, const Gaps& s) {
     return t.thin + room < s.thin && t.thick + room < s.thick;
   };
   std::vector<uint32_t> kept;
   for (size_t i = 0; i < from.size(); ++i)
     if (!rules_out(thin, gaps[i]) && !rules_out(thick, gaps[i])) kept.push_back(from[i]);
-  if (side == 1) {
-    List& list = lists_[static_cast<size_t>((first[2] * parts + first[1]) * parts + first[0])];
-    list.begin = static_cast<uint32_t>(entries_.size());
+  if (box.size == std::array<int, 3>{1, 1, 1}) {
+    Cluster& cluster = clusters_[static_cast<size_t>((box.first[2] * side_ + box.first[1]) * side_ +
+                                                     box.first[0])];
+    cluster.begin = static_cast<uint32_t>(entries_.size());
     entries_.insert(entries_.end(), kept.begin(), kept.end());
-    list.end = static_cast<uint32_t>(entries_.size());
+    cluster.end = static_cast<uint32_t>(entries_.size());
+    set_radii(cluster, low, low + half * 2, kept);
     return;
   }
-  const int next = side / 2;
-  for (int octant = 0; octant < 8; ++octant)
-    divide({first[0] + (octant & 1) * next, first[1] + (octant >> 1 & 1) * next,
-            first[2] + (octant >> 2) * next},
-           next, kept);
+  for (int octant = 0; octant < 8; ++octant) {
+    Box part = box;
+    bool is_empty = false;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const int lower = (box.size[axis] + 1) / 2;
+      const bool is_upper = octant >> axis & 1;
+      if (is_upper) part.first[axis] += lower;
+      part.size[axis] = is_upper ? box.size[axis] - lower : lower;
+      is_empty |= part.size[axis] == 0;
+    }
+    if (!is_empty) divide(part, kept);
+  }
 }
 
-double NearestStruts::gap(Vec3 q, double r) const {
-  size_t index = 0;
-  for (int axis = 2; axis >= 0; --axis) {
-    // A point that rounding puts next to its box is as near to its centre, to the slack of `room`.
-    const int part = static_cast<int>(q[axis] / box_size_[axis]);
-    index = index * parts + static_cast<size_t>(std::clamp(part, 0, parts - 1));
+void StrutClusters::set_radii(Cluster& cluster, Vec3 low, Vec3 high,
+                              const std::vector<uint32_t>& near) const {
+  const Vec3 centre = (low + high) * 0.5;
+  const double half_diagonal = length(high - low) * 0.5;
+  // With no strut near, nothing is known to be inside, and all is outside up to where struts that
+  // are not looked for begin.
+  cluster.outside = (reach_ - half_diagonal - slack_) / most_factor_;
+  cluster.inside = std::numeric_limits<double>::infinity();
+  for (const uint32_t s : near) {
+    const LatticeStrut& strut = struts_[s];
+    const double distance = std::sqrt(strut.axis.distance_squared(centre));
+    double greatest_squared = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p{corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                   corner & 4 ? high.z : low.z};
+      greatest_squared = std::max(greatest_squared, strut.axis.distance_squared(p));
+    }
+    cluster.outside = std::min(cluster.outside, (distance - half_diagonal - slack_) / strut.factor);
+    cluster.inside =
+        std::min(cluster.inside, (std::sqrt(greatest_squared) + slack_) / strut.factor);
   }
+}
+
+double StrutClusters::gap(Vec3 fraction, Vec3 q, double r) const {
+  const Cluster& cluster = at(fraction);
   double least = reach_ - most_factor_ * r;
-  const uint32_t end = lists_[index].end;
-  for (uint32_t i = lists_[index].begin; i < end;) {
+  for (uint32_t i = cluster.begin; i < cluster.end;) {
     const double factor = struts_[entries_[i]].factor;
     double squared = std::numeric_limits<double>::infinity();
-    for (; i < end && struts_[entries_[i]].factor == factor; ++i)
+    for (; i < cluster.end && struts_[entries_[i]].factor == factor; ++i)
       squared = std::min(squared, struts_[entries_[i]].axis.distance_squared(q));
     least = std::min(least, std::sqrt(squared) - factor * r);
   }
