@@ -651,7 +651,9 @@ typedef struct msq_lattice_def {
                              of them, all of one struct_size, and unit_cell does not count. Together
                              at most 4096 nodes and 4096 struts */
   uint32_t cell_count;    /* 1 to 256 */
-  uint32_t reserved;      /* 0 */
+  uint32_t clusters;      /* parts along each axis into which the cell is divided, without a library,
+                             to find the struts near points of arrays: 1 (none) to 64; 0 (default):
+                             as many as pay. Same results at any number */
   msq_param cell_choice;  /* which of the library stands in each neighbourhood cell: its value at the
                              cell's centre, rounded to the nearest index, half up, and kept within
                              the library */
@@ -666,7 +668,7 @@ MSQ_API msq_status msq_lattice_def_init(msq_lattice_def *def, size_t size);
  * struts of the unit cell that the choice names there, and struts reach over borders likewise; where
  * the nodes of two unlike cells do not match (msq_lattice_faces), struts end at the face. def may not
  * be NULL. Cost: as the struts that can reach one cell;
- * milliseconds for the presets, seconds for thousands of struts as wide as cells. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell
+ * milliseconds for the presets, seconds for thousands of struts as wide as cells, and as much again for the first array or distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell
  * size, too large a library), MEMORY. */
 MSQ_API msq_status msq_structure_lattice(msq_context *context, const msq_lattice_def *def,
                                          msq_structure **structure);

@@ -86,7 +86,9 @@ msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* de
     object(context, "context");
     require(structure, "structure");
     const msq_lattice_def known = read_def(def, lattice_defaults(), "def");
-    require_reserved(known.reserved, "reserved");
+    if (known.clusters > uint32_t{StrutClusters::most_side})
+      fail(Status::argument, "clusters is %u; it must be from 0 to %d", known.clusters,
+           StrutClusters::most_side);
     const Neighbourhood grid = read_neighbourhood(known.grid);
     std::vector<UnitCell> library = read_library(known);
     double most_factor = 0;
@@ -96,8 +98,8 @@ msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* de
     const Parameter choice = read_choice(known.cell_choice);
     Parameter radius = read_radius(known.radius, grid, most_radius, most_factor);
     if (library.size() == 1)
-      *structure = new_handle<msq_structure>(
-          Ref<Structure>(make_ref<Lattice>(grid, library[0], std::move(radius))));
+      *structure = new_handle<msq_structure>(Ref<Structure>(make_ref<Lattice>(
+          grid, library[0], std::move(radius), static_cast<int>(known.clusters))));
     else
       *structure = new_handle<msq_structure>(Ref<Structure>(
           make_ref<MixedLattice>(grid, std::move(library), choice, std::move(radius))));

@@ -58,6 +58,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_null(def.strut_factors);
   assert_null(def.cells);
   assert_int_equal(def.cell_count, 0);
+  assert_int_equal(def.clusters, 0);
 }
 
 static void create_honours_every_struct_size(void** state) {
@@ -373,6 +374,55 @@ static void custom_struts_join_two_nodes_that_are_there(void** state) {
   msq_context_release(context);
 }
 
+static void clusters_change_no_answer(void** state) {
+  enum { count = 3000 };
+  static double points[3 * count];
+  uint8_t inside[count], expected[count];
+  const double low[3] = {-1, -1, -1}, high[3] = {2, 2, 2};
+  const uint32_t clusters[] = {1, 0, 2, 63, 64};
+  msq_context* context;
+  msq_shape* cube;
+  (void)state;
+  for (int i = 0; i < 3 * count; ++i) points[i] = (i * 2654435761u % 65536u) / 65536.0 * 3 - 1;
+  assert_ok(msq_context_create(NULL, &context));
+  assert_ok(msq_shape_from_box(context, low, high, &cube));
+  for (size_t n = 0; n < sizeof clusters / sizeof *clusters; ++n) {
+    msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_OCTET, 0.1);
+    msq_structure* structure;
+    msq_model* model;
+    msq_model_def model_def;
+    msq_points_def points_def;
+    int held = 0;
+    def.clusters = clusters[n];
+    assert_ok(msq_structure_lattice(context, &def, &structure));
+    assert_ok(msq_model_def_init(&model_def, sizeof model_def));
+    {
+      msq_scale_def scales[2];
+      memset(scales, 0, sizeof scales);
+      scales[0].shape = cube;
+      scales[1].structure = structure;
+      model_def.scales = scales;
+      model_def.scale_count = 2;
+      assert_ok(msq_model_create(context, &model_def, &model));
+    }
+    assert_ok(msq_points_def_init(&points_def, sizeof points_def));
+    points_def.kind = MSQ_POINTS_ARRAY;
+    points_def.coordinates = points;
+    points_def.count = count;
+    assert_ok(msq_set_membership(model, &points_def, NULL, inside, count, NULL));
+    for (int i = 0; i < count; ++i) held += inside[i];
+    assert_in_range(held, 1, count - 1);
+    if (n == 0)
+      memcpy(expected, inside, sizeof expected);
+    else
+      assert_memory_equal(inside, expected, sizeof expected);
+    msq_model_release(model);
+    msq_structure_release(structure);
+  }
+  msq_shape_release(cube);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(def_init_honours_every_size),
@@ -382,6 +432,7 @@ int main(void) {
       cmocka_unit_test(unit_cells_stand_on_any_grid),
       cmocka_unit_test(struts_reach_over_cell_borders),
       cmocka_unit_test(custom_arrays_are_copied),
+      cmocka_unit_test(clusters_change_no_answer),
       cmocka_unit_test(structures_are_counted),
       cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(unknown_unit_cells_are_refused),

@@ -339,8 +339,8 @@ static void wrong_libraries_are_refused(void** state) {
     assert_refused(create(context, &def), MSQ_E_ARGUMENT, "cell_choice is ");
   }
   def.cell_choice.value = 0;
-  def.reserved = 1;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "reserved is 1");
+  def.clusters = 65;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "clusters is 65");
   msq_context_release(context);
 }
 

@@ -59,6 +59,16 @@ void all_instruction_sets_give_the_same_layers(void**) {
             make_ref<GradientField>(Vec3{0, 0, 0}, 0.01, Vec3{1, 0.5, 0.2}, 0.05);
         return make_ref<Lattice>(Neighbourhood{}, bcc_unit_cell(), Parameter(field));
       },
+      [](Ref<Context>) {
+        return make_ref<Lattice>(Neighbourhood{{0.1, 0.2, 0.3}, {0.037, 0.21, 0.1}, {}},
+                                 kelvin_unit_cell(), Parameter(0.004));
+      },
+      [](Ref<Context>) {  // steep along the rows
+        const Ref<const Field> field =
+            make_ref<GradientField>(Vec3{0, 0, 0}, 0.0, Vec3{1, 0.1, 0.2}, 0.02);
+        return make_ref<Lattice>(Neighbourhood{{}, {0.1, 0.1, 0.1}, {}}, octet_unit_cell(),
+                                 Parameter(field));
+      },
       [](Ref<Context> c) {
         return make_ref<Foam>(c, turned(), Parameter(0.03), 1.0, uint64_t{3}, FoamMethod::direct);
       },
