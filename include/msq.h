@@ -1057,7 +1057,8 @@ MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_d
  *   than 8 times, 4 times with strut factors: within as many times the smallest; with a library of
  *   unit cells: within twice the smallest); inside a bound, the radius less the distance to the
  *   nearest axis. With a radius that is a field of Lipschitz constant L (msq_field_gradient: the
- *   difference of the values over the distance of the points) these are divided by 1 + L.
+ *   difference of the values over the distance of the points) these are divided by 1 + L, L times the
+ *   greatest strut factor.
  * - Skins: the difference of depth and thickness, divided by 1 + L; a scale that leaves one has the
  *   lesser of its structure's and its skin's distance.
  * - Functional structures: a bound on both sides, the difference of onset and level over G + L: G the
@@ -1065,8 +1066,6 @@ MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_d
  *   for the named functions), L the level's Lipschitz constant. Where a function does not repeat by
  *   itself, no more than the distance to the cell's border along that axis. Where its slope has no
  *   bound (poles, roots and logarithms that reach 0, x^y with y no whole number), 0.
- *   difference of the values over the distance of the points) these are divided by 1 + L, L times the
- *   greatest strut factor.
  * - Points outside the coarse shape: distance to the shape, however far its structures are.
  * "Exact" is up to rounding, which is subtracted from the magnitude: 1e-13 of the distance and of
  * the coordinates (from the grid's origin, for structures), besides 1e-9 of the largest cell size for

@@ -24,6 +24,7 @@ static const char usage[] =
     "  --solid            the part alone, unfilled by any structure\n"
     "  --radius MM        radius of the struts (default 0.4)\n"
     "  --radius-top MM    radius at the top of the part, from --radius at its bottom\n"
+    "  --skin MM          solid skin under the surface (default: none)\n"
     "  --density N        foam graded along x, from one seed in a cell's volume to N\n"
     "  --seed N           picks another foam (default 0)\n"
     "  --layer MM         layer height (default 0.1)\n"
@@ -93,7 +94,7 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
       {"seed", 1, NULL, 'S'},  {"layer", 1, NULL, 'z'},   {"pitch", 1, NULL, 'p'},
       {"unit", 1, NULL, 'u'},  {"every", 1, NULL, 'e'},   {"threads", 1, NULL, 't'},
       {"out", 1, NULL, 'o'},   {"help", 0, NULL, 'h'},    {"density", 1, NULL, 'd'},
-      {"block", 1, NULL, 'b'}, {NULL, 0, NULL, 0}};
+      {"block", 1, NULL, 'b'}, {"skin", 1, NULL, 'k'},    {NULL, 0, NULL, 0}};
   const slice_options defaults = {.out = "out",
                                   .foam = 4,
                                   .cell = 4,
@@ -107,9 +108,9 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
   const struct {
     int option;
     double* value;
-  } lengths[] = {{'f', &o->foam},       {'c', &o->cell},    {'r', &o->radius},
-                 {'R', &o->radius_top}, {'z', &o->layer},   {'p', &o->pitch},
-                 {'u', &o->unit},       {'d', &o->density}, {'b', &o->block}};
+  } lengths[] = {{'f', &o->foam},  {'c', &o->cell},  {'r', &o->radius}, {'R', &o->radius_top},
+                 {'z', &o->layer}, {'p', &o->pitch}, {'u', &o->unit},   {'d', &o->density},
+                 {'b', &o->block}, {'k', &o->skin}};
   for (int option; (option = getopt_long(argc, argv, "o:h", longs, NULL)) != -1;) {
     int bad = 0;
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; ++i) {

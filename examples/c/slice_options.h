@@ -11,6 +11,7 @@ typedef struct slice_options {
   double block;              /* side of a cube instead of a file; 0: a file */
   double foam, cell;         /* cell sizes of the foam and of the lattice */
   double radius, radius_top; /* of the struts */
+  double skin;               /* thickness of the solid skin; 0: none */
   double density;            /* of the foam's seeds at the greatest x, from 1 at the least */
   double layer, pitch, unit;
   int32_t unit_cells[8];    /* of the lattice, MSQ_UNIT_CELL_*, from the least x to the greatest */

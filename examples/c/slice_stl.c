@@ -110,7 +110,8 @@ static msq_status make_filling(scene* s, const slice_options* o, const msq_shape
 }
 
 static msq_status plan_layers(scene* s, const slice_options* o) {
-  const msq_scale_def scales[2] = {{.shape = s->part}, {.structure = s->filling}};
+  const msq_scale_def scales[2] = {{.shape = s->part},
+                                   {.structure = s->filling, .skin.value = o->skin}};
   msq_model_def model;
   TRY(msq_model_def_init(&model, sizeof model));
   model.scales = scales;

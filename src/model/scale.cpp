@@ -16,8 +16,9 @@ void Scale::keep_points(const Vec3* points, uint8_t* alive, size_t count) const 
   if (skin.is_none()) return structure->keep_points(points, alive, count);
   const std::vector<uint8_t> before(alive, alive + count);
   structure->keep_points(points, alive, count);
+  uint32_t part = 0;  // points of a group lie close together
   for (size_t i = 0; i < count; ++i)
-    if (before[i] && !alive[i]) alive[i] = skin.holds(points[i]);
+    if (before[i] && !alive[i]) alive[i] = skin.find(points[i], part);
 }
 
 void Scale::keep_rows(const RowBlock& block, const Job* job) const {

@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "base/status.h"
+#include "model/skin_cells.h"
 #include "structure/strut_clearance.h"
 
 namespace msq {
@@ -25,13 +25,28 @@ uint64_t next_bit(const uint64_t* row, uint64_t from, uint64_t count) {
 Skin::Skin(Ref<const Shape> shape, Parameter thickness)
     : shape_(std::move(shape)), thickness_(std::move(thickness)) {}
 
+double Skin::search_margin() const {
+  // Each is within the error of the distance; radii are rounded.
+  return 3 * shape_->depth_error() + 0x1p-40 * max_component(shape_->bounds().extent());
+}
+
+bool Skin::find(Vec3 p, uint32_t& part) const {
+  const BoundarySearch* search = shape_->boundary_search();
+  if (!search) return holds(p);
+  const double thickness = thickness_.at(p), margin = search_margin();
+  if (!(thickness > 0)) return false;
+  const BoundarySearch::Range range =
+      search->compare(p, thickness - margin, thickness + margin, part);
+  return range == BoundarySearch::Range::between ? holds(p) : range == BoundarySearch::Range::below;
+}
+
 double Skin::clearance(Vec3 p, double depth) const {
   return strut_clearance(depth, shape_->depth_error(), thickness_, p);
 }
 
 // From a sample on, all those of the row that are no farther than its clearance are answered with
 // it.
-void Skin::mark_rows(const RowBlock& alive, const RowBlock& skin, const Job* job) const {
+void Skin::step_along_rows(const RowBlock& alive, const RowBlock& skin, const Job* job) const {
   const SampleGrid& grid = *alive.grid;
   const Interval thickness = thickness_.range();
   const double error = shape_->depth_error();
@@ -56,8 +71,17 @@ void Skin::mark_rows(const RowBlock& alive, const RowBlock& skin, const Job* job
         if (holds(p, depth)) set_bits(skin.row(j, k), i, last);
         i = next_bit(row, last + 1, grid.nx);
       }
-      for (size_t w = 0; w < alive.row_words(); ++w) skin.row(j, k)[w] &= row[w];
     }
+}
+
+void Skin::mark_rows(const RowBlock& alive, const RowBlock& skin, const Job* job) const {
+  if (const BoundarySearch* search = shape_->boundary_search())
+    SkinCells(*this, *search, alive, skin).mark(job);
+  else if (!thickness_.is_constant() || !shape_->fill_shallow_rows(thickness_.range().high, skin))
+    step_along_rows(alive, skin, job);
+  for (uint64_t k = alive.z0; k < alive.z1; ++k)
+    for (uint64_t j = alive.y0; j < alive.y1; ++j)
+      for (size_t w = 0; w < alive.row_words(); ++w) skin.row(j, k)[w] &= alive.row(j, k)[w];
 }
 
 }  // namespace msq

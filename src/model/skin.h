@@ -18,6 +18,8 @@ class Skin {
   /// Throws Error(unsupported) if there is to be a skin and the shape's depth is a mere bound.
   Skin(Ref<const Shape> shape, Parameter thickness);
 
+  const Shape& shape() const { return *shape_; }
+  const Parameter& thickness() const { return thickness_; }
   bool is_none() const { return !(thickness_.range().high > 0); }
 
   /// Whether a point of the shape lies in the skin: the definition.
@@ -27,6 +29,11 @@ class Skin {
     const double thickness = thickness_.at(p);
     return thickness > 0 && depth <= thickness;
   }
+  /// What holds(p) answers, by the shape's search of its boundary where it has one. `part`: where
+  /// to start; that of a point nearby, or 0.
+  bool find(Vec3 p, uint32_t& part) const;
+  /// What searched distances and depths may differ by.
+  double search_margin() const;
   /// A lower bound of the distance from a point of the shape, of known depth, to the points of the
   /// shape of which holds() answers otherwise.
   double clearance(Vec3 p, double depth) const;
@@ -36,6 +43,8 @@ class Skin {
   void mark_rows(const RowBlock& alive, const RowBlock& skin, const Job* job) const;
 
  private:
+  void step_along_rows(const RowBlock& alive, const RowBlock& skin, const Job* job) const;
+
   Ref<const Shape> shape_;
   Parameter thickness_;
 };

@@ -35,6 +35,7 @@ class Mesh final : public Shape {
   void prepare_distance() const override { boundary(); }
   bool knows_depth() const override { return true; }
   double depth_error() const override { return boundary().error(); }
+  const BoundarySearch* boundary_search() const override { return &boundary(); }
   uint64_t self_intersections(const Job* job) const override;
 
   const std::vector<Vec3>& vertices() const { return soup_.vertices; }

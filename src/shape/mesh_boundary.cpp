@@ -92,6 +92,16 @@ MeshBoundary::MeshBoundary(const TriangleSoup& soup, const ShapeFacts& facts, Wi
   reservation_ = Reservation(budget, tree_.bytes(), "the distances of a mesh");
 }
 
+BoundarySearch::Foot MeshBoundary::nearest(Vec3 p, uint32_t start) const {
+  const TriangleTree::Nearest found = tree_.nearest(p * scale_, start);
+  const double back = 1 / scale_;
+  return {found.distance * back, found.point * back, found.triangle};
+}
+
+BoundarySearch::Range MeshBoundary::compare(Vec3 p, double low, double high, uint32_t& part) const {
+  return tree_.compare(p * scale_, low * scale_, high * scale_, part);
+}
+
 double MeshBoundary::clearance(Vec3 p) const {
   const double distance = tree_.distance(p * scale_);
   const double bound = std::max(0.0, distance * (1 - 0x1p-46) - slack_);

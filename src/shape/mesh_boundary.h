@@ -14,6 +14,7 @@
 
 #include "base/memory.h"
 #include "base/triangle_soup.h"
+#include "shape/boundary_search.h"
 #include "shape/shape.h"
 #include "shape/triangle_tree.h"
 
@@ -21,7 +22,7 @@ namespace msq {
 
 enum class WindingRule : int32_t { nonzero = 0, even_odd = 1, positive = 2 };
 
-class MeshBoundary {
+class MeshBoundary final : public BoundarySearch {
  public:
   /// Throws Error(limit) where the budget has no room.
   MeshBoundary(const TriangleSoup& soup, const ShapeFacts& facts, WindingRule rule,
@@ -32,6 +33,9 @@ class MeshBoundary {
   /// Bound of what clearance() may differ by from the distance to the triangles, of points in the
   /// mesh's bounding box.
   double error() const { return error_; }
+
+  Foot nearest(Vec3 p, uint32_t start) const override;
+  Range compare(Vec3 p, double low, double high, uint32_t& part) const override;
 
  private:
   // Coordinates times a power of two, which rounds nothing, so that the largest extent is about 1.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shape/primitive.h"
 
+#include <vector>
+
 namespace msq {
 
 namespace {
@@ -37,12 +39,34 @@ void BoxShape::fill_rows(const RowBlock& block) const {
   }
 }
 
+/// Takes off what a difference and a root, each within a few units of 2^-53, may add.
+constexpr double box_rounding = 1 - 0x1p-50;
+
 double BoxShape::clearance(Vec3 p) const {
   const Vec3 beyond = max(bounds().min - p, p - bounds().max);
   const Vec3 gap = max(beyond, Vec3{});
   const double distance =
       max_component(beyond) > 0 ? std::hypot(gap.x, gap.y, gap.z) : -max_component(beyond);
-  return distance * (1 - 0x1p-50);  // a difference and a root, each within a few units of 2^-53
+  return distance * box_rounding;
+}
+
+// The depth is the least of one number for each axis, so a sample is shallow by its x, its y or its
+// z alone.
+bool BoxShape::fill_shallow_rows(double depth, const RowBlock& block) const {
+  const SampleGrid& grid = *block.grid;
+  const auto is_shallow = [&](int axis, double at) {
+    return -std::max(bounds().min[axis] - at, at - bounds().max[axis]) * box_rounding <= depth;
+  };
+  std::vector<uint64_t> all(block.row_words()), ends(block.row_words());
+  set_bits(all.data(), 0, grid.nx - 1);
+  for (uint64_t i = 0; i < grid.nx; ++i)
+    if (is_shallow(0, grid.x(i))) set_bits(ends.data(), i, i);
+  for (uint64_t k = block.z0; k < block.z1; ++k)
+    for (uint64_t j = block.y0; j < block.y1; ++j) {
+      const bool is_all = is_shallow(2, grid.z(k)) || is_shallow(1, grid.y(j));
+      std::copy_n((is_all ? all : ends).data(), block.row_words(), block.row(j, k));
+    }
+  return true;
 }
 
 SphereShape::SphereShape(Vec3 centre, double radius)

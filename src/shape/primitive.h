@@ -22,6 +22,7 @@ class BoxShape final : public Primitive {
   explicit BoxShape(const Box3& box);
   bool inside(Vec3 p) const override { return bounds().contains(p); }
   void fill_rows(const RowBlock& block) const override;
+  bool fill_shallow_rows(double depth, const RowBlock& block) const override;
 
  protected:
   double clearance(Vec3 p) const override;

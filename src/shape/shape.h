@@ -25,6 +25,8 @@ struct ShapeFacts {
   bool closed = true;
 };
 
+class BoundarySearch;
+
 class Shape : public RefCounted {
  public:
   /// No point outside this box is inside the shape.
@@ -56,6 +58,11 @@ class Shape : public RefCounted {
   /// Whether that is, within depth_error() for points in bounds(), the distance to some closed set.
   virtual bool knows_depth() const { return false; }
   virtual double depth_error() const { return std::numeric_limits<double>::infinity(); }
+  /// Searches of that set where they are faster than depth(); null where they are not.
+  virtual const BoundarySearch* boundary_search() const { return nullptr; }
+  /// Sets the bits of the samples of the shape whose depth() is at most this, and of any others
+  /// that are not in the shape. False, with nothing done, where asking depth() is as fast.
+  virtual bool fill_shallow_rows(double, const RowBlock&) const { return false; }
 
   /// Number of pairs of triangles that meet where they should not; none where there are no
   /// triangles.

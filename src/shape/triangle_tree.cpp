@@ -54,6 +54,29 @@ double distance_squared(const TreeTriangle& t, Vec3 p, double best) {
   return dot(d, d);
 }
 
+/// The point of the triangle whose distance that is.
+Vec3 foot(const TreeTriangle& t, Vec3 p) {
+  const Vec3 normal = cross(t.u, t.v), w = p - t.a;
+  const double normal_squared = dot(normal, normal);
+  if (!is_sliver(normal_squared, longest_squared(t))) {
+    const double inverse = 1 / normal_squared;
+    const double of_u = dot(cross(w, t.v), normal) * inverse;
+    const double of_v = dot(cross(t.u, w), normal) * inverse;
+    if (of_u >= 0 && of_v >= 0 && of_u + of_v <= 1) return t.a + t.u * of_u + t.v * of_v;
+  }
+  Vec3 nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Segment& s :
+       {Segment(t.a, t.a + t.u), Segment(t.a, t.a + t.v), Segment(t.a + t.u, t.a + t.v)}) {
+    const double along = std::clamp(dot(p - s.a, s.ab) * s.inverse_length_squared, 0.0, 1.0);
+    const Vec3 on = s.a + s.ab * along, away = p - on;
+    if (dot(away, away) >= least) continue;
+    least = dot(away, away);
+    nearest = on;
+  }
+  return nearest;
+}
+
 /// By how much the distance above may be too large. Of a sliver only edges are asked, which every
 /// point of it is nearer to than its height. Otherwise the foot's coordinates in u and v are within
 /// 12 units of 2^-53 of |w| |u| |v| / |normal| over |u| and |v|, and the distance to the plane
@@ -90,18 +113,25 @@ TriangleTree::TriangleTree(std::vector<TreeTriangle> triangles) {
   nodes_.shrink_to_fit();
 }
 
-double TriangleTree::Bound::distance_squared(Vec3 p) const {
+inline double TriangleTree::Bound::distance_squared(Vec3 p, double best) const {
   const Vec3 gap = max(max(box.min - p, p - box.max), Vec3{});
+  const double of_box = dot(gap, gap);
+  if (of_box >= best) return of_box;
   const Vec3 w = p - centre;
   const double along = dot(normal, w);
   const double above = std::max(std::abs(along) - half_height, 0.0);
-  const double beyond = std::max(length(w - normal * along) - radius, 0.0);
-  return std::max(dot(gap, gap), above * above + beyond * beyond);
+  const Vec3 across = w - normal * along;
+  const double across_squared = dot(across, across);
+  double of_cylinder = above * above;
+  if (of_cylinder < best && across_squared > radius * radius) {
+    const double beyond = std::sqrt(across_squared) - radius;
+    of_cylinder += beyond * beyond;
+  }
+  return std::max(of_box, of_cylinder);
 }
 
 TriangleTree::Bound TriangleTree::bound_of(const std::vector<uint32_t>& order,
-                                           const std::vector<TreeTriangle>& triangles,
-                                           Range range) {
+                                           const std::vector<TreeTriangle>& triangles, Run range) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Bound bound{{{far, far, far}, {-far, -far, -far}}, {}, {}, 0, 0};  // of no triangles
   const auto for_corners = [&](auto&& use) {
@@ -139,7 +169,7 @@ TriangleTree::Bound TriangleTree::bound_of(const std::vector<uint32_t>& order,
 }
 
 uint32_t TriangleTree::build(std::vector<uint32_t>& order,
-                             const std::vector<TreeTriangle>& triangles, Range range) {
+                             const std::vector<TreeTriangle>& triangles, Run range) {
   const uint32_t index = static_cast<uint32_t>(nodes_.size());
   nodes_.emplace_back();
   // Three times the centre.
@@ -159,9 +189,9 @@ uint32_t TriangleTree::build(std::vector<uint32_t>& order,
                      const double a = centre(i)[axis], b = centre(j)[axis];
                      return a < b || (a == b && i < j);
                    });
-  const Range halves[2] = {{range.begin, middle}, {middle, range.end}};
+  const Run halves[2] = {{range.begin, middle}, {middle, range.end}};
   for (int side = 0; side < 2; ++side) {
-    const Range half = halves[side];
+    const Run half = halves[side];
     const uint32_t size = half.end - half.begin;
     const bool is_leaf = size <= leaf_triangles;
     nodes_[index].bound[side] = bound_of(order, triangles, half);
@@ -172,7 +202,8 @@ uint32_t TriangleTree::build(std::vector<uint32_t>& order,
   return index;
 }
 
-double TriangleTree::distance(Vec3 p) const {
+template <class Found>
+void TriangleTree::search(Vec3 p, double best, Found&& found) const {
   struct Waiting {
     uint32_t node;
     double distance_squared;
@@ -180,12 +211,12 @@ double TriangleTree::distance(Vec3 p) const {
   Waiting stack[most_depth];
   size_t depth = 0;
   stack[depth++] = {0, 0};
-  double best = std::numeric_limits<double>::infinity();
   while (depth > 0) {
     const Waiting next = stack[--depth];
     if (next.distance_squared >= best) continue;
     const Node& node = nodes_[next.node];
-    const double bounds[2] = {node.bound[0].distance_squared(p), node.bound[1].distance_squared(p)};
+    const double bounds[2] = {node.bound[0].distance_squared(p, best),
+                              node.bound[1].distance_squared(p, best)};
     const int near = bounds[1] < bounds[0];
     Waiting inner[2];
     int inner_count = 0;
@@ -196,12 +227,49 @@ double TriangleTree::distance(Vec3 p) const {
         inner[inner_count++] = {child, bounds[side]};
         continue;
       }
-      for (uint32_t i = child; i < child + count; ++i)
-        best = std::min(best, distance_squared(triangles_[i], p, best));
+      for (uint32_t i = child; i < child + count; ++i) {
+        const double squared = distance_squared(triangles_[i], p, best);
+        if (!(squared < best)) continue;
+        best = found(i, squared);
+        if (!(best > 0)) return;
+      }
     }
     while (inner_count > 0) stack[depth++] = inner[--inner_count];
   }
+}
+
+double TriangleTree::distance(Vec3 p) const {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  double best = far;
+  search(p, far, [&](uint32_t, double squared) { return best = squared; });
   return std::sqrt(best);
+}
+
+TriangleTree::Nearest TriangleTree::nearest(Vec3 p, uint32_t start) const {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  double best = distance_squared(triangles_[start], p, far);
+  uint32_t triangle = start;
+  search(p, best, [&](uint32_t i, double squared) {
+    triangle = i;
+    return best = squared;
+  });
+  return {std::sqrt(best), foot(triangles_[triangle], p), triangle};
+}
+
+TriangleTree::Range TriangleTree::compare(Vec3 p, double low, double high, uint32_t& start) const {
+  const double low_squared = low > 0 ? low * low : 0, high_squared = high > 0 ? high * high : 0;
+  Range range = Range::beyond;
+  // What to look for after a triangle is found that near.
+  const auto found = [&](uint32_t i, double squared) {
+    start = i;
+    range = squared < low_squared ? Range::below : Range::between;
+    return range == Range::below ? 0 : low_squared;
+  };
+  double best = high_squared;
+  const double squared = distance_squared(triangles_[start], p, best);
+  if (squared < best) best = found(start, squared);
+  if (best > 0) search(p, best, found);
+  return range;
 }
 
 }  // namespace msq

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "shape/boundary_search.h"
 
 namespace msq {
 
@@ -31,6 +32,17 @@ class TriangleTree {
   explicit TriangleTree(std::vector<TreeTriangle> triangles);
 
   double distance(Vec3 p) const;
+
+  using Range = BoundarySearch::Range;
+  struct Nearest {
+    double distance;
+    Vec3 point;  ///< of the triangle
+    uint32_t triangle;
+  };
+  /// The nearest triangle, from one that may be near on.
+  Nearest nearest(Vec3 p, uint32_t start) const;
+  /// Where the distance to the nearest triangle lies; `start` becomes one that is as near as that.
+  Range compare(Vec3 p, double low, double high, uint32_t& start) const;
   /// Bound of what distance() may be too large for the shape of the triangles, beside 2^-47 of
   /// itself and of the coordinates.
   double excess() const { return excess_; }
@@ -48,21 +60,26 @@ class TriangleTree {
     Vec3 centre, normal;  // the normal of length 1, or 0 where there is no mean
     double half_height, radius;
 
-    double distance_squared(Vec3 p) const;
+    /// Or, of more than best, any number above best.
+    double distance_squared(Vec3 p, double best) const;
   };
   struct Node {
     Bound bound[2];
     uint32_t child[2];  // node, or first triangle of a leaf
     uint32_t count[2];  // triangles of a leaf; 0 for a node
   };
-  struct Range {
+  struct Run {
     uint32_t begin, end;
   };
 
   static Bound bound_of(const std::vector<uint32_t>& order,
-                        const std::vector<TreeTriangle>& triangles, Range range);
+                        const std::vector<TreeTriangle>& triangles, Run range);
+  /// Looks for triangles nearer than sqrt(best): found(triangle, squared distance) returns the
+  /// square of what the next must be nearer than, 0 to stop.
+  template <class Found>
+  void search(Vec3 p, double best, Found&& found) const;
   uint32_t build(std::vector<uint32_t>& order, const std::vector<TreeTriangle>& triangles,
-                 Range range);
+                 Run range);
 
   std::vector<TreeTriangle> triangles_;  // leaf by leaf
   std::vector<Node> nodes_;
