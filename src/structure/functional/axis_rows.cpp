@@ -72,8 +72,7 @@ AxisRows::AxisRows(const Functional& structure, const RowBlock& block)
   }
   certain_.resize(words_);
   result_.resize(words_ + 1);
-  at_most_low_.resize(words_);
-  at_most_high_.resize(words_);
+  doubt_.resize(words_);
 }
 
 /// Rows whose angles repeat after some words are computed once and copied.
@@ -243,8 +242,12 @@ void AxisRows::keep_group(const RowGroup& group) {
       else
         for (const Segment& segment : work->segments) decide_linear(*work, segment, group, row);
     }
-    for (size_t w = 0; w < row_words;)
-      for (size_t part = 0; part < words_ && w < row_words; ++part, ++w) words[w] &= result_[part];
+    if (words_ == 1)
+      for (size_t w = 0; w < row_words; ++w) words[w] &= result_[0];
+    else
+      for (size_t w = 0; w < row_words;)
+        for (size_t part = 0; part < words_ && w < row_words; ++part, ++w)
+          words[w] &= result_[part];
   }
 }
 
@@ -308,17 +311,16 @@ void AxisRows::decide_linear(Work& work, const Segment& segment, const RowGroup&
   }
   const LinearRow linear{work.float_pointers.data(), coefficients, terms,
                          static_cast<float>(constant), work.plan.is_absolute};
-  compare_linear(linear, segment.words.data(), segment.words.size(), segment.bounds.low.data(),
-                 segment.bounds.high.data(), segment.has_one_level, at_most_low_.data(),
-                 at_most_high_.data());
+  const LinearWords words{segment.words.data(),      segment.words.size(),
+                          segment.bounds.low.data(), segment.bounds.high.data(),
+                          segment.has_one_level,     work.mask.data()};
+  if (!msq::decide_linear(linear, words, {result_.data(), doubt_.data()})) return;
   for (size_t n = 0; n < segment.words.size(); ++n) {
     const uint32_t w = segment.words[n];
-    uint64_t in = at_most_low_[n];
-    for (uint64_t doubt = at_most_high_[n] & ~in & work.mask[w]; doubt; doubt &= doubt - 1) {
+    for (uint64_t doubt = doubt_[n]; doubt; doubt &= doubt - 1) {
       const uint64_t i = w * bits_per_word + static_cast<uint64_t>(std::countr_zero(doubt));
-      if (decide(work, segment, linear, group, row, i)) in |= doubt & -doubt;
+      if (decide(work, segment, linear, group, row, i)) result_[w] |= doubt & -doubt;
     }
-    result_[w] |= in & work.mask[w];
   }
 }
 
@@ -356,8 +358,8 @@ void AxisRows::decide_samples(Work& work, const RowGroup& group, size_t row) {
   else
     for (size_t i = 0; i < count; ++i)
       levels_[i] = structure_.level().at(grid_.at(work.samples_at[i], group.y(row), group.z(row)));
-  std::vector<uint64_t>& bits = at_most_low_;
-  bits.resize(std::max(bits.size(), words_ + 1));
+  std::vector<uint64_t>& bits = held_;
+  bits.resize(words_ + 1);
   for (size_t begin = 0; begin < count; begin += batch_points) {
     const size_t size = std::min(batch_points, count - begin);
     for (size_t t = 0; t < tables; ++t)

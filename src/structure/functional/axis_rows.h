@@ -87,7 +87,7 @@ class AxisRows {
   std::vector<Run> columns_;       // a row's runs, by the cluster along it
   std::vector<std::unique_ptr<Work>> works_;
   std::vector<Work*> used_;  // in a group
-  std::vector<uint64_t> certain_, result_, at_most_low_, at_most_high_;
+  std::vector<uint64_t> certain_, result_, doubt_, held_;
   std::vector<double> levels_;
   std::vector<float> sample_numbers_;
   std::vector<uint32_t> mixed_words_;

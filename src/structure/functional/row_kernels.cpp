@@ -120,56 +120,62 @@ void compare_all_singles(ValuesOf<float> values, const uint32_t* words, size_t c
     compare_words<false, false>(values.data, words, count, low, high, at_most_low, at_most_high);
 }
 
-template <size_t terms, bool has_one_level>
-HWY_INLINE void linear_words(const LinearRow& row, const uint32_t* words, size_t count,
-                             const float* low, const float* high, uint64_t* at_most_low,
-                             uint64_t* at_most_high) {
+template <size_t terms, bool has_one_level, bool is_absolute>
+HWY_INLINE bool linear_words(const LinearRow& row, const LinearWords& words,
+                             const LinearResult& to) {
   const hn::CappedTag<float, linear_chunk> d;
   const size_t lanes = hn::Lanes(d);
   const size_t all_terms = terms ? terms : row.terms;
   const auto constant = hn::Set(d, row.constant);
-  const bool is_absolute = row.is_absolute;
-  for (size_t n = 0; n < count; ++n) {
-    const size_t begin = size_t{words[n]} * 64;
+  auto low = hn::Set(d, *words.low), high = hn::Set(d, *words.high);
+  uint64_t any = 0;
+  for (size_t n = 0; n < words.count; ++n) {
+    const size_t w = words.numbers[n], begin = w * 64;
     uint64_t in = 0, maybe = 0;
     for (size_t i = 0; i < 64; i += lanes) {
       auto sum = constant;
       for (size_t t = 0; t < all_terms; ++t)
         sum = hn::MulAdd(hn::LoadU(d, row.tables[t] + begin + i), hn::Set(d, row.coefficients[t]),
                          sum);
-      if (is_absolute) sum = hn::Abs(sum);
-      const size_t chunk = has_one_level ? 0 : (begin + i) / linear_chunk;
-      in |= bits_of(d, hn::Le(sum, hn::Set(d, low[chunk]))) << i;
-      maybe |= bits_of(d, hn::Le(sum, hn::Set(d, high[chunk]))) << i;
+      if constexpr (is_absolute) sum = hn::Abs(sum);
+      if constexpr (!has_one_level) {
+        low = hn::Set(d, words.low[(begin + i) / linear_chunk]);
+        high = hn::Set(d, words.high[(begin + i) / linear_chunk]);
+      }
+      in |= bits_of(d, hn::Le(sum, low)) << i;
+      maybe |= bits_of(d, hn::Le(sum, high)) << i;
     }
-    at_most_low[n] = in;
-    at_most_high[n] = maybe;
+    const uint64_t mask = words.mask[w], doubt = maybe & ~in & mask;
+    to.in[w] |= in & mask;
+    to.doubt[n] = doubt;
+    any |= doubt;
   }
+  return any != 0;
 }
 
-template <bool has_one_level>
-HWY_INLINE void linear_row(const LinearRow& row, const uint32_t* words, size_t count,
-                           const float* low, const float* high, uint64_t* in, uint64_t* maybe) {
+template <bool has_one_level, bool is_absolute>
+HWY_INLINE bool linear_terms(const LinearRow& row, const LinearWords& words,
+                             const LinearResult& to) {
   switch (row.terms) {
     case 1:
-      return linear_words<1, has_one_level>(row, words, count, low, high, in, maybe);
+      return linear_words<1, has_one_level, is_absolute>(row, words, to);
     case 2:
-      return linear_words<2, has_one_level>(row, words, count, low, high, in, maybe);
+      return linear_words<2, has_one_level, is_absolute>(row, words, to);
     case 3:
-      return linear_words<3, has_one_level>(row, words, count, low, high, in, maybe);
+      return linear_words<3, has_one_level, is_absolute>(row, words, to);
     case 4:
-      return linear_words<4, has_one_level>(row, words, count, low, high, in, maybe);
+      return linear_words<4, has_one_level, is_absolute>(row, words, to);
     default:
-      return linear_words<0, has_one_level>(row, words, count, low, high, in, maybe);
+      return linear_words<0, has_one_level, is_absolute>(row, words, to);
   }
 }
 
-void linear(const LinearRow& row, const uint32_t* words, size_t count, const float* low,
-            const float* high, bool has_one_level, uint64_t* at_most_low, uint64_t* at_most_high) {
-  if (has_one_level)
-    linear_row<true>(row, words, count, low, high, at_most_low, at_most_high);
-  else
-    linear_row<false>(row, words, count, low, high, at_most_low, at_most_high);
+bool linear(const LinearRow& row, const LinearWords& words, const LinearResult& to) {
+  if (words.has_one_level)
+    return row.is_absolute ? linear_terms<true, true>(row, words, to)
+                           : linear_terms<true, false>(row, words, to);
+  return row.is_absolute ? linear_terms<false, true>(row, words, to)
+                         : linear_terms<false, false>(row, words, to);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -212,11 +218,8 @@ void find_angles(const Neighbourhood& grid, Values x, Values y, Values z, size_t
   HWY_DYNAMIC_DISPATCH(angles_of_points)(grid, x, y, z, count, angles);
 }
 
-void compare_linear(const LinearRow& row, const uint32_t* words, size_t count, const float* low,
-                    const float* high, bool has_one_level, uint64_t* at_most_low,
-                    uint64_t* at_most_high) {
-  HWY_DYNAMIC_DISPATCH(linear)
-  (row, words, count, low, high, has_one_level, at_most_low, at_most_high);
+bool decide_linear(const LinearRow& row, const LinearWords& words, const LinearResult& to) {
+  return HWY_DYNAMIC_DISPATCH(linear)(row, words, to);
 }
 
 }  // namespace msq

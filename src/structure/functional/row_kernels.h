@@ -30,7 +30,9 @@ void turn_angle(double sine, double cosine, const double* cosines, const double*
 void turn_angles(const float* sine, const float* cosine, size_t words, const float* cosines,
                  const float* sines, float* to_sines, float* to_cosines);
 
-/// As compare_linear, for values that are there, word after word.
+/// For each listed word w of 64 samples: the samples with a value of at most low, and of at most
+/// high, thresholds that stand for chunks of samples, or, where has_one_level, for all. The values
+/// come word after word.
 void compare_singles(ValuesOf<float> values, const uint32_t* words, size_t count, const float* low,
                      const float* high, bool has_one_level, uint64_t* at_most_low,
                      uint64_t* at_most_high);
@@ -46,10 +48,20 @@ struct LinearRow {
 };
 /// Samples that share a threshold.
 constexpr size_t linear_chunk = 16;
-/// For each listed word w of 64 samples: the samples with a value of at most low, and of at most
-/// high, thresholds that stand for chunks of samples, or, where has_one_level, for all.
-void compare_linear(const LinearRow& row, const uint32_t* words, size_t count, const float* low,
-                    const float* high, bool has_one_level, uint64_t* at_most_low,
-                    uint64_t* at_most_high);
+/// Words of 64 samples, and thresholds that stand for chunks of samples, or, where has_one_level,
+/// for all.
+struct LinearWords {
+  const uint32_t* numbers;  ///< of the words, `count` of them
+  size_t count;
+  const float *low, *high;
+  bool has_one_level;
+  const uint64_t* mask;  ///< by word: samples to decide
+};
+struct LinearResult {
+  uint64_t* in;     ///< by word: samples with a value of at most low are added
+  uint64_t* doubt;  ///< by number in the list: those above low, but not above high
+};
+/// Whether there is any doubt.
+bool decide_linear(const LinearRow& row, const LinearWords& words, const LinearResult& to);
 
 }  // namespace msq
