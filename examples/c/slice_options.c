@@ -21,6 +21,9 @@ static const char usage[] =
     "                     (rhombic dodecahedron) or reentrant; several, as bcc,octet: one after\n"
     "                     the other from left to right\n"
     "  --cell MM          its cell size (default 4)\n"
+    "  --tpms NAME        minimal surface instead: gyroid, p, d, iwp, neovius, frd, lidinoid or\n"
+    "                     splitp, in cells of --cell; the space on one side of it\n"
+    "  --wall MM          its sheet instead, with walls of this mean thickness\n"
     "  --solid            the part alone, unfilled by any structure\n"
     "  --radius MM        radius of the struts (default 0.4)\n"
     "  --radius-top MM    radius at the top of the part, from --radius at its bottom\n"
@@ -87,6 +90,17 @@ static int read_unit_cells(const char* text, slice_options* o) {
   return -1; /* too many */
 }
 
+static int read_tpms(const char* text, int32_t* function) {
+  static const char* const names[] = {"gyroid",  "p",   "d",        "iwp",
+                                      "neovius", "frd", "lidinoid", "splitp"};
+  for (int32_t i = 0; i < 8; ++i) {
+    if (strcmp(text, names[i]) != 0) continue;
+    *function = MSQ_FUNCTION_GYROID + i;
+    return 0;
+  }
+  return -1;
+}
+
 int slice_options_read(slice_options* o, int argc, char** argv) {
   static const struct option longs[] = {
       {"foam", 1, NULL, 'f'},  {"lattice", 1, NULL, 'l'}, {"cell", 1, NULL, 'c'},
@@ -94,7 +108,8 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
       {"seed", 1, NULL, 'S'},  {"layer", 1, NULL, 'z'},   {"pitch", 1, NULL, 'p'},
       {"unit", 1, NULL, 'u'},  {"every", 1, NULL, 'e'},   {"threads", 1, NULL, 't'},
       {"out", 1, NULL, 'o'},   {"help", 0, NULL, 'h'},    {"density", 1, NULL, 'd'},
-      {"block", 1, NULL, 'b'}, {"skin", 1, NULL, 'k'},    {NULL, 0, NULL, 0}};
+      {"block", 1, NULL, 'b'}, {"skin", 1, NULL, 'k'},    {"tpms", 1, NULL, 'm'},
+      {"wall", 1, NULL, 'w'},  {NULL, 0, NULL, 0}};
   const slice_options defaults = {.out = "out",
                                   .foam = 4,
                                   .cell = 4,
@@ -110,7 +125,7 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
     double* value;
   } lengths[] = {{'f', &o->foam},  {'c', &o->cell},  {'r', &o->radius}, {'R', &o->radius_top},
                  {'z', &o->layer}, {'p', &o->pitch}, {'u', &o->unit},   {'d', &o->density},
-                 {'b', &o->block}, {'k', &o->skin}};
+                 {'b', &o->block}, {'k', &o->skin}, {'w', &o->wall}};
   for (int option; (option = getopt_long(argc, argv, "o:h", longs, NULL)) != -1;) {
     int bad = 0;
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; ++i) {
@@ -123,6 +138,7 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
     if (option == 'f') o->unit_cell_count = 0;
     if (option == 'R') o->graded = 1;
     if (option == 'l') bad = read_unit_cells(optarg, o);
+    if (option == 'm') bad = read_tpms(optarg, &o->tpms);
     if (option == 'S') bad = read_count(optarg, UINT64_MAX, &o->seed);
     if (option == 'e') bad = read_count(optarg, UINT64_MAX, &o->every);
     if (option == 't') bad = read_count(optarg, UINT32_MAX, &o->threads);

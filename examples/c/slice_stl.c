@@ -89,7 +89,18 @@ static msq_status make_lattice(scene* s, const slice_options* o, const msq_shape
   return msq_structure_lattice(s->context, &lattice, &s->filling);
 }
 
+static msq_status make_surface(scene* s, const slice_options* o) {
+  msq_functional_def surface;
+  TRY(msq_functional_def_init(&surface, sizeof surface));
+  surface.function = o->tpms;
+  if (o->wall > 0) surface.kind = MSQ_FUNCTIONAL_SHEET;
+  surface.thickness.value = o->wall;
+  for (int a = 0; a < 3; ++a) surface.grid.cell_size[a] = o->cell;
+  return msq_structure_functional(s->context, &surface, &s->filling);
+}
+
 static msq_status make_filling(scene* s, const slice_options* o, const msq_shape_report* part) {
+  if (o->tpms) return make_surface(s, o);
   if (o->graded) {
     const double bottom[3] = {0, 0, part->min[2]}, top[3] = {0, 0, part->max[2]};
     TRY(msq_field_gradient(s->context, bottom, o->radius, top, o->radius_top, &s->radius));

@@ -7,6 +7,7 @@
 #include "api/level.h"
 #include "api/neighbourhood.h"
 #include "expression/parser.h"
+#include "field/map.h"
 #include "structure/functional/presets.h"
 #include "structure/functional/wall_thickness.h"
 
@@ -52,12 +53,13 @@ Parameter read_thickness(const msq_functional_def& def, FunctionalKind kind, con
     fail(Status::argument,
          "thickness runs from %g to %g; it must not be negative, nor 0 everywhere", range.low,
          range.high);
-  WallThickness walls(function, cell_size);
+  const WallThickness walls(function, cell_size);
   if (range.high > walls.most())
     fail(Status::argument, "thickness runs to %g; walls of %g fill all of the cell", range.high,
          walls.most());
-  if (thickness.is_constant()) return Parameter(walls.level(range.high));
-  return Parameter(Ref<const Field>(make_ref<LevelOfThickness>(std::move(walls), thickness)));
+  if (thickness.is_constant()) return Parameter(walls.levels()(range.high));
+  return Parameter(Ref<const Field>(make_ref<MapField>(
+      Ref<const Field>(&object(def.thickness.field, "thickness")), walls.levels())));
 }
 
 }  // namespace

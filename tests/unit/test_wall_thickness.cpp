@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "expression/parser.h"
-#include "field/gradient.h"
 #include "random.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
@@ -59,9 +58,9 @@ void volume_fractions(void**) {
     const WallThickness walls = walls_of(column.function);
     for (size_t i = 0; i < 7; ++i) {
       const double wanted = 2 * column.networks[i] - 1;
-      if (std::abs(walls.volume_fraction(levels[i]) - wanted) > 1e-3)
+      if (std::abs(walls.volume_fractions()(levels[i]) - wanted) > 1e-3)
         fail_msg("%s, level %g: %.6f, expected %.6f", column.function, levels[i],
-                 walls.volume_fraction(levels[i]), wanted);
+                 walls.volume_fractions()(levels[i]), wanted);
     }
   }
 }
@@ -74,13 +73,13 @@ void walls_of_known_thickness(void**) {
     for (double part : {0.01, 0.05, 0.1, 0.2, 0.3, 0.4}) {
       char what[60];
       std::snprintf(what, sizeof what, "walls of %g cells of %g", part, size);
-      is_near(what, walls.level(part * size), std::sin(part * two_pi / 2), 3e-3);
+      is_near(what, walls.levels()(part * size), std::sin(part * two_pi / 2), 3e-3);
     }
   }
   // Flat walls of the same slope everywhere.
   const WallThickness walls = walls_of("abs(x-pi)-pi/2");
   for (double t : {1e-6, 0.001, 0.1, 0.3})
-    is_near("ramps", walls.level(t), t * two_pi / 2, 1e-6 + 1e-3);
+    is_near("ramps", walls.levels()(t), t * two_pi / 2, 1e-6 + 1e-3);
 }
 
 /// Volume over area, by independent samples of the structure of the level.
@@ -96,7 +95,7 @@ void volume_of_a_thickness(void**) {
       if (wanted > 0.95) continue;
       const Ref<Functional> structure =
           make_ref<Functional>(grid, parse_expression(text, {}), FunctionalKind::sheet,
-                               Parameter(walls.level(thickness)), 0);
+                               Parameter(walls.levels()(thickness)), 0);
       Random random(++seed);
       const size_t count = test_count(300000);
       std::vector<Vec3> points(count);
@@ -118,46 +117,15 @@ void levels_grow(void**) {
   for (const char* text : {preset_expressions[0], preset_expressions[6], "min(sin(x), 0.3)"}) {
     const WallThickness walls = walls_of(text);
     Random random(3);
-    assert_true(walls.level(0) == 0);
+    assert_true(walls.levels()(0) == 0);
     for (size_t i = test_count(100000); i > 0; --i) {
       const double a = random.between(0, walls.most());
       const double b = i % 2 ? std::nextafter(a, 1e9) : random.between(0, walls.most());
-      const double low = walls.level(std::min(a, b)), high = walls.level(std::max(a, b));
+      const double low = walls.levels()(std::min(a, b)), high = walls.levels()(std::max(a, b));
       assert_true(low >= 0 && low <= high);
-      assert_true(high - low <= walls.lipschitz() * std::abs(b - a) + 0x1p-48 * high);
+      assert_true(high - low <= walls.levels().lipschitz() * std::abs(b - a) + 0x1p-48 * high);
     }
   }
-}
-
-void fields_of_thickness(void**) {
-  const Parameter thickness(
-      Ref<const Field>(make_ref<GradientField>(Vec3{0, 0, 0}, 0.02, Vec3{2, 1, 0.5}, 0.25)));
-  const WallThickness walls = walls_of(preset_expressions[0]);
-  const LevelOfThickness levels(walls, thickness);
-  Random random(4);
-  const Interval all = levels.range();
-  size_t linear = 0;
-  for (size_t i = test_count(20000); i > 0; --i) {
-    const Vec3 low = random.in_box({{-1, -1, -1}, {3, 2, 1}});
-    const Vec3 extent = random.in_box({{0, 0, 0}, {1, 1, 1}}) * (i % 2 ? 0.001 : 0.3);
-    const Box3 box{low, low + extent};
-    const Interval range = levels.range(box);
-    Vec3 gradient;
-    const bool is_linear = levels.is_linear(box, gradient);
-    linear += is_linear;
-    const double at_low = levels.at(low);
-    for (int n = 0; n < 4; ++n) {
-      const Vec3 p = random.in_box(box);
-      const double v = levels.at(p);
-      assert_true(v == walls.level(thickness.at(p)));
-      assert_true(v >= range.low && v <= range.high && v >= all.low && v <= all.high);
-      assert_true(std::abs(v - at_low) <= levels.lipschitz() * length(p - low) + 1e-13);
-      if (is_linear)
-        assert_true(std::abs(v - at_low - dot(gradient, p - low)) <=
-                    0x1p-40 * (all.high - all.low));
-    }
-  }
-  if (test_count(100) == 100) assert_in_range(linear, 100, 20000);
 }
 
 }  // namespace
@@ -169,7 +137,6 @@ int main() {
       cmocka_unit_test(walls_of_known_thickness),
       cmocka_unit_test(volume_of_a_thickness),
       cmocka_unit_test(levels_grow),
-      cmocka_unit_test(fields_of_thickness),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr size_t steps = 64, points = steps + 1;
 static_assert(points <= batch_points && steps % 2 == 0);
-constexpr size_t level_steps = 512;
+constexpr size_t level_steps = 512, thickness_steps = 512;
 
 struct Samples {
   explicit Samples(const Tape& function) : values(points * points * points) {
@@ -175,71 +175,30 @@ std::vector<double> fractions_of(const Samples& samples, double greatest) {
 WallThickness::WallThickness(const Tape& function, Vec3 cell_size) {
   const Samples samples(function);
   area_ = (4 * area_of(samples, cell_size, 1) - area_of(samples, cell_size, 2)) / 3;
+  double greatest = 0;
   for (double v : samples.values)
-    if (std::isfinite(v)) greatest_level_ = std::max(greatest_level_, std::abs(v));
-  if (!(area_ > 0) || !std::isfinite(area_) || !(greatest_level_ > 0))
+    if (std::isfinite(v)) greatest = std::max(greatest, std::abs(v));
+  if (!(area_ > 0) || !std::isfinite(area_) || !(greatest > 0))
     fail(Status::argument,
          "thickness is given, but the function is 0 nowhere in the cell, so there are no walls");
-  fractions_ = fractions_of(samples, greatest_level_);
+  const std::vector<double> fractions = fractions_of(samples, greatest);
   const double volume = cell_size.x * cell_size.y * cell_size.z;
-  most_ = fractions_.back() * volume / area_;
+  most_ = fractions.back() * volume / area_;
+  std::vector<Curve::Knot> by_level, by_thickness;
+  for (size_t n = 0; n <= level_steps; ++n)
+    by_level.push_back({double(n) * (greatest / double(level_steps)), fractions[n]});
+  // Equal steps of the thickness: where it hardly grows with the level, the levels lie far apart.
   size_t n = 0;
-  for (int knot = 0; knot <= knots; ++knot) {
-    const double wanted = fractions_.back() * (double(knot) / double(knots));
-    while (n + 1 < level_steps && fractions_[n + 1] < wanted) ++n;
-    const double step = fractions_[n + 1] - fractions_[n];
-    const double part = step > 0 ? std::clamp((wanted - fractions_[n]) / step, 0.0, 1.0) : 0;
-    const double level = (double(n) + part) * (greatest_level_ / double(level_steps));
-    levels_.push_back(knot ? std::max(level, levels_.back()) : level);
+  for (size_t knot = 0; knot <= thickness_steps; ++knot) {
+    const double part = double(knot) / double(thickness_steps), wanted = fractions.back() * part;
+    while (n + 1 < level_steps && fractions[n + 1] < wanted) ++n;
+    const double step = fractions[n + 1] - fractions[n];
+    const double beyond = step > 0 ? std::clamp((wanted - fractions[n]) / step, 0.0, 1.0) : 0;
+    const double level = by_level[n].at + beyond * (by_level[n + 1].at - by_level[n].at);
+    by_thickness.push_back({most_ * part, knot ? std::max(level, by_thickness.back().value) : 0.0});
   }
-  for (size_t i = 0; i < knots; ++i) {
-    slopes_.push_back((levels_[i + 1] - levels_[i]) / (most_ / knots));
-    steepest_ = std::max(steepest_, slopes_.back());
-  }
-  steepest_ *= 1 + 0x1p-40;
-}
-
-double WallThickness::volume_fraction(double level) const {
-  const double n = std::clamp(level / greatest_level_, 0.0, 1.0) * double(level_steps);
-  const size_t i = std::min(static_cast<size_t>(n), level_steps - 1);
-  return fractions_[i] + (n - double(i)) * (fractions_[i + 1] - fractions_[i]);
-}
-
-size_t WallThickness::piece(double thickness) const {
-  return std::min(static_cast<size_t>(std::max(0.0, thickness) * (knots / most_)),
-                  size_t{knots - 1});
-}
-
-double WallThickness::level(double thickness) const {
-  const size_t i = piece(thickness);
-  const double v = levels_[i] + (thickness - double(i) * (most_ / knots)) * slopes_[i];
-  return std::clamp(v, levels_[i], levels_[i + 1]);
-}
-
-bool WallThickness::is_linear(Interval thickness, double& slope) const {
-  // Between knots, by more than rounding.
-  const double from = piece(thickness.low) * (most_ / knots), margin = 0x1p-40 * most_;
-  if (!(thickness.low > from + margin && thickness.high < from + most_ / knots - margin))
-    return false;
-  slope = slopes_[piece(thickness.low)];
-  return true;
-}
-
-bool LevelOfThickness::is_linear(const Box3& box, Vec3& gradient) const {
-  double slope;
-  // Rounding of the levels must be little against their range.
-  const Interval all = range();
-  if (!(all.high - all.low > 0x1p-8 * all.high)) return false;
-  if (!walls_.is_linear(thickness_.range(box), slope)) return false;
-  if (!thickness_.is_linear(box, gradient)) return false;
-  gradient = gradient * slope;
-  return true;
-}
-
-Interval LevelOfThickness::levels(Interval thickness) const {
-  // Values of points next to each other may be rounded otherwise.
-  return {walls_.level(thickness.low) * (1 - 0x1p-50),
-          walls_.level(thickness.high) * (1 + 0x1p-50)};
+  fractions_ = Curve(std::move(by_level));
+  levels_ = Curve(std::move(by_thickness));
 }
 
 }  // namespace msq

@@ -9,10 +9,8 @@
 // well.
 #pragma once
 
-#include <vector>
-
 #include "expression/tape.h"
-#include "field/field.h"
+#include "field/curve.h"
 
 namespace msq {
 
@@ -23,45 +21,16 @@ class WallThickness {
 
   /// Of the surface within a cell.
   double area() const { return area_; }
-  /// Part of the cell where the function's magnitude is at most the level.
-  double volume_fraction(double level) const;
-  /// That of the walls that fill all of the cell.
+  /// The thickness of the walls that fill all of the cell.
   double most() const { return most_; }
-  /// The level of walls from 0 to most() thick, linear between `knots` thicknesses; of a greater
-  /// thickness never a lower one, to the last bit.
-  double level(double thickness) const;
-  double lipschitz() const { return steepest_; }
-  /// Whether level() is linear between two thicknesses; if so, its slope.
-  bool is_linear(Interval thickness, double& slope) const;
-
-  static constexpr int knots = 512;
+  /// By level, the part of the cell where the function's magnitude is at most that.
+  const Curve& volume_fractions() const { return fractions_; }
+  /// By thickness, from 0 to most(), the level.
+  const Curve& levels() const { return levels_; }
 
  private:
-  size_t piece(double thickness) const;
-
-  double area_ = 0, most_ = 0, steepest_ = 0;
-  std::vector<double> fractions_;  // at equal steps of the level
-  double greatest_level_ = 0;
-  std::vector<double> levels_, slopes_;  // at equal steps of the thickness, and from there on
-};
-
-/// The level of a thickness that is a field, from 0 to most().
-class LevelOfThickness final : public Field {
- public:
-  LevelOfThickness(WallThickness walls, Parameter thickness)
-      : walls_(std::move(walls)), thickness_(std::move(thickness)) {}
-
-  double at(Vec3 p) const override { return walls_.level(thickness_.at(p)); }
-  bool is_linear(const Box3& box, Vec3& gradient) const override;
-  Interval range() const override { return levels(thickness_.range()); }
-  Interval range(const Box3& box) const override { return levels(thickness_.range(box)); }
-  double lipschitz() const override { return walls_.lipschitz() * thickness_.lipschitz(); }
-
- private:
-  Interval levels(Interval thickness) const;
-
-  WallThickness walls_;
-  Parameter thickness_;
+  double area_ = 0, most_ = 0;
+  Curve fractions_{{{0, 0}}}, levels_{{{0, 0}}};
 };
 
 }  // namespace msq
