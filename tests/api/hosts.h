@@ -3,7 +3,10 @@
 #ifndef HOSTS_H
 #define HOSTS_H
 
+#define _POSIX_C_SOURCE 200809L /* nanosleep */
+
 #include <pthread.h>
+#include <time.h>
 
 #include "definitions.h"
 
@@ -13,6 +16,7 @@ typedef struct host_log {
   pthread_t thread;  /* that makes the calls to msq */
   const char* wrong; /* the first thing that was */
   uint64_t calls, points, released;
+  int rests; /* 1: the first calls take so long that other threads get to work, if any may */
   uint64_t fail_at; /* the call to fail at, from 1; 0: none */
   int32_t code;     /* to fail with */
   int bad;          /* 1: at the call to fail at, answer what cannot be instead */
@@ -32,6 +36,10 @@ static inline int32_t note_call(host_log* log, uint64_t count) {
   if (count < 1 || count > 4096) log->wrong = "count";
   if (log->released) log->wrong = "called after the release";
   log->points += count;
+  if (log->rests && log->calls < 100) {
+    const struct timespec millisecond = {0, 1000000};
+    nanosleep(&millisecond, NULL);
+  }
   return ++log->calls == log->fail_at ? log->code : 0;
 }
 
@@ -61,6 +69,27 @@ static inline uint64_t count_inside(const msq_model* model, const msq_points_def
   assert_ok(msq_set_membership(model, points, NULL, inside, host_samples, NULL));
   for (int i = 0; i < host_samples; ++i) count += inside[i];
   return count;
+}
+
+/* No thread but the calling one asks the host, however long it takes. */
+static inline void assert_asked_by_caller_alone(const msq_model* model, host_log* log) {
+  static uint8_t inside[host_samples];
+  static double points[host_samples][3];
+  const msq_points_def grid = host_grid(0.6, 3.2);
+  msq_points_def array;
+  uint64_t state = 9;
+  for (int i = 0; i < host_samples; ++i)
+    for (int axis = 0; axis < 3; ++axis) points[i][axis] = random_between(&state, 0.6, 3.2);
+  assert_ok(msq_points_def_init(&array, sizeof array));
+  array.coordinates = points;
+  array.count = host_samples;
+  log->rests = 1;
+  log->calls = 0;
+  count_inside(model, &array, inside);
+  log->calls = 0;
+  count_inside(model, &grid, inside);
+  log->rests = 0;
+  assert_right(log);
 }
 
 static inline uint64_t assert_same_solid(const msq_model* a, const msq_model* b, double low,

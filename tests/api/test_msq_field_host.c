@@ -208,6 +208,19 @@ static void structures_are_those_of_the_same_field(void** state) {
     }
 }
 
+static void only_the_calling_thread_is_asked(void** state) {
+  (void)state;
+  for (int use = 0; use < uses; ++use) {
+    msq_context* context = make_context();
+    ramp r = make_ramp(low_of(use), high_of(use));
+    const msq_host_field_def def = ramp_def(&r);
+    msq_model* model = make_model_with(context, use, make_field(context, &def));
+    assert_asked_by_caller_alone(model, &r.log);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+}
+
 static int32_t evaluate_anywhere(void* user, const double* points, uint64_t count, double* values) {
   for (uint64_t i = 0; i < count; ++i) values[i] = ramp_at((const ramp*)user, points + 3 * i);
   return 0;
@@ -380,6 +393,7 @@ int main(void) {
       cmocka_unit_test(definitions_honour_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(structures_are_those_of_the_same_field),
+      cmocka_unit_test(only_the_calling_thread_is_asked),
       cmocka_unit_test(concurrent_fields_give_the_same),
       cmocka_unit_test(functional_structures_ask_in_batches),
       cmocka_unit_test(callbacks_that_fail_stop_the_call),

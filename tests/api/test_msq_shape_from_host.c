@@ -104,6 +104,7 @@ static void a_ball_is_a_ball(void** state) {
         make_model(context, make_own_ball(context), filled ? make_lattice(context) : NULL, NULL);
     const uint64_t inside = assert_same_solid(model, own, 0, 4);
     assert_in_range(inside, host_samples / 100, host_samples / 3);
+    assert_asked_by_caller_alone(model, &log);
     assert_right(&log);
     msq_model_release(own);
     msq_context_release(context);

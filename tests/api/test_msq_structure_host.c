@@ -262,6 +262,7 @@ static void a_lattice_is_a_lattice(void** state) {
       msq_model* same = make_same_model(context, &host);
       const uint64_t inside = assert_same_solid(model, same, 0.013, 3.97);
       assert_in_range(inside, host_samples / 100, host_samples / 2);
+      assert_asked_by_caller_alone(model, &host.log);
       assert_right(&host.log);
       if (!(used & by_points)) assert_int_equal(host.asked_by_point, 0);
       assert_int_equal(host.asked_by_cell > 0, (used & by_cells) != 0);

@@ -128,6 +128,7 @@ static void a_function_is_that_function(void** state) {
         log.points = 0;
         const uint64_t inside = assert_same_solid(model, same, 0.013, 3.97);
         assert_in_range(inside, host_samples / 10, host_samples - host_samples / 10);
+        assert_asked_by_caller_alone(model, &log);
         assert_right(&log);
         msq_model_release(same);
         msq_context_release(context);
