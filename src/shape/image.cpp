@@ -129,7 +129,23 @@ VoxelRange Image::cells_in(const Box3& voxels) const {
 }
 
 Interval Image::samples_of(const VoxelRange& cells) const {
-  return visit([&](const auto* values) { return spread_of(values, cells).range; });
+  uint64_t count[3];
+  for (int axis = 0; axis < 3; ++axis)
+    count[axis] = cells.high[axis] - cells.low[axis] + (size_[axis] > 1 ? 2 : 1);
+  return visit([&](const auto* values) {
+    const auto* corner =
+        values + (cells.low[2] * size_[1] + cells.low[1]) * size_[0] + cells.low[0];
+    auto least = *corner, most = least;
+    for (uint64_t k = 0; k < count[2]; ++k)
+      for (uint64_t j = 0; j < count[1]; ++j) {
+        const auto* row = corner + (k * size_[1] + j) * size_[0];
+        for (uint64_t i = 0; i < count[0]; ++i) {
+          least = std::min(least, row[i]);
+          most = std::max(most, row[i]);
+        }
+      }
+    return Interval{static_cast<double>(least), static_cast<double>(most)};
+  });
 }
 
 bool Image::is_constant(const Box3& box) const {

@@ -66,13 +66,34 @@ class NearestCell {
     }
   }
 
+  /// Up to a leaf's cells along an axis, the nearest first.
+  struct Order {
+    uint64_t cell[1 << ImageBounds::leaf_bits];
+    size_t count = 0;
+  };
+  Order nearest_first(uint64_t low, uint64_t high, int axis) const {
+    Order order;
+    const double at = g_[axis] / image_.frame().spacing[axis] - 0.5;
+    const auto off = [&](uint64_t cell) { return std::abs(static_cast<double>(cell) - at); };
+    for (uint64_t cell = low; cell < high; ++cell) {
+      size_t place = order.count++;
+      for (; place > 0 && off(cell) < off(order.cell[place - 1]); --place)
+        order.cell[place] = order.cell[place - 1];
+      order.cell[place] = cell;
+    }
+    return order;
+  }
+
   void search_cells(const uint64_t (&low)[3], const uint64_t (&high)[3]) {
-    for (uint64_t k = low[2]; k < high[2]; ++k)
-      for (uint64_t j = low[1]; j < high[1]; ++j)
-        for (uint64_t i = low[0]; i < high[0]; ++i) {
+    const Order x = nearest_first(low[0], high[0], 0), y = nearest_first(low[1], high[1], 1),
+                z = nearest_first(low[2], high[2], 2);
+    for (size_t c = 0; c < z.count; ++c)
+      for (size_t b = 0; b < y.count; ++b)
+        for (size_t a = 0; a < x.count; ++a) {
+          const uint64_t i = x.cell[a], j = y.cell[b], k = z.cell[c];
           const double squared = distance_squared({i, j, k}, {i + 1, j + 1, k + 1});
-          if (squared < best_ && wanted_(image_.samples_of({{i, j, k}, {i, j, k}})))
-            best_ = squared;
+          if (!(squared < best_)) break;  // nor are those that follow in the row nearer
+          if (wanted_(image_.samples_of({{i, j, k}, {i, j, k}}))) best_ = squared;
         }
   }
 
