@@ -149,12 +149,6 @@ void bench_array(bench::Report& report, int cells, const std::vector<double>& co
   report.mark("  memory beyond the host's arrays",
               static_cast<double>(memory.peak_bytes) / points_in_all, "bytes / point", 12, false);
   bench_grouping(report, cells, coordinates);
-  for (uint32_t parts : {1u, 4u}) {
-    const double seconds = set_seconds(foam, points, MSQ_QUERY_SET, parts, inside);
-    report.add("  grouped by " + std::to_string(parts) + "^3 parts of a cell", seconds,
-               points_in_all, "point");
-  }
-
   const size_t sample = std::min<size_t>(count, 200000);
   size_t differ = 0;
   const double alone = processor_seconds([&] {
@@ -179,6 +173,27 @@ void bench_array(bench::Report& report, int cells, const std::vector<double>& co
   release(foam);
 }
 
+/// Many points a cell, grouped by cells and by parts of cells.
+void bench_parts(bench::Report& report, const std::vector<double>& coordinates) {
+  const size_t count = coordinates.size() / 3;
+  const Foam foam = make_foam(4, MSQ_FOAM_DIRECT);
+  std::vector<uint8_t> inside(count);
+  const msq_points_def points = array_of(coordinates, count);
+  for (uint32_t parts : {1u, 4u}) {
+    msq_query_def query;
+    bench::check(msq_query_def_init(&query, sizeof query));
+    query.group_parts = parts;
+    const auto ask = [&] {
+      bench::check(
+          msq_set_membership(foam.model, &points, &query, inside.data(), inside.size(), nullptr));
+    };
+    ask();
+    report.note("4^3 cells, by " + std::to_string(parts) + "^3 parts of a cell, processor time",
+                processor_seconds(ask) / static_cast<double>(count) * 1e9, "ns / point");
+  }
+  release(foam);
+}
+
 /// As many points as in the array, some in each of the foam's cells.
 void bench_stratified(bench::Report& report, int cells, size_t count) {
   const Foam foam = make_foam(cells, MSQ_FOAM_DIRECT);
@@ -200,6 +215,13 @@ void bench_stratified(bench::Report& report, int cells, size_t count) {
   report.add("stratified points, " + std::to_string(points.per_cell) + " in each of (2 * " +
                  std::to_string(cells) + ")^3 strata",
              seconds, static_cast<double>(all), "point");
+  report.note("  processor time of all threads",
+              processor_seconds([&] {
+                bench::check(msq_set_membership(foam.model, &points, nullptr, inside.data(),
+                                                inside.size(), job));
+              }) / static_cast<double>(all) *
+                  1e9,
+              "ns / point");
   msq_job_report counts{};
   counts.struct_size = sizeof counts;
   bench::check(msq_job_info(job, &counts));
@@ -283,6 +305,7 @@ int main(int count, char** arguments) try {
   {
     const std::vector<double> coordinates = random_points(millions * 1000000);
     for (int cells : {32, 128}) bench_array(report, cells, coordinates);
+    bench_parts(report, coordinates);
     for (int cells : {32, 128}) bench_stratified(report, cells, coordinates.size() / 3);
   }
   // From 2 to 6.4 samples a cell along each axis.
