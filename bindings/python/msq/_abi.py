@@ -32,6 +32,8 @@ MSQ_FORMAT_PLY = 3
 MSQ_FORMAT_OFF = 4
 MSQ_FORMAT_3MF = 5
 MSQ_FORMAT_AMF = 6
+MSQ_SOLID_ABOVE = 0
+MSQ_SOLID_BELOW = 1
 MSQ_UNIT_CELL_CUSTOM = 0
 MSQ_UNIT_CELL_CUBIC = 1
 MSQ_UNIT_CELL_BCC = 2
@@ -57,8 +59,14 @@ MSQ_FUNCTION_LIDINOID = 7
 MSQ_FUNCTION_SPLIT_P = 8
 MSQ_FUNCTIONAL_NETWORK = 1
 MSQ_FUNCTIONAL_SHEET = 2
+MSQ_QUERY_AUTO = 0
+MSQ_QUERY_POINT = 1
+MSQ_QUERY_SET = 2
 MSQ_POINTS_ARRAY = 1
 MSQ_POINTS_GRID = 2
+MSQ_POINTS_STRATIFIED = 3
+MSQ_PHASE_SOLID = 1
+MSQ_PHASE_VOID = 2
 MSQ_LAYER_BITS = 1
 MSQ_LAYER_BYTES = 2
 
@@ -112,6 +120,12 @@ class msq_cache_report(Structure):
                 ("peak_bytes", c_uint64), ("limit_bytes", c_uint64)]
 
 
+class msq_job_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("points", c_uint64),
+                ("by_shape", c_uint64), ("by_point", c_uint64), ("by_set", c_uint64),
+                ("groups", c_uint64)]
+
+
 msq_release_fn = CFUNCTYPE(None, c_void_p)
 
 
@@ -152,6 +166,11 @@ class msq_host_shape_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("concurrent", c_int32), ("inside", msq_inside_fn),
                 ("distance", msq_values_fn), ("user", c_void_p), ("release", msq_release_fn),
                 ("min", c_double * 3), ("max", c_double * 3)]
+
+
+class msq_voxels_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("solid", c_int32), ("image", msq_image),
+                ("threshold", c_double)]
 
 
 class msq_shape_report(Structure):
@@ -240,14 +259,31 @@ class msq_model_def(Structure):
 
 
 class msq_query_def(Structure):
-    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("length_scale", c_double)]
+    _fields_ = [("struct_size", c_uint32), ("method", c_int32), ("length_scale", c_double),
+                ("critical_count", c_uint64), ("group_parts", c_uint32), ("reserved", c_uint32)]
 
 
 class msq_points_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("coordinates", c_void_p),
                 ("count", c_uint64), ("stride", c_uint64), ("coordinate_type", c_int32),
                 ("reserved", c_uint32), ("origin", c_double * 3), ("spacing", c_double * 3),
-                ("counts", c_uint64 * 3)]
+                ("counts", c_uint64 * 3), ("seed", c_uint64), ("per_cell", c_uint32),
+                ("reserved2", c_uint32), ("rotation", c_double * 9)]
+
+
+class msq_estimate(Structure):
+    _fields_ = [("value", c_double), ("standard_error", c_double), ("low", c_double),
+                ("high", c_double)]
+
+
+class msq_segments_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("phase", c_int32), ("direction", c_double * 3),
+                ("lengths", POINTER(c_double)), ("length_count", c_uint64), ("step", c_double)]
+
+
+class msq_calibration_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("samples", c_uint64),
+                ("parameter", c_double), ("fraction", msq_estimate), ("most_fraction", c_double)]
 
 
 class msq_slicer_def(Structure):
@@ -292,6 +328,7 @@ FUNCTIONS = {
     "msq_job_release": [None, POINTER(msq_job)],
     "msq_job_cancel": [c_int32, POINTER(msq_job)],
     "msq_job_progress": [c_int32, POINTER(msq_job), POINTER(c_double)],
+    "msq_job_info": [c_int32, POINTER(msq_job), POINTER(msq_job_report)],
     "msq_file_def_init": [c_int32, POINTER(msq_file_def), c_size_t],
     "msq_shape_from_file": [c_int32, POINTER(msq_context), c_char_p, POINTER(msq_file_def),
                             POINTER(POINTER(msq_shape))],
@@ -309,6 +346,9 @@ FUNCTIONS = {
     "msq_host_shape_def_init": [c_int32, POINTER(msq_host_shape_def), c_size_t],
     "msq_shape_from_host": [c_int32, POINTER(msq_context), POINTER(msq_host_shape_def),
                             POINTER(POINTER(msq_shape))],
+    "msq_voxels_def_init": [c_int32, POINTER(msq_voxels_def), c_size_t],
+    "msq_shape_from_voxels": [c_int32, POINTER(msq_context), POINTER(msq_voxels_def),
+                              POINTER(POINTER(msq_shape))],
     "msq_shape_retain": [None, POINTER(msq_shape)],
     "msq_shape_release": [None, POINTER(msq_shape)],
     "msq_shape_info": [c_int32, POINTER(msq_shape), POINTER(msq_shape_report)],
@@ -356,6 +396,8 @@ FUNCTIONS = {
     "msq_model_scale_length": [c_int32, POINTER(msq_model), c_uint32, POINTER(c_double)],
     "msq_query_def_init": [c_int32, POINTER(msq_query_def), c_size_t],
     "msq_points_def_init": [c_int32, POINTER(msq_points_def), c_size_t],
+    "msq_points_generate": [c_int32, POINTER(msq_points_def), c_uint64, c_uint64,
+                            POINTER(c_double)],
     "msq_point_membership": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(msq_query_def),
                              POINTER(c_int32)],
     "msq_set_membership": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
@@ -364,6 +406,20 @@ FUNCTIONS = {
                            POINTER(c_double)],
     "msq_set_distance": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
                          POINTER(msq_query_def), POINTER(c_double), c_uint64, POINTER(msq_job)],
+    "msq_volume_fraction": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
+                            POINTER(msq_query_def), c_int32, POINTER(msq_estimate),
+                            POINTER(msq_job)],
+    "msq_segments_def_init": [c_int32, POINTER(msq_segments_def), c_size_t],
+    "msq_two_point_correlation": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
+                                  POINTER(msq_query_def), POINTER(msq_segments_def),
+                                  POINTER(msq_estimate), c_uint64, POINTER(msq_job)],
+    "msq_lineal_path": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
+                        POINTER(msq_query_def), POINTER(msq_segments_def), POINTER(msq_estimate),
+                        c_uint64, POINTER(msq_job)],
+    "msq_structure_calibrate": [c_int32, POINTER(msq_context), POINTER(msq_structure),
+                                POINTER(msq_points_def), c_double, POINTER(c_double),
+                                POINTER(c_double), c_uint64, POINTER(msq_calibration_report),
+                                POINTER(msq_job)],
     "msq_slicer_def_init": [c_int32, POINTER(msq_slicer_def), c_size_t],
     "msq_slicer_create": [c_int32, POINTER(msq_model), POINTER(msq_slicer_def),
                           POINTER(POINTER(msq_slicer))],

@@ -18,7 +18,8 @@ from ._library import lib
 
 # Those whose handlers may well raise; to look through all would cost as much as many a call.
 _NUMBERS = [getattr(signal, name) for name in
-            ("SIGINT", "SIGTERM", "SIGALRM", "SIGHUP", "SIGUSR1", "SIGUSR2") if hasattr(signal, name)]
+            ("SIGINT", "SIGTERM", "SIGALRM", "SIGHUP", "SIGUSR1", "SIGUSR2")
+            if hasattr(signal, name)]
 
 
 class HeldSignals:

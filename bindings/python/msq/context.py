@@ -63,6 +63,17 @@ class CacheInfo:
     limit_bytes: int
 
 
+@dataclasses.dataclass(frozen=True)
+class JobInfo:
+    """What answered the points of the last set query or statistic under a job."""
+
+    points: int  #: answered
+    by_shape: int  #: of these, by the coarse shape alone
+    by_point: int  #: asked of structures one by one, counted for each structure
+    by_set: int  #: asked of structures in groups, likewise
+    groups: int  #: into which by_set fell
+
+
 def build_info() -> BuildInfo:
     """Says how the loaded library was built."""
     filled = _abi.msq_build_report()
@@ -145,6 +156,11 @@ class Job(Handle):
         fraction = ctypes.c_double()
         lib.msq_job_progress(self._ref, ctypes.byref(fraction))
         return fraction.value
+
+    @property
+    def info(self) -> JobInfo:
+        """What answered the points of the last set query or statistic; 0 for other calls."""
+        return record(JobInfo, report(_abi.msq_job_report, lib.msq_job_info, self._ref))
 
 
 def job_reference(job: Optional[Job]) -> Any:

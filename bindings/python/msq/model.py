@@ -8,39 +8,22 @@ from typing import Any, Callable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from . import _abi
+from . import _abi, statistics
 from ._arrays import output, pointer, triples
 from ._handle import Handle
 from ._interrupt import interruptible
 from ._library import defaults, lib
 from ._signals import held
-from .context import Context, Job, context_of, doubles, triple, unsigned
+from .context import Context, Job, context_of, doubles, unsigned
 from .field import Param, set_param
+from .points import PointSet, Stratified, definition_of, query_of
 from .shape import Shape
 from .slicer import Slicer
+from .statistics import Estimate
 from .structure import Structure
 
 # Sets of fewer points are not worth the thread that makes them interruptible: some 0.1 ms.
 _LONG = 1 << 15
-
-
-@dataclasses.dataclass(frozen=True)
-class PointGrid:
-    """A regular grid of points, never stored: point (i, j, k) is origin + (i, j, k) * spacing.
-
-    counts: nx, ny, nz. Answers have shape (nz, ny, nx), as a stack of images with x fastest; `.T`
-    gives them by [i, j, k].
-    """
-
-    origin: Sequence[float]
-    spacing: Union[float, Sequence[float]]
-    counts: Tuple[int, int, int]
-
-    @property
-    def shape(self) -> Tuple[int, int, int]:
-        """Of the answers: (nz, ny, nx)."""
-        nx, ny, nz = (unsigned(count, 64, "counts") for count in self.counts)
-        return (nz, ny, nx)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -102,16 +85,20 @@ class Model(Handle):
         return length.value
 
     def contains(self, points: Any, *, out: Optional[np.ndarray] = None, length_scale: float = 0.0,
+                 method: str = "auto", critical_count: int = 0, group_parts: int = 0,
                  job: Optional[Job] = None) -> Any:
         """Whether points are in the model or on its boundary.
 
-        points: an array (..., 3) of float32 or float64, read where it lies, or a PointGrid. Returns
-        bools of shape (...); a single point, (3,), gives one bool. out: an array of that shape,
-        contiguous, of bool or uint8, to write to instead. Only scales whose characteristic length
-        is at least length_scale are resolved: 0 all, infinity the coarse shape alone.
+        points: an array (..., 3) of float32 or float64, read where it lies, or a PointGrid or
+        Stratified. Returns bools of shape (...); a single point, (3,), gives one bool. out: an
+        array of that shape, contiguous, of bool or uint8, to write to instead. Only scales whose
+        characteristic length is at least length_scale are resolved: 0 all, infinity the coarse
+        shape alone. method (`auto`, `point`, `set`), critical_count and group_parts: how sets are
+        asked, with the same answers; Job.info says what came of it.
         """
         return self._ask(lib.msq_set_membership, points, out, (np.bool_, np.uint8), ctypes.c_uint8,
-                         length_scale, job, self._contains_point)
+                         query_of(length_scale, method, critical_count, group_parts), job,
+                         self._contains_point)
 
     def distance(self, points: Any, *, out: Optional[np.ndarray] = None, length_scale: float = 0.0,
                  job: Optional[Job] = None) -> Any:
@@ -120,7 +107,30 @@ class Model(Handle):
         points, length_scale and job are as in contains; out is of float64.
         """
         return self._ask(lib.msq_set_distance, points, out, (np.float64,), ctypes.c_double,
-                         length_scale, job, self._point_distance)
+                         query_of(length_scale), job, self._point_distance)
+
+    def volume_fraction(self, sample: Stratified, *, phase: str = "solid",
+                        length_scale: float = 0.0, job: Optional[Job] = None) -> Estimate:
+        """Volume fraction of a phase, `solid` or `void`, in the sample's box. The sample has at
+        least two points a cell, here and below."""
+        return statistics.volume_fraction(self._ref, sample, phase, length_scale, job)
+
+    def two_point_correlation(self, sample: Stratified, lengths: Any, *,
+                              direction: Optional[Sequence[float]] = None, phase: str = "solid",
+                              length_scale: float = 0.0, job: Optional[Job] = None) -> np.recarray:
+        """Probability that both ends of segments of the lengths are in the phase, in a direction or
+        in all: arrays value, standard_error, low and high."""
+        return statistics.along_segments(lib.msq_two_point_correlation, self._ref, sample, lengths,
+                                         direction, phase, 0, length_scale, job)
+
+    def lineal_path(self, sample: Stratified, lengths: Any, *,
+                    direction: Optional[Sequence[float]] = None, phase: str = "solid",
+                    step: float = 0.0, length_scale: float = 0.0,
+                    job: Optional[Job] = None) -> np.recarray:
+        """Probability that segments of the lengths lie wholly in the phase; gaps shorter than step
+        may be missed, 0: as msq chooses it."""
+        return statistics.along_segments(lib.msq_lineal_path, self._ref, sample, lengths, direction,
+                                         phase, step, length_scale, job)
 
     def slicer(self, *, layer_height: Optional[float] = None, pitch: Any = None,
                resolution: Any = None, layer_count: int = 0, region: Any = None,
@@ -142,37 +152,21 @@ class Model(Handle):
         return distance.value
 
     def _ask(self, ask: Any, points: Any, out: Optional[np.ndarray], dtypes: Sequence[Any],
-             kind: Any, length_scale: float, job: Optional[Job],
+             kind: Any, query: Any, job: Optional[Job],
              ask_one: Callable[[Any, Any], Any]) -> Any:
-        query = None
-        if length_scale != 0:
-            query_definition = defaults(_abi.msq_query_def)
-            query_definition.length_scale = length_scale
-            query = ctypes.byref(query_definition)
-        array = None if isinstance(points, PointGrid) else triples(points)
-        if array is not None and array.shape == () and out is None:
-            with held():
-                return ask_one(doubles(array.array, "point"), query)
-        definition = defaults(_abi.msq_points_def)
-        if array is None:
-            definition.kind = _abi.MSQ_POINTS_GRID
-            definition.origin[:] = triple(points.origin, "origin")
-            definition.spacing[:] = triple(points.spacing, "spacing")
-            definition.counts[:] = points.shape[::-1]
-            answers = output(out, points.shape, dtypes)
-        else:
-            definition.kind = _abi.MSQ_POINTS_ARRAY
-            definition.coordinates = array.address
-            definition.count = array.count
-            definition.stride = array.stride
-            definition.coordinate_type = array.coordinate_type
-            answers = output(out, array.shape, dtypes, array.array)
+        if out is None and job is None and not isinstance(points, PointSet):
+            array = triples(points)
+            if array.shape == ():
+                with held():
+                    return ask_one(doubles(array.array, "point"), query)
+        given = definition_of(points)
+        answers = output(out, given.shape, dtypes, given.array)
         reference = self._ref
 
-        def call(work: Any, _keep: Any = array) -> None:
+        def call(work: Any) -> None:
             # Holds both arrays for as long as the call, whatever becomes of the caller.
-            ask(reference, ctypes.byref(definition), query, pointer(answers, kind), answers.size,
-                work)
+            ask(reference, ctypes.byref(given.definition), query, pointer(answers, kind),
+                answers.size, work)
 
         interruptible(call, job, answers.size >= _LONG)
-        return answers
+        return answers if answers.shape or out is not None else answers.item()

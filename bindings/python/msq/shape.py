@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _abi
 from ._arrays import pointer, triples, vector
+from ._grid import Cell, set_image
 from ._handle import Handle
 from ._host import create
 from ._interrupt import interruptible
@@ -127,6 +128,22 @@ class Shape(Handle):
         """Flat-ended round cylinder between two points, boundary included."""
         return cls._make(context_of(context), lib.msq_shape_from_cylinder, doubles(start, "start"),
                          doubles(end, "end"), radius)
+
+    @classmethod
+    def voxels(cls, values: Any, threshold: float, *, spacing: Cell = 1.0,
+               origin: Sequence[float] = (0, 0, 0), rotation: Any = None, solid: str = "above",
+               context: Optional[Context] = None) -> Shape:
+        """A voxel image (nz, ny, nx), such as a CT scan: where the trilinear function between its
+        values is on the solid side of the threshold, `above` or `below`.
+
+        values[k, j, i] stands at origin + rotation @ ((i, j, k) * spacing); uint8, int16, uint16,
+        float32 or float64.
+        """
+        definition = defaults(_abi.msq_voxels_def)
+        _kept = set_image(definition.image, values, spacing, origin, rotation)
+        definition.threshold = threshold
+        definition.solid = constant("MSQ_SOLID_", solid, "solid")
+        return cls._make(context_of(context), lib.msq_shape_from_voxels, ctypes.byref(definition))
 
     @classmethod
     def host(cls, inside: Callable[[np.ndarray], Any], min: Sequence[float],

@@ -6,13 +6,15 @@ import ctypes
 import dataclasses
 from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
-from . import _abi
+from . import _abi, statistics
 from ._grid import Cell, set_grid
 from ._handle import Handle
 from ._interrupt import interruptible
 from ._library import constant, defaults, lib
 from .context import Context, Job, context_of, doubles, record, unsigned
 from .field import Param, set_param
+from .points import Stratified
+from .statistics import Calibration
 from .unit_cell import UnitCellLike
 from .unit_cell import unit_cell as as_unit_cell
 
@@ -33,6 +35,17 @@ class Structure(Handle):
     def _make(self, context: Context, create: Any, definition: ctypes.Structure) -> None:
         self._reference = self._create(create, context._ref, ctypes.byref(definition))
         self.context = context
+
+    def calibrate(self, target: float, *, sample: Optional[Stratified] = None, curve: int = 0,
+                  job: Optional[Job] = None) -> Calibration:
+        """The parameter (radius of struts, level of a function), everywhere the same, at which the
+        structure has a target volume fraction; the one it was built with plays no part.
+
+        curve: number of pairs of parameter and fraction wanted besides, 0 or from 2 on: with them
+        Field.map makes a field of radius from one of density. sample: where to measure; None: one
+        cell, or 16^3 cells of a foam.
+        """
+        return statistics.calibrate(self.context._ref, self._ref, target, sample, curve, job)
 
 
 @dataclasses.dataclass(frozen=True)
