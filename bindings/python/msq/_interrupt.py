@@ -30,10 +30,11 @@ def interruptible(call: Callable[[Any], Any], job: Optional[Job], is_long: bool 
         with held(reference):
             call(reference)
         return
-    ended = threading.Event()
+    begun, ended = threading.Event(), threading.Event()
     raised: List[BaseException] = []
 
     def run() -> None:
+        begun.set()
         try:
             call(reference)
         except BaseException as error:  # raised below, on the thread that asked
@@ -41,12 +42,24 @@ def interruptible(call: Callable[[Any], Any], job: Optional[Job], is_long: bool 
         finally:
             ended.set()
 
-    threading.Thread(target=run, name="msq").start()
     try:
-        ended.wait()
+        threading.Thread(target=run, name="msq").start()
+        while not ended.wait(_LOOK):
+            pass
+        _let_handlers_run()
     except BaseException:  # of a handler of signals
         lib.msq_job_cancel(reference)
-        ended.wait()
+        if begun.wait(1):  # else there is no thread
+            ended.wait()
         raise
     if raised:
         raise raised.pop()
+
+
+# Seconds: a signal that another thread than the main one receives does not end its wait.
+_LOOK = 0.05
+
+
+def _let_handlers_run() -> None:
+    """Handlers run where a function of Python begins. Without this one that would be, for a signal
+    at the end of a call, the next destructor, and what it raises be lost there."""

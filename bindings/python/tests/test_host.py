@@ -7,10 +7,12 @@ import subprocess
 import sys
 import threading
 import unittest
+from unittest import mock
 
 import numpy as np
 
 import msq
+import msq.model
 from msq import _host
 from support import random_points
 
@@ -156,8 +158,19 @@ class Failures(unittest.TestCase):
         for count in (20000, 100000):
             asked = []
             with self.assertRaises(KeyboardInterrupt):
-                while True:
+                for _ in range(20):
                     model.contains(random_points(count))
+
+        def in_c(*_arguments):
+            os.kill(os.getpid(), signal.SIGINT)
+            for _ in range(100):  # as if C called back: this is where the handler runs
+                asked.append("went on")
+
+        asked = []
+        with mock.patch.object(msq.model.lib, "msq_set_membership", in_c):
+            with self.assertRaises(KeyboardInterrupt):
+                model.contains(random_points(100))
+        self.assertEqual(len(asked), 100)
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
 
 

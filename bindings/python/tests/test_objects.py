@@ -372,7 +372,7 @@ class Jobs(unittest.TestCase):
         timer.start()
         seen = 0
         with self.assertRaises(KeyboardInterrupt):
-            while True:
+            for _ in range(20):
                 for _ in slicer:
                     seen += 1
         timer.join()
@@ -397,7 +397,7 @@ class Jobs(unittest.TestCase):
             if not allowed:
                 timer.start()
             with self.assertRaises(KeyboardInterrupt):
-                while True:
+                for _ in range(20):
                     slicer.run(take)
             if not allowed:
                 timer.join()
