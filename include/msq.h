@@ -357,8 +357,9 @@ typedef struct msq_host_shape_def {
   uint32_t struct_size;
   int32_t concurrent;     /* 0 (default) or 1: see "objects that the host defines" */
   msq_inside_fn inside;   /* of points in the box, in model coordinates */
-  msq_values_fn distance; /* of any points: at most the distance to the boundary, on either side of it;
-                             the sign is nothing. NULL (default): the distance to the box */
+  msq_values_fn distance; /* of any points: at most the distance to the boundary, on either side of it,
+                             and changing by no more than the points do; the sign is nothing.
+                             NULL (default): the distance to the box */
   void *user;
   msq_release_fn release;
   double min[3], max[3];  /* box outside of which nothing is inside. No default: must be set */
@@ -826,8 +827,8 @@ typedef struct msq_host_points {
 typedef int32_t (*msq_points_inside_fn)(void *user, const msq_host_points *points,
                                         uint8_t *inside);
 
-/* distances[i]: at most the distance from point i to the boundary, on either side of it; the sign is
- * nothing. */
+/* distances[i]: at most the distance from point i to the boundary, on either side of it, and changing
+ * by no more than the points do; the sign is nothing. */
 typedef int32_t (*msq_points_distance_fn)(void *user, const msq_host_points *points,
                                           double *distances);
 

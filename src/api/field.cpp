@@ -146,8 +146,8 @@ msq_status msq_field_shape_distance(msq_context* context, const msq_shape_distan
       fail(Status::argument, "step is %g; it must be finite and not negative", known.step);
     Ref<const Field> distance;
     if (known.step > 0)
-      distance =
-          make_ref<GridField>(sample_distance(*shape, known.step, owner.executor, owner.budget));
+      distance = make_ref<GridField>(sample_distance(
+          *shape, known.step, owner.executor_for(shape->is_concurrent()), owner.budget));
     else
       distance = make_ref<ShapeDistanceField>(shape);
     *field = new_handle<msq_field>(

@@ -169,7 +169,7 @@ msq_status msq_structure_calibrate(msq_context* context, const msq_structure* st
     }
     Job* work = job ? &object(job, "job") : nullptr;
     JobScope scope(work);
-    const Executor& executor = known.is_concurrent() ? owner.executor : owner.serial;
+    const Executor& executor = owner.executor_for(known.is_concurrent());
     const Calibration curve(known, points, executor, owner.budget, work);
     if (target > curve.most_fraction())
       fail(Status::limit, "target is %g; the greatest parameter, %g, has a fraction of %g", target,

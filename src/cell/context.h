@@ -24,6 +24,11 @@ class Context : public RefCounted {
   }
   ~Context() override { budget->set_reserve(nullptr); }
 
+  /// The threads that may ask an object.
+  const Executor& executor_for(bool is_concurrent) const {
+    return is_concurrent ? executor : serial;
+  }
+
   /// A number that no other structure of this context has: its name in the cache.
   uint64_t new_structure_id() { return next_id_.fetch_add(1, std::memory_order_relaxed); }
 

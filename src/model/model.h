@@ -36,7 +36,7 @@ class Model final : public RefCounted {
   /// Who computes the answers of this model: the context's threads, or the calling thread alone
   /// where an object that the host defines wants no other.
   const Executor& executor() const {
-    return is_concurrent_ ? context_->executor : context_->serial;
+    return context_->executor_for(is_concurrent_);
   }
   const Shape& shape() const { return *shape_; }
   const Box3& bounds() const { return shape_->bounds(); }

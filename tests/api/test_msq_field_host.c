@@ -121,6 +121,7 @@ enum {
   density_of_foam,
   level_of_function,
   mapped_level,
+  thickness_of_walls,
   uses
 };
 
@@ -152,10 +153,15 @@ static msq_structure* make_with(msq_context* context, int use, msq_field* field)
       def.radius.field = field;
     }
     assert_ok(msq_structure_lattice(context, &def, &structure));
-  } else if (use == level_of_function || use == mapped_level) {
+  } else if (use == level_of_function || use == mapped_level || use == thickness_of_walls) {
     msq_functional_def def;
     assert_ok(msq_functional_def_init(&def, sizeof def));
-    def.level.field = field;
+    if (use == thickness_of_walls) {
+      def.kind = MSQ_FUNCTIONAL_SHEET;
+      def.thickness.field = field;
+    } else {
+      def.level.field = field;
+    }
     assert_ok(msq_structure_functional(context, &def, &structure));
   } else {
     msq_foam_def def;

@@ -169,6 +169,35 @@ static void distances_are_bounds_with_the_sign_of_membership(void** state) {
   }
 }
 
+/* A field that samples the distance asks for it when it is made. */
+static void fields_of_its_distance_ask_the_calling_thread(void** state) {
+  const double curve[2] = {0, 1};
+  msq_context* context = make_context();
+  host_log log = make_log();
+  const msq_host_shape_def def = ball_def(&log);
+  msq_shape* shape = make_ball(context, &def);
+  msq_shape_distance_field_def field_def;
+  msq_field* field;
+  (void)state;
+  assert_ok(msq_shape_distance_field_def_init(&field_def, sizeof field_def));
+  field_def.shape = shape;
+  field_def.curve = curve;
+  field_def.curve_count = 1;
+  field_def.step = 0.1;
+  log.rests = 1;
+  assert_ok(msq_field_shape_distance(context, &field_def, &field));
+  assert_true(log.calls > 1000);
+  assert_right(&log);
+  log.calls = 0;
+  log.fail_at = 500;
+  log.code = 3;
+  assert_refused(msq_field_shape_distance(context, &field_def, &field), MSQ_E_HOST, "returned 3");
+  msq_field_release(field);
+  msq_shape_release(shape);
+  msq_context_release(context);
+  assert_int_equal(log.released, 1);
+}
+
 static void volume_and_area_are_not_known(void** state) {
   msq_context* context = make_context();
   host_log log = make_log();
@@ -249,6 +278,7 @@ int main(void) {
       cmocka_unit_test(a_ball_is_a_ball),
       cmocka_unit_test(sets_ask_in_batches),
       cmocka_unit_test(distances_are_bounds_with_the_sign_of_membership),
+      cmocka_unit_test(fields_of_its_distance_ask_the_calling_thread),
       cmocka_unit_test(volume_and_area_are_not_known),
       cmocka_unit_test(callbacks_that_fail_stop_the_call),
       cmocka_unit_test(what_is_refused_is_not_released),
