@@ -321,6 +321,35 @@ static int32_t fail_anywhere(void* user, const double* points, uint64_t count, d
   return 42;
 }
 
+/* Ranges that the values keep to nowhere near: some answers are wrong, and no more. */
+static int32_t false_range(void* user, const double min[3], const double max[3], double* low,
+                           double* high) {
+  const ramp* r = (const ramp*)user;
+  (void)min, (void)max;
+  *low = *high = r->log.bad ? fmax(r->from_value, r->to_value) : fmin(r->from_value, r->to_value);
+  return 0;
+}
+
+static void promises_that_are_broken_do_no_harm(void** state) {
+  (void)state;
+  for (int use = 0; use < uses; ++use)
+    for (int high = 0; high < 3; ++high) {
+      msq_context* context = make_context();
+      ramp r = make_ramp(low_of(use), high_of(use));
+      msq_host_field_def def = ramp_def(&r);
+      r.log.bad = high;
+      if (high < 2)
+        def.range = false_range;
+      else
+        def.lipschitz = 0;
+      r.log.fail_at = UINT64_MAX;
+      msq_model* model = make_model_with(context, use, make_field(context, &def));
+      assert_ok(ask_everything(model));
+      msq_model_release(model);
+      msq_context_release(context);
+    }
+}
+
 static void codes_come_back_from_worker_threads(void** state) {
   msq_context* context = make_context();
   ramp r = make_ramp(0.05, 0.3);
@@ -403,6 +432,7 @@ int main(void) {
       cmocka_unit_test(concurrent_fields_give_the_same),
       cmocka_unit_test(functional_structures_ask_in_batches),
       cmocka_unit_test(callbacks_that_fail_stop_the_call),
+      cmocka_unit_test(promises_that_are_broken_do_no_harm),
       cmocka_unit_test(codes_come_back_from_worker_threads),
       cmocka_unit_test(callbacks_may_call_msq),
       cmocka_unit_test(what_is_refused_is_not_released),
