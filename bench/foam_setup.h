@@ -2,6 +2,9 @@
 // The foam that the benchmarks of foams slice.
 #pragma once
 
+#include <cmath>
+#include <vector>
+
 #include "bench.h"
 
 namespace bench {
@@ -14,6 +17,7 @@ struct FoamSetup {
   uint32_t threads = 2;
   double extent = 1;       ///< the shape: a cube from the origin with such sides
   bool is_graded = false;  ///< r from 0.05 cell at one corner of the cube to 0.15 at the other
+  uint64_t samples = 0;    ///< of a radius that waves so, along each axis; 0: none
 };
 
 inline double wall_seconds(const std::function<void()>& work) {
@@ -42,6 +46,27 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
   msq_field* field = nullptr;
   if (setup.is_graded) {
     check(msq_field_gradient(context, low, 0.05 / setup.cells, high, 0.15 / setup.cells, &field));
+    def.radius = {0, field};
+  }
+  if (setup.samples) {
+    msq_grid_field_def grid;
+    check(msq_grid_field_def_init(&grid, sizeof grid));
+    std::vector<float> values;
+    const double step = 1 / static_cast<double>(setup.samples - 1);
+    for (uint64_t i = 0; i < setup.samples * setup.samples * setup.samples; ++i) {
+      const double x = step * static_cast<double>(i % setup.samples),
+                   y = step * static_cast<double>(i / setup.samples % setup.samples),
+                   z = step * static_cast<double>(i / setup.samples / setup.samples);
+      const double wave = std::sin(5 * x) * std::cos(4 * y + 3 * z);
+      values.push_back(static_cast<float>((0.1 + 0.05 * wave) / setup.cells));
+    }
+    grid.image.values = values.data();
+    grid.image.value_type = MSQ_FLOAT32;
+    for (int axis = 0; axis < 3; ++axis) {
+      grid.image.size[axis] = setup.samples;
+      grid.image.grid.cell_size[axis] = setup.extent * step;
+    }
+    check(msq_field_grid(context, &grid, &field));
     def.radius = {0, field};
   }
   msq_structure* structure;

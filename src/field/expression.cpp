@@ -17,10 +17,8 @@ bool ExpressionField::is_linear(const Box3& box, Vec3& gradient) const {
 Interval ExpressionField::range(const Box3& box) const {
   thread_local std::vector<Enclosure> nodes;
   enclose(tape_, {{box.min.x, box.max.x}, {box.min.y, box.max.y}, {box.min.z, box.max.z}}, nodes);
-  // What is not bounded may be no number as well, which counts as the least.
-  const Enclosure& e = nodes.back();
-  if (!is_bounded(e)) return range_;
-  return {cut(e.low), cut(e.high)};
+  // Infinite where a value may be no number, which counts as the least.
+  return {cut(nodes.back().low), cut(nodes.back().high)};
 }
 
 }  // namespace msq
