@@ -11,6 +11,7 @@ Lengths are in the model's unit, millimetres with files. What the words mean exa
 docs/concepts.md of msq; msq.h says the rest. Objects are immutable, and any thread may use them;
 calls let other Python threads run. Failures are exceptions with the library's message: see Error.
 """
+from ._host import HostPoints
 from .context import (BuildInfo, CacheInfo, Context, Job, JobInfo, MemoryInfo, build_info)
 from .errors import (ArgumentError, CancelledError, Error, FileError, HostError, InternalError,
                      LimitError, MeshError, OutOfMemoryError, UnsupportedError)
@@ -20,15 +21,17 @@ from .points import PointGrid, PointSet, Stratified
 from .shape import Shape, ShapeInfo
 from .slicer import Layer, Slicer
 from .statistics import Calibration, Estimate
-from .structure import Foam, Functional, Lattice, LatticeFaces, Structure
+from .structure import (Foam, Functional, HostFunctional, HostStructure, Lattice, LatticeFaces,
+                        Structure)
 from .unit_cell import UnitCell, UnitCellInfo
 
 __version__ = "0.1.0"
 
 __all__ = [
     "ArgumentError", "BuildInfo", "CacheInfo", "Calibration", "CancelledError", "Context", "Error",
-    "Estimate", "Field", "FileError", "Foam", "Functional", "HostError", "InternalError", "Job",
-    "JobInfo", "Lattice", "LatticeFaces", "Layer", "LimitError", "MemoryInfo", "MeshError", "Model",
-    "OutOfMemoryError", "Param", "PointGrid", "PointSet", "Scale", "Shape", "ShapeInfo", "Slicer",
-    "Stratified", "Structure", "UnitCell", "UnitCellInfo", "UnsupportedError", "build_info",
+    "Estimate", "Field", "FileError", "Foam", "Functional", "HostError", "HostFunctional",
+    "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice", "LatticeFaces",
+    "Layer", "LimitError", "MemoryInfo", "MeshError", "Model", "OutOfMemoryError", "Param",
+    "PointGrid", "PointSet", "Scale", "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure",
+    "UnitCell", "UnitCellInfo", "UnsupportedError", "build_info",
 ]

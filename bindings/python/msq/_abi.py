@@ -59,6 +59,9 @@ MSQ_FUNCTION_LIDINOID = 7
 MSQ_FUNCTION_SPLIT_P = 8
 MSQ_FUNCTIONAL_NETWORK = 1
 MSQ_FUNCTIONAL_SHEET = 2
+MSQ_BOX_MIXED = 0
+MSQ_BOX_OUTSIDE = 1
+MSQ_BOX_INSIDE = 2
 MSQ_QUERY_AUTO = 0
 MSQ_QUERY_POINT = 1
 MSQ_QUERY_SET = 2
@@ -198,6 +201,21 @@ class msq_grid_field_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("image", msq_image)]
 
 
+class msq_named_value(Structure):
+    _fields_ = [("name", c_char_p), ("value", c_double)]
+
+
+class msq_expression_field_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("expression", c_char_p),
+                ("parameters", POINTER(msq_named_value)), ("parameter_count", c_uint64),
+                ("low", c_double), ("high", c_double)]
+
+
+class msq_shape_distance_field_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("shape", POINTER(msq_shape)),
+                ("curve", POINTER(c_double)), ("curve_count", c_uint64), ("step", c_double)]
+
+
 class msq_param(Structure):
     _fields_ = [("value", c_double), ("field", POINTER(msq_field))]
 
@@ -221,7 +239,7 @@ class msq_lattice_def(Structure):
                 ("radius", msq_param), ("nodes", POINTER(c_double)), ("node_count", c_uint64),
                 ("struts", POINTER(c_uint32)), ("strut_count", c_uint64),
                 ("strut_factors", POINTER(c_double)), ("cells", POINTER(msq_unit_cell_def)),
-                ("cell_count", c_uint32), ("reserved", c_uint32), ("cell_choice", msq_param)]
+                ("cell_count", c_uint32), ("clusters", c_uint32), ("cell_choice", msq_param)]
 
 
 class msq_lattice_faces_report(Structure):
@@ -236,15 +254,52 @@ class msq_foam_def(Structure):
                 ("density", msq_param)]
 
 
-class msq_named_value(Structure):
-    _fields_ = [("name", c_char_p), ("value", c_double)]
-
-
 class msq_functional_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("function", c_int32), ("kind", c_int32),
                 ("clusters", c_uint32), ("grid", msq_neighbourhood), ("level", msq_param),
                 ("expression", c_char_p), ("parameters", POINTER(msq_named_value)),
-                ("parameter_count", c_uint64)]
+                ("parameter_count", c_uint64), ("thickness", msq_param)]
+
+
+class msq_host_points(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("count", c_uint64),
+                ("points", POINTER(c_double)), ("positions", POINTER(c_double)),
+                ("cells", POINTER(c_int32))]
+
+
+msq_points_inside_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_host_points), POINTER(c_uint8))
+
+
+msq_points_distance_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_host_points), POINTER(c_double))
+
+
+msq_build_cell_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(c_int32), POINTER(c_void_p),
+                              POINTER(c_uint64))
+
+
+msq_evaluate_cell_fn = CFUNCTYPE(c_int32, c_void_p, c_void_p, POINTER(msq_host_points),
+                                 POINTER(c_uint8))
+
+
+msq_free_cell_fn = CFUNCTYPE(None, c_void_p, c_void_p)
+
+
+msq_box_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_int32))
+
+
+class msq_host_structure_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("concurrent", c_int32), ("grid", msq_neighbourhood),
+                ("inside", msq_points_inside_fn), ("build_cell", msq_build_cell_fn),
+                ("evaluate_cell", msq_evaluate_cell_fn), ("free_cell", msq_free_cell_fn),
+                ("box", msq_box_fn), ("distance", msq_points_distance_fn), ("user", c_void_p),
+                ("release", msq_release_fn)]
+
+
+class msq_host_function_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("concurrent", c_int32), ("kind", c_int32),
+                ("clusters", c_uint32), ("grid", msq_neighbourhood), ("level", msq_param),
+                ("evaluate", msq_values_fn), ("range", msq_range_fn), ("user", c_void_p),
+                ("release", msq_release_fn), ("lipschitz", c_double)]
 
 
 class msq_scale_def(Structure):
@@ -367,6 +422,13 @@ FUNCTIONS = {
     "msq_grid_field_def_init": [c_int32, POINTER(msq_grid_field_def), c_size_t],
     "msq_field_grid": [c_int32, POINTER(msq_context), POINTER(msq_grid_field_def),
                        POINTER(POINTER(msq_field))],
+    "msq_expression_field_def_init": [c_int32, POINTER(msq_expression_field_def), c_size_t],
+    "msq_field_expression": [c_int32, POINTER(msq_context), POINTER(msq_expression_field_def),
+                             POINTER(POINTER(msq_field))],
+    "msq_shape_distance_field_def_init": [c_int32, POINTER(msq_shape_distance_field_def), c_size_t],
+    "msq_field_shape_distance": [c_int32, POINTER(msq_context),
+                                 POINTER(msq_shape_distance_field_def),
+                                 POINTER(POINTER(msq_field))],
     "msq_field_retain": [None, POINTER(msq_field)],
     "msq_field_release": [None, POINTER(msq_field)],
     "msq_unit_cell_def_init": [c_int32, POINTER(msq_unit_cell_def), c_size_t],
@@ -385,6 +447,12 @@ FUNCTIONS = {
     "msq_functional_def_init": [c_int32, POINTER(msq_functional_def), c_size_t],
     "msq_structure_functional": [c_int32, POINTER(msq_context), POINTER(msq_functional_def),
                                  POINTER(POINTER(msq_structure))],
+    "msq_host_structure_def_init": [c_int32, POINTER(msq_host_structure_def), c_size_t],
+    "msq_structure_host": [c_int32, POINTER(msq_context), POINTER(msq_host_structure_def),
+                           POINTER(POINTER(msq_structure))],
+    "msq_host_function_def_init": [c_int32, POINTER(msq_host_function_def), c_size_t],
+    "msq_structure_host_function": [c_int32, POINTER(msq_context), POINTER(msq_host_function_def),
+                                    POINTER(POINTER(msq_structure))],
     "msq_structure_retain": [None, POINTER(msq_structure)],
     "msq_structure_release": [None, POINTER(msq_structure)],
     "msq_model_def_init": [c_int32, POINTER(msq_model_def), c_size_t],

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Functions of Python that msq calls for as long as an object lives: of Field.host and the like.
 
-C gets three trampolines, which are never freed, and a number by which they find the function; so no
+C gets a few trampolines, which are never freed, and a number by which they find the function; so no
 trampoline is freed while it runs, as it would be if each object had its own and let go of it when C
 releases it.
 """
@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import ctypes
 import itertools
+import sys
 import weakref
-from typing import Any, Callable, Dict, Optional
+from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -28,26 +29,56 @@ def _view(pointer: Any, kind: Any, count: int) -> np.ndarray:
     return np.frombuffer((kind * count).from_address(address), kind)
 
 
-def _answer(name: str, user: int, points: Any, count: int, out: Any, kind: Any) -> int:
-    """Asks the function about a batch of points and writes what it answers."""
+class HostPoints(NamedTuple):
+    """Points as a structure of Python sees them: arrays, valid until its function returns."""
+
+    points: np.ndarray  #: (n, 3), in model coordinates
+    positions: np.ndarray  #: (n, 3), from the corner of the point's cell, along the grid's axes
+    cells: np.ndarray  #: (n, 3), int32: the cell that each point lies in
+
+
+def _lend(function: Callable[..., Any], count: int, lent: Sequence[Tuple[Any, Any]], out: Any,
+          kind: Any, call: Callable[..., Any]) -> int:
+    """Lends triples in C's memory to call(function, arrays ...), and writes what it answers."""
     try:
-        memory = _view(points, ctypes.c_double, 3 * count)
-        memory.flags.writeable = False
-        is_kept = weakref.ref(memory)
-        triples = memory.reshape(count, 3)
-        del memory
-        answers = np.asarray(_functions[user][name](triples))
+        arrays = []
+        for pointer, element in lent:
+            array = _view(pointer, element, 3 * count)
+            array.flags.writeable = False
+            arrays.append(array)
+        array = None
+        kept = [weakref.ref(array) for array in arrays]  # every view refers to one
+        triples = [array.reshape(count, 3) for array in arrays]
+        del array, arrays
+        answers = np.asarray(call(function, *triples))
         if answers.shape != (count,):
-            raise ValueError(f"{name} answered {count} points by an array of shape "
+            raise ValueError(f"{_name(function)} answered {count} points by an array of shape "
                              f"{answers.shape}; it must be ({count},)")
         _view(out, kind, count)[:] = answers != 0 if kind is ctypes.c_uint8 else answers
         del answers, triples
-        if is_kept() is not None:
-            raise BufferError(f"the points that {name} was called with are kept beyond the call, "
-                              "and their memory is not: keep a copy")
+        if any(reference() is not None for reference in kept):
+            raise BufferError(f"the points that {_name(function)} was called with are kept beyond "
+                              "the call, and their memory is not: keep a copy")
         return 0
     except BaseException as error:  # none may pass through C
         return keep_exception(error)
+
+
+def _name(function: Callable[..., Any]) -> str:
+    return getattr(function, "__qualname__", repr(function))
+
+
+def _answer(name: str, user: int, points: Any, count: int, out: Any, kind: Any) -> int:
+    return _lend(_functions[user][name], count, [(points, ctypes.c_double)], out, kind,
+                 lambda function, triples: function(triples))
+
+
+def _answer_points(name: str, user: int, given: Any, out: Any, kind: Any, *first: Any) -> int:
+    of = given.contents
+    lent = [(of.points, ctypes.c_double), (of.positions, ctypes.c_double),
+            (of.cells, ctypes.c_int32)]
+    return _lend(_functions[user][name], of.count, lent, out, kind,
+                 lambda function, *triples: function(*first, HostPoints(*triples)))
 
 
 def _values_of(name: str) -> Any:
@@ -68,13 +99,71 @@ def _call_range(user: int, low: Any, high: Any, least: Any, most: Any) -> int:
         return keep_exception(error)
 
 
+def _call_points_inside(user: int, points: Any, inside: Any) -> int:
+    return _answer_points("inside", user, points, inside, ctypes.c_uint8)
+
+
+def _call_points_distance(user: int, points: Any, distances: Any) -> int:
+    return _answer_points("distance", user, points, distances, ctypes.c_double)
+
+
+# Data of cells of structures of Python, by the numbers that C holds for them.
+_cells: Dict[int, Any] = {}
+
+
+def _call_build_cell(user: int, cell: Any, data: Any, size: Any) -> int:
+    try:
+        built = _functions[user]["build_cell"](tuple(cell[0:3]))
+        number = next(_numbers)
+        _cells[number] = built
+        data[0] = number
+        size[0] = getattr(built, "nbytes", None) or sys.getsizeof(built)
+        return 0
+    except BaseException as error:
+        return keep_exception(error)
+
+
+def _call_evaluate_cell(user: int, data: int, points: Any, inside: Any) -> int:
+    return _answer_points("evaluate_cell", user, points, inside, ctypes.c_uint8, _cells[data])
+
+
+def _call_free_cell(_user: int, data: int) -> None:
+    del _cells[data]
+
+
+_BOXES = {None: _abi.MSQ_BOX_MIXED, False: _abi.MSQ_BOX_OUTSIDE, True: _abi.MSQ_BOX_INSIDE}
+
+
+def _call_box(user: int, low: Any, high: Any, answer: Any) -> int:
+    try:
+        answer[0] = _BOXES[_functions[user]["box"](tuple(low[0:3]), tuple(high[0:3]))]
+        return 0
+    except BaseException as error:
+        return keep_exception(error)
+
+
 def _call_release(user: int) -> None:
     del _functions[user]
 
 
-TRAMPOLINES = {"evaluate": _values_of("evaluate"), "distance": _values_of("distance"),
-               "inside": _abi.msq_inside_fn(_call_inside), "range": _abi.msq_range_fn(_call_range)}
+# By the type that the definition's field has, and the field's name.
+_TRAMPOLINES = {
+    (_abi.msq_values_fn, "evaluate"): _values_of("evaluate"),
+    (_abi.msq_values_fn, "distance"): _values_of("distance"),
+    (_abi.msq_inside_fn, "inside"): _abi.msq_inside_fn(_call_inside),
+    (_abi.msq_range_fn, "range"): _abi.msq_range_fn(_call_range),
+    (_abi.msq_points_inside_fn, "inside"): _abi.msq_points_inside_fn(_call_points_inside),
+    (_abi.msq_points_distance_fn, "distance"): _abi.msq_points_distance_fn(_call_points_distance),
+    (_abi.msq_build_cell_fn, "build_cell"): _abi.msq_build_cell_fn(_call_build_cell),
+    (_abi.msq_evaluate_cell_fn, "evaluate_cell"): _abi.msq_evaluate_cell_fn(_call_evaluate_cell),
+    (_abi.msq_free_cell_fn, "free_cell"): _abi.msq_free_cell_fn(_call_free_cell),
+    (_abi.msq_box_fn, "box"): _abi.msq_box_fn(_call_box),
+}
 _RELEASE = _abi.msq_release_fn(_call_release)
+
+
+def _trampoline(definition: Any, name: str) -> Any:
+    return _TRAMPOLINES[dict(definition._fields_)[name], name]
 
 
 def create(make: Callable[[], Any], definition: Any, concurrent: bool,
@@ -84,7 +173,9 @@ def create(make: Callable[[], Any], definition: Any, concurrent: bool,
     for name, function in given.items():
         if not callable(function):
             raise TypeError(f"{name} is a {type(function).__name__}; it must be callable")
-        setattr(definition, name, TRAMPOLINES[name])
+        setattr(definition, name, _trampoline(definition, name))
+    if "build_cell" in given:
+        definition.free_cell = _trampoline(definition, "free_cell")
     number = next(_numbers)
     definition.user = number
     definition.release = _RELEASE
@@ -99,5 +190,5 @@ def create(make: Callable[[], Any], definition: Any, concurrent: bool,
 
 
 def count() -> int:
-    """Objects whose functions msq may call."""
-    return len(_functions)
+    """Objects whose functions msq may call, and cells that they have built."""
+    return len(_functions) + len(_cells)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Callable, Optional, Sequence, Union
+from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ._handle import Handle
 from ._host import create
 from ._library import defaults, lib
 from .context import Context, context_of, doubles, triple
+from .shape import Shape
 
 
 class Field(Handle):
@@ -81,6 +82,31 @@ class Field(Handle):
         return create(lambda: cls._make(context, lib.msq_field_host, ctypes.byref(definition)),
                       definition, concurrent, evaluate=evaluate, range=range)
 
+    @classmethod
+    def expression(cls, expression: str, low: float, high: float, *,
+                   parameters: Optional[Mapping[str, float]] = None,
+                   context: Optional[Context] = None) -> Field:
+        """An expression in x, y, z, the point's coordinates, cut to low and high."""
+        definition = defaults(_abi.msq_expression_field_def)
+        definition.expression = expression.encode()
+        set_parameters(definition, parameters)
+        definition.low, definition.high = low, high
+        return cls._make(context_of(context), lib.msq_field_expression, ctypes.byref(definition))
+
+    @classmethod
+    def shape_distance(cls, shape: Shape, curve: Any, *, step: float = 0.0,
+                       context: Optional[Context] = None) -> Field:
+        """A piecewise linear curve over the signed distance to a shape, negative inside: pairs
+        (n, 2) of distance, ascending, and value. step > 0: from samples of it so far apart."""
+        pairs = vector(curve, np.float64, (-1, 2), "curve")
+        definition = defaults(_abi.msq_shape_distance_field_def)
+        definition.shape = shape._pointer
+        definition.curve = pointer(pairs, ctypes.c_double)
+        definition.curve_count = len(pairs)
+        definition.step = step
+        return cls._make(context_of(context, shape), lib.msq_field_shape_distance,
+                         ctypes.byref(definition))
+
     def map(self, curve: Any, *, context: Optional[Context] = None) -> Field:
         """A piecewise linear curve over this field: pairs (n, 2) of this one's value, ascending,
         and the new one's; constant beyond the ends."""
@@ -99,3 +125,12 @@ def set_param(target: _abi.msq_param, value: Param) -> None:
     else:
         target.value = value
         target.field = ctypes.POINTER(_abi.msq_field)()
+
+
+def set_parameters(definition: Any, parameters: Optional[Mapping[str, float]]) -> None:
+    """Writes the parameters of an expression."""
+    named = parameters or {}
+    values = (_abi.msq_named_value * len(named))(
+        *(_abi.msq_named_value(name.encode(), value) for name, value in named.items()))
+    definition.parameters = values if named else None
+    definition.parameter_count = len(named)

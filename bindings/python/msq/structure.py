@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
-from typing import Any, Mapping, Optional, Sequence, Tuple, Union
+import math
+from typing import Any, Callable, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _abi, statistics
 from ._grid import Cell, set_grid
 from ._handle import Handle
+from ._host import HostPoints, create
 from ._interrupt import interruptible
 from ._library import constant, defaults, lib
 from .context import Context, Job, context_of, doubles, record, unsigned
-from .field import Param, set_param
+from .field import Param, set_param, set_parameters
 from .points import Stratified
 from .statistics import Calibration
 from .unit_cell import UnitCellLike
@@ -30,7 +32,7 @@ class Structure(Handle):
     context: Context
 
     def __init__(self) -> None:
-        raise TypeError("structures are made as Lattice, Foam or Functional")
+        raise TypeError("structures are made as Lattice, Foam, Functional and the like")
 
     def _make(self, context: Context, create: Any, definition: ctypes.Structure) -> None:
         self._reference = self._create(create, context._ref, ctypes.byref(definition))
@@ -71,11 +73,12 @@ class Lattice(Structure):
 
     def __init__(self, unit_cell: Union[UnitCellLike, Sequence[UnitCellLike]] = "bcc", *,
                  radius: Param, cell_choice: Optional[Param] = None, cell_size: Cell = 1.0,
-                 origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
+                 clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_lattice_def)
         set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.radius, radius)
+        definition.clusters = unsigned(clusters, 32, "clusters")
         if cell_choice is None:
             kept = [as_unit_cell(unit_cell)]
             for label in ("unit_cell", "nodes", "node_count", "struts", "strut_count",
@@ -127,19 +130,20 @@ class Functional(Structure):
 
     function: a name (`gyroid`, `schwarz_p`, `diamond`, `i_wp`, `neovius`, `f_rd`, `lidinoid`,
     `split_p`); or give an expression in x, y, z (angles, 0 to 2 pi) with the values of its
-    parameters.
+    parameters. Of sheets thickness, the mean one of the walls, may be given instead of level.
     """
 
     def __init__(self, function: Optional[str] = None, *, expression: Optional[str] = None,
                  parameters: Optional[Mapping[str, float]] = None, kind: str = "network",
-                 level: Param = 0.0, cell_size: Cell = 1.0, clusters: int = 0,
-                 origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
+                 level: Param = 0.0, thickness: Param = 0.0, cell_size: Cell = 1.0,
+                 clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
                  context: Optional[Context] = None) -> None:
         if (function is None) == (expression is None):
             raise TypeError("Functional takes a function's name or an expression, one of the two")
         definition = defaults(_abi.msq_functional_def)
         set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.level, level)
+        set_param(definition.thickness, thickness)
         definition.kind = constant("MSQ_FUNCTIONAL_", kind, "kind")
         definition.clusters = unsigned(clusters, 32, "clusters")
         if expression is None:
@@ -147,9 +151,50 @@ class Functional(Structure):
         else:
             definition.function = _abi.MSQ_FUNCTION_EXPRESSION
             definition.expression = expression.encode()
-        named = parameters or {}
-        values = (_abi.msq_named_value * len(named))(
-            *(_abi.msq_named_value(name.encode(), value) for name, value in named.items()))
-        definition.parameters = values if named else None
-        definition.parameter_count = len(named)
-        self._make(context_of(context, level), lib.msq_structure_functional, definition)
+        set_parameters(definition, parameters)
+        self._make(context_of(context, level, thickness), lib.msq_structure_functional, definition)
+
+
+class HostStructure(Structure):
+    """A structure that functions of Python compute.
+
+    inside(points) answers HostPoints by n bools, and is enough. For sets build_cell(cell) may make
+    what is to be known of a cell (i, j, k), kept in the context's cache, which evaluate_cell(data,
+    points) gets with points that all lie in it. box(min, max): True, False or None, whether a box
+    is inside, outside or neither as a whole. distance(points): n numbers, at most the distance to
+    the boundary. Arrays are valid until the function returns; calls and concurrent are as for
+    Field.host.
+    """
+
+    def __init__(self, inside: Optional[Callable[[HostPoints], Any]] = None, *,
+                 build_cell: Optional[Callable[[Tuple[int, int, int]], Any]] = None,
+                 evaluate_cell: Optional[Callable[[Any, HostPoints], Any]] = None,
+                 box: Optional[Callable[[Any, Any], Optional[bool]]] = None,
+                 distance: Optional[Callable[[HostPoints], Any]] = None, cell_size: Cell = 1.0,
+                 origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
+                 concurrent: bool = False, context: Optional[Context] = None) -> None:
+        definition = defaults(_abi.msq_host_structure_def)
+        set_grid(definition.grid, cell_size, origin, rotation)
+        create(lambda: self._make(context_of(context), lib.msq_structure_host, definition),
+               definition, concurrent, inside=inside, build_cell=build_cell,
+               evaluate_cell=evaluate_cell, box=box, distance=distance)
+
+
+class HostFunctional(Structure):
+    """As Functional, of a function of Python: evaluate(angles) answers angles (n, 3), 0 to 2 pi, by
+    n numbers. lipschitz or range(min, max) make it fast, as for Field.host."""
+
+    def __init__(self, evaluate: Callable[[Any], Any], *, lipschitz: float = math.inf,
+                 range: Optional[Callable[[Any, Any], Any]] = None, kind: str = "network",
+                 level: Param = 0.0, cell_size: Cell = 1.0, clusters: int = 0,
+                 origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
+                 concurrent: bool = False, context: Optional[Context] = None) -> None:
+        definition = defaults(_abi.msq_host_function_def)
+        set_grid(definition.grid, cell_size, origin, rotation)
+        set_param(definition.level, level)
+        definition.kind = constant("MSQ_FUNCTIONAL_", kind, "kind")
+        definition.clusters = unsigned(clusters, 32, "clusters")
+        definition.lipschitz = lipschitz
+        create(lambda: self._make(context_of(context, level), lib.msq_structure_host_function,
+                                  definition),
+               definition, concurrent, evaluate=evaluate, range=range)

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   msq_structure* foam;
   TRY(msq_structure_foam(context, &def, &foam));
 
-  const msq_scale_def scales[2] = {{shape, NULL}, {NULL, foam}};
+  const msq_scale_def scales[2] = {{.shape = shape}, {.structure = foam}};
   msq_model_def model_def;
   TRY(msq_model_def_init(&model_def, sizeof model_def));
   model_def.scales = scales;

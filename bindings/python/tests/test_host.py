@@ -107,6 +107,119 @@ class Fields(unittest.TestCase):
                     msq.Field.grid(bad)
 
 
+    def test_by_expression_and_distance(self):
+        points = random_points(20000)
+        typed = msq.Field.expression("a + 0.05 * x", 0.2, 0.4, parameters={"a": 0.2})
+        expected = self.model(msq.Field.gradient((0, 0, 0), 0.2, (4, 0, 0), 0.4)).contains(points)
+        self.assertLess((self.model(typed).contains(points) != expected).sum(), 5)
+        ball_of_msq = msq.Shape.sphere((4, 3, 2), 1)
+        near = msq.Field.shape_distance(ball_of_msq, [(0, 0.5), (2, 0.1)])
+        radial = msq.Field.radial((4, 3, 2), 1, 0.5, 3, 0.1)
+        self.assertLess((self.model(near).contains(points)
+                         != self.model(radial).contains(points)).sum(), 5)
+        with self.assertRaisesRegex(msq.ArgumentError, "character"):
+            msq.Field.expression("x +", 0, 1)
+
+
+class Structures(unittest.TestCase):
+    """Of the host: balls of radius 0.4 in the middle of cells of size 1."""
+
+    def setUp(self):
+        self.shape = msq.Shape.box((0, 0, 0), (8, 6, 4))
+        self.points = random_points(40000)
+        middle = np.floor(self.points) + 0.5
+        self.expected = (((self.points - middle) ** 2).sum(axis=1) <= 0.16) & msq.Model(
+            self.shape).contains(self.points)
+
+    def check(self, structure, expected):
+        model = msq.Model(self.shape, structure)
+        self.assertTrue(np.array_equal(model.contains(self.points), expected))
+        self.assertTrue(np.array_equal(model.contains(self.points[:300]), expected[:300]))
+        self.assertEqual([model.contains(p) for p in self.points[:50]], expected[:50].tolist())
+        for layer in model.slicer(layer_height=1, pitch=0.25):
+            self.assertGreater(layer.inside_count, 0)
+        return model
+
+    def test_by_points(self):
+        seen = []
+
+        def inside(points):
+            seen.append(points.cells.dtype)
+            if not np.array_equal(points.cells + points.positions, points.points):
+                np.testing.assert_allclose(points.cells + points.positions, points.points)
+            return ((points.positions - 0.5) ** 2).sum(axis=1) <= 0.16
+
+        def box(low, high):
+            low, high = np.array(low), np.array(high)
+            middle = np.floor(low) + 0.5
+            if (np.floor(high) + 0.5 != middle).any():
+                return None
+            if np.linalg.norm(np.clip(middle, low, high) - middle) > 0.41:
+                return False
+            farthest = np.maximum(np.abs(low - middle), np.abs(high - middle))
+            return True if np.linalg.norm(farthest) < 0.39 else None
+
+        def distance(points):
+            return np.abs(np.linalg.norm(points.positions - 0.5, axis=1) - 0.4)
+
+        for concurrent in (False, True):
+            model = self.check(msq.HostStructure(inside, box=box, distance=distance,
+                                                 concurrent=concurrent), self.expected)
+            found = model.distance(self.points[:300])
+            self.assertTrue(np.array_equal(found <= 0, self.expected[:300]))
+        self.assertEqual(set(seen), {np.dtype(np.int32)})
+
+    def test_by_cells(self):
+        def build(cell):
+            return np.array(cell, np.float64) + 0.5
+
+        def evaluate(middle, points):
+            return ((points.points - middle) ** 2).sum(axis=1) <= 0.16
+
+        gc.collect()
+        before = _host.count()
+        context = msq.Context()
+        model = self.check(msq.HostStructure(build_cell=build, evaluate_cell=evaluate,
+                                             context=context), self.expected)
+        self.assertGreater(_host.count(), before + 1)
+        del model
+        gc.collect()
+        context.clear_cache()
+        self.assertEqual(_host.count(), before)
+
+    def test_by_a_function_of_angles(self):
+        named = msq.Model(self.shape, msq.Functional("schwarz_p", level=0.3))
+        expected = named.contains(self.points)
+        ours = msq.HostFunctional(lambda angles: np.cos(angles).sum(axis=1), lipschitz=2, level=0.3)
+        model = msq.Model(self.shape, ours)
+        self.assertLess((model.contains(self.points) != expected).sum(), 5)
+        sheet = msq.Model(self.shape, msq.Functional("gyroid", kind="sheet", thickness=0.2))
+        sample = msq.Stratified((0, 0, 0), 0.25, (4, 4, 4), per_cell=50)
+        self.assertAlmostEqual(sheet.volume_fraction(sample).value, 0.2 * 3.09, delta=0.05)
+
+    def test_failures(self):
+        def fail(*_arguments):
+            raise LookupError("of cells")
+
+        def good(points):
+            return points.positions[:, 0] > 0.5
+
+        for structure in (msq.HostStructure(fail), msq.HostStructure(good, box=fail),
+                          msq.HostStructure(build_cell=fail, evaluate_cell=fail),
+                          msq.HostStructure(build_cell=lambda cell: cell, evaluate_cell=fail)):
+            model = msq.Model(self.shape, structure)
+            with self.assertRaisesRegex(LookupError, "of cells"):
+                model.contains(self.points)
+                list(model.slicer(layer_height=1, pitch=0.25))
+        kept = []
+        model = msq.Model(self.shape, msq.HostStructure(
+            lambda points: kept.append(points.cells) or good(points)))
+        with self.assertRaisesRegex(BufferError, "keep a copy"):
+            model.contains(self.points)
+        with self.assertRaises(msq.ArgumentError):
+            msq.HostStructure(build_cell=fail)
+
+
 class Failures(unittest.TestCase):
     def test_exceptions_are_raised_as_they_are(self):
         class Own(Exception):
