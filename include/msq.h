@@ -313,7 +313,7 @@ typedef struct msq_mesh_def {
   int32_t coordinate_type; /* MSQ_FLOAT32 or MSQ_FLOAT64 (default) */
   int32_t winding_rule;    /* MSQ_WINDING_* */
   uint32_t reserved;       /* 0 */
-  const void *vertices;    /* vertex_count triples x, y, z */
+  const void *vertices;    /* vertex_count triples x, y, z, at any address */
   uint64_t vertex_count;
   uint64_t vertex_stride;  /* bytes from one vertex to the next; 0 (default): tightly packed */
   const uint32_t *triangles; /* triangle_count triples of vertex indices, counter-clockwise from
@@ -991,7 +991,7 @@ typedef struct msq_points_def {
   uint32_t struct_size;
   int32_t kind;            /* MSQ_POINTS_* */
   /* ARRAY: any points, in any order */
-  const void *coordinates; /* count triples x, y, z */
+  const void *coordinates; /* count triples x, y, z, at any address */
   uint64_t count;
   uint64_t stride;         /* bytes from one point to the next; 0 (default): tightly packed */
   int32_t coordinate_type; /* MSQ_FLOAT32 or MSQ_FLOAT64 (default) */
