@@ -126,7 +126,8 @@ struct UnitCell {
   int32_t number;
   const char* name;
 };
-constexpr UnitCell unit_cells[] = {{MSQ_UNIT_CELL_BCC, "BCC"}, {MSQ_UNIT_CELL_OCTET, "octet"}};
+constexpr UnitCell unit_cells[] = {
+    {MSQ_UNIT_CELL_BCC, "BCC"}, {MSQ_UNIT_CELL_OCTET, "octet"}, {MSQ_UNIT_CELL_KELVIN, "Kelvin"}};
 
 std::string number_text(double value) {
   char text[32];
@@ -156,11 +157,35 @@ void bench_slices(bench::Report& report, uint32_t resolution) {
   }
 }
 
-/// Each point by itself, in no order.
+/// The same points sorted by the cell that they lie in, or by its clusters, parts^3 a cell, those
+/// of all cells together.
+std::vector<double> sorted(const std::vector<double>& coordinates, double cells, int parts) {
+  struct Point {
+    uint64_t key;
+    double at[3];
+  };
+  std::vector<Point> points(coordinates.size() / 3);
+  for (size_t i = 0; i < points.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double place = coordinates[3 * i + axis] * cells, cell = std::floor(place);
+      points[i].at[axis] = coordinates[3 * i + axis];
+      points[i].key =
+          points[i].key << 12 | static_cast<uint64_t>(parts ? (place - cell) * parts : cell);
+    }
+  std::sort(points.begin(), points.end(),
+            [](const Point& a, const Point& b) { return a.key < b.key; });
+  std::vector<double> out;
+  for (const Point& p : points) out.insert(out.end(), p.at, p.at + 3);
+  return out;
+}
+
+/// Points in no order, by cell and by cluster.
 void bench_points(bench::Report& report, size_t count) {
   std::vector<double> coordinates(3 * count);
   for (size_t i = 0; i < coordinates.size(); ++i)
     coordinates[i] = static_cast<double>(msq::splitmix_output(1, i) >> 11) * 0x1p-53;
+  const std::vector<double> by_cell = sorted(coordinates, 31.7, 0);
+  const std::vector<double> by_cluster = sorted(coordinates, 31.7, 24);
   for (const UnitCell& cell : unit_cells)
     for (bool is_graded : {false, true}) {
       Setting setting{cell.number, 31.7, is_graded, false, 1};
@@ -171,7 +196,11 @@ void bench_points(bench::Report& report, size_t count) {
       const double with = Solid(&setting).ask(coordinates).processor;
       report.add(name + ", no clusters (processor time)", without, double(count), "point");
       report.add(name + ", clusters", with, double(count), "point");
-      report.note("  without against with", without / with, "times");
+      report.mark("  without against with", without / with, "times", 3, true);
+      report.add("  sorted by cell", Solid(&setting).ask(by_cell).processor, double(count),
+                 "point");
+      report.add("  sorted by cluster", Solid(&setting).ask(by_cluster).processor, double(count),
+                 "point");
     }
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double critical_samples = 4;
 
 /// Along an axis of the cell.
-constexpr int automatic_clusters = 24;
+constexpr int automatic_clusters = 24, onset_clusters = 12;
 /// Fewer points are asked of all struts near their cells: clusters take milliseconds to find.
 constexpr size_t least_clustered = 512;
 constexpr size_t batch = 256;
@@ -110,9 +110,12 @@ double Lattice::onset_limit() const {
 
 double Lattice::onset(Vec3 p) const {
   const Vec3 size = neighbourhood().cell_size;
-  const StrutOnsets& onsets = onsets_.get(
-      [&] { return std::make_unique<StrutOnsets>(struts_, size, onset_limit()); });
-  return onsets.onset(neighbourhood().locate(p).fraction * size);
+  const StrutClusters& onsets = onsets_.get([&] {
+    return std::make_unique<StrutClusters>(struts_, size, Interval{0, onset_limit()},
+                                           onset_clusters);
+  });
+  const Vec3 fraction = neighbourhood().locate(p).fraction;
+  return onsets.onset(fraction, fraction * size);
 }
 
 void Lattice::keep_rows(const RowBlock& block, const Job* job) const {

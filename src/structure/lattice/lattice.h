@@ -9,7 +9,6 @@
 #include "field/field.h"
 #include "structure/lattice/row_struts.h"
 #include "structure/lattice/strut_clusters.h"
-#include "structure/lattice/strut_onsets.h"
 #include "structure/lattice/unit_cell.h"
 #include "structure/structure.h"
 #include "strut/segment.h"
@@ -47,7 +46,7 @@ class Lattice final : public Structure {
   std::vector<LatticeStrut> near_;  // those of the tiling that may reach a cell, from its corner
   int side_;                        // of the clusters
   Lazy<StrutClusters> clusters_;
-  Lazy<StrutOnsets> onsets_;
+  Lazy<StrutClusters> onsets_;   // for all radii
   std::array<int, 3> row_axes_;  // of the grid, that the samples' axes run along; all -1: turned
   Lazy<RowStruts> row_struts_;
 };

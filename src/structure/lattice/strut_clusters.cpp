@@ -126,6 +126,17 @@ void StrutClusters::set_radii(Cluster& cluster, Vec3 low, Vec3 high,
   }
 }
 
+double StrutClusters::onset(Vec3 fraction, Vec3 q) const {
+  const Cluster& cluster = at(fraction);
+  double least_squared = std::numeric_limits<double>::infinity();
+  for (uint32_t i = cluster.begin; i < cluster.end; ++i) {
+    const LatticeStrut& strut = struts_[entries_[i]];
+    least_squared =
+        std::min(least_squared, strut.axis.distance_squared(q) / (strut.factor * strut.factor));
+  }
+  return std::sqrt(least_squared);
+}
+
 double StrutClusters::gap(Vec3 fraction, Vec3 q, double r) const {
   const Cluster& cluster = at(fraction);
   double least = reach_ - most_factor_ * r;

@@ -14,6 +14,9 @@
 // those t that are nearest to c at either end of the interval: so lists may be longer than they
 // need be, and hold every strut that is nearest.
 //
+// At the least r at which a strut holds a point, that strut's gap is 0 and no other is less: the
+// list holds it, too.
+//
 // No strut holds a point of the cluster where r is below the least (distance of s from c - h) /
 // factor. As the distance to a segment is convex, its greatest over the cluster is at a corner:
 // from the least (greatest distance of s) / factor on, one strut holds the whole cluster.
@@ -61,6 +64,9 @@ class StrutClusters {
     return false;
   }
 
+  /// The least r at which a strut holds a point of the cell, if it is one of those asked for; above
+  /// all of those, maybe infinity, if there is none among them.
+  double onset(Vec3 fraction, Vec3 q) const;
   /// The least gap, negative within a strut, of a point of the cell. At most reach() less the
   /// radius of the thickest strut.
   double gap(Vec3 fraction, Vec3 q, double r) const;
