@@ -917,6 +917,41 @@ MSQ_API msq_status msq_structure_host_function(msq_context *context,
 MSQ_API void msq_structure_retain(msq_structure *structure);
 MSQ_API void msq_structure_release(msq_structure *structure);
 
+/* ---- materials --------------------------------------------------------------------- */
+
+typedef struct msq_material msq_material; /* an id and named channels: density, modulus, colour ... */
+
+enum { MSQ_MATERIAL_VOID = 0 }; /* id where a model is not */
+
+typedef struct msq_channel {
+  const char *name; /* 1 to 255 bytes */
+  msq_param value;
+} msq_channel;
+
+typedef struct msq_material_def {
+  uint32_t struct_size;
+  uint32_t id;                 /* > 0; what it is for is the host's to say. No default: it must be set */
+  const msq_channel *channels; /* channel_count, each name once */
+  uint64_t channel_count;      /* at most 256 */
+} msq_material_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_material_def_init(msq_material_def *def, size_t size);
+
+/* Makes a material. def may not be NULL. Errors: ARGUMENT, MEMORY.
+ * Source: paper, section "Multiscale Shape-Material Modeling API". */
+MSQ_API msq_status msq_material_create(msq_context *context, const msq_material_def *def,
+                                       msq_material **material);
+
+/* Grades one material into another: each channel is (1 - f) times that of a plus f times that of b, f
+ * being the fraction at the point, everywhere from 0 to 1. id > 0, of the blend. Errors: ARGUMENT (also
+ * where one has a channel that the other lacks), LIMIT (more than 64 blends within each other), MEMORY. */
+MSQ_API msq_status msq_material_blend(msq_context *context, uint32_t id, const msq_material *a,
+                                      const msq_material *b, const msq_param *fraction,
+                                      msq_material **material);
+MSQ_API void msq_material_retain(msq_material *material);
+MSQ_API void msq_material_release(msq_material *material);
+
 /* ---- model ------------------------------------------------------------------------ */
 
 typedef struct msq_model msq_model; /* a coarse shape and the structures that fill it, scale by scale */
@@ -927,6 +962,8 @@ typedef struct msq_scale_def {    /* {0} but for what is set: it may grow */
   msq_param skin;                 /* thickness, in model units, of the solid skin that the scale leaves
                                      under the coarse surface; nowhere negative; 0: none. Not for
                                      scale 0 */
+  const msq_material *material;      /* of what the scale resolves; NULL: as the next coarser scale */
+  const msq_material *skin_material; /* of its skin; NULL: as material. Not for scale 0 */
 } msq_scale_def;
 
 typedef struct msq_model_def {
@@ -1041,6 +1078,30 @@ MSQ_API msq_status msq_point_membership(const msq_model *model, const double poi
 MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_def *points,
                                       const msq_query_def *query, uint8_t *inside,
                                       uint64_t inside_count, msq_job *job);
+
+/* Material of one point: *id becomes that of its material, MSQ_MATERIAL_VOID outside the model, and
+ * values[c], of channel_count, the value there of the channel called channels[c]; 0 outside, and where
+ * the material has no such channel. The material is that of the finest resolved scale that has one, or
+ * of its skin within it: what stands for structures that are not resolved is the material of the
+ * scale that they fill, which the host gives as it is on the whole. channels and values may be NULL
+ * where channel_count is 0; query NULL: defaults. Errors: ARGUMENT (also where no resolved scale has a
+ * material, or none of their materials a channel of that name), MEMORY.
+ * Source: paper, section "Multiscale Shape-Material Modeling API". */
+MSQ_API msq_status msq_point_material(const msq_model *model, const double point[3],
+                                      const msq_query_def *query, const char *const *channels,
+                                      uint64_t channel_count, uint32_t *id, double *values);
+
+/* Materials of a set of points: ids[i] and values[i * channel_count + c] become, bit for bit, what
+ * msq_point_material answers for point i. id_count: length of ids, the number of points; value_count: that
+ * of values, channel_count times as many. query, job NULL: defaults, no job. On ARGUMENT and LIMIT nothing
+ * is written; on CANCELLED and MEMORY the arrays may be partly written. Cost: membership as in
+ * msq_set_membership and a byte a point for it; channels of the points inside, a few thousand at
+ * a time. Errors: ARGUMENT (also non-finite points, by index), CANCELLED, LIMIT, MEMORY.
+ * Source: paper, section "Set-based queries". */
+MSQ_API msq_status msq_set_material(const msq_model *model, const msq_points_def *points,
+                                    const msq_query_def *query, const char *const *channels,
+                                    uint64_t channel_count, uint32_t *ids, uint64_t id_count,
+                                    double *values, uint64_t value_count, msq_job *job);
 
 /* Signed distance of one point to the model's boundary, in model units: *distance becomes positive
  * (at least 2.2e-308) where msq_point_membership answers 0, and 0 or negative where it answers 1.

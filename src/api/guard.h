@@ -216,6 +216,10 @@ struct ObjectOf<msq_structure> {
   using type = Structure;
 };
 template <>
+struct ObjectOf<msq_material> {
+  using type = Material;
+};
+template <>
 struct ObjectOf<msq_model> {
   using type = Model;
 };

@@ -38,6 +38,11 @@ Parameter read_skin(const msq_param& skin, uint32_t scale) {
   return thickness;
 }
 
+/// NULL: none.
+Ref<const Material> read_material(const msq_material* material) {
+  return material ? Ref<const Material>(&object(material, "material")) : Ref<const Material>();
+}
+
 }  // namespace
 
 msq_status msq_model_def_init(msq_model_def* def, size_t size) {
@@ -59,6 +64,7 @@ msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_
       fail(Status::argument, "scale_size is %u; it must be sizeof(msq_scale_def)",
            known.scale_size);
     Ref<const Shape> shape;
+    Ref<const Material> coarse;
     std::vector<Model::ScaleParts> scales;
     for (uint32_t i = 0; i < known.scale_count; ++i) {
       const msq_scale_def scale = read_scale(known, i);
@@ -67,14 +73,20 @@ msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_
              i == 0 ? "shape" : "structure", i == 0 ? "structure" : "shape");
       if (i == 0 && (scale.skin.value != 0 || scale.skin.field))
         fail(Status::argument, "scale 0 is to leave a skin; only finer ones can");
-      if (i == 0)
+      if (i == 0 && scale.skin_material)
+        fail(Status::argument, "scale 0 has a skin_material; only finer ones can");
+      Ref<const Material> material = read_material(scale.material);
+      if (i == 0) {
         shape = Ref<const Shape>(&object(scale.shape, "shape"));
-      else
+        coarse = std::move(material);
+      } else {
         scales.push_back({Ref<const Structure>(&object(scale.structure, "structure")),
-                          read_skin(scale.skin, i)});
+                          read_skin(scale.skin, i), std::move(material),
+                          read_material(scale.skin_material)});
+      }
     }
-    *model = new_handle<msq_model>(
-        make_ref<Model>(Ref<Context>(&owner), std::move(shape), std::move(scales)));
+    *model = new_handle<msq_model>(make_ref<Model>(Ref<Context>(&owner), std::move(shape),
+                                                   std::move(scales), std::move(coarse)));
   });
 }
 

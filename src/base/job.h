@@ -22,6 +22,13 @@ struct QueryCounts {
     by_set += living;
     ++groups;
   }
+  void add(const QueryCounts& other) {
+    points += other.points;
+    by_shape += other.by_shape;
+    by_point += other.by_point;
+    by_set += other.by_set;
+    groups += other.groups;
+  }
   void clear() {
     for (std::atomic<uint64_t>* count : {&points, &by_shape, &by_point, &by_set, &groups})
       *count = 0;

@@ -17,15 +17,21 @@ class Model final : public RefCounted {
  public:
   /// What a scale but the coarsest is made of.
   struct ScaleParts {
-    ScaleParts(Ref<const Structure> structure, Parameter skin = {})
-        : structure(std::move(structure)), skin(std::move(skin)) {}
+    ScaleParts(Ref<const Structure> structure, Parameter skin = {},
+               Ref<const Material> material = {}, Ref<const Material> skin_material = {})
+        : structure(std::move(structure)),
+          skin(std::move(skin)),
+          material(std::move(material)),
+          skin_material(std::move(skin_material)) {}
 
     Ref<const Structure> structure;
     Parameter skin;  ///< its thickness
+    Ref<const Material> material, skin_material;
   };
   /// Throws Error(limit) if a structure has more than max_cell_index cells across the shape,
   /// Error(unsupported) if a skin is asked for whose depth the shape does not know.
-  Model(Ref<Context> context, Ref<const Shape> shape, std::vector<ScaleParts> scales);
+  Model(Ref<Context> context, Ref<const Shape> shape, std::vector<ScaleParts> scales,
+        Ref<const Material> material = {});
   /// Structures alone.
   Model(Ref<Context> context, Ref<const Shape> shape,
         const std::vector<Ref<const Structure>>& structures)
@@ -55,6 +61,13 @@ class Model final : public RefCounted {
   /// Signed distance of a finite point: at most 0 where inside(p, resolved), positive elsewhere,
   /// and never larger in magnitude than the distance from p to the model's boundary.
   double distance(Vec3 p, const Scales& resolved) const;
+  /// The material of a point inside: that of the finest of these scales that has one. May be null
+  /// only where has_material() is false. `part`: as in Skin::find().
+  const Material* material(Vec3 p, const Scales& resolved, uint32_t& part) const;
+  /// Whether there is one wherever a point is.
+  bool has_material(const Scales& resolved) const;
+  /// All that points may have.
+  std::vector<const Material*> materials(const Scales& resolved) const;
   /// Builds what answers of these scales need of the shape's depth, if anything. What else they ask
   /// would find out on a worker, with answers written already.
   void prepare_skins(const Scales& resolved) const;
@@ -62,6 +75,7 @@ class Model final : public RefCounted {
  private:
   Ref<Context> context_;
   Ref<const Shape> shape_;
+  Ref<const Material> material_;
   std::vector<Scale> scales_;
   bool is_concurrent_;
 };

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "model/material.h"
 #include "model/skin.h"
 #include "structure/structure.h"
 
@@ -13,6 +14,8 @@ namespace msq {
 struct Scale {
   Ref<const Structure> structure;
   Skin skin;
+  /// Each may be null: then a coarser scale's counts, and in the skin the scale's own.
+  Ref<const Material> material{}, skin_material{};
 
   /// Membership of a point of the shape: the definition.
   bool inside(Vec3 p) const { return structure->inside(p) || (!skin.is_none() && skin.holds(p)); }

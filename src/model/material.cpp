@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/material.h"
+
+namespace msq {
+
+std::optional<size_t> Material::find(std::string_view name) const {
+  for (size_t i = 0; i < channels_.size(); ++i)
+    if (channels_[i] == name) return i;
+  return std::nullopt;
+}
+
+bool PlainMaterial::is_concurrent() const {
+  for (const Parameter& p : parameters_)
+    if (!p.is_concurrent()) return false;
+  return true;
+}
+
+MaterialBlend::MaterialBlend(uint32_t id, Ref<const Material> a, Ref<const Material> b,
+                             Parameter fraction)
+    : Material(id, a->channels()),
+      a_(std::move(a)),
+      b_(std::move(b)),
+      fraction_(std::move(fraction)) {}
+
+void MaterialBlend::values(size_t channel, const Vec3* points, size_t count, double* values) const {
+  std::vector<double> of_b(count), fraction(count);
+  a_->values(channel, points, count, values);
+  b_->values(*b_->find(channels()[channel]), points, count, of_b.data());
+  fraction_.values(points, count, fraction.data());
+  for (size_t i = 0; i < count; ++i)
+    values[i] = (1 - fraction[i]) * values[i] + fraction[i] * of_b[i];
+}
+
+bool MaterialBlend::is_concurrent() const {
+  return fraction_.is_concurrent() && a_->is_concurrent() && b_->is_concurrent();
+}
+
+}  // namespace msq

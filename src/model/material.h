@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials: an id and named channels, each a number or a field; and blends of two.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "field/field.h"
+
+namespace msq {
+
+class Material : public RefCounted {
+ public:
+  uint32_t id() const { return id_; }
+  /// Which channel has the name, if any.
+  std::optional<size_t> find(std::string_view name) const;
+  const std::vector<std::string>& channels() const { return channels_; }
+  /// values[i] becomes the channel's value at points[i].
+  virtual void values(size_t channel, const Vec3* points, size_t count, double* values) const = 0;
+  virtual bool is_concurrent() const = 0;
+  /// How many blends are within each other.
+  virtual unsigned depth() const { return 0; }
+
+ protected:
+  Material(uint32_t id, std::vector<std::string> channels)
+      : id_(id), channels_(std::move(channels)) {}
+
+ private:
+  uint32_t id_;
+  std::vector<std::string> channels_;
+};
+
+class PlainMaterial final : public Material {
+ public:
+  /// As many parameters as channels.
+  PlainMaterial(uint32_t id, std::vector<std::string> channels, std::vector<Parameter> parameters)
+      : Material(id, std::move(channels)), parameters_(std::move(parameters)) {}
+
+  void values(size_t channel, const Vec3* points, size_t count, double* values) const override {
+    parameters_[channel].values(points, count, values);
+  }
+  bool is_concurrent() const override;
+
+ private:
+  std::vector<Parameter> parameters_;
+};
+
+/// Each channel is (1 - f) a + f b: a at f = 0, b at f = 1, to the last bit.
+class MaterialBlend final : public Material {
+ public:
+  /// Both have the same channels, in any order.
+  MaterialBlend(uint32_t id, Ref<const Material> a, Ref<const Material> b, Parameter fraction);
+
+  void values(size_t channel, const Vec3* points, size_t count, double* values) const override;
+  bool is_concurrent() const override;
+  unsigned depth() const override { return 1 + std::max(a_->depth(), b_->depth()); }
+
+ private:
+  Ref<const Material> a_, b_;
+  Parameter fraction_;
+};
+
+}  // namespace msq

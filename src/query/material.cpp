@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "query/material.h"
+
+#include <atomic>
+
+#include "base/memory.h"
+
+namespace msq {
+
+namespace {
+
+/// Points of one part that have the same material.
+struct Group {
+  const Material* material;
+  std::vector<uint64_t> numbers;
+  std::vector<Vec3> positions;
+};
+
+void fill_group(const Group& group, const std::vector<std::string_view>& channels, uint32_t* ids,
+                double* values) {
+  const size_t count = group.positions.size();
+  std::vector<double> of_channel(count);
+  for (uint64_t number : group.numbers) ids[number] = group.material->id();
+  for (size_t c = 0; c < channels.size(); ++c) {
+    const auto found = group.material->find(channels[c]);
+    if (!found) continue;
+    group.material->values(*found, group.positions.data(), count, of_channel.data());
+    for (size_t i = 0; i < count; ++i)
+      values[group.numbers[i] * channels.size() + c] = of_channel[i];
+  }
+}
+
+}  // namespace
+
+void set_material(const Model& model, const Scales& resolved, const PointSet& points,
+                  const QueryPlan& plan, const std::vector<std::string_view>& channels,
+                  uint32_t* ids, double* values, Job* job) {
+  const Reservation reservation(model.context().budget, points.count(), "membership of points");
+  std::vector<uint8_t> inside(points.count());
+  Job first(job);  // the first half of the work
+  set_membership(model, resolved, points, plan, inside.data(), job ? &first : nullptr);
+  if (job) job->set_progress(0.5);
+  const uint64_t parts = points.parts();
+  std::atomic<uint64_t> done{0};
+  model.executor().for_each(parts, [&](uint64_t index) {
+    check_cancelled(job);
+    PointSet::Part part;
+    points.read_part(index, part);
+    std::vector<Group> groups;
+    uint32_t skin_part = 0;
+    for (size_t i = 0; i < part.numbers.size(); ++i) {
+      const uint64_t number = part.numbers[i];
+      ids[number] = 0;
+      for (size_t c = 0; c < channels.size(); ++c) values[number * channels.size() + c] = 0;
+      if (!inside[number]) continue;
+      const Material* material = model.material(part.positions[i], resolved, skin_part);
+      auto group = groups.begin();
+      while (group != groups.end() && group->material != material) ++group;
+      if (group == groups.end()) group = groups.insert(group, Group{material, {}, {}});
+      group->numbers.push_back(number);
+      group->positions.push_back(part.positions[i]);
+    }
+    for (const Group& group : groups) fill_group(group, channels, ids, values);
+    const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
+    if (!job) return;
+    job->raise_progress(0.5 + 0.5 * static_cast<double>(now) / static_cast<double>(parts));
+  });
+  if (job) job->counts().add(first.counts());
+}
+
+}  // namespace msq
