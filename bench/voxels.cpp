@@ -65,7 +65,8 @@ int main(int count, char** arguments) try {
     bench::check(msq_context_memory(context, &memory));
     report.note("  memory a voxel", double(memory.bytes) / double(values.size()), "bytes");
 
-    const msq_scale_def scales[] = {{shape, nullptr, {}}};
+    msq_scale_def scales[1] = {};
+    scales[0].shape = shape;
     msq_model_def model_def;
     bench::check(msq_model_def_init(&model_def, sizeof model_def));
     model_def.scales = scales;
