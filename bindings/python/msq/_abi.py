@@ -62,6 +62,7 @@ MSQ_FUNCTIONAL_SHEET = 2
 MSQ_BOX_MIXED = 0
 MSQ_BOX_OUTSIDE = 1
 MSQ_BOX_INSIDE = 2
+MSQ_MATERIAL_VOID = 0
 MSQ_QUERY_AUTO = 0
 MSQ_QUERY_POINT = 1
 MSQ_QUERY_SET = 2
@@ -91,6 +92,10 @@ class msq_field(Structure):
 
 
 class msq_structure(Structure):
+    """Opaque."""
+
+
+class msq_material(Structure):
     """Opaque."""
 
 
@@ -302,9 +307,19 @@ class msq_host_function_def(Structure):
                 ("release", msq_release_fn), ("lipschitz", c_double)]
 
 
+class msq_channel(Structure):
+    _fields_ = [("name", c_char_p), ("value", msq_param)]
+
+
+class msq_material_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("id", c_uint32), ("channels", POINTER(msq_channel)),
+                ("channel_count", c_uint64)]
+
+
 class msq_scale_def(Structure):
     _fields_ = [("shape", POINTER(msq_shape)), ("structure", POINTER(msq_structure)),
-                ("skin", msq_param)]
+                ("skin", msq_param), ("material", POINTER(msq_material)),
+                ("skin_material", POINTER(msq_material))]
 
 
 class msq_model_def(Structure):
@@ -455,6 +470,14 @@ FUNCTIONS = {
                                     POINTER(POINTER(msq_structure))],
     "msq_structure_retain": [None, POINTER(msq_structure)],
     "msq_structure_release": [None, POINTER(msq_structure)],
+    "msq_material_def_init": [c_int32, POINTER(msq_material_def), c_size_t],
+    "msq_material_create": [c_int32, POINTER(msq_context), POINTER(msq_material_def),
+                            POINTER(POINTER(msq_material))],
+    "msq_material_blend": [c_int32, POINTER(msq_context), c_uint32, POINTER(msq_material),
+                           POINTER(msq_material), POINTER(msq_param),
+                           POINTER(POINTER(msq_material))],
+    "msq_material_retain": [None, POINTER(msq_material)],
+    "msq_material_release": [None, POINTER(msq_material)],
     "msq_model_def_init": [c_int32, POINTER(msq_model_def), c_size_t],
     "msq_model_create": [c_int32, POINTER(msq_context), POINTER(msq_model_def),
                          POINTER(POINTER(msq_model))],
@@ -470,6 +493,11 @@ FUNCTIONS = {
                              POINTER(c_int32)],
     "msq_set_membership": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
                            POINTER(msq_query_def), POINTER(c_uint8), c_uint64, POINTER(msq_job)],
+    "msq_point_material": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(msq_query_def),
+                           POINTER(c_char_p), c_uint64, POINTER(c_uint32), POINTER(c_double)],
+    "msq_set_material": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
+                         POINTER(msq_query_def), POINTER(c_char_p), c_uint64, POINTER(c_uint32),
+                         c_uint64, POINTER(c_double), c_uint64, POINTER(msq_job)],
     "msq_point_distance": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(msq_query_def),
                            POINTER(c_double)],
     "msq_set_distance": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
