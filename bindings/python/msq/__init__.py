@@ -16,6 +16,7 @@ from .context import (BuildInfo, CacheInfo, Context, Job, JobInfo, MemoryInfo, b
 from .errors import (ArgumentError, CancelledError, Error, FileError, HostError, InternalError,
                      LimitError, MeshError, OutOfMemoryError, UnsupportedError)
 from .field import Field, Param
+from .material import Material
 from .model import Model, Scale
 from .points import PointGrid, PointSet, Stratified
 from .shape import Shape, ShapeInfo
@@ -31,7 +32,7 @@ __all__ = [
     "ArgumentError", "BuildInfo", "CacheInfo", "Calibration", "CancelledError", "Context", "Error",
     "Estimate", "Field", "FileError", "Foam", "Functional", "HostError", "HostFunctional",
     "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice", "LatticeFaces",
-    "Layer", "LimitError", "MemoryInfo", "MeshError", "Model", "OutOfMemoryError", "Param",
-    "PointGrid", "PointSet", "Scale", "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure",
-    "UnitCell", "UnitCellInfo", "UnsupportedError", "build_info",
+    "Layer", "LimitError", "Material", "MemoryInfo", "MeshError", "Model", "OutOfMemoryError",
+    "Param", "PointGrid", "PointSet", "Scale", "Shape", "ShapeInfo", "Slicer", "Stratified",
+    "Structure", "UnitCell", "UnitCellInfo", "UnsupportedError", "build_info",
 ]

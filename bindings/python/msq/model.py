@@ -16,6 +16,7 @@ from ._library import defaults, lib
 from ._signals import held
 from .context import Context, Job, context_of, doubles, unsigned
 from .field import Param, set_param
+from .material import Material, encoded, pointer_of
 from .points import PointSet, Stratified, definition_of, query_of
 from .shape import Shape
 from .slicer import Slicer
@@ -28,11 +29,16 @@ _LONG = 1 << 15
 
 @dataclasses.dataclass(frozen=True)
 class Scale:
-    """A structure and what it leaves of the coarse shape: skin, the thickness of a solid skin under
-    its surface."""
+    """A structure, and what it leaves of the coarse shape: skin, the thickness of a solid skin
+    under its surface.
+
+    material: None: as the next coarser scale. skin_material: None: as material.
+    """
 
     structure: Structure
     skin: Param = 0.0
+    material: Optional[Material] = None
+    skin_material: Optional[Material] = None
 
 
 Part = Union[Structure, Scale]  #: what a model is filled with
@@ -42,13 +48,13 @@ class Model(Handle):
     """A coarse shape and the structures that fill it: the solid is their intersection.
 
     structures: coarsest first, a Structure or a Scale or a sequence of them; none for the shape
-    alone.
+    alone. material: of the coarse shape, and so of scales that have none of their own.
     """
 
     _kind = "model"
 
     def __init__(self, shape: Shape, structures: Union[Part, Sequence[Part]] = (), *,
-                 context: Optional[Context] = None) -> None:
+                 material: Optional[Material] = None, context: Optional[Context] = None) -> None:
         if not isinstance(shape, Shape):
             raise TypeError(f"shape is a {type(shape).__name__}; it must be a Shape")
         given = (structures,) if isinstance(structures, (Structure, Scale)) else tuple(structures)
@@ -59,9 +65,12 @@ class Model(Handle):
                                 "or a Scale of one")
         scales = (_abi.msq_scale_def * (1 + len(parts)))()
         scales[0].shape = shape._pointer
+        scales[0].material = pointer_of(material, "material")
         for scale, part in zip(list(scales)[1:], parts):
             scale.structure = part.structure._pointer
             set_param(scale.skin, part.skin)
+            scale.material = pointer_of(part.material, "material")
+            scale.skin_material = pointer_of(part.skin_material, "skin_material")
         definition = defaults(_abi.msq_model_def)
         definition.scales = scales
         definition.scale_count = len(scales)
@@ -108,6 +117,44 @@ class Model(Handle):
         """
         return self._ask(lib.msq_set_distance, points, out, (np.float64,), ctypes.c_double,
                          query_of(length_scale), job, self._point_distance)
+
+    def material(self, points: Any, *, channels: Sequence[str] = (),
+                 out: Optional[Tuple[Optional[np.ndarray], Optional[np.ndarray]]] = None,
+                 length_scale: float = 0.0, job: Optional[Job] = None) -> Tuple[Any, np.ndarray]:
+        """Ids of the materials at points, 0 outside the model, and values of channels there.
+
+        Returns ids (...), uint32, and values (..., number of channels), float64, in the order of
+        the names; values are 0 outside, and where the material has no such channel. A single point
+        gives an int and its values. The material is that of the finest resolved scale that has one,
+        or of its skin. out: a pair of arrays, either may be None, to write to instead. points,
+        length_scale and job are as in contains.
+        """
+        ids_out, values_out = (None, None) if out is None else out
+        names = encoded(channels)
+        named = (ctypes.c_char_p * len(names))(*names)
+        query = query_of(length_scale)
+        given = definition_of(points)
+        values = output(values_out, (*given.shape, len(names)), (np.float64,), given.array)
+        reference = self._ref
+        if ids_out is None and job is None and given.shape == ():
+            found = ctypes.c_uint32()
+            with held():
+                lib.msq_point_material(reference, doubles(given.array, "point"), query, named,
+                                       len(names), ctypes.byref(found),
+                                       pointer(values, ctypes.c_double))
+            return found.value, values
+        ids = output(ids_out, given.shape, (np.uint32,), given.array)
+        if np.may_share_memory(ids, values):
+            raise ValueError("out has ids and values that lie in the same memory")
+
+        def call(work: Any) -> None:
+            # Holds all arrays for as long as the call, whatever becomes of the caller.
+            lib.msq_set_material(reference, ctypes.byref(given.definition), query, named,
+                                 len(names), pointer(ids, ctypes.c_uint32), ids.size,
+                                 pointer(values, ctypes.c_double), values.size, work)
+
+        interruptible(call, job, ids.size >= _LONG)
+        return (ids if ids.shape or ids_out is not None else ids.item()), values
 
     def volume_fraction(self, sample: Stratified, *, phase: str = "solid",
                         length_scale: float = 0.0, job: Optional[Job] = None) -> Estimate:
