@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/scale.h"
 
+#include "base/ray_normal.h"
+
 namespace msq {
 
 // Inside both, the ball that fits in either lies in their union, as far as it lies in the shape.
@@ -42,6 +44,34 @@ void Scale::keep_rows(const RowBlock& block, const Job* job) const {
   for_words([](uint64_t alive, uint64_t in_skin) { return alive & ~in_skin; });
   structure->keep_rows(block, job);
   for_words([](uint64_t kept, uint64_t in_skin) { return kept | in_skin; });
+}
+
+void Scale::enter(RaySearch* searches, size_t count) const {
+  if (skin.is_none()) return structure->enter(searches, count);
+  // The skin first: it ends what the structure is asked about.
+  std::vector<RaySearch> within(searches, searches + count);
+  for (size_t i = 0; i < count; ++i) {
+    RaySearch& s = searches[i];
+    s.found = skin.enter(s.ray, s.from, s.to, s.t);
+    if (s.found) within[i].to = s.t;
+  }
+  structure->enter(within.data(), count);
+  for (size_t i = 0; i < count; ++i)
+    if (within[i].found) {
+      searches[i].found = true;
+      searches[i].t = within[i].t;
+    }
+}
+
+double Scale::leave(const Ray& ray, double from, double to) const {
+  if (skin.is_none() || structure->inside(ray.at(from))) return structure->leave(ray, from, to);
+  return skin.leave(ray, from, to);
+}
+
+Vec3 Scale::normal(const Ray& ray, double t) const {
+  if (skin.is_none() || structure->inside(ray.at(t))) return structure->normal(ray, t);
+  return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t,
+                              1e-4 * structure->characteristic_length());
 }
 
 }  // namespace msq

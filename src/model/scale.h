@@ -29,6 +29,11 @@ struct Scale {
   /// are 1 and in the shape.
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const;
 
+  /// As those of Structure, in the shape.
+  void enter(RaySearch* searches, size_t count) const;
+  double leave(const Ray& ray, double from, double to) const;
+  Vec3 normal(const Ray& ray, double t) const;
+
   /// Clears the bits of samples that are outside, in rows of samples of the shape.
   void keep_rows(const RowBlock& block, const Job* job) const;
 };

@@ -2,6 +2,7 @@
 #include "model/skin.h"
 
 #include <bit>
+#include <limits>
 
 #include "model/skin_cells.h"
 #include "structure/strut_clearance.h"
@@ -42,6 +43,25 @@ bool Skin::find(Vec3 p, uint32_t& part) const {
 
 double Skin::clearance(Vec3 p, double depth) const {
   return strut_clearance(depth, shape_->depth_error(), thickness_, p);
+}
+
+bool Skin::enter(const Ray& ray, double from, double to, double& t) const {
+  return march(true, ray, from, to, t);
+}
+
+double Skin::leave(const Ray& ray, double from, double to) const {
+  double t;
+  return march(false, ray, from, to, t) ? t : to;
+}
+
+bool Skin::march(bool wanted, const Ray& ray, double from, double to, double& t) const {
+  // Where nothing is known of how fast the thickness varies, there is no bound.
+  const bool is_bounded = thickness_.lipschitz() < std::numeric_limits<double>::infinity();
+  const RayMarch steps{is_bounded ? shape_->ray_tolerance() : shape_->least_ray_step(),
+                       shape_->ray_tolerance()};
+  return steps.find(
+      wanted, ray, from, to, [this](Vec3 p) { return holds(p); },
+      [this](Vec3 p) { return clearance(p, shape_->depth(p)); }, t);
 }
 
 // From a sample on, all those of the row that are no farther than its clearance are answered with

@@ -38,12 +38,19 @@ class Skin {
   /// shape of which holds() answers otherwise.
   double clearance(Vec3 p, double depth) const;
 
+  /// The first t in [from, to], within the shape, at which the ray is in the skin; false if there is
+  /// none.
+  bool enter(const Ray& ray, double from, double to, double& t) const;
+  /// A t up to which a ray that is in the skin at `from` stays in it.
+  double leave(const Ray& ray, double from, double to) const;
+
   /// Sets the bits of `skin`, a block of zeros with the rows of `alive`, of those alive samples
   /// that lie in the skin. Samples that are alive are in the shape.
   void mark_rows(const RowBlock& alive, const RowBlock& skin, const Job* job) const;
 
  private:
   void step_along_rows(const RowBlock& alive, const RowBlock& skin, const Job* job) const;
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t) const;
 
   Ref<const Shape> shape_;
   Parameter thickness_;

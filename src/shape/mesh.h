@@ -36,6 +36,9 @@ class Mesh final : public Shape {
   bool knows_depth() const override { return true; }
   double depth_error() const override { return boundary().error(); }
   const BoundarySearch* boundary_search() const override { return &boundary(); }
+  bool enter(const Ray& ray, double from, double to, double& t) const override;
+  double leave(const Ray& ray, double from, double to) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
   uint64_t self_intersections(const Job* job) const override;
 
   const std::vector<Vec3>& vertices() const { return soup_.vertices; }
@@ -52,6 +55,7 @@ class Mesh final : public Shape {
                                             : winding > 0;
   }
   void fill_layer(const RowBlock& block, uint64_t k) const;
+  bool find_along(const Ray& ray, double from, double to, bool wanted, double& t) const;
 
   TriangleSoup soup_;
   WindingRule rule_;

@@ -108,4 +108,15 @@ double MeshBoundary::clearance(Vec3 p) const {
   return std::min(bound / scale_, std::numeric_limits<double>::max());
 }
 
+bool MeshBoundary::first_crossing(const Ray& ray, double from, double to, double margin, double& t,
+                                  Vec3& normal) const {
+  TriangleTree::Crossing crossing;
+  if (!tree_.first_crossing({ray.origin * scale_, ray.direction}, from * scale_, to * scale_,
+                            margin * scale_, crossing))
+    return false;
+  t = crossing.t / scale_;
+  normal = crossing.normal;
+  return true;
+}
+
 }  // namespace msq

@@ -36,6 +36,10 @@ class MeshBoundary final : public BoundarySearch {
 
   Foot nearest(Vec3 p, uint32_t start) const override;
   Range compare(Vec3 p, double low, double high, uint32_t& part) const override;
+  /// The first t in [from, to] at which a ray may cross the boundary, and a vector normal to it
+  /// there; false if there is none. `margin`: the error of positions.
+  bool first_crossing(const Ray& ray, double from, double to, double margin, double& t,
+                      Vec3& normal) const;
 
  private:
   // Coordinates times a power of two, which rounds nothing, so that the largest extent is about 1.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shape/primitive.h"
 
+#include <limits>
 #include <vector>
 
 namespace msq {
@@ -14,7 +15,33 @@ double corner_distance(double beyond_one, double beyond_other) {
   if (beyond_one <= 0 && beyond_other <= 0) return std::min(-beyond_one, -beyond_other);
   return std::hypot(std::max(beyond_one, 0.0), std::max(beyond_other, 0.0));
 }
+
+/// Narrows [from, to] to where a + 2 b t + c t^2 <= 0, c >= 0.
+bool clip_to_quadratic(double a, double b, double c, double& from, double& to) {
+  if (c == 0) return a <= 0;
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return false;
+  const double root = std::sqrt(discriminant);
+  // The root of larger magnitude without cancellation, the other by their product.
+  const double q = b > 0 ? -b - root : -b + root;
+  const double one = q / c, other = q != 0 ? a / q : one;
+  from = std::max(from, std::min(one, other));
+  to = std::min(to, std::max(one, other));
+  return from <= to;
+}
 }  // namespace
+
+bool Primitive::enter(const Ray& ray, double from, double to, double& t) const {
+  double low = from, high = to;
+  if (!section(ray, low, high)) return false;
+  t = low;
+  return settle_entry(ray, from, ray_tolerance(), [this](Vec3 p) { return inside(p); }, t);
+}
+
+double Primitive::leave(const Ray& ray, double from, double to) const {
+  double low = from, high = to;
+  return section(ray, low, high) ? high : from;
+}
 
 BoxShape::BoxShape(const Box3& box) {
   const Vec3 e = box.extent();
@@ -41,6 +68,22 @@ void BoxShape::fill_rows(const RowBlock& block) const {
 
 /// Takes off what a difference and a root, each within a few units of 2^-53, may add.
 constexpr double box_rounding = 1 - 0x1p-50;
+
+Vec3 BoxShape::normal(const Ray& ray, double t) const {
+  const Vec3 p = ray.at(t);
+  double nearest = std::numeric_limits<double>::infinity();
+  Vec3 normal = ray.direction * -1.0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      const double gap = std::abs(p[axis] - (side ? bounds().max : bounds().min)[axis]);
+      const bool faces = side ? ray.direction[axis] < 0 : ray.direction[axis] > 0;
+      if (!faces || gap >= nearest) continue;
+      nearest = gap;
+      normal = {};
+      normal[axis] = side ? 1 : -1;
+    }
+  return normal;
+}
 
 double BoxShape::clearance(Vec3 p) const {
   const Vec3 beyond = max(bounds().min - p, p - bounds().max);
@@ -81,6 +124,16 @@ bool SphereShape::inside(Vec3 p) const {
   return bounds().contains(p) && dot(d, d) <= radius_squared_;
 }
 
+bool SphereShape::section(const Ray& ray, double& from, double& to) const {
+  const Vec3 w = ray.origin - centre_;
+  return clip_to_quadratic(dot(w, w) - radius_squared_, dot(w, ray.direction), 1, from, to);
+}
+
+Vec3 SphereShape::normal(const Ray& ray, double t) const {
+  const Vec3 d = ray.at(t) - centre_;
+  return d * (1 / length(d));
+}
+
 double SphereShape::clearance(Vec3 p) const {
   const Vec3 d = p - centre_;
   const double from_centre = std::hypot(d.x, d.y, d.z);
@@ -116,6 +169,36 @@ bool CylinderShape::inside(Vec3 p) const {
   if (t < 0 || t > axis_squared_) return false;
   const Vec3 across = cross(w, axis_);
   return dot(across, across) <= radius_squared_ * axis_squared_;
+}
+
+bool CylinderShape::section(const Ray& ray, double& from, double& to) const {
+  const Vec3 w = ray.origin - from_;
+  const double height = std::sqrt(axis_squared_);
+  const Vec3 axis = axis_ * (1 / height);
+  const double along = dot(w, axis), rate = dot(ray.direction, axis);
+  if (rate == 0) {
+    if (along < 0 || along > height) return false;
+  } else {
+    const double one = -along / rate, other = (height - along) / rate;
+    from = std::max(from, std::min(one, other));
+    to = std::min(to, std::max(one, other));
+  }
+  const Vec3 across = w - axis * along, drift = ray.direction - axis * rate;
+  const double drift_squared = dot(drift, drift);
+  return clip_to_quadratic(dot(across, across) - radius_squared_, dot(across, drift),
+                           drift_squared > 0x1p-90 ? drift_squared : 0, from, to);
+}
+
+Vec3 CylinderShape::normal(const Ray& ray, double t) const {
+  const Vec3 w = ray.at(t) - from_;
+  const double height = std::sqrt(axis_squared_);
+  const Vec3 axis = axis_ * (1 / height);
+  const double along = dot(w, axis);
+  const Vec3 across = w - axis * along;
+  const double distance = length(across);
+  if (std::abs(distance - radius_) < std::min(std::abs(along), std::abs(height - along)))
+    return across * (1 / distance);
+  return 2 * along < height ? axis * -1.0 : axis;
 }
 
 double CylinderShape::clearance(Vec3 p) const {

@@ -6,7 +6,7 @@
 
 namespace msq {
 
-/// What primitives have in common.
+/// What primitives have in common: rays cut them in one section.
 class Primitive : public Shape {
  public:
   bool knows_depth() const override { return true; }
@@ -15,6 +15,12 @@ class Primitive : public Shape {
   double depth_error() const override {
     return 0x1p-43 * (max_magnitude(bounds().min) + max_magnitude(bounds().max));
   }
+  bool enter(const Ray& ray, double from, double to, double& t) const override;
+  double leave(const Ray& ray, double from, double to) const override;
+
+ protected:
+  /// Narrows [from, to] to the section, but for rounding; false if there is none.
+  virtual bool section(const Ray& ray, double& from, double& to) const = 0;
 };
 
 class BoxShape final : public Primitive {
@@ -23,8 +29,12 @@ class BoxShape final : public Primitive {
   bool inside(Vec3 p) const override { return bounds().contains(p); }
   void fill_rows(const RowBlock& block) const override;
   bool fill_shallow_rows(double depth, const RowBlock& block) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
 
  protected:
+  bool section(const Ray& ray, double& from, double& to) const override {
+    return clip_to_box(ray, bounds(), from, to);
+  }
   double clearance(Vec3 p) const override;
 };
 
@@ -32,8 +42,10 @@ class SphereShape final : public Primitive {
  public:
   SphereShape(Vec3 centre, double radius);
   bool inside(Vec3 p) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
 
  protected:
+  bool section(const Ray& ray, double& from, double& to) const override;
   double clearance(Vec3 p) const override;
 
  private:
@@ -46,8 +58,10 @@ class CylinderShape final : public Primitive {
  public:
   CylinderShape(Vec3 from, Vec3 to, double radius);
   bool inside(Vec3 p) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
 
  protected:
+  bool section(const Ray& ray, double& from, double& to) const override;
   double clearance(Vec3 p) const override;
 
  private:

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "base/ray_normal.h"
 #include "base/signed_distance.h"
 
 namespace msq {
@@ -17,6 +18,28 @@ double Shape::distance(Vec3 p) const {
     return std::min(far, std::numeric_limits<double>::max());
   }
   return signed_distance(inside(p), clearance(p));
+}
+
+bool Shape::enter(const Ray& ray, double from, double to, double& t) const {
+  if (!clip_to_box(ray, bounds(), from, to)) return false;
+  const RayMarch march{least_ray_step(), ray_tolerance()};
+  return march.find(true, ray, from, to, [this](Vec3 p) { return inside(p); },
+                    [this](Vec3 p) { return std::abs(distance(p)); }, t);
+}
+
+double Shape::leave(const Ray& ray, double from, double to) const {
+  if (!clip_to_box(ray, bounds(), from, to)) return from;
+  const RayMarch march{least_ray_step(), ray_tolerance()};
+  double t;
+  return march.find(false, ray, from, to, [this](Vec3 p) { return inside(p); },
+                    [this](Vec3 p) { return std::abs(distance(p)); }, t)
+             ? t
+             : to;
+}
+
+Vec3 Shape::normal(const Ray& ray, double t) const {
+  return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t,
+                              1e-4 * max_component(bounds().extent()));
 }
 
 void Shape::fill_rows(const RowBlock& block) const {

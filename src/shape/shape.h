@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/job.h"
+#include "base/ray.h"
 #include "base/ref.h"
 #include "base/sample_grid.h"
 #include "base/vec.h"
@@ -63,6 +64,22 @@ class Shape : public RefCounted {
   /// Sets the bits of the samples of the shape whose depth() is at most this, and of any others
   /// that are not in the shape. False, with nothing done, where asking depth() is as fast.
   virtual bool fill_shallow_rows(double, const RowBlock&) const { return false; }
+  /// The first t in [from, to] at which the ray is inside, within ray_tolerance() past it; false if
+  /// there is none. Parts shorter than that may be overlooked. Default: marches by the distance.
+  virtual bool enter(const Ray& ray, double from, double to, double& t) const;
+  /// A t up to which a ray that is inside at `from` stays inside: as far as is known at once, at
+  /// most `to`. Default: marches by the distance.
+  virtual double leave(const Ray& ray, double from, double to) const;
+  /// The outward normal, of length 1, where the ray enters at t; the direction back where there is
+  /// none. Default: from membership around the point.
+  virtual Vec3 normal(const Ray& ray, double t) const;
+  /// Rays that march go on by no less than this, whatever distance() says. Less only where that is
+  /// 0 nowhere but at the boundary.
+  virtual double least_ray_step() const { return max_component(bounds().extent()) / 1024; }
+  double ray_tolerance() const {
+    return 0x1p-36 * (max_component(bounds().extent()) + max_magnitude(bounds().min) +
+                      max_magnitude(bounds().max));
+  }
 
   /// Number of pairs of triangles that meet where they should not; none where there are no
   /// triangles.

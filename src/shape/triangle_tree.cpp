@@ -24,6 +24,10 @@ bool is_sliver(double normal_squared, double longest_squared) {
   return normal_squared <= 0x1p-48 * longest_squared * longest_squared;
 }
 
+double longest_edge(const TreeTriangle& t) {
+  return std::sqrt(longest_squared(t));
+}
+
 double edge_distance_squared(const TreeTriangle& t, Vec3 p, bool u, bool v, bool w) {
   double least = std::numeric_limits<double>::infinity();
   if (u) least = std::min(least, Segment(t.a, t.a + t.u).distance_squared(p));
@@ -270,6 +274,61 @@ TriangleTree::Range TriangleTree::compare(Vec3 p, double low, double high, uint3
   if (squared < best) best = found(start, squared);
   if (best > 0) search(p, best, found);
   return range;
+}
+
+bool TriangleTree::first_crossing(const Ray& ray, double from, double to, double margin,
+                                  Crossing& crossing) const {
+  bool found = false;
+  const auto cross_triangle = [&](const TreeTriangle& t) {
+    const Vec3 normal = cross(t.u, t.v), away = cross(ray.direction, t.v);
+    const double across = dot(away, t.u), size = length(normal);
+    // Nearly along the plane, t is known no better than margin over the slope.
+    if (!(std::abs(across) > 0x1p-40 * size)) return;
+    const double inverse = 1 / across;
+    const Vec3 w = ray.origin - t.a, q = cross(w, t.u);
+    const double of_u = dot(w, away) * inverse, of_v = dot(ray.direction, q) * inverse;
+    const double edge = longest_edge(t);
+    const double room = margin * edge * std::abs(inverse);  // margin over the triangle's height
+    if (of_u < -room || of_v < -room || of_u + of_v > 1 + room) return;
+    const double at = dot(t.v, q) * inverse;
+    if (at < from || at > to) return;
+    found = true;
+    to = at;
+    crossing = {at, normal};
+  };
+  struct Waiting {
+    uint32_t node;
+    double from;
+  };
+  Waiting stack[most_depth];
+  size_t depth = 0;
+  stack[depth++] = {0, from};
+  while (depth > 0) {
+    const Waiting next = stack[--depth];
+    if (next.from > to) continue;
+    const Node& node = nodes_[next.node];
+    double near[2];
+    bool meets[2];
+    for (int side = 0; side < 2; ++side) {
+      double low = from, high = to;
+      meets[side] = clip_to_box(ray, node.bound[side].box.grown(margin), low, high);
+      near[side] = low;
+    }
+    const int first = meets[1] && (!meets[0] || near[1] < near[0]);
+    Waiting inner[2];
+    int inner_count = 0;
+    for (const int side : {first, 1 - first}) {
+      if (!meets[side] || near[side] > to) continue;
+      const uint32_t child = node.child[side], count = node.count[side];
+      if (count == 0) {
+        inner[inner_count++] = {child, near[side]};
+        continue;
+      }
+      for (uint32_t i = child; i < child + count; ++i) cross_triangle(triangles_[i]);
+    }
+    while (inner_count > 0) stack[depth++] = inner[--inner_count];
+  }
+  return found;
 }
 
 }  // namespace msq

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/ray.h"
 #include "base/vec.h"
 #include "shape/boundary_search.h"
 
@@ -43,6 +44,16 @@ class TriangleTree {
   Nearest nearest(Vec3 p, uint32_t start) const;
   /// Where the distance to the nearest triangle lies; `start` becomes one that is as near as that.
   Range compare(Vec3 p, double low, double high, uint32_t& start) const;
+  struct Crossing {
+    double t;
+    Vec3 normal;  ///< of the triangle, of any length
+  };
+  /// The first t in [from, to] at which a ray crosses a triangle, or passes it at less than
+  /// `margin`; false if there is none. Triangles in whose plane the ray runs are left out.
+  /// Source: Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+  bool first_crossing(const Ray& ray, double from, double to, double margin,
+                      Crossing& crossing) const;
+
   /// Bound of what distance() may be too large for the shape of the triangles, beside 2^-47 of
   /// itself and of the coordinates.
   double excess() const { return excess_; }

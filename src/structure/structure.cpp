@@ -3,6 +3,8 @@
 
 #include "structure/sampled_rows.h"
 
+#include "base/ray_normal.h"
+
 namespace msq {
 
 void Structure::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
@@ -12,6 +14,29 @@ void Structure::keep_points(const Vec3* points, uint8_t* alive, size_t count) co
 
 void Structure::keep_rows(const RowBlock& block, const Job* job) const {
   SampledRows(*this, block, job).keep();
+}
+
+void Structure::enter(RaySearch* searches, size_t count) const {
+  const RayMarch march{least_ray_step(), ray_tolerance()};
+  for (size_t i = 0; i < count; ++i) {
+    RaySearch& s = searches[i];
+    s.found = march.find(true, s.ray, s.from, s.to, [this](Vec3 p) { return inside(p); },
+                         [this](Vec3 p) { return clearance(p); }, s.t);
+  }
+}
+
+double Structure::leave(const Ray& ray, double from, double to) const {
+  const RayMarch march{least_ray_step(), ray_tolerance()};
+  double t;
+  return march.find(false, ray, from, to, [this](Vec3 p) { return inside(p); },
+                    [this](Vec3 p) { return clearance(p); }, t)
+             ? t
+             : to;
+}
+
+Vec3 Structure::normal(const Ray& ray, double t) const {
+  return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t,
+                              0x1p-12 * min_component(neighbourhood().cell_size));
 }
 
 }  // namespace msq

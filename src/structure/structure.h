@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/job.h"
+#include "base/ray.h"
 #include "base/ref.h"
 #include "base/sample_grid.h"
 #include "base/signed_distance.h"
@@ -71,6 +72,21 @@ class Structure : public RefCounted {
   /// know_boxes() before their points are.
   virtual Coverage coverage(const Box3&) const { return Coverage::mixed; }
   virtual bool knows_boxes() const { return false; }
+
+  /// For each search the first t in [from, to] at which the ray is inside, within ray_tolerance()
+  /// past it; parts shorter than that may be overlooked. Points of the parts have a cell index below
+  /// max_cell_index. Default: marches by clearance() and by least_ray_step().
+  virtual void enter(RaySearch* searches, size_t count) const;
+  /// A t up to which a ray that is inside at `from` stays inside: as far as is known at once, at
+  /// most `to`. Default: as enter().
+  virtual double leave(const Ray& ray, double from, double to) const;
+  /// The outward normal, of length 1, where the ray enters at t; the direction back where there is
+  /// none. Default: from membership around the point.
+  virtual Vec3 normal(const Ray& ray, double t) const;
+  double ray_tolerance() const { return 0x1p-36 * characteristic_length(); }
+  /// Rays that march go on by no less than this, whatever clearance() says. Less only where
+  /// clearance() is 0 nowhere but at the boundary.
+  virtual double least_ray_step() const { return min_component(neighbourhood().cell_size) / 64; }
 
   /// Clears the bits of samples that are outside. Stops early, by Error(cancelled), with the job.
   virtual void keep_rows(const RowBlock& block, const Job* job) const;

@@ -40,6 +40,11 @@ class Foam final : public Structure {
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double onset_limit() const override { return min_component(neighbourhood().cell_size); }
+  double least_ray_step() const override {
+    return radius_.lipschitz() < std::numeric_limits<double>::infinity()
+               ? ray_tolerance()
+               : Structure::least_ray_step();
+  }
 
   /// One in each cell; those of the foam unless it is graded.
   const FoamSeeds& seeds() const { return seeds_; }

@@ -76,9 +76,9 @@ bool Functional::inside(Vec3 p) const {
   return value(p) <= level_.at(p);
 }
 
-double Functional::clearance(Vec3 p) const {
-  const Neighbourhood& grid = neighbourhood();
-  const Slope& slope = slope_.get([&] {
+const Slope& Functional::slope() const {
+  return slope_.get([&] {
+    const Neighbourhood& grid = neighbourhood();
     // Angles are rounded, and two_pi is.
     const Interval cell{0, two_pi};
     const Vec3 angles_per_unit{two_pi / grid.cell_size.x, two_pi / grid.cell_size.y,
@@ -86,6 +86,16 @@ double Functional::clearance(Vec3 p) const {
     return std::make_unique<const Slope>(
         bound_slope(onset_, {cell, cell, cell}, angles_per_unit * (1 + 0x1p-50), 0x1p-49));
   });
+}
+
+double Functional::least_ray_step() const {
+  return std::isfinite(slope().most + level_.lipschitz()) ? ray_tolerance()
+                                                          : Structure::least_ray_step();
+}
+
+double Functional::clearance(Vec3 p) const {
+  const Neighbourhood& grid = neighbourhood();
+  const Slope& slope = this->slope();
   if (!std::isfinite(slope.most)) return 0;
   const Vec3 fraction = grid.locate(p).fraction;
   const Vec3 angles{angle_of(fraction.x), angle_of(fraction.y), angle_of(fraction.z)};

@@ -35,6 +35,7 @@ class Functional final : public Structure {
   /// being the same throughout the cell. Along axes on which the function does not repeat by itself
   /// no more than the distance to the cell's border. 0 everywhere where the slope is not bounded.
   double clearance(Vec3 p) const override;
+  double least_ray_step() const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
   uint64_t critical_count() const override { return 3; }
@@ -57,6 +58,7 @@ class Functional final : public Structure {
   const std::optional<TrigonometricForm>& form() const { return form_; }
 
  private:
+  const Slope& slope() const;
   /// What rows along the axes take.
   struct Prepared {
     Clusters clusters;

@@ -28,6 +28,11 @@ class Lattice final : public Structure {
   /// Exact outside where the radius is constant and the cell sizes differ by no more than 8 times
   /// (4 times where factors differ).
   double clearance(Vec3 p) const override;
+  double least_ray_step() const override {
+    return radius_.lipschitz() < std::numeric_limits<double>::infinity()
+               ? ray_tolerance()
+               : Structure::least_ray_step();
+  }
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double onset_limit() const override;

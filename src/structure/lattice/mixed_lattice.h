@@ -58,6 +58,11 @@ class MixedLattice final : public Structure {
   void keep_rows(const RowBlock& block, const Job* job) const override;
   /// Exact outside where the radius is constant, up to twice the smallest cell size.
   double clearance(Vec3 p) const override;
+  double least_ray_step() const override {
+    return radius_.lipschitz() < std::numeric_limits<double>::infinity()
+               ? ray_tolerance()
+               : Structure::least_ray_step();
+  }
 
   /// Faces between cells of a range of fewer than 2^31. Asks the choice once for each and keeps a
   /// byte for each of a layer.

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays, and what is asked of a solid along them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/vec.h"
+
+namespace msq {
+
+/// The points origin + t * direction. The direction has length 1: t is a length.
+struct Ray {
+  Vec3 origin, direction;
+
+  Vec3 at(double t) const { return origin + direction * t; }
+};
+
+/// The part of [from, to] in which a ray is in a box, wider by rounding; false if there is none.
+inline bool clip_to_box(const Ray& ray, const Box3& box, double& from, double& to) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double o = ray.origin[axis], d = ray.direction[axis];
+    if (d == 0) {
+      if (o < box.min[axis] || o > box.max[axis]) return false;
+      continue;
+    }
+    double near = (box.min[axis] - o) / d, far = (box.max[axis] - o) / d;
+    if (near > far) std::swap(near, far);
+    from = std::max(from, near - 0x1p-50 * std::abs(near));
+    to = std::min(to, far + 0x1p-50 * std::abs(far));
+  }
+  return from <= to;
+}
+
+/// The search for the first t in [from, to] at which a ray is inside a solid.
+struct RaySearch {
+  Ray ray;
+  double from = 0, to = 0;
+  bool found = false;
+  double t = 0;  ///< where found
+};
+
+/// An entry that was computed as t, settled by membership: the first point at which the ray is
+/// inside, within `tolerance` past it, about t and not before `from`; false where there is none
+/// (a graze that rounding made up). Where a ray grazes a boundary, t is known far worse than to
+/// rounding, and a few steps of growing length look for the change.
+template <class Inside>
+bool settle_entry(const Ray& ray, double from, double tolerance, Inside&& inside, double& t) {
+  if (!inside(ray.at(t))) {
+    if (!inside(ray.at(t + tolerance))) return false;
+    t += tolerance;
+    return true;
+  }
+  double within = t;
+  for (double step = tolerance; within > from; step *= 2) {
+    double before = std::max(from, t - step);
+    if (!inside(ray.at(before))) {
+      while (within - before > tolerance) {
+        const double middle = 0.5 * (before + within);
+        if (!(middle > before && middle < within)) break;
+        (inside(ray.at(middle)) ? within : before) = middle;
+      }
+      break;
+    }
+    within = before;
+  }
+  t = within;
+  return true;
+}
+
+/// A march along a ray: in steps of no less than `least_step`, until membership changes, then by
+/// halves until it is known within `tolerance`. What changes and changes back within a step that
+/// clearance does not vouch for may be overlooked.
+struct RayMarch {
+  double least_step, tolerance;
+
+  /// The first t in [from, to] where inside(p) is `wanted`, found on the far side of the change;
+  /// false if there is none. clearance(p) is a lower bound of the distance to the boundary.
+  /// Source: Hart, "Sphere tracing", 1996.
+  template <class Inside, class Clearance>
+  bool find(bool wanted, const Ray& ray, double from, double to, Inside&& inside,
+            Clearance&& clearance, double& t) const {
+    double at = from;
+    if (inside(ray.at(at)) == wanted) {
+      t = at;
+      return true;
+    }
+    while (at < to) {
+      const double next = std::min(to, at + std::max(clearance(ray.at(at)), least_step));
+      if (!(next > at)) return false;  // steps vanish in rounding
+      if (inside(ray.at(next)) == wanted) {
+        double before = at, beyond = next;
+        while (beyond - before > tolerance) {
+          const double middle = 0.5 * (before + beyond);
+          if (!(middle > before && middle < beyond)) break;
+          (inside(ray.at(middle)) == wanted ? beyond : before) = middle;
+        }
+        t = beyond;
+        return true;
+      }
+      at = next;
+    }
+    return false;
+  }
+};
+
+}  // namespace msq

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays through a mesh. Between two crossings of the boundary's triangles membership stays the same,
+// so a point between them tells it; what the tree takes for a crossing and is none does no harm.
+#include "base/ray_normal.h"
+#include "shape/mesh.h"
+
+namespace msq {
+
+bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, double& t) const {
+  const auto is_wanted = [&](double at) { return inside(ray.at(at)) == wanted; };
+  if (is_wanted(from)) {
+    t = from;
+    return true;
+  }
+  const double tolerance = ray_tolerance();
+  double known = from;  // not wanted here
+  double crossing;
+  Vec3 normal;
+  bool crosses = boundary().first_crossing(ray, from, to, tolerance, crossing, normal);
+  while (crosses) {
+    double next;
+    // Crossings closer than the tolerance are one.
+    crosses = crossing + tolerance <= to &&
+              boundary().first_crossing(ray, crossing + tolerance, to, tolerance, next, normal);
+    const double beyond = 0.5 * (crossing + (crosses ? next : to));
+    if (is_wanted(beyond)) {
+      if (is_wanted(crossing)) {
+        if (crossing - tolerance <= known || !is_wanted(crossing - tolerance)) {
+          t = crossing;
+          return true;
+        }
+      } else if (crossing + tolerance >= beyond || is_wanted(crossing + tolerance)) {
+        t = std::min(crossing + tolerance, beyond);
+        return true;
+      }
+      // The crossing is known badly: along a triangle's plane, or by a needle.
+      double before = known, after = beyond;
+      while (after - before > tolerance) {
+        const double middle = 0.5 * (before + after);
+        (is_wanted(middle) ? after : before) = middle;
+      }
+      t = after;
+      return true;
+    }
+    known = beyond;
+    crossing = next;
+  }
+  return false;
+}
+
+bool Mesh::enter(const Ray& ray, double from, double to, double& t) const {
+  if (!clip_to_box(ray, bounds(), from, to)) return false;
+  return find_along(ray, from, to, true, t);
+}
+
+double Mesh::leave(const Ray& ray, double from, double to) const {
+  if (!clip_to_box(ray, bounds(), from, to)) return from;
+  double t;
+  return find_along(ray, from, to, false, t) ? t : to;
+}
+
+Vec3 Mesh::normal(const Ray& ray, double t) const {
+  const double room = 2 * ray_tolerance();
+  double at;
+  Vec3 normal;
+  if (boundary().first_crossing(ray, t - room, t + room, room, at, normal)) {
+    const double size = length(normal);
+    if (size > 0) return normal * ((dot(normal, ray.direction) > 0 ? -1 : 1) / size);
+  }
+  return Shape::normal(ray, t);
+}
+
+}  // namespace msq

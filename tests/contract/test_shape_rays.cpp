@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays through shapes agree with membership along them: at random, through vertices, along edges
+// and faces, and along the axes.
+#include "random.h"
+#include "ray_check.h"
+#include "shapes.h"
+#include "suite.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+void test_row(void** state) {
+  const ShapeRow& row = *static_cast<const ShapeRow*>(*state);
+  const Ref<const Shape> shape = row.make();
+  const Box3 box = shape->bounds();
+  const Box3 around = box.grown(0.3 * max_component(box.extent()));
+  Random random(5);
+  int entries = 0;
+  // Images and host shapes are marched through by their distance, which is dear.
+  const bool is_marched = !shape->facts().is_mesh && std::isnan(shape->facts().area);
+  const size_t count = test_count(is_marched ? 12 : 300);
+  for (size_t i = 0; i < count; ++i) {
+    Vec3 a = random.in_box(around), b = random.in_box(around);
+    // On planes of symmetry, where vertices and edges are.
+    if (i % 3 == 0)
+      for (int axis = 0; axis < 3; ++axis) {
+        a[axis] = std::round(a[axis] * 8) / 8;
+        b[axis] = std::round(b[axis] * 8) / 8;
+      }
+    if (i % 5 == 0) b[static_cast<int>(i % 3)] = a[static_cast<int>(i % 3)];
+    if (i % 7 == 0) {
+      b = a;
+      b[static_cast<int>(random.below(3))] += i % 2 ? 1 : -1;
+    }
+    const double size = length(b - a);
+    if (!(size > 0)) continue;
+    const Ray ray{a, (b - a) * (1 / size)};
+    // Parts that are shorter than the steps of a march may be lost.
+    const RayWalk walk{is_marched ? shape->least_ray_step() : shape->ray_tolerance(), 150};
+    entries += check_ray(
+        row.name.c_str(), ray, 0, 3, walk, [&](Vec3 p) { return shape->inside(p); },
+        [&](const Ray& r, double from, double to, double& t) {
+          if (!shape->enter(r, from, to, t)) return false;
+          const double normal = length(shape->normal(r, t));
+          if (!(std::abs(normal - 1) < 1e-9)) fail_msg("a normal of length %.17g", normal);
+          return true;
+        },
+        [&](const Ray& r, double from, double to) { return shape->leave(r, from, to); });
+  }
+  // Some rules leave nothing of some meshes.
+  if (row.least > 0 && !is_marched) assert_true(entries > static_cast<int>(count / 20));
+}
+
+}  // namespace
+
+int main() {
+  std::vector<ShapeRow> rows = shape_rows();
+  return run_for_each("shape_rays", rows, test_row);
+}
