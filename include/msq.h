@@ -1330,6 +1330,51 @@ MSQ_API msq_status msq_slicer_run(const msq_slicer *slicer, uint64_t first, uint
 MSQ_API msq_status msq_slice_layer(const msq_slicer *slicer, uint64_t index, uint8_t *buffer,
                                    uint64_t buffer_bytes, msq_job *job);
 
+/* ---- rays ---------------------------------------------------------------------------- */
+
+typedef struct msq_rays_def {
+  uint32_t struct_size;
+  int32_t coordinate_type;   /* of origins and directions: MSQ_FLOAT32 or MSQ_FLOAT64 (default) */
+  uint64_t count;
+  const void *origins;       /* count triples x, y, z */
+  const void *directions;    /* count triples, of any length but 0 */
+  uint64_t origin_stride;    /* bytes from one to the next; 0 (default): tightly packed */
+  uint64_t direction_stride;
+  const double *t_min;       /* count numbers; NULL (default): 0 */
+  const double *t_max;       /* count numbers, infinity allowed; NULL (default): infinity */
+} msq_rays_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_rays_def_init(msq_rays_def *def, size_t size);
+
+typedef struct msq_ray_hit {
+  double t;             /* the point is origin + t * direction; infinity where nothing is hit */
+  double normal[3];     /* outward, of length 1; against the ray where it starts inside; 0 in a miss */
+  int32_t scale;        /* whose surface was hit, 0 the coarse shape's; -1: nothing was hit */
+  int32_t starts_inside; /* 1: the ray is inside at t_min, and t is t_min; scale is the finest */
+  int32_t cell[3];      /* of the finest resolved structure, at the point */
+  int32_t reserved;     /* 0 */
+} msq_ray_hit;
+
+/* Where each ray first is in the solid at t_min <= t <= t_max: hits[i] is of ray i. hit_count: length
+ * of that array, which must be the number of rays. query, job NULL: defaults, no job.
+ *
+ * Membership (msq_point_membership) differs just before and just behind t, within 2^-36, about 1.5e-11,
+ * of the characteristic length of the scale hit (of the shape: of its size and its coordinates), and
+ * changes nowhere before it save for parts of the ray shorter than that. Where the distance
+ * has no bound (functions of unbounded slope, parameters that are fields without a Lipschitz constant,
+ * what the host defines) rays go in steps of no less than 1/64 of the cell, 1/1024 of a host's shape,
+ * and may lose thinner parts. Scale by scale: finer scales are asked only
+ * within the parts of the ray that lie in the coarser ones.
+ *
+ * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY hits may be partly written. Cost:
+ * in parallel, rays that follow each other best close to each other. A mesh builds its tree first, as
+ * for msq_point_distance. Errors: ARGUMENT (also rays that are not finite, by index, and directions of
+ * length 0), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting". */
+MSQ_API msq_status msq_ray_cast(const msq_model *model, const msq_rays_def *rays,
+                                const msq_query_def *query, msq_ray_hit *hits, uint64_t hit_count,
+                                msq_job *job);
+
 #ifdef __cplusplus
 }
 #endif

@@ -379,6 +379,18 @@ class msq_layer(Structure):
 msq_layer_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_layer))
 
 
+class msq_rays_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("coordinate_type", c_int32), ("count", c_uint64),
+                ("origins", c_void_p), ("directions", c_void_p), ("origin_stride", c_uint64),
+                ("direction_stride", c_uint64), ("t_min", POINTER(c_double)),
+                ("t_max", POINTER(c_double))]
+
+
+class msq_ray_hit(Structure):
+    _fields_ = [("t", c_double), ("normal", c_double * 3), ("scale", c_int32),
+                ("starts_inside", c_int32), ("cell", c_int32 * 3), ("reserved", c_int32)]
+
+
 # name: [result, arguments ...]
 FUNCTIONS = {
     "msq_version": [c_uint32],
@@ -527,4 +539,7 @@ FUNCTIONS = {
                        POINTER(msq_job)],
     "msq_slice_layer": [c_int32, POINTER(msq_slicer), c_uint64, POINTER(c_uint8), c_uint64,
                         POINTER(msq_job)],
+    "msq_rays_def_init": [c_int32, POINTER(msq_rays_def), c_size_t],
+    "msq_ray_cast": [c_int32, POINTER(msq_model), POINTER(msq_rays_def), POINTER(msq_query_def),
+                     POINTER(msq_ray_hit), c_uint64, POINTER(msq_job)],
 }

@@ -156,6 +156,40 @@ class Model(Handle):
         interruptible(call, job, ids.size >= _LONG)
         return (ids if ids.shape or ids_out is not None else ids.item()), values
 
+    def cast(self, origins: Any, directions: Any, *, t_min: Any = None, t_max: Any = None,
+             length_scale: float = 0.0, job: Optional[Job] = None) -> np.recarray:
+        """Where rays, origins + t * directions, first are in the solid at t_min <= t <= t_max.
+
+        origins, directions: arrays (..., 3) of one dtype, float32 or float64, read where they lie.
+        t_min, t_max: numbers or arrays of shape (...); None: 0 and infinity. Returns a record array
+        of shape (...): t (infinity in a miss), normal, scale (-1 in a miss), starts_inside and
+        cell.
+        """
+        starts, ways = triples(origins, "origins"), triples(directions, "directions")
+        if starts.shape != ways.shape or starts.coordinate_type != ways.coordinate_type:
+            raise ValueError(f"origins of shape {starts.shape} and directions of shape "
+                             f"{ways.shape} must be of one shape and dtype")
+        definition = defaults(_abi.msq_rays_def)
+        definition.coordinate_type = starts.coordinate_type
+        definition.count = starts.count
+        definition.origins, definition.origin_stride = starts.address, starts.stride
+        definition.directions, definition.direction_stride = ways.address, ways.stride
+        limits = [None if limit is None else
+                  np.ascontiguousarray(np.broadcast_to(limit, starts.shape), dtype=np.float64)
+                  for limit in (t_min, t_max)]
+        to_double = ctypes.POINTER(ctypes.c_double)
+        if limits[0] is not None:
+            definition.t_min = limits[0].ctypes.data_as(to_double)
+        if limits[1] is not None:
+            definition.t_max = limits[1].ctypes.data_as(to_double)
+        hits = np.zeros(starts.shape, dtype=np.dtype(_abi.msq_ray_hit))
+        query = query_of(length_scale)
+        interruptible(lambda work: lib.msq_ray_cast(
+            self._ref, ctypes.byref(definition), query,
+            hits.ctypes.data_as(ctypes.POINTER(_abi.msq_ray_hit)), starts.count, work), job,
+            starts.count >= _LONG)
+        return hits.view(np.recarray)
+
     def volume_fraction(self, sample: Stratified, *, phase: str = "solid",
                         length_scale: float = 0.0, job: Optional[Job] = None) -> Estimate:
         """Volume fraction of a phase, `solid` or `void`, in the sample's box. The sample has at

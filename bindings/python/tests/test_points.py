@@ -207,5 +207,32 @@ class NoCopies(unittest.TestCase):
         self.assertEqual(triples(np.zeros((0, 3))).count, 0)
 
 
+class Rays(unittest.TestCase):
+    def setUp(self):
+        box = msq.Shape.box((0, 0, 0), (1, 1, 1))
+        self.model = msq.Model(box, msq.Lattice(unit_cell="cubic", radius=0.125))
+
+    def test_hits_where_the_solid_begins(self):
+        origins = np.array([[[-1, 0, 0.5], [-1, 0.5, 0.5]]], dtype=np.float32)
+        directions = np.array([[[2, 0, 0], [1, 0, 0]]], dtype=np.float32)
+        hits = self.model.cast(origins, directions)
+        self.assertEqual(hits.shape, (1, 2))
+        self.assertAlmostEqual(hits.t[0, 0], 0.5, places=10)
+        self.assertEqual(tuple(hits.normal[0, 0]), (-1, 0, 0))
+        self.assertEqual(hits.scale.tolist(), [[0, -1]])
+        self.assertTrue(np.isinf(hits.t[0, 1]))
+        beyond = self.model.cast(origins, directions, t_max=[[0.25, 9]])
+        self.assertEqual(beyond.scale.tolist(), [[-1, -1]])
+        within = self.model.cast(origins, directions, t_min=0.53125)
+        self.assertEqual(within.starts_inside.tolist(), [[1, 0]])
+        self.assertEqual(within.t[0, 0], 0.53125)
+
+    def test_refuses_what_does_not_fit(self):
+        with self.assertRaisesRegex(ValueError, "one shape"):
+            self.model.cast(np.zeros((2, 3)), np.ones((3, 3)))
+        with self.assertRaisesRegex(msq.ArgumentError, "direction of ray 1"):
+            self.model.cast(np.zeros((2, 3)), np.array([[1.0, 0, 0], [0, 0, 0]]))
+
+
 if __name__ == "__main__":
     unittest.main()

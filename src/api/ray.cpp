@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <limits>
+
+#include "api/guard.h"
+#include "api/points.h"
+#include "ray/cast.h"
+
+using namespace msq;
+using namespace msq::api;
+
+namespace {
+
+msq_rays_def rays_defaults() {
+  msq_rays_def def{};
+  def.coordinate_type = MSQ_FLOAT64;
+  return def;
+}
+
+/// The host's rays, their directions not yet of length 1.
+struct RayArray {
+  PointArray origins, directions;
+  const double* t_min;
+  const double* t_max;
+
+  Vec3 direction(uint64_t i) const { return directions.at(i); }
+  double from(uint64_t i) const { return t_min ? t_min[i] : 0; }
+  double to(uint64_t i) const { return t_max ? t_max[i] : std::numeric_limits<double>::infinity(); }
+};
+
+/// Length of a direction, also where its square overflows or vanishes.
+double size_of(Vec3 d) {
+  return std::hypot(d.x, d.y, d.z);
+}
+
+void check_ray(const RayArray& rays, uint64_t i) {
+  const auto number = static_cast<unsigned long long>(i);
+  const Vec3 origin = rays.origins.at(i), direction = rays.direction(i);
+  if (!is_finite(origin))
+    fail(Status::argument, "the origin of ray %llu is (%g, %g, %g); it must be finite", number,
+         origin.x, origin.y, origin.z);
+  const double size = size_of(direction);
+  if (!is_finite(direction) || !(size >= std::numeric_limits<double>::min()) ||
+      !std::isfinite(size))
+    fail(Status::argument,
+         "the direction of ray %llu is (%g, %g, %g); it must be finite and not of length 0", number,
+         direction.x, direction.y, direction.z);
+  if (!std::isfinite(rays.from(i)))
+    fail(Status::argument, "t_min of ray %llu is %g; it must be finite", number, rays.from(i));
+  if (std::isnan(rays.to(i)))
+    fail(Status::argument, "t_max of ray %llu is %g; it must be a number or infinity", number,
+         rays.to(i));
+}
+
+RaySearch search_of(const RayArray& rays, uint64_t i) {
+  const Vec3 direction = rays.direction(i);
+  const double size = size_of(direction);
+  RaySearch search;
+  search.ray = {rays.origins.at(i), {direction.x / size, direction.y / size, direction.z / size}};
+  search.from = rays.from(i) * size;
+  search.to = rays.to(i) * size;
+  return search;
+}
+
+msq_ray_hit answer_of(const RayHit& hit, double size, double t_min) {
+  msq_ray_hit answer{};
+  answer.scale = hit.scale;
+  answer.t = hit.scale < 0       ? std::numeric_limits<double>::infinity()
+             : hit.starts_inside ? t_min
+                                 : hit.t / size;
+  if (hit.scale < 0) return answer;
+  answer.starts_inside = hit.starts_inside;
+  for (int axis = 0; axis < 3; ++axis) answer.normal[axis] = hit.normal[axis];
+  answer.cell[0] = hit.cell.x;
+  answer.cell[1] = hit.cell.y;
+  answer.cell[2] = hit.cell.z;
+  return answer;
+}
+
+}  // namespace
+
+msq_status msq_rays_def_init(msq_rays_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, rays_defaults(), "msq_rays_def"); });
+}
+
+msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
+                        const msq_query_def* query, msq_ray_hit* hits, uint64_t hit_count,
+                        msq_job* job) {
+  return guard([&] {
+    const Model& known = object(model, "model");
+    const msq_rays_def def = read_def(rays, rays_defaults(), "rays");
+    const auto resolved = known.resolved(read_query(query).length_scale);
+    Job* work = job ? &object(job, "job") : nullptr;
+    const RayArray array{
+        point_array(def.origins, def.count, def.origin_stride, def.coordinate_type, "origins"),
+        point_array(def.directions, def.count, def.direction_stride, def.coordinate_type,
+                    "directions"),
+        def.t_min, def.t_max};
+    if (hit_count != def.count)
+      fail(Status::argument, "hit_count is %llu; there are %llu rays",
+           static_cast<unsigned long long>(hit_count), static_cast<unsigned long long>(def.count));
+    if (def.count > 0) require(hits, "hits");
+    for (uint64_t i = 0; i < def.count; ++i) check_ray(array, i);
+    JobScope scope(work);
+    cast_rays(
+        known, resolved, def.count, [&](uint64_t i) { return search_of(array, i); },
+        [&](uint64_t i, const RayHit& hit) {
+          hits[i] = answer_of(hit, size_of(array.direction(i)), array.from(i));
+        },
+        work);
+    scope.done();
+  });
+}

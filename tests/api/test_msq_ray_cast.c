@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_ray_cast. That hits are where membership changes, on every shape and structure:
+ * contract/test_rays.cpp, contract/test_shape_rays.cpp. */
+#include "definitions.h"
+
+enum { few = 4 };
+
+static const double (*few_origins(void))[3] {
+  static const double origins[few][3] = {{-2, 0.5, 0.5}, {0.5, 0.5, 0.5}, {9, 9, 9}, {0.5, 0.5, 4}};
+  return origins;
+}
+
+static const double (*few_directions(void))[3] {
+  static const double directions[few][3] = {{2, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, -0.5}};
+  return directions;
+}
+
+static msq_rays_def few_rays(void) {
+  msq_rays_def def;
+  assert_ok(msq_rays_def_init(&def, sizeof def));
+  def.count = few;
+  def.origins = few_origins();
+  def.directions = few_directions();
+  return def;
+}
+
+static msq_model* make_unit_box_model(msq_context* context, msq_structure* structure) {
+  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
+  msq_shape* box;
+  assert_ok(msq_shape_from_box(context, low, high, &box));
+  return make_model(context, box, structure, NULL);
+}
+
+/* A cubic lattice: struts of radius 0.125 along the edges of cells of size 1. */
+static msq_model* make_struts_model(msq_context* context) {
+  msq_lattice_def def;
+  msq_structure* lattice;
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.unit_cell = MSQ_UNIT_CELL_CUBIC;
+  def.radius.value = 0.125;
+  assert_ok(msq_structure_lattice(context, &def, &lattice));
+  return make_unit_box_model(context, lattice);
+}
+
+/* Casts `few` rays; on failure no hit may be written. */
+static msq_status cast(void* env, void* def) {
+  msq_ray_hit hits[few];
+  memset(hits, struct_pattern, sizeof hits);
+  const msq_status status =
+      msq_ray_cast((const msq_model*)env, (const msq_rays_def*)def, NULL, hits, few, NULL);
+  if (status != MSQ_OK) assert_filled(hits, sizeof hits, struct_pattern);
+  return status;
+}
+
+DEFINE_INIT(rays_def)
+
+static void honours_every_struct_size(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_unit_box_model(context, NULL);
+  msq_rays_def def = few_rays();
+  (void)state;
+  check_def_init(init_rays_def, sizeof(msq_rays_def));
+  check_grown_def_sizes(&def, sizeof def, sizeof def, cast, model);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void hits_a_box(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_unit_box_model(context, NULL);
+  msq_rays_def def = few_rays();
+  msq_ray_hit hits[few];
+  (void)state;
+  assert_ok(msq_ray_cast(model, &def, NULL, hits, few, NULL));
+  assert_near(hits[0].t, 1, 1e-10); /* in units of the direction */
+  assert_int_equal(hits[0].scale, 0);
+  assert_int_equal(hits[0].starts_inside, 0);
+  assert_true(hits[0].normal[0] == -1 && hits[0].normal[1] == 0 && hits[0].normal[2] == 0);
+  assert_true(hits[1].t == 0);
+  assert_int_equal(hits[1].starts_inside, 1);
+  assert_int_equal(hits[2].scale, -1);
+  assert_true(isinf(hits[2].t));
+  assert_near(hits[3].t, 6, 1e-10);
+  assert_true(hits[3].normal[2] == 1);
+
+  /* From behind the box, and no farther than before it. */
+  const double from[few] = {4, 0.25, 0, 0}, to[few] = {5, 1, 1, 5.5};
+  def.t_min = from;
+  def.t_max = to;
+  assert_ok(msq_ray_cast(model, &def, NULL, hits, few, NULL));
+  assert_int_equal(hits[0].scale, -1);
+  assert_true(hits[1].starts_inside == 1 && hits[1].t == 0.25);
+  assert_int_equal(hits[3].scale, -1);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void hits_struts_within_a_box(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_struts_model(context);
+  /* Through the middle of the box: past the struts on its edges. Along x at y = 0: the strut of the
+   * edge, cut by the box. From the middle towards an edge along z: its strut. */
+  const float origins[4][3] = {{-1, 0.5f, 0.5f}, {-1, 0, 0.5f}, {0.5f, 0.5f, 0.5f}, {-1, 0.0625f, 0}};
+  const float directions[4][3] = {{1, 0, 0}, {1, 0, 0}, {-1, -1, 0}, {1, 0, 0}};
+  msq_rays_def def;
+  msq_ray_hit hits[4];
+  (void)state;
+  assert_ok(msq_rays_def_init(&def, sizeof def));
+  def.coordinate_type = MSQ_FLOAT32;
+  def.count = 4;
+  def.origins = origins;
+  def.directions = directions;
+  assert_ok(msq_ray_cast(model, &def, NULL, hits, 4, NULL));
+  assert_int_equal(hits[0].scale, -1);
+  assert_near(hits[1].t, 1, 1e-10); /* the strut's axis lies in the face */
+  assert_int_equal(hits[1].scale, 0);
+  assert_near(hits[2].t, 0.5 - 0.125 / sqrt(2), 1e-10);
+  assert_int_equal(hits[2].scale, 1);
+  assert_true(fabs(hits[2].normal[0] - sqrt(0.5)) < 0.1 && fabs(hits[2].normal[2]) < 0.1);
+  assert_true(hits[2].cell[0] == 0 && hits[2].cell[1] == 0 && hits[2].cell[2] == 0);
+  assert_near(hits[3].t, 1, 1e-10);
+
+  msq_query_def coarse;
+  assert_ok(msq_query_def_init(&coarse, sizeof coarse));
+  coarse.length_scale = INFINITY;
+  assert_ok(msq_ray_cast(model, &def, &coarse, hits, 4, NULL));
+  assert_near(hits[0].t, 1, 1e-10);
+  assert_int_equal(hits[2].starts_inside, 1);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void refuses_rays_that_make_no_sense(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_unit_box_model(context, NULL);
+  const msq_rays_def good = few_rays();
+  double origins[few][3], directions[few][3], limits[few] = {0, 0, 0, 0};
+  (void)state;
+  memcpy(origins, few_origins(), sizeof origins);
+  memcpy(directions, few_directions(), sizeof directions);
+  for (int which = 0; which < 3; ++which) {
+    msq_rays_def def = good;
+    def.origins = origins;
+    origins[2][1] = not_finite(which);
+    assert_refused(cast(model, &def), MSQ_E_ARGUMENT, "origin of ray 2");
+    origins[2][1] = 0;
+    def.directions = directions;
+    directions[1][0] = not_finite(which);
+    assert_refused(cast(model, &def), MSQ_E_ARGUMENT, "direction of ray 1");
+    directions[1][0] = 0;
+    def.t_min = limits;
+    limits[3] = not_finite(which);
+    assert_refused(cast(model, &def), MSQ_E_ARGUMENT, "t_min of ray 3");
+    limits[3] = 0;
+  }
+  msq_rays_def def = good;
+  memset(directions[3], 0, sizeof directions[3]);
+  def.directions = directions;
+  assert_refused(cast(model, &def), MSQ_E_ARGUMENT, "direction of ray 3 is (0, 0, 0)");
+  def = good;
+  limits[0] = NAN;
+  def.t_max = limits;
+  assert_refused(cast(model, &def), MSQ_E_ARGUMENT, "t_max of ray 0");
+  def = good;
+  def.origins = NULL;
+  assert_refused(cast(model, &def), MSQ_E_ARGUMENT, "origins is NULL");
+  def = good;
+  def.directions = NULL;
+  assert_refused(cast(model, &def), MSQ_E_ARGUMENT, "directions is NULL");
+  def = good;
+  def.coordinate_type = 9;
+  assert_refused(cast(model, &def), MSQ_E_ARGUMENT, "coordinate_type is 9");
+  def = good;
+  def.origin_stride = 8;
+  assert_refused(cast(model, &def), MSQ_E_ARGUMENT, "the stride of origins is 8");
+  msq_ray_hit hits[few];
+  assert_refused(msq_ray_cast(model, &good, NULL, hits, few - 1, NULL), MSQ_E_ARGUMENT,
+                 "hit_count is 3; there are 4 rays");
+  assert_refused(msq_ray_cast(model, &good, NULL, NULL, few, NULL), MSQ_E_ARGUMENT, "hits is NULL");
+  assert_refused(msq_ray_cast(NULL, &good, NULL, hits, few, NULL), MSQ_E_ARGUMENT, "model is NULL");
+  assert_refused(msq_ray_cast(model, NULL, NULL, hits, few, NULL), MSQ_E_ARGUMENT, "rays is NULL");
+  def = good;
+  def.count = 0;
+  assert_ok(msq_ray_cast(model, &def, NULL, NULL, 0, NULL));
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void can_be_cancelled(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_unit_box_model(context, NULL);
+  const msq_rays_def def = few_rays();
+  msq_ray_hit hits[few];
+  msq_job* job;
+  double progress = 0;
+  (void)state;
+  assert_ok(msq_job_create(&job));
+  assert_ok(msq_ray_cast(model, &def, NULL, hits, few, job));
+  assert_ok(msq_job_progress(job, &progress));
+  assert_true(progress == 1);
+  assert_ok(msq_job_cancel(job));
+  assert_status(msq_ray_cast(model, &def, NULL, hits, few, job), MSQ_E_CANCELLED);
+  msq_job_release(job);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(honours_every_struct_size),
+      cmocka_unit_test(hits_a_box),
+      cmocka_unit_test(hits_struts_within_a_box),
+      cmocka_unit_test(refuses_rays_that_make_no_sense),
+      cmocka_unit_test(can_be_cancelled),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
