@@ -192,7 +192,7 @@ static msq_model* make_model_with(msq_context* context, int use, msq_field* fiel
 static void structures_are_those_of_the_same_field(void** state) {
   (void)state;
   for (int use = 0; use < uses; ++use)
-    for (int known = 0; known < 4; ++known) { /* bit 0: range, bit 1: lipschitz */
+    for (int known = 0; known < 4; known += use ? 3 : 1) { /* bit 0: range, bit 1: lipschitz */
       msq_context* context = make_context();
       ramp r = make_ramp(low_of(use), high_of(use));
       msq_host_field_def def = ramp_def(&r);
