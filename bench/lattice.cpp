@@ -98,6 +98,7 @@ class Solid {
     msq_lattice_def def;
     bench::check(msq_lattice_def_init(&def, sizeof def));
     def.unit_cell = setting.unit_cell;
+    def.clusters = setting.clusters;
     for (double& size : def.grid.cell_size) size = 1 / setting.cells;
     def.radius.value = 0.1 / setting.cells;
     if (setting.is_turned) {
