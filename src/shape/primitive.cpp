@@ -33,14 +33,51 @@ bool clip_to_quadratic(double a, double b, double c, double& from, double& to) {
 
 bool Primitive::enter(const Ray& ray, double from, double to, double& t) const {
   double low = from, high = to;
-  if (!section(ray, low, high)) return false;
+  if (!section(ray, 0, low, high)) return false;
   t = low;
-  return settle_entry(ray, from, ray_tolerance(), [this](Vec3 p) { return inside(p); }, t);
+  return settle_entry(
+      ray, from, ray_tolerance(), [this](Vec3 p) { return inside(p); }, t);
 }
 
 double Primitive::leave(const Ray& ray, double from, double to) const {
   double low = from, high = to;
-  return section(ray, low, high) ? high : from;
+  return section(ray, 0, low, high) ? high : from;
+}
+
+// The tolerance is far above what rounding moves sections and inside() by: samples in the section
+// of the shape that is smaller by it are inside, samples beyond that of the larger one outside.
+// Where a row grazes the shape rounding moves a section's ends farther, but not past those of the
+// other two: squares of radii differ by far more than squares are rounded.
+void Primitive::fill_rows(const RowBlock& block) const {
+  const SampleGrid& grid = *block.grid;
+  const double tolerance = ray_tolerance(), size = bounds().extent().x;
+  for_each_row_in_bounds(
+      block, [&](double y, double z, uint64_t* row, uint64_t first, uint64_t end) {
+        const Ray ray{{bounds().min.x, y, z}, {1, 0, 0}};
+        const auto range = [&](double grow, uint64_t& low, uint64_t& high) {
+          double from = -size, to = 2 * size;
+          low = high = end;
+          if (!section(ray, grow, from, to)) return;
+          const auto sample = [&](double t) {
+            return std::clamp(
+                first_sample_from(grid.origin.x, grid.spacing.x, grid.nx, bounds().min.x + t),
+                first, end);
+          };
+          low = sample(from);
+          high = std::max(low, sample(to));
+        };
+        uint64_t low, high, inner_low, inner_high;
+        range(tolerance, low, high);
+        range(-tolerance, inner_low, inner_high);
+        if (inner_low >= inner_high) inner_low = inner_high = high;
+        const auto ask = [&](uint64_t from, uint64_t to) {
+          for (uint64_t i = from; i < to; ++i)
+            if (inside({grid.x(i), y, z})) set_bits(row, i, i);
+        };
+        ask(low, std::min(inner_low, high));
+        if (inner_low < inner_high) set_bits(row, inner_low, inner_high - 1);
+        ask(inner_high, high);
+      });
 }
 
 BoxShape::BoxShape(const Box3& box) {
@@ -124,9 +161,11 @@ bool SphereShape::inside(Vec3 p) const {
   return bounds().contains(p) && dot(d, d) <= radius_squared_;
 }
 
-bool SphereShape::section(const Ray& ray, double& from, double& to) const {
+bool SphereShape::section(const Ray& ray, double grow, double& from, double& to) const {
   const Vec3 w = ray.origin - centre_;
-  return clip_to_quadratic(dot(w, w) - radius_squared_, dot(w, ray.direction), 1, from, to);
+  const double radius = radius_ + grow;
+  if (!(radius > 0)) return false;
+  return clip_to_quadratic(dot(w, w) - radius * radius, dot(w, ray.direction), 1, from, to);
 }
 
 Vec3 SphereShape::normal(const Ray& ray, double t) const {
@@ -171,21 +210,23 @@ bool CylinderShape::inside(Vec3 p) const {
   return dot(across, across) <= radius_squared_ * axis_squared_;
 }
 
-bool CylinderShape::section(const Ray& ray, double& from, double& to) const {
+bool CylinderShape::section(const Ray& ray, double grow, double& from, double& to) const {
   const Vec3 w = ray.origin - from_;
   const double height = std::sqrt(axis_squared_);
   const Vec3 axis = axis_ * (1 / height);
+  const double radius = radius_ + grow;
+  if (!(radius > 0 && height + 2 * grow > 0)) return false;
   const double along = dot(w, axis), rate = dot(ray.direction, axis);
   if (rate == 0) {
-    if (along < 0 || along > height) return false;
+    if (along < -grow || along > height + grow) return false;
   } else {
-    const double one = -along / rate, other = (height - along) / rate;
+    const double one = (-grow - along) / rate, other = (height + grow - along) / rate;
     from = std::max(from, std::min(one, other));
     to = std::min(to, std::max(one, other));
   }
   const Vec3 across = w - axis * along, drift = ray.direction - axis * rate;
   const double drift_squared = dot(drift, drift);
-  return clip_to_quadratic(dot(across, across) - radius_squared_, dot(across, drift),
+  return clip_to_quadratic(dot(across, across) - radius * radius, dot(across, drift),
                            drift_squared > 0x1p-90 ? drift_squared : 0, from, to);
 }
 

@@ -17,10 +17,13 @@ class Primitive : public Shape {
   }
   bool enter(const Ray& ray, double from, double to, double& t) const override;
   double leave(const Ray& ray, double from, double to) const override;
+  /// By the sections of rows.
+  void fill_rows(const RowBlock& block) const override;
 
  protected:
-  /// Narrows [from, to] to the section, but for rounding; false if there is none.
-  virtual bool section(const Ray& ray, double& from, double& to) const = 0;
+  /// Narrows [from, to] to the section of the shape with its surface moved outwards by `grow`, but
+  /// for rounding; false if there is none.
+  virtual bool section(const Ray& ray, double grow, double& from, double& to) const = 0;
 };
 
 class BoxShape final : public Primitive {
@@ -32,8 +35,8 @@ class BoxShape final : public Primitive {
   Vec3 normal(const Ray& ray, double t) const override;
 
  protected:
-  bool section(const Ray& ray, double& from, double& to) const override {
-    return clip_to_box(ray, bounds(), from, to);
+  bool section(const Ray& ray, double grow, double& from, double& to) const override {
+    return clip_to_box(ray, bounds().grown(grow), from, to);
   }
   double clearance(Vec3 p) const override;
 };
@@ -45,7 +48,7 @@ class SphereShape final : public Primitive {
   Vec3 normal(const Ray& ray, double t) const override;
 
  protected:
-  bool section(const Ray& ray, double& from, double& to) const override;
+  bool section(const Ray& ray, double grow, double& from, double& to) const override;
   double clearance(Vec3 p) const override;
 
  private:
@@ -61,7 +64,7 @@ class CylinderShape final : public Primitive {
   Vec3 normal(const Ray& ray, double t) const override;
 
  protected:
-  bool section(const Ray& ray, double& from, double& to) const override;
+  bool section(const Ray& ray, double grow, double& from, double& to) const override;
   double clearance(Vec3 p) const override;
 
  private:
