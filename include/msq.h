@@ -1260,8 +1260,9 @@ typedef struct msq_slicer_def {
   int32_t has_region;   /* 0 (default): the region is the model's bounding box, centred in the
                            pixels, and region_min and region_max must be 0; 1: the region below */
   uint32_t slab_layers; /* layers computed at once; 0 (default): as many whole cells of the finest
-                           scale as make about 64 layers, at least one, and no more than 32 MiB.
-                           Same results at any number */
+                           scale as make about 64 layers, at least one, and no more than 32 MiB; for
+                           structures that gain nothing by so many, than 2 MiB a thread. Same
+                           results at any number */
   double region_min[3]; /* corner of pixel (0, 0) and underside of layer 0 */
   double region_max[3]; /* needed where a count follows from it */
   const double *layer_z;  /* z of each layer, ascending; NULL (default): the middle of each layer,

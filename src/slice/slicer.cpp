@@ -12,6 +12,9 @@ namespace {
 
 constexpr uint64_t most_samples = INT32_MAX;
 constexpr uint64_t automatic_slab_bytes = uint64_t{32} << 20;
+/// The same of slabs whose layers gain nothing by each other, for each thread: what is filled, cut
+/// and written then stays in the caches of cores.
+constexpr uint64_t shallow_slab_bytes = uint64_t{2} << 20;
 /// Of an automatic slab: of less, each slab would redo much of what the one before it found about
 /// the cells that both reach.
 constexpr double automatic_slab_layers = 64;
@@ -112,7 +115,12 @@ void Slicer::plan_slabs() {
     layers = std::floor(std::max(1.0, std::floor(automatic_slab_layers / cell * up)) * cell * up);
   }
   const uint64_t layer_bytes = words_for(grid_.nx) * grid_.ny * sizeof(uint64_t);
-  const double fit = static_cast<double>(automatic_slab_bytes / layer_bytes);
+  uint64_t most_bytes = std::min(automatic_slab_bytes,
+                                 shallow_slab_bytes * model_->executor().threads());
+  for (const Scale* scale : resolved_)
+    if (scale->structure->gains_by_layers() || !scale->skin.is_none())
+      most_bytes = automatic_slab_bytes;
+  const double fit = static_cast<double>(most_bytes / layer_bytes);
   slab_layers_ =
       static_cast<uint64_t>(std::clamp(std::min(layers, fit), 1.0, static_cast<double>(grid_.nz)));
 }

@@ -88,6 +88,9 @@ class Structure : public RefCounted {
   /// clearance() is 0 nowhere but at the boundary.
   virtual double least_ray_step() const { return min_component(neighbourhood().cell_size) / 64; }
 
+  /// Whether rows cost less in blocks of many layers, since what is found of a cell serves all of its
+  /// samples in a block.
+  virtual bool gains_by_layers() const { return false; }
   /// Clears the bits of samples that are outside. Stops early, by Error(cancelled), with the job.
   virtual void keep_rows(const RowBlock& block, const Job* job) const;
 

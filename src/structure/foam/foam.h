@@ -34,6 +34,7 @@ class Foam final : public Structure {
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return true; }
   uint64_t critical_count() const override;
+  bool gains_by_layers() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
   /// Exact outside where the radius is constant.
   double clearance(Vec3 p) const override;

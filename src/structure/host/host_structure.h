@@ -46,6 +46,7 @@ class HostStructure final : public Structure {
   bool inside(Vec3 p) const override;
   double clearance(Vec3 p) const override;
   bool is_concurrent() const override { return is_concurrent_; }
+  bool gains_by_layers() const override { return true; }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return static_cast<bool>(calls_.build_cell); }
   Coverage coverage(const Box3& box) const override {

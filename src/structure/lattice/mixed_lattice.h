@@ -55,6 +55,7 @@ class MixedLattice final : public Structure {
   bool inside(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return true; }
+  bool gains_by_layers() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
   /// Exact outside where the radius is constant, up to twice the smallest cell size.
   double clearance(Vec3 p) const override;
