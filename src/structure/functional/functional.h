@@ -37,6 +37,8 @@ class Functional final : public Structure {
   double clearance(Vec3 p) const override;
   double least_ray_step() const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  /// Where the level is bounded block by block.
+  bool gains_by_layers() const override { return !level_.is_constant(); }
   void keep_rows(const RowBlock& block, const Job* job) const override;
   uint64_t critical_count() const override { return 3; }
   bool has_onset() const override { return true; }

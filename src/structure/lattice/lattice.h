@@ -24,8 +24,8 @@ class Lattice final : public Structure {
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return radius_.is_concurrent(); }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
-  /// Where they are drawn strut by strut.
-  bool gains_by_layers() const override { return row_axes_[0] < 0; }
+  /// Where they are drawn strut by strut, or the radius is bounded block by block.
+  bool gains_by_layers() const override { return row_axes_[0] < 0 || !radius_.is_constant(); }
   void keep_rows(const RowBlock& block, const Job* job) const override;
   /// Exact outside where the radius is constant and the cell sizes differ by no more than 8 times
   /// (4 times where factors differ).
