@@ -40,7 +40,21 @@ struct RaySearch {
   double from = 0, to = 0;
   bool found = false;
   double t = 0;  ///< where found
+  /// There, outward and of length 1; 0 where whoever found it leaves that to others.
+  Vec3 normal{};
 };
+
+/// Where membership changes between `before` and `beyond`, as is_beyond(t) tells, which is false and
+/// true there: on the far side of a change, within `tolerance` of it.
+template <class IsBeyond>
+double bisect(double before, double beyond, double tolerance, IsBeyond&& is_beyond) {
+  while (beyond - before > tolerance) {
+    const double middle = 0.5 * (before + beyond);
+    if (!(middle > before && middle < beyond)) break;  // halves vanish in rounding
+    (is_beyond(middle) ? beyond : before) = middle;
+  }
+  return beyond;
+}
 
 /// An entry that was computed as t, settled by membership: the first point at which the ray is
 /// inside, within `tolerance` past it, about t and not before `from`; false where there is none
@@ -55,13 +69,9 @@ bool settle_entry(const Ray& ray, double from, double tolerance, Inside&& inside
   }
   double within = t;
   for (double step = tolerance; within > from; step *= 2) {
-    double before = std::max(from, t - step);
+    const double before = std::max(from, t - step);
     if (!inside(ray.at(before))) {
-      while (within - before > tolerance) {
-        const double middle = 0.5 * (before + within);
-        if (!(middle > before && middle < within)) break;
-        (inside(ray.at(middle)) ? within : before) = middle;
-      }
+      within = bisect(before, within, tolerance, [&](double at) { return inside(ray.at(at)); });
       break;
     }
     within = before;
@@ -91,13 +101,8 @@ struct RayMarch {
       const double next = std::min(to, at + std::max(clearance(ray.at(at)), least_step));
       if (!(next > at)) return false;  // steps vanish in rounding
       if (inside(ray.at(next)) == wanted) {
-        double before = at, beyond = next;
-        while (beyond - before > tolerance) {
-          const double middle = 0.5 * (before + beyond);
-          if (!(middle > before && middle < beyond)) break;
-          (inside(ray.at(middle)) == wanted ? beyond : before) = middle;
-        }
-        t = beyond;
+        t = bisect(at, next, tolerance,
+                   [&](double middle) { return inside(ray.at(middle)) == wanted; });
         return true;
       }
       at = next;

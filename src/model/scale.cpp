@@ -60,6 +60,7 @@ void Scale::enter(RaySearch* searches, size_t count) const {
     if (within[i].found) {
       searches[i].found = true;
       searches[i].t = within[i].t;
+      searches[i].normal = within[i].normal;
     }
 }
 

@@ -79,6 +79,7 @@ class Caster {
       if (found.t > searches_[i].from) {
         searches_[i].from = found.t;
         hits_[i].scale = static_cast<int32_t>(level);
+        hits_[i].normal = found.normal;
       }
       if (level + 1 == levels_) {
         hit(i);
@@ -116,6 +117,7 @@ class Caster {
     // Past the end by the tolerance, so that the level above is left even where rounding has not.
     searches_[i].from = std::max(end(i, level), searches_[i].from) + tolerance_of(level - 1);
     hits_[i].scale = static_cast<int32_t>(level);  // that comes in next, if none above it does
+    hits_[i].normal = {};
     if (searches_[i].from > end(i, level - 1)) {
       leave(i, level - 1);
       return;
@@ -129,9 +131,12 @@ class Caster {
     const double t = searches_[i].from;
     hit.t = begins_[i].offset + t;
     hit.starts_inside = hit.t == begins_[i].from;
-    hit.normal = hit.starts_inside ? ray.direction * -1.0
-                 : hit.scale == 0  ? model_.shape().normal(ray, t)
-                                   : resolved_[static_cast<size_t>(hit.scale) - 1]->normal(ray, t);
+    if (hit.starts_inside)
+      hit.normal = ray.direction * -1.0;
+    else if (dot(hit.normal, hit.normal) == 0)
+      hit.normal = hit.scale == 0
+                       ? model_.shape().normal(ray, t)
+                       : resolved_[static_cast<size_t>(hit.scale) - 1]->normal(ray, t);
     if (hit.starts_inside) hit.scale = static_cast<int32_t>(levels_) - 1;
     if (levels_ > 1) hit.cell = resolved_.back()->structure->neighbourhood().locate(ray.at(t)).cell;
   }

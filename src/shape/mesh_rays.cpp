@@ -34,12 +34,7 @@ bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, doubl
         return true;
       }
       // The crossing is known badly: along a triangle's plane, or by a needle.
-      double before = known, after = beyond;
-      while (after - before > tolerance) {
-        const double middle = 0.5 * (before + after);
-        (is_wanted(middle) ? after : before) = middle;
-      }
-      t = after;
+      t = bisect(known, beyond, tolerance, is_wanted);
       return true;
     }
     known = beyond;

@@ -18,7 +18,7 @@ double corner_distance(double beyond_one, double beyond_other) {
 
 /// Narrows [from, to] to where a + 2 b t + c t^2 <= 0, c >= 0.
 bool clip_to_quadratic(double a, double b, double c, double& from, double& to) {
-  if (c == 0) return a <= 0;
+  if (c == 0) return a <= 0 && from <= to;
   const double discriminant = b * b - a * c;
   if (discriminant < 0) return false;
   const double root = std::sqrt(discriminant);

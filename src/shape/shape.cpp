@@ -20,21 +20,20 @@ double Shape::distance(Vec3 p) const {
   return signed_distance(inside(p), clearance(p));
 }
 
+bool Shape::march(bool wanted, const Ray& ray, double from, double to, double& t) const {
+  const RayMarch steps{least_ray_step(), ray_tolerance()};
+  return steps.find(wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
+                    [this](Vec3 p) { return clearance(p); }, t);
+}
+
 bool Shape::enter(const Ray& ray, double from, double to, double& t) const {
-  if (!clip_to_box(ray, bounds(), from, to)) return false;
-  const RayMarch march{least_ray_step(), ray_tolerance()};
-  return march.find(true, ray, from, to, [this](Vec3 p) { return inside(p); },
-                    [this](Vec3 p) { return std::abs(distance(p)); }, t);
+  return clip_to_box(ray, bounds(), from, to) && march(true, ray, from, to, t);
 }
 
 double Shape::leave(const Ray& ray, double from, double to) const {
   if (!clip_to_box(ray, bounds(), from, to)) return from;
-  const RayMarch march{least_ray_step(), ray_tolerance()};
   double t;
-  return march.find(false, ray, from, to, [this](Vec3 p) { return inside(p); },
-                    [this](Vec3 p) { return std::abs(distance(p)); }, t)
-             ? t
-             : to;
+  return march(false, ray, from, to, t) ? t : to;
 }
 
 Vec3 Shape::normal(const Ray& ray, double t) const {

@@ -101,6 +101,9 @@ class Shape : public RefCounted {
   void for_each_row_in_bounds(const RowBlock& block, Visit&& visit) const;
 
   ShapeFacts facts_;
+
+ private:
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t) const;
 };
 
 template <class Visit>

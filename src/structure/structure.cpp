@@ -16,22 +16,22 @@ void Structure::keep_rows(const RowBlock& block, const Job* job) const {
   SampledRows(*this, block, job).keep();
 }
 
+bool Structure::march(bool wanted, const Ray& ray, double from, double to, double& t) const {
+  const RayMarch steps{least_ray_step(), ray_tolerance()};
+  return steps.find(wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
+                    [this](Vec3 p) { return clearance(p); }, t);
+}
+
 void Structure::enter(RaySearch* searches, size_t count) const {
-  const RayMarch march{least_ray_step(), ray_tolerance()};
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];
-    s.found = march.find(true, s.ray, s.from, s.to, [this](Vec3 p) { return inside(p); },
-                         [this](Vec3 p) { return clearance(p); }, s.t);
+    s.found = march(true, s.ray, s.from, s.to, s.t);
   }
 }
 
 double Structure::leave(const Ray& ray, double from, double to) const {
-  const RayMarch march{least_ray_step(), ray_tolerance()};
   double t;
-  return march.find(false, ray, from, to, [this](Vec3 p) { return inside(p); },
-                    [this](Vec3 p) { return clearance(p); }, t)
-             ? t
-             : to;
+  return march(false, ray, from, to, t) ? t : to;
 }
 
 Vec3 Structure::normal(const Ray& ray, double t) const {

@@ -94,6 +94,10 @@ class Structure : public RefCounted {
   /// Clears the bits of samples that are outside. Stops early, by Error(cancelled), with the job.
   virtual void keep_rows(const RowBlock& block, const Job* job) const;
 
+ protected:
+  /// The first t in [from, to] at which membership is `wanted`, by clearance() and least_ray_step().
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t) const;
+
  private:
   Neighbourhood neighbourhood_;
 };

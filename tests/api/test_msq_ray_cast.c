@@ -95,6 +95,31 @@ static void hits_a_box(void** state) {
   msq_context_release(context);
 }
 
+/* Along the axis, with an end short of the cylinder: no hit; and with one that reaches it. */
+static void hits_a_cylinder_along_its_axis(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {1, 1, 0};
+  const double origins[2][3] = {{-0.3, -0.3, 0}, {-0.3, -0.3, 0}};
+  const double directions[2][3] = {{1, 1, 0}, {1, 1, 0}}, t_max[2] = {0.2, 0.4};
+  msq_context* context = make_context();
+  msq_shape* cylinder;
+  msq_rays_def def;
+  msq_ray_hit hits[2];
+  (void)state;
+  assert_ok(msq_shape_from_cylinder(context, from, to, 0.5, &cylinder));
+  msq_model* model = make_model(context, cylinder, NULL, NULL);
+  assert_ok(msq_rays_def_init(&def, sizeof def));
+  def.count = 2;
+  def.origins = origins;
+  def.directions = directions;
+  def.t_max = t_max;
+  assert_ok(msq_ray_cast(model, &def, NULL, hits, 2, NULL));
+  assert_int_equal(hits[0].scale, -1);
+  assert_int_equal(hits[1].scale, 0);
+  assert_near(hits[1].t, 0.3, 1e-10);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void hits_struts_within_a_box(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_struts_model(context);
@@ -209,6 +234,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(honours_every_struct_size),
       cmocka_unit_test(hits_a_box),
+      cmocka_unit_test(hits_a_cylinder_along_its_axis),
       cmocka_unit_test(hits_struts_within_a_box),
       cmocka_unit_test(refuses_rays_that_make_no_sense),
       cmocka_unit_test(can_be_cancelled),
