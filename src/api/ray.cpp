@@ -102,9 +102,15 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
     for (uint64_t i = 0; i < def.count; ++i) check_ray(array, i);
     JobScope scope(work);
     cast_rays(
-        known, resolved, def.count, [&](uint64_t i) { return search_of(array, i); },
-        [&](uint64_t i, const RayHit& hit) {
-          hits[i] = answer_of(hit, size_of(array.direction(i)), array.from(i));
+        known, resolved, def.count,
+        [&](uint64_t first, size_t count, RaySearch* searches) {
+          for (size_t n = 0; n < count; ++n) searches[n] = search_of(array, first + n);
+        },
+        [&](uint64_t first, size_t count, const RayHit* found) {
+          for (size_t n = 0; n < count; ++n) {
+            const uint64_t i = first + n;
+            hits[i] = answer_of(found[n], size_of(array.direction(i)), array.from(i));
+          }
         },
         work);
     scope.done();

@@ -134,9 +134,8 @@ class Caster {
     if (hit.starts_inside)
       hit.normal = ray.direction * -1.0;
     else if (dot(hit.normal, hit.normal) == 0)
-      hit.normal = hit.scale == 0
-                       ? model_.shape().normal(ray, t)
-                       : resolved_[static_cast<size_t>(hit.scale) - 1]->normal(ray, t);
+      hit.normal = hit.scale == 0 ? model_.shape().normal(ray, t)
+                                  : resolved_[static_cast<size_t>(hit.scale) - 1]->normal(ray, t);
     if (hit.starts_inside) hit.scale = static_cast<int32_t>(levels_) - 1;
     if (levels_ > 1) hit.cell = resolved_.back()->structure->neighbourhood().locate(ray.at(t)).cell;
   }
@@ -155,23 +154,22 @@ class Caster {
 
 }  // namespace
 
-void cast_rays(const Model& model, const Scales& resolved, uint64_t count,
-               const std::function<RaySearch(uint64_t)>& ray_of,
-               const std::function<void(uint64_t, const RayHit&)>& take, Job* job) {
-  constexpr uint64_t batch = 1024;
+void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
+               const TakeHits& take, Job* job) {
   if (count == 0) return;
   model.shape().prepare_distance();
   model.prepare_skins(resolved);
-  const uint64_t batches = count / batch + (count % batch != 0);
+  const uint64_t batches = count / ray_batch + (count % ray_batch != 0);
   std::atomic<uint64_t> done{0};
   model.executor().for_each(batches, [&](uint64_t b) {
     check_cancelled(job);
-    const uint64_t first = b * batch, end = std::min(count, first + batch);
-    std::vector<RaySearch> searches;
-    std::vector<RayHit> hits(end - first);
-    for (uint64_t i = first; i < end; ++i) searches.push_back(ray_of(i));
+    const uint64_t first = b * ray_batch;
+    const size_t size = static_cast<size_t>(std::min(count - first, ray_batch));
+    std::vector<RaySearch> searches(size);
+    std::vector<RayHit> hits(size);
+    fill(first, size, searches.data());
     Caster(model, resolved, job).run(searches, hits);
-    for (uint64_t i = first; i < end; ++i) take(i, hits[i - first]);
+    take(first, size, hits.data());
     const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
     if (job) job->raise_progress(static_cast<double>(now) / static_cast<double>(batches));
   });

@@ -23,10 +23,20 @@ struct RayHit {
   CellIndex cell;  ///< of the finest scale, at the hit
 };
 
-/// Calls ray_of(i) for i in [0, count) and take(i, hit) for what the ray meets, in batches of rays
-/// that follow each other, in parallel. t is from the ray's origin on.
-void cast_rays(const Model& model, const Scales& resolved, uint64_t count,
-               const std::function<RaySearch(uint64_t)>& ray_of,
-               const std::function<void(uint64_t, const RayHit&)>& take, Job* job);
+/// Rays of a batch. A count of rays is cast in batches [0, ray_batch), [ray_batch, 2 ray_batch) ..:
+/// a caller that numbers the rays of a camera tile by tile, in blocks of 8 x 8, has coherent
+/// batches.
+constexpr uint64_t ray_batch = 1024;
+
+/// Writes the rays [first, first + count) to searches[0, count): their ray, from and to. One with
+/// from > to meets nothing. Several batches are filled at once, by threads of the executor.
+using FillRays = std::function<void(uint64_t first, size_t count, RaySearch* searches)>;
+/// Takes what the rays [first, first + count) meet.
+using TakeHits = std::function<void(uint64_t first, size_t count, const RayHit* hits)>;
+
+/// Fills, casts and takes the rays [0, count) batch by batch, in parallel. t is from the ray's
+/// origin on. What a ray meets does not depend on the others.
+void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
+               const TakeHits& take, Job* job);
 
 }  // namespace msq
