@@ -88,19 +88,9 @@ BoxShape::BoxShape(const Box3& box) {
 }
 
 void BoxShape::fill_rows(const RowBlock& block) const {
-  const SampleGrid& grid = *block.grid;
-  const Box3& box = bounds();
-  const uint64_t first = first_sample_from(grid.origin.x, grid.spacing.x, grid.nx, box.min.x);
-  const uint64_t end = first_sample_from<true>(grid.origin.x, grid.spacing.x, grid.nx, box.max.x);
-  if (first >= end) return;
-  for (uint64_t k = block.z0; k < block.z1; ++k) {
-    const double z = grid.z(k);
-    if (z < box.min.z || z > box.max.z) continue;
-    for (uint64_t j = block.y0; j < block.y1; ++j) {
-      const double y = grid.y(j);
-      if (y >= box.min.y && y <= box.max.y) set_bits(block.row(j, k), first, end - 1);
-    }
-  }
+  for_each_row_in_bounds(block, [](double, double, uint64_t* row, uint64_t first, uint64_t end) {
+    set_bits(row, first, end - 1);
+  });
 }
 
 /// Takes off what a difference and a root, each within a few units of 2^-53, may add.

@@ -122,37 +122,29 @@ struct Voxels::Part {
 
 void Voxels::fill_rows(const RowBlock& block) const {
   const SampleGrid& grid = *block.grid;
-  const Box3& box = bounds();
   const ImageFrame& frame = image_.frame();
-  const uint64_t first = first_sample_from(grid.origin.x, grid.spacing.x, grid.nx, box.min.x);
-  const uint64_t end = first_sample_from<true>(grid.origin.x, grid.spacing.x, grid.nx, box.max.x);
-  if (first >= end) return;
   if (frame.is_turned() || grid.spacing.x > frame.spacing.x) {
-    fill_part(block, {{first, block.y0, block.z0}, {end, block.y1, block.z1}});
+    const Box3& box = bounds();
+    const uint64_t first = first_sample_from(grid.origin.x, grid.spacing.x, grid.nx, box.min.x);
+    const uint64_t end = first_sample_from<true>(grid.origin.x, grid.spacing.x, grid.nx, box.max.x);
+    if (first < end) fill_part(block, {{first, block.y0, block.z0}, {end, block.y1, block.z1}});
     return;
   }
   image_.visit([&](const auto* values) {
-    for (uint64_t k = block.z0; k < block.z1; ++k) {
-      const double z = grid.z(k);
-      if (z < box.min.z || z > box.max.z) continue;
-      for (uint64_t j = block.y0; j < block.y1; ++j) {
-        const double y = grid.y(j);
-        if (y < box.min.y || y > box.max.y) continue;
-        const Vec3 u = image_.to_voxels(grid.at(first, j, k));
-        fill_row(values, block, j, k, first, end, u);
-      }
-    }
+    for_each_row_in_bounds(block,
+                           [&](double y, double z, uint64_t* row, uint64_t first, uint64_t end) {
+                             fill_row(values, grid, y, z, row, first, end);
+                           });
   });
 }
 
 template <class T>
-void Voxels::fill_row(const T* values, const RowBlock& block, uint64_t j, uint64_t k,
-                      uint64_t first, uint64_t end, Vec3 u_first) const {
-  const SampleGrid& grid = *block.grid;
+void Voxels::fill_row(const T* values, const SampleGrid& grid, double y, double z, uint64_t* row,
+                      uint64_t first, uint64_t end) const {
   const double origin = image_.frame().origin.x, spacing = image_.frame().spacing.x;
-  uint64_t* row = block.row(j, k);
-  const Image::Located y = image_.locate(u_first.y, 1), z = image_.locate(u_first.z, 2);
-  const auto line = image_.row(values, y, z);
+  const Vec3 u = image_.to_voxels(Vec3{grid.x(first), y, z});
+  const Image::Located v = image_.locate(u.y, 1), w = image_.locate(u.z, 2);
+  const auto line = image_.row(values, v, w);
   const ImageBounds::Level& leaves = image_.bounds().levels().front();
   constexpr unsigned bits = ImageBounds::leaf_bits;
 
@@ -186,7 +178,7 @@ void Voxels::fill_row(const T* values, const RowBlock& block, uint64_t j, uint64
   for (uint64_t b = first_cell >> bits; b <= last_cell >> bits; ++b) {
     const uint64_t low = std::max(b << bits, first_cell);
     const uint64_t high = std::min((b + 1) << bits, last_cell + 1);
-    const Side block_side = side(leaves.at(b, y.cell >> bits, z.cell >> bits));
+    const Side block_side = side(leaves.at(b, v.cell >> bits, w.cell >> bits));
     if (block_side == Side::inside) open(low);
     if (block_side == Side::outside) close(low);
     if (block_side != Side::both) continue;

@@ -38,8 +38,8 @@ class Voxels final : public Shape {
 
   /// Samples [first, end) of a row of an image that is not turned; u_first is where the first is.
   template <class T>
-  void fill_row(const T* values, const RowBlock& block, uint64_t j, uint64_t k, uint64_t first,
-                uint64_t end, Vec3 u_first) const;
+  void fill_row(const T* values, const SampleGrid& grid, double y, double z, uint64_t* row,
+                uint64_t first, uint64_t end) const;
   struct Part;
   void fill_part(const RowBlock& block, const Part& part) const;
 
