@@ -176,19 +176,20 @@ CylinderShape::CylinderShape(Vec3 from, Vec3 to, double radius)
     : from_(from),
       axis_(to - from),
       axis_squared_(dot(axis_, axis_)),
+      height_(std::sqrt(axis_squared_)),
+      unit_axis_(axis_ * (1 / height_)),
       radius_(radius),
       radius_squared_(radius * radius) {
   // A disc normal to the unit vector u reaches radius * sqrt(1 - u_i^2) along axis i.
-  const double height = std::sqrt(axis_squared_);
   Vec3 reach;
   for (int i = 0; i < 3; ++i) {
     // 1 - u_i^2 from the other two, which leaves something of axes next to axis i.
-    const double u = axis_[(i + 1) % 3] / height, v = axis_[(i + 2) % 3] / height;
+    const double u = axis_[(i + 1) % 3] / height_, v = axis_[(i + 2) % 3] / height_;
     reach[i] = radius * std::sqrt(u * u + v * v) * (1 + 1e-12);
   }
   facts_.bounds = {min(from, to) - reach, max(from, to) + reach};
-  facts_.volume = pi * radius * radius * height;
-  facts_.area = 2 * pi * radius * (radius + height);
+  facts_.volume = pi * radius * radius * height_;
+  facts_.area = 2 * pi * radius * (radius + height_);
 }
 
 bool CylinderShape::inside(Vec3 p) const {
@@ -202,19 +203,17 @@ bool CylinderShape::inside(Vec3 p) const {
 
 bool CylinderShape::section(const Ray& ray, double grow, double& from, double& to) const {
   const Vec3 w = ray.origin - from_;
-  const double height = std::sqrt(axis_squared_);
-  const Vec3 axis = axis_ * (1 / height);
   const double radius = radius_ + grow;
-  if (!(radius > 0 && height + 2 * grow > 0)) return false;
-  const double along = dot(w, axis), rate = dot(ray.direction, axis);
+  if (!(radius > 0 && height_ + 2 * grow > 0)) return false;
+  const double along = dot(w, unit_axis_), rate = dot(ray.direction, unit_axis_);
   if (rate == 0) {
-    if (along < -grow || along > height + grow) return false;
+    if (along < -grow || along > height_ + grow) return false;
   } else {
-    const double one = (-grow - along) / rate, other = (height + grow - along) / rate;
+    const double one = (-grow - along) / rate, other = (height_ + grow - along) / rate;
     from = std::max(from, std::min(one, other));
     to = std::min(to, std::max(one, other));
   }
-  const Vec3 across = w - axis * along, drift = ray.direction - axis * rate;
+  const Vec3 across = w - unit_axis_ * along, drift = ray.direction - unit_axis_ * rate;
   const double drift_squared = dot(drift, drift);
   return clip_to_quadratic(dot(across, across) - radius * radius, dot(across, drift),
                            drift_squared > 0x1p-90 ? drift_squared : 0, from, to);
@@ -222,27 +221,23 @@ bool CylinderShape::section(const Ray& ray, double grow, double& from, double& t
 
 Vec3 CylinderShape::normal(const Ray& ray, double t) const {
   const Vec3 w = ray.at(t) - from_;
-  const double height = std::sqrt(axis_squared_);
-  const Vec3 axis = axis_ * (1 / height);
-  const double along = dot(w, axis);
-  const Vec3 across = w - axis * along;
+  const double along = dot(w, unit_axis_);
+  const Vec3 across = w - unit_axis_ * along;
   const double distance = length(across);
-  if (std::abs(distance - radius_) < std::min(std::abs(along), std::abs(height - along)))
+  if (std::abs(distance - radius_) < std::min(std::abs(along), std::abs(height_ - along)))
     return across * (1 / distance);
-  return 2 * along < height ? axis * -1.0 : axis;
+  return 2 * along < height_ ? unit_axis_ * -1.0 : unit_axis_;
 }
 
 double CylinderShape::clearance(Vec3 p) const {
   const Vec3 w = p - from_;
-  const double height = std::sqrt(axis_squared_);
-  const Vec3 direction = axis_ * (1 / height);
-  const double along = dot(w, direction);
-  const double across = length(cross(w, direction));
-  const double distance = corner_distance(across - radius_, std::max(-along, along - height));
+  const double along = dot(w, unit_axis_);
+  const double across = length(cross(w, unit_axis_));
+  const double distance = corner_distance(across - radius_, std::max(-along, along - height_));
   // Each of w, the axis and the products loses a few units of 2^-53 of what it is made of, here and
   // in inside().
   const double slack =
-      0x1p-47 * (length(w) + height + radius_ + max_magnitude(from_) + max_magnitude(p));
+      0x1p-47 * (length(w) + height_ + radius_ + max_magnitude(from_) + max_magnitude(p));
   return std::max(0.0, distance - slack);
 }
 

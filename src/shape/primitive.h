@@ -69,7 +69,9 @@ class CylinderShape final : public Primitive {
 
  private:
   Vec3 from_, axis_;  // axis_ from one end to the other
-  double axis_squared_, radius_, radius_squared_;
+  double axis_squared_, height_;
+  Vec3 unit_axis_;
+  double radius_, radius_squared_;
 };
 
 }  // namespace msq
