@@ -1354,7 +1354,8 @@ typedef struct msq_ray_hit {
   int32_t scale;        /* whose surface was hit, 0 the coarse shape's; -1: nothing was hit */
   int32_t starts_inside; /* 1: the ray is inside at t_min, and t is t_min; scale is the finest */
   int32_t cell[3];      /* of the finest resolved structure, at the point */
-  int32_t reserved;     /* 0 */
+  uint32_t material;    /* id as msq_point_material has it just inside; MSQ_MATERIAL_VOID in a miss and
+                           where no resolved scale has a material */
 } msq_ray_hit;
 
 /* Where each ray first is in the solid at t_min <= t <= t_max: hits[i] is of ray i. hit_count: length
@@ -1375,6 +1376,122 @@ typedef struct msq_ray_hit {
 MSQ_API msq_status msq_ray_cast(const msq_model *model, const msq_rays_def *rays,
                                 const msq_query_def *query, msq_ray_hit *hits, uint64_t hit_count,
                                 msq_job *job);
+
+/* ---- cameras and pictures ------------------------------------------------------------ */
+
+enum { MSQ_CAMERA_ORTHOGRAPHIC = 0, MSQ_CAMERA_PERSPECTIVE = 1 };
+
+/* From where a model is seen. The view goes from eye to target, and so through the middle of the picture.
+ * Depth is the distance from the plane through eye that is normal to the view. */
+typedef struct msq_camera {
+  uint32_t struct_size;
+  int32_t projection;    /* MSQ_CAMERA_*; default ORTHOGRAPHIC */
+  double eye[3];         /* rays start at depth 0: orthographic all along the view, perspective all from here */
+  double target[3];      /* not eye: both must be set */
+  double up[3];          /* upwards in the picture, not along the view (default 0, 0, 1) */
+  double height;         /* ORTHOGRAPHIC: model units from the picture's lower to its upper edge; must be set */
+  double field_of_view;  /* PERSPECTIVE: angle between those edges in degrees, 0.001 to 179 (default 40) */
+  double clip_near, clip_far; /* depths between which the model is seen, the rest being cut away;
+                            0 <= near < far, defaults 0 and infinity */
+} msq_camera;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_camera_init(msq_camera *camera, size_t size);
+
+/* Sets eye, target, up and height so that the model's bounding box just fits a picture of width x height pixels
+ * (1 to 16384 each), seen along `direction`, which goes from eye to target. The rest of *camera, struct_size first,
+ * stays and must be set; field_of_view counts in perspective. up NULL: z, or y where that is within 2.6
+ * degrees of the direction. On failure *camera stays. Errors: ARGUMENT. */
+MSQ_API msq_status msq_camera_fit(const msq_model *model, const double direction[3],
+                                  const double up[3], uint32_t width, uint32_t height,
+                                  msq_camera *camera);
+
+/* The ray of a position in a picture of width x height pixels: position[0] pixels right and position[1] down
+ * from its upper left corner, so that the middle of pixel (i, j) is (i + 0.5, j + 0.5). direction is
+ * as long as makes t of msq_ray_cast the depth; with t_min and t_max at the clip planes that ray gives what
+ * msq_render writes, to the last bit. For picking, and for pictures of the host's own. Errors: ARGUMENT. */
+MSQ_API msq_status msq_camera_ray(const msq_camera *camera, uint32_t width, uint32_t height,
+                                  const double position[2], double origin[3],
+                                  double direction[3]);
+
+/* What gives a surface its colour, before light falls on it. */
+enum {
+  MSQ_COLOUR_PLAIN = 0,    /* colours[0] */
+  MSQ_COLOUR_SCALE = 1,    /* colours[scale % colour_count], as in msq_ray_hit */
+  MSQ_COLOUR_MATERIAL = 2, /* colours[material id % colour_count] */
+  MSQ_COLOUR_NORMAL = 3    /* red, green, blue = (1 + normal) / 2 */
+};
+
+typedef struct msq_render_def {
+  uint32_t struct_size;
+  uint32_t width, height;    /* pixels of the whole picture, 1 to 16384; must be set */
+  uint32_t tile_x, tile_y;   /* the part to render: pixels from the upper left corner, */
+  uint32_t tile_width, tile_height; /* and its size; all 0 (default): the whole. Tiles have the pixels of the
+                                whole picture, to the last bit */
+  uint32_t samples;          /* of rgba, along each side of a pixel, 1 (default) to 16: their mean */
+  uint32_t first_step;       /* with a callback: 2, 4 .. 64: the first pass has one ray for each block of so
+                                many pixels a side, then half as many; 1 (default): one for each pixel */
+  int32_t colour_by;         /* MSQ_COLOUR_* */
+  const double *colours;     /* colour_count triples red, green, blue, linear, 0 to 1; NULL (default): 8
+                                colours of msq */
+  uint64_t colour_count;     /* 1 to 65536 */
+  double background[4];      /* red, green, blue, linear, and opacity, where nothing is hit; default 0 */
+  double light[3];           /* direction to the light, of any length but 0, in the camera's frame: to the
+                                right, upwards, towards the eye (default -0.4, 0.6, 1) */
+  double ambient;            /* part of the light that comes from all around, 0 to 1 (default 0.3) */
+  int32_t shadows;           /* 1: of the light, a ray for each sample in it; default 0 */
+  uint32_t occlusion_rays;   /* for each sample, 0 (default) to 256: ambient light is what part of them, spread
+                                by the cosine with the normal, meets nothing */
+  double occlusion_distance; /* how far those reach, in model units; 0 (default): a tenth of the diagonal of
+                                the model's bounding box */
+} msq_render_def;
+
+/* Sets defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_render_def_init(msq_render_def *def, size_t size);
+
+/* Where pixels go: pixel (i, j) of the tile, j from the top down, to index j * row_pixels + i of each
+ * array that is not NULL. All but rgba is of the ray through the pixel's middle. */
+typedef struct msq_frame {
+  uint32_t struct_size;
+  uint32_t row_pixels; /* from one row to the next; 0 (default): the tile's width */
+  float *depth;        /* infinity in a miss */
+  float *normal;       /* 3 a pixel, as in msq_ray_hit, model frame; 0 in a miss */
+  int32_t *scale;      /* as in msq_ray_hit; -1 in a miss */
+  uint32_t *material;  /* as in msq_ray_hit */
+  uint8_t *rgba;       /* 4 a pixel: red, green, blue in sRGB, and opacity, which they are not multiplied by */
+} msq_frame;
+
+/* Sets defaults: no arrays. Errors: ARGUMENT. */
+MSQ_API msq_status msq_frame_init(msq_frame *frame, size_t size);
+
+/* How far a picture has come. */
+typedef struct msq_render_pass {
+  uint32_t struct_size; /* out: sizeof(msq_render_pass) of the library */
+  uint32_t step;        /* pixels along a side of the blocks that are of one ray yet; 1: each has its own */
+  uint32_t samples;     /* of rgba, along a side of a pixel */
+  int32_t is_last;      /* 1: the picture is done */
+} msq_render_pass;
+
+/* Takes a pass: the frame holds a whole picture, and may be changed. Return 0 to go on, a code of the host's own, best
+ * negative, to stop. Exceptions of the host's language must not leave it. */
+typedef int32_t (*msq_render_fn)(void *user, const msq_render_pass *pass);
+
+/* Renders a model. Each pixel is what msq_ray_cast says of the ray of msq_camera_ray; colours, linear, are
+ * base * (ambient * open + (1 - ambient) * max(0, normal . light) * lit), where open is the part of the
+ * occlusion rays that meet nothing (1 without them) and lit is 0 in shadow. What the clip planes cut away
+ * casts none. The mean of a pixel's samples and of the background is then written in sRGB. Random numbers follow from
+ * pixel and sample alone: the same bits, whatever the tile, the threads and the passes.
+ *
+ * fn NULL: not called. Otherwise it is called on the calling thread after each pass: steps from
+ * first_step by halves to 1, each with the rays that are new, then, where rgba wants more than one sample,
+ * all samples. query, job NULL: defaults, no job. On ARGUMENT nothing is written; on all else the frame may
+ * be partly written. Cost: a ray each pixel for the first arrays, samples^2 for rgba where that is more than
+ * 1, each of which with shadows and occlusion_rays casts more; in parallel, by squares of 32 x 32 rays. Memory: about
+ * 1 MB for each thread, whatever the size.
+ * Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting". */
+MSQ_API msq_status msq_render(const msq_model *model, const msq_camera *camera,
+                              const msq_render_def *def, const msq_query_def *query,
+                              const msq_frame *frame, msq_render_fn fn, void *user, msq_job *job);
 
 #ifdef __cplusplus
 }

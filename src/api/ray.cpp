@@ -3,7 +3,7 @@
 
 #include "api/guard.h"
 #include "api/points.h"
-#include "ray/cast.h"
+#include "ray/search.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -27,11 +27,6 @@ struct RayArray {
   double to(uint64_t i) const { return t_max ? t_max[i] : std::numeric_limits<double>::infinity(); }
 };
 
-/// Length of a direction, also where its square overflows or vanishes.
-double size_of(Vec3 d) {
-  return std::hypot(d.x, d.y, d.z);
-}
-
 void check_ray(const RayArray& rays, uint64_t i) {
   const auto number = static_cast<unsigned long long>(i);
   const Vec3 origin = rays.origins.at(i), direction = rays.direction(i);
@@ -53,20 +48,13 @@ void check_ray(const RayArray& rays, uint64_t i) {
 
 RaySearch search_of(const RayArray& rays, uint64_t i) {
   const Vec3 direction = rays.direction(i);
-  const double size = size_of(direction);
-  RaySearch search;
-  search.ray = {rays.origins.at(i), {direction.x / size, direction.y / size, direction.z / size}};
-  search.from = rays.from(i) * size;
-  search.to = rays.to(i) * size;
-  return search;
+  return search_along(rays.origins.at(i), direction, size_of(direction), rays.from(i), rays.to(i));
 }
 
 msq_ray_hit answer_of(const RayHit& hit, double size, double t_min) {
   msq_ray_hit answer{};
   answer.scale = hit.scale;
-  answer.t = hit.scale < 0       ? std::numeric_limits<double>::infinity()
-             : hit.starts_inside ? t_min
-                                 : hit.t / size;
+  answer.t = parameter_of(hit, size, t_min);
   if (hit.scale < 0) return answer;
   answer.starts_inside = hit.starts_inside;
   for (int axis = 0; axis < 3; ++axis) answer.normal[axis] = hit.normal[axis];
@@ -107,9 +95,11 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
           for (size_t n = 0; n < count; ++n) searches[n] = search_of(array, first + n);
         },
         [&](uint64_t first, size_t count, const RayHit* found) {
+          uint32_t part = 0;  // of the skin, for points near each other
           for (size_t n = 0; n < count; ++n) {
             const uint64_t i = first + n;
             hits[i] = answer_of(found[n], size_of(array.direction(i)), array.from(i));
+            hits[i].material = material_id(known, resolved, found[n], part);
           }
         },
         work);

@@ -130,6 +130,7 @@ class Caster {
     const Ray& ray = searches_[i].ray;
     const double t = searches_[i].from;
     hit.t = begins_[i].offset + t;
+    hit.point = ray.at(t);
     hit.starts_inside = hit.t == begins_[i].from;
     if (hit.starts_inside)
       hit.normal = ray.direction * -1.0;
@@ -137,7 +138,7 @@ class Caster {
       hit.normal = hit.scale == 0 ? model_.shape().normal(ray, t)
                                   : resolved_[static_cast<size_t>(hit.scale) - 1]->normal(ray, t);
     if (hit.starts_inside) hit.scale = static_cast<int32_t>(levels_) - 1;
-    if (levels_ > 1) hit.cell = resolved_.back()->structure->neighbourhood().locate(ray.at(t)).cell;
+    if (levels_ > 1) hit.cell = resolved_.back()->structure->neighbourhood().locate(hit.point).cell;
   }
 
   const Model& model_;
@@ -154,11 +155,28 @@ class Caster {
 
 }  // namespace
 
+uint32_t material_id(const Model& model, const Scales& resolved, const RayHit& hit,
+                     uint32_t& part) {
+  if (hit.scale < 0) return 0;
+  const Material* material = model.material(hit.point, resolved, part);
+  return material ? material->id() : 0;
+}
+
+void prepare_rays(const Model& model, const Scales& resolved) {
+  model.shape().prepare_distance();
+  model.prepare_skins(resolved);
+}
+
+void cast_batch(const Model& model, const Scales& resolved, std::vector<RaySearch>& searches,
+                std::vector<RayHit>& hits, const Job* job) {
+  hits.resize(searches.size());
+  Caster(model, resolved, job).run(searches, hits);
+}
+
 void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
                const TakeHits& take, Job* job) {
   if (count == 0) return;
-  model.shape().prepare_distance();
-  model.prepare_skins(resolved);
+  prepare_rays(model, resolved);
   const uint64_t batches = count / ray_batch + (count % ray_batch != 0);
   std::atomic<uint64_t> done{0};
   model.executor().for_each(batches, [&](uint64_t b) {

@@ -20,6 +20,8 @@ struct RayHit {
   int32_t scale = -1;  ///< whose surface was hit; -1: none was
   bool starts_inside = false;
   Vec3 normal;
+  /// On the boundary, on the inside, to the accuracy of numbers no larger than the shape's.
+  Vec3 point;
   CellIndex cell;  ///< of the finest scale, at the hit
 };
 
@@ -38,5 +40,15 @@ using TakeHits = std::function<void(uint64_t first, size_t count, const RayHit* 
 /// origin on. What a ray meets does not depend on the others.
 void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
                const TakeHits& take, Job* job);
+
+/// Id of the material at a hit, 0 in a miss and where there is none. `part`: as in Skin::find().
+uint32_t material_id(const Model& model, const Scales& resolved, const RayHit& hit, uint32_t& part);
+
+/// Builds what rays need of the model, if anything. Before cast_batch().
+void prepare_rays(const Model& model, const Scales& resolved);
+
+/// Casts rays on the calling thread: hits[i] becomes what searches[i], which are used up, meet.
+void cast_batch(const Model& model, const Scales& resolved, std::vector<RaySearch>& searches,
+                std::vector<RayHit>& hits, const Job* job);
 
 }  // namespace msq

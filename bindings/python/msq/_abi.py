@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The declarations of msq.h. Made from it by make_abi.py: change those."""
-from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int32, c_size_t, c_uint32,
-                    c_uint64, c_uint8, c_void_p)
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, c_int32, c_size_t,
+                    c_uint32, c_uint64, c_uint8, c_void_p)
 
 MSQ_VERSION_MAJOR = 0
 MSQ_VERSION_MINOR = 1
@@ -73,6 +73,12 @@ MSQ_PHASE_SOLID = 1
 MSQ_PHASE_VOID = 2
 MSQ_LAYER_BITS = 1
 MSQ_LAYER_BYTES = 2
+MSQ_CAMERA_ORTHOGRAPHIC = 0
+MSQ_CAMERA_PERSPECTIVE = 1
+MSQ_COLOUR_PLAIN = 0
+MSQ_COLOUR_SCALE = 1
+MSQ_COLOUR_MATERIAL = 2
+MSQ_COLOUR_NORMAL = 3
 
 
 class msq_context(Structure):
@@ -388,7 +394,37 @@ class msq_rays_def(Structure):
 
 class msq_ray_hit(Structure):
     _fields_ = [("t", c_double), ("normal", c_double * 3), ("scale", c_int32),
-                ("starts_inside", c_int32), ("cell", c_int32 * 3), ("reserved", c_int32)]
+                ("starts_inside", c_int32), ("cell", c_int32 * 3), ("material", c_uint32)]
+
+
+class msq_camera(Structure):
+    _fields_ = [("struct_size", c_uint32), ("projection", c_int32), ("eye", c_double * 3),
+                ("target", c_double * 3), ("up", c_double * 3), ("height", c_double),
+                ("field_of_view", c_double), ("clip_near", c_double), ("clip_far", c_double)]
+
+
+class msq_render_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32),
+                ("tile_x", c_uint32), ("tile_y", c_uint32), ("tile_width", c_uint32),
+                ("tile_height", c_uint32), ("samples", c_uint32), ("first_step", c_uint32),
+                ("colour_by", c_int32), ("colours", POINTER(c_double)), ("colour_count", c_uint64),
+                ("background", c_double * 4), ("light", c_double * 3), ("ambient", c_double),
+                ("shadows", c_int32), ("occlusion_rays", c_uint32),
+                ("occlusion_distance", c_double)]
+
+
+class msq_frame(Structure):
+    _fields_ = [("struct_size", c_uint32), ("row_pixels", c_uint32), ("depth", POINTER(c_float)),
+                ("normal", POINTER(c_float)), ("scale", POINTER(c_int32)),
+                ("material", POINTER(c_uint32)), ("rgba", POINTER(c_uint8))]
+
+
+class msq_render_pass(Structure):
+    _fields_ = [("struct_size", c_uint32), ("step", c_uint32), ("samples", c_uint32),
+                ("is_last", c_int32)]
+
+
+msq_render_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_render_pass))
 
 
 # name: [result, arguments ...]
@@ -542,4 +578,14 @@ FUNCTIONS = {
     "msq_rays_def_init": [c_int32, POINTER(msq_rays_def), c_size_t],
     "msq_ray_cast": [c_int32, POINTER(msq_model), POINTER(msq_rays_def), POINTER(msq_query_def),
                      POINTER(msq_ray_hit), c_uint64, POINTER(msq_job)],
+    "msq_camera_init": [c_int32, POINTER(msq_camera), c_size_t],
+    "msq_camera_fit": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(c_double), c_uint32,
+                       c_uint32, POINTER(msq_camera)],
+    "msq_camera_ray": [c_int32, POINTER(msq_camera), c_uint32, c_uint32, POINTER(c_double),
+                       POINTER(c_double), POINTER(c_double)],
+    "msq_render_def_init": [c_int32, POINTER(msq_render_def), c_size_t],
+    "msq_frame_init": [c_int32, POINTER(msq_frame), c_size_t],
+    "msq_render": [c_int32, POINTER(msq_model), POINTER(msq_camera), POINTER(msq_render_def),
+                   POINTER(msq_query_def), POINTER(msq_frame), msq_render_fn, c_void_p,
+                   POINTER(msq_job)],
 }

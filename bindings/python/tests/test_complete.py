@@ -14,7 +14,10 @@ NOT_NEEDED = {"msq_status_name": "exceptions have the name"}
 NOT_NEEDED.update({name: "Python counts its own references" for name in _abi.FUNCTIONS
                    if name.endswith("_retain")})
 # Functions, reports, and fields of definitions as "struct.field", still to be bound.
-NOT_YET = set()
+NOT_YET = {"msq_camera_fit", "msq_camera_init", "msq_camera_ray", "msq_frame_init", "msq_render",
+           "msq_render_def_init"}
+NOT_YET |= {f"msq_render_def.{label}" for label, _ in _abi.msq_render_def._fields_
+            if label not in ("struct_size", "width", "height")}
 
 REPORTS = {"msq_build_report": msq.BuildInfo, "msq_memory_report": msq.MemoryInfo,
            "msq_cache_report": msq.CacheInfo, "msq_shape_report": msq.ShapeInfo,

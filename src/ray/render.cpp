@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ray/render.h"
+
+#include <array>
+#include <atomic>
+
+#include "ray/search.h"
+
+namespace msq {
+
+namespace {
+
+constexpr uint32_t batch_side = 32, block_side = 8;
+/// Along each side of a pixel.
+constexpr uint64_t most_samples = 16;
+
+/// Side of the squares of pixels whose samples are cast together: at most batch_side samples.
+uint32_t square_side(uint32_t samples) {
+  uint32_t side = batch_side;
+  while (side * samples > batch_side) side /= 2;
+  return side;
+}
+
+/// One pass over the tile: pixels (step * i, step * j) of it, of which those that an earlier pass
+/// had are left out, each with samples x samples rays.
+struct Pass : RenderPass {
+  bool leaves_out = false;  ///< those where i and j are even
+  bool has_data = true, has_colour = true;
+};
+
+class Renderer {
+ public:
+  Renderer(const Model& model, const Scales& resolved, const View& view, const RenderPlan& plan,
+           const Frame& frame, Job* job)
+      : model_(model),
+        resolved_(resolved),
+        view_(view),
+        plan_(plan),
+        frame_(frame),
+        job_(job),
+        shader_(model, resolved, view, plan.shading) {}
+
+  void run(const std::function<void(const RenderPass&)>& on_pass) {
+    const std::vector<Pass> passes = passes_of(static_cast<bool>(on_pass));
+    for (const Pass& pass : passes) all_rays_ += rays_of(pass);
+    prepare_rays(model_, resolved_);
+    for (const Pass& pass : passes) {
+      run(pass);
+      if (on_pass) on_pass(pass);
+    }
+  }
+
+ private:
+  /// One ray of a tile.
+  struct Sample {
+    uint32_t x, y;   // pixel of the tile
+    uint32_t place;  // among the samples of the square, row by row
+    double size;     // of the ray's direction
+  };
+  /// What one batch takes.
+  struct Batch {
+    std::vector<Sample> samples;
+    std::vector<RaySearch> searches;
+    std::vector<RayHit> hits;
+    std::vector<Seen> seen;
+    std::vector<Colour> colours;
+  };
+
+  std::vector<Pass> passes_of(bool are_seen) const {
+    std::vector<Pass> passes;
+    const bool has_sub_samples = frame_.rgba && plan_.samples > 1;
+    const uint32_t first = are_seen ? plan_.first_step : 1;
+    if (are_seen || frame_.has_data() || !has_sub_samples)
+      for (uint32_t step = first; step > 0; step /= 2) {
+        Pass pass;
+        pass.step = step;
+        pass.leaves_out = step < first;
+        pass.has_colour = frame_.rgba && (are_seen || !has_sub_samples);
+        passes.push_back(pass);
+      }
+    if (has_sub_samples) {
+      Pass pass;
+      pass.samples = plan_.samples;
+      pass.has_data = false;
+      passes.push_back(pass);
+    }
+    passes.back().is_last = true;
+    return passes;
+  }
+
+  static uint64_t points_across(uint64_t pixels, uint64_t step) {
+    return (pixels + step - 1) / step;
+  }
+
+  uint64_t rays_of(const Pass& pass) const {
+    const uint64_t points =
+        points_across(plan_.tile_width, pass.step) * points_across(plan_.tile_height, pass.step);
+    return points * pass.samples * pass.samples;
+  }
+
+  void run(const Pass& pass) {
+    check_cancelled(job_);
+    const uint64_t side = square_side(pass.samples);
+    const uint64_t across = points_across(points_across(plan_.tile_width, pass.step), side);
+    const uint64_t down = points_across(points_across(plan_.tile_height, pass.step), side);
+    const uint64_t rays = rays_of(pass);
+    std::atomic<uint64_t> done{0};
+    model_.executor().for_each(across * down, [&](uint64_t index) {
+      check_cancelled(job_);
+      const auto x = static_cast<uint32_t>(index % across * side);
+      const auto y = static_cast<uint32_t>(index / across * side);
+      Batch batch;
+      fill(pass, x, y, batch);
+      cast_batch(model_, resolved_, batch.searches, batch.hits, job_);
+      see(pass, batch);
+      if (pass.has_data) write_data(pass, batch);
+      if (pass.has_colour) write_colour(pass, x, y, batch);
+      if (!job_) return;
+      const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
+      const double part = static_cast<double>(now) / static_cast<double>(across * down);
+      job_->raise_progress((static_cast<double>(rays_done_) + part * static_cast<double>(rays)) /
+                           static_cast<double>(all_rays_));
+    });
+    rays_done_ += rays;
+  }
+
+  /// Rays of the square of points that begins at point (x0, y0), in blocks of 8 x 8 that follow
+  /// each other: near each other in the picture, and so in the model.
+  void fill(const Pass& pass, uint32_t x0, uint32_t y0, Batch& batch) const {
+    const uint32_t n = pass.samples, side = square_side(n) * n;
+    struct Place {
+      uint32_t pixel, sample;
+      double middle;  // of the sample, from the pixel's corner
+    };
+    std::array<Place, batch_side> places;
+    for (uint32_t i = 0; i < side; ++i) places[i] = {i / n, i % n, (i % n + 0.5) / n};
+    const Camera& camera = view_.camera();
+    for (uint32_t by = 0; by < side; by += block_side)
+      for (uint32_t bx = 0; bx < side; bx += block_side)
+        for (uint32_t v = by; v < std::min(side, by + block_side); ++v)
+          for (uint32_t u = bx; u < std::min(side, bx + block_side); ++u) {
+            const Place& right = places[u];
+            const Place& down = places[v];
+            const uint32_t i = x0 + right.pixel, j = y0 + down.pixel;
+            const uint32_t x = i * pass.step, y = j * pass.step;
+            if (x >= plan_.tile_width || y >= plan_.tile_height) continue;
+            if (pass.leaves_out && i % 2 == 0 && j % 2 == 0) continue;
+            const uint32_t picture_x = plan_.tile_x + x, picture_y = plan_.tile_y + y;
+            const double at_x = picture_x + right.middle, at_y = picture_y + down.middle;
+            const Vec3 direction = view_.direction(at_x, at_y);
+            const double size = size_of(direction);
+            const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
+            const uint64_t key = (pixel * most_samples + down.sample) * most_samples + right.sample;
+            batch.samples.push_back({x, y, v * side + u, size});
+            batch.seen.push_back({key, 0, 0});
+            batch.searches.push_back(search_along(view_.origin(at_x, at_y), direction, size,
+                                                  camera.clip_near, camera.clip_far));
+          }
+  }
+
+  void see(const Pass& pass, Batch& batch) const {
+    const bool wants_material = (pass.has_data && frame_.material) ||
+                                (pass.has_colour && plan_.shading.colour_by == ColourBy::material);
+    uint32_t part = 0;
+    for (size_t i = 0; i < batch.hits.size(); ++i) {
+      const RayHit& hit = batch.hits[i];
+      Seen& seen = batch.seen[i];
+      seen.depth = parameter_of(hit, batch.samples[i].size, view_.camera().clip_near);
+      if (wants_material) seen.material = material_id(model_, resolved_, hit, part);
+    }
+  }
+
+  /// Calls write(index) for the pixels of the block that has its ray in pixel (x, y) of the tile.
+  template <class Write>
+  void for_block(const Pass& pass, const Sample& sample, Write&& write) const {
+    const uint64_t x1 = std::min(plan_.tile_width, sample.x + pass.step);
+    const uint64_t y1 = std::min(plan_.tile_height, sample.y + pass.step);
+    for (uint64_t y = sample.y; y < y1; ++y)
+      for (uint64_t x = sample.x; x < x1; ++x) write(y * frame_.row_pixels + x);
+  }
+
+  void write_data(const Pass& pass, const Batch& batch) const {
+    for (size_t i = 0; i < batch.hits.size(); ++i) {
+      const RayHit& hit = batch.hits[i];
+      const Seen& seen = batch.seen[i];
+      for_block(pass, batch.samples[i], [&](uint64_t pixel) {
+        if (frame_.depth) frame_.depth[pixel] = static_cast<float>(seen.depth);
+        if (frame_.scale) frame_.scale[pixel] = hit.scale;
+        if (frame_.material) frame_.material[pixel] = seen.material;
+        if (!frame_.normal) return;
+        for (int axis = 0; axis < 3; ++axis)
+          frame_.normal[3 * pixel + static_cast<uint64_t>(axis)] =
+              static_cast<float>(hit.normal[axis]);
+      });
+    }
+  }
+
+  void write_colour(const Pass& pass, uint32_t x0, uint32_t y0, Batch& batch) const {
+    shader_.shade(batch.seen, batch.hits, batch.colours, job_);
+    const uint32_t n = pass.samples, pixels = square_side(n), side = pixels * n;
+    if (n == 1) {
+      for (size_t i = 0; i < batch.colours.size(); ++i) {
+        uint8_t rgba[4];
+        write_rgba(batch.colours[i], rgba);
+        for_block(pass, batch.samples[i],
+                  [&](uint64_t pixel) { std::copy_n(rgba, 4, frame_.rgba + 4 * pixel); });
+      }
+      return;
+    }
+    std::vector<Colour> square(uint64_t{side} * side);
+    for (size_t i = 0; i < batch.colours.size(); ++i)
+      square[batch.samples[i].place] = batch.colours[i];
+    const uint32_t x1 = std::min(plan_.tile_width, x0 + pixels);
+    const uint32_t y1 = std::min(plan_.tile_height, y0 + pixels);
+    for (uint32_t y = y0; y < y1; ++y)
+      for (uint32_t x = x0; x < x1; ++x) {
+        // In the order of the samples in their pixel, wherever the tile lies.
+        Colour sum;
+        for (uint32_t v = 0; v < n; ++v)
+          for (uint32_t u = 0; u < n; ++u)
+            sum = sum + square[((y - y0) * n + v) * side + (x - x0) * n + u];
+        write_rgba(sum * (1.0f / static_cast<float>(n * n)),
+                   frame_.rgba + 4 * (y * frame_.row_pixels + x));
+      }
+  }
+
+  const Model& model_;
+  const Scales& resolved_;
+  const View& view_;
+  const RenderPlan& plan_;
+  const Frame& frame_;
+  Job* const job_;
+  const Shader shader_;
+  uint64_t all_rays_ = 0, rays_done_ = 0;
+};
+
+}  // namespace
+
+void render(const Model& model, const Scales& resolved, const View& view, const RenderPlan& plan,
+            const Frame& frame, const std::function<void(const RenderPass&)>& on_pass, Job* job) {
+  JobScope scope(job);
+  Renderer(model, resolved, view, plan, frame, job).run(on_pass);
+  scope.done();
+}
+
+}  // namespace msq

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of a model: what the rays of a camera see, tile by tile and pass by pass.
+#pragma once
+
+#include <functional>
+
+#include "base/job.h"
+#include "ray/camera.h"
+#include "ray/shade.h"
+
+namespace msq {
+
+/// Where the pixels of a tile go, each kind if it is not null: pixel (i, j), j from the top down,
+/// at j * row_pixels + i. As msq_frame in msq.h.
+struct Frame {
+  uint64_t row_pixels = 0;
+  float* depth = nullptr;
+  float* normal = nullptr;
+  int32_t* scale = nullptr;
+  uint32_t* material = nullptr;
+  uint8_t* rgba = nullptr;
+
+  bool has_data() const { return depth || normal || scale || material; }
+};
+
+struct RenderPlan {
+  uint32_t tile_x = 0, tile_y = 0, tile_width = 0, tile_height = 0;  ///< within the view's pixels
+  uint32_t samples = 1;     ///< along each side of a pixel, of colour
+  uint32_t first_step = 1;  ///< a power of two
+  Shading shading;
+};
+
+struct RenderPass {
+  uint32_t step = 1;     ///< pixels along each side of the blocks of which one has a ray
+  uint32_t samples = 1;  ///< along each side of a pixel
+  bool is_last = false;
+};
+
+/// Fills the frame. on_pass, which may be null, is called after each pass on the calling thread; if
+/// it is null there is but one step. The last pass leaves the same bits whatever came before it.
+void render(const Model& model, const Scales& resolved, const View& view, const RenderPlan& plan,
+            const Frame& frame, const std::function<void(const RenderPass&)>& on_pass, Job* job);
+
+}  // namespace msq

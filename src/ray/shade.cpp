@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ray/shade.h"
+
+#include <numbers>
+
+#include "base/random.h"
+
+namespace msq {
+
+namespace {
+
+/// Rays from a surface begin so many tolerances above it.
+constexpr double lift = 4096;
+constexpr size_t rays_at_once = 1024;
+
+/// In [0, 1).
+double fraction_of(uint64_t random) {
+  return static_cast<double>(random >> 11) * 0x1p-53;
+}
+
+double wrapped(double x) {
+  return x - std::floor(x);
+}
+
+/// Two unit vectors normal to a unit vector and to each other.
+/// Source: Duff et al., "Building an orthonormal basis, revisited", JCGT 6(1), 2017.
+void complete_basis(Vec3 n, Vec3& a, Vec3& b) {
+  const double sign = std::copysign(1.0, n.z);
+  const double f = -1 / (sign + n.z), g = n.x * n.y * f;
+  a = {1 + sign * n.x * n.x * f, sign * g, -sign * n.x};
+  b = {g, sign + n.y * n.y * f, -n.y};
+}
+
+/// Directions about a normal, as dense as their cosine with it: point `index` of `count` of a
+/// lattice of rank 1 (its second number by the golden ratio), moved as a whole by the key's random
+/// numbers (Cranley and Patterson 1976) and projected from the disc upwards (Malley's method).
+struct Directions {
+  Directions(Vec3 normal, uint64_t key, uint32_t count)
+      : normal(normal),
+        first(fraction_of(splitmix_output(key, 1))),
+        second(fraction_of(splitmix_output(key, 2))),
+        part(1.0 / count) {
+    complete_basis(normal, a, b);
+  }
+  Vec3 operator[](uint32_t index) const {
+    constexpr double golden = 0.6180339887498949;
+    const double u = wrapped(first + index * part), v = wrapped(second + index * golden);
+    const double angle = 2 * std::numbers::pi * v, across = std::sqrt(u);
+    return a * (across * std::cos(angle)) + b * (across * std::sin(angle)) +
+           normal * std::sqrt(1 - u);
+  }
+
+  Vec3 normal, a, b;
+  double first, second, part;
+};
+
+}  // namespace
+
+Shader::Shader(const Model& model, const Scales& resolved, const View& view, const Shading& shading)
+    : model_(model), resolved_(resolved), view_(view), shading_(shading) {
+  const Vec3 light = view.right() * shading.light.x + view.up() * shading.light.y -
+                     view.forward() * shading.light.z;
+  light_ = light * (1 / length(light));
+  reach_ = shading.occlusion_distance > 0 ? shading.occlusion_distance
+                                          : 0.1 * length(model.bounds().extent());
+  offsets_.push_back(lift * model.shape().ray_tolerance());
+  for (const Scale* scale : resolved) offsets_.push_back(lift * scale->structure->ray_tolerance());
+}
+
+Vec3 Shader::base_colour(const RayHit& hit, uint32_t material) const {
+  const std::vector<Vec3>& colours = shading_.colours;
+  switch (shading_.colour_by) {
+    case ColourBy::normal:
+      return (hit.normal + Vec3{1, 1, 1}) * 0.5;
+    case ColourBy::scale:
+      return colours[static_cast<size_t>(hit.scale) % colours.size()];
+    case ColourBy::material:
+      return colours[material % colours.size()];
+    default:
+      return colours[0];
+  }
+}
+
+// What the camera's planes cut away is not in the way of light either.
+RaySearch Shader::search_from(const Seen& seen, const RayHit& hit, Vec3 direction,
+                              double reach) const {
+  const Camera& camera = view_.camera();
+  const double offset = offsets_[static_cast<size_t>(hit.scale)];
+  RaySearch search;
+  search.ray = {hit.point + hit.normal * offset, direction};
+  search.to = reach;
+  const double along = dot(direction, view_.forward());
+  const double depth = seen.depth + offset * dot(hit.normal, view_.forward());
+  if (along < 0) {
+    search.to = hit.starts_inside ? -1 : std::min(reach, (camera.clip_near - depth) / along);
+  } else if (along > 0) {
+    search.from = std::max(0.0, (camera.clip_near - depth) / along);
+    search.to = std::min(reach, (camera.clip_far - depth) / along);
+  }
+  return search;
+}
+
+void Shader::find_lit(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
+                      std::vector<uint8_t>& lit, const Job* job) const {
+  std::vector<size_t> asked;
+  std::vector<RaySearch> searches;
+  for (size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].scale < 0 || !(dot(hits[i].normal, light_) > 0)) continue;
+    asked.push_back(i);
+    searches.push_back(
+        search_from(seen[i], hits[i], light_, std::numeric_limits<double>::infinity()));
+  }
+  std::vector<RayHit> found;
+  cast_batch(model_, resolved_, searches, found, job);
+  for (size_t n = 0; n < asked.size(); ++n) lit[asked[n]] = found[n].scale < 0;
+}
+
+void Shader::find_open(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
+                       std::vector<float>& open, const Job* job) const {
+  const uint32_t count = shading_.occlusion_rays;
+  const float part = 1.0f / static_cast<float>(count);
+  std::vector<size_t> asked;
+  std::vector<RaySearch> searches;
+  std::vector<RayHit> found;
+  const auto cast = [&] {
+    cast_batch(model_, resolved_, searches, found, job);
+    for (size_t n = 0; n < asked.size(); ++n)
+      if (found[n].scale >= 0) open[asked[n]] -= part;
+    asked.clear();
+    searches.clear();
+  };
+  for (size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].scale < 0) continue;
+    const Directions directions(hits[i].normal, splitmix_finalise(seen[i].key), count);
+    for (uint32_t k = 0; k < count; ++k) {
+      asked.push_back(i);
+      searches.push_back(search_from(seen[i], hits[i], directions[k], reach_));
+    }
+    if (searches.size() >= rays_at_once) cast();
+  }
+  cast();
+}
+
+void Shader::shade(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
+                   std::vector<Colour>& colours, const Job* job) const {
+  std::vector<uint8_t> lit(hits.size(), 1);
+  std::vector<float> open(hits.size(), 1);
+  if (shading_.has_shadows) find_lit(seen, hits, lit, job);
+  if (shading_.occlusion_rays > 0) find_open(seen, hits, open, job);
+  colours.resize(hits.size());
+  for (size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].scale < 0) {
+      colours[i] = shading_.background;
+      continue;
+    }
+    const double facing = lit[i] ? std::max(0.0, dot(hits[i].normal, light_)) : 0;
+    const double light =
+        shading_.ambient * std::max(0.0f, open[i]) + (1 - shading_.ambient) * facing;
+    colours[i] = colour_of(base_colour(hits[i], seen[i].material) * light);
+  }
+}
+
+}  // namespace msq
