@@ -17,7 +17,7 @@ NOT_NEEDED.update({name: "Python counts its own references" for name in _abi.FUN
 NOT_YET = {"msq_camera_fit", "msq_camera_init", "msq_camera_ray", "msq_frame_init", "msq_render",
            "msq_render_def_init"}
 NOT_YET |= {f"msq_render_def.{label}" for label, _ in _abi.msq_render_def._fields_
-            if label not in ("struct_size", "width", "height")}
+            if label not in ("struct_size", "width", "height", "samples")}
 
 REPORTS = {"msq_build_report": msq.BuildInfo, "msq_memory_report": msq.MemoryInfo,
            "msq_cache_report": msq.CacheInfo, "msq_shape_report": msq.ShapeInfo,
