@@ -12,12 +12,14 @@ docs/concepts.md of msq; msq.h says the rest. Objects are immutable, and any thr
 calls let other Python threads run. Failures are exceptions with the library's message: see Error.
 """
 from ._host import HostPoints
+from .camera import Camera
 from .context import (BuildInfo, CacheInfo, Context, Job, JobInfo, MemoryInfo, build_info)
 from .errors import (ArgumentError, CancelledError, Error, FileError, HostError, InternalError,
                      LimitError, MeshError, OutOfMemoryError, UnsupportedError)
 from .field import Field, Param
 from .material import Material
 from .model import Model, Scale
+from .picture import Picture, RenderPass
 from .points import PointGrid, PointSet, Stratified
 from .shape import Shape, ShapeInfo
 from .slicer import Layer, Slicer
@@ -29,10 +31,11 @@ from .unit_cell import UnitCell, UnitCellInfo
 __version__ = "0.1.0"
 
 __all__ = [
-    "ArgumentError", "BuildInfo", "CacheInfo", "Calibration", "CancelledError", "Context", "Error",
-    "Estimate", "Field", "FileError", "Foam", "Functional", "HostError", "HostFunctional",
+    "ArgumentError", "BuildInfo", "CacheInfo", "Calibration", "Camera", "CancelledError", "Context",
+    "Error", "Estimate", "Field", "FileError", "Foam", "Functional", "HostError", "HostFunctional",
     "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice", "LatticeFaces",
     "Layer", "LimitError", "Material", "MemoryInfo", "MeshError", "Model", "OutOfMemoryError",
-    "Param", "PointGrid", "PointSet", "Scale", "Shape", "ShapeInfo", "Slicer", "Stratified",
-    "Structure", "UnitCell", "UnitCellInfo", "UnsupportedError", "build_info",
+    "Param", "Picture", "PointGrid", "PointSet", "RenderPass", "Scale", "Shape", "ShapeInfo",
+    "Slicer", "Stratified", "Structure", "UnitCell", "UnitCellInfo", "UnsupportedError",
+    "build_info",
 ]

@@ -8,15 +8,17 @@ from typing import Any, Callable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from . import _abi, statistics
+from . import _abi, picture, statistics
 from ._arrays import output, pointer, triples
 from ._handle import Handle
 from ._interrupt import interruptible
 from ._library import defaults, lib
 from ._signals import held
+from .camera import Camera
 from .context import Context, Job, context_of, doubles, unsigned
 from .field import Param, set_param
 from .material import Material, encoded, pointer_of
+from .picture import Picture, RenderPass
 from .points import PointSet, Stratified, definition_of, query_of
 from .shape import Shape
 from .slicer import Slicer
@@ -162,8 +164,8 @@ class Model(Handle):
 
         origins, directions: arrays (..., 3) of one dtype, float32 or float64, read where they lie.
         t_min, t_max: numbers or arrays of shape (...); None: 0 and infinity. Returns a record array
-        of shape (...): t (infinity in a miss), normal, scale (-1 in a miss), starts_inside and
-        cell.
+        of shape (...): t (infinity in a miss), normal, scale (-1 in a miss), starts_inside, cell
+        and material (its id, 0 where there is none).
         """
         starts, ways = triples(origins, "origins"), triples(directions, "directions")
         if starts.shape != ways.shape or starts.coordinate_type != ways.coordinate_type:
@@ -189,6 +191,34 @@ class Model(Handle):
             hits.ctypes.data_as(ctypes.POINTER(_abi.msq_ray_hit)), starts.count, work), job,
             starts.count >= _LONG)
         return hits.view(np.recarray)
+
+    def render(self, camera: Optional[Camera] = None, width: int = 800, height: int = 600, *,
+               outputs: Sequence[str] = ("rgba",), tile: Optional[Sequence[int]] = None,
+               samples: int = 1, first_step: int = 1, colour_by: str = "plain",
+               colours: Any = None, background: Sequence[float] = (0, 0, 0, 0), light: Any = None,
+               ambient: Optional[float] = None, shadows: bool = False, occlusion_rays: int = 0,
+               occlusion_distance: float = 0.0, length_scale: float = 0.0,
+               on_pass: Optional[Callable[[Picture, RenderPass], Any]] = None,
+               out: Optional[Picture] = None, job: Optional[Job] = None) -> Picture:
+        """What a camera sees of the model, in a picture of width x height pixels.
+
+            picture = model.render(width=1024, height=1024, samples=3, occlusion_rays=16)
+
+        camera: None: Camera.fit(model, width, height). outputs: `depth`, `normal`, `scale`,
+        `material` and `rgba`, of the ray through the middle of each pixel; rgba is the mean of
+        samples x samples rays. tile: (x, y, width, height) of the part to render, which is as that
+        of the whole. colour_by: `plain`, `scale`, `material` or `normal`; colours: (n, 3), linear,
+        0 to 1. background: red, green, blue, linear, and opacity. light: the direction to it: right,
+        up, towards the eye; ambient: the part of it from all around, less what occlusion_rays that
+        reach occlusion_distance meet; shadows: of the rest. None: as msq has it. on_pass(picture,
+        pass): called after each pass, first_step (64, 32 .. 1) pixels a ray and finer; it stops by
+        returning False. out: a picture whose arrays to write to. length_scale, job: as in contains.
+        """
+        definition, keep = picture.make_definition(
+            width, height, tile, samples, first_step, colour_by, colours, background, light,
+            ambient, shadows, occlusion_rays, occlusion_distance)
+        return picture.render(self, camera, definition, keep, outputs, length_scale, on_pass, out,
+                              job)
 
     def volume_fraction(self, sample: Stratified, *, phase: str = "solid",
                         length_scale: float = 0.0, job: Optional[Job] = None) -> Estimate:
