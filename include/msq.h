@@ -119,15 +119,25 @@ MSQ_API msq_status msq_build_info(msq_build_report *report);
 typedef struct msq_context msq_context; /* threads, cell cache and memory limit that objects share */
 typedef struct msq_job msq_job;         /* one long call: its progress, and the means to cancel it */
 
+/* Which cached cells make room for others; those that a call is using are passed over. */
+enum {
+  MSQ_CACHE_FIFO = 0,         /* the oldest */
+  MSQ_CACHE_SECOND_CHANCE = 1 /* the oldest that was not asked for again since it came or was last
+                                 spared (CLOCK) */
+};
+
 typedef struct msq_context_def {
   uint32_t struct_size;
   uint32_t threads;      /* threads of a call, the caller's included; 0 (default) and more than the
                             machine has: one a core; 1: the calling thread alone */
-  uint64_t cache_bytes;  /* limit of the FIFO cache of cell data (default 1 GiB); 0: no cache. Same
+  uint64_t cache_bytes;  /* limit of the cache of cell data (default 1 GiB); 0: no cache. Same
                             results at any size. */
   uint64_t memory_limit; /* bytes that meshes, images, slabs, cached cells and the reading of files (8 times
                             the file's size) may hold at once; cached cells give way to the rest.
                             0 (default): no limit */
+  int32_t cache_policy;  /* MSQ_CACHE_*; default FIFO. Same results by either; they differ where the
+                            cache is smaller than what a call comes back to (docs/benchmarks.md). */
+  uint32_t reserved;     /* 0 */
 } msq_context_def;
 
 /* Sets defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */
@@ -153,11 +163,19 @@ typedef struct msq_cache_report {
   uint32_t struct_size;
   uint32_t reserved; /* 0 */
   uint64_t hits, misses, evictions; /* of cells */
-  uint64_t bytes;                   /* held now; never above limit_bytes */
+  uint64_t bytes;                   /* held now, by cells and for cells that are being built; never
+                                       above limit_bytes */
   uint64_t peak_bytes, limit_bytes;
+  uint64_t building_bytes;          /* of bytes: set aside for cells that are being built */
+  uint64_t cells;                   /* held now */
+  uint64_t duplicates;              /* of misses: two threads built the cell at once */
+  uint64_t unkept;                  /* of misses: no room was found, and the cell served one caller */
 } msq_cache_report;
 
-/* Counters of the cell cache since the context was made. Any thread, at any time.
+/* Counters of the cell cache since the context was made. Any thread, at any time. Room for a cell is
+ * set aside before it is built, as much as cells of its structure lately took; one that turns out
+ * larger is counted in full from then on. Not counted: what builders work with, unkept cells, and
+ * cells that a call uses while msq_cache_clear or a memory_limit drops them.
  * Errors: ARGUMENT. Source: paper, section "Set Queries for Ray-Casting" (FIFO cache). */
 MSQ_API msq_status msq_cache_stats(const msq_context *context, msq_cache_report *report);
 

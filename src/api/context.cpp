@@ -6,6 +6,9 @@ using namespace msq::api;
 
 namespace {
 
+static_assert(static_cast<int>(CachePolicy::fifo) == MSQ_CACHE_FIFO);
+static_assert(static_cast<int>(CachePolicy::second_chance) == MSQ_CACHE_SECOND_CHANCE);
+
 msq_context_def context_defaults() {
   msq_context_def def{};
   def.cache_bytes = uint64_t{1} << 30;
@@ -23,8 +26,12 @@ msq_status msq_context_create(const msq_context_def* def, msq_context** context)
     require(context, "context");
     const msq_context_def known =
         def ? read_def(def, context_defaults(), "def") : context_defaults();
-    *context = new_handle<msq_context>(
-        make_ref<Context>(known.threads, known.cache_bytes, known.memory_limit));
+    const int32_t policy =
+        require_range(known.cache_policy, MSQ_CACHE_FIFO, MSQ_CACHE_SECOND_CHANCE, "cache_policy");
+    require_reserved(known.reserved, "reserved");
+    *context = new_handle<msq_context>(make_ref<Context>(known.threads, known.cache_bytes,
+                                                         known.memory_limit, false,
+                                                         static_cast<CachePolicy>(policy)));
   });
 }
 
@@ -57,6 +64,10 @@ msq_status msq_cache_stats(const msq_context* context, msq_cache_report* report)
     known.bytes = counters.bytes;
     known.peak_bytes = counters.peak_bytes;
     known.limit_bytes = cache.limit();
+    known.building_bytes = counters.building_bytes;
+    known.cells = counters.cells;
+    known.duplicates = counters.duplicates;
+    known.unkept = counters.unkept;
     write_report(report, known, "report");
   });
 }

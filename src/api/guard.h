@@ -106,6 +106,10 @@ inline PointArray point_array(const void* data, uint64_t count, uint64_t stride,
 template <class T>
 inline constexpr size_t first_size = sizeof(T);
 template <>
+inline constexpr size_t first_size<msq_context_def> = offsetof(msq_context_def, cache_policy);
+template <>
+inline constexpr size_t first_size<msq_cache_report> = offsetof(msq_cache_report, building_bytes);
+template <>
 inline constexpr size_t first_size<msq_foam_def> = offsetof(msq_foam_def, density);
 template <>
 inline constexpr size_t first_size<msq_lattice_def> = offsetof(msq_lattice_def, strut_factors);

@@ -8,94 +8,224 @@
 namespace msq {
 
 namespace {
-// Hash node, key, queue slot and shared_ptr block of one entry, rounded up.
-constexpr uint64_t entry_overhead = 192;
+// Hash node, queue node and shared_ptr block of one entry, rounded up.
+constexpr uint64_t entry_overhead = 256;
 }  // namespace
 
-size_t CellCache::KeyHash::operator()(const Key& key) const {
-  const uint64_t yz = static_cast<uint32_t>(key.cell.y) |
-                      static_cast<uint64_t>(static_cast<uint32_t>(key.cell.z)) << 32;
-  return splitmix_output(splitmix_finalise(yz) ^ key.structure, static_cast<uint32_t>(key.cell.x));
+/// What a builder has set aside. Others may take it back until the cell is kept.
+class CellCache::Room {
+ public:
+  Room(CellCache& cache, const Key& key, uint64_t expected_bytes) : cache_(cache) {
+    std::lock_guard lock(cache_.mutex_);
+    const auto known = cache_.expected_.find(key.structure);
+    const uint64_t expected = known != cache_.expected_.end() ? known->second
+                              : expected_bytes                ? expected_bytes + entry_overhead
+                                                              : 0;
+    const uint64_t wanted = std::min(expected, cache_.limit_);
+    cache_.rooms_.push_back(this);
+    if (cache_.make_room(wanted)) bytes_ = wanted;
+  }
+  ~Room() {
+    std::lock_guard lock(cache_.mutex_);
+    give_back();
+    std::erase(cache_.rooms_, this);
+  }
+  Room(const Room&) = delete;
+  Room& operator=(const Room&) = delete;
+
+  // With the cache's mutex held:
+
+  uint64_t bytes() const { return bytes_; }
+  void give_back() {
+    cache_.counters_.building_bytes -= bytes_;
+    cache_.give_back(bytes_);
+    bytes_ = 0;
+  }
+  /// Makes it so large; on failure it is as it was.
+  bool resize(uint64_t bytes) {
+    if (bytes > bytes_) {
+      if (!cache_.make_room(bytes - bytes_)) return false;
+    } else {
+      cache_.counters_.building_bytes -= bytes_ - bytes;
+      cache_.give_back(bytes_ - bytes);
+    }
+    bytes_ = bytes;
+    return true;
+  }
+  /// Its bytes are those of a kept cell from now on.
+  void become_kept() {
+    cache_.counters_.building_bytes -= bytes_;
+    bytes_ = 0;
+  }
+
+ private:
+  CellCache& cache_;
+  uint64_t bytes_ = 0;
+};
+
+CellCache::Key::Key(uint64_t of_structure, CellIndex of_cell)
+    : structure(of_structure), cell(of_cell) {
+  const uint64_t yz =
+      static_cast<uint32_t>(cell.y) | static_cast<uint64_t>(static_cast<uint32_t>(cell.z)) << 32;
+  hash = splitmix_output(splitmix_finalise(yz) ^ structure, static_cast<uint32_t>(cell.x));
 }
 
-std::shared_ptr<const CellData> CellCache::fetch(
-    uint64_t structure, CellIndex cell,
-    const std::function<std::shared_ptr<const CellData>()>& build) {
-  const Key key{structure, cell};
-  {
-    std::lock_guard lock(mutex_);
-    if (const auto found = entries_.find(key); found != entries_.end()) {
-      ++counters_.hits;
-      return found->second.data;
-    }
-    ++counters_.misses;
-  }
-  std::shared_ptr<const CellData> data = build();
-  const uint64_t bytes = data->bytes() + entry_overhead;
-  if (bytes > limit_) return data;
+CellCache::CellCache(uint64_t limit, std::shared_ptr<MemoryBudget> budget, CachePolicy policy)
+    : limit_(limit), budget_(std::move(budget)), policy_(policy) {}
 
-  std::lock_guard lock(mutex_);
-  if (const auto found = entries_.find(key); found != entries_.end()) return found->second.data;
-  // If not even an empty cache would make room for it, the cells at hand are worth more.
-  const uint64_t others = budget_->held() - std::min(budget_->held(), counters_.bytes);
-  if (budget_->limit() && others + bytes > budget_->limit()) return data;
-  while (counters_.bytes > limit_ - bytes) evict_oldest();
-  while (!budget_->try_take(bytes)) {
-    if (order_.empty()) return data;
-    evict_oldest();
+CellCache::Data CellCache::find(const Key& key) {
+  Part& part = part_of(key);
+  std::shared_lock lock(part.mutex);
+  const auto found = part.table.find(key);
+  if (found == part.table.end()) {
+    part.misses.fetch_add(1, std::memory_order_relaxed);
+    return nullptr;
   }
+  part.hits.fetch_add(1, std::memory_order_relaxed);
+  Entry& entry = *found->second;
+  // Stored once: a line that is only read stays in all cores' caches.
+  if (!entry.is_fetched_again.load(std::memory_order_relaxed))
+    entry.is_fetched_again.store(true, std::memory_order_relaxed);
+  if (observer_) observer_(key.structure, key.cell, entry.bytes);
+  return entry.data;
+}
+
+CellCache::Data CellCache::add(const Key& key, uint64_t expected_bytes,
+                               const std::function<Data()>& build) {
+  Room room(*this, key, expected_bytes);
+  Data data = build();
+  const uint64_t bytes = data->bytes() + entry_overhead;
+  if (observer_) observer_(key.structure, key.cell, bytes);
+  std::lock_guard lock(mutex_);
+  return keep(key, std::move(data), bytes, room);
+}
+
+CellCache::Data CellCache::keep(const Key& key, Data data, uint64_t bytes, Room& room) {
+  Part& part = part_of(key);
+  if (const auto found = part.table.find(key); found != part.table.end()) {
+    ++counters_.duplicates;
+    data.reset();  // before the room for it goes back
+    return found->second->data;
+  }
+  if (bytes <= limit_) learn(key.structure, bytes);
+  if (bytes > limit_ || !room.resize(bytes)) {
+    ++counters_.unkept;
+    return data;
+  }
+  const auto entry = queue_.emplace(queue_.end(), key, data, bytes);
   try {
-    entries_.emplace(key, Entry{data, bytes});
-    order_.push_back(key);
+    std::lock_guard lock(part.mutex);
+    part.table.emplace(key, entry);
   } catch (...) {
-    entries_.erase(key);
-    budget_->give_back(bytes);
+    queue_.erase(entry);
     throw;
   }
-  counters_.bytes += bytes;
-  counters_.peak_bytes = std::max(counters_.peak_bytes, counters_.bytes);
+  room.become_kept();
+  ++counters_.cells;
   return data;
 }
 
-void CellCache::evict_oldest() {
-  const auto found = entries_.find(order_.front());
-  counters_.bytes -= found->second.bytes;
-  budget_->give_back(found->second.bytes);
-  ++counters_.evictions;
-  entries_.erase(found);
-  order_.pop_front();
+/// Up at once, down by and by: rooms are nearly always large enough, and one huge cell does not
+/// make the others of its structure push out many for good.
+void CellCache::learn(uint64_t structure, uint64_t bytes) {
+  uint64_t& expected = expected_[structure];
+  expected = bytes >= expected ? bytes : expected - (expected - bytes) / 16;
+}
+
+/// Counts so many bytes more, as being built, once others are out of the way. Where even an empty
+/// cache would have no room nothing is evicted: the cells at hand are worth more.
+bool CellCache::make_room(uint64_t bytes) {
+  Counters& c = counters_;
+  if (bytes == 0) return true;
+  if (bytes > limit_ - c.building_bytes) return false;
+  const uint64_t others = budget_->held() - std::min(budget_->held(), c.bytes);
+  if (budget_->limit() && others + c.building_bytes + bytes > budget_->limit()) return false;
+  while (c.bytes > limit_ - bytes)
+    if (!evict()) return false;
+  while (!budget_->try_take(bytes))
+    if (!evict()) return false;
+  c.bytes += bytes;
+  c.building_bytes += bytes;
+  c.peak_bytes = std::max(c.peak_bytes, c.bytes);
+  return true;
+}
+
+/// Evicts the first in the queue whose turn it is. Those that are in use or have a second chance go
+/// to its end, so that they are not looked at time and again.
+bool CellCache::evict() {
+  for (size_t looks = 2 * queue_.size(); looks > 0; --looks) {
+    const auto first = queue_.begin();
+    const bool has_chance = policy_ == CachePolicy::second_chance &&
+                            first->is_fetched_again.exchange(false, std::memory_order_relaxed);
+    if (!has_chance && remove(first, false)) {
+      ++counters_.evictions;
+      return true;
+    }
+    queue_.splice(queue_.end(), queue_, first);
+  }
+  return false;
+}
+
+bool CellCache::remove(Queue::iterator entry, bool even_in_use) {
+  // Others may let go of the cell at any time; another use begins only in find(), under the lock.
+  const auto is_in_use = [&] { return !even_in_use && entry->data.use_count() > 1; };
+  if (is_in_use()) return false;
+  Part& part = part_of(entry->key);
+  {
+    std::lock_guard lock(part.mutex);
+    if (is_in_use()) return false;
+    part.table.erase(entry->key);
+  }
+  const uint64_t bytes = entry->bytes;
+  queue_.erase(entry);
+  --counters_.cells;
+  give_back(bytes);
+  return true;
+}
+
+void CellCache::give_back(uint64_t bytes) {
+  counters_.bytes -= bytes;
+  budget_->give_back(bytes);
 }
 
 bool CellCache::drop_oldest() {
   std::lock_guard lock(mutex_);
-  if (order_.empty()) return false;
-  evict_oldest();
-  return true;
+  if (evict()) return true;
+  if (!queue_.empty()) {
+    ++counters_.evictions;
+    return remove(queue_.begin(), true);
+  }
+  for (Room* room : rooms_)
+    if (room->bytes() > 0) {
+      room->give_back();
+      return true;
+    }
+  return false;
 }
 
 void CellCache::drop(uint64_t structure) {
   std::lock_guard lock(mutex_);
-  std::erase_if(order_, [&](const Key& key) {
-    if (key.structure != structure) return false;
-    const auto found = entries_.find(key);
-    counters_.bytes -= found->second.bytes;
-    budget_->give_back(found->second.bytes);
-    entries_.erase(found);
-    return true;
-  });
+  for (auto entry = queue_.begin(); entry != queue_.end();) {
+    const auto next = std::next(entry);
+    if (entry->key.structure == structure) remove(entry, true);
+    entry = next;
+  }
+  expected_.erase(structure);
 }
 
 void CellCache::clear() {
   std::lock_guard lock(mutex_);
-  budget_->give_back(counters_.bytes);
-  counters_.bytes = 0;
-  entries_.clear();
-  order_.clear();
+  while (!queue_.empty()) remove(queue_.begin(), true);
 }
 
 CellCache::Counters CellCache::counters() const {
   std::lock_guard lock(mutex_);
-  return counters_;
+  Counters counters = counters_;
+  for (const Part& part : parts_) {
+    counters.hits += part.hits.load(std::memory_order_relaxed);
+    counters.misses += part.misses.load(std::memory_order_relaxed);
+  }
+  return counters;
 }
 
 }  // namespace msq

@@ -14,10 +14,11 @@ namespace msq {
 
 class Context : public RefCounted {
  public:
-  Context(unsigned threads, uint64_t cache_bytes, uint64_t memory_limit, bool beyond_cores = false)
+  Context(unsigned threads, uint64_t cache_bytes, uint64_t memory_limit, bool beyond_cores = false,
+          CachePolicy policy = CachePolicy::fifo)
       : executor(threads, beyond_cores),
         budget(std::make_shared<MemoryBudget>(memory_limit)),
-        cache(cache_bytes, budget) {
+        cache(cache_bytes, budget, policy) {
     // Cached cells make room for what a call must have, so that what a call can do does not depend
     // on the calls before it.
     budget->set_reserve([this] { return cache.drop_oldest(); });

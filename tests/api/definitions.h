@@ -91,9 +91,10 @@ static inline void check_def_sizes(const void* valid, size_t known, use_fn use, 
   check_grown_def_sizes(valid, known, known, use, env);
 }
 
-/* A report of `known` bytes, asked for with every struct_size. */
-static inline void check_report_sizes(size_t known, use_fn read, void* env) {
-  const uint32_t refused[] = {0, 4, sizeof(void*), (uint32_t)known - 1, 4097, UINT32_MAX};
+/* A report that has `known` bytes, and had `first` when it was published, asked for with every
+ * struct_size. */
+static inline void check_grown_report_sizes(size_t first, size_t known, use_fn read, void* env) {
+  const uint32_t refused[] = {0, 4, sizeof(void*), (uint32_t)first - 1, 4097, UINT32_MAX};
   struct_bytes all, report;
   assert_true(known + struct_tail <= struct_room);
   assert_refused(read(env, NULL), MSQ_E_ARGUMENT, "report is NULL");
@@ -108,15 +109,19 @@ static inline void check_report_sizes(size_t known, use_fn read, void* env) {
 
   all.struct_size = (uint32_t)known;
   assert_ok(read(env, &all));
-  for (size_t size = known; size <= known + struct_tail; ++size) {
+  for (size_t size = first; size <= known + struct_tail; ++size) {
+    const size_t shared = size < known ? size : known;
     memset(&report, struct_pattern, sizeof report);
     report.struct_size = (uint32_t)size;
     assert_ok(read(env, &report));
     assert_int_equal(report.struct_size, size);
-    assert_memory_equal(report.bytes + 4, all.bytes + 4, known - 4);
-    assert_filled(report.bytes + known, size - known, 0);
+    assert_memory_equal(report.bytes + 4, all.bytes + 4, shared - 4);
+    assert_filled(report.bytes + shared, size - shared, 0);
     assert_filled(report.bytes + size, sizeof report - size, struct_pattern);
   }
+}
+static inline void check_report_sizes(size_t known, use_fn read, void* env) {
+  check_grown_report_sizes(known, known, read, env);
 }
 
 #endif

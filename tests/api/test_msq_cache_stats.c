@@ -9,7 +9,8 @@ static msq_status read_stats(void* env, void* report) {
 static void report_has_every_struct_size(void** state) {
   msq_context* context = make_context();
   (void)state;
-  check_report_sizes(sizeof(msq_cache_report), read_stats, context);
+  check_grown_report_sizes(offsetof(msq_cache_report, building_bytes), sizeof(msq_cache_report),
+                           read_stats, context);
   msq_context_release(context);
 }
 
@@ -31,6 +32,7 @@ static void new_cache_is_empty(void** state) {
   assert_int_equal(report.bytes, 0);
   assert_int_equal(report.peak_bytes, 0);
   assert_int_equal(report.limit_bytes, 4096);
+  assert_int_equal(report.building_bytes + report.cells + report.duplicates + report.unkept, 0);
   msq_context_release(context);
 }
 
@@ -56,6 +58,9 @@ static layer_stack slice_foam(msq_context* context, int32_t method) {
 static void assert_within_limit(const msq_cache_report* report) {
   assert_true(report->bytes <= report->peak_bytes);
   assert_true(report->peak_bytes <= report->limit_bytes);
+  assert_int_equal(report->building_bytes, 0); /* no call is under way */
+  assert_int_equal(report->misses,
+                   report->cells + report->evictions + report->duplicates + report->unkept);
 }
 
 /* One method with a roomy cache, a small one and none: the same bytes, counters as they should. */
@@ -103,6 +108,7 @@ static void check_method(int32_t method) {
   assert_same_layers(&wanted, &got);
   assert_true(empty.misses > 0);
   assert_int_equal(empty.hits + empty.evictions + empty.bytes + empty.peak_bytes, 0);
+  assert_int_equal(empty.unkept, empty.misses);
   msq_context_release(none);
   free_stack(&got);
   free_stack(&wanted);
@@ -119,6 +125,81 @@ static void method_2_foam_is_the_same_at_any_cache_size(void** state) {
   check_method(MSQ_FOAM_METHOD_2);
 }
 #endif
+
+static msq_context* make_context_by(int32_t policy, uint64_t cache_bytes) {
+  msq_context_def def;
+  msq_context* context;
+  assert_ok(msq_context_def_init(&def, sizeof def));
+  def.threads = 2;
+  def.cache_bytes = cache_bytes;
+  def.cache_policy = policy;
+  assert_ok(msq_context_create(&def, &context));
+  return context;
+}
+
+enum { set_side = 40, ray_side = 24 };
+
+typedef struct answers {
+  uint8_t inside[set_side * set_side * set_side];
+  double distances[set_side * set_side];
+  msq_ray_hit hits[ray_side * ray_side];
+} answers;
+
+/* Points and rays of a foam, at a cache size and policy. */
+static void ask(int32_t method, int32_t policy, uint64_t cache_bytes, answers* got,
+                msq_cache_report* report) {
+  msq_context* context = make_context_by(policy, cache_bytes);
+  msq_model* model = make_wide_foam_model(context, method);
+  msq_points_def points = grid_points(0, 4, set_side);
+  double origins[ray_side * ray_side][3], directions[ray_side * ray_side][3];
+  msq_rays_def rays;
+  memset(got, 0, sizeof *got);
+  assert_ok(msq_set_membership(model, &points, NULL, got->inside, sizeof got->inside, NULL));
+  points.counts[2] = 1;
+  assert_ok(msq_set_distance(model, &points, NULL, got->distances, set_side * set_side, NULL));
+  for (int i = 0; i < ray_side * ray_side; ++i) {
+    const double u = i % ray_side * (8.0 / ray_side), v = i / ray_side * (4.0 / ray_side);
+    const double origin[3] = {u, -1, v}, direction[3] = {0.1, 1, 0.05 * (i % 5)};
+    memcpy(origins[i], origin, sizeof origin);
+    memcpy(directions[i], direction, sizeof direction);
+  }
+  assert_ok(msq_rays_def_init(&rays, sizeof rays));
+  rays.count = ray_side * ray_side;
+  rays.origins = origins;
+  rays.directions = directions;
+  assert_ok(msq_ray_cast(model, &rays, NULL, got->hits, rays.count, NULL));
+  *report = cache_of(context);
+  assert_within_limit(report);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+/* Sets, distances and rays, with room for all cells, for some and for none. */
+static void check_answers(int32_t method, int32_t first_policy) {
+  answers *wanted = (answers*)malloc(sizeof *wanted), *got = (answers*)malloc(sizeof *got);
+  msq_cache_report roomy, report;
+  ask(method, MSQ_CACHE_FIFO, (uint64_t)1 << 30, wanted, &roomy);
+  assert_true(roomy.misses > 0);
+  for (int32_t policy = first_policy; policy <= MSQ_CACHE_SECOND_CHANCE; ++policy) {
+    const uint64_t limits[] = {0, roomy.bytes / 3, roomy.bytes * 2 / 3};
+    for (size_t i = 0; i < sizeof limits / sizeof limits[0]; ++i) {
+      ask(method, policy, limits[i], got, &report);
+      assert_memory_equal(got, wanted, sizeof *got);
+      assert_true(report.misses >= roomy.misses - roomy.duplicates);
+    }
+  }
+  free(wanted);
+  free(got);
+}
+
+static void answers_are_the_same_at_any_cache_size(void** state) {
+  (void)state;
+  check_answers(MSQ_FOAM_DIRECT, MSQ_CACHE_FIFO);
+  check_answers(MSQ_FOAM_METHOD_1, MSQ_CACHE_SECOND_CHANCE);
+#if MSQ_WITH_CGAL
+  check_answers(MSQ_FOAM_METHOD_2, MSQ_CACHE_SECOND_CHANCE);
+#endif
+}
 
 static void foams_of_one_context_share_no_cells(void** state) {
   msq_context* context = make_context();
@@ -142,6 +223,7 @@ int main(void) {
 #if MSQ_WITH_CGAL
     cmocka_unit_test(method_2_foam_is_the_same_at_any_cache_size),
 #endif
+    cmocka_unit_test(answers_are_the_same_at_any_cache_size),
     cmocka_unit_test(foams_of_one_context_share_no_cells),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

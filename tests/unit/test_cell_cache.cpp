@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cell cache: first in, first out, never over its limit nor the memory limit, from many
-// threads.
+// The cell cache: which cell goes, who waits for whom, never over its limit nor the memory limit,
+// from many threads.
+#include <algorithm>
 #include <atomic>
+#include <future>
 #include <thread>
 #include <vector>
 
@@ -147,10 +149,233 @@ void test_failing_build(void**) {
   assert_true(fetch(cache, 1, {0, 0, 0}, 1));
 }
 
+void test_second_chance(void**) {
+  const uint64_t entry = entry_bytes(100);
+  CellCache cache(4 * entry, budget(), CachePolicy::second_chance);
+  for (int i = 0; i < 4; ++i) assert_true(fetch(cache, 1, {i, 0, 0}, 100));
+  assert_false(fetch(cache, 1, {0, 0, 0}, 100));
+  assert_false(fetch(cache, 1, {2, 0, 0}, 100));
+  assert_true(fetch(cache, 1, {4, 0, 0}, 100));  // spares 0, evicts 1
+  assert_true(fetch(cache, 1, {5, 0, 0}, 100));  // spares 2, evicts 3
+  assert_false(fetch(cache, 1, {0, 0, 0}, 100));
+  assert_false(fetch(cache, 1, {2, 0, 0}, 100));
+  assert_true(fetch(cache, 1, {1, 0, 0}, 100));  // evicts 4: of 4, 0, 5, 2 the oldest now
+  assert_false(fetch(cache, 1, {5, 0, 0}, 100));
+  // A chance is given once: all were fetched again but 1, which is the first to go, then 0.
+  assert_true(fetch(cache, 1, {6, 0, 0}, 100));
+  assert_true(fetch(cache, 1, {7, 0, 0}, 100));
+  assert_int_equal(cache.counters().cells, 4);
+  assert_int_equal(cache.counters().bytes, 4 * entry);
+}
+
+std::shared_ptr<const CellData> hold(CellCache& cache, CellIndex cell, uint64_t size) {
+  return cache.fetch(1, cell, [&] { return std::make_shared<const Data>(size, mark_of(1, cell)); });
+}
+
+void test_in_use(void**) {
+  const uint64_t entry = entry_bytes(100);
+  for (const CachePolicy policy : {CachePolicy::fifo, CachePolicy::second_chance}) {
+    CellCache cache(3 * entry, budget(), policy);
+    auto held = hold(cache, {0, 0, 0}, 100);
+    for (int i = 1; i < 4; ++i) assert_true(fetch(cache, 1, {i, 0, 0}, 100));
+    assert_false(fetch(cache, 1, {0, 0, 0}, 100));  // the oldest, but 1 went
+    assert_true(fetch(cache, 1, {1, 0, 0}, 100));
+    // All in use: what comes now is not kept.
+    const std::shared_ptr<const CellData> all[] = {hold(cache, {1, 0, 0}, 100),
+                                                   hold(cache, {3, 0, 0}, 100)};
+    const uint64_t unkept = cache.counters().unkept;
+    assert_true(fetch(cache, 1, {7, 0, 0}, 100));
+    assert_true(fetch(cache, 1, {7, 0, 0}, 100));
+    assert_int_equal(cache.counters().unkept, unkept + 2);
+    assert_int_equal(cache.counters().bytes, 3 * entry);
+    // But the rest of the context gets what it needs.
+    for (int i = 0; i < 3; ++i) assert_true(cache.drop_oldest());
+    assert_false(cache.drop_oldest());
+    assert_int_equal(cache.counters().bytes, 0);
+    assert_int_equal(cache.counters().cells, 0);
+    held.reset();
+    assert_true(fetch(cache, 1, {7, 0, 0}, 100));
+    assert_false(fetch(cache, 1, {7, 0, 0}, 100));
+  }
+}
+
+void test_room_while_building(void**) {
+  const uint64_t entry = entry_bytes(100);
+  const auto shared = budget();
+  CellCache cache(4 * entry, shared);
+  const auto expect_room = [&](CellIndex cell, uint64_t bytes, uint64_t size, uint64_t hint) {
+    bool is_asked = false;
+    cache.fetch(
+        1, cell,
+        [&] {
+          is_asked = true;
+          assert_int_equal(cache.counters().building_bytes, bytes);
+          assert_true(cache.counters().bytes >= bytes);
+          assert_true(cache.counters().bytes <= cache.limit());
+          assert_int_equal(cache.counters().bytes, shared->held());
+          return std::make_shared<const Data>(size, 0);
+        },
+        hint);
+    assert_true(is_asked);
+    assert_int_equal(cache.counters().building_bytes, 0);
+  };
+  expect_room({0, 0, 0}, entry, 150, 100);  // the caller's guess, while nothing is known
+  assert_int_equal(cache.counters().bytes, entry + 50);
+  expect_room({1, 0, 0}, entry + 50, 100, 100);  // then the cache's own
+  assert_int_equal(cache.counters().bytes, 2 * entry + 50);
+  expect_room({2, 0, 0}, entry + 50 - 50 / 16, 100, 100);  // a little less, since that was less
+  for (int i = 3; i < 9; ++i) assert_true(fetch(cache, 1, {i, 0, 0}, 100));
+  // Room is made before the cell is there.
+  cache.fetch(1, {20, 0, 0}, [&] {
+    assert_int_equal(cache.counters().cells, 3 - 1);
+    return std::make_shared<const Data>(100, 0);
+  });
+  assert_int_equal(cache.counters().cells, 3);
+  // Cells within cells, up to more than there is room for.
+  cache.fetch(1, {30, 0, 0}, [&] {
+    cache.fetch(1, {31, 0, 0}, [&] {
+      cache.fetch(1, {32, 0, 0}, [&] {
+        cache.fetch(1, {33, 0, 0}, [&] { return std::make_shared<const Data>(100, 0); });
+        return std::make_shared<const Data>(100, 0);
+      });
+      return std::make_shared<const Data>(100, 0);
+    });
+    return std::make_shared<const Data>(100, 0);
+  });
+  assert_true(cache.counters().bytes <= cache.limit());
+  assert_int_equal(cache.counters().building_bytes, 0);
+  // Whoever needs the memory takes the room, and the cell still comes.
+  assert_true(fetch(cache, 2, {0, 0, 0}, 50));
+  const auto data = cache.fetch(1, {40, 0, 0}, [&] {
+    while (cache.drop_oldest()) continue;
+    assert_int_equal(cache.counters().bytes, 0);
+    assert_int_equal(shared->held(), 0);
+    return std::make_shared<const Data>(100, 77);
+  });
+  assert_int_equal(static_cast<const Data&>(*data).mark, 77);
+  assert_int_equal(cache.counters().bytes, entry);
+  // Room goes back if the build fails.
+  try {
+    cache.fetch(1, {50, 0, 0}, [&]() -> std::shared_ptr<const CellData> {
+      assert_true(cache.counters().building_bytes > 0);
+      throw 5;
+    });
+  } catch (int) {
+  }
+  assert_int_equal(cache.counters().building_bytes, 0);
+  assert_int_equal(cache.counters().bytes, shared->held());
+}
+
+/// One huge cell does not make all later ones push out many for good.
+void test_room_shrinks(void**) {
+  const uint64_t entry = entry_bytes(100);
+  CellCache cache(40 * entry, budget());
+  assert_true(fetch(cache, 1, {0, 0, 0}, 39 * entry));
+  for (int i = 1; i < 200; ++i) fetch(cache, 1, {i, 0, 0}, 100);
+  assert_in_range(cache.counters().cells, 37, 40);
+}
+
+/// While a cell is built, other cells are found, built, dropped, and the same one is built again.
+void test_builders_bar_nobody(void**) {
+  CellCache cache(1 << 20, budget());
+  fetch(cache, 1, {1, 0, 0}, 10);
+  std::promise<void> begun, go_on;
+  const auto kept = std::async(std::launch::async, [&] {
+    return cache.fetch(1, {0, 0, 0}, [&] {
+      begun.set_value();
+      go_on.get_future().wait();
+      return std::make_shared<const Data>(10, 1);
+    });
+  });
+  begun.get_future().wait();
+  assert_false(fetch(cache, 1, {1, 0, 0}, 10));
+  assert_true(fetch(cache, 1, {2, 0, 0}, 10));
+  cache.drop(1);
+  assert_true(cache.counters().building_bytes > 0);
+  const auto first = cache.fetch(1, {0, 0, 0}, [] { return std::make_shared<const Data>(10, 2); });
+  assert_int_equal(cache.counters().duplicates, 0);
+  go_on.set_value();
+  kept.wait();
+  // The first to finish is kept, and is what both have from then on.
+  assert_int_equal(cache.counters().duplicates, 1);
+  const auto again = hold(cache, {0, 0, 0}, 10);
+  assert_ptr_equal(again.get(), first.get());
+  assert_int_equal(static_cast<const Data&>(*again).mark, 2);
+}
+
+/// Data that counts itself from before it is built until it is gone.
+struct CountedData final : CellData {
+  CountedData(uint64_t size, std::atomic<uint64_t>& alive, uint64_t counted)
+      : size(size), alive(alive), counted(counted) {}
+  ~CountedData() override { alive -= counted; }
+  uint64_t bytes() const override { return size; }
+  const uint64_t size;
+  std::atomic<uint64_t>& alive;
+  const uint64_t counted;
+};
+
+/// All cells that there are at any moment, under construction, kept or in use, are within the
+/// limit. Six threads that hold up to two cells each and build a third; a seventh watches.
+void check_all_within(CachePolicy policy) {
+  constexpr int threads = 6;
+  const uint64_t sizes[] = {100, 300, 700}, overhead = entry_bytes(100) - 100;
+  const uint64_t limit = 3 * threads * (700 + overhead) + 500;
+  const auto shared = budget();
+  CellCache cache(limit, shared, policy);
+  std::atomic<uint64_t> alive{0}, most{0}, over{0}, fetched{0};
+  std::atomic<bool> is_over{false};
+  std::thread watcher([&] {
+    while (!is_over) {
+      const CellCache::Counters c = cache.counters();
+      over += alive > limit || c.bytes > limit || c.building_bytes > c.bytes;
+      over += c.peak_bytes < c.bytes || c.peak_bytes > limit;
+    }
+  });
+  std::vector<std::thread> workers;
+  for (int t = 0; t < threads; ++t)
+    workers.emplace_back([&, t] {
+      Random random(t);
+      std::shared_ptr<const CellData> held[2];
+      for (size_t n = test_count(30000); n > 0; --n) {
+        const uint64_t kind = random.below(3), size = sizes[kind];
+        const CellIndex cell{static_cast<int32_t>(random.below(40)), 0, 0};
+        held[n % 2].reset();
+        held[n % 2] = cache.fetch(
+            kind, cell,
+            [&] {
+              const uint64_t counted = size + overhead, now = alive += counted;
+              if (now > limit) ++over;
+              for (uint64_t m = most; m < now && !most.compare_exchange_weak(m, now);) continue;
+              return std::make_shared<const CountedData>(size, alive, counted);
+            },
+            size);
+        over += static_cast<const CountedData&>(*held[n % 2]).size != size;
+        ++fetched;
+      }
+    });
+  for (std::thread& worker : workers) worker.join();
+  is_over = true;
+  watcher.join();
+  const CellCache::Counters c = cache.counters();
+  assert_int_equal(over.load(), 0);
+  assert_int_equal(c.unkept, 0);
+  assert_int_equal(c.hits + c.misses, fetched.load());
+  assert_int_equal(c.misses, c.cells + c.evictions + c.duplicates);
+  assert_int_equal(c.bytes, alive.load());
+  assert_int_equal(c.bytes, shared->held());
+  assert_true(c.hits > 0 && c.evictions > 0);
+  assert_true(most > limit * 9 / 10);
+}
+
+void test_all_within(void**) {
+  check_all_within(CachePolicy::fifo);
+  check_all_within(CachePolicy::second_chance);
+}
+
 /// Many threads under a cache limit and a memory limit, of which either binds.
-void check_threads(uint64_t limit, uint64_t memory_limit) {
+void check_threads(uint64_t limit, uint64_t memory_limit, CachePolicy policy) {
   const auto shared = budget(memory_limit);
-  CellCache cache(limit, shared);
+  CellCache cache(limit, shared, policy);
   std::atomic<uint64_t> wrong{0}, over{0}, fetched{0};
   std::vector<std::thread> threads;
   for (int t = 0; t < 6; ++t)
@@ -168,6 +393,8 @@ void check_threads(uint64_t limit, uint64_t memory_limit) {
         over += shared->held() > memory_limit;
         ++fetched;
         if (n % 1000 == 0) cache.clear();
+        if (n % 1000 == 500) cache.drop(structure);
+        if (n % 100 == 0) cache.drop_oldest();
       }
     });
   for (std::thread& thread : threads) thread.join();
@@ -181,16 +408,27 @@ void check_threads(uint64_t limit, uint64_t memory_limit) {
 
 void test_threads(void**) {
   const uint64_t limit = 20 * entry_bytes(100);
-  check_threads(limit, limit / 2);
-  check_threads(limit, 2 * limit);
+  for (const CachePolicy policy : {CachePolicy::fifo, CachePolicy::second_chance}) {
+    check_threads(limit, limit / 2, policy);
+    check_threads(limit, 2 * limit, policy);
+  }
 }
 
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_order),  cmocka_unit_test(test_drop),
-                              cmocka_unit_test(test_keys),   cmocka_unit_test(test_too_large),
-                              cmocka_unit_test(test_budget), cmocka_unit_test(test_failing_build),
+  const CMUnitTest tests[] = {cmocka_unit_test(test_order),
+                              cmocka_unit_test(test_second_chance),
+                              cmocka_unit_test(test_drop),
+                              cmocka_unit_test(test_keys),
+                              cmocka_unit_test(test_too_large),
+                              cmocka_unit_test(test_budget),
+                              cmocka_unit_test(test_failing_build),
+                              cmocka_unit_test(test_in_use),
+                              cmocka_unit_test(test_room_while_building),
+                              cmocka_unit_test(test_room_shrinks),
+                              cmocka_unit_test(test_builders_bar_nobody),
+                              cmocka_unit_test(test_all_within),
                               cmocka_unit_test(test_threads)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

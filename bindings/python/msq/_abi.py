@@ -17,6 +17,8 @@ MSQ_E_UNSUPPORTED = -6
 MSQ_E_MESH = -7
 MSQ_E_LIMIT = -8
 MSQ_E_INTERNAL = -9
+MSQ_CACHE_FIFO = 0
+MSQ_CACHE_SECOND_CHANCE = 1
 MSQ_WINDING_NONZERO = 0
 MSQ_WINDING_EVEN_ODD = 1
 MSQ_WINDING_POSITIVE = 2
@@ -120,7 +122,7 @@ class msq_build_report(Structure):
 
 class msq_context_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("threads", c_uint32), ("cache_bytes", c_uint64),
-                ("memory_limit", c_uint64)]
+                ("memory_limit", c_uint64), ("cache_policy", c_int32), ("reserved", c_uint32)]
 
 
 class msq_memory_report(Structure):
@@ -131,7 +133,8 @@ class msq_memory_report(Structure):
 class msq_cache_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("hits", c_uint64),
                 ("misses", c_uint64), ("evictions", c_uint64), ("bytes", c_uint64),
-                ("peak_bytes", c_uint64), ("limit_bytes", c_uint64)]
+                ("peak_bytes", c_uint64), ("limit_bytes", c_uint64), ("building_bytes", c_uint64),
+                ("cells", c_uint64), ("duplicates", c_uint64), ("unkept", c_uint64)]
 
 
 class msq_job_report(Structure):

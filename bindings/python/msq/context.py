@@ -11,7 +11,7 @@ from typing import Any, Optional, Tuple, Type, TypeVar
 
 from . import _abi
 from ._handle import Handle
-from ._library import defaults, lib, report
+from ._library import constant, defaults, lib, report
 
 RecordT = TypeVar("RecordT")
 
@@ -61,6 +61,10 @@ class CacheInfo:
     bytes: int
     peak_bytes: int
     limit_bytes: int
+    building_bytes: int  #: of bytes: set aside for cells that are being built
+    cells: int  #: held now
+    duplicates: int  #: of misses: two threads built the cell at once
+    unkept: int  #: of misses: no room was found, and the cell served one caller
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,7 +90,8 @@ class Context(Handle):
     """Threads, cell cache and memory limit that objects share.
 
     threads: of a call, the caller's included; 0: one a core. cache_bytes: of cell data, default
-    1 GiB. memory_limit: bytes that meshes, slabs and cached cells may hold; 0: no limit. Results
+    1 GiB. memory_limit: bytes that meshes, slabs and cached cells may hold; 0: no limit.
+    cache_policy: `fifo`, or `second_chance`, which keeps cells that are asked for again. Results
     never depend on them. Objects made without a context share that of what they are made from, or
     one of defaults.
     """
@@ -94,12 +99,13 @@ class Context(Handle):
     _kind = "context"
 
     def __init__(self, *, threads: int = 0, cache_bytes: Optional[int] = None,
-                 memory_limit: int = 0) -> None:
+                 memory_limit: int = 0, cache_policy: str = "fifo") -> None:
         definition = defaults(_abi.msq_context_def)
         definition.threads = unsigned(threads, 32, "threads")
         if cache_bytes is not None:
             definition.cache_bytes = unsigned(cache_bytes, 64, "cache_bytes")
         definition.memory_limit = unsigned(memory_limit, 64, "memory_limit")
+        definition.cache_policy = constant("MSQ_CACHE_", cache_policy, "cache_policy")
         self._reference = self._create(lib.msq_context_create, ctypes.byref(definition))
 
     @property
