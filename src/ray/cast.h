@@ -26,9 +26,24 @@ struct RayHit {
 };
 
 /// Rays of a batch. A count of rays is cast in batches [0, ray_batch), [ray_batch, 2 ray_batch) ..:
-/// a caller that numbers the rays of a camera tile by tile, in blocks of 8 x 8, has coherent
-/// batches.
+/// a caller that numbers the rays of a camera tile by tile, in the order of tile_pixel, has batches
+/// and parts of batches that stay close together.
 constexpr uint64_t ray_batch = 1024;
+
+/// Pixel of ray n, below ray_batch, in a tile of tile_side x tile_side pixels: every 16 rays from a
+/// multiple of 16 on are a block of 4 x 4, every 64 one of 8 x 8 (Morton's order).
+struct TilePixel {
+  uint32_t x, y;
+};
+constexpr uint32_t tile_side = 32;
+constexpr TilePixel tile_pixel(uint32_t n) {
+  TilePixel pixel{0, 0};
+  for (uint32_t bit = 0; bit < 5; ++bit) {
+    pixel.x |= (n >> (2 * bit) & 1) << bit;
+    pixel.y |= (n >> (2 * bit + 1) & 1) << bit;
+  }
+  return pixel;
+}
 
 /// Writes the rays [first, first + count) to searches[0, count): their ray, from and to. One with
 /// from > to meets nothing. Several batches are filled at once, by threads of the executor.
