@@ -145,7 +145,7 @@ void compare(const FoamSeeds& foam, CellIndex corner, Outcome& outcome) {
       is_whole = cell.walk() && 4 * cell.radius_squared() * (1 + 1e-9) <= reach;
     }
     std::vector<Segment> got;
-    cell.for_each_edge(0, [&](size_t a, size_t b) {
+    cell.for_each_edge(0, [&](size_t a, size_t b, uint32_t, uint32_t) {
       got.push_back({own + cell.vertex(a), own + cell.vertex(b)});
     });
     if (got.size() != expected.cells[n].size() && !outcome.wrong++)

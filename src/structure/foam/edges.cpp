@@ -1,167 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each seed's Voronoi cell is found by a walk (voronoi_cell.h) among the seeds within some distance
-// D of it. It is the true cell if its farthest vertex is within D / 2: a seed farther than D is
-// farther than twice any vertex, and cuts nothing. If not, D grows, up to twice the empty radius,
-// beyond which no seed can matter. Where it has no room (cells so flat or long that too many seeds
-// are within D) or fails (seeds on one sphere, low jitter), the cell is cut plane by plane
-// (clipped_cell.h). Where rounding defeats that too, every pair of neighbours is tried by the
-// definition itself (edge_line.h), which needs no graph.
 #include "structure/foam/edges.h"
 
-#include <algorithm>
-#include <array>
-
-#include "structure/foam/clipped_cell.h"
-#include "structure/foam/edge_line.h"
-#include "structure/foam/seed_block.h"
-#include "structure/foam/shared_vertices.h"
-#include "structure/foam/voronoi_cell.h"
+#include "structure/foam/edge_builder.h"
 
 namespace msq {
-
-namespace {
-
-/// A list of neighbours with D^2 at least this holds most cells (cube cells: 97 of 100).
-constexpr double first_distance_squared = 4.75;
-
-/// Works for one brick after another, in memory that it keeps.
-class EdgeBuilder {
- public:
-  /// Nodes are relative to `origin`, which is from the brick's corner.
-  SegmentSet build(const FoamSeeds& seeds, CellIndex corner, Vec3 origin) {
-    constexpr int side = EdgeBrick::side;
-    block_.move_to(seeds, corner, side, first_distance_squared);
-    shared_.reset(block_);
-    empty_radius_ = seeds.empty_radius();
-    most_squared_ = 4 * empty_radius_ * empty_radius_;
-    ends_.clear();
-    starts_.clear();
-    for (int z = 0; z < side; ++z)
-      for (int y = 0; y < side; ++y) {
-        starts_.push_back(static_cast<uint32_t>(ends_.size()));
-        for (int x = 0; x < side; ++x) add_owned_edges(block_.index(x, y, z));
-      }
-    // The few vertices that no edge of the brick has are not worth sorting out.
-    nodes_.resize(shared_.count());
-    for (uint32_t i = 0; i < nodes_.size(); ++i) {
-      const Vec3 p = shared_.position(i) - origin;
-      nodes_[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-    }
-    return SegmentSet(nodes_, ends_, starts_);
-  }
-
- private:
-  /// Seeds come in the order of their cells.
-  void add_owned_edges(size_t own) {
-    const double needed = std::max(first_distance_squared, shared_.needed(own));
-    for (double d2 = std::min(needed, most_squared_);;) {
-      const uint32_t before = static_cast<uint32_t>(block_.refill(cell_, own, d2));
-      if (cell_.count() > VoronoiCell::most_planes) break;
-      shared_.give(block_, own, cell_);
-      if (!cell_.walk()) break;
-      // 1e-9: room for the rounding of vertices.
-      if (d2 >= most_squared_ || 4 * cell_.radius_squared() * (1 + 1e-9) <= d2) {
-        shared_.take(block_, own, before, cell_);
-        const std::vector<uint32_t>& numbers = shared_.numbers();
-        // Planes are in the order of cells: those before the own come first.
-        cell_.for_each_edge(before, [&](size_t from, size_t to) {
-          ends_.push_back({numbers[from], numbers[to]});
-        });
-        return;
-      }
-      d2 = std::min(most_squared_, std::max(4 * cell_.radius_squared() * (1 + 1e-6), 1.25 * d2));
-    }
-    if (!add_by_cuts(own)) add_by_definition(own);
-  }
-
-  struct Neighbour {
-    Vec3 position;  // relative to the own seed
-    double distance_squared;
-    bool after;
-  };
-
-  /// Fills neighbours_ with all that may matter, by distance.
-  void find_neighbours(size_t own) {
-    const Vec3 seed = block_.position(own);
-    neighbours_.clear();
-    for (size_t i = 0; i < block_.positions().size(); ++i) {
-      const Vec3 d = block_.position(i) - seed;
-      const double squared = dot(d, d);
-      if (i != own && squared <= most_squared_ * (1 + 1e-9))
-        neighbours_.push_back({d, squared, i > own});
-    }
-    std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& a, const Neighbour& b) {
-      return a.distance_squared < b.distance_squared;
-    });
-  }
-
-  /// By neighbours from near to far, until no vertex is farther than half the distance. False, and
-  /// nothing is appended, if that cannot be done.
-  bool add_by_cuts(size_t own) {
-    find_neighbours(own);
-    // No point of the cell is farther than the empty radius from the seed: the cube takes nothing.
-    clipped_.start(1.001 * empty_radius_);
-    double farthest_squared = most_squared_;
-    for (const Neighbour& n : neighbours_) {
-      if (n.distance_squared > 4 * farthest_squared * (1 + 1e-9)) break;
-      if (!clipped_.cut(n.position)) return false;
-      if (clipped_.made() == clipped_.vertices().size()) continue;
-      farthest_squared = 0;
-      for (const ClippedCell::Vertex& vertex : clipped_.vertices())
-        if (vertex.is_there)
-          farthest_squared = std::max(farthest_squared, dot(vertex.position, vertex.position));
-    }
-    const Vec3 seed = block_.position(own);
-    const auto is_after = [&](uint32_t plane) {
-      return plane >= ClippedCell::first_neighbour &&
-             neighbours_[plane - ClippedCell::first_neighbour].after;
-    };
-    clipped_.for_each_edge(is_after, [&](Vec3 from, Vec3 to) {
-      ends_.push_back({shared_.take(seed + from), shared_.take(seed + to)});
-    });
-    return true;
-  }
-
-  /// Every pair of later neighbours, cut by all others.
-  void add_by_definition(size_t own) {
-    find_neighbours(own);
-    const Vec3 seed = block_.position(own);
-    const std::vector<Neighbour>& neighbours = neighbours_;
-    const size_t count = neighbours.size();
-    for (size_t i = 0; i < count; ++i) {
-      if (!neighbours[i].after) continue;
-      for (size_t j = i + 1; j < count; ++j) {
-        if (!neighbours[j].after) continue;
-        const EdgeLine line(Vec3{}, neighbours[i].position, neighbours[j].position);
-        if (!line.exists()) continue;
-        LineInterval part{-1e300, 1e300};
-        for (size_t k = 0; k < count && line.holds(part); ++k)
-          if (k != i && k != j) line.cut(neighbours[k].position, part);
-        if (line.holds(part))
-          ends_.push_back(
-              {shared_.take(seed + line.at(part.low)), shared_.take(seed + line.at(part.high))});
-      }
-    }
-  }
-
-  SeedBlock block_;
-  SharedVertices shared_;
-  VoronoiCell cell_;
-  ClippedCell clipped_;
-  std::vector<Neighbour> neighbours_;
-  double empty_radius_ = 0;
-  double most_squared_ = 0;  // twice that, squared
-  std::vector<std::array<uint32_t, 2>> ends_;
-  std::vector<uint32_t> starts_;
-  std::vector<SegmentSet::Node> nodes_;
-};
-
-}  // namespace
 
 EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner)
     : origin_(seeds.scale() * (0.5 * side)) {
   thread_local EdgeBuilder builder;
-  segments_ = builder.build(seeds, corner, origin_);
+  thread_local std::vector<SegmentSet::Node> nodes;
+  builder.build(seeds, corner, side);
+  // The few vertices that no edge of the brick has are not worth sorting out.
+  nodes.resize(builder.vertex_count());
+  for (uint32_t i = 0; i < nodes.size(); ++i) {
+    const Vec3 p = builder.vertex(i) - origin_;
+    nodes[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  }
+  segments_ = SegmentSet(nodes, builder.ends(), builder.starts());
 }
 
 std::vector<FoamEdge> EdgeBrick::edges() const {

@@ -2,6 +2,7 @@
 #include "structure/foam/foam.h"
 
 #include "structure/foam/direct.h"
+#include "structure/foam/foam_rays.h"
 #include "structure/foam/graded_point.h"
 #include "structure/foam/method_1.h"
 #include "structure/foam/method_2.h"
@@ -19,9 +20,12 @@ Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter r
     : Structure(neighbourhood),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
+      seeded_edges_id_(context_->new_structure_id()),
+      ray_cells_id_(context_->new_structure_id()),
       radius_(std::move(radius)),
       unit_(max_component(neighbourhood.cell_size)),
       seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
+      near_cells_(seeds_, RayCells::reach(seeds_, radius_.range().high / unit_)),
       method_(method == FoamMethod::automatic ? FoamMethod::direct : method),
       is_concurrent_(radius_.is_concurrent() && density.is_concurrent()) {
   if (density.range().high > 1)
@@ -42,8 +46,8 @@ bool Foam::inside(Vec3 p) const {
 double Foam::onset(Vec3 p) const {
   const Neighbourhood::Located located = neighbourhood().locate(p);
   const Vec3 q = located.fraction * seeds_.scale();
-  return unit_ * (graded_ ? graded_onset(graded_, located.cell, q)
-                          : foam_onset(seeds_, located.cell, q));
+  return unit_ *
+         (graded_ ? graded_onset(graded_, located.cell, q) : foam_onset(seeds_, located.cell, q));
 }
 
 double Foam::clearance(Vec3 p) const {
@@ -75,6 +79,10 @@ void Foam::keep_rows(const RowBlock& block, const Job* job) const {
     naive_keep_rows(*this, block, job);
   else
     Structure::keep_rows(block, job);
+}
+
+void Foam::enter(RaySearch* searches, size_t count) const {
+  if (!enter_by_cells(*this, searches, count)) Structure::enter(searches, count);
 }
 
 }  // namespace msq

@@ -213,7 +213,7 @@ class CellBuilder {
     }
     if (!cell_.walk()) return false;
     for (size_t i = 0; i < cell_.vertex_count(); ++i) vertices_.push_back(cell_.vertex(i));
-    cell_.for_each_edge(after, [&](size_t from, size_t to) {
+    cell_.for_each_edge(after, [&](size_t from, size_t to, uint32_t, uint32_t) {
       edges_.push_back({vertices_[from], vertices_[to]});
     });
     return true;

@@ -2,6 +2,7 @@
 // The seeds of a brick of cells and of all cells around it that can matter to its seeds.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,6 +25,12 @@ class SeedBlock {
     return (static_cast<size_t>(z + halo_[2]) * size_[1] + static_cast<size_t>(y + halo_[1])) *
                size_[0] +
            static_cast<size_t>(x + halo_[0]);
+  }
+  /// The cell of a seed, from the brick's first cell.
+  std::array<int, 3> cell(size_t index) const {
+    return {static_cast<int>(index % size_[0]) - halo_[0],
+            static_cast<int>(index / size_[0] % size_[1]) - halo_[1],
+            static_cast<int>(index / size_[0] / size_[1]) - halo_[2]};
   }
   /// Foam units, from the corner of the brick's first cell.
   Vec3 position(size_t index) const { return positions_[index]; }

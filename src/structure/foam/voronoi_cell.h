@@ -78,8 +78,8 @@ class VoronoiCell {
   size_t vertex_count() const { return graph_.count; }
   Vec3 vertex(size_t i) const { return graph_.vertices[i].position; }
 
-  /// After walk(): visit(v, w) for the edges, from vertex v to vertex w, between two neighbours
-  /// that were both added as number `first` or later.
+  /// After walk(): visit(v, w, a, b) for the edges, from vertex v to vertex w, between two
+  /// neighbours a and b that were both added as number `first` or later.
   template <class Visit>
   void for_each_edge(uint32_t first, Visit&& visit) const;
 
@@ -115,7 +115,8 @@ void VoronoiCell::for_each_edge(uint32_t first, Visit&& visit) const {
   for (size_t n = 0; n < count; ++n) {
     const size_t v = wanted[n] >> 2, i = wanted[n] & 3;
     const uint8_t* plane = graph_.vertices[v].plane;
-    visit(v, graph_.end(plane[i == 2 ? 0 : i + 1], plane[i]));
+    const uint32_t a = plane[i], b = plane[i == 2 ? 0 : i + 1];
+    visit(v, graph_.end(b, a), a, b);
   }
 }
 

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/strut_entry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "structure/foam/edge_line.h"
+#include "structure/foam/edges.h"
+
+namespace msq {
+
+namespace {
+
+/// Room for the error of ends, in single precision, and of the line that they are compared with.
+constexpr double end_error = 4 * edge_error;
+
+Vec3 corner_of(CellIndex cell, Vec3 scale) {
+  return Vec3{double(cell.x), double(cell.y), double(cell.z)} * scale;
+}
+
+/// How far along the ray the capsule of a segment is entered; infinite if it is missed. As in
+/// strut/capsule_rays.cpp.
+double capsule_entry(Vec3 a, Vec3 ab, Vec3 u, double radius) {
+  const double z0 = dot(a, u), dz = dot(ab, u);
+  const Vec3 p = a - u * z0, q = ab - u * dz;
+  const double qq = dot(q, q), length_squared = dot(ab, ab);
+  double s = dz > 0 ? 0 : 1;  // along the axis
+  if (qq > 1e-24) {
+    const double s0 = -dot(p, q) / qq;
+    const Vec3 across = p + q * s0;
+    const double room = radius * radius - dot(across, across);
+    if (room < 0) return std::numeric_limits<double>::infinity();
+    s = std::clamp(s0 - dz * std::sqrt(room / (qq * length_squared)), 0.0, 1.0);
+  }
+  const Vec3 v = p + q * s;
+  const double under = radius * radius - dot(v, v);
+  if (under < 0) return std::numeric_limits<double>::infinity();
+  return z0 + s * dz - std::sqrt(under);
+}
+
+}  // namespace
+
+StrutEntries::StrutEntries(const Foam& foam)
+    : foam_(foam),
+      radius_(foam.radius().range().high / foam.unit()),
+      tolerance_(foam.ray_tolerance() / foam.unit()) {}
+
+bool StrutEntries::inside(const FoamRay& ray, double t) const {
+  const RaySearch& search = *ray.search;
+  const double at = t <= ray.from ? search.from : t * foam_.unit();
+  return foam_.inside(search.ray.at(at));
+}
+
+StrutEntry StrutEntries::settle(const FoamRay& ray, double before, double beyond) const {
+  const double step = 0.5 * tolerance_;
+  double low = std::floor(before / step), high = std::ceil(beyond / step);
+  while (high - low > 1) {
+    const double middle = std::floor(0.5 * (low + high));
+    if (!(middle > low && middle < high)) break;
+    (inside(ray, middle * step) ? high : low) = middle;
+  }
+  StrutEntry entry;
+  entry.is_met = true;
+  entry.t = std::max(ray.from, high * step);
+  return entry;
+}
+
+StrutEntry StrutEntries::graze(const FoamRay& ray, double middle, double half) const {
+  const double beyond = std::max(ray.from, middle), before = std::max(ray.from, middle - half);
+  StrutEntry entry;
+  if (!inside(ray, beyond)) return entry;
+  if (!inside(ray, before)) return settle(ray, before, beyond);
+  // If not at the ray's beginning, then another strut holds it, and has an entry before.
+  entry.is_met = entry.at_from = before == ray.from;
+  entry.t = ray.from;
+  return entry;
+}
+
+StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutAxis& axis) const {
+  const Vec3 corner = corner_of(axis.cell, foam_.seeds().scale());
+  const Vec3 o = ray.origin - corner;
+  const double about = dot(axis.a - o, ray.direction);
+  const Vec3 a = axis.a - (o + ray.direction * about);
+  const double first = about + capsule_entry(a, axis.ab, ray.direction, radius_ + end_error);
+  const double last = about + capsule_entry(a, axis.ab, ray.direction, radius_ - end_error);
+  StrutEntry entry;
+  if (!(first <= ray.to)) return entry;
+  const double before = std::max(ray.from, first - end_error);
+  if (inside(ray, before)) {
+    entry.is_met = entry.at_from = before == ray.from;
+    entry.t = ray.from;
+    return entry;
+  }
+  if (last < ray.to && last >= ray.from && inside(ray, last)) return settle(ray, before, last);
+  // A graze, or a ray that begins by the surface: steps from there to where it has left the strut.
+  const double exit =
+      about - capsule_entry(a, axis.ab, ray.direction * -1.0, radius_ + end_error) + end_error;
+  constexpr int steps = 8;
+  for (int n = 1; n <= steps; ++n) {
+    const double t = before + (std::min(exit, ray.to) - before) * n / steps;
+    if (t > before && inside(ray, t)) return settle(ray, before, t);
+  }
+  return entry;
+}
+
+StrutEntry StrutEntries::find(const FoamRay& ray, const StrutAxis& axis) const {
+  if (!axis.has_seeds) return find_by_ends(ray, axis);
+  const FoamSeeds& seeds = foam_.seeds();
+  const Vec3 scale = seeds.scale();
+  const CellIndex home = axis.seeds[0];
+  const auto seed = [&](int i) {
+    const CellIndex cell = axis.seeds[i];
+    return seeds.at(home, cell.x - home.x, cell.y - home.y, cell.z - home.z);
+  };
+  const EdgeLine line(seed(0), seed(1), seed(2));
+  if (!line.exists()) return find_by_ends(ray, axis);
+
+  // From where the ray comes nearest to the middle of the owner's cell, which is near the line.
+  const Vec3 o = ray.origin - corner_of(home, scale), u = ray.direction;
+  const double t0 = dot(scale * 0.5 - o, u);
+  const Vec3 w = o + u * t0 - line.seed - line.offset;
+  const double inverse = line.inverse_squared;
+  const Vec3 p = w - line.direction * (dot(w, line.direction) * inverse);
+  const Vec3 q = u - line.direction * (dot(u, line.direction) * inverse);
+  const double qq = dot(q, q), pq = dot(p, q);
+  const double under = pq * pq - qq * (dot(p, p) - radius_ * radius_);
+  // Coordinates of points are known to a few units of 2^-53 of themselves, here and in membership.
+  // The line's offset and direction come from products of seeds' differences u and v, and are off
+  // by 2^-52 |u| |v| (|u| + |v| + 4) over the triangle's size, |direction|; products above 2^5
+  // leave that size above 1 or the seeds' circle so wide that it is no empty ball's.
+  const double inverse_size = std::sqrt(inverse);
+  const double error = 0x1p-51 * (8 + ray.most) + 0x1p-47 * inverse_size;
+  StrutEntry entry;
+  if (under < -8 * radius_ * error * qq) return entry;
+  const double middle = t0 - pq / qq;
+  if (under <= 0 || error * radius_ > 0.25 * tolerance_ * std::sqrt(under)) {
+    const double half = std::sqrt(std::max(under, 0.0) + 8 * radius_ * error * qq) / qq;
+    return graze(ray, middle, half + tolerance_);
+  }
+  const double root = std::sqrt(under), half = root / qq;
+  const double in = t0 + (-pq - root) / qq, out = middle + half;
+  if (out < ray.from || in > ray.to) return entry;
+
+  // Where between the ends, along the line.
+  const Vec3 along = line.direction * inverse_size;
+  const double length = dot(axis.ab, along);
+  const auto beyond_ends = [&](double t) {
+    const Vec3 x = ray.at(t) - corner_of(axis.cell, scale);
+    const double s = dot(x - axis.a, along);
+    return std::max(std::min(0.0, length) - s, s - std::max(0.0, length));
+  };
+  if (in > ray.from) {
+    const double beyond = beyond_ends(in);
+    if (beyond > end_error) return entry;
+    if (beyond > -end_error && !inside(ray, in) && !inside(ray, in + tolerance_)) return entry;
+    entry.is_met = true;
+    entry.t = in;
+    entry.normal = foam_.neighbourhood().rotation.apply((p + q * (in - t0)) * (1 / radius_));
+    return entry;
+  }
+  const double beyond = beyond_ends(ray.from);
+  if (beyond > end_error) return entry;
+  entry.t = ray.from;
+  const double least = 4 * tolerance_;
+  const bool is_sure = beyond < -end_error && ray.from - in > least && out - ray.from > least;
+  if (is_sure || inside(ray, ray.from)) {
+    entry.is_met = entry.at_from = true;
+  } else if (ray.from + tolerance_ < out && inside(ray, ray.from + tolerance_)) {
+    entry.is_met = true;
+    entry.t = ray.from + tolerance_;
+  }
+  return entry;
+}
+
+}  // namespace msq

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a ray enters the struts of single edges of a foam, exactly: from the edge's seeds, in
+// double precision, and by membership where rounding leaves a doubt.
+//
+// Only the cylinder about an edge's line is looked at, between the planes through its ends. The
+// balls about the ends are never seen: the edges that leave a Voronoi vertex point along the
+// outward normals of the faces of a Delaunay tetrahedron, which, times the faces' areas, add up to
+// nothing. So for any direction there is one among them that it has a positive product with: the
+// graph's point nearest to a point of space is not a vertex, and a ray that enters a ball about one
+// is in the cylinder of another edge by then.
+#pragma once
+
+#include "base/ray.h"
+#include "structure/foam/foam.h"
+
+namespace msq {
+
+/// A ray in foam units along the grid's axes, from the grid's origin on.
+struct FoamRay {
+  Vec3 origin, direction;
+  double from, to;
+  /// No coordinate of its part is larger.
+  double most;
+  const RaySearch* search;  ///< the same in model units
+
+  Vec3 at(double t) const { return origin + direction * t; }
+};
+
+struct StrutEntry {
+  bool is_met = false;
+  bool at_from = false;  ///< the ray is inside where it begins
+  double t = 0;          ///< foam units
+  Vec3 normal;           ///< model frame; 0 where others are to find it
+};
+
+/// An edge. Its ends are in single precision, foam units from the corner of `cell`; it has seeds if
+/// they are known, in their order.
+struct StrutAxis {
+  CellIndex cell;
+  Vec3 a, ab;
+  bool has_seeds;
+  CellIndex seeds[3];
+};
+
+class StrutEntries {
+ public:
+  explicit StrutEntries(const Foam& foam);
+
+  /// What does not depend on anything but ray and edge: the same bits whoever asks. Entries into
+  /// the strut where another strut covers its surface may be left out.
+  StrutEntry find(const FoamRay& ray, const StrutAxis& axis) const;
+
+ private:
+  bool inside(const FoamRay& ray, double t) const;
+  StrutEntry graze(const FoamRay& ray, double middle, double half) const;
+  StrutEntry find_by_ends(const FoamRay& ray, const StrutAxis& axis) const;
+  /// The first t in (before, beyond], a multiple of half the tolerance, at which the ray is inside:
+  /// that does not depend on how near `before` and `beyond` are.
+  StrutEntry settle(const FoamRay& ray, double before, double beyond) const;
+
+  const Foam& foam_;
+  const double radius_, tolerance_;  // foam units
+};
+
+}  // namespace msq

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which capsules of a list may be the first that rays meet: a sieve in single precision, before
+// those that it leaves are decided exactly.
+//
+// Rays come in packets that stay close together, or one by one. Lengths are of the order of 1: the
+// caller measures from a place near by, in units of its cells.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace msq {
+
+/// The axes of capsules of one radius, component by component: an end, and from there to the other.
+/// `capsule_padding` more of each may be read.
+struct CapsuleView {
+  const float* a[3];
+  const float* ab[3];
+  size_t count;
+};
+constexpr size_t capsule_padding = 64;
+
+struct RayPacket {
+  static constexpr size_t most = 16;
+
+  /// The points origin + t direction, for t in [from, to]; directions of length 1. Lanes beyond
+  /// `count` have from > to.
+  size_t count = 0;
+  alignas(64) float origin[3][most] = {};
+  alignas(64) float direction[3][most] = {};
+  alignas(64) float from[most], to[most];
+  /// Whether rays may begin within capsules or past them. If not, a ray that is past a capsule at
+  /// `from` is said to meet it there.
+  bool starts = true;
+  /// A line, with a direction of length 1, and how far any ray is from it within its [from, to].
+  float centre[3] = {}, along[3] = {};
+  float spread = 0;
+};
+
+/// For each ray of a packet where it may first meet a capsule, and where a second one: lower
+/// bounds, at least `from`; infinite where there is none.
+struct PacketHits {
+  alignas(64) float first[RayPacket::most], second[RayPacket::most];
+  alignas(64) uint32_t capsule[RayPacket::most];  ///< the first one's number
+
+  void clear();
+};
+
+/// Coordinates of rays and capsules may be up to 8, and their rounding and that of these functions
+/// then amounts to less than this in the radius and in t.
+constexpr float capsule_ray_slack = 4e-5f;
+
+/// Adds a list of capsules to what the rays meet; capsule i is number `first_number` + i. `corner`
+/// is where the list's coordinates are from, in the rays'. No ray that meets a capsule in [from,
+/// to] is left without it, and its bound is at most the t of that; some may be found that are
+/// missed by less than twice the slack.
+void meet_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
+                   const RayPacket& rays, uint32_t first_number, PacketHits& hits);
+
+/// Fills `found` with the numbers, in ascending order, of the capsules that a packet's rays may
+/// meet as far as can be said of all together, and returns how many they are.
+size_t near_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
+                     const RayPacket& rays, uint32_t* found);
+
+}  // namespace msq
