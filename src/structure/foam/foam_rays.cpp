@@ -268,7 +268,7 @@ class Walker {
         packet_.direction[axis][n] = static_cast<float>(ray.direction[axis]);
       }
       const double from = std::max(ray.from, enter_[n]) - enter_[n];
-      packet_.starts |= ray.from >= enter_[n] - RayCells::margin;
+      packet_.starts |= ray.from >= enter_[n] - ray_list_margin;
       packet_.from[n] = static_cast<float>(from);
       packet_.to[n] = static_cast<float>(limit(n) - enter_[n]) + 1e-6f;
       places[0][n] = o;
@@ -299,7 +299,7 @@ class Walker {
   }
 
   /// Up to where the lists of this slab hold all that ray n may meet.
-  double limit(size_t n) const { return std::min(ray(n).to, exit_[n] + 0.5 * RayCells::margin); }
+  double limit(size_t n) const { return std::min(ray(n).to, exit_[n] + 0.5 * ray_list_margin); }
 
   static constexpr uint32_t slot_shift = 20;
   /// The list of a cell, for one slab.
@@ -336,7 +336,7 @@ class Walker {
   const SeededEdges& edges(CellIndex corner) {
     return memory_.edges.at(corner, [&] {
       return foam_.context().cache.fetch(foam_.seeded_edges_id(), corner, [&] {
-        return std::make_shared<const SeededEdges>(foam_.seeds(), corner);
+        return std::make_shared<const SeededEdges>(foam_.seeds(), corner, radius_);
       });
     });
   }

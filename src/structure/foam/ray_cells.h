@@ -41,8 +41,6 @@ class RayCells final : public CellData {
  public:
   /// Cells along each axis.
   static constexpr int side = 2;
-  /// A list holds the struts that come within this of its cell, in foam units.
-  static constexpr double margin = 0x1p-10;
   /// How far from the middle of a cell the axes of its list's struts may be.
   static double reach(const FoamSeeds& seeds, double radius);
 
