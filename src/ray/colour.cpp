@@ -11,8 +11,8 @@ double linear_of(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
-/// sRGB rises by at most 12.92 * 255 bytes from 0 to 1 at its steepest, so that a step has at most
-/// one border between bytes.
+/// sRGB rises by no more than 12.92 * 255 = 3295 bytes a unit, so that no step has two borders
+/// between bytes.
 constexpr int steps = 4096;
 
 struct SrgbTable {
@@ -31,7 +31,19 @@ struct SrgbTable {
       first[i] = byte;
     }
   }
+
+  uint8_t byte(float linear) const {
+    if (!(linear > 0)) return 0;
+    if (linear >= 1) return 255;
+    const uint8_t byte = first[static_cast<size_t>(linear * steps)];
+    return linear >= next[byte] ? static_cast<uint8_t>(byte + 1) : byte;
+  }
 };
+
+const SrgbTable& srgb() {
+  static const SrgbTable table;
+  return table;
+}
 
 Vec3 from_bytes(int r, int g, int b) {
   return {linear_of(r / 255.0), linear_of(g / 255.0), linear_of(b / 255.0)};
@@ -40,18 +52,15 @@ Vec3 from_bytes(int r, int g, int b) {
 }  // namespace
 
 uint8_t srgb_byte(float linear) {
-  static const SrgbTable table;
-  if (!(linear > 0)) return 0;
-  if (linear >= 1) return 255;
-  const uint8_t byte = table.first[static_cast<size_t>(linear * steps)];
-  return linear >= table.next[byte] ? static_cast<uint8_t>(byte + 1) : byte;
+  return srgb().byte(linear);
 }
 
 void write_rgba(Colour colour, uint8_t* rgba) {
+  const SrgbTable& table = srgb();
   const float part = colour.opacity > 0 ? 1 / colour.opacity : 0;
-  rgba[0] = srgb_byte(colour.r * part);
-  rgba[1] = srgb_byte(colour.g * part);
-  rgba[2] = srgb_byte(colour.b * part);
+  rgba[0] = table.byte(colour.r * part);
+  rgba[1] = table.byte(colour.g * part);
+  rgba[2] = table.byte(colour.b * part);
   rgba[3] = static_cast<uint8_t>(std::min(colour.opacity, 1.0f) * 255 + 0.5f);
 }
 

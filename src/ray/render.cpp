@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 
+#include "base/borrowed.h"
 #include "ray/search.h"
 
 namespace msq {
@@ -26,6 +27,28 @@ uint32_t square_side(uint32_t samples) {
 struct Pass : RenderPass {
   bool leaves_out = false;  ///< those where i and j are even
   bool has_data = true, has_colour = true;
+};
+
+/// One ray of a tile.
+struct Sample {
+  uint32_t x, y;   // pixel of the tile
+  uint32_t place;  // among the samples of the square, row by row
+  double size;     // of the ray's direction
+};
+
+/// What a thread works with, from batch to batch.
+struct Batch {
+  std::vector<Sample> samples;
+  std::vector<RaySearch> searches;
+  std::vector<RayHit> hits;
+  std::vector<Seen> seen;
+  std::vector<Colour> colours, square;
+
+  void clear() {
+    samples.clear();
+    searches.clear();
+    seen.clear();
+  }
 };
 
 class Renderer {
@@ -51,21 +74,6 @@ class Renderer {
   }
 
  private:
-  /// One ray of a tile.
-  struct Sample {
-    uint32_t x, y;   // pixel of the tile
-    uint32_t place;  // among the samples of the square, row by row
-    double size;     // of the ray's direction
-  };
-  /// What one batch takes.
-  struct Batch {
-    std::vector<Sample> samples;
-    std::vector<RaySearch> searches;
-    std::vector<RayHit> hits;
-    std::vector<Seen> seen;
-    std::vector<Colour> colours;
-  };
-
   std::vector<Pass> passes_of(bool are_seen) const {
     std::vector<Pass> passes;
     const bool has_sub_samples = frame_.rgba && plan_.samples > 1;
@@ -109,7 +117,9 @@ class Renderer {
       check_cancelled(job_);
       const auto x = static_cast<uint32_t>(index % across * side);
       const auto y = static_cast<uint32_t>(index / across * side);
-      Batch batch;
+      const Borrowed<Batch> borrowed;
+      Batch& batch = *borrowed;
+      batch.clear();
       fill(pass, x, y, batch);
       cast_batch(model_, resolved_, batch.searches, batch.hits, job_);
       see(pass, batch);
@@ -135,6 +145,13 @@ class Renderer {
     std::array<Place, batch_side> places;
     for (uint32_t i = 0; i < side; ++i) places[i] = {i / n, i % n, (i % n + 0.5) / n};
     const Camera& camera = view_.camera();
+    const auto search_at = [&](double x, double y, double& size) {
+      const Vec3 direction = view_.direction(x, y);
+      size = size_of(direction);
+      return search_along(view_.origin(x, y), direction, size, camera.clip_near, camera.clip_far);
+    };
+    double size;
+    RaySearch search = search_at(0, 0, size);  // orthographic: that of all, but for its origin
     for (uint32_t by = 0; by < side; by += block_side)
       for (uint32_t bx = 0; bx < side; bx += block_side)
         for (uint32_t v = by; v < std::min(side, by + block_side); ++v)
@@ -147,14 +164,15 @@ class Renderer {
             if (pass.leaves_out && i % 2 == 0 && j % 2 == 0) continue;
             const uint32_t picture_x = plan_.tile_x + x, picture_y = plan_.tile_y + y;
             const double at_x = picture_x + right.middle, at_y = picture_y + down.middle;
-            const Vec3 direction = view_.direction(at_x, at_y);
-            const double size = size_of(direction);
+            if (camera.is_perspective)
+              search = search_at(at_x, at_y, size);
+            else
+              search.ray.origin = view_.origin(at_x, at_y);
             const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
             const uint64_t key = (pixel * most_samples + down.sample) * most_samples + right.sample;
             batch.samples.push_back({x, y, v * side + u, size});
             batch.seen.push_back({key, 0, 0});
-            batch.searches.push_back(search_along(view_.origin(at_x, at_y), direction, size,
-                                                  camera.clip_near, camera.clip_far));
+            batch.searches.push_back(search);
           }
   }
 
@@ -207,9 +225,9 @@ class Renderer {
       }
       return;
     }
-    std::vector<Colour> square(uint64_t{side} * side);
+    batch.square.resize(uint64_t{side} * side);
     for (size_t i = 0; i < batch.colours.size(); ++i)
-      square[batch.samples[i].place] = batch.colours[i];
+      batch.square[batch.samples[i].place] = batch.colours[i];
     const uint32_t x1 = std::min(plan_.tile_width, x0 + pixels);
     const uint32_t y1 = std::min(plan_.tile_height, y0 + pixels);
     for (uint32_t y = y0; y < y1; ++y)
@@ -218,7 +236,7 @@ class Renderer {
         Colour sum;
         for (uint32_t v = 0; v < n; ++v)
           for (uint32_t u = 0; u < n; ++u)
-            sum = sum + square[((y - y0) * n + v) * side + (x - x0) * n + u];
+            sum = sum + batch.square[((y - y0) * n + v) * side + (x - x0) * n + u];
         write_rgba(sum * (1.0f / static_cast<float>(n * n)),
                    frame_.rgba + 4 * (y * frame_.row_pixels + x));
       }
