@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_ray_cast. That hits are where membership changes, on every shape and structure:
  * contract/test_rays.cpp, contract/test_shape_rays.cpp. */
-#include "definitions.h"
+#include "materials.h"
 
 enum { few = 4 };
 
@@ -125,7 +125,8 @@ static void hits_struts_within_a_box(void** state) {
   msq_model* model = make_struts_model(context);
   /* Through the middle of the box: past the struts on its edges. Along x at y = 0: the strut of the
    * edge, cut by the box. From the middle towards an edge along z: its strut. */
-  const float origins[4][3] = {{-1, 0.5f, 0.5f}, {-1, 0, 0.5f}, {0.5f, 0.5f, 0.5f}, {-1, 0.0625f, 0}};
+  const float origins[4][3] = {
+      {-1, 0.5f, 0.5f}, {-1, 0, 0.5f}, {0.5f, 0.5f, 0.5f}, {-1, 0.0625f, 0}};
   const float directions[4][3] = {{1, 0, 0}, {1, 0, 0}, {-1, -1, 0}, {1, 0, 0}};
   msq_rays_def def;
   msq_ray_hit hits[4];
@@ -211,6 +212,57 @@ static void refuses_rays_that_make_no_sense(void** state) {
   msq_context_release(context);
 }
 
+/* The id at a hit is that of msq_point_material a little inside, through skin, struts and nothing.
+ */
+static void tells_the_material(void** state) {
+  enum { count = 400 };
+  double origins[count][3], directions[count][3];
+  msq_ray_hit hits[count];
+  uint64_t random = 5;
+  msq_rays_def def;
+  (void)state;
+  assert_ok(msq_rays_def_init(&def, sizeof def));
+  def.count = count;
+  def.origins = origins;
+  def.directions = directions;
+  for (int i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      /* Half of the rays from within the box, many of these in voids. */
+      origins[i][axis] = i % 2 ? random_between(&random, 0.5, 3.5) : random_between(&random, -1, 9);
+      directions[i][axis] = random_between(&random, 1, 3) - origins[i][axis];
+    }
+  for (int has_skin = 0; has_skin < 2; ++has_skin)
+    for (int has_fine = 0; has_fine < 2; ++has_fine) {
+      msq_context* context = make_context();
+      msq_model* model = make_material_model(context, 1, has_fine, has_skin);
+      uint32_t ids = 0;
+      assert_ok(msq_ray_cast(model, &def, NULL, hits, count, NULL));
+      for (int i = 0; i < count; ++i) {
+        uint32_t id = 0;
+        double point[3];
+        ids |= 1u << hits[i].material;
+        if (hits[i].scale < 0) {
+          assert_int_equal(hits[i].material, MSQ_MATERIAL_VOID);
+          continue;
+        }
+        for (int axis = 0; axis < 3; ++axis)
+          point[axis] =
+              origins[i][axis] + hits[i].t * directions[i][axis] - 1e-7 * hits[i].normal[axis];
+        assert_ok(msq_point_material(model, point, NULL, NULL, 0, &id, NULL));
+        if (id != MSQ_MATERIAL_VOID) assert_int_equal(hits[i].material, id);
+      }
+      assert_int_equal(ids & ~1u, 1u << (has_fine ? 2 : 1) | (has_skin ? 1u << 3 : 0));
+      msq_model_release(model);
+      msq_context_release(context);
+    }
+  msq_context* context = make_context();
+  msq_model* model = make_lattice_model(context);
+  assert_ok(msq_ray_cast(model, &def, NULL, hits, count, NULL));
+  for (int i = 0; i < count; ++i) assert_int_equal(hits[i].material, MSQ_MATERIAL_VOID);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void can_be_cancelled(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_unit_box_model(context, NULL);
@@ -237,6 +289,7 @@ int main(void) {
       cmocka_unit_test(hits_a_cylinder_along_its_axis),
       cmocka_unit_test(hits_struts_within_a_box),
       cmocka_unit_test(refuses_rays_that_make_no_sense),
+      cmocka_unit_test(tells_the_material),
       cmocka_unit_test(can_be_cancelled),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,10 +5,12 @@
 
 enum { width = 75, height = 52 };
 
-/* The tests of sameness run on struts with a skin and materials, where all arrays have something
- * to say. */
-static msq_model* make_rich_model(msq_context* context) {
-  return make_material_model(context, 1, 1, 1);
+/* Struts with a skin and materials, where all arrays have something to say; and a foam, whose rays
+ * are followed together. */
+enum { models = 2 };
+static msq_model* make_rich_model(msq_context* context, int which) {
+  return which == 0 ? make_material_model(context, 1, 1, 1)
+                    : make_foam_model(context, MSQ_FOAM_DIRECT);
 }
 
 static void assert_pixel(const picture* got, size_t at, const msq_ray_hit* hit, uint32_t i,
@@ -61,43 +63,50 @@ static void check_pixels(const msq_model* model, const msq_camera* camera, uint3
   free_picture(&got);
 }
 
-static void pixels_are_what_rays_say(void** state) {
+static void check_rays(int which) {
   msq_context* context = make_context();
-  msq_model* model = make_rich_model(context);
-  (void)state;
+  msq_model* model = make_rich_model(context, which);
   for (int32_t projection = 0; projection < 2; ++projection) {
     msq_camera camera = fitted_camera(model, projection, width, height);
     check_pixels(model, &camera, 1);
     camera.clip_near = 7;
     camera.clip_far = projection ? 14 : 9;
     check_pixels(model, &camera, 1);
-    check_pixels(model, &camera, 3);
+    check_pixels(model, &camera, which == 0 ? 3 : 2);
   }
   msq_model_release(model);
   msq_context_release(context);
 }
 
+static void pixels_are_what_rays_say(void** state) {
+  (void)state;
+  for (int which = 0; which < models; ++which) check_rays(which);
+}
+
 /* A definition with all that may depend on more than the pixel. */
-static msq_render_def rich_def(uint32_t samples) {
+static msq_render_def rich_def(int which, uint32_t samples) {
   msq_render_def def = render_def(width, height);
   def.samples = samples;
   def.colour_by = MSQ_COLOUR_MATERIAL;
   def.shadows = 1;
-  def.occlusion_rays = 4;
+  def.occlusion_rays = which == 0 ? 4 : 0;
   def.background[0] = 0.25;
   def.background[3] = 0.5;
   return def;
 }
 
+static uint32_t most_samples_of(int which) {
+  return which == 0 ? 3 : 1;
+}
+
 /* Tiles of odd sizes and places, and rows that are wider than they. */
-static void tiles_have_the_pixels_of_the_whole(void** state) {
+static void check_tiles(int which) {
   const uint32_t tiles[4][4] = {{0, 0, 40, 52}, {40, 0, 35, 17}, {40, 17, 35, 35}, {74, 51, 1, 1}};
   msq_context* context = make_context();
-  msq_model* model = make_rich_model(context);
-  (void)state;
-  for (uint32_t samples = 1; samples <= 3; ++samples) {
+  msq_model* model = make_rich_model(context, which);
+  for (uint32_t samples = 1; samples <= most_samples_of(which); ++samples) {
     const msq_camera camera = fitted_camera(model, (int32_t)(samples % 2), width, height);
-    const msq_render_def def = rich_def(samples);
+    const msq_render_def def = rich_def(which, samples);
     picture whole = rendered(model, &camera, &def), parts = make_picture(width, height);
     for (int t = 0; t < 4; ++t) {
       msq_render_def part = def;
@@ -123,14 +132,18 @@ static void tiles_have_the_pixels_of_the_whole(void** state) {
   msq_context_release(context);
 }
 
-static void threads_make_no_difference(void** state) {
+static void tiles_have_the_pixels_of_the_whole(void** state) {
   (void)state;
+  for (int which = 0; which < models; ++which) check_tiles(which);
+}
+
+static void check_threads(int which) {
   picture got[2];
   for (uint32_t threads = 1; threads <= 2; ++threads) {
     msq_context* context = make_context_of(threads, 1 << 20, 0);
-    msq_model* model = make_rich_model(context);
+    msq_model* model = make_rich_model(context, which);
     const msq_camera camera = fitted_camera(model, MSQ_CAMERA_PERSPECTIVE, width, height);
-    const msq_render_def def = rich_def(2);
+    const msq_render_def def = rich_def(which, 2);
     got[threads - 1] = rendered(model, &camera, &def);
     msq_model_release(model);
     msq_context_release(context);
@@ -138,6 +151,11 @@ static void threads_make_no_difference(void** state) {
   assert_same_picture(&got[0], &got[1]);
   free_picture(&got[0]);
   free_picture(&got[1]);
+}
+
+static void threads_make_no_difference(void** state) {
+  (void)state;
+  for (int which = 0; which < models; ++which) check_threads(which);
 }
 
 /* ---- passes ------------------------------------------------------------------------------ */
@@ -191,13 +209,12 @@ static watcher make_watcher(const picture* shown) {
   return seen;
 }
 
-static void passes_end_in_the_same_picture(void** state) {
+static void check_passes(int which) {
   msq_context* context = make_context();
-  msq_model* model = make_rich_model(context);
+  msq_model* model = make_rich_model(context, which);
   const msq_camera camera = fitted_camera(model, MSQ_CAMERA_ORTHOGRAPHIC, width, height);
-  (void)state;
-  for (uint32_t samples = 1; samples <= 3; ++samples) {
-    msq_render_def def = rich_def(samples);
+  for (uint32_t samples = 1; samples <= most_samples_of(which); ++samples) {
+    msq_render_def def = rich_def(which, samples);
     picture whole = rendered(model, &camera, &def);
     const uint32_t steps[3] = {1, 8, 64}, passes[3] = {1, 4, 7};
     for (int s = 0; s < 3; ++s) {
@@ -221,12 +238,249 @@ static void passes_end_in_the_same_picture(void** state) {
   msq_context_release(context);
 }
 
+static void passes_end_in_the_same_picture(void** state) {
+  (void)state;
+  for (int which = 0; which < models; ++which) check_passes(which);
+}
+
+/* ---- ends ---------------------------------------------------------------------------------- */
+
+static void stops_where_the_callback_says(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_rich_model(context, 0);
+  const msq_camera camera = fitted_camera(model, MSQ_CAMERA_ORTHOGRAPHIC, width, height);
+  msq_render_def def = render_def(width, height);
+  (void)state;
+  def.first_step = 16;
+  picture got = make_picture(width, height);
+  watcher seen = make_watcher(&got);
+  seen.stop_at_step = 4;
+  seen.code = -77;
+  assert_ok(msq_job_create(&seen.job));
+  assert_refused(msq_render(model, &camera, &def, NULL, &got.frame, watch, &seen, seen.job),
+                 MSQ_E_HOST, "-77 after the pass of step 4");
+  assert_int_equal(msq_error_host_code(), -77);
+  assert_int_equal(seen.passes, 3);
+  assert_true(progress_of(seen.job) < 1);
+  msq_job_release(seen.job);
+  free_picture(&seen.last);
+  free_picture(&got);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static int32_t cancel(void* user, const msq_render_pass* pass) {
+  if (pass->step == 2) assert_ok(msq_job_cancel((msq_job*)user));
+  assert_true(pass->step >= 2);
+  return 0;
+}
+
+static void can_be_cancelled(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_rich_model(context, 0);
+  const msq_camera camera = fitted_camera(model, MSQ_CAMERA_ORTHOGRAPHIC, width, height);
+  msq_render_def def = render_def(width, height);
+  msq_job* job;
+  (void)state;
+  def.first_step = 4;
+  assert_ok(msq_job_create(&job));
+  picture got = make_picture(width, height);
+  assert_status(msq_render(model, &camera, &def, NULL, &got.frame, cancel, job, job),
+                MSQ_E_CANCELLED);
+  memset(got.data, unwritten, got.bytes);
+  assert_status(msq_render(model, &camera, &def, NULL, &got.frame, NULL, NULL, job),
+                MSQ_E_CANCELLED);
+  assert_filled(got.data, got.bytes, unwritten);
+  free_picture(&got);
+  msq_job_release(job);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+/* The arrays that are asked for are as all of them are, and others are not touched. */
+static void writes_what_is_asked_for(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_rich_model(context, 0);
+  const msq_camera camera = fitted_camera(model, MSQ_CAMERA_PERSPECTIVE, width, height);
+  (void)state;
+  for (uint32_t samples = 1; samples <= 2; ++samples) {
+    const msq_render_def def = rich_def(0, samples);
+    picture whole = rendered(model, &camera, &def), parts = make_picture(width, height);
+    for (int which = 0; which < 5; ++which) {
+      msq_frame frame;
+      assert_ok(msq_frame_init(&frame, sizeof frame));
+      if (which == 0) frame.depth = parts.frame.depth;
+      if (which == 1) frame.normal = parts.frame.normal;
+      if (which == 2) frame.scale = parts.frame.scale;
+      if (which == 3) frame.material = parts.frame.material;
+      if (which == 4) frame.rgba = parts.frame.rgba;
+      assert_ok(msq_render(model, &camera, &def, NULL, &frame, NULL, NULL, NULL));
+    }
+    assert_same_picture(&whole, &parts);
+    free_picture(&whole);
+    free_picture(&parts);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void resolves_down_to_a_length_scale(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_rich_model(context, 0);
+  const msq_camera camera = fitted_camera(model, MSQ_CAMERA_PERSPECTIVE, width, height);
+  const msq_render_def def = render_def(width, height);
+  msq_query_def coarse;
+  (void)state;
+  assert_ok(msq_query_def_init(&coarse, sizeof coarse));
+  coarse.length_scale = 1.5;
+  picture got = make_picture(width, height);
+  assert_ok(msq_render(model, &camera, &def, &coarse, &got.frame, NULL, NULL, NULL));
+  for (size_t at = 0; at < (size_t)width * height; ++at) {
+    assert_true(got.frame.scale[at] == (isinf(got.frame.depth[at]) ? -1 : 0));
+    assert_int_equal(got.frame.material[at], isinf(got.frame.depth[at]) ? 0 : 1);
+  }
+  coarse.length_scale = -1;
+  assert_refused(msq_render(model, &camera, &def, &coarse, &got.frame, NULL, NULL, NULL),
+                 MSQ_E_ARGUMENT, "length_scale is -1");
+  free_picture(&got);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+/* ---- arguments ----------------------------------------------------------------------------- */
+
+typedef struct scene {
+  const msq_model* model;
+  msq_camera camera;
+  msq_render_def def;
+  msq_frame frame;
+  picture target;
+} scene;
+
+static scene make_scene(const msq_model* model) {
+  scene made;
+  made.model = model;
+  made.camera = fitted_camera(model, MSQ_CAMERA_ORTHOGRAPHIC, 12, 8);
+  made.def = render_def(12, 8);
+  made.target = make_picture(12, 8);
+  made.frame = made.target.frame;
+  return made;
+}
+
+/* On failure nothing is written. */
+static msq_status render_scene(scene* of, const msq_camera* camera, const msq_render_def* def,
+                               const msq_frame* frame) {
+  memset(of->target.data, unwritten, of->target.bytes);
+  const msq_status status = msq_render(of->model, camera, def, NULL, frame, NULL, NULL, NULL);
+  if (status != MSQ_OK) assert_filled(of->target.data, of->target.bytes, unwritten);
+  return status;
+}
+
+static msq_status use_camera(void* env, void* camera) {
+  scene* of = (scene*)env;
+  return render_scene(of, (const msq_camera*)camera, &of->def, &of->frame);
+}
+static msq_status use_def(void* env, void* def) {
+  scene* of = (scene*)env;
+  return render_scene(of, &of->camera, (const msq_render_def*)def, &of->frame);
+}
+static msq_status use_frame(void* env, void* frame) {
+  scene* of = (scene*)env;
+  return render_scene(of, &of->camera, &of->def, (const msq_frame*)frame);
+}
+
+DEFINE_INIT(render_def)
+DEFINE_INIT(frame)
+
+static void honours_every_struct_size(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_box_model(context);
+  scene of = make_scene(model);
+  (void)state;
+  check_def_init(init_render_def, sizeof(msq_render_def));
+  check_def_init(init_frame, sizeof(msq_frame));
+  check_def_sizes(&of.camera, sizeof of.camera, use_camera, &of);
+  check_def_sizes(&of.def, sizeof of.def, use_def, &of);
+  check_def_sizes(&of.frame, sizeof of.frame, use_frame, &of);
+  free_picture(&of.target);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+#define assert_def_refused(change, text)                      \
+  do {                                                        \
+    msq_render_def def = of.def;                              \
+    change;                                                   \
+    assert_refused(use_def(&of, &def), MSQ_E_ARGUMENT, text); \
+  } while (0)
+
+static void refuses_pictures_that_make_no_sense(void** state) {
+  const double colours[6] = {0, 0.5, 1, 1, 1.5, 0}, not_a_number[3] = {0, NAN, 0};
+  msq_context* context = make_context();
+  msq_model* model = make_box_model(context);
+  scene of = make_scene(model);
+  (void)state;
+  assert_def_refused(def.width = 0, "width is 0; it must be from 1 to 16384");
+  assert_def_refused(def.height = 16385, "height is 16385");
+  assert_def_refused(def.tile_x = 1, "the tile has 0 pixels along x");
+  assert_def_refused(def.tile_width = 12, "the tile has 0 pixels along y");
+  assert_def_refused(def.tile_width = 13; def.tile_height = 1, "the tile has 13 pixels along x");
+  assert_def_refused(def.tile_x = 5; def.tile_width = 8;
+                     def.tile_height = 1, "8 pixels along x from 5 on; the picture has 12");
+  assert_def_refused(def.tile_y = UINT32_MAX; def.tile_width = 8;
+                     def.tile_height = 8, "along y from 4294967295 on; the picture has 8");
+  assert_def_refused(def.samples = 0, "samples is 0; it must be from 1 to 16");
+  assert_def_refused(def.samples = 17, "samples is 17");
+  assert_def_refused(def.first_step = 0, "first_step is 0");
+  assert_def_refused(def.first_step = 3, "first_step is 3; it must be a power of two");
+  assert_def_refused(def.first_step = 128, "first_step is 128");
+  assert_def_refused(def.colour_by = 4, "colour_by is 4");
+  assert_def_refused(def.colours = colours, "colour_count is 0");
+  assert_def_refused(def.colour_count = 1, "colours is NULL and colour_count is 1");
+  assert_def_refused(def.colours = colours; def.colour_count = 65537, "colour_count is 65537");
+  assert_def_refused(def.colours = colours; def.colour_count = 2, "a part of colours is 1.5");
+  assert_def_refused(def.colours = not_a_number; def.colour_count = 1, "a part of colours is nan");
+  assert_def_refused(def.background[1] = -0.5, "a part of background is -0.5");
+  assert_def_refused(def.background[3] = NAN, "a part of background is nan");
+  assert_def_refused(memset(def.light, 0, sizeof def.light), "light is (0, 0, 0)");
+  assert_def_refused(def.light[2] = INFINITY, "light is (-0.4, 0.6, inf)");
+  assert_def_refused(def.ambient = 1.25, "ambient is 1.25; it must be from 0 to 1");
+  assert_def_refused(def.ambient = NAN, "ambient is nan");
+  assert_def_refused(def.shadows = 2, "shadows is 2");
+  assert_def_refused(def.occlusion_rays = 257, "occlusion_rays is 257");
+  assert_def_refused(def.occlusion_distance = -1, "occlusion_distance is -1");
+  assert_def_refused(def.occlusion_distance = INFINITY, "occlusion_distance is inf");
+
+  msq_frame frame = of.frame;
+  frame.row_pixels = 11;
+  assert_refused(use_frame(&of, &frame), MSQ_E_ARGUMENT, "row_pixels is 11; the tile has 12");
+  assert_ok(msq_frame_init(&frame, sizeof frame));
+  assert_refused(use_frame(&of, &frame), MSQ_E_ARGUMENT, "all arrays of the frame are NULL");
+  msq_camera camera = of.camera;
+  camera.height = 0;
+  assert_refused(use_camera(&of, &camera), MSQ_E_ARGUMENT, "height is 0");
+  assert_refused(render_scene(&of, NULL, &of.def, &of.frame), MSQ_E_ARGUMENT, "camera is NULL");
+  assert_refused(render_scene(&of, &of.camera, NULL, &of.frame), MSQ_E_ARGUMENT, "def is NULL");
+  assert_refused(render_scene(&of, &of.camera, &of.def, NULL), MSQ_E_ARGUMENT, "frame is NULL");
+  of.model = NULL;
+  assert_refused(use_def(&of, &of.def), MSQ_E_ARGUMENT, "model is NULL");
+  free_picture(&of.target);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(pixels_are_what_rays_say),
       cmocka_unit_test(tiles_have_the_pixels_of_the_whole),
       cmocka_unit_test(threads_make_no_difference),
       cmocka_unit_test(passes_end_in_the_same_picture),
+      cmocka_unit_test(stops_where_the_callback_says),
+      cmocka_unit_test(can_be_cancelled),
+      cmocka_unit_test(writes_what_is_asked_for),
+      cmocka_unit_test(resolves_down_to_a_length_scale),
+      cmocka_unit_test(honours_every_struct_size),
+      cmocka_unit_test(refuses_pictures_that_make_no_sense),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
