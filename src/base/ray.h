@@ -40,7 +40,7 @@ struct RaySearch {
   double from = 0, to = 0;
   bool found = false;
   double t = 0;  ///< where found
-  /// There, outward and of length 1; 0 where whoever found it leaves that to others.
+  /// There, outward and of length 1; as it was, 0, where others are to find it.
   Vec3 normal{};
 };
 

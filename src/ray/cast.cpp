@@ -4,51 +4,80 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/borrowed.h"
+
 namespace msq {
 
 namespace {
 
+struct Begin {
+  double from;    // of the search
+  double offset;  // of the origin along the ray
+};
+
+/// Of a batch; kept for the next one of the thread.
+struct CastMemory {
+  std::vector<RaySearch> batch;
+  std::vector<double> ends;  // ray by ray
+  std::vector<Begin> begins;
+  std::vector<std::vector<uint32_t>> waiting;  // by level
+  std::vector<uint32_t> rays;
+
+  void make_room(size_t count, size_t levels) {
+    if (batch.size() < count) {
+      batch.resize(count);
+      begins.resize(count);
+    }
+    if (ends.size() < count * levels) ends.resize(count * levels);
+    if (waiting.size() < levels) waiting.resize(levels);
+    for (std::vector<uint32_t>& level : waiting) level.clear();
+  }
+};
+
 /// A batch of rays on their way. Within a scale, `end` is where a ray may leave it.
 class Caster {
  public:
-  Caster(const Model& model, const Scales& resolved, const Job* job)
+  /// hits[i] will be what searches[i], which are used up, meet.
+  Caster(const Model& model, const Scales& resolved, const Job* job,
+         CastMemory& memory, RaySearch* searches, RayHit* hits)
       : model_(model),
         resolved_(resolved),
         job_(job),
         levels_(1 + resolved.size()),
-        waiting_(levels_) {}
+        bounds_(model.bounds().grown(model.shape().ray_tolerance())),
+        searches_(searches),
+        hits_(hits),
+        ends_(memory.ends.data()),
+        begins_(memory.begins.data()),
+        batch_(memory.batch.data()),
+        waiting_(memory.waiting),
+        rays_(memory.rays) {}
 
-  /// hits[i] becomes what searches[i], which are used up, meet.
-  void run(std::vector<RaySearch>& searches, std::vector<RayHit>& hits) {
-    searches_ = searches.data();
-    hits_ = hits.data();
-    ends_.resize(levels_ * searches.size());
-    begins_.resize(searches.size());
-    for (uint32_t i = 0; i < searches.size(); ++i) start(i);
+  void run(size_t count) {
+    for (uint32_t i = 0; i < count; ++i) start(i);
     while (true) {
       // The coarsest level first: rays then reach finer ones in large batches.
       size_t level = 0;
       while (level < levels_ && waiting_[level].empty()) ++level;
       if (level == levels_) return;
       check_cancelled(job_);
-      advance(level);
+      rays_.clear();
+      rays_.swap(waiting_[level]);
+      if (level == 0)
+        enter_shape();
+      else
+        enter_scale(level);
     }
   }
 
  private:
-  struct Begin {
-    double from;    // of the search
-    double offset;  // of the origin along the ray
-  };
-
   /// Rays begin where they come near the shape, so that none of their numbers is larger than the
   /// shape's.
   void start(uint32_t i) {
     RaySearch& s = searches_[i];
     hits_[i] = {};
     double low = s.from, high = s.to;
-    if (!clip_to_box(s.ray, model_.bounds().grown(model_.shape().ray_tolerance()), low, high))
-      return;
+    if (!clip_to_box(s.ray, bounds_, low, high)) return;
     begins_[i] = {s.from, low};
     s.ray.origin = s.ray.at(low);
     s.from = 0;
@@ -59,43 +88,47 @@ class Caster {
 
   double& end(size_t ray, size_t level) { return ends_[ray * levels_ + level]; }
 
-  void advance(size_t level) {
-    std::vector<uint32_t> rays;
-    rays.swap(waiting_[level]);
-    batch_.clear();
-    for (const uint32_t i : rays) {
-      RaySearch search = searches_[i];
-      search.to = end(i, level);
-      batch_.push_back(search);
-    }
-    enter(level);
-    for (size_t n = 0; n < rays.size(); ++n) {
-      const uint32_t i = rays[n];
-      const RaySearch& found = batch_[n];
-      if (!found.found) {
-        leave(i, level);
-        continue;
-      }
-      if (found.t > searches_[i].from) {
-        searches_[i].from = found.t;
-        hits_[i].scale = static_cast<int32_t>(level);
-        hits_[i].normal = found.normal;
-      }
-      if (level + 1 == levels_) {
-        hit(i);
-        continue;
-      }
-      end(i, level + 1) = leave_of(level, searches_[i].ray, found.t, end(i, level));
-      waiting_[level + 1].push_back(i);
+  void enter_shape() {
+    const Shape& shape = model_.shape();
+    for (const uint32_t i : rays_) {
+      const RaySearch& s = searches_[i];
+      double t;
+      if (shape.enter(s.ray, s.from, end(i, 0), t))
+        entered(i, 0, t, {});
+      else
+        leave(i, 0);
     }
   }
 
-  void enter(size_t level) {
-    if (level > 0) {
-      resolved_[level - 1]->enter(batch_.data(), batch_.size());
+  void enter_scale(size_t level) {
+    for (size_t n = 0; n < rays_.size(); ++n) {
+      const RaySearch& s = searches_[rays_[n]];
+      batch_[n].ray = s.ray;
+      batch_[n].from = s.from;
+      batch_[n].to = end(rays_[n], level);
+      batch_[n].normal = {};
+    }
+    resolved_[level - 1]->enter(batch_, rays_.size());
+    for (size_t n = 0; n < rays_.size(); ++n) {
+      if (batch_[n].found)
+        entered(rays_[n], level, batch_[n].t, batch_[n].normal);
+      else
+        leave(rays_[n], level);
+    }
+  }
+
+  void entered(uint32_t i, size_t level, double t, Vec3 normal) {
+    if (t > searches_[i].from) {
+      searches_[i].from = t;
+      hits_[i].scale = static_cast<int32_t>(level);
+      hits_[i].normal = normal;
+    }
+    if (level + 1 == levels_) {
+      hit(i);
       return;
     }
-    for (RaySearch& s : batch_) s.found = model_.shape().enter(s.ray, s.from, s.to, s.t);
+    end(i, level + 1) = leave_of(level, searches_[i].ray, t, end(i, level));
+    waiting_[level + 1].push_back(i);
   }
 
   double leave_of(size_t level, const Ray& ray, double from, double to) const {
@@ -145,12 +178,14 @@ class Caster {
   const Scales& resolved_;
   const Job* const job_;
   const size_t levels_;
-  RaySearch* searches_ = nullptr;
-  RayHit* hits_ = nullptr;
-  std::vector<double> ends_;  // ray by ray
-  std::vector<Begin> begins_;
-  std::vector<std::vector<uint32_t>> waiting_;
-  std::vector<RaySearch> batch_;
+  const Box3 bounds_;
+  RaySearch* const searches_;
+  RayHit* const hits_;
+  double* const ends_;
+  Begin* const begins_;
+  RaySearch* const batch_;
+  std::vector<std::vector<uint32_t>>& waiting_;
+  std::vector<uint32_t>& rays_;
 };
 
 }  // namespace
@@ -169,25 +204,34 @@ void prepare_rays(const Model& model, const Scales& resolved) {
 
 void cast_batch(const Model& model, const Scales& resolved, std::vector<RaySearch>& searches,
                 std::vector<RayHit>& hits, const Job* job) {
-  hits.resize(searches.size());
-  Caster(model, resolved, job).run(searches, hits);
+  const size_t count = searches.size();
+  hits.resize(count);
+  // The model may be of the host's, whose callbacks may cast rays.
+  const Borrowed<CastMemory> memory;
+  (*memory).make_room(count, 1 + resolved.size());
+  Caster(model, resolved, job, *memory, searches.data(), hits.data()).run(count);
 }
 
 void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
                const TakeHits& take, Job* job) {
   if (count == 0) return;
   prepare_rays(model, resolved);
+  struct Batch {
+    std::vector<RaySearch> searches;
+    std::vector<RayHit> hits;
+  };
   const uint64_t batches = count / ray_batch + (count % ray_batch != 0);
   std::atomic<uint64_t> done{0};
   model.executor().for_each(batches, [&](uint64_t b) {
     check_cancelled(job);
     const uint64_t first = b * ray_batch;
     const size_t size = static_cast<size_t>(std::min(count - first, ray_batch));
-    std::vector<RaySearch> searches(size);
-    std::vector<RayHit> hits(size);
-    fill(first, size, searches.data());
-    Caster(model, resolved, job).run(searches, hits);
-    take(first, size, hits.data());
+    const Borrowed<Batch> borrowed;
+    Batch& batch = *borrowed;
+    batch.searches.assign(size, {});
+    fill(first, size, batch.searches.data());
+    cast_batch(model, resolved, batch.searches, batch.hits, job);
+    take(first, size, batch.hits.data());
     const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
     if (job) job->raise_progress(static_cast<double>(now) / static_cast<double>(batches));
   });
