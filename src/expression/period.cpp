@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace msq {
 
@@ -50,19 +49,20 @@ double growth(const Tape& tape, const Node& node, const std::vector<double>& of)
 
 }  // namespace
 
+std::vector<double> growths(const Tape& tape, int axis) {
+  std::vector<double> of(tape.nodes.size());
+  for (size_t i = 0; i < of.size(); ++i) {
+    const Node& node = tape.nodes[i];
+    of[i] = node.op < Op::add ? static_cast<int>(node.op) - static_cast<int>(Op::x) == axis
+                              : growth(tape, node, of);
+  }
+  return of;
+}
+
 std::array<bool, 3> repeats(const Tape& tape) {
   std::array<bool, 3> all{};
-  std::vector<double> of(tape.nodes.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    for (size_t i = 0; i < of.size(); ++i) {
-      const Node& node = tape.nodes[i];
-      if (node.op < Op::add)
-        of[i] = static_cast<int>(node.op) - static_cast<int>(Op::x) == axis;
-      else
-        of[i] = growth(tape, node, of);
-    }
-    all[static_cast<size_t>(axis)] = of.back() == 0;
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    all[static_cast<size_t>(axis)] = growths(tape, axis).back() == 0;
   return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include "expression/period.h"
 #include "structure/functional/axis_rows.h"
+#include "structure/functional/ray_search.h"
 #include "structure/functional/row_kernels.h"
 #include "structure/functional/turned_rows.h"
 #include "structure/strut_clearance.h"
@@ -46,9 +47,10 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       level_(std::move(level)),
       onset_(onset_of(function, kind)),
       program_(compile(onset_)),
+      ray_program_(onset_),
       sample_axis_(neighbourhood.sample_axes()),
       side_(clusters ? clusters : automatic_clusters(onset_)),
-      repeats_(repeats(onset_)) {
+      repeats_(msq::repeats(onset_)) {
   if (sample_axis_[0] < 0) form_ = TrigonometricForm::of(onset_);
 }
 
@@ -89,8 +91,27 @@ const Slope& Functional::slope() const {
 }
 
 double Functional::least_ray_step() const {
-  return std::isfinite(slope().most + level_.lipschitz()) ? ray_tolerance()
-                                                          : Structure::least_ray_step();
+  return std::isfinite(slope().most)
+             ? ray_tolerance()
+             : FunctionalRays::most_blind_step * min_component(neighbourhood().cell_size);
+}
+
+void Functional::enter(RaySearch* searches, size_t count) const {
+  FunctionalRays rays(*this);
+  rays.find(true, searches, count);
+  rays.find_normals(searches, count);
+}
+
+double Functional::leave(const Ray& ray, double from, double to) const {
+  RaySearch search{ray, from, to};
+  FunctionalRays(*this).find(false, &search, 1);
+  return search.found ? search.t : to;
+}
+
+Vec3 Functional::normal(const Ray& ray, double t) const {
+  RaySearch search{ray, t, t, true, t};
+  FunctionalRays(*this).find_normals(&search, 1);
+  return dot(search.normal, search.normal) > 0 ? search.normal : ray.direction * -1.0;
 }
 
 double Functional::clearance(Vec3 p) const {

@@ -10,6 +10,7 @@
 
 #include "base/lazy.h"
 #include "expression/program.h"
+#include "expression/ray_bounds.h"
 #include "expression/slope.h"
 #include "field/field.h"
 #include "structure/functional/clusters.h"
@@ -35,6 +36,9 @@ class Functional final : public Structure {
   /// being the same throughout the cell. Along axes on which the function does not repeat by itself
   /// no more than the distance to the cell's border. 0 everywhere where the slope is not bounded.
   double clearance(Vec3 p) const override;
+  void enter(RaySearch* searches, size_t count) const override;
+  double leave(const Ray& ray, double from, double to) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
   double least_ray_step() const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   /// Where the level is bounded block by block.
@@ -47,7 +51,10 @@ class Functional final : public Structure {
 
   const Tape& onset() const { return onset_; }
   const Program& program() const { return program_; }
+  const RayProgram& ray_program() const { return ray_program_; }
   const Parameter& level() const { return level_; }
+  /// Along which axes the onset repeats by itself.
+  const std::array<bool, 3>& repeats() const { return repeats_; }
   /// Built by the first call, on whatever thread.
   const Clusters& clusters() const { return prepared().clusters; }
   /// For each axis of the grid the axis of the samples that it runs along; all -1 where the grid is
@@ -73,6 +80,7 @@ class Functional final : public Structure {
   Parameter level_;
   Tape onset_;
   Program program_;
+  RayProgram ray_program_;
   std::array<int, 3> sample_axis_;
   int side_;  // of the clusters
   std::optional<TrigonometricForm> form_;

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/functional/ray_search.h"
+
+#include <cmath>
+#include <limits>
+
+#include "structure/functional/row_kernels.h"
+
+namespace msq {
+
+namespace {
+
+/// In smallest cell sizes. Longer pieces prove little.
+constexpr double first_span = 0.125, most_span = 0.5, small_span = 0x1p-7;
+/// Steps of the tolerance, before they grow.
+constexpr uint32_t short_blind_steps = 16;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The s up to which gap + slope s - bend s^2 stays positive, at most `most`.
+double positive_until(double gap, double slope, double bend, double most) {
+  if (!(gap > 0)) return 0;
+  const double divisor = std::sqrt(slope * slope + 4 * bend * gap) - slope;
+  const double root = (1 - 0x1p-40) * 2 * gap / divisor;
+  return divisor > 0 && root < most ? root : most;
+}
+
+}  // namespace
+
+FunctionalRays::FunctionalRays(const Functional& solid)
+    : solid_(solid),
+      grid_(solid.neighbourhood()),
+      level_(solid.level()),
+      tolerance_(solid.ray_tolerance()),
+      cell_(min_component(grid_.cell_size)),
+      batch_(solid.ray_program()) {
+  std::fill(std::begin(pieces_.span), std::end(pieces_.span), 1);
+}
+
+void FunctionalRays::start(uint32_t number, const RaySearch& search) {
+  Live live;
+  live.search = number;
+  live.t = live.before = search.from;
+  live.span = first_span * cell_;
+  const Vec3 along = grid_.rotation.apply_inverse(search.ray.direction);
+  const Vec3 size = grid_.cell_size;
+  live.rates = {two_pi * along.x / size.x, two_pi * along.y / size.y, two_pi * along.z / size.z};
+  // A point of the ray is rounded, its place in the grid is, and its angles are; two_pi is.
+  const Vec3 p = search.ray.at(search.from), q = search.ray.at(search.to);
+  const double off = 0x1p-49 * (max_magnitude(p) + max_magnitude(q) + max_magnitude(grid_.origin));
+  live.error = two_pi * off / cell_ + 0x1p-47;
+  live_.push_back(live);
+}
+
+void FunctionalRays::locate(const RaySearch* searches, const Live* live, size_t count) {
+  double x[lanes] = {}, y[lanes] = {}, z[lanes] = {};
+  alignas(64) double angles[3][lanes + batch_padding];
+  for (size_t i = 0; i < count; ++i) {
+    points_[i] = searches[live[i].search].ray.at(live[i].t);
+    x[i] = points_[i].x;
+    y[i] = points_[i].y;
+    z[i] = points_[i].z;
+  }
+  find_angles(grid_, {x, false}, {y, false}, {z, false}, count, {angles[0], angles[1], angles[2]});
+  for (size_t axis = 0; axis < 3; ++axis)
+    std::copy_n(angles[axis], count, pieces_.coordinates[axis]);
+  level_.values(points_, count, levels_);
+}
+
+FunctionalRays::Level FunctionalRays::level_over(const Ray& ray, double t, double span,
+                                                 double value) const {
+  if (level_.is_constant()) return {value};
+  const Vec3 p = ray.at(t), q = ray.at(t + span);
+  const Box3 piece = Box3{min(p, q), max(p, q)}.grown(0x1p-49 * (max_magnitude(p) + span));
+  Vec3 gradient;
+  if (level_.is_linear(piece, gradient)) {
+    const Interval all = level_.range();
+    const double slope = dot(gradient, ray.direction);
+    const double off =
+        0x1p-38 * (all.high - all.low) + 0x1p-49 * length(gradient) * (max_magnitude(p) + span);
+    return {value, slope, slope, off, off};
+  }
+  const double steepest = level_.lipschitz();
+  if (steepest < infinity) {
+    const Interval range = level_.range(Box3{p, p});
+    const double off =
+        2 * (range.high - range.low) + 0x1p-49 * steepest * (max_magnitude(p) + span);
+    return {value, -steepest, steepest, off, off};
+  }
+  const Interval range = level_.range(piece);
+  return {value, 0, 0, range.high - value, value - range.low, true};
+}
+
+bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t lane,
+                             const RayBatch::Bounds& bounds) {
+  const double value = bounds.value[lane];
+  // Less is lost in rounding.
+  const double tolerance = std::max(tolerance_, 0x1p-50 * (max_magnitude(points_[lane]) + live.t));
+  if ((value <= levels_[lane]) == wanted) {
+    search.found = true;
+    search.t = live.t;
+    if (live.t - live.before > tolerance)
+      search.t = bisect(live.before, live.t, tolerance,
+                        [&](double t) { return solid_.inside(search.ray.at(t)) == wanted; });
+    if (live.border >= 0) {
+      Vec3 back;
+      back[live.border] = live.rates[live.border] > 0 ? -1 : 1;
+      search.normal = grid_.rotation.apply(back);
+    }
+    return false;
+  }
+  if (live.t >= search.to) return false;
+  const double span = pieces_.span[lane];
+  const Level level = level_over(search.ray, live.t, span, levels_[lane]);
+  const double bend = bounds.bend[lane];
+  double gap = value - levels_[lane], slope;
+  if (wanted) {
+    gap = gap - bounds.error[lane] - level.above;
+    slope = bounds.low[lane] - level.high;
+  } else {
+    gap = -gap - bounds.error[lane] - level.below;
+    slope = level.low - bounds.high[lane];
+  }
+  const bool is_clear = is_clear_[lane];
+  const bool is_bounded = std::abs(slope) < infinity && bend < infinity;
+  const double proven =
+      is_bounded && is_clear ? positive_until(gap, slope, bend, std::min(span, border_[lane])) : 0;
+  live.border = -1;
+  if (proven > tolerance) {
+    live.before = live.t += proven;
+    // Bounds are the nearer the shorter the piece.
+    const double growth = proven < span || proven > small_span * cell_ ? 2 : 8;
+    live.span = std::min(growth * proven, most_span * cell_);
+    live.blind_steps = 0;
+    return live.t < search.to;
+  }
+  if (is_clear && span > 2 * tolerance && (!is_bounded || (gap <= 0 && level.is_of_piece))) {
+    live.span = 0.25 * span;
+    return true;
+  }
+  double step = tolerance;
+  if (is_bounded && is_clear) {
+    live.blind_steps = 0;
+  } else if (++live.blind_steps > short_blind_steps) {
+    const uint32_t doublings = std::min<uint32_t>(live.blind_steps - short_blind_steps, 64);
+    step = std::min(std::ldexp(tolerance, static_cast<int>(doublings)),
+                    std::max(tolerance, most_blind_step * cell_));
+  }
+  live.span = 8 * step;
+  if (border_[lane] <= step) {
+    live.border = border_axis_[lane];
+    live.span = first_span * cell_;
+  }
+  live.before = live.t;
+  live.t = std::min(live.t + step, search.to);
+  return live.t > live.before;  // or steps vanish in rounding
+}
+
+void FunctionalRays::find(bool wanted, RaySearch* searches, size_t count) {
+  live_.clear();
+  for (size_t i = 0; i < count; ++i) {
+    searches[i].found = false;
+    searches[i].normal = {};
+    if (searches[i].from <= searches[i].to) start(static_cast<uint32_t>(i), searches[i]);
+  }
+  while (!live_.empty()) {
+    size_t kept = 0;
+    for (size_t first = 0; first < live_.size(); first += lanes) {
+      const size_t size = std::min(lanes, live_.size() - first);
+      Live* const live = live_.data() + first;
+      locate(searches, live, size);
+      for (size_t i = 0; i < size; ++i) set_piece(searches[live[i].search], live[i], i);
+      const RayBatch::Bounds bounds = batch_.run(pieces_, size);
+      for (size_t i = 0; i < size; ++i)
+        if (advance(wanted, searches[live[i].search], live[i], i, bounds)) live_[kept++] = live[i];
+    }
+    live_.resize(kept);
+  }
+}
+
+void FunctionalRays::set_piece(const RaySearch& search, const Live& live, size_t lane) {
+  pieces_.span[lane] = std::max(std::min(live.span, search.to - live.t), tolerance_);
+  pieces_.error[lane] = live.error;
+  border_[lane] = infinity;
+  border_axis_[lane] = -1;
+  is_clear_[lane] = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double rate = live.rates[axis];
+    pieces_.rates[static_cast<size_t>(axis)][lane] = rate;
+    if (solid_.repeats()[static_cast<size_t>(axis)]) continue;
+    if (rate == 0 && grid_.sample_axes()[0] >= 0) continue;  // rounding is the same all along
+    const double angle = pieces_.coordinates[static_cast<size_t>(axis)][lane];
+    const double behind = rate > 0 ? angle : two_pi - angle;
+    const double ahead = two_pi - behind - live.error;
+    if (behind < live.error) is_clear_[lane] = false;  // points may still be before the border
+    const double until = std::max(0.0, ahead / std::abs(rate));
+    if (ahead <= 0) is_clear_[lane] = false;
+    if (!(until < border_[lane])) continue;
+    border_[lane] = until;
+    border_axis_[lane] = axis;
+  }
+}
+
+void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
+  live_.clear();
+  for (size_t i = 0; i < count; ++i) {
+    if (!searches[i].found || dot(searches[i].normal, searches[i].normal) > 0) continue;
+    start(static_cast<uint32_t>(i), searches[i]);
+    live_.back().t = searches[i].t;
+  }
+  for (size_t first = 0; first < live_.size(); first += lanes) {
+    const size_t size = std::min(lanes, live_.size() - first);
+    const Live* const live = live_.data() + first;
+    locate(searches, live, size);
+    Vec3 gradients[lanes];
+    for (size_t i = 0; i < size; ++i) {
+      pieces_.span[i] = tolerance_;
+      pieces_.error[i] = live[i].error;
+    }
+    for (int along = 0; along < 3; ++along) {
+      for (int axis = 0; axis < 3; ++axis)
+        std::fill_n(pieces_.rates[axis], size, axis == along ? 1 : 0);
+      const RayBatch::Bounds bounds = batch_.run(pieces_, size);
+      for (size_t i = 0; i < size; ++i)
+        gradients[i][along] = 0.5 * (bounds.low[i] + bounds.high[i]);
+    }
+    for (size_t i = 0; i < size; ++i) {
+      const Vec3 size_of_cell = grid_.cell_size, g = gradients[i];
+      const Vec3 in_grid{two_pi * g.x / size_of_cell.x, two_pi * g.y / size_of_cell.y,
+                         two_pi * g.z / size_of_cell.z};
+      const Vec3 away = grid_.rotation.apply(in_grid) - level_gradient(points_[i]);
+      const double steepness = length(away);
+      searches[live[i].search].normal =
+          steepness > 0 && steepness < infinity ? away * (1 / steepness) : Vec3{};
+    }
+  }
+}
+
+Vec3 FunctionalRays::level_gradient(Vec3 p) const {
+  Vec3 gradient;
+  if (level_.is_constant()) return gradient;
+  const double step = 0x1p-16 * cell_;
+  if (level_.is_linear(Box3{p, p}.grown(step), gradient)) return gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 before = p, beyond = p;
+    before[axis] -= step;
+    beyond[axis] += step;
+    gradient[axis] = (level_.at(beyond) - level_.at(before)) / (beyond[axis] - before[axis]);
+  }
+  return gradient;
+}
+
+}  // namespace msq

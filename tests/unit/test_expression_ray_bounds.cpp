@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bounds along pieces of rays hold at points all along them, long pieces and short ones, also in
+// the cells that pieces run on into; they are as near as their order promises; and values are the
+// evaluator's.
+#include <cmath>
+
+#include "expression/parser.h"
+#include "expression/period.h"
+#include "expression/ray_bounds.h"
+#include "random.h"
+#include "structure/functional/presets.h"
+#include "suite.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+constexpr double coordinate_error = 0x1p-47;
+
+struct Row {
+  std::string name;
+  double least_part;  ///< of the pieces of span 1/64 about which something is known
+};
+
+double wrapped(double angle) {
+  const double fraction = angle / two_pi - std::floor(angle / two_pi);
+  return fraction * two_pi;
+}
+
+void test_row(void** state) {
+  const Row& row = *static_cast<const Row*>(*state);
+  const Tape tape = parse_expression(row.name.c_str(), {});
+  const std::array<bool, 3> repeats = msq::repeats(tape);
+  const RayProgram program(tape);
+  RayBatch batch(program);
+  RayBatch::Pieces pieces;
+  Random random(11);
+  size_t known = 0, asked = 0;
+  for (size_t n = 0; n < test_count(400); ++n) {
+    const double span = std::exp2(-double(n % 16));
+    for (size_t i = 0; i < RayBatch::lanes; ++i) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        double& rate = pieces.rates[axis][i];
+        rate = i % 4 == 3 && axis > 0 ? 0 : random.between(-two_pi, two_pi);
+        // Within the cell, and to its end where the function does not repeat.
+        double low = 0, high = two_pi;
+        if (!repeats[axis]) (rate < 0 ? low : high) -= rate * span;
+        double& at = pieces.coordinates[axis][i];
+        at = random.between(low, high);
+        if (!(at >= low && at <= high)) rate = 0;
+      }
+      pieces.error[i] = coordinate_error;
+      pieces.span[i] = span;
+    }
+    const RayBatch::Bounds bounds = batch.run(pieces, RayBatch::lanes);
+    for (size_t i = 0; i < RayBatch::lanes; ++i) {
+      const auto at = [&](double s) {
+        Vec3 p;
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto a = static_cast<size_t>(axis);
+          p[axis] = pieces.coordinates[a][i] + pieces.rates[a][i] * s;
+          if (repeats[a]) p[axis] = wrapped(p[axis]);
+        }
+        return evaluate(tape, p);
+      };
+      const Vec3 begin{pieces.coordinates[0][i], pieces.coordinates[1][i],
+                       pieces.coordinates[2][i]};
+      const double value = evaluate(tape, begin);
+      assert_true(value == bounds.value[i] || (std::isnan(value) && std::isnan(bounds.value[i])));
+      const bool is_known = std::isfinite(bounds.bend[i]);
+      asked += span <= 1.0 / 64;
+      known += span <= 1.0 / 64 && is_known;
+      if (!is_known) continue;
+      for (int k = 0; k <= 16; ++k) {
+        const double s = span * (k == 0 ? random.unit() : k / 16.0), v = at(s);
+        const double bend = bounds.bend[i] * s * s + bounds.error[i];
+        if (!(v >= bounds.value[i] + bounds.low[i] * s - bend) ||
+            !(v <= bounds.value[i] + bounds.high[i] * s + bend))
+          fail_msg("%s: %.17g at %g of %g, expected %.17g + [%g, %g] s +- %g", row.name.c_str(), v,
+                   s, span, bounds.value[i], bounds.low[i], bounds.high[i], bend);
+      }
+      if (span > 0x1p-10) continue;
+      assert_true(bounds.high[i] >= bounds.low[i]);
+      if (program.is_smooth() && row.least_part == 1) {
+        assert_true(bounds.bend[i] < 1e5);
+        assert_true(bounds.error[i] < 1e-11);
+      }
+    }
+  }
+  if (!(known >= row.least_part * asked))
+    fail_msg("%s: %zu of %zu", row.name.c_str(), known, asked);
+}
+
+}  // namespace
+
+int main() {
+  std::vector<Row> rows;
+  for (const char* preset : preset_expressions) rows.push_back({preset, 1});
+  for (const Row& row :
+       {Row{"x", 1}, Row{"0.25", 1}, Row{"x*y-z", 1}, Row{"-x/(y+1)", 1},
+        Row{"sin(3*x+2*y-z)*cos(5*z)", 1}, Row{"sin(60*x)+cos(x+x+x)", 1},
+        Row{"max(sin(x),cos(y))", 1}, Row{"min(x*y,max(y,z)-1)", 1}, Row{"abs(sin(x)-cos(z))", 1},
+        Row{"abs(x-3)", 1}, Row{"exp(sin(x)*2)-cos(y)", 1}, Row{"sqrt(4+cos(x)+cos(y)*cos(z))", 1},
+        Row{"sqrt((x-3)*(x-3)+(y-3)*(y-3)+(z-3)*(z-3))-2", 0.9}, Row{"log(x+0.1)*y", 1},
+        Row{"1/(1.5+sin(x))", 1}, Row{"1/sin(x)", 0.8}, Row{"sqrt(x-3)", 0.4},
+        Row{"max(abs(x-3),max(abs(y-3),abs(z-3)))-2", 1}, Row{"log(x-3)", 0.4}})
+    rows.push_back(row);
+  return run_for_each("ray_bounds", rows, test_row);
+}
