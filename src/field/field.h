@@ -60,6 +60,18 @@ class Parameter {
     return field_ ? field_->range(box) : Interval{value_, value_};
   }
   double lipschitz() const { return field_ ? field_->lipschitz() : 0; }
+  /// About p; where it is not linear by differences over `step` on either side.
+  Vec3 gradient(Vec3 p, double step) const {
+    Vec3 gradient;
+    if (!field_ || field_->is_linear(Box3{p, p}.grown(step), gradient)) return gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 before = p, beyond = p;
+      before[axis] -= step;
+      beyond[axis] += step;
+      gradient[axis] = (field_->at(beyond) - field_->at(before)) / (beyond[axis] - before[axis]);
+    }
+    return gradient;
+  }
 
  private:
   double value_ = 0;

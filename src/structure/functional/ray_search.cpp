@@ -227,26 +227,13 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
       const Vec3 size_of_cell = grid_.cell_size, g = gradients[i];
       const Vec3 in_grid{two_pi * g.x / size_of_cell.x, two_pi * g.y / size_of_cell.y,
                          two_pi * g.z / size_of_cell.z};
-      const Vec3 away = grid_.rotation.apply(in_grid) - level_gradient(points_[i]);
+      const Vec3 away =
+          grid_.rotation.apply(in_grid) - level_.gradient(points_[i], 0x1p-16 * cell_);
       const double steepness = length(away);
       searches[live[i].search].normal =
           steepness > 0 && steepness < infinity ? away * (1 / steepness) : Vec3{};
     }
   }
-}
-
-Vec3 FunctionalRays::level_gradient(Vec3 p) const {
-  Vec3 gradient;
-  if (level_.is_constant()) return gradient;
-  const double step = 0x1p-16 * cell_;
-  if (level_.is_linear(Box3{p, p}.grown(step), gradient)) return gradient;
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec3 before = p, beyond = p;
-    before[axis] -= step;
-    beyond[axis] += step;
-    gradient[axis] = (level_.at(beyond) - level_.at(before)) / (beyond[axis] - before[axis]);
-  }
-  return gradient;
 }
 
 }  // namespace msq

@@ -55,7 +55,6 @@ class FunctionalRays {
   void set_piece(const RaySearch& search, const Live& live, size_t lane);
   void locate(const RaySearch* searches, const Live* live, size_t count);
   Level level_over(const Ray& ray, double t, double span, double value) const;
-  Vec3 level_gradient(Vec3 p) const;
 
   const Functional& solid_;
   const Neighbourhood& grid_;

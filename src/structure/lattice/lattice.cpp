@@ -104,6 +104,27 @@ double Lattice::clearance(Vec3 p) const {
   return factored_clearance(gap, r, most_factor_, slack, radius_.lipschitz());
 }
 
+const CellParts& Lattice::parts() const {
+  return parts_.get([&] {
+    return std::make_unique<CellParts>(near_, neighbourhood().cell_size, radius_.range().high);
+  });
+}
+
+void Lattice::enter(RaySearch* searches, size_t count) const {
+  PartLists lists(parts());
+  StrutRays(*this, lists, radius_).enter(searches, count);
+}
+
+double Lattice::leave(const Ray& ray, double from, double to) const {
+  PartLists lists(parts());
+  return StrutRays(*this, lists, radius_).leave(ray, from, to);
+}
+
+Vec3 Lattice::normal(const Ray& ray, double t) const {
+  PartLists lists(parts());
+  return StrutRays(*this, lists, radius_).normal(ray, t);
+}
+
 double Lattice::onset_limit() const {
   return most_radius * min_component(neighbourhood().cell_size) / most_factor_;
 }

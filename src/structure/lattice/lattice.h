@@ -7,6 +7,7 @@
 
 #include "base/lazy.h"
 #include "field/field.h"
+#include "structure/lattice/part_lists.h"
 #include "structure/lattice/row_struts.h"
 #include "structure/lattice/strut_clusters.h"
 #include "structure/lattice/unit_cell.h"
@@ -35,6 +36,9 @@ class Lattice final : public Structure {
                ? ray_tolerance()
                : Structure::least_ray_step();
   }
+  void enter(RaySearch* searches, size_t count) const override;
+  double leave(const Ray& ray, double from, double to) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double onset_limit() const override;
@@ -45,6 +49,7 @@ class Lattice final : public Structure {
 
  private:
   const StrutClusters& clusters() const;
+  const CellParts& parts() const;
 
   Parameter radius_;
   std::vector<PeriodicStrut> struts_;  // in cell units, the thickest first
@@ -56,6 +61,7 @@ class Lattice final : public Structure {
   Lazy<StrutClusters> onsets_;   // for all radii
   std::array<int, 3> row_axes_;  // of the grid, that the samples' axes run along; all -1: turned
   Lazy<RowStruts> row_struts_;
+  Lazy<CellParts> parts_;  // for rays
 };
 
 }  // namespace msq

@@ -174,6 +174,39 @@ double MixedLattice::clearance(Vec3 p) const {
   return factored_clearance(gap, r, most_factor_, slack, radius_.lipschitz());
 }
 
+const MixedParts& MixedLattice::parts() const {
+  return parts_.get([&] {
+    std::vector<MixedParts::Neighbour> neighbours;
+    for (size_t n = 0; n < near_neighbours_; ++n) {
+      const int(&offset)[3] = neighbours_[n].offset;
+      neighbours.push_back({{offset[0], offset[1], offset[2]}, {}});
+      for (size_t type = 0; type < library_.size(); ++type)
+        neighbours.back().near.push_back(near(n, type));
+    }
+    return std::make_unique<MixedParts>(neighbours, neighbourhood().cell_size,
+                                        radius_.range().high);
+  });
+}
+
+MixedPartLists MixedLattice::part_lists() const {
+  return MixedPartLists(parts(), [this](CellIndex cell) { return type_of(cell); });
+}
+
+void MixedLattice::enter(RaySearch* searches, size_t count) const {
+  MixedPartLists lists = part_lists();
+  StrutRays(*this, lists, radius_).enter(searches, count);
+}
+
+double MixedLattice::leave(const Ray& ray, double from, double to) const {
+  MixedPartLists lists = part_lists();
+  return StrutRays(*this, lists, radius_).leave(ray, from, to);
+}
+
+Vec3 MixedLattice::normal(const Ray& ray, double t) const {
+  MixedPartLists lists = part_lists();
+  return StrutRays(*this, lists, radius_).normal(ray, t);
+}
+
 void MixedLattice::keep_rows(const RowBlock& block, const Job* job) const {
   const Neighbourhood& grid = neighbourhood();
   StrutRows rows(block, grid, radius_, 1e-9 * most_factor_ * radius_.range().high, most_factor_);

@@ -13,7 +13,9 @@
 #include <span>
 #include <vector>
 
+#include "base/lazy.h"
 #include "field/field.h"
+#include "structure/lattice/mixed_part_lists.h"
 #include "structure/lattice/unit_cell.h"
 #include "structure/structure.h"
 
@@ -49,9 +51,7 @@ class MixedLattice final : public Structure {
   /// Which of the library stands in a cell.
   size_t type_of(CellIndex cell) const;
 
-  bool is_concurrent() const override {
-    return choice_.is_concurrent() && radius_.is_concurrent();
-  }
+  bool is_concurrent() const override { return choice_.is_concurrent() && radius_.is_concurrent(); }
   bool inside(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return true; }
@@ -64,6 +64,10 @@ class MixedLattice final : public Structure {
                ? ray_tolerance()
                : Structure::least_ray_step();
   }
+
+  void enter(RaySearch* searches, size_t count) const override;
+  double leave(const Ray& ray, double from, double to) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
 
   /// Faces between cells of a range of fewer than 2^31. Asks the choice once for each and keeps a
   /// byte for each of a layer.
@@ -90,6 +94,8 @@ class MixedLattice final : public Structure {
   std::span<const OwnStrut> own(size_t type) const {
     return {struts_.data() + own_runs_[type].begin, own_runs_[type].end - own_runs_[type].begin};
   }
+  const MixedParts& parts() const;
+  MixedPartLists part_lists() const;
   void find_neighbours();
   void find_copies();
 
@@ -105,6 +111,7 @@ class MixedLattice final : public Structure {
   std::vector<Run> own_runs_;          // for each type
   std::vector<double> factors_;        // that occur, each once
   std::vector<uint8_t> copies_;        // see find_copies()
+  Lazy<MixedParts> parts_;             // for rays
 };
 
 }  // namespace msq

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/lattice/strut_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace msq {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// In smallest cell sizes: entries that formulas give are no worse than that, but for those that
+/// are settled by membership alone; and parts of a ray this short within a strut may be rounding's.
+constexpr double formula_error = 1e-6, short_part = 0x1p-12;
+
+}  // namespace
+
+StrutRays::StrutRays(const Structure& structure, StrutLists& lists, const Parameter& radius)
+    : structure_(structure),
+      lists_(lists),
+      radius_(radius),
+      grid_(structure.neighbourhood()),
+      tolerance_(structure.ray_tolerance()),
+      cell_(min_component(grid_.cell_size)) {}
+
+/// Source: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", 1987; each
+/// crossing from its plane, so that nothing adds up.
+template <class Visit>
+void StrutRays::walk(const Ray& ray, double from, double to, Visit&& visit) const {
+  const Vec3 along = grid_.rotation.apply_inverse(ray.direction);
+  const Vec3 origin = grid_.to_grid(ray.origin), start = grid_.to_grid(ray.at(from));
+  const int parts = lists_.parts();
+  const Vec3 size = grid_.cell_size * (1.0 / parts);
+  int64_t index[3];
+  double next[3];
+  const auto crossing = [&](int axis) {
+    const double plane = static_cast<double>(index[axis] + (along[axis] > 0)) * size[axis];
+    return along[axis] == 0 ? infinity : (plane - origin[axis]) / along[axis];
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    index[axis] = static_cast<int64_t>(std::floor(start[axis] / size[axis]));
+    next[axis] = crossing(axis);
+  }
+  Part part;
+  part.from = from;
+  while (true) {
+    const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
+    part.to = std::max(part.from, std::min(next[axis], to));
+    int32_t cell[3];
+    for (int i = 0; i < 3; ++i) {
+      const int64_t n = index[i] >= 0 ? index[i] / parts : -((-index[i] + parts - 1) / parts);
+      cell[i] = static_cast<int32_t>(n);
+      part.number[i] = static_cast<int>(index[i] - n * parts);
+    }
+    part.cell = {cell[0], cell[1], cell[2]};
+    if (!visit(static_cast<const Part&>(part)) || next[axis] >= to) return;
+    part.from = part.to;
+    index[axis] += along[axis] > 0 ? 1 : -1;
+    next[axis] = crossing(axis);
+  }
+}
+
+Vec3 StrutRays::locate(const Part& part, Vec3 p) const {
+  const Neighbourhood::Located located = grid_.locate(p);
+  Vec3 q = located.fraction;
+  // Points that lie in other cells belong to struts that reach over.
+  q.x += located.cell.x - part.cell.x;
+  q.y += located.cell.y - part.cell.y;
+  q.z += located.cell.z - part.cell.z;
+  return q * grid_.cell_size;
+}
+
+bool StrutRays::holds(const Part& part, uint32_t strut, Vec3 p) const {
+  const LatticeStrut s{lists_.struts().axis(strut), lists_.struts().factor(strut)};
+  return s.holds(locate(part, p), radius_.at(p));
+}
+
+void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest) {
+  candidates_.clear();
+  runs_.clear();
+  lists_.find(part.cell, part.number, runs_);
+  const Vec3 p = ray.at(part.from);
+  double radius;
+  if (radius_.is_constant()) {
+    radius = radius_.at(p);
+  } else {
+    const Vec3 q = ray.at(part.to);
+    const Box3 box = Box3{min(p, q), max(p, q)}.grown(2 * tolerance_ + formula_error * cell_);
+    const Interval range = radius_.range(box);
+    radius = std::max(0.0, greatest ? range.high : range.low);
+  }
+  // Wider by what lists are.
+  const double margin = 2 * tolerance_;
+  const Vec3 corner{double(part.cell.x), double(part.cell.y), double(part.cell.z)};
+  const CapsuleList::Ray local{grid_.to_grid(p) - corner * grid_.cell_size,
+                               grid_.rotation.apply_inverse(ray.direction),
+                               part.to - part.from + margin, radius};
+  for (const StrutLists::Run run : runs_) {
+    if (met_.size() < run.end - run.begin) met_.resize(run.end - run.begin);
+    const size_t count = lists_.struts().meet(run.begin, run.end, local, met_.data());
+    for (size_t i = 0; i < count; ++i)
+      candidates_.push_back(
+          {met_[i].capsule, part.from + met_[i].enter, part.from + met_[i].leave});
+  }
+}
+
+bool StrutRays::approach(const Ray& ray, const Part& part, uint32_t strut, double& t,
+                         double to) const {
+  const Segment axis = lists_.struts().axis(strut);
+  const double factor = lists_.struts().factor(strut);
+  const Vec3 along = grid_.rotation.apply_inverse(ray.direction);
+  Vec3 gradient;
+  double steepest = radius_.lipschitz();
+  const Vec3 begin = ray.at(t), end = ray.at(to);
+  if (radius_.is_linear(Box3{min(begin, end), max(begin, end)}, gradient))
+    steepest = dot(gradient, ray.direction);
+  // Past nearly as many steps a ray only grazes the strut.
+  constexpr int fast_steps = 1000;
+  for (int n = 0; t <= to; ++n) {
+    const Vec3 p = ray.at(t), q = locate(part, p);
+    const double s = std::clamp(dot(q - axis.a, axis.ab) * axis.inverse_length_squared, 0.0, 1.0);
+    const Vec3 away = q - axis.a - axis.ab * s;
+    const double distance = length(away), gap = distance - factor * radius_.at(p);
+    if (!(gap > 0)) return true;
+    // The distance is convex along the ray, and the radius grows by no more than `steepest`.
+    const double fall = factor * steepest - dot(away, along) / distance;
+    if (!(fall > 0)) return false;
+    const double least = n < fast_steps ? tolerance_ : std::max(tolerance_, 0x1p-24 * cell_);
+    const double next = t + std::max(gap / fall, least);
+    if (!(next > t)) return false;
+    t = next;
+  }
+  return false;
+}
+
+bool StrutRays::enter_strut(const Ray& ray, const Part& part, const Candidate& candidate,
+                            double from, double to, double& t) const {
+  double enter = std::max(candidate.enter, from), leave = std::min(candidate.leave, to);
+  // Of short parts the last bits decide, of all struts together.
+  const bool is_short = candidate.leave - candidate.enter < short_part * cell_;
+  const auto is_in = [&](Vec3 p) {
+    return is_short ? structure_.inside(p) : holds(part, candidate.strut, p);
+  };
+  if (!radius_.is_constant() && !is_in(ray.at(enter))) {
+    if (radius_.lipschitz() == infinity) {
+      const RayMarch march{structure_.least_ray_step(), tolerance_};
+      return march.find(
+          true, ray, enter, std::max(enter, leave), is_in, [](Vec3) { return 0.0; }, t);
+    }
+    if (!approach(ray, part, candidate.strut, enter, leave)) return false;
+  }
+  t = enter;
+  if (settle_entry(ray, from, tolerance_, is_in, t)) return true;
+  // Formulas may be too early, by much where the ray grazes the strut or runs along it.
+  const double middle = 0.5 * (enter + leave);
+  if (!(middle > enter) || !is_in(ray.at(middle))) return false;
+  t = bisect(enter, middle, tolerance_, [&](double at) { return is_in(ray.at(at)); });
+  return true;
+}
+
+Vec3 StrutRays::normal_of(const Part& part, uint32_t strut, const Ray& ray, double t) const {
+  const Segment axis = lists_.struts().axis(strut);
+  const Vec3 p = ray.at(t), q = locate(part, p);
+  const double s = std::clamp(dot(q - axis.a, axis.ab) * axis.inverse_length_squared, 0.0, 1.0);
+  const Vec3 away = q - axis.a - axis.ab * s;
+  const double distance = length(away);
+  if (!(distance > 0)) return {};
+  Vec3 normal = grid_.rotation.apply(away * (1 / distance));
+  if (!radius_.is_constant())
+    normal = normal - radius_.gradient(p, 0x1p-16 * cell_) * lists_.struts().factor(strut);
+  const double size = length(normal);
+  return size > 0 && size < infinity ? normal * (1 / size) : Vec3{};
+}
+
+void StrutRays::enter(RaySearch* searches, size_t count) {
+  for (size_t i = 0; i < count; ++i) enter(searches[i]);
+}
+
+void StrutRays::enter(RaySearch& search) {
+  search.found = false;
+  search.normal = {};
+  if (!(search.from <= search.to)) return;
+  const Ray& ray = search.ray;
+  walk(ray, search.from, search.to, [&](const Part& part) {
+    find_candidates(ray, part, true);
+    double first = infinity;
+    uint32_t strut = 0;
+    while (true) {
+      // The next by formula, until what is settled is before it.
+      size_t next = candidates_.size();
+      for (size_t i = 0; i < candidates_.size(); ++i)
+        if (next == candidates_.size() || candidates_[i].enter < candidates_[next].enter) next = i;
+      if (next == candidates_.size() ||
+          candidates_[next].enter > std::min(first, part.to) + formula_error * cell_)
+        break;
+      const Candidate candidate = candidates_[next];
+      candidates_[next] = candidates_.back();
+      candidates_.pop_back();
+      double t;
+      const double to = std::min(first, part.to + tolerance_);
+      if (enter_strut(ray, part, candidate, std::max(search.from, part.from - tolerance_), to, t) &&
+          t < first) {
+        first = t;
+        strut = candidate.strut;
+      }
+    }
+    if (first > part.to + tolerance_) return true;
+    search.found = true;
+    search.t = std::min(first, search.to);
+    search.normal = normal_of(part, strut, ray, search.t);
+    return false;
+  });
+}
+
+double StrutRays::leave(const Ray& ray, double from, double to) {
+  double until = from;
+  walk(ray, from, to, [&](const Part& part) {
+    const Vec3 begin = ray.at(part.from), end = ray.at(part.to);
+    Vec3 gradient;
+    const bool is_interval = radius_.is_constant() ||
+                             radius_.is_linear(Box3{min(begin, end), max(begin, end)}, gradient);
+    // Where a strut may hold more than one interval, that of the least radius.
+    find_candidates(ray, part, is_interval);
+    // How far a strut that holds the ray from `until` on does, within the part.
+    const auto end_of = [&](const Candidate& c) {
+      const auto is_out = [&](double t) { return !holds(part, c.strut, ray.at(t)); };
+      const double last = std::min(c.leave, part.to);
+      if (!(last > until) || is_out(until)) return until;
+      return is_out(last) ? bisect(until, last, tolerance_, is_out) - tolerance_ : last;
+    };
+    for (bool is_longer = true; is_longer && until < part.to;) {
+      is_longer = false;
+      for (const Candidate& c : candidates_) {
+        if (c.enter > until + formula_error * cell_) continue;
+        const double t = end_of(c);
+        if (!(t > until)) continue;
+        until = t;
+        is_longer = true;
+      }
+    }
+    return until >= part.to;
+  });
+  return until > from ? until : structure_.Structure::leave(ray, from, to);
+}
+
+Vec3 StrutRays::normal(const Ray& ray, double t) {
+  // The strut that holds the point where the ray enters, or the one that is next to it.
+  Vec3 normal;
+  double least = infinity;
+  walk(ray, t, t, [&](const Part& part) {
+    runs_.clear();
+    lists_.find(part.cell, part.number, runs_);
+    const Vec3 p = ray.at(t), q = locate(part, p);
+    const double r = radius_.at(p);
+    for (const StrutLists::Run run : runs_)
+      for (uint32_t i = run.begin; i < run.end; ++i) {
+        const double gap =
+            std::sqrt(lists_.struts().axis(i).distance_squared(q)) - lists_.struts().factor(i) * r;
+        if (!(gap < least)) continue;
+        least = gap;
+        normal = normal_of(part, i, ray, t);
+      }
+    return false;
+  });
+  return dot(normal, normal) > 0 ? normal : ray.direction * -1.0;
+}
+
+}  // namespace msq

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// One ray against lists of capsules, in vectors of capsules and in double precision: for lists that
+// many rays meet one after the other, each at a place of its own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "strut/segment.h"
+
+namespace msq {
+
+/// Axes, and the factors of the radius.
+class CapsuleList {
+ public:
+  void add(const Segment& axis, double factor);
+  /// To be called after the last.
+  void finish();
+
+  size_t size() const { return count_; }
+  double factor(size_t i) const { return arrays_[factors][i]; }
+  /// The axis as it was added, to the last bit.
+  Segment axis(size_t i) const {
+    Segment s;
+    s.a = {arrays_[0][i], arrays_[1][i], arrays_[2][i]};
+    s.ab = {arrays_[3][i], arrays_[4][i], arrays_[5][i]};
+    s.inverse_length_squared = arrays_[inverses][i];
+    return s;
+  }
+
+  struct Ray {
+    Vec3 origin, direction;  ///< of length 1, in the coordinates of the axes
+    double to;               ///< from 0 on
+    double radius;           ///< for a factor of 1
+  };
+  /// The part of the ray within capsule `capsule`.
+  struct Met {
+    uint32_t capsule;
+    double enter, leave;
+  };
+  /// Writes those of capsules [begin, end) that the ray meets in [0, to], at most end - begin, and
+  /// answers how many. Parts are too long, if anything, where the ray runs along an axis within
+  /// 1e-6; else they are wrong by rounding, which grows as they get short.
+  size_t meet(size_t begin, size_t end, const Ray& ray, Met* met) const;
+
+ private:
+  enum : size_t { inverses = 6, factors = 7 };
+
+  size_t count_ = 0;
+  std::vector<double> arrays_[8];  // a, ab, 1 / |ab|^2, factor
+};
+
+}  // namespace msq
