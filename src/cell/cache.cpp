@@ -82,7 +82,7 @@ CellCache::Data CellCache::find(const Key& key) {
     return nullptr;
   }
   part.hits.fetch_add(1, std::memory_order_relaxed);
-  Entry& entry = *found->second;
+  Entry& entry = found->second;
   // Stored once: a line that is only read stays in all cores' caches.
   if (!entry.is_fetched_again.load(std::memory_order_relaxed))
     entry.is_fetched_again.store(true, std::memory_order_relaxed);
@@ -105,19 +105,19 @@ CellCache::Data CellCache::keep(const Key& key, Data data, uint64_t bytes, Room&
   if (const auto found = part.table.find(key); found != part.table.end()) {
     ++counters_.duplicates;
     data.reset();  // before the room for it goes back
-    return found->second->data;
+    return found->second.data;
   }
   if (bytes <= limit_) learn(key.structure, bytes);
   if (bytes > limit_ || !room.resize(bytes)) {
     ++counters_.unkept;
     return data;
   }
-  const auto entry = queue_.emplace(queue_.end(), key, data, bytes);
+  queue_.push_back(nullptr);
   try {
     std::lock_guard lock(part.mutex);
-    part.table.emplace(key, entry);
+    queue_.back() = &*part.table.try_emplace(key, data, bytes).first;
   } catch (...) {
-    queue_.erase(entry);
+    queue_.pop_back();
     throw;
   }
   room.become_kept();
@@ -155,8 +155,9 @@ bool CellCache::make_room(uint64_t bytes) {
 bool CellCache::evict() {
   for (size_t looks = 2 * queue_.size(); looks > 0; --looks) {
     const auto first = queue_.begin();
-    const bool has_chance = policy_ == CachePolicy::second_chance &&
-                            first->is_fetched_again.exchange(false, std::memory_order_relaxed);
+    const bool has_chance =
+        policy_ == CachePolicy::second_chance &&
+        (*first)->second.is_fetched_again.exchange(false, std::memory_order_relaxed);
     if (!has_chance && remove(first, false)) {
       ++counters_.evictions;
       return true;
@@ -166,18 +167,20 @@ bool CellCache::evict() {
   return false;
 }
 
-bool CellCache::remove(Queue::iterator entry, bool even_in_use) {
+bool CellCache::remove(Queue::iterator place, bool even_in_use) {
+  const auto& [key, entry] = **place;
   // Others may let go of the cell at any time; another use begins only in find(), under the lock.
-  const auto is_in_use = [&] { return !even_in_use && entry->data.use_count() > 1; };
+  const auto is_in_use = [&] { return !even_in_use && entry.data.use_count() > 1; };
   if (is_in_use()) return false;
-  Part& part = part_of(entry->key);
+  const uint64_t bytes = entry.bytes;
   {
+    Part& part = part_of(key);
+    Table::node_type node;  // destroyed with the part unlocked
     std::lock_guard lock(part.mutex);
     if (is_in_use()) return false;
-    part.table.erase(entry->key);
+    node = part.table.extract(key);
   }
-  const uint64_t bytes = entry->bytes;
-  queue_.erase(entry);
+  queue_.erase(place);
   --counters_.cells;
   give_back(bytes);
   return true;
@@ -205,10 +208,10 @@ bool CellCache::drop_oldest() {
 
 void CellCache::drop(uint64_t structure) {
   std::lock_guard lock(mutex_);
-  for (auto entry = queue_.begin(); entry != queue_.end();) {
-    const auto next = std::next(entry);
-    if (entry->key.structure == structure) remove(entry, true);
-    entry = next;
+  for (auto place = queue_.begin(); place != queue_.end();) {
+    const auto next = std::next(place);
+    if ((*place)->first.structure == structure) remove(place, true);
+    place = next;
   }
   expected_.erase(structure);
 }

@@ -102,18 +102,19 @@ class CellCache {
     size_t operator()(const Key& key) const { return key.hash; }
   };
   struct Entry {
-    Entry(const Key& of, Data what, uint64_t size) : key(of), data(std::move(what)), bytes(size) {}
-    const Key key;
-    Data data;
+    Entry(Data what, uint64_t size) : data(std::move(what)), bytes(size) {}
+    const Data data;
     const uint64_t bytes;
     std::atomic<bool> is_fetched_again{false};
   };
-  using Queue = std::list<Entry>;
+  using Table = std::unordered_map<Key, Entry, KeyHash>;
+  /// Of nodes of the tables, the next to go first.
+  using Queue = std::list<Table::pointer>;
   /// A part of the table. Entries are added and removed by whoever holds both mutex_ and the part's
   /// alone, so that either is enough to read.
   struct alignas(64) Part {
     mutable std::shared_mutex mutex;
-    std::unordered_map<Key, Queue::iterator, KeyHash> table;
+    Table table;
     std::atomic<uint64_t> hits{0}, misses{0};
   };
   class Room;
@@ -125,7 +126,7 @@ class CellCache {
   void learn(uint64_t structure, uint64_t bytes);
   bool make_room(uint64_t bytes);
   bool evict();
-  bool remove(Queue::iterator entry, bool even_in_use);
+  bool remove(Queue::iterator place, bool even_in_use);
   void give_back(uint64_t bytes);
 
   const uint64_t limit_;
