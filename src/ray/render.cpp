@@ -11,14 +11,18 @@ namespace msq {
 
 namespace {
 
-constexpr uint32_t batch_side = 32, block_side = 8;
+constexpr auto tile_order = [] {
+  std::array<TilePixel, ray_batch> order{};
+  for (uint32_t n = 0; n < ray_batch; ++n) order[n] = tile_pixel(n);
+  return order;
+}();
 /// Along each side of a pixel.
 constexpr uint64_t most_samples = 16;
 
-/// Side of the squares of pixels whose samples are cast together: at most batch_side samples.
+/// Side of the squares of pixels whose samples are cast together: at most tile_side samples.
 uint32_t square_side(uint32_t samples) {
-  uint32_t side = batch_side;
-  while (side * samples > batch_side) side /= 2;
+  uint32_t side = tile_side;
+  while (side * samples > tile_side) side /= 2;
   return side;
 }
 
@@ -134,15 +138,15 @@ class Renderer {
     rays_done_ += rays;
   }
 
-  /// Rays of the square of points that begins at point (x0, y0), in blocks of 8 x 8 that follow
-  /// each other: near each other in the picture, and so in the model.
+  /// Rays of the square of points that begins at point (x0, y0), in an order that keeps those that
+  /// follow each other close together.
   void fill(const Pass& pass, uint32_t x0, uint32_t y0, Batch& batch) const {
     const uint32_t n = pass.samples, side = square_side(n) * n;
     struct Place {
       uint32_t pixel, sample;
       double middle;  // of the sample, from the pixel's corner
     };
-    std::array<Place, batch_side> places;
+    std::array<Place, tile_side> places;
     for (uint32_t i = 0; i < side; ++i) places[i] = {i / n, i % n, (i % n + 0.5) / n};
     const Camera& camera = view_.camera();
     const auto search_at = [&](double x, double y, double& size) {
@@ -152,28 +156,26 @@ class Renderer {
     };
     double size;
     RaySearch search = search_at(0, 0, size);  // orthographic: that of all, but for its origin
-    for (uint32_t by = 0; by < side; by += block_side)
-      for (uint32_t bx = 0; bx < side; bx += block_side)
-        for (uint32_t v = by; v < std::min(side, by + block_side); ++v)
-          for (uint32_t u = bx; u < std::min(side, bx + block_side); ++u) {
-            const Place& right = places[u];
-            const Place& down = places[v];
-            const uint32_t i = x0 + right.pixel, j = y0 + down.pixel;
-            const uint32_t x = i * pass.step, y = j * pass.step;
-            if (x >= plan_.tile_width || y >= plan_.tile_height) continue;
-            if (pass.leaves_out && i % 2 == 0 && j % 2 == 0) continue;
-            const uint32_t picture_x = plan_.tile_x + x, picture_y = plan_.tile_y + y;
-            const double at_x = picture_x + right.middle, at_y = picture_y + down.middle;
-            if (camera.is_perspective)
-              search = search_at(at_x, at_y, size);
-            else
-              search.ray.origin = view_.origin(at_x, at_y);
-            const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
-            const uint64_t key = (pixel * most_samples + down.sample) * most_samples + right.sample;
-            batch.samples.push_back({x, y, v * side + u, size});
-            batch.seen.push_back({key, 0, 0});
-            batch.searches.push_back(search);
-          }
+    for (const TilePixel& at : tile_order) {
+      if (at.x >= side || at.y >= side) continue;
+      const Place& right = places[at.x];
+      const Place& down = places[at.y];
+      const uint32_t i = x0 + right.pixel, j = y0 + down.pixel;
+      const uint32_t x = i * pass.step, y = j * pass.step;
+      if (x >= plan_.tile_width || y >= plan_.tile_height) continue;
+      if (pass.leaves_out && i % 2 == 0 && j % 2 == 0) continue;
+      const uint32_t picture_x = plan_.tile_x + x, picture_y = plan_.tile_y + y;
+      const double at_x = picture_x + right.middle, at_y = picture_y + down.middle;
+      if (camera.is_perspective)
+        search = search_at(at_x, at_y, size);
+      else
+        search.ray.origin = view_.origin(at_x, at_y);
+      const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
+      const uint64_t key = (pixel * most_samples + down.sample) * most_samples + right.sample;
+      batch.samples.push_back({x, y, at.y * side + at.x, size});
+      batch.seen.push_back({key, 0, 0});
+      batch.searches.push_back(search);
+    }
   }
 
   void see(const Pass& pass, Batch& batch) const {

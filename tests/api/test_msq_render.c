@@ -72,7 +72,7 @@ static void check_rays(int which) {
     camera.clip_near = 7;
     camera.clip_far = projection ? 14 : 9;
     check_pixels(model, &camera, 1);
-    check_pixels(model, &camera, which == 0 ? 3 : 2);
+    check_pixels(model, &camera, 3);
   }
   msq_model_release(model);
   msq_context_release(context);
@@ -84,19 +84,15 @@ static void pixels_are_what_rays_say(void** state) {
 }
 
 /* A definition with all that may depend on more than the pixel. */
-static msq_render_def rich_def(int which, uint32_t samples) {
+static msq_render_def rich_def(uint32_t samples) {
   msq_render_def def = render_def(width, height);
   def.samples = samples;
   def.colour_by = MSQ_COLOUR_MATERIAL;
   def.shadows = 1;
-  def.occlusion_rays = which == 0 ? 4 : 0;
+  def.occlusion_rays = 4;
   def.background[0] = 0.25;
   def.background[3] = 0.5;
   return def;
-}
-
-static uint32_t most_samples_of(int which) {
-  return which == 0 ? 3 : 1;
 }
 
 /* Tiles of odd sizes and places, and rows that are wider than they. */
@@ -104,9 +100,9 @@ static void check_tiles(int which) {
   const uint32_t tiles[4][4] = {{0, 0, 40, 52}, {40, 0, 35, 17}, {40, 17, 35, 35}, {74, 51, 1, 1}};
   msq_context* context = make_context();
   msq_model* model = make_rich_model(context, which);
-  for (uint32_t samples = 1; samples <= most_samples_of(which); ++samples) {
+  for (uint32_t samples = 1; samples <= 3; ++samples) {
     const msq_camera camera = fitted_camera(model, (int32_t)(samples % 2), width, height);
-    const msq_render_def def = rich_def(which, samples);
+    const msq_render_def def = rich_def(samples);
     picture whole = rendered(model, &camera, &def), parts = make_picture(width, height);
     for (int t = 0; t < 4; ++t) {
       msq_render_def part = def;
@@ -143,7 +139,7 @@ static void check_threads(int which) {
     msq_context* context = make_context_of(threads, 1 << 20, 0);
     msq_model* model = make_rich_model(context, which);
     const msq_camera camera = fitted_camera(model, MSQ_CAMERA_PERSPECTIVE, width, height);
-    const msq_render_def def = rich_def(which, 2);
+    const msq_render_def def = rich_def(2);
     got[threads - 1] = rendered(model, &camera, &def);
     msq_model_release(model);
     msq_context_release(context);
@@ -213,8 +209,8 @@ static void check_passes(int which) {
   msq_context* context = make_context();
   msq_model* model = make_rich_model(context, which);
   const msq_camera camera = fitted_camera(model, MSQ_CAMERA_ORTHOGRAPHIC, width, height);
-  for (uint32_t samples = 1; samples <= most_samples_of(which); ++samples) {
-    msq_render_def def = rich_def(which, samples);
+  for (uint32_t samples = 1; samples <= 3; ++samples) {
+    msq_render_def def = rich_def(samples);
     picture whole = rendered(model, &camera, &def);
     const uint32_t steps[3] = {1, 8, 64}, passes[3] = {1, 4, 7};
     for (int s = 0; s < 3; ++s) {
@@ -304,7 +300,7 @@ static void writes_what_is_asked_for(void** state) {
   const msq_camera camera = fitted_camera(model, MSQ_CAMERA_PERSPECTIVE, width, height);
   (void)state;
   for (uint32_t samples = 1; samples <= 2; ++samples) {
-    const msq_render_def def = rich_def(0, samples);
+    const msq_render_def def = rich_def(samples);
     picture whole = rendered(model, &camera, &def), parts = make_picture(width, height);
     for (int which = 0; which < 5; ++which) {
       msq_frame frame;
