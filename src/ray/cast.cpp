@@ -38,10 +38,11 @@ struct CastMemory {
 class Caster {
  public:
   /// hits[i] will be what searches[i], which are used up, meet.
-  Caster(const Model& model, const Scales& resolved, const Job* job,
+  Caster(const Model& model, const Scales& resolved, HitDetail detail, const Job* job,
          CastMemory& memory, RaySearch* searches, RayHit* hits)
       : model_(model),
         resolved_(resolved),
+        detail_(detail),
         job_(job),
         levels_(1 + resolved.size()),
         bounds_(model.bounds().grown(model.shape().ray_tolerance())),
@@ -165,6 +166,7 @@ class Caster {
     hit.t = begins_[i].offset + t;
     hit.point = ray.at(t);
     hit.starts_inside = hit.t == begins_[i].from;
+    if (detail_ == HitDetail::place) return;
     if (hit.starts_inside)
       hit.normal = ray.direction * -1.0;
     else if (dot(hit.normal, hit.normal) == 0)
@@ -176,6 +178,7 @@ class Caster {
 
   const Model& model_;
   const Scales& resolved_;
+  const HitDetail detail_;
   const Job* const job_;
   const size_t levels_;
   const Box3 bounds_;
@@ -203,13 +206,13 @@ void prepare_rays(const Model& model, const Scales& resolved) {
 }
 
 void cast_batch(const Model& model, const Scales& resolved, std::vector<RaySearch>& searches,
-                std::vector<RayHit>& hits, const Job* job) {
+                std::vector<RayHit>& hits, HitDetail detail, const Job* job) {
   const size_t count = searches.size();
   hits.resize(count);
   // The model may be of the host's, whose callbacks may cast rays.
   const Borrowed<CastMemory> memory;
   (*memory).make_room(count, 1 + resolved.size());
-  Caster(model, resolved, job, *memory, searches.data(), hits.data()).run(count);
+  Caster(model, resolved, detail, job, *memory, searches.data(), hits.data()).run(count);
 }
 
 void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
@@ -230,7 +233,7 @@ void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const
     Batch& batch = *borrowed;
     batch.searches.assign(size, {});
     fill(first, size, batch.searches.data());
-    cast_batch(model, resolved, batch.searches, batch.hits, job);
+    cast_batch(model, resolved, batch.searches, batch.hits, HitDetail::all, job);
     take(first, size, batch.hits.data());
     const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
     if (job) job->raise_progress(static_cast<double>(now) / static_cast<double>(batches));

@@ -62,8 +62,11 @@ uint32_t material_id(const Model& model, const Scales& resolved, const RayHit& h
 /// Builds what rays need of the model, if anything. Before cast_batch().
 void prepare_rays(const Model& model, const Scales& resolved);
 
+/// What is wanted of hits. `place`: no more than whether there is one, t and point.
+enum class HitDetail { all, place };
+
 /// Casts rays on the calling thread: hits[i] becomes what searches[i], which are used up, meet.
 void cast_batch(const Model& model, const Scales& resolved, std::vector<RaySearch>& searches,
-                std::vector<RayHit>& hits, const Job* job);
+                std::vector<RayHit>& hits, HitDetail detail, const Job* job);
 
 }  // namespace msq

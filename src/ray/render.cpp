@@ -125,7 +125,7 @@ class Renderer {
       Batch& batch = *borrowed;
       batch.clear();
       fill(pass, x, y, batch);
-      cast_batch(model_, resolved_, batch.searches, batch.hits, job_);
+      cast_batch(model_, resolved_, batch.searches, batch.hits, HitDetail::all, job_);
       see(pass, batch);
       if (pass.has_data) write_data(pass, batch);
       if (pass.has_colour) write_colour(pass, x, y, batch);

@@ -111,7 +111,7 @@ void Shader::find_lit(const std::vector<Seen>& seen, const std::vector<RayHit>& 
         search_from(seen[i], hits[i], light_, std::numeric_limits<double>::infinity()));
   }
   std::vector<RayHit> found;
-  cast_batch(model_, resolved_, searches, found, job);
+  cast_batch(model_, resolved_, searches, found, HitDetail::place, job);
   for (size_t n = 0; n < asked.size(); ++n) lit[asked[n]] = found[n].scale < 0;
 }
 
@@ -123,7 +123,7 @@ void Shader::find_open(const std::vector<Seen>& seen, const std::vector<RayHit>&
   std::vector<RaySearch> searches;
   std::vector<RayHit> found;
   const auto cast = [&] {
-    cast_batch(model_, resolved_, searches, found, job);
+    cast_batch(model_, resolved_, searches, found, HitDetail::place, job);
     for (size_t n = 0; n < asked.size(); ++n)
       if (found[n].scale >= 0) open[asked[n]] -= part;
     asked.clear();
