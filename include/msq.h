@@ -963,7 +963,8 @@ MSQ_API msq_status msq_material_create(msq_context *context, const msq_material_
 
 /* Grades one material into another: each channel is (1 - f) times that of a plus f times that of b, f
  * being the fraction at the point, everywhere from 0 to 1. id > 0, of the blend. Errors: ARGUMENT (also
- * where one has a channel that the other lacks), LIMIT (more than 64 blends within each other), MEMORY. */
+ * where one has a channel that the other lacks), LIMIT (more than 64 blends within each other, or of more
+ * than 4096 materials, the same counted as often as it is asked), MEMORY. */
 MSQ_API msq_status msq_material_blend(msq_context *context, uint32_t id, const msq_material *a,
                                       const msq_material *b, const msq_param *fraction,
                                       msq_material **material);

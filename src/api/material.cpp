@@ -12,6 +12,7 @@ namespace {
 constexpr uint64_t most_channels = 256;
 constexpr size_t most_name = 255;
 constexpr unsigned most_blends = 64;
+constexpr uint64_t most_terms = 4096;
 
 msq_material_def material_defaults() {
   return {};
@@ -113,6 +114,12 @@ msq_status msq_material_blend(msq_context* context, uint32_t id, const msq_mater
     if (std::max(first->depth(), second->depth()) >= most_blends)
       fail(Status::limit, "%u blends would be within each other; the limit is %u",
            std::max(first->depth(), second->depth()) + 1, most_blends);
+    if (const uint64_t terms = first->terms() + second->terms(); terms > most_terms)
+      fail(
+          Status::limit,
+          "each value would be made of those of %llu materials, the same counted as often as it is "
+          "asked; the limit is %llu",
+          static_cast<unsigned long long>(terms), static_cast<unsigned long long>(most_terms));
     *material = new_handle<msq_material>(make_ref<MaterialBlend>(id, first, second, part));
   });
 }

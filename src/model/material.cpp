@@ -20,7 +20,10 @@ MaterialBlend::MaterialBlend(uint32_t id, Ref<const Material> a, Ref<const Mater
     : Material(id, a->channels()),
       a_(std::move(a)),
       b_(std::move(b)),
-      fraction_(std::move(fraction)) {}
+      fraction_(std::move(fraction)),
+      is_concurrent_(fraction_.is_concurrent() && a_->is_concurrent() && b_->is_concurrent()),
+      depth_(1 + std::max(a_->depth(), b_->depth())),
+      terms_(a_->terms() + b_->terms()) {}
 
 void MaterialBlend::values(size_t channel, const Vec3* points, size_t count, double* values) const {
   std::vector<double> of_b(count), fraction(count);
@@ -29,10 +32,6 @@ void MaterialBlend::values(size_t channel, const Vec3* points, size_t count, dou
   fraction_.values(points, count, fraction.data());
   for (size_t i = 0; i < count; ++i)
     values[i] = (1 - fraction[i]) * values[i] + fraction[i] * of_b[i];
-}
-
-bool MaterialBlend::is_concurrent() const {
-  return fraction_.is_concurrent() && a_->is_concurrent() && b_->is_concurrent();
 }
 
 }  // namespace msq

@@ -22,6 +22,8 @@ class Material : public RefCounted {
   virtual bool is_concurrent() const = 0;
   /// How many blends are within each other.
   virtual unsigned depth() const { return 0; }
+  /// How many materials a value is made of, each counted as often as it is asked.
+  virtual uint64_t terms() const { return 1; }
 
  protected:
   Material(uint32_t id, std::vector<std::string> channels)
@@ -54,12 +56,17 @@ class MaterialBlend final : public Material {
   MaterialBlend(uint32_t id, Ref<const Material> a, Ref<const Material> b, Parameter fraction);
 
   void values(size_t channel, const Vec3* points, size_t count, double* values) const override;
-  bool is_concurrent() const override;
-  unsigned depth() const override { return 1 + std::max(a_->depth(), b_->depth()); }
+  // Known once and for all: a material may be in a blend of blends very many times.
+  bool is_concurrent() const override { return is_concurrent_; }
+  unsigned depth() const override { return depth_; }
+  uint64_t terms() const override { return terms_; }
 
  private:
   Ref<const Material> a_, b_;
   Parameter fraction_;
+  bool is_concurrent_;
+  unsigned depth_;
+  uint64_t terms_;
 };
 
 }  // namespace msq

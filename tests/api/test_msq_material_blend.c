@@ -93,11 +93,29 @@ static void at_most_64_blends_are_within_each_other(void** state) {
   msq_context_release(context);
 }
 
+/* A blend of a material with itself asks it twice: 64 of these would ask 2^64 times. */
+static void at_most_4096_materials_are_asked(void** state) {
+  msq_context* context = make_context();
+  msq_material *last = make_material(context, 1, 100, 1), *next;
+  const msq_param fraction = {0.5, NULL};
+  (void)state;
+  for (int i = 0; i < 12; ++i) {
+    assert_ok(msq_material_blend(context, 9, last, last, &fraction, &next));
+    msq_material_release(last);
+    last = next;
+  }
+  assert_makes_nothing(msq_material, msq_material_blend(context, 9, last, last, &fraction, &made),
+                       MSQ_E_LIMIT, "8192");
+  msq_material_release(last);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_blend_runs_from_one_to_the_other),
       cmocka_unit_test(wrong_blends_are_refused),
       cmocka_unit_test(at_most_64_blends_are_within_each_other),
+      cmocka_unit_test(at_most_4096_materials_are_asked),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
