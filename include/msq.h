@@ -465,7 +465,7 @@ typedef struct msq_field msq_field; /* a number at every point of space, of know
 
 /* Field that runs linearly from from_value in the plane through from, normal to to - from, to
  * to_value in the plane through to, and is constant beyond both. Errors: ARGUMENT unless the points
- * differ; MEMORY. */
+ * differ, by 1e-140 at least, and the values by less than overflows; MEMORY. */
 MSQ_API msq_status msq_field_gradient(msq_context *context, const double from[3],
                                       double from_value, const double to[3], double to_value,
                                       msq_field **field);
@@ -492,7 +492,8 @@ MSQ_API msq_status msq_field_radial(msq_context *context, const msq_radial_field
 
 /* Field that is a piecewise linear curve over another field. curve: curve_count pairs (value of
  * argument, value of this field), 1 to 65536 of them, ascending in the first, constant beyond the
- * ends. Cost at a point: that of argument, and as log(curve_count). Errors: ARGUMENT, MEMORY. */
+ * ends. Cost at a point: that of argument, and as log(curve_count). Errors: ARGUMENT, LIMIT (more than
+ * 64 maps within each other), MEMORY. */
 MSQ_API msq_status msq_field_map(msq_context *context, const msq_field *argument,
                                  const double *curve, uint64_t curve_count, msq_field **field);
 

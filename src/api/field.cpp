@@ -15,6 +15,8 @@ using namespace msq::api;
 namespace {
 
 constexpr uint64_t most_knots = 65536;
+/// Maps within each other: calls through them go as deep.
+constexpr unsigned most_maps = 64;
 
 msq_radial_field_def radial_defaults() {
   msq_radial_field_def def{};
@@ -71,10 +73,14 @@ msq_status msq_field_gradient(msq_context* context, const double from[3], double
     require_finite(from_value, "from_value");
     require_finite(to_value, "to_value");
     require(field, "field");
+    // Less squares to what has no 53 bits.
+    constexpr double least_length = 1e-140;
     const double length_squared = dot(b - a, b - a);
-    if (!(length_squared > 0) || !std::isfinite(length_squared))
-      fail(Status::argument, "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ",
-           a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared));
+    if (!(length_squared >= least_length * least_length) || !std::isfinite(length_squared))
+      fail(Status::argument,
+           "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ, by %g at least",
+           a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared), least_length);
+    require_difference(from_value, to_value, "values");
     *field = new_handle<msq_field>(Ref<Field>(make_ref<GradientField>(a, from_value, b, to_value)));
   });
 }
@@ -183,6 +189,9 @@ msq_status msq_field_map(msq_context* context, const msq_field* argument, const 
     const Field& known = object(argument, "argument");
     Curve read = read_curve(curve, curve_count);
     require(field, "field");
+    if (known.depth() >= most_maps)
+      fail(Status::limit, "%u maps would be within each other; the limit is %u", known.depth() + 1,
+           most_maps);
     *field = new_handle<msq_field>(
         Ref<Field>(make_ref<MapField>(Ref<const Field>(&known), std::move(read))));
   });

@@ -35,6 +35,8 @@ class Field : public RefCounted {
   /// No two points' values differ by more than this times their distance, but for the rounding that
   /// range(box) of the points alone covers. Infinite where nothing is known, which is always right.
   virtual double lipschitz() const { return std::numeric_limits<double>::infinity(); }
+  /// How many fields over other fields are within each other.
+  virtual unsigned depth() const { return 0; }
 };
 
 class Parameter {

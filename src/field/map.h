@@ -12,7 +12,7 @@ namespace msq {
 class MapField final : public Field {
  public:
   MapField(Ref<const Field> argument, Curve curve)
-      : argument_(std::move(argument)), curve_(std::move(curve)) {}
+      : argument_(std::move(argument)), curve_(std::move(curve)), depth_(1 + argument_->depth()) {}
 
   double at(Vec3 p) const override { return curve_(argument_->at(p)); }
   void values(const Vec3* points, size_t count, double* values) const override {
@@ -31,13 +31,16 @@ class MapField final : public Field {
   Interval range() const override { return curve_.range(argument_->range()); }
   Interval range(const Box3& box) const override { return curve_.range(argument_->range(box)); }
   double lipschitz() const override {
-    // A constant curve stays one, however steep the argument.
-    return curve_.lipschitz() > 0 ? curve_.lipschitz() * argument_->lipschitz() * (1 + 0x1p-50) : 0;
+    // Where one of them is constant, so is the field, however steep the other.
+    const double of_curve = curve_.lipschitz(), of_argument = argument_->lipschitz();
+    return of_curve > 0 && of_argument > 0 ? of_curve * of_argument * (1 + 0x1p-50) : 0;
   }
+  unsigned depth() const override { return depth_; }
 
  private:
   Ref<const Field> argument_;
   Curve curve_;
+  unsigned depth_;
 };
 
 }  // namespace msq

@@ -116,6 +116,17 @@ static void points_must_differ(void** state) {
   assert_makes_nothing(msq_field, msq_field_gradient(context, to, 1, to, 2, &made), MSQ_E_ARGUMENT,
                        "differ");
   assert_message_has("(3, 0, 0)");
+  const double origin[3] = {0, 0, 0}, next[3] = {0, 1e-160, 0};
+  assert_makes_nothing(msq_field, msq_field_gradient(context, origin, 1, next, 2, &made),
+                       MSQ_E_ARGUMENT, "1e-140");
+  msq_context_release(context);
+}
+
+static void values_whose_difference_overflows_are_refused(void** state) {
+  msq_context* context = make_context();
+  (void)state;
+  assert_makes_nothing(msq_field, msq_field_gradient(context, from, -1e308, to, 1e308, &made),
+                       MSQ_E_ARGUMENT, "difference");
   msq_context_release(context);
 }
 
@@ -128,6 +139,7 @@ int main(void) {
       cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(numbers_that_are_not_finite_are_refused),
       cmocka_unit_test(points_must_differ),
+      cmocka_unit_test(values_whose_difference_overflows_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

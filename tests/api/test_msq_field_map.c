@@ -88,12 +88,29 @@ static void bad_curves_are_refused(void** state) {
   msq_context_release(context);
 }
 
+static void at_most_64_maps_are_within_each_other(void** state) {
+  const double curve[] = {0, 0, 10, 10};
+  msq_context* context = make_context();
+  msq_field *last = make_ramp(context), *next;
+  (void)state;
+  for (int i = 0; i < 64; ++i) {
+    assert_ok(msq_field_map(context, last, curve, 2, &next));
+    msq_field_release(last);
+    last = next;
+  }
+  assert_near(field_at(context, last, 3, 0, 0), 3, 1e-6);
+  assert_makes_nothing(msq_field, msq_field_map(context, last, curve, 2, &made), MSQ_E_LIMIT, "65");
+  msq_field_release(last);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(curve_runs_over_the_other_field),
       cmocka_unit_test(a_radius_may_be_mapped_from_what_no_radius_could_be),
       cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(bad_curves_are_refused),
+      cmocka_unit_test(at_most_64_maps_are_within_each_other),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,11 +68,18 @@ void test_promises(void**) {
   assert_true(linear > boxes / 20);
 }
 
+void test_slope_where_the_argument_is_constant(void**) {
+  const auto same = make_ref<GradientField>(Vec3{}, 0.5, Vec3{1, 0, 0}, 0.5);
+  const MapField field(same, Curve({{0, 1}, {1e-320, 2}}));  // as steep as can be
+  assert_true(field.lipschitz() == 0);
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(test_curve), cmocka_unit_test(test_curve_of_one_knot),
-      cmocka_unit_test(test_curve_runs_one_way_between_knots), cmocka_unit_test(test_promises)};
+      cmocka_unit_test(test_curve_runs_one_way_between_knots), cmocka_unit_test(test_promises),
+      cmocka_unit_test(test_slope_where_the_argument_is_constant)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
