@@ -110,6 +110,7 @@ msq_status msq_lattice_faces(const msq_structure* lattice, const double min[3], 
                              msq_lattice_faces_report* report, msq_job* job) {
   return guard([&] {
     const Structure& structure = object(lattice, "lattice");
+    const Ref<const Structure> keep(&structure);  // callbacks may release the host's last reference
     const auto* mixed = dynamic_cast<const MixedLattice*>(&structure);
     if (!mixed && !dynamic_cast<const Lattice*>(&structure))
       fail(Status::argument, "the structure is not a lattice");

@@ -75,6 +75,7 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
                         msq_job* job) {
   return guard([&] {
     const Model& known = object(model, "model");
+    const Ref<const Model> keep(&known);  // callbacks may release the host's last reference
     const msq_rays_def def = read_def(rays, rays_defaults(), "rays");
     const auto resolved = known.resolved(read_query(query).length_scale);
     Job* work = job ? &object(job, "job") : nullptr;

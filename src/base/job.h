@@ -64,7 +64,8 @@ class Job : public RefCounted {
   QueryCounts counts_;
 };
 
-/// Marks a call's begin and its successful end in a job, which may be null.
+/// Marks a call's begin and its successful end in a job, which may be null. The job stays alive in
+/// between: callbacks may release the host's last reference.
 class JobScope {
  public:
   /// Throws Error(cancelled) if the job is cancelled.
@@ -74,7 +75,7 @@ class JobScope {
   }
 
  private:
-  Job* job_;
+  Ref<Job> job_;
 };
 
 /// Throws Error(cancelled) if there is a job and it is cancelled.
@@ -87,7 +88,7 @@ inline JobScope::JobScope(Job* job) : job_(job) {
     job_->set_progress(0);
     job_->counts().clear();
   }
-  check_cancelled(job_);
+  check_cancelled(job);
 }
 
 }  // namespace msq

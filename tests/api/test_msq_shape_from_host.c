@@ -271,6 +271,69 @@ static void what_is_refused_is_not_released(void** state) {
   msq_context_release(context);
 }
 
+/* ---- callbacks that let go of what the call works with */
+
+typedef struct farewell {
+  msq_model* model;
+  msq_job* job;
+} farewell;
+
+static int32_t inside_after_farewell(void* user, const double* points, uint64_t count,
+                                     uint8_t* inside) {
+  farewell* last = (farewell*)user;
+  (void)points;
+  if (last->model) {
+    msq_model_release(last->model);
+    msq_job_release(last->job);
+    last->model = NULL;
+  }
+  memset(inside, 1, count);
+  return 0;
+}
+
+enum { ask_set, ask_rays, ask_statistic, ask_ways };
+
+static msq_status ask_under_job(const msq_model* model, msq_job* job, int way) {
+  static uint8_t inside[125];
+  const double origin[3] = {-1, 2.1, 2.1}, direction[3] = {1, 0, 0};
+  msq_points_def points = grid_points(0.1, 3.9, 5);
+  if (way == ask_set) return msq_set_membership(model, &points, NULL, inside, 125, job);
+  if (way == ask_rays) {
+    msq_rays_def rays;
+    msq_ray_hit hit;
+    assert_ok(msq_rays_def_init(&rays, sizeof rays));
+    rays.origins = origin;
+    rays.directions = direction;
+    rays.count = 1;
+    return msq_ray_cast(model, &rays, NULL, &hit, 1, job);
+  }
+  msq_estimate estimate;
+  points.kind = MSQ_POINTS_STRATIFIED;
+  points.per_cell = 2;
+  return msq_volume_fraction(model, &points, NULL, MSQ_PHASE_SOLID, &estimate, job);
+}
+
+static void callbacks_may_let_go_of_the_model_and_the_job(void** state) {
+  (void)state;
+  for (int way = 0; way < ask_ways; ++way) {
+    msq_context* context = make_context();
+    farewell last;
+    msq_host_shape_def def;
+    assert_ok(msq_host_shape_def_init(&def, sizeof def));
+    def.inside = inside_after_farewell;
+    def.user = &last;
+    for (int axis = 0; axis < 3; ++axis) {
+      def.min[axis] = 0;
+      def.max[axis] = 4;
+    }
+    last.model = make_shape_model(context, make_ball(context, &def));
+    assert_ok(msq_job_create(&last.job));
+    assert_ok(ask_under_job(last.model, last.job, way));
+    assert_null(last.model);
+    msq_context_release(context);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(definitions_honour_every_size),
@@ -282,6 +345,7 @@ int main(void) {
       cmocka_unit_test(volume_and_area_are_not_known),
       cmocka_unit_test(callbacks_that_fail_stop_the_call),
       cmocka_unit_test(what_is_refused_is_not_released),
+      cmocka_unit_test(callbacks_may_let_go_of_the_model_and_the_job),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
