@@ -822,9 +822,9 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def *def, size_t size)
  *
  * Functions are computed of IEEE operations alone, not by the C library: the same bits on every machine.
  * Cost: none; the first slice or grid takes clusters^3 evaluations in intervals (tens of milliseconds by
- * default, a second at most); a thickness takes some tens of milliseconds at once.
- * Errors: ARGUMENT (thickness for a network, together with a level, or above what fills the cell; a
- * function that has no 0; for expressions the message has the position, from 1, and the reason), LIMIT (expressions
+ * default; seconds for the longest expressions in 64^3 clusters); a thickness takes some tens of milliseconds at once.
+ * Errors: ARGUMENT (thickness for a network, together with a level, or above what fills the cell; of a
+ * function that has no 0, or is nowhere more than 1e-300; for expressions the message has the position, from 1, and the reason), LIMIT (expressions
  * too long, too deep, with too many operations), MEMORY.
  * Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and
  * Nesper 1991. */

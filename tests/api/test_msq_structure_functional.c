@@ -328,6 +328,8 @@ static void wrong_thicknesses_are_refused(void** state) {
   assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 nowhere");
   def.expression = "0";
   assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 nowhere");
+  def.expression = "1e-306*sin(x)";
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "1e-300");
   def.expression = "sqrt(-1-x)";
   assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 nowhere");
   msq_context_release(context);

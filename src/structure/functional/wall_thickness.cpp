@@ -181,6 +181,12 @@ WallThickness::WallThickness(const Tape& function, Vec3 cell_size) {
   if (!(area_ > 0) || !std::isfinite(area_) || !(greatest > 0))
     fail(Status::argument,
          "thickness is given, but the function is 0 nowhere in the cell, so there are no walls");
+  constexpr double least = 1e-300;  // steps of less are not told apart
+  if (greatest < least)
+    fail(Status::argument,
+         "thickness is given, but the function reaches no more than %g in magnitude; it must reach "
+         "%g",
+         greatest, least);
   const std::vector<double> fractions = fractions_of(samples, greatest);
   const double volume = cell_size.x * cell_size.y * cell_size.z;
   most_ = fractions.back() * volume / area_;
