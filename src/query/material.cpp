@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "query/material.h"
 
-#include <atomic>
-
 #include "base/memory.h"
+#include "base/run_parts.h"
 
 namespace msq {
 
@@ -39,11 +38,7 @@ void set_material(const Model& model, const Scales& resolved, const PointSet& po
   std::vector<uint8_t> inside(points.count());
   Job first(job);  // the first half of the work
   set_membership(model, resolved, points, plan, inside.data(), job ? &first : nullptr);
-  if (job) job->set_progress(0.5);
-  const uint64_t parts = points.parts();
-  std::atomic<uint64_t> done{0};
-  model.executor().for_each(parts, [&](uint64_t index) {
-    check_cancelled(job);
+  run_parts(model.executor(), points.parts(), job, {0.5, 1}, [&](uint64_t index) {
     PointSet::Part part;
     points.read_part(index, part);
     std::vector<Group> groups;
@@ -61,9 +56,6 @@ void set_material(const Model& model, const Scales& resolved, const PointSet& po
       group->positions.push_back(part.positions[i]);
     }
     for (const Group& group : groups) fill_group(group, channels, ids, values);
-    const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
-    if (!job) return;
-    job->raise_progress(0.5 + 0.5 * static_cast<double>(now) / static_cast<double>(parts));
   });
   if (job) job->counts().add(first.counts());
 }

@@ -2,9 +2,8 @@
 // Points of sets that are compact, or of which no structure gains by grouping, are asked part by
 // part. Others are grouped by boxes of cells, structure by structure and chunk by chunk; the
 // buffers are those of one chunk, however many points there are.
-#include <atomic>
-
 #include "base/memory.h"
+#include "base/run_parts.h"
 #include "query/membership.h"
 #include "query/point_groups.h"
 
@@ -38,21 +37,6 @@ uint64_t chunk_of(const Context& context, uint64_t count, unsigned threads) {
   return chunk;
 }
 
-/// Calls work(i) for i in [0, count) and reports how far stage `stage` of so many is.
-template <class Work>
-void run_stage(const Executor& executor, uint64_t count, double stage, double stages, Job* job,
-               Work&& work) {
-  std::atomic<uint64_t> done{0};
-  executor.for_each(count, [&](uint64_t i) {
-    check_cancelled(job);
-    work(i);
-    const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
-    if (job && now % 64 == 0)
-      job->raise_progress((stage + static_cast<double>(now) / static_cast<double>(count)) / stages);
-  });
-  if (job) job->raise_progress((stage + 1) / stages);
-}
-
 /// alive[i] becomes what the shape answers.
 void ask_shape(const Model& model, bool has_structures, const Vec3* points, uint8_t* alive,
                size_t count, Job* job) {
@@ -66,7 +50,7 @@ void ask_shape(const Model& model, bool has_structures, const Vec3* points, uint
 
 void ask_by_parts(const Model& model, const Scales& resolved, const PointSet& points,
                   const QueryPlan& plan, uint8_t* inside, Job* job) {
-  run_stage(model.executor(), points.parts(), 0, 1, job, [&](uint64_t index) {
+  run_parts(model.executor(), points.parts(), job, {0, 1}, [&](uint64_t index) {
     PointSet::Part part;
     points.read_part(index, part);
     const size_t count = part.positions.size();
@@ -88,11 +72,15 @@ void ask_by_groups(const Model& model, const Scales& resolved, const PointSet& p
   const uint64_t chunks = (points.count() + chunk - 1) / chunk;
   const double stages = static_cast<double>(chunks) * static_cast<double>(1 + resolved.size());
   double stage = 0;
+  const auto next_stage = [&] {
+    const double begin = stage++;
+    return Interval{begin / stages, stage / stages};
+  };
   for (uint64_t first = 0; first < points.count(); first += chunk) {
     const uint64_t count = std::min(chunk, points.count() - first);
     uint8_t* alive = inside + first;
     const uint64_t runs = (count + run - 1) / run;
-    run_stage(executor, runs, stage++, stages, job, [&](uint64_t r) {
+    run_parts(executor, runs, job, next_stage(), [&](uint64_t r) {
       const uint64_t begin = r * run, size = std::min(count - begin, run);
       std::vector<Vec3> positions(size);
       points.read(first + begin, size, positions.data());
@@ -100,7 +88,7 @@ void ask_by_groups(const Model& model, const Scales& resolved, const PointSet& p
     });
     for (const Scale* scale : resolved) {
       if (!scale->structure->gains_by_groups()) {
-        run_stage(executor, runs, stage++, stages, job, [&](uint64_t r) {
+        run_parts(executor, runs, job, next_stage(), [&](uint64_t r) {
           const uint64_t begin = r * run, size = std::min(count - begin, run);
           std::vector<Vec3> positions(size);
           points.read(first + begin, size, positions.data());
@@ -111,7 +99,7 @@ void ask_by_groups(const Model& model, const Scales& resolved, const PointSet& p
       const uint32_t parts = plan.group_parts ? plan.group_parts : scale->structure->group_parts();
       groups.group(executor, scale->structure->neighbourhood(), points, first, count, alive, job,
                    parts);
-      run_stage(executor, groups.size(), stage++, stages, job, [&](uint64_t g) {
+      run_parts(executor, groups.size(), job, next_stage(), [&](uint64_t g) {
         const std::span<const uint32_t> group = groups[g];
         std::vector<Vec3> positions(group.size());
         points.gather(first, group, positions.data());

@@ -2,9 +2,9 @@
 #include "query/statistics.h"
 
 #include <algorithm>
-#include <atomic>
 #include <mutex>
 
+#include "base/run_parts.h"
 #include "query/membership.h"
 
 namespace msq {
@@ -63,13 +63,10 @@ void tally_strata(const std::vector<uint8_t>& hits, uint64_t per_cell, StrataTal
 template <class TallyPart>
 std::vector<Estimate> estimate(const StatisticsOf& of, size_t count, Job* job,
                                TallyPart&& tally_part) {
-  const uint64_t parts = of.sample.parts();
   of.model.prepare_skins(of.resolved);
   std::vector<StrataTally> total(count);
   std::mutex mutex;
-  uint64_t done = 0;
-  of.model.executor().for_each(parts, [&](uint64_t index) {
-    check_cancelled(job);
+  run_parts(of.model.executor(), of.sample.parts(), job, {0, 1}, [&](uint64_t index) {
     AskedPart part;
     of.sample.read_part(index, part);
     ask_phase(of, part.positions, part.in_phase, job);
@@ -77,7 +74,6 @@ std::vector<Estimate> estimate(const StatisticsOf& of, size_t count, Job* job,
     tally_part(part, tallies);
     const std::lock_guard lock(mutex);
     for (size_t i = 0; i < count; ++i) total[i].add(tallies[i]);
-    if (job) job->raise_progress(static_cast<double>(++done) / static_cast<double>(parts));
   });
   std::vector<Estimate> estimates;
   const Strata& strata = of.sample.strata();
