@@ -185,11 +185,14 @@ class Model(Handle):
         if limits[1] is not None:
             definition.t_max = limits[1].ctypes.data_as(to_double)
         hits = np.zeros(starts.shape, dtype=np.dtype(_abi.msq_ray_hit))
-        query = query_of(length_scale)
-        interruptible(lambda work: lib.msq_ray_cast(
-            self._ref, ctypes.byref(definition), query,
-            hits.ctypes.data_as(ctypes.POINTER(_abi.msq_ray_hit)), starts.count, work), job,
-            starts.count >= _LONG)
+        query, reference, lent = query_of(length_scale), self._ref, (starts, ways, limits)
+
+        def call(work: Any) -> None:
+            # Holds all arrays for as long as the call, whatever becomes of the caller.
+            lib.msq_ray_cast(reference, ctypes.byref(definition), query,
+                             pointer(hits, _abi.msq_ray_hit), lent[0].count, work)
+
+        interruptible(call, job, starts.count >= _LONG)
         return hits.view(np.recarray)
 
     def render(self, camera: Optional[Camera] = None, width: int = 800, height: int = 600, *,
