@@ -6,31 +6,9 @@
 #include <random>
 
 #include "rippled_torus.h"
+#include "setup.h"
 
 namespace {
-
-/// Takes over the parts' references; the structure may be null.
-msq_model* make_model(msq_context* context, msq_shape* shape, msq_structure* structure) {
-  msq_scale_def scales[2] = {};
-  scales[0].shape = shape;
-  scales[1].structure = structure;
-  msq_model_def def;
-  bench::check(msq_model_def_init(&def, sizeof def));
-  def.scales = scales;
-  def.scale_count = structure ? 2 : 1;
-  msq_model* model;
-  bench::check(msq_model_create(context, &def, &model));
-  msq_shape_release(shape);
-  msq_structure_release(structure);
-  return model;
-}
-
-msq_shape* unit_cube(msq_context* context) {
-  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
-  msq_shape* shape;
-  bench::check(msq_shape_from_box(context, low, high, &shape));
-  return shape;
-}
 
 constexpr double cell = 1.0 / 32;
 
@@ -42,7 +20,7 @@ msq_model* lattice(msq_context* context, int32_t unit_cell) {
   def.radius.value = 0.1 * cell;
   msq_structure* structure;
   bench::check(msq_structure_lattice(context, &def, &structure));
-  return make_model(context, unit_cube(context), structure);
+  return bench::make_model(context, bench::make_cube(context), structure);
 }
 
 msq_model* foam(msq_context* context, double jitter) {
@@ -53,7 +31,7 @@ msq_model* foam(msq_context* context, double jitter) {
   def.jitter = jitter;
   msq_structure* structure;
   bench::check(msq_structure_foam(context, &def, &structure));
-  return make_model(context, unit_cube(context), structure);
+  return bench::make_model(context, bench::make_cube(context), structure);
 }
 
 uint64_t bytes_of(msq_context* context) {
@@ -93,11 +71,7 @@ void measure(bench::Report& report, const std::string& name, msq_model* model,
 
 int main(int count, char** arguments) try {
   bench::Report report("signed distances, one thread");
-  msq_context_def context_def;
-  bench::check(msq_context_def_init(&context_def, sizeof context_def));
-  context_def.threads = 1;
-  msq_context* context;
-  bench::check(msq_context_create(&context_def, &context));
+  msq_context* context = bench::make_context(1);
 
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -116,8 +90,8 @@ int main(int count, char** arguments) try {
     grid.def.counts[axis] = 64;
   }
 
-  msq_model* mesh =
-      make_model(context, bench::make_shape(context, bench::rippled_torus(520, 260)), nullptr);
+  msq_model* mesh = bench::make_model(
+      context, bench::make_shape(context, bench::rippled_torus(520, 260)), nullptr);
   const uint64_t before = bytes_of(context);
   const double middle[3] = {0.5, 0.5, 0.5};
   double distance;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bench.h"
+#include "setup.h"
 
 namespace bench {
 
@@ -29,15 +29,7 @@ inline double wall_seconds(const std::function<void()>& work) {
 inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, uint64_t layers,
                                  double& peak,
                                  double (*measure)(const std::function<void()>&) = wall_seconds) {
-  msq_context_def context_def;
-  check(msq_context_def_init(&context_def, sizeof context_def));
-  context_def.threads = setup.threads;
-  context_def.cache_bytes = setup.cache_bytes;
-  msq_context* context;
-  check(msq_context_create(&context_def, &context));
-  const double low[3] = {0, 0, 0}, high[3] = {setup.extent, setup.extent, setup.extent};
-  msq_shape* cube;
-  check(msq_shape_from_box(context, low, high, &cube));
+  msq_context* context = make_context(setup.threads, setup.cache_bytes);
   msq_foam_def def;
   check(msq_foam_def_init(&def, sizeof def));
   def.method = setup.method;
@@ -45,6 +37,7 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
   def.radius.value = 0.1 / setup.cells;
   msq_field* field = nullptr;
   if (setup.is_graded) {
+    const double low[3] = {0, 0, 0}, high[3] = {setup.extent, setup.extent, setup.extent};
     check(msq_field_gradient(context, low, 0.05 / setup.cells, high, 0.15 / setup.cells, &field));
     def.radius = {0, field};
   }
@@ -72,17 +65,7 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
   msq_structure* structure;
   check(msq_structure_foam(context, &def, &structure));
   msq_field_release(field);
-  msq_scale_def scales[2] = {};
-  scales[0].shape = cube;
-  scales[1].structure = structure;
-  msq_model_def model_def;
-  check(msq_model_def_init(&model_def, sizeof model_def));
-  model_def.scales = scales;
-  model_def.scale_count = 2;
-  msq_model* model;
-  check(msq_model_create(context, &model_def, &model));
-  msq_structure_release(structure);
-  msq_shape_release(cube);
+  msq_model* model = make_model(context, make_cube(context, setup.extent), structure);
 
   msq_slicer_def slicer_def;
   check(msq_slicer_def_init(&slicer_def, sizeof slicer_def));

@@ -2,11 +2,10 @@
 // Functional structures in the unit cube, layers as bits.
 //
 // usage: functional [results.json] [largest slices, default 2048]
-#include <cmath>
 #include <cstdlib>
 #include <string>
 
-#include "bench.h"
+#include "setup.h"
 
 namespace {
 
@@ -27,14 +26,7 @@ struct Setting {
 
 /// Seconds for the first `layers` of resolution^3 samples, on two threads.
 double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layers) {
-  msq_context_def context_def;
-  bench::check(msq_context_def_init(&context_def, sizeof context_def));
-  context_def.threads = 2;
-  msq_context* context;
-  bench::check(msq_context_create(&context_def, &context));
-  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
-  msq_shape* cube;
-  bench::check(msq_shape_from_box(context, low, high, &cube));
+  msq_context* context = bench::make_context();
   msq_functional_def def;
   bench::check(msq_functional_def_init(&def, sizeof def));
   if (setting.expression) {
@@ -45,12 +37,7 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   def.clusters = setting.clusters;
   def.level.value = setting.level;
   for (double& size : def.grid.cell_size) size = 1.0 / setting.cells;
-  if (setting.is_turned) {
-    // About two axes.
-    const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(0.4), t = std::sin(0.4);
-    const double turn[9] = {c, -s * d, s * t, s, c * d, -c * t, 0, t, d};
-    for (int i = 0; i < 9; ++i) def.grid.rotation[i] = turn[i];
-  }
+  if (setting.is_turned) bench::turn(def.grid);
   msq_field* field = nullptr;
   if (setting.is_graded) {
     const double from[3] = {0, 0, 0}, to[3] = {1, 0.5, 0.25};
@@ -59,15 +46,7 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   }
   msq_structure* structure;
   bench::check(msq_structure_functional(context, &def, &structure));
-  msq_scale_def scales[2] = {};
-  scales[0].shape = cube;
-  scales[1].structure = structure;
-  msq_model_def model_def;
-  bench::check(msq_model_def_init(&model_def, sizeof model_def));
-  model_def.scales = scales;
-  model_def.scale_count = 2;
-  msq_model* model;
-  bench::check(msq_model_create(context, &model_def, &model));
+  msq_model* model = bench::make_model(context, bench::make_cube(context), structure);
   msq_slicer_def slicer_def;
   bench::check(msq_slicer_def_init(&slicer_def, sizeof slicer_def));
   slicer_def.resolution[0] = slicer_def.resolution[1] = resolution;
@@ -80,9 +59,7 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   });
   msq_slicer_release(slicer);
   msq_model_release(model);
-  msq_structure_release(structure);
   msq_field_release(field);
-  msq_shape_release(cube);
   msq_context_release(context);
   return seconds;
 }

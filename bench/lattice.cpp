@@ -3,13 +3,12 @@
 // without clusters.
 //
 // usage: lattice [results.json] [largest slices, default 2048]
-#include <cmath>
 #include <cstdlib>
 #include <ctime>
 #include <string>
 
 #include "base/random.h"
-#include "bench.h"
+#include "setup.h"
 
 namespace {
 
@@ -29,24 +28,9 @@ struct Seconds {
 class Solid {
  public:
   explicit Solid(const Setting* setting) {
-    msq_context_def context_def;
-    bench::check(msq_context_def_init(&context_def, sizeof context_def));
-    context_def.threads = 2;
-    bench::check(msq_context_create(&context_def, &context_));
-    const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
-    msq_shape* cube;
-    bench::check(msq_shape_from_box(context_, low, high, &cube));
-    msq_structure* structure = setting ? make(*setting) : nullptr;
-    msq_scale_def scales[2] = {};
-    scales[0].shape = cube;
-    scales[1].structure = structure;
-    msq_model_def def;
-    bench::check(msq_model_def_init(&def, sizeof def));
-    def.scales = scales;
-    def.scale_count = structure ? 2 : 1;
-    bench::check(msq_model_create(context_, &def, &model_));
-    msq_structure_release(structure);
-    msq_shape_release(cube);
+    context_ = bench::make_context();
+    model_ =
+        bench::make_model(context_, bench::make_cube(context_), setting ? make(*setting) : nullptr);
   }
   ~Solid() {
     msq_model_release(model_);
@@ -101,11 +85,7 @@ class Solid {
     def.clusters = setting.clusters;
     for (double& size : def.grid.cell_size) size = 1 / setting.cells;
     def.radius.value = 0.1 / setting.cells;
-    if (setting.is_turned) {
-      const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(0.4), t = std::sin(0.4);
-      const double turn[9] = {c, -s * d, s * t, s, c * d, -c * t, 0, t, d};
-      for (int i = 0; i < 9; ++i) def.grid.rotation[i] = turn[i];
-    }
+    if (setting.is_turned) bench::turn(def.grid);
     msq_field* field = nullptr;
     if (setting.is_graded) {
       const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};

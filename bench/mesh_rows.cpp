@@ -5,6 +5,7 @@
 #include <random>
 
 #include "rippled_torus.h"
+#include "setup.h"
 
 #if MSQ_WITH_CGAL
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -22,18 +23,8 @@ struct Sliced {
 
 Sliced make_slicer(const bench::MeshArrays& mesh, uint32_t resolution, uint32_t slab_layers) {
   Sliced made{};
-  msq_context_def context_def;
-  bench::check(msq_context_def_init(&context_def, sizeof context_def));
-  context_def.threads = 2;
-  bench::check(msq_context_create(&context_def, &made.context));
-  msq_shape* shape = bench::make_shape(made.context, mesh);
-  msq_scale_def scale{};
-  scale.shape = shape;
-  msq_model_def model_def;
-  bench::check(msq_model_def_init(&model_def, sizeof model_def));
-  model_def.scales = &scale;
-  model_def.scale_count = 1;
-  bench::check(msq_model_create(made.context, &model_def, &made.model));
+  made.context = bench::make_context();
+  made.model = bench::make_model(made.context, bench::make_shape(made.context, mesh), nullptr);
   msq_slicer_def def;
   bench::check(msq_slicer_def_init(&def, sizeof def));
   def.resolution[0] = def.resolution[1] = resolution;
@@ -43,7 +34,6 @@ Sliced make_slicer(const bench::MeshArrays& mesh, uint32_t resolution, uint32_t 
   for (double& v : def.region_max) v = 1;
   def.slab_layers = slab_layers;
   bench::check(msq_slicer_create(made.model, &def, &made.slicer));
-  msq_shape_release(shape);
   return made;
 }
 

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "base/random.h"
-#include "bench.h"
 #include "query/array_points.h"
 #include "query/point_groups.h"
+#include "setup.h"
 #include "structure/foam/point_set.h"
 
 namespace {
@@ -23,13 +23,7 @@ struct Foam {
 
 Foam make_foam(int cells, int32_t method) {
   Foam foam{};
-  msq_context_def context_def;
-  bench::check(msq_context_def_init(&context_def, sizeof context_def));
-  context_def.threads = 2;
-  bench::check(msq_context_create(&context_def, &foam.context));
-  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
-  msq_shape* cube;
-  bench::check(msq_shape_from_box(foam.context, low, high, &cube));
+  foam.context = bench::make_context();
   msq_foam_def def;
   bench::check(msq_foam_def_init(&def, sizeof def));
   def.method = method;
@@ -37,16 +31,7 @@ Foam make_foam(int cells, int32_t method) {
   def.radius.value = 0.1 / cells;
   msq_structure* structure;
   bench::check(msq_structure_foam(foam.context, &def, &structure));
-  msq_scale_def scales[2] = {};
-  scales[0].shape = cube;
-  scales[1].structure = structure;
-  msq_model_def model_def;
-  bench::check(msq_model_def_init(&model_def, sizeof model_def));
-  model_def.scales = scales;
-  model_def.scale_count = 2;
-  bench::check(msq_model_create(foam.context, &model_def, &foam.model));
-  msq_structure_release(structure);
-  msq_shape_release(cube);
+  foam.model = bench::make_model(foam.context, bench::make_cube(foam.context), structure);
   return foam;
 }
 

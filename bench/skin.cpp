@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "rippled_torus.h"
+#include "setup.h"
 
 namespace {
 
@@ -18,21 +19,9 @@ msq_structure* thin_lattice(msq_context* context) {
   return structure;
 }
 
-double slice(msq_context* context, const msq_shape* shape, const msq_param& skin,
-             uint32_t resolution) {
-  msq_structure* structure = thin_lattice(context);
-  msq_scale_def scales[2] = {};
-  scales[0].shape = shape;
-  scales[1].structure = structure;
-  scales[1].skin = skin;
-  msq_model_def model_def;
-  bench::check(msq_model_def_init(&model_def, sizeof model_def));
-  model_def.scales = scales;
-  model_def.scale_count = 2;
-  model_def.scale_size = sizeof scales[0];
-  msq_model* model;
-  bench::check(msq_model_create(context, &model_def, &model));
-  msq_structure_release(structure);
+double slice(msq_context* context, msq_shape* shape, const msq_param& skin, uint32_t resolution) {
+  msq_shape_retain(shape);
+  msq_model* model = bench::make_model(context, shape, thin_lattice(context), skin);
   const double middle[3] = {0.5, 0.5, 0.5};  // builds the tree of a mesh
   double distance;
   bench::check(msq_point_distance(model, middle, nullptr, &distance));
@@ -75,11 +64,7 @@ void measure(bench::Report& report, msq_context* context, const std::string& nam
 int main(int count, char** arguments) try {
   const uint32_t resolution = 1024;
   bench::Report report("slices at " + std::to_string(resolution) + "^3 with a skin");
-  msq_context_def context_def;
-  bench::check(msq_context_def_init(&context_def, sizeof context_def));
-  context_def.threads = 2;
-  msq_context* context;
-  bench::check(msq_context_create(&context_def, &context));
+  msq_context* context = bench::make_context();
   measure(report, context, "mesh of 270,400 triangles",
           bench::make_shape(context, bench::rippled_torus(520, 260)), resolution);
   const double low[3] = {0.01, 0.02, 0.03}, high[3] = {0.99, 0.97, 0.98};

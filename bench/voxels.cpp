@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench.h"
+#include "setup.h"
 
 namespace {
 
@@ -37,11 +37,7 @@ int main(int count, char** arguments) try {
   const uint32_t resolution = count > 2 ? static_cast<uint32_t>(std::atoi(arguments[2])) : 1024;
   const std::vector<uint8_t> values = make_values();
   for (bool is_turned : {false, true}) {
-    msq_context_def context_def;
-    bench::check(msq_context_def_init(&context_def, sizeof context_def));
-    context_def.threads = 2;
-    msq_context* context;
-    bench::check(msq_context_create(&context_def, &context));
+    msq_context* context = bench::make_context();
     msq_voxels_def def;
     bench::check(msq_voxels_def_init(&def, sizeof def));
     def.threshold = 128;
@@ -65,14 +61,7 @@ int main(int count, char** arguments) try {
     bench::check(msq_context_memory(context, &memory));
     report.note("  memory a voxel", double(memory.bytes) / double(values.size()), "bytes");
 
-    msq_scale_def scales[1] = {};
-    scales[0].shape = shape;
-    msq_model_def model_def;
-    bench::check(msq_model_def_init(&model_def, sizeof model_def));
-    model_def.scales = scales;
-    model_def.scale_count = 1;
-    msq_model* model;
-    bench::check(msq_model_create(context, &model_def, &model));
+    msq_model* model = bench::make_model(context, shape, nullptr);
     msq_slicer_def slicer_def;
     bench::check(msq_slicer_def_init(&slicer_def, sizeof slicer_def));
     slicer_def.resolution[0] = slicer_def.resolution[1] = resolution;
@@ -105,7 +94,6 @@ int main(int count, char** arguments) try {
     report.add("distances at random points" + name, asked, double(points), "point");
     msq_slicer_release(slicer);
     msq_model_release(model);
-    msq_shape_release(shape);
     msq_context_release(context);
     if (!std::isfinite(sum)) return 1;
   }

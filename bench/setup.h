@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the benchmarks build before they measure.
+#pragma once
+
+#include <cmath>
+
+#include "bench.h"
+
+namespace bench {
+
+inline msq_context* make_context(uint32_t threads = 2, uint64_t cache_bytes = uint64_t{1} << 30) {
+  msq_context_def def;
+  check(msq_context_def_init(&def, sizeof def));
+  def.threads = threads;
+  def.cache_bytes = cache_bytes;
+  msq_context* context;
+  check(msq_context_create(&def, &context));
+  return context;
+}
+
+/// From the origin.
+inline msq_shape* make_cube(msq_context* context, double extent = 1) {
+  const double low[3] = {0, 0, 0}, high[3] = {extent, extent, extent};
+  msq_shape* shape;
+  check(msq_shape_from_box(context, low, high, &shape));
+  return shape;
+}
+
+/// Takes over the shape and the structure, which may be null.
+inline msq_model* make_model(msq_context* context, msq_shape* shape, msq_structure* structure,
+                             msq_param skin = {0, nullptr}) {
+  msq_scale_def scales[2] = {};
+  scales[0].shape = shape;
+  scales[1].structure = structure;
+  scales[1].skin = skin;
+  msq_model_def def;
+  check(msq_model_def_init(&def, sizeof def));
+  def.scales = scales;
+  def.scale_count = structure ? 2 : 1;
+  def.scale_size = sizeof scales[0];
+  msq_model* model;
+  check(msq_model_create(context, &def, &model));
+  msq_structure_release(structure);
+  msq_shape_release(shape);
+  return model;
+}
+
+/// About two axes, by no angle that anything repeats at.
+inline void turn(msq_neighbourhood& grid) {
+  const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(0.4), t = std::sin(0.4);
+  const double rotation[9] = {c, -s * d, s * t, s, c * d, -c * t, 0, t, d};
+  for (int i = 0; i < 9; ++i) grid.rotation[i] = rotation[i];
+}
+
+}  // namespace bench
