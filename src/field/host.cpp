@@ -44,6 +44,8 @@ Interval HostField::range(const Box3& box) const {
                                        0x1p-40 * (max_magnitude(box.min) + max_magnitude(box.max)));
     const double slack = reach + 0x1p-40 * std::abs(middle);
     range = {std::max(range.low, middle - slack), std::min(range.high, middle + slack)};
+    // Of a host that promises too much the two may contradict each other.
+    if (range.low > range.high) std::swap(range.low, range.high);
   }
   return range;
 }

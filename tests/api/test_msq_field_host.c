@@ -81,15 +81,7 @@ static msq_field* make_field(msq_context* context, const msq_host_field_def* def
   return field;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_field* field = (msq_field*)untouched();
-  const msq_status status = msq_field_host((msq_context*)env, (msq_host_field_def*)def, &field);
-  if (status == MSQ_OK)
-    msq_field_release(field);
-  else
-    assert_ptr_equal(field, untouched());
-  return status;
-}
+DEFINE_CREATE(field, field_host, host_field_def)
 
 static void definitions_honour_every_size(void** state) {
   msq_context* context = make_context();
@@ -116,6 +108,7 @@ static void defaults_are_those_of_the_header(void** state) {
 
 enum {
   radius_of_lattice,
+  radius_of_turned_lattice,
   choice_of_lattice,
   radius_of_foam,
   density_of_foam,
@@ -135,7 +128,7 @@ static msq_structure* make_with(msq_context* context, int use, msq_field* field)
     msq_field_release(field);
     field = mapped;
   }
-  if (use == radius_of_lattice || use == choice_of_lattice) {
+  if (use == radius_of_lattice || use == radius_of_turned_lattice || use == choice_of_lattice) {
     msq_lattice_def def;
     msq_unit_cell_def library[2];
     assert_ok(msq_lattice_def_init(&def, sizeof def));
@@ -151,6 +144,10 @@ static msq_structure* make_with(msq_context* context, int use, msq_field* field)
       def.cell_choice.field = field;
     } else {
       def.radius.field = field;
+    }
+    if (use == radius_of_turned_lattice) {
+      const double turn[9] = {0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1};
+      memcpy(def.grid.rotation, turn, sizeof turn);
     }
     assert_ok(msq_structure_lattice(context, &def, &structure));
   } else if (use == level_of_function || use == mapped_level || use == thickness_of_walls) {
@@ -333,15 +330,14 @@ static int32_t false_range(void* user, const double min[3], const double max[3],
 static void promises_that_are_broken_do_no_harm(void** state) {
   (void)state;
   for (int use = 0; use < uses; ++use)
-    for (int high = 0; high < 3; ++high) {
+    /* A range, low or high, a Lipschitz constant, and both, which contradict each other. */
+    for (int lie = 0; lie < 5; ++lie) {
       msq_context* context = make_context();
       ramp r = make_ramp(low_of(use), high_of(use));
       msq_host_field_def def = ramp_def(&r);
-      r.log.bad = high;
-      if (high < 2)
-        def.range = false_range;
-      else
-        def.lipschitz = 0;
+      r.log.bad = lie % 2;
+      if (lie != 4) def.range = false_range;
+      if (lie >= 2) def.lipschitz = 0;
       r.log.fail_at = UINT64_MAX;
       msq_model* model = make_model_with(context, use, make_field(context, &def));
       assert_ok(ask_everything(model));
