@@ -24,6 +24,19 @@ typedef msq_status (*use_fn)(void* env, void* structure);
     return msq_##name##_init((msq_##name*)def, size);     \
   }
 
+/* Makes msq_<constructor> a use_fn, create, in a context: a refusal leaves the handle alone. */
+#define DEFINE_CREATE(object, constructor, definition)                             \
+  static msq_status create(void* env, void* def) {                                 \
+    msq_##object* made = (msq_##object*)untouched();                               \
+    const msq_status status =                                                      \
+        msq_##constructor((msq_context*)env, (const msq_##definition*)def, &made); \
+    if (status == MSQ_OK)                                                          \
+      msq_##object##_release(made);                                                \
+    else                                                                           \
+      assert_ptr_equal(made, untouched());                                         \
+    return status;                                                                 \
+  }
+
 /* def_init of a struct that has `known` bytes, and had `first` when it was published. */
 static inline void check_grown_def_init(init_fn init, size_t first, size_t known) {
   const size_t refused[] = {0, 1, sizeof(void*), first - 1, 4097};

@@ -169,6 +169,22 @@ static inline void set_cell(msq_neighbourhood* grid, double size) {
   for (int axis = 0; axis < 3; ++axis) grid->cell_size[axis] = size;
 }
 
+/* Unit cells from the origin, not turned. */
+static inline void assert_default_grid(const msq_neighbourhood* grid) {
+  for (int i = 0; i < 3; ++i) {
+    assert_true(grid->origin[i] == 0);
+    assert_true(grid->cell_size[i] == 1);
+  }
+  for (int i = 0; i < 9; ++i) assert_true(grid->rotation[i] == (i % 4 == 0));
+}
+
+static inline msq_unit_cell_def named_cell(int32_t unit_cell) {
+  msq_unit_cell_def cell;
+  assert_ok(msq_unit_cell_def_init(&cell, sizeof cell));
+  cell.unit_cell = unit_cell;
+  return cell;
+}
+
 static inline msq_structure* make_lattice_of(msq_context* context, int32_t unit_cell, double cell,
                                              double radius) {
   msq_lattice_def def;

@@ -11,16 +11,7 @@ static msq_grid_field_def grid_def(const msq_image* image) {
   return def;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_field* field = (msq_field*)untouched();
-  const msq_status status =
-      msq_field_grid((msq_context*)env, (const msq_grid_field_def*)def, &field);
-  if (status == MSQ_OK)
-    msq_field_release(field);
-  else
-    assert_ptr_equal(field, untouched());
-  return status;
-}
+DEFINE_CREATE(field, field_grid, grid_field_def)
 
 static msq_status use_image(msq_context* context, const msq_image* image) {
   msq_grid_field_def def = grid_def(image);

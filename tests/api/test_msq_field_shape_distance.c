@@ -15,16 +15,7 @@ static msq_shape_distance_field_def distance_def(const msq_shape* shape) {
   return def;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_field* field = (msq_field*)untouched();
-  const msq_status status =
-      msq_field_shape_distance((msq_context*)env, (const msq_shape_distance_field_def*)def, &field);
-  if (status == MSQ_OK)
-    msq_field_release(field);
-  else
-    assert_ptr_equal(field, untouched());
-  return status;
-}
+DEFINE_CREATE(field, field_shape_distance, shape_distance_field_def)
 
 static void def_init_honours_every_size(void** state) {
   (void)state;

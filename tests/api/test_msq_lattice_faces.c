@@ -4,13 +4,6 @@
 
 static const double low[3] = {0, 0, 0}, high[3] = {4, 3, 2};
 
-static msq_unit_cell_def named_cell(int32_t unit_cell) {
-  msq_unit_cell_def cell;
-  assert_ok(msq_unit_cell_def_init(&cell, sizeof cell));
-  cell.unit_cell = unit_cell;
-  return cell;
-}
-
 /* Two unit cells: the first up to x = 2.5 at cell centres, then the second. */
 static msq_structure* make_mixed(msq_context* context, int32_t first, int32_t second,
                                  const double rotation[9]) {

@@ -4,16 +4,7 @@
 
 DEFINE_INIT(material_def)
 
-static msq_status create(void* env, void* def) {
-  msq_material* material = (msq_material*)untouched();
-  const msq_status status =
-      msq_material_create((msq_context*)env, (const msq_material_def*)def, &material);
-  if (status == MSQ_OK)
-    msq_material_release(material);
-  else
-    assert_ptr_equal(material, untouched());
-  return status;
-}
+DEFINE_CREATE(material, material_create, material_def)
 
 static void def_init_honours_every_size(void** state) {
   (void)state;

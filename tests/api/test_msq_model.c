@@ -32,15 +32,7 @@ static msq_model_def model_def(const msq_scale_def* scales, uint32_t count) {
   return def;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_model* model = (msq_model*)untouched();
-  const msq_status status = msq_model_create((msq_context*)env, (const msq_model_def*)def, &model);
-  if (status == MSQ_OK)
-    msq_model_release(model);
-  else
-    assert_ptr_equal(model, untouched());
-  return status;
-}
+DEFINE_CREATE(model, model_create, model_def)
 
 static void def_init_honours_every_size(void** state) {
   (void)state;

@@ -61,16 +61,7 @@ static msq_shape* make_own_ball(msq_context* context) {
   return shape;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_shape* shape = (msq_shape*)untouched();
-  const msq_status status =
-      msq_shape_from_host((msq_context*)env, (msq_host_shape_def*)def, &shape);
-  if (status == MSQ_OK)
-    msq_shape_release(shape);
-  else
-    assert_ptr_equal(shape, untouched());
-  return status;
-}
+DEFINE_CREATE(shape, shape_from_host, host_shape_def)
 
 static void definitions_honour_every_size(void** state) {
   msq_context* context = make_context();

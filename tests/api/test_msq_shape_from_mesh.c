@@ -16,16 +16,7 @@ static msq_mesh_def cube_def(void) {
   return mesh_def((const double(*)[3])corners, 8, cube_triangles(), 12);
 }
 
-static msq_status create(void* env, void* def) {
-  msq_shape* shape = (msq_shape*)untouched();
-  const msq_status status =
-      msq_shape_from_mesh((msq_context*)env, (const msq_mesh_def*)def, &shape);
-  if (status == MSQ_OK)
-    msq_shape_release(shape);
-  else
-    assert_ptr_equal(shape, untouched());
-  return status;
-}
+DEFINE_CREATE(shape, shape_from_mesh, mesh_def)
 
 static void def_init_honours_every_size(void** state) {
   (void)state;

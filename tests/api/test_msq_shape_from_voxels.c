@@ -12,16 +12,7 @@ static msq_voxels_def voxels_def(const msq_image* image) {
   return def;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_shape* shape = (msq_shape*)untouched();
-  const msq_status status =
-      msq_shape_from_voxels((msq_context*)env, (const msq_voxels_def*)def, &shape);
-  if (status == MSQ_OK)
-    msq_shape_release(shape);
-  else
-    assert_ptr_equal(shape, untouched());
-  return status;
-}
+DEFINE_CREATE(shape, shape_from_voxels, voxels_def)
 
 static msq_status use_image(msq_context* context, const msq_image* image) {
   msq_voxels_def def = voxels_def(image);

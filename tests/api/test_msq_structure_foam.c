@@ -15,16 +15,7 @@ static msq_foam_def foam_def(void) {
   return def;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_structure* structure = (msq_structure*)untouched();
-  const msq_status status =
-      msq_structure_foam((msq_context*)env, (const msq_foam_def*)def, &structure);
-  if (status == MSQ_OK)
-    msq_structure_release(structure);
-  else
-    assert_ptr_equal(structure, untouched());
-  return status;
-}
+DEFINE_CREATE(structure, structure_foam, foam_def)
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
@@ -36,11 +27,7 @@ static void defaults_are_those_of_the_header(void** state) {
   (void)state;
   assert_ok(msq_foam_def_init(&def, sizeof def));
   assert_int_equal(def.method, MSQ_FOAM_AUTO);
-  for (int i = 0; i < 3; ++i) {
-    assert_true(def.grid.origin[i] == 0);
-    assert_true(def.grid.cell_size[i] == 1);
-  }
-  for (int i = 0; i < 9; ++i) assert_true(def.grid.rotation[i] == (i % 4 == 0));
+  assert_default_grid(&def.grid);
   assert_null(def.radius.field);
   assert_true(def.jitter == 1);
   assert_int_equal(def.seed, 0);

@@ -18,16 +18,7 @@ static msq_functional_def expression_def(const char* text) {
   return def;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_structure* structure = (msq_structure*)untouched();
-  const msq_status status =
-      msq_structure_functional((msq_context*)env, (const msq_functional_def*)def, &structure);
-  if (status == MSQ_OK)
-    msq_structure_release(structure);
-  else
-    assert_ptr_equal(structure, untouched());
-  return status;
-}
+DEFINE_CREATE(structure, structure_functional, functional_def)
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
@@ -41,11 +32,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.function, MSQ_FUNCTION_GYROID);
   assert_int_equal(def.kind, MSQ_FUNCTIONAL_NETWORK);
   assert_int_equal(def.clusters, 0);
-  for (int i = 0; i < 3; ++i) {
-    assert_true(def.grid.origin[i] == 0);
-    assert_true(def.grid.cell_size[i] == 1);
-  }
-  for (int i = 0; i < 9; ++i) assert_true(def.grid.rotation[i] == (i % 4 == 0));
+  assert_default_grid(&def.grid);
   assert_true(def.level.value == 0);
   assert_null(def.level.field);
   assert_true(def.thickness.value == 0);

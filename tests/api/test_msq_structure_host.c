@@ -216,16 +216,7 @@ static msq_model* make_same_model(msq_context* context, const bcc_host* host) {
   return make_model(context, make_box(context), structure, NULL);
 }
 
-static msq_status create(void* env, void* def) {
-  msq_structure* structure = (msq_structure*)untouched();
-  const msq_status status =
-      msq_structure_host((msq_context*)env, (msq_host_structure_def*)def, &structure);
-  if (status == MSQ_OK)
-    msq_structure_release(structure);
-  else
-    assert_ptr_equal(structure, untouched());
-  return status;
-}
+DEFINE_CREATE(structure, structure_host, host_structure_def)
 
 static void definitions_honour_every_size(void** state) {
   msq_context* context = make_context();

@@ -57,16 +57,7 @@ static msq_model* fill_box(msq_context* context, const msq_host_function_def* de
   return make_model(context, make_box(context), structure, NULL);
 }
 
-static msq_status create(void* env, void* def) {
-  msq_structure* structure = (msq_structure*)untouched();
-  const msq_status status =
-      msq_structure_host_function((msq_context*)env, (msq_host_function_def*)def, &structure);
-  if (status == MSQ_OK)
-    msq_structure_release(structure);
-  else
-    assert_ptr_equal(structure, untouched());
-  return status;
-}
+DEFINE_CREATE(structure, structure_host_function, host_function_def)
 
 static void definitions_honour_every_size(void** state) {
   msq_context* context = make_context();

@@ -26,16 +26,7 @@ static msq_lattice_def lattice_def(int32_t unit_cell, double radius) {
   return def;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_structure* structure = (msq_structure*)untouched();
-  const msq_status status =
-      msq_structure_lattice((msq_context*)env, (const msq_lattice_def*)def, &structure);
-  if (status == MSQ_OK)
-    msq_structure_release(structure);
-  else
-    assert_ptr_equal(structure, untouched());
-  return status;
-}
+DEFINE_CREATE(structure, structure_lattice, lattice_def)
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
@@ -47,11 +38,7 @@ static void defaults_are_those_of_the_header(void** state) {
   (void)state;
   assert_ok(msq_lattice_def_init(&def, sizeof def));
   assert_int_equal(def.unit_cell, MSQ_UNIT_CELL_BCC);
-  for (int i = 0; i < 3; ++i) {
-    assert_true(def.grid.origin[i] == 0);
-    assert_true(def.grid.cell_size[i] == 1);
-  }
-  for (int i = 0; i < 9; ++i) assert_true(def.grid.rotation[i] == (i % 4 == 0));
+  assert_default_grid(&def.grid);
   assert_null(def.radius.field);
   assert_null(def.nodes);
   assert_null(def.struts);

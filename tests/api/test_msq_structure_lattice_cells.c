@@ -12,13 +12,6 @@ typedef struct cell_arrays {
   uint64_t node_count, strut_count;
 } cell_arrays;
 
-static msq_unit_cell_def named_cell(int32_t unit_cell) {
-  msq_unit_cell_def cell;
-  assert_ok(msq_unit_cell_def_init(&cell, sizeof cell));
-  cell.unit_cell = unit_cell;
-  return cell;
-}
-
 static cell_arrays arrays_of(const msq_unit_cell_def* cell) {
   cell_arrays arrays;
   msq_unit_cell_report report;
@@ -41,16 +34,7 @@ static msq_lattice_def lattice_def(double radius) {
   return def;
 }
 
-static msq_status create(void* env, void* def) {
-  msq_structure* structure = (msq_structure*)untouched();
-  const msq_status status =
-      msq_structure_lattice((msq_context*)env, (const msq_lattice_def*)def, &structure);
-  if (status == MSQ_OK)
-    msq_structure_release(structure);
-  else
-    assert_ptr_equal(structure, untouched());
-  return status;
-}
+DEFINE_CREATE(structure, structure_lattice, lattice_def)
 
 static double distance_to_strut(const double p[3], const double a[3], const double b[3]) {
   double along = 0, squared = 0, sum = 0;

@@ -2,13 +2,6 @@
  * msq_unit_cell_geometry. */
 #include "fixtures.h"
 
-static msq_unit_cell_def named_cell(int32_t unit_cell) {
-  msq_unit_cell_def cell;
-  assert_ok(msq_unit_cell_def_init(&cell, sizeof cell));
-  cell.unit_cell = unit_cell;
-  return cell;
-}
-
 /* The edges of the cube: as many as differ in one coordinate. */
 static void named_cells_come_as_nodes_and_struts(void** state) {
   const msq_unit_cell_def cell = named_cell(MSQ_UNIT_CELL_CUBIC);

@@ -4,13 +4,6 @@
 
 DEFINE_INIT(unit_cell_def)
 
-static msq_unit_cell_def named_cell(int32_t unit_cell) {
-  msq_unit_cell_def cell;
-  assert_ok(msq_unit_cell_def_init(&cell, sizeof cell));
-  cell.unit_cell = unit_cell;
-  return cell;
-}
-
 static msq_unit_cell_report report_of(const msq_unit_cell_def* cell) {
   msq_unit_cell_report report;
   memset(&report, 0, sizeof report);
