@@ -215,8 +215,17 @@ bool CylinderShape::section(const Ray& ray, double grow, double& from, double& t
   }
   const Vec3 across = w - unit_axis_ * along, drift = ray.direction - unit_axis_ * rate;
   const double drift_squared = dot(drift, drift);
-  return clip_to_quadratic(dot(across, across) - radius * radius, dot(across, drift),
-                           drift_squared > 0x1p-90 ? drift_squared : 0, from, to);
+  const double c = drift_squared > 0x1p-90 ? drift_squared : 0;
+  // About the point nearest to the axis: squares of the way there would round by more than those
+  // of the radius of a slender cylinder.
+  const double nearest = c > 0 ? -dot(across, drift) / c : 0;
+  const Vec3 least = across + drift * nearest;
+  double low = -std::numeric_limits<double>::infinity(), high = -low;
+  if (!clip_to_quadratic(dot(least, least) - radius * radius, dot(least, drift), c, low, high))
+    return false;
+  from = std::max(from, low + nearest);
+  to = std::min(to, high + nearest);
+  return from <= to;
 }
 
 Vec3 CylinderShape::normal(const Ray& ray, double t) const {
