@@ -264,6 +264,14 @@ static void casts_shadows(void** state) {
   assert_grey(&got, 7, 20, 0.25);
   assert_grey(&got, 2, 20, lit); /* before, by the upper part of the block */
   free_picture(&got);
+  /* Also where the eye is so far away that what is above the cut has the same depth. */
+  camera.eye[2] = 0x1p34;
+  camera.clip_near = 0x1p34 - 2.5;
+  got = rendered(model, &camera, &def);
+  assert_grey(&got, 20, 20, lit);
+  assert_grey(&got, 7, 20, 0.25);
+  free_picture(&got);
+  camera.eye[2] = 10;
   camera.clip_near = 8.5;
   got = rendered(model, &camera, &def);
   for (uint32_t i = 0; i < pixels; ++i) assert_grey(&got, i, 20, lit);
