@@ -46,9 +46,9 @@ void check_ray(const RayArray& rays, uint64_t i) {
          rays.to(i));
 }
 
-RaySearch search_of(const RayArray& rays, uint64_t i) {
+void set_search(const RayArray& rays, uint64_t i, RaySearch& search) {
   const Vec3 direction = rays.direction(i);
-  return search_along(rays.origins.at(i), direction, size_of(direction), rays.from(i), rays.to(i));
+  search_along(rays.origins.at(i), direction, size_of(direction), rays.from(i), rays.to(i), search);
 }
 
 msq_ray_hit answer_of(const RayHit& hit, double size, double t_min) {
@@ -93,7 +93,7 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
     cast_rays(
         known, resolved, def.count,
         [&](uint64_t first, size_t count, RaySearch* searches) {
-          for (size_t n = 0; n < count; ++n) searches[n] = search_of(array, first + n);
+          for (size_t n = 0; n < count; ++n) set_search(array, first + n, searches[n]);
         },
         [&](uint64_t first, size_t count, const RayHit* found) {
           uint32_t part = 0;  // of the skin, for points near each other

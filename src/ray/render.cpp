@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstring>
 
 #include "base/borrowed.h"
 #include "ray/search.h"
@@ -149,13 +150,7 @@ class Renderer {
     std::array<Place, tile_side> places;
     for (uint32_t i = 0; i < side; ++i) places[i] = {i / n, i % n, (i % n + 0.5) / n};
     const Camera& camera = view_.camera();
-    const auto search_at = [&](double x, double y, double& size) {
-      const Vec3 direction = view_.direction(x, y);
-      size = size_of(direction);
-      return search_along(view_.origin(x, y), direction, size, camera.clip_near, camera.clip_far);
-    };
-    double size;
-    RaySearch search = search_at(0, 0, size);  // orthographic: that of all, but for its origin
+    double size = size_of(view_.direction(0, 0));  // orthographic: of all
     for (const TilePixel& at : tile_order) {
       if (at.x >= side || at.y >= side) continue;
       const Place& right = places[at.x];
@@ -166,15 +161,13 @@ class Renderer {
       if (pass.leaves_out && i % 2 == 0 && j % 2 == 0) continue;
       const uint32_t picture_x = plan_.tile_x + x, picture_y = plan_.tile_y + y;
       const double at_x = picture_x + right.middle, at_y = picture_y + down.middle;
-      if (camera.is_perspective)
-        search = search_at(at_x, at_y, size);
-      else
-        search.ray.origin = view_.origin(at_x, at_y);
+      if (camera.is_perspective) size = size_of(view_.direction(at_x, at_y));
+      search_along(view_.origin(at_x, at_y), view_.direction(at_x, at_y), size, camera.clip_near,
+                   camera.clip_far, batch.searches.emplace_back());
       const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
       const uint64_t key = (pixel * most_samples + down.sample) * most_samples + right.sample;
       batch.samples.push_back({x, y, at.y * side + at.x, size});
       batch.seen.push_back({key, 0, 0});
-      batch.searches.push_back(search);
     }
   }
 
@@ -220,10 +213,12 @@ class Renderer {
     const uint32_t n = pass.samples, pixels = square_side(n), side = pixels * n;
     if (n == 1) {
       for (size_t i = 0; i < batch.colours.size(); ++i) {
-        uint8_t rgba[4];
-        write_rgba(batch.colours[i], rgba);
-        for_block(pass, batch.samples[i],
-                  [&](uint64_t pixel) { std::copy_n(rgba, 4, frame_.rgba + 4 * pixel); });
+        const Sample& sample = batch.samples[i];
+        uint8_t* first = frame_.rgba + 4 * (sample.y * frame_.row_pixels + sample.x);
+        write_rgba(batch.colours[i], first);
+        if (pass.step > 1)
+          for_block(pass, sample,
+                    [&](uint64_t pixel) { std::memmove(frame_.rgba + 4 * pixel, first, 4); });
       }
       return;
     }

@@ -14,13 +14,14 @@ inline double size_of(Vec3 d) {
   return std::hypot(d.x, d.y, d.z);
 }
 
-/// The search at from <= t <= to along origin + t * direction, a direction of this size.
-inline RaySearch search_along(Vec3 origin, Vec3 direction, double size, double from, double to) {
-  RaySearch search;
-  search.ray = {origin, {direction.x / size, direction.y / size, direction.z / size}};
+/// Makes a new search that at from <= t <= to along origin + t * direction, a direction of this
+/// size. In place: a copy of numbers just written waits for them.
+inline void search_along(Vec3 origin, Vec3 direction, double size, double from, double to,
+                         RaySearch& search) {
+  search.ray.origin = origin;
+  search.ray.direction = {direction.x / size, direction.y / size, direction.z / size};
   search.from = from * size;
   search.to = to * size;
-  return search;
 }
 
 /// t of what it found, infinity where that is nothing.
