@@ -1389,6 +1389,11 @@ typedef struct msq_ray_hit {
  * and may lose thinner parts. Scale by scale: finer scales are asked only
  * within the parts of the ray that lie in the coarser ones.
  *
+ * Normals are exact, to rounding, on boxes, balls, cylinders, meshes, lattices, functional structures and foams
+ * whose radius and density are numbers. Elsewhere (voxel images, the inner faces of skins, other foams, what the
+ * host defines), and where rounding hides which strut was met, they are estimates, off by 0.1 or so: the mean
+ * direction of those of 48 points close around that are outside.
+ *
  * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY hits may be partly written. Cost:
  * in parallel, rays that follow each other best close to each other. A mesh builds its tree first, as
  * for msq_point_distance. Errors: ARGUMENT (also rays that are not finite, by index, and directions of
@@ -1401,12 +1406,12 @@ MSQ_API msq_status msq_ray_cast(const msq_model *model, const msq_rays_def *rays
 
 enum { MSQ_CAMERA_ORTHOGRAPHIC = 0, MSQ_CAMERA_PERSPECTIVE = 1 };
 
-/* From where a model is seen. The view goes from eye to target, and so through the middle of the picture.
- * Depth is the distance from the plane through eye that is normal to the view. */
+/* From where a model is seen. The view is the line from eye to target, in the middle of the picture. Depth is
+ * the distance from the plane through eye that is normal to the view. docs/concepts.md has the formulas. */
 typedef struct msq_camera {
   uint32_t struct_size;
   int32_t projection;    /* MSQ_CAMERA_*; default ORTHOGRAPHIC */
-  double eye[3];         /* rays start at depth 0: orthographic all along the view, perspective all from here */
+  double eye[3];         /* PERSPECTIVE: where all rays start; ORTHOGRAPHIC: a point of the plane where they do */
   double target[3];      /* not eye: both must be set */
   double up[3];          /* upwards in the picture, not along the view (default 0, 0, 1) */
   double height;         /* ORTHOGRAPHIC: model units from the picture's lower to its upper edge; must be set */
@@ -1419,16 +1424,16 @@ typedef struct msq_camera {
 MSQ_API msq_status msq_camera_init(msq_camera *camera, size_t size);
 
 /* Sets eye, target, up and height so that the model's bounding box just fits a picture of width x height pixels
- * (1 to 16384 each), seen along `direction`, which goes from eye to target. The rest of *camera, struct_size first,
- * stays and must be set; field_of_view counts in perspective. up NULL: z, or y where that is within 2.6
- * degrees of the direction. On failure *camera stays. Errors: ARGUMENT. */
+ * (1 to 16384 each), seen along `direction`, of any length but 0, from eye to target. The other fields stay and
+ * must be set, as msq_camera_init does; in perspective field_of_view counts. up NULL: z, or y where z is
+ * within 2.6 degrees of the view. On failure *camera stays as it was. Errors: ARGUMENT. */
 MSQ_API msq_status msq_camera_fit(const msq_model *model, const double direction[3],
                                   const double up[3], uint32_t width, uint32_t height,
                                   msq_camera *camera);
 
 /* The ray of a position in a picture of width x height pixels: position[0] pixels right and position[1] down
- * from its upper left corner, so that the middle of pixel (i, j) is (i + 0.5, j + 0.5). direction is
- * as long as makes t of msq_ray_cast the depth; with t_min and t_max at the clip planes that ray gives what
+ * from its upper left corner; the middle of pixel (i, j) is (i + 0.5, j + 0.5). direction has such a length
+ * that t of msq_ray_cast is the depth; from t_min = clip_near to t_max = clip_far the ray meets what
  * msq_render writes, to the last bit. For picking, and for pictures of the host's own. Errors: ARGUMENT. */
 MSQ_API msq_status msq_camera_ray(const msq_camera *camera, uint32_t width, uint32_t height,
                                   const double position[2], double origin[3],
@@ -1492,22 +1497,29 @@ typedef struct msq_render_pass {
   int32_t is_last;      /* 1: the picture is done */
 } msq_render_pass;
 
-/* Takes a pass: the frame holds a whole picture, and may be changed. Return 0 to go on, a code of the host's own, best
- * negative, to stop. Exceptions of the host's language must not leave it. */
+/* Takes a pass: the frame holds a whole picture, to be shown or copied, not to be changed before the last.
+ * Return 0 to go on, a code of the host's own, best negative, to stop. Exceptions of the host's language must
+ * not leave it. */
 typedef int32_t (*msq_render_fn)(void *user, const msq_render_pass *pass);
 
-/* Renders a model. Each pixel is what msq_ray_cast says of the ray of msq_camera_ray; colours, linear, are
- * base * (ambient * open + (1 - ambient) * max(0, normal . light) * lit), where open is the part of the
- * occlusion rays that meet nothing (1 without them) and lit is 0 in shadow. What the clip planes cut away
- * casts none. The mean of a pixel's samples and of the background is then written in sRGB. Random numbers follow from
- * pixel and sample alone: the same bits, whatever the tile, the threads and the passes.
+/* Renders a model as a camera sees it. Depth, normal, scale and material of a pixel are what msq_ray_cast says
+ * of the ray of its middle; its colour is the mean of its samples, each, in linear light, the background or
  *
- * fn NULL: not called. Otherwise it is called on the calling thread after each pass: steps from
- * first_step by halves to 1, each with the rays that are new, then, where rgba wants more than one sample,
- * all samples. query, job NULL: defaults, no job. On ARGUMENT nothing is written; on all else the frame may
- * be partly written. Cost: a ray each pixel for the first arrays, samples^2 for rgba where that is more than
- * 1, each of which with shadows and occlusion_rays casts more; in parallel, by squares of 32 x 32 rays. Memory: about
- * 1 MB for each thread, whatever the size.
+ *   base * (ambient * open + (1 - ambient) * max(0, normal . light) * lit)
+ *
+ * where base is by colour_by, open the part of the occlusion rays that meet nothing, lit 0 in a shadow, and both
+ * 1 where not asked for. What clip planes cut away is in no light's way. A pixel is the same, to the last bit,
+ * whatever the tile, the passes and the threads; the directions of occlusion rays follow from a hash of pixel
+ * and sample.
+ *
+ * fn NULL: not called. Otherwise it is called on the calling thread after each pass: of steps from first_step,
+ * halved each time, to 1, of which each casts the rays that are new; then, where rgba wants more samples than
+ * one, with all of them. query, job NULL: defaults, no job. On ARGUMENT nothing is written; on other errors the
+ * frame may be partly written.
+ *
+ * Cost: a ray for each pixel, and samples^2 where those are more than one, to each of which shadows and
+ * occlusion_rays add theirs; in parallel, by tiles of 32 x 32 rays. A mesh builds its tree first, as
+ * for msq_point_distance. Memory: about 1 MB for each thread, kept for its next call.
  * Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting". */
 MSQ_API msq_status msq_render(const msq_model *model, const msq_camera *camera,
                               const msq_render_def *def, const msq_query_def *query,
