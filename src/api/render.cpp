@@ -9,8 +9,7 @@ using namespace msq::api;
 
 namespace {
 
-constexpr uint32_t most_pixels = 16384, most_samples = 16, most_step = 64,
-                   most_occlusion_rays = 256;
+constexpr uint32_t most_pixels = 16384, most_step = 64, most_occlusion_rays = 256;
 constexpr uint64_t most_colours = 65536;
 constexpr double least_angle = 0.001, most_angle = 179;
 
@@ -146,7 +145,7 @@ RenderPlan read_plan(const msq_render_def& known) {
   }
   read_tile_side("x", plan.tile_x, plan.tile_width, known.width);
   read_tile_side("y", plan.tile_y, plan.tile_height, known.height);
-  plan.samples = require_count(known.samples, 1, most_samples, "samples");
+  plan.samples = require_count(known.samples, 1, most_render_samples, "samples");
   plan.first_step = known.first_step;
   if (plan.first_step < 1 || plan.first_step > most_step ||
       (plan.first_step & (plan.first_step - 1)) != 0)

@@ -12,13 +12,12 @@ namespace msq {
 
 namespace {
 
+/// Points of a tile, those of rays that follow each other close together.
 constexpr auto tile_order = [] {
   std::array<TilePixel, ray_batch> order{};
   for (uint32_t n = 0; n < ray_batch; ++n) order[n] = tile_pixel(n);
   return order;
 }();
-/// Along each side of a pixel.
-constexpr uint64_t most_samples = 16;
 
 /// Side of the squares of pixels whose samples are cast together: at most tile_side samples.
 uint32_t square_side(uint32_t samples) {
@@ -139,8 +138,7 @@ class Renderer {
     rays_done_ += rays;
   }
 
-  /// Rays of the square of points that begins at point (x0, y0), in an order that keeps those that
-  /// follow each other close together.
+  /// Rays of the square of points that begins at point (x0, y0).
   void fill(const Pass& pass, uint32_t x0, uint32_t y0, Batch& batch) const {
     const uint32_t n = pass.samples, side = square_side(n) * n;
     struct Place {
@@ -165,7 +163,8 @@ class Renderer {
       search_along(view_.origin(at_x, at_y), view_.direction(at_x, at_y), size, camera.clip_near,
                    camera.clip_far, batch.searches.emplace_back());
       const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
-      const uint64_t key = (pixel * most_samples + down.sample) * most_samples + right.sample;
+      const uint64_t key =
+          (pixel * most_render_samples + down.sample) * most_render_samples + right.sample;
       batch.samples.push_back({x, y, at.y * side + at.x, size});
       batch.seen.push_back({key, 0, 0});
     }

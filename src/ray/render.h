@@ -23,9 +23,11 @@ struct Frame {
   bool has_data() const { return depth || normal || scale || material; }
 };
 
+constexpr uint32_t most_render_samples = 16;
+
 struct RenderPlan {
   uint32_t tile_x = 0, tile_y = 0, tile_width = 0, tile_height = 0;  ///< within the view's pixels
-  uint32_t samples = 1;     ///< along each side of a pixel, of colour
+  uint32_t samples = 1;     ///< of colour, along each side of a pixel: at most most_render_samples
   uint32_t first_step = 1;  ///< a power of two
   Shading shading;
 };
