@@ -245,7 +245,8 @@ class Renderer {
   const Frame& frame_;
   Job* const job_;
   const Shader shader_;
-  uint64_t all_rays_ = 0, rays_done_ = 0;
+  uint64_t all_rays_ = 1;  // and the callback after them
+  uint64_t rays_done_ = 0;
 };
 
 }  // namespace
