@@ -76,7 +76,8 @@ class Caster {
   /// shape's.
   void start(uint32_t i) {
     RaySearch& s = searches_[i];
-    hits_[i] = {};
+    static constexpr RayHit nothing{};  // in memory: what is put together would be waited for
+    hits_[i] = nothing;
     double low = s.from, high = s.to;
     if (!clip_to_box(s.ray, bounds_, low, high)) return;
     begins_[i] = {s.from, low};
