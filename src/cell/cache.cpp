@@ -104,7 +104,6 @@ CellCache::Data CellCache::keep(const Key& key, Data data, uint64_t bytes, Room&
   Part& part = part_of(key);
   if (const auto found = part.table.find(key); found != part.table.end()) {
     ++counters_.duplicates;
-    data.reset();  // before the room for it goes back
     return found->second.data;
   }
   if (bytes <= limit_) learn(key.structure, bytes);
