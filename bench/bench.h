@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -73,6 +74,15 @@ class Report {
                               {"target", target},
                               {"at_least", at_least},
                               {"met", is_met}});
+  }
+  /// Numbers of the same thing side by side, by name.
+  void compare(const std::string& what, const std::string& where,
+               const std::map<std::string, double>& values) {
+    std::printf("%-40s %-14s", what.c_str(), where.c_str());
+    for (const auto& [name, value] : values) std::printf("  %s %5.1f", name.c_str(), value);
+    std::printf("\n");
+    std::fflush(stdout);
+    json_["comparisons"].push_back({{"what", what}, {"where", where}, {"values", values}});
   }
   void write(int count, char** arguments) const {
     if (count > 1) std::ofstream(arguments[1]) << json_.dump(2) << '\n';
