@@ -129,26 +129,26 @@ void slice_about(msq_context* context) {
   msq_model_release(model);
 }
 
-/// Frames of 256^2 rays while the eye goes round the cube.
+/// Frames of 192^2 rays while the eye goes round the cube.
 void orbit(msq_context* context) {
-  msq_model* model = bench::make_foam_model(context, 128);
-  bench::Picture picture(256);
-  for (int frame = 0; frame < 48; ++frame) {
+  msq_model* model = bench::make_foam_model(context, 64);
+  bench::Picture picture(192);
+  for (int frame = 0; frame < 32; ++frame) {
     const double angle = 0.5 + frame * 0.03;
-    const auto camera = bench::fit_camera(model, {std::cos(angle), std::sin(angle), -0.3}, 256);
+    const auto camera = bench::fit_camera(model, {std::cos(angle), std::sin(angle), -0.3}, 192);
     picture.render(model, camera);
   }
   msq_model_release(model);
 }
 
-/// Frames of 256^2 rays that come closer, and back.
+/// Frames of 192^2 rays that come closer, and back.
 void zoom(msq_context* context) {
-  msq_model* model = bench::make_foam_model(context, 128);
-  bench::Picture picture(256);
-  msq_camera camera = bench::fit_camera(model, {-1, -0.7, -0.4}, 256);
+  msq_model* model = bench::make_foam_model(context, 64);
+  bench::Picture picture(192);
+  msq_camera camera = bench::fit_camera(model, {-1, -0.7, -0.4}, 192);
   const double height = camera.height;
-  for (int frame = 0; frame < 48; ++frame) {
-    camera.height = height * std::pow(0.9, std::min(frame, 47 - frame));
+  for (int frame = 0; frame < 32; ++frame) {
+    camera.height = height * std::pow(0.85, std::min(frame, 31 - frame));
     picture.render(model, camera);
   }
   msq_model_release(model);
@@ -229,9 +229,9 @@ void bench_work(bench::Report& report, const std::string& name, void (*work)(msq
     report.compare(name, "cache " + std::to_string(part * 100).substr(0, 4) + " %", rates);
   }
   for (const int32_t policy : {MSQ_CACHE_FIFO, MSQ_CACHE_SECOND_CHANCE}) {
-    msq_context* context = make_context({static_cast<uint64_t>(all) / 4, policy});
+    msq_context* context = make_context({static_cast<uint64_t>(all) / 2, policy});
     const double seconds = bench::seconds_of([&] { work(context); });
-    const std::string title = policy ? ", 25 %, second chance" : ", 25 %, FIFO";
+    const std::string title = policy ? ", half of it, second chance" : ", half of it, FIFO";
     const msq_cache_report cache = bench::cache_of(context);
     report.add(name + title + ", two threads", seconds, static_cast<double>(trace.size()), "fetch");
     const double fetches = static_cast<double>(cache.hits + cache.misses);
@@ -257,8 +257,8 @@ int main(int count, char** arguments) try {
   bench_same_cells(report);
   bench_work(report, "slices of 128^3 cells, upwards", slice_upwards);
   bench_work(report, "slices of 128^3 cells, to and fro", slice_about);
-  bench_work(report, "rays, orbit round 128^3 cells", orbit);
-  bench_work(report, "rays, zoom into 128^3 cells", zoom);
+  bench_work(report, "rays, orbit round 64^3 cells", orbit);
+  bench_work(report, "rays, zoom into 64^3 cells", zoom);
   bench_work(report, "random sets in boxes, 64^3 host cells", random_boxes);
   report.write(count, arguments);
   return 0;
