@@ -85,12 +85,12 @@ HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t en
 template <bool kStarts>
 HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t chosen_count,
                      float radius, const float (&corner)[3], const RayPacket& rays,
-                     uint32_t first_number, PacketHits& hits) {
+                     PacketHits& hits) {
   const D d;
   const hn::RebindToUnsigned<D> du;
   const V r2 = hn::Set(d, radius * radius), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const V none = hn::Set(d, std::numeric_limits<float>::infinity());
-  constexpr float least_across = 1e-4f;  // of |q|^2
+  constexpr float least_across = 1.0f / 1600, least_squared = 1e-10f;  // of |q|^2 / |ab|^2, |ab|^2
   for (size_t lane = 0; lane < rays.count; lane += hn::Lanes(d)) {
     const Vector o = {hn::Sub(hn::Load(d, rays.origin[0] + lane), hn::Set(d, corner[0])),
                       hn::Sub(hn::Load(d, rays.origin[1] + lane), hn::Set(d, corner[1])),
@@ -99,7 +99,7 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
                       hn::Load(d, rays.direction[2] + lane)};
     const V from = hn::Load(d, rays.from + lane), to = hn::Load(d, rays.to + lane);
     V first = hn::Load(d, hits.first + lane), second = hn::Load(d, hits.second + lane);
-    auto capsule = hn::Load(du, hits.capsule + lane);
+    auto id = hn::Load(du, hits.id + lane);
     for (size_t n = 0; n < chosen_count; ++n) {
       const size_t i = chosen[n];
       const Vector a = set(capsules.a[0][i], capsules.a[1][i], capsules.a[2][i]);
@@ -107,17 +107,15 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
       const Vector w = sub(a, o);
       const V z0 = dot(w, u), dz = dot(ab, u);
       const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
-      const V qq = dot(q, q);
+      const V qq = dot(q, q), ll = hn::Max(dot(ab, ab), hn::Set(d, least_squared));
       const V inverse = hn::Div(one, hn::Max(qq, hn::Set(d, 1e-12f)));
       const V s0 = hn::Mul(hn::Neg(dot(p, q)), inverse);
       const Vector across = add_scaled(p, q, s0);
       const V room = hn::Sub(r2, dot(across, across));
-      const auto is_small = hn::Lt(qq, hn::Set(d, least_across));
+      const auto is_small = hn::Lt(qq, hn::Mul(ll, hn::Set(d, least_across)));
       auto met = hn::Or(hn::Ge(room, zero), is_small);
       if (hn::AllFalse(d, met)) continue;
-      const V shift = hn::Mul(
-          dz, hn::Sqrt(hn::Mul(hn::Max(room, zero),
-                               hn::Div(inverse, hn::Max(dot(ab, ab), hn::Set(d, 1e-12f))))));
+      const V shift = hn::Mul(dz, hn::Sqrt(hn::Mul(hn::Max(room, zero), hn::Div(inverse, ll))));
       const V s = clamp01(hn::Sub(s0, shift));
       const Vector v = add_scaled(p, q, s);
       const V under = hn::Sub(r2, dot(v, v));
@@ -146,19 +144,20 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
       if constexpr (kStarts) met = hn::And(met, hn::Ge(exit, from));
       t = hn::IfThenElse(met, t, none);
       const auto is_first = hn::Lt(t, first);
-      second = hn::Min(second, hn::Max(t, first));
+      const auto own_id = hn::Set(du, capsules.ids[i]);
+      const auto is_same = hn::RebindMask(d, hn::Eq(own_id, id));
+      second = hn::IfThenElse(is_same, second, hn::Min(second, hn::Max(t, first)));
+      id = hn::IfThenElse(hn::RebindMask(du, is_first), own_id, id);
       first = hn::Min(first, t);
-      capsule = hn::IfThenElse(hn::RebindMask(du, is_first),
-                               hn::Set(du, first_number + static_cast<uint32_t>(i)), capsule);
     }
     hn::Store(first, d, hits.first + lane);
     hn::Store(second, d, hits.second + lane);
-    hn::Store(capsule, du, hits.capsule + lane);
+    hn::Store(id, du, hits.id + lane);
   }
 }
 
 void meet_list(const CapsuleView& capsules, float radius, const float (&corner)[3],
-               const RayPacket& rays, uint32_t first_number, PacketHits& hits) {
+               const RayPacket& rays, PacketHits& hits) {
   constexpr size_t chunk = 256;
   uint32_t chosen[chunk];
   const float wide = radius + capsule_ray_slack, reach = wide + rays.spread;
@@ -167,9 +166,9 @@ void meet_list(const CapsuleView& capsules, float radius, const float (&corner)[
     const size_t count = near_line(capsules, begin, end, reach, corner, rays, chosen);
     if (count == 0) continue;
     if (rays.starts)
-      meet<true>(capsules, chosen, count, wide, corner, rays, first_number, hits);
+      meet<true>(capsules, chosen, count, wide, corner, rays, hits);
     else
-      meet<false>(capsules, chosen, count, wide, corner, rays, first_number, hits);
+      meet<false>(capsules, chosen, count, wide, corner, rays, hits);
   }
 }
 
@@ -192,11 +191,12 @@ HWY_EXPORT(near_list);
 void PacketHits::clear() {
   std::fill_n(first, RayPacket::most, std::numeric_limits<float>::infinity());
   std::fill_n(second, RayPacket::most, std::numeric_limits<float>::infinity());
+  std::fill_n(id, RayPacket::most, UINT32_MAX);
 }
 
 void meet_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
-                   const RayPacket& rays, uint32_t first_number, PacketHits& hits) {
-  HWY_DYNAMIC_DISPATCH(meet_list)(capsules, radius, corner, rays, first_number, hits);
+                   const RayPacket& rays, PacketHits& hits) {
+  HWY_DYNAMIC_DISPATCH(meet_list)(capsules, radius, corner, rays, hits);
 }
 
 size_t near_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],

@@ -16,6 +16,8 @@ namespace msq {
 struct CapsuleView {
   const float* a[3];
   const float* ab[3];
+  /// Tell struts apart: one that comes in several lists has the same in all.
+  const uint32_t* ids;
   size_t count;
 };
 constexpr size_t capsule_padding = 64;
@@ -37,11 +39,11 @@ struct RayPacket {
   float spread = 0;
 };
 
-/// For each ray of a packet where it may first meet a capsule, and where a second one: lower
+/// For each ray of a packet where it may first meet a capsule, and where one with another id: lower
 /// bounds, at least `from`; infinite where there is none.
 struct PacketHits {
   alignas(64) float first[RayPacket::most], second[RayPacket::most];
-  alignas(64) uint32_t capsule[RayPacket::most];  ///< the first one's number
+  alignas(64) uint32_t id[RayPacket::most];  ///< of the first
 
   void clear();
 };
@@ -50,12 +52,11 @@ struct PacketHits {
 /// then amounts to less than this in the radius and in t.
 constexpr float capsule_ray_slack = 4e-5f;
 
-/// Adds a list of capsules to what the rays meet; capsule i is number `first_number` + i. `corner`
-/// is where the list's coordinates are from, in the rays'. No ray that meets a capsule in [from,
-/// to] is left without it, and its bound is at most the t of that; some may be found that are
-/// missed by less than twice the slack.
+/// Adds a list of capsules to what the rays meet. `corner` is where the list's coordinates are
+/// from, in the rays'. No ray that meets a capsule in [from, to] is left without it, and its bound
+/// is at most the t of that; some may be found that are missed by less than twice the slack.
 void meet_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
-                   const RayPacket& rays, uint32_t first_number, PacketHits& hits);
+                   const RayPacket& rays, PacketHits& hits);
 
 /// Fills `found` with the numbers, in ascending order, of the capsules that a packet's rays may
 /// meet as far as can be said of all together, and returns how many they are.

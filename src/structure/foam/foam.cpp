@@ -21,11 +21,9 @@ Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter r
       context_(std::move(context)),
       id_(context_->new_structure_id()),
       seeded_edges_id_(context_->new_structure_id()),
-      ray_cells_id_(context_->new_structure_id()),
       radius_(std::move(radius)),
       unit_(max_component(neighbourhood.cell_size)),
       seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
-      near_cells_(seeds_, RayCells::reach(seeds_, radius_.range().high / unit_)),
       method_(method == FoamMethod::automatic ? FoamMethod::direct : method),
       is_concurrent_(radius_.is_concurrent() && density.is_concurrent()) {
   if (density.range().high > 1)

@@ -10,7 +10,6 @@
 #include "cell/context.h"
 #include "field/field.h"
 #include "structure/foam/graded_seeds.h"
-#include "structure/foam/ray_cells.h"
 #include "structure/foam/seeds.h"
 #include "structure/structure.h"
 
@@ -58,21 +57,18 @@ class Foam final : public Structure {
   double unit() const { return unit_; }
   const Parameter& radius() const { return radius_; }
   Context& context() const { return *context_; }
-  /// Names in the cache: of edges for slices, and for rays of edges and of the lists of cells.
+  /// Names in the cache, of edges for slices and for rays.
   uint64_t id() const { return id_; }
   uint64_t seeded_edges_id() const { return seeded_edges_id_; }
-  uint64_t ray_cells_id() const { return ray_cells_id_; }
-  const NearCells& near_cells() const { return near_cells_; }
 
  private:
   bool inside(const Neighbourhood::Located& located, Vec3 p) const;
 
   Ref<Context> context_;
-  uint64_t id_, seeded_edges_id_, ray_cells_id_;
+  uint64_t id_, seeded_edges_id_;
   Parameter radius_;
   double unit_;
   FoamSeeds seeds_;
-  NearCells near_cells_;
   std::shared_ptr<const GradedSeeds> graded_;
   FoamMethod method_;
   bool is_concurrent_;

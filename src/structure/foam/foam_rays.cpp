@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays are looked at in the grid's frame, in foam units. A packet goes along the axis on which it
 // crosses most cells, slab by slab of cells. In each slab, the lists of the cells that its rays are
-// in (ray_cells.h) are sieved in single precision (strut/capsule_rays.h), and what a ray may meet
+// in (cell_struts.h) are sieved in single precision (strut/capsule_rays.h), and what a ray may meet
 // first is settled exactly (strut_entry.h). If a second strut may come before that, all that the
 // sieve leaves to the ray are, in the order of their lower bounds.
 //
@@ -12,68 +12,21 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <memory>
-#include <unordered_map>
+#include <limits>
 #include <vector>
 
 #include "base/borrowed.h"
-#include "base/random.h"
-#include "structure/foam/ray_cells.h"
-#include "structure/foam/seeded_edges.h"
+#include "structure/foam/cell_struts.h"
 #include "structure/foam/strut_entry.h"
 
 namespace msq {
 
 namespace {
 
-/// Cell data by brick, for as long as a batch of rays needs them.
-template <class Data>
-class BrickTable {
- public:
-  void clear() { found_.clear(); }
-
-  /// fetch(): the data of a brick that is not in the table.
-  template <class Fetch>
-  const Data& at(CellIndex brick, Fetch&& fetch) {
-    if (last_ && brick == last_brick_) return *last_;
-    auto [place, is_new] = found_.try_emplace(brick);
-    if (is_new) {
-      try {
-        place->second = std::static_pointer_cast<const Data>(fetch());
-      } catch (...) {
-        found_.erase(brick);
-        throw;
-      }
-    }
-    last_brick_ = brick;
-    return *(last_ = place->second.get());
-  }
-  void forget() {
-    last_ = nullptr;
-    found_.clear();
-  }
-
- private:
-  struct Hash {
-    size_t operator()(CellIndex c) const {
-      const uint64_t yz = static_cast<uint32_t>(c.y) | uint64_t{static_cast<uint32_t>(c.z)} << 32;
-      return splitmix_output(splitmix_finalise(yz), static_cast<uint32_t>(c.x));
-    }
-  };
-  std::unordered_map<CellIndex, std::shared_ptr<const Data>, Hash> found_;
-  CellIndex last_brick_;
-  const Data* last_ = nullptr;
-};
-
-int floor_div(int a, int b) {
-  return a >= 0 ? a / b : -((b - 1 - a) / b);
-}
-
-/// What one thread keeps from batch to batch; the tables are empty in between.
+/// What one thread keeps from batch to batch; the struts are forgotten in between.
 struct Memory {
   std::vector<FoamRay> rays;
-  BrickTable<RayCells> cells;
-  BrickTable<SeededEdges> edges;
+  CellStruts struts;
 };
 
 class Walker {
@@ -84,11 +37,10 @@ class Walker {
         radius_(foam.radius().range().high / foam.unit()),
         entries_(foam),
         searches_(searches),
-        memory_(memory) {}
-  ~Walker() {
-    memory_.cells.forget();
-    memory_.edges.forget();
+        memory_(memory) {
+    memory_.struts.move_to(foam);
   }
+  ~Walker() { memory_.struts.forget(); }
 
   void run(size_t count) {
     const Neighbourhood& grid = foam_.neighbourhood();
@@ -232,14 +184,14 @@ class Walker {
     fill_packet(middle, active);
     hits_.clear();
     slots_.clear();
+    if (memory_.struts.is_full()) memory_.struts.forget();
     for (int32_t j = first[1]; j <= last[1]; ++j)
       for (int32_t i = first[0]; i <= last[0]; ++i) {
         CellIndex cell = middle;
         (a == 0 ? cell.x : a == 1 ? cell.y : cell.z) = i;
         (b == 0 ? cell.x : b == 1 ? cell.y : cell.z) = j;
         const Slot& slot = add_slot(cell, middle);
-        meet_capsules(slot.list, static_cast<float>(radius_), slot.corner, packet_,
-                      static_cast<uint32_t>((slots_.size() - 1) << slot_shift), hits_);
+        meet_capsules(slot.list, static_cast<float>(radius_), slot.corner, packet_, hits_);
       }
     for (uint32_t rest = active; rest; rest &= rest - 1) {
       const size_t n = static_cast<size_t>(std::countr_zero(rest));
@@ -301,65 +253,37 @@ class Walker {
   /// Up to where the lists of this slab hold all that ray n may meet.
   double limit(size_t n) const { return std::min(ray(n).to, exit_[n] + 0.5 * ray_list_margin); }
 
-  static constexpr uint32_t slot_shift = 20;
   /// The list of a cell, for one slab.
   struct Slot {
-    CellIndex cell;
     CapsuleView list;
-    const uint32_t* seeds;
     float corner[3];
   };
 
   const Slot& add_slot(CellIndex cell, CellIndex origin) {
-    constexpr int side = RayCells::side;
-    const CellIndex brick{floor_div(cell.x, side), floor_div(cell.y, side),
-                          floor_div(cell.z, side)};
-    const RayCells& cells = memory_.cells.at(brick, [&] {
-      const CellIndex corner{brick.x * side, brick.y * side, brick.z * side};
-      return foam_.context().cache.fetch(foam_.ray_cells_id(), corner, [&] {
-        return std::make_shared<const RayCells>(
-            foam_.seeds(), foam_.near_cells(), radius_, corner,
-            [&](CellIndex from) -> const SeededEdges& { return edges(from); });
-      });
-    });
-    const int x = cell.x - brick.x * side, y = cell.y - brick.y * side, z = cell.z - brick.z * side;
     Slot& slot = slots_.emplace_back();
-    slot.cell = cell;
-    slot.list = cells.list(x, y, z);
-    slot.seeds = cells.seeds(x, y, z);
+    slot.list = memory_.struts.list(cell);
     slot.corner[0] = static_cast<float>((cell.x - origin.x) * scale_.x);
     slot.corner[1] = static_cast<float>((cell.y - origin.y) * scale_.y);
     slot.corner[2] = static_cast<float>((cell.z - origin.z) * scale_.z);
     return slot;
   }
 
-  const SeededEdges& edges(CellIndex corner) {
-    return memory_.edges.at(corner, [&] {
-      return foam_.context().cache.fetch(foam_.seeded_edges_id(), corner, [&] {
-        return std::make_shared<const SeededEdges>(foam_.seeds(), corner, radius_);
-      });
-    });
-  }
-
-  StrutEntry entry(size_t n, uint32_t capsule) const {
-    const Slot& slot = slots_[capsule >> slot_shift];
-    const size_t i = capsule & ((1u << slot_shift) - 1);
+  StrutEntry entry(size_t n, uint32_t id) const {
+    const CellStruts::Edge edge = memory_.struts.edge(id);
+    const auto &a = edge.brick.end(edge.number, 0), &b = edge.brick.end(edge.number, 1);
     StrutAxis axis;
-    axis.cell = slot.cell;
-    axis.a = {slot.list.a[0][i], slot.list.a[1][i], slot.list.a[2][i]};
-    axis.ab = {slot.list.ab[0][i], slot.list.ab[1][i], slot.list.ab[2][i]};
-    const uint32_t seeds = slot.seeds[i];
-    axis.has_seeds = seeds != RayCells::unknown;
-    if (axis.has_seeds)
-      for (int s = 0; s < 3; ++s)
-        axis.seeds[s] = foam_.near_cells().at(slot.cell, seeds >> (10 * s) & 1023);
+    axis.cell = edge.brick.corner();
+    axis.a = {a[0], a[1], a[2]};
+    axis.ab = Vec3{b[0], b[1], b[2]} - axis.a;
+    axis.has_seeds = edge.brick.knows_seeds(edge.number);
+    if (axis.has_seeds) axis.seeds = edge.brick.seeds(edge.number);
     return entries_.find(ray(n), axis);
   }
 
   /// Whether ray n ends in this slab.
   bool settle(size_t n) {
     const double second = enter_[n] + double(hits_.second[n]), last = limit(n);
-    const StrutEntry found = entry(n, hits_.capsule[n]);
+    const StrutEntry found = entry(n, hits_.id[n]);
     if (found.is_met && (found.at_from || (found.t <= second && found.t <= last))) {
       take(n, found);
       return true;
@@ -382,8 +306,7 @@ class Walker {
     alone.to[0] = packet_.to[n];
     alone.starts = packet_.starts;
     candidates_.clear();
-    for (size_t s = 0; s < slots_.size(); ++s) {
-      const Slot& slot = slots_[s];
+    for (const Slot& slot : slots_) {
       near_.resize(slot.list.count);
       const size_t found =
           near_capsules(slot.list, static_cast<float>(radius_), slot.corner, alone, near_.data());
@@ -394,23 +317,23 @@ class Walker {
           one.a[axis] += i;
           one.ab[axis] += i;
         }
+        one.ids += i;
         one.count = 1;
         PacketHits hits;
         hits.clear();
-        meet_capsules(one, static_cast<float>(radius_), slot.corner, alone,
-                      static_cast<uint32_t>(s << slot_shift) + i, hits);
+        meet_capsules(one, static_cast<float>(radius_), slot.corner, alone, hits);
         if (hits.first[0] < std::numeric_limits<float>::infinity())
-          candidates_.push_back({hits.first[0], hits.capsule[0]});
+          candidates_.push_back({hits.first[0], hits.id[0]});
       }
     }
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-      return a.first < b.first || (a.first == b.first && a.capsule < b.capsule);
+      return a.first < b.first || (a.first == b.first && a.id < b.id);
     });
     StrutEntry best;
     for (const Candidate& candidate : candidates_) {
       const double first = enter_[n] + double(candidate.first);
       if (first > last || (best.is_met && first > best.t)) break;
-      const StrutEntry found = entry(n, candidate.capsule);
+      const StrutEntry found = entry(n, candidate.id);
       if (found.is_met && (!best.is_met || found.t < best.t)) best = found;
       if (best.at_from) break;
     }
@@ -446,7 +369,7 @@ class Walker {
   std::vector<Slot> slots_;
   struct Candidate {
     float first;
-    uint32_t capsule;
+    uint32_t id;
   };
   std::vector<Candidate> candidates_;
   std::vector<uint32_t> near_;
@@ -455,7 +378,8 @@ class Walker {
 }  // namespace
 
 bool enter_by_cells(const Foam& foam, RaySearch* searches, size_t count) {
-  if (foam.graded() || !foam.radius().is_constant() || !foam.near_cells().fits()) return false;
+  if (foam.graded() || !foam.radius().is_constant() || !SeededEdges::fits(foam.seeds()))
+    return false;
   const Borrowed<Memory> borrowed_memory;
   Walker(foam, searches, *borrowed_memory).run(count);
   return true;

@@ -10,7 +10,6 @@
 
 #include "cell/cache.h"
 #include "structure/foam/seeds.h"
-#include "strut/segment_set.h"
 
 namespace msq {
 
@@ -25,21 +24,22 @@ class SeededEdges final : public CellData {
   /// begin in space: `lead` before cell 0, as those of EdgeBrick and for the same reason.
   static constexpr int side = 4, lead = 2;
 
+  /// Whether the cells are not so flat or long that numbers of seeds and cells exceed their bits.
+  static bool fits(const FoamSeeds& seeds);
   /// How many cells beyond the brick struts of a radius (foam units) may reach along each axis.
   static std::array<int, 3> reach(const FoamSeeds& seeds, double radius);
 
   SeededEdges(const FoamSeeds& seeds, CellIndex corner, double radius);
 
-  /// Ends: foam units, from the corner of the brick's first cell.
-  const SegmentSet& segments() const { return segments_; }
-
-  /// A seed's cell, from the brick's first cell.
-  struct Offset {
-    int8_t x, y, z;
-    friend bool operator==(Offset a, Offset b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-  };
-  /// An edge's three, the owner first; the owner thrice where they are not known.
-  const std::array<Offset, 3>& seeds(size_t edge) const { return seeds_[edge]; }
+  CellIndex corner() const { return corner_; }
+  size_t count() const { return edges_.size(); }
+  /// An end of an edge, 0 or 1: foam units, from the corner of the brick's first cell.
+  const std::array<float, 3>& end(size_t edge, size_t which) const {
+    return nodes_[edges_[edge].ends[which]];
+  }
+  /// Whether its three seeds are known, and their cells, in the order of seeds.
+  bool knows_seeds(size_t edge) const { return edges_[edge].others[0][0] != no_seed; }
+  std::array<CellIndex, 3> seeds(size_t edge) const;
 
   /// Numbers of the edges for the cell that lies (x, y, z) from the brick's first.
   std::span<const uint16_t> list(int x, int y, int z) const {
@@ -54,15 +54,25 @@ class SeededEdges final : public CellData {
   }
 
   uint64_t bytes() const override {
-    return sizeof *this + segments_.bytes() + seeds_.capacity() * sizeof seeds_[0] +
-           starts_.capacity() * sizeof starts_[0] + listed_.capacity() * sizeof listed_[0];
+    return sizeof *this + nodes_.capacity() * sizeof nodes_[0] +
+           edges_.capacity() * sizeof edges_[0] + starts_.capacity() * sizeof starts_[0] +
+           listed_.capacity() * sizeof listed_[0];
   }
 
  private:
+  static constexpr int8_t no_seed = INT8_MIN;
+  using Offset = std::array<int8_t, 3>;
+  struct Edge {
+    std::array<uint16_t, 2> ends;
+    uint8_t owner;                 // x first, then y, then z
+    std::array<Offset, 2> others;  // the cells of the other seeds, from the owner's
+  };
+
   void list_edges(const FoamSeeds& seeds, double radius);
 
-  SegmentSet segments_;
-  std::vector<std::array<Offset, 3>> seeds_;
+  CellIndex corner_;
+  std::vector<std::array<float, 3>> nodes_;
+  std::vector<Edge> edges_;
   std::array<int, 3> reach_;
   std::vector<uint32_t> starts_;
   std::vector<uint16_t> listed_;

@@ -6,6 +6,7 @@
 
 #include "structure/foam/edge_line.h"
 #include "structure/foam/edges.h"
+#include "strut/segment.h"
 
 namespace msq {
 
@@ -13,6 +14,10 @@ namespace {
 
 /// Room for the error of ends, in single precision, and of the line that they are compared with.
 constexpr double end_error = 4 * edge_error;
+
+double square(double x) {
+  return x * x;
+}
 
 Vec3 corner_of(CellIndex cell, Vec3 scale) {
   return Vec3{double(cell.x), double(cell.y), double(cell.z)} * scale;
@@ -108,7 +113,7 @@ StrutEntry StrutEntries::find(const FoamRay& ray, const StrutAxis& axis) const {
   const FoamSeeds& seeds = foam_.seeds();
   const Vec3 scale = seeds.scale();
   const CellIndex home = axis.seeds[0];
-  const auto seed = [&](int i) {
+  const auto seed = [&](size_t i) {
     const CellIndex cell = axis.seeds[i];
     return seeds.at(home, cell.x - home.x, cell.y - home.y, cell.z - home.z);
   };
@@ -158,11 +163,12 @@ StrutEntry StrutEntries::find(const FoamRay& ray, const StrutAxis& axis) const {
     entry.normal = foam_.neighbourhood().rotation.apply((p + q * (in - t0)) * (1 / radius_));
     return entry;
   }
-  const double beyond = beyond_ends(ray.from);
-  if (beyond > end_error) return entry;
   entry.t = ray.from;
-  const double least = 4 * tolerance_;
-  const bool is_sure = beyond < -end_error && ray.from - in > least && out - ray.from > least;
+  // The ball about an end is solid, too, whichever struts hold it.
+  const Vec3 begin = ray.at(ray.from) - corner_of(axis.cell, scale);
+  const bool is_sure = Segment(axis.a, axis.a + axis.ab).distance_squared(begin) <
+                       square(std::max(0.0, radius_ - end_error));
+  if (!is_sure && beyond_ends(ray.from) > end_error) return entry;
   if (is_sure || inside(ray, ray.from)) {
     entry.is_met = entry.at_from = true;
   } else if (ray.from + tolerance_ < out && inside(ray, ray.from + tolerance_)) {

@@ -10,6 +10,8 @@
 // is in the cylinder of another edge by then.
 #pragma once
 
+#include <array>
+
 #include "base/ray.h"
 #include "structure/foam/foam.h"
 
@@ -39,7 +41,7 @@ struct StrutAxis {
   CellIndex cell;
   Vec3 a, ab;
   bool has_seeds;
-  CellIndex seeds[3];
+  std::array<CellIndex, 3> seeds;
 };
 
 class StrutEntries {

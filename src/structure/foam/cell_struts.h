@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// For each cell that rays cross the struts that they may meet in it, for one batch of rays.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "base/random.h"
+#include "structure/foam/foam.h"
+#include "structure/foam/seeded_edges.h"
+#include "strut/capsule_rays.h"
+
+namespace msq {
+
+/// Edges come from the cell cache; lists are made of them anew for each batch, which costs less
+/// than their room in the cache would.
+class CellStruts {
+ public:
+  /// Turns to a foam; forgets all lists.
+  void move_to(const Foam& foam);
+  /// Forgets lists and edges.
+  void forget();
+  /// Whether so much is held that it is time to; whoever keeps lists decides when.
+  bool is_full() const { return bricks_.size() >= most_bricks || used_chunks_ >= most_chunks; }
+
+  /// Struts that may be met in a cell; foam units, from the cell's corner. Ids are for edge(),
+  /// unlike for unlike struts, until lists are forgotten.
+  const CapsuleView& list(CellIndex cell);
+
+  struct Edge {
+    const SeededEdges& brick;
+    size_t number;
+  };
+  Edge edge(uint32_t id) const { return {*bricks_[id >> 16], id & 0xffff}; }
+
+ private:
+  static constexpr size_t most_bricks = 4096, chunk_floats = size_t{1} << 16, most_chunks = 256;
+
+  struct Hash {
+    size_t operator()(CellIndex c) const {
+      const uint64_t yz = static_cast<uint32_t>(c.y) | uint64_t{static_cast<uint32_t>(c.z)} << 32;
+      return splitmix_output(splitmix_finalise(yz), static_cast<uint32_t>(c.x));
+    }
+  };
+  /// A brick found last among those whose numbers are alike in their last bits.
+  struct Recent {
+    CellIndex brick;
+    const SeededEdges* edges = nullptr;
+    uint32_t number = 0;
+  };
+  struct RecentList {
+    CellIndex cell;
+    const CapsuleView* list = nullptr;
+  };
+
+  const Recent& find_brick(CellIndex brick);
+  CapsuleView make_list(CellIndex cell);
+  float* room(size_t floats);
+
+  const Foam* foam_ = nullptr;
+  double radius_ = 0;
+  std::array<int, 3> reach_{};
+  std::vector<std::shared_ptr<const SeededEdges>> bricks_;
+  std::unordered_map<CellIndex, uint32_t, Hash> brick_numbers_;
+  std::unordered_map<CellIndex, CapsuleView, Hash> lists_;
+  Recent recent_[64];
+  RecentList recent_lists_[64];
+  std::vector<std::unique_ptr<float[]>> chunks_;
+  size_t used_chunks_ = 0, used_floats_ = chunk_floats;
+  std::vector<uint32_t> ids_;  // of the list at hand
+};
+
+}  // namespace msq
