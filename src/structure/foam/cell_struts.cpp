@@ -26,6 +26,7 @@ void CellStruts::move_to(const Foam& foam) {
 }
 
 void CellStruts::forget() {
+  ++era_;
   bricks_.clear();
   brick_numbers_.clear();
   lists_.clear();

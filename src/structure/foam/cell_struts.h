@@ -25,6 +25,9 @@ class CellStruts {
   /// Whether so much is held that it is time to; whoever keeps lists decides when.
   bool is_full() const { return bricks_.size() >= most_bricks || used_chunks_ >= most_chunks; }
 
+  /// Another number after lists were forgotten.
+  uint64_t era() const { return era_; }
+
   /// Struts that may be met in a cell; foam units, from the cell's corner. Ids are for edge(),
   /// unlike for unlike struts, until lists are forgotten.
   const CapsuleView& list(CellIndex cell);
@@ -60,6 +63,7 @@ class CellStruts {
   float* room(size_t floats);
 
   const Foam* foam_ = nullptr;
+  uint64_t era_ = 0;
   double radius_ = 0;
   std::array<int, 3> reach_{};
   std::vector<std::shared_ptr<const SeededEdges>> bricks_;

@@ -92,33 +92,62 @@ class Walker {
 
   /// The rays [begin, end) of the batch, as a packet.
   void start(size_t begin, size_t end) {
-    Vec3 mean;
-    count_ = 0;
-    for (size_t i = begin; i < end; ++i) {
-      if (!(memory_.rays[i].from <= memory_.rays[i].to)) continue;
-      ray_[count_++] = static_cast<uint32_t>(i);
-      mean = mean + memory_.rays[i].direction;
+    uint32_t rays[most];
+    size_t count = 0;
+    for (size_t i = begin; i < end; ++i)
+      if (memory_.rays[i].from <= memory_.rays[i].to) rays[count++] = static_cast<uint32_t>(i);
+    if (count == 0) return;
+    if (take_packet(rays, count)) return walk(first_slab());
+    for (size_t n = 0; n < count; ++n) {
+      take_packet(rays + n, 1);
+      walk(first_slab());
     }
-    if (count_ == 0) return;
+  }
+
+  /// False if the rays cross too unlike cells along the axis that they go along.
+  bool take_packet(const uint32_t* rays, size_t count) {
+    count_ = count;
+    Vec3 sum;
+    for (size_t n = 0; n < count; ++n) {
+      ray_[n] = rays[n];
+      const FoamRay& ray = memory_.rays[rays[n]];
+      sum = sum + ray.direction;
+      for (int axis = 0; axis < 3; ++axis) {
+        origin_[axis][n] = ray.origin[axis];
+        direction_[axis][n] = ray.direction[axis];
+        packet_.direction[axis][n] = static_cast<float>(ray.direction[axis]);
+      }
+      from_[n] = ray.from;
+      to_[n] = ray.to;
+    }
     // The axis along which the most cells are crossed; then each ray crosses it.
     axis_ = 0;
     for (int axis = 1; axis < 3; ++axis)
-      if (std::abs(mean[axis]) / scale_[axis] > std::abs(mean[axis_]) / scale_[axis_]) axis_ = axis;
-    up_ = mean[axis_] > 0;
-    double first = 0;
-    for (size_t n = 0; n < count_; ++n) {
-      const FoamRay& ray = this->ray(n);
-      const double at = slab_of(ray.at(ray.from)[axis_]);
-      first = n == 0 ? at : up_ ? std::min(first, at) : std::max(first, at);
+      if (std::abs(sum[axis]) * scale_[axis_] > std::abs(sum[axis_]) * scale_[axis]) axis_ = axis;
+    up_ = sum[axis_] > 0;
+    const double least = 0.5 * std::abs(sum[axis_]) / static_cast<double>(count);
+    for (size_t n = 0; n < count; ++n) {
+      const double d = direction_[axis_][n];
+      if (!((up_ ? d : -d) >= least)) return false;
+      inverse_[n] = 1 / d;
     }
-    walk(static_cast<int32_t>(first));
+    packet_.count = count;
+    live_ = (uint32_t{1} << count) - 1;
+    return true;
   }
 
-  const FoamRay& ray(size_t n) const { return memory_.rays[ray_[n]]; }
-  double slab_of(double place) const { return std::floor(place / scale_[axis_]); }
+  /// The first that a ray is in.
+  int32_t first_slab() const {
+    double first = 0;
+    for (size_t n = 0; n < count_; ++n) {
+      const double place = origin_[axis_][n] + direction_[axis_][n] * from_[n];
+      const double at = std::floor(place / scale_[axis_]);
+      first = n == 0 ? at : up_ ? std::min(first, at) : std::max(first, at);
+    }
+    return static_cast<int32_t>(first);
+  }
 
   void walk(int32_t slab) {
-    live_ = (uint32_t{1} << count_) - 1;
     for (; live_; slab += up_ ? 1 : -1)
       if (!cross(slab)) {
         go_on_alone(slab);
@@ -129,68 +158,77 @@ class Walker {
   /// Ray by ray from a slab on.
   void go_on_alone(int32_t slab) {
     const uint32_t left = live_;
+    const int axis = axis_;
     uint32_t rays[most];
     std::copy_n(ray_, count_, rays);
-    const size_t count = count_;
-    for (size_t n = 0; n < count; ++n) {
-      if (!(left >> n & 1)) continue;
-      ray_[0] = rays[n];
-      count_ = 1;
-      walk(slab);
+    for (uint32_t rest = left; rest; rest &= rest - 1) {
+      take_packet(rays + std::countr_zero(rest), 1);
+      // Alone, it may go along another axis, and from its beginning then.
+      walk(axis_ == axis ? slab : first_slab());
     }
   }
 
   /// One slab; false, and nothing is done, if the packet is in too many of its cells.
   bool cross(int32_t slab) {
-    const int k = axis_, a = (k + 1) % 3, b = (k + 2) % 3;
+    const int k = axis_, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
     const double plane_in = (slab + !up_) * scale_[k], plane_out = (slab + up_) * scale_[k];
-    double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
     uint32_t active = 0;
     for (size_t n = 0; n < count_; ++n) {
-      if (!(live_ >> n & 1)) continue;
-      const FoamRay& ray = this->ray(n);
-      const double inverse = 1 / ray.direction[k];
-      enter_[n] = (plane_in - ray.origin[k]) * inverse;
-      exit_[n] = (plane_out - ray.origin[k]) * inverse;
-      if (enter_[n] > ray.to) {
-        live_ &= ~(1u << n);
-        continue;
-      }
-      if (exit_[n] < ray.from) continue;
-      active |= 1u << n;
-      const double in = std::max(ray.from, enter_[n]), out = std::min(ray.to, exit_[n]);
-      for (int side = 0; side < 2; ++side) {
-        const int lateral = side ? b : a;
-        const double o = ray.origin[lateral], d = ray.direction[lateral];
-        const double p = o + d * in, q = o + d * out;
-        low[side] = std::min({low[side], p, q});
-        high[side] = std::max({high[side], p, q});
+      enter_[n] = (plane_in - origin_[k][n]) * inverse_[n];
+      exit_[n] = (plane_out - origin_[k][n]) * inverse_[n];
+      active |= static_cast<uint32_t>(enter_[n] <= to_[n] && exit_[n] >= from_[n]) << n;
+      live_ &= ~(static_cast<uint32_t>(enter_[n] > to_[n]) << n);
+    }
+    active &= live_;
+    if (!active) return true;
+    // The places where rays come in and go out, and their box.
+    const double far = 1e300;
+    double low[2] = {far, far}, high[2] = {-far, -far};
+    double in[2][most], out[2][most];
+    for (int side = 0; side < 2; ++side) {
+      const double *o = origin_[lateral[side]], *d = direction_[lateral[side]];
+      for (size_t n = 0; n < count_; ++n) {
+        in[side][n] = o[n] + d[n] * enter_[n];
+        out[side][n] = o[n] + d[n] * exit_[n];
+        const double p = o[n] + d[n] * std::max(from_[n], enter_[n]);
+        const double q = o[n] + d[n] * std::min(to_[n], exit_[n]);
+        const bool is_active = active >> n & 1;
+        low[side] = std::min(low[side], is_active ? std::min(p, q) : far);
+        high[side] = std::max(high[side], is_active ? std::max(p, q) : -far);
       }
     }
-    if (!active) return true;
     int32_t first[2], last[2];
     for (int side = 0; side < 2; ++side) {
-      const double size = scale_[side ? b : a];
+      const double size = scale_[lateral[side]];
       first[side] = static_cast<int32_t>(std::floor(low[side] / size));
       last[side] = static_cast<int32_t>(std::floor(high[side] / size));
     }
     if (count_ > 1 && (last[0] - first[0] >= most_across || last[1] - first[1] >= most_across))
       return false;
 
-    CellIndex middle;
-    (k == 0 ? middle.x : k == 1 ? middle.y : middle.z) = slab;
-    (a == 0 ? middle.x : a == 1 ? middle.y : middle.z) = first[0];
-    (b == 0 ? middle.x : b == 1 ? middle.y : middle.z) = first[1];
-    fill_packet(middle, active);
+    int32_t corner[3];
+    corner[k] = slab;
+    corner[lateral[0]] = first[0];
+    corner[lateral[1]] = first[1];
+    for (int side = 0; side < 2; ++side) {
+      const double shift = first[side] * scale_[lateral[side]];
+      for (size_t n = 0; n < count_; ++n) {
+        in[side][n] -= shift;
+        out[side][n] -= shift;
+      }
+    }
+    fill_packet(active, in, out);
     hits_.clear();
     slots_.clear();
     if (memory_.struts.is_full()) memory_.struts.forget();
     for (int32_t j = first[1]; j <= last[1]; ++j)
       for (int32_t i = first[0]; i <= last[0]; ++i) {
-        CellIndex cell = middle;
-        (a == 0 ? cell.x : a == 1 ? cell.y : cell.z) = i;
-        (b == 0 ? cell.x : b == 1 ? cell.y : cell.z) = j;
-        const Slot& slot = add_slot(cell, middle);
+        if (!passes(i - first[0], j - first[1])) continue;
+        int32_t cell[3];
+        cell[k] = slab;
+        cell[lateral[0]] = i;
+        cell[lateral[1]] = j;
+        const Slot& slot = add_slot(cell, corner);
         meet_capsules(slot.list, static_cast<float>(radius_), slot.corner, packet_, hits_);
       }
     for (uint32_t rest = active; rest; rest &= rest - 1) {
@@ -200,58 +238,74 @@ class Walker {
     return true;
   }
 
-  /// The rays in single precision, from the corner of a cell.
-  void fill_packet(CellIndex cell, uint32_t active) {
-    const Vec3 corner = Vec3{double(cell.x), double(cell.y), double(cell.z)} * scale_;
-    packet_.count = count_;
+  /// The rays in single precision, from the corner of a cell. in, out: where they cross the slab's
+  /// planes, from there, along the two other axes.
+  void fill_packet(uint32_t active, const double (&in)[2][most], const double (&out)[2][most]) {
+    const int k = axis_, a = (k + 1) % 3, b = (k + 2) % 3;
+    const double begin = up_ ? 0 : scale_[k];
     packet_.starts = false;
-    Vec3 in, out, places[2][most];
-    int total = 0;
+    double sums[4] = {}, total = 0;
     for (size_t n = 0; n < count_; ++n) {
-      if (!(active >> n & 1)) {
-        packet_.from[n] = 1;
-        packet_.to[n] = -1;
-        continue;
-      }
-      const FoamRay& ray = this->ray(n);
-      const Vec3 o = ray.at(enter_[n]) - corner;
-      for (int axis = 0; axis < 3; ++axis) {
-        packet_.origin[axis][n] = static_cast<float>(o[axis]);
-        packet_.direction[axis][n] = static_cast<float>(ray.direction[axis]);
-      }
-      const double from = std::max(ray.from, enter_[n]) - enter_[n];
-      packet_.starts |= ray.from >= enter_[n] - ray_list_margin;
-      packet_.from[n] = static_cast<float>(from);
-      packet_.to[n] = static_cast<float>(limit(n) - enter_[n]) + 1e-6f;
-      places[0][n] = o;
-      places[1][n] = o + ray.direction * (exit_[n] - enter_[n]);
-      in = in + places[0][n];
-      out = out + places[1][n];
-      ++total;
+      const bool is_active = active >> n & 1;
+      packet_.origin[k][n] = static_cast<float>(begin);
+      packet_.origin[a][n] = static_cast<float>(in[0][n]);
+      packet_.origin[b][n] = static_cast<float>(in[1][n]);
+      packet_.starts |= is_active && from_[n] >= enter_[n] - ray_list_margin;
+      const double from = std::max(from_[n], enter_[n]) - enter_[n];
+      packet_.from[n] = is_active ? static_cast<float>(from) : 1.0f;
+      packet_.to[n] = is_active ? static_cast<float>(limit(n) - enter_[n]) + 1e-6f : -1.0f;
+      const double weight = is_active ? 1 : 0;
+      total += weight;
+      sums[0] += weight * in[0][n];
+      sums[1] += weight * in[1][n];
+      sums[2] += weight * out[0][n];
+      sums[3] += weight * out[1][n];
     }
     for (size_t n = count_; n < most; ++n) {
       packet_.from[n] = 1;
       packet_.to[n] = -1;
     }
-    in = in * (1.0 / total);
-    out = out * (1.0 / total);
-    double spread_squared = 0;
+    for (double& sum : sums) sum /= total;
+    double squared = 0;
     for (size_t n = 0; n < count_; ++n) {
-      if (!(active >> n & 1)) continue;
-      const Vec3 p = places[0][n] - in, q = places[1][n] - out;
-      spread_squared = std::max({spread_squared, dot(p, p), dot(q, q)});
+      const double x = in[0][n] - sums[0], y = in[1][n] - sums[1];
+      const double u = out[0][n] - sums[2], v = out[1][n] - sums[3];
+      const double far = std::max(x * x + y * y, u * u + v * v);
+      squared = std::max(squared, active >> n & 1 ? far : 0.0);
     }
-    const Vec3 along = (out - in) * (1 / length(out - in));
-    for (int axis = 0; axis < 3; ++axis) {
-      packet_.centre[axis] = static_cast<float>(in[axis]);
-      packet_.along[axis] = static_cast<float>(along[axis]);
-    }
+    const double rise = up_ ? scale_[k] : -scale_[k], x = sums[2] - sums[0], y = sums[3] - sums[1];
+    const double inverse = 1 / std::sqrt(rise * rise + x * x + y * y);
+    packet_.centre[k] = static_cast<float>(begin);
+    packet_.centre[a] = static_cast<float>(sums[0]);
+    packet_.centre[b] = static_cast<float>(sums[1]);
+    packet_.along[k] = static_cast<float>(rise * inverse);
+    packet_.along[a] = static_cast<float>(x * inverse);
+    packet_.along[b] = static_cast<float>(y * inverse);
     // And as much farther as rays go beyond the slab.
-    packet_.spread = static_cast<float>(std::sqrt(spread_squared) * 1.01 + 1e-5);
+    packet_.spread = static_cast<float>(std::sqrt(squared) * 1.01 + 1e-5);
+  }
+
+  /// Whether the packet may be in the cell that is (i, j) from the first along the two other axes.
+  bool passes(int32_t i, int32_t j) const {
+    const int32_t cell[2] = {i, j};
+    float low = 0, high = 1;  // from where it comes into the slab to where it leaves it
+    const float rise = static_cast<float>(scale_[axis_]) / std::abs(packet_.along[axis_]);
+    for (int side = 0; side < 2; ++side) {
+      const int axis = (axis_ + 1 + side) % 3;
+      const float size = static_cast<float>(scale_[axis]), room = packet_.spread;
+      const float from = packet_.centre[axis], by = packet_.along[axis] * rise;
+      const float begin = static_cast<float>(cell[side]) * size - room - from;
+      const float end = begin + size + 2 * room;
+      if (std::abs(by) < 1e-3f) continue;
+      const float p = begin / by, q = end / by;
+      low = std::max(low, std::min(p, q));
+      high = std::min(high, std::max(p, q));
+    }
+    return low <= high + 1e-3f;
   }
 
   /// Up to where the lists of this slab hold all that ray n may meet.
-  double limit(size_t n) const { return std::min(ray(n).to, exit_[n] + 0.5 * ray_list_margin); }
+  double limit(size_t n) const { return std::min(to_[n], exit_[n] + 0.5 * ray_list_margin); }
 
   /// The list of a cell, for one slab.
   struct Slot {
@@ -259,25 +313,22 @@ class Walker {
     float corner[3];
   };
 
-  const Slot& add_slot(CellIndex cell, CellIndex origin) {
+  const Slot& add_slot(const int32_t (&cell)[3], const int32_t (&origin)[3]) {
     Slot& slot = slots_.emplace_back();
-    slot.list = memory_.struts.list(cell);
-    slot.corner[0] = static_cast<float>((cell.x - origin.x) * scale_.x);
-    slot.corner[1] = static_cast<float>((cell.y - origin.y) * scale_.y);
-    slot.corner[2] = static_cast<float>((cell.z - origin.z) * scale_.z);
+    slot.list = memory_.struts.list({cell[0], cell[1], cell[2]});
+    for (int axis = 0; axis < 3; ++axis)
+      slot.corner[axis] = static_cast<float>((cell[axis] - origin[axis]) * scale_[axis]);
     return slot;
   }
 
-  StrutEntry entry(size_t n, uint32_t id) const {
-    const CellStruts::Edge edge = memory_.struts.edge(id);
-    const auto &a = edge.brick.end(edge.number, 0), &b = edge.brick.end(edge.number, 1);
-    StrutAxis axis;
-    axis.cell = edge.brick.corner();
-    axis.a = {a[0], a[1], a[2]};
-    axis.ab = Vec3{b[0], b[1], b[2]} - axis.a;
-    axis.has_seeds = edge.brick.knows_seeds(edge.number);
-    if (axis.has_seeds) axis.seeds = edge.brick.seeds(edge.number);
-    return entries_.find(ray(n), axis);
+  StrutEntry entry(size_t n, uint32_t id) {
+    // Rays of a packet meet few struts.
+    Known& known = known_[id % std::size(known_)];
+    if (known.id != id || known.era != memory_.struts.era()) {
+      const CellStruts::Edge edge = memory_.struts.edge(id);
+      known = {id, memory_.struts.era(), entries_.line(edge.brick, edge.number)};
+    }
+    return entries_.find(memory_.rays[ray_[n]], known.line);
   }
 
   /// Whether ray n ends in this slab.
@@ -362,6 +413,7 @@ class Walker {
   bool up_ = true;
   size_t count_ = 0;
   uint32_t ray_[most], live_ = 0;
+  double origin_[3][most], direction_[3][most], inverse_[most], from_[most], to_[most];
   // In the slab at hand.
   double enter_[most], exit_[most];
   RayPacket packet_;
@@ -372,6 +424,12 @@ class Walker {
     uint32_t id;
   };
   std::vector<Candidate> candidates_;
+  struct Known {
+    uint32_t id = UINT32_MAX;
+    uint64_t era = 0;
+    StrutLine line;
+  };
+  Known known_[16];
   std::vector<uint32_t> near_;
 };
 

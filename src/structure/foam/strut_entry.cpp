@@ -48,6 +48,7 @@ double capsule_entry(Vec3 a, Vec3 ab, Vec3 u, double radius) {
 StrutEntries::StrutEntries(const Foam& foam)
     : foam_(foam),
       radius_(foam.radius().range().high / foam.unit()),
+      inverse_radius_(1 / radius_),
       tolerance_(foam.ray_tolerance() / foam.unit()) {}
 
 bool StrutEntries::inside(const FoamRay& ray, double t) const {
@@ -81,13 +82,12 @@ StrutEntry StrutEntries::graze(const FoamRay& ray, double middle, double half) c
   return entry;
 }
 
-StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutAxis& axis) const {
-  const Vec3 corner = corner_of(axis.cell, foam_.seeds().scale());
-  const Vec3 o = ray.origin - corner;
-  const double about = dot(axis.a - o, ray.direction);
-  const Vec3 a = axis.a - (o + ray.direction * about);
-  const double first = about + capsule_entry(a, axis.ab, ray.direction, radius_ + end_error);
-  const double last = about + capsule_entry(a, axis.ab, ray.direction, radius_ - end_error);
+StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutLine& strut) const {
+  const Vec3 o = ray.origin - strut.corner;
+  const double about = dot(strut.a - o, ray.direction);
+  const Vec3 a = strut.a - (o + ray.direction * about);
+  const double first = about + capsule_entry(a, strut.ab, ray.direction, radius_ + end_error);
+  const double last = about + capsule_entry(a, strut.ab, ray.direction, radius_ - end_error);
   StrutEntry entry;
   if (!(first <= ray.to)) return entry;
   const double before = std::max(ray.from, first - end_error);
@@ -99,7 +99,7 @@ StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutAxis& axis)
   if (last < ray.to && last >= ray.from && inside(ray, last)) return settle(ray, before, last);
   // A graze, or a ray that begins by the surface: steps from there to where it has left the strut.
   const double exit =
-      about - capsule_entry(a, axis.ab, ray.direction * -1.0, radius_ + end_error) + end_error;
+      about - capsule_entry(a, strut.ab, ray.direction * -1.0, radius_ + end_error) + end_error;
   constexpr int steps = 8;
   for (int n = 1; n <= steps; ++n) {
     const double t = before + (std::min(exit, ray.to) - before) * n / steps;
@@ -108,51 +108,61 @@ StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutAxis& axis)
   return entry;
 }
 
-StrutEntry StrutEntries::find(const FoamRay& ray, const StrutAxis& axis) const {
-  if (!axis.has_seeds) return find_by_ends(ray, axis);
+StrutLine StrutEntries::line(const SeededEdges& brick, size_t edge) const {
   const FoamSeeds& seeds = foam_.seeds();
   const Vec3 scale = seeds.scale();
-  const CellIndex home = axis.seeds[0];
+  const auto &a = brick.end(edge, 0), &b = brick.end(edge, 1);
+  StrutLine strut;
+  strut.corner = corner_of(brick.corner(), scale);
+  strut.a = {a[0], a[1], a[2]};
+  strut.ab = Vec3{b[0], b[1], b[2]} - strut.a;
+  if (!brick.knows_seeds(edge)) return strut;
+  const std::array<CellIndex, 3> cells = brick.seeds(edge);
+  const CellIndex home = cells[0];
   const auto seed = [&](size_t i) {
-    const CellIndex cell = axis.seeds[i];
-    return seeds.at(home, cell.x - home.x, cell.y - home.y, cell.z - home.z);
+    return seeds.at(home, cells[i].x - home.x, cells[i].y - home.y, cells[i].z - home.z);
   };
-  const EdgeLine line(seed(0), seed(1), seed(2));
-  if (!line.exists()) return find_by_ends(ray, axis);
-
-  // From where the ray comes nearest to the middle of the owner's cell, which is near the line.
-  const Vec3 o = ray.origin - corner_of(home, scale), u = ray.direction;
-  const double t0 = dot(scale * 0.5 - o, u);
-  const Vec3 w = o + u * t0 - line.seed - line.offset;
-  const double inverse = line.inverse_squared;
-  const Vec3 p = w - line.direction * (dot(w, line.direction) * inverse);
-  const Vec3 q = u - line.direction * (dot(u, line.direction) * inverse);
-  const double qq = dot(q, q), pq = dot(p, q);
-  const double under = pq * pq - qq * (dot(p, p) - radius_ * radius_);
-  // Coordinates of points are known to a few units of 2^-53 of themselves, here and in membership.
+  strut.line = EdgeLine(seed(0), seed(1), seed(2));
+  strut.has_line = strut.line.exists();
   // The line's offset and direction come from products of seeds' differences u and v, and are off
   // by 2^-52 |u| |v| (|u| + |v| + 4) over the triangle's size, |direction|; products above 2^5
   // leave that size above 1 or the seeds' circle so wide that it is no empty ball's.
-  const double inverse_size = std::sqrt(inverse);
-  const double error = 0x1p-51 * (8 + ray.most) + 0x1p-47 * inverse_size;
+  const double inverse_size = std::sqrt(strut.line.inverse_squared);
+  strut.home = corner_of(home, scale);
+  strut.along = strut.line.direction * inverse_size;
+  strut.length = dot(strut.ab, strut.along);
+  strut.error = 0x1p-47 * inverse_size;
+  return strut;
+}
+
+StrutEntry StrutEntries::find(const FoamRay& ray, const StrutLine& strut) const {
+  if (!strut.has_line) return find_by_ends(ray, strut);
+  const EdgeLine& line = strut.line;
+  // From where the ray comes nearest to the middle of the owner's cell, which is near the line.
+  const Vec3 o = ray.origin - strut.home, u = ray.direction;
+  const double t0 = dot(foam_.seeds().scale() * 0.5 - o, u);
+  const Vec3 w = o + u * t0 - line.seed - line.offset;
+  const Vec3 p = w - strut.along * dot(w, strut.along);
+  const Vec3 q = u - strut.along * dot(u, strut.along);
+  const double qq = dot(q, q), pq = dot(p, q);
+  const double under = pq * pq - qq * (dot(p, p) - radius_ * radius_);
+  // Coordinates of points are known to a few units of 2^-53 of themselves, here and in membership.
+  const double error = 0x1p-51 * (8 + ray.most) + strut.error;
   StrutEntry entry;
   if (under < -8 * radius_ * error * qq) return entry;
-  const double middle = t0 - pq / qq;
+  const double inverse = 1 / qq, middle = t0 - pq * inverse;
   if (under <= 0 || error * radius_ > 0.25 * tolerance_ * std::sqrt(under)) {
-    const double half = std::sqrt(std::max(under, 0.0) + 8 * radius_ * error * qq) / qq;
+    const double half = std::sqrt(std::max(under, 0.0) + 8 * radius_ * error * qq) * inverse;
     return graze(ray, middle, half + tolerance_);
   }
-  const double root = std::sqrt(under), half = root / qq;
-  const double in = t0 + (-pq - root) / qq, out = middle + half;
+  const double half = std::sqrt(under) * inverse;
+  const double in = middle - half, out = middle + half;
   if (out < ray.from || in > ray.to) return entry;
 
-  // Where between the ends, along the line.
-  const Vec3 along = line.direction * inverse_size;
-  const double length = dot(axis.ab, along);
+  // How far beyond an end, along the line.
   const auto beyond_ends = [&](double t) {
-    const Vec3 x = ray.at(t) - corner_of(axis.cell, scale);
-    const double s = dot(x - axis.a, along);
-    return std::max(std::min(0.0, length) - s, s - std::max(0.0, length));
+    const double s = dot(ray.at(t) - strut.corner - strut.a, strut.along);
+    return std::max(std::min(0.0, strut.length) - s, s - std::max(0.0, strut.length));
   };
   if (in > ray.from) {
     const double beyond = beyond_ends(in);
@@ -160,13 +170,13 @@ StrutEntry StrutEntries::find(const FoamRay& ray, const StrutAxis& axis) const {
     if (beyond > -end_error && !inside(ray, in) && !inside(ray, in + tolerance_)) return entry;
     entry.is_met = true;
     entry.t = in;
-    entry.normal = foam_.neighbourhood().rotation.apply((p + q * (in - t0)) * (1 / radius_));
+    entry.normal = foam_.neighbourhood().rotation.apply((p + q * (in - t0)) * inverse_radius_);
     return entry;
   }
   entry.t = ray.from;
   // The ball about an end is solid, too, whichever struts hold it.
-  const Vec3 begin = ray.at(ray.from) - corner_of(axis.cell, scale);
-  const bool is_sure = Segment(axis.a, axis.a + axis.ab).distance_squared(begin) <
+  const Vec3 begin = ray.at(ray.from) - strut.corner;
+  const bool is_sure = Segment(strut.a, strut.a + strut.ab).distance_squared(begin) <
                        square(std::max(0.0, radius_ - end_error));
   if (!is_sure && beyond_ends(ray.from) > end_error) return entry;
   if (is_sure || inside(ray, ray.from)) {

@@ -10,10 +10,10 @@
 // is in the cylinder of another edge by then.
 #pragma once
 
-#include <array>
-
 #include "base/ray.h"
+#include "structure/foam/edge_line.h"
 #include "structure/foam/foam.h"
+#include "structure/foam/seeded_edges.h"
 
 namespace msq {
 
@@ -35,33 +35,38 @@ struct StrutEntry {
   Vec3 normal;           ///< model frame; 0 where others are to find it
 };
 
-/// An edge. Its ends are in single precision, foam units from the corner of `cell`; it has seeds if
-/// they are known, in their order.
-struct StrutAxis {
-  CellIndex cell;
-  Vec3 a, ab;
-  bool has_seeds;
-  std::array<CellIndex, 3> seeds;
+/// What of an edge does not depend on the ray.
+struct StrutLine {
+  Vec3 corner;            ///< the edge is relative to, foam units
+  Vec3 a, ab;             ///< its ends, in single precision
+  bool has_line = false;  ///< whether its seeds are known; if so:
+  Vec3 home;              ///< corner of its owner's cell; from there:
+  EdgeLine line;
+  Vec3 along;         ///< the line's direction, of length 1
+  double length = 0;  ///< from a along that
+  double error = 0;   ///< of the line
 };
 
 class StrutEntries {
  public:
   explicit StrutEntries(const Foam& foam);
 
+  StrutLine line(const SeededEdges& brick, size_t edge) const;
+
   /// What does not depend on anything but ray and edge: the same bits whoever asks. Entries into
   /// the strut where another strut covers its surface may be left out.
-  StrutEntry find(const FoamRay& ray, const StrutAxis& axis) const;
+  StrutEntry find(const FoamRay& ray, const StrutLine& strut) const;
 
  private:
   bool inside(const FoamRay& ray, double t) const;
   StrutEntry graze(const FoamRay& ray, double middle, double half) const;
-  StrutEntry find_by_ends(const FoamRay& ray, const StrutAxis& axis) const;
+  StrutEntry find_by_ends(const FoamRay& ray, const StrutLine& strut) const;
   /// The first t in (before, beyond], a multiple of half the tolerance, at which the ray is inside:
   /// that does not depend on how near `before` and `beyond` are.
   StrutEntry settle(const FoamRay& ray, double before, double beyond) const;
 
   const Foam& foam_;
-  const double radius_, tolerance_;  // foam units
+  const double radius_, inverse_radius_, tolerance_;  // foam units
 };
 
 }  // namespace msq
