@@ -10,6 +10,7 @@
 #include "structure/foam/onset.h"
 #include "structure/foam/point.h"
 #include "structure/foam/point_set.h"
+#include "structure/foam/strut_surface.h"
 #include "structure/group_by_cell.h"
 #include "structure/strut_clearance.h"
 
@@ -80,7 +81,27 @@ void Foam::keep_rows(const RowBlock& block, const Job* job) const {
 }
 
 void Foam::enter(RaySearch* searches, size_t count) const {
-  if (!enter_by_cells(*this, searches, count)) Structure::enter(searches, count);
+  if (!is_plain()) return Structure::enter(searches, count);
+  if (enter_by_cells(*this, searches, count)) return;
+  Structure::enter(searches, count);
+  for (size_t i = 0; i < count; ++i)
+    if (searches[i].found) sharpen_entry(*this, searches[i]);
+}
+
+double Foam::leave(const Ray& ray, double from, double to) const {
+  if (is_plain()) {
+    const double exit = strut_exit(*this, ray, from, to);
+    if (exit > from) return exit;
+  }
+  return Structure::leave(ray, from, to);
+}
+
+Vec3 Foam::normal(const Ray& ray, double t) const {
+  if (is_plain()) {
+    const Vec3 normal = strut_normal(*this, ray, t);
+    if (dot(normal, normal) > 0) return normal;
+  }
+  return Structure::normal(ray, t);
 }
 
 }  // namespace msq

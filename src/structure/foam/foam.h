@@ -10,6 +10,7 @@
 #include "cell/context.h"
 #include "field/field.h"
 #include "structure/foam/graded_seeds.h"
+#include "structure/foam/ray_demand.h"
 #include "structure/foam/seeds.h"
 #include "structure/structure.h"
 
@@ -48,6 +49,8 @@ class Foam final : public Structure {
   }
 
   void enter(RaySearch* searches, size_t count) const override;
+  double leave(const Ray& ray, double from, double to) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
 
   /// One in each cell; those of the foam unless it is graded.
   const FoamSeeds& seeds() const { return seeds_; }
@@ -56,6 +59,7 @@ class Foam final : public Structure {
   /// Length of a foam unit in model units.
   double unit() const { return unit_; }
   const Parameter& radius() const { return radius_; }
+  RayDemand& ray_demand() const { return ray_demand_; }
   Context& context() const { return *context_; }
   /// Names in the cache, of edges for slices and for rays.
   uint64_t id() const { return id_; }
@@ -63,6 +67,8 @@ class Foam final : public Structure {
 
  private:
   bool inside(const Neighbourhood::Located& located, Vec3 p) const;
+  /// Whether struts are capsules with a seed in each cell about them.
+  bool is_plain() const { return !graded_ && radius_.is_constant(); }
 
   Ref<Context> context_;
   uint64_t id_, seeded_edges_id_;
@@ -72,6 +78,7 @@ class Foam final : public Structure {
   std::shared_ptr<const GradedSeeds> graded_;
   FoamMethod method_;
   bool is_concurrent_;
+  mutable RayDemand ray_demand_;
 };
 
 }  // namespace msq

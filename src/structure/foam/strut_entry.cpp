@@ -23,8 +23,8 @@ Vec3 corner_of(CellIndex cell, Vec3 scale) {
   return Vec3{double(cell.x), double(cell.y), double(cell.z)} * scale;
 }
 
-/// How far along the ray the capsule of a segment is entered; infinite if it is missed. As in
-/// strut/capsule_rays.cpp.
+}  // namespace
+
 double capsule_entry(Vec3 a, Vec3 ab, Vec3 u, double radius) {
   const double z0 = dot(a, u), dz = dot(ab, u);
   const Vec3 p = a - u * z0, q = ab - u * dz;
@@ -42,8 +42,6 @@ double capsule_entry(Vec3 a, Vec3 ab, Vec3 u, double radius) {
   if (under < 0) return std::numeric_limits<double>::infinity();
   return z0 + s * dz - std::sqrt(under);
 }
-
-}  // namespace
 
 StrutEntries::StrutEntries(const Foam& foam)
     : foam_(foam),
@@ -108,30 +106,46 @@ StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutLine& strut
   return entry;
 }
 
-StrutLine StrutEntries::line(const SeededEdges& brick, size_t edge) const {
+FoamRay StrutEntries::ray(const RaySearch& search) const {
+  const Neighbourhood& grid = foam_.neighbourhood();
+  const double to_foam = 1 / foam_.unit();
+  FoamRay ray{grid.to_grid(search.ray.origin) * to_foam,
+              grid.rotation.apply_inverse(search.ray.direction),
+              search.from * to_foam,
+              search.to * to_foam,
+              0,
+              &search};
+  ray.most = std::max(max_magnitude(ray.at(ray.from)), max_magnitude(ray.at(ray.to)));
+  return ray;
+}
+
+StrutLine StrutEntries::line(const std::array<CellIndex, 3>& cells) const {
   const FoamSeeds& seeds = foam_.seeds();
-  const Vec3 scale = seeds.scale();
-  const auto &a = brick.end(edge, 0), &b = brick.end(edge, 1);
-  StrutLine strut;
-  strut.corner = corner_of(brick.corner(), scale);
-  strut.a = {a[0], a[1], a[2]};
-  strut.ab = Vec3{b[0], b[1], b[2]} - strut.a;
-  if (!brick.knows_seeds(edge)) return strut;
-  const std::array<CellIndex, 3> cells = brick.seeds(edge);
   const CellIndex home = cells[0];
   const auto seed = [&](size_t i) {
     return seeds.at(home, cells[i].x - home.x, cells[i].y - home.y, cells[i].z - home.z);
   };
+  StrutLine strut;
   strut.line = EdgeLine(seed(0), seed(1), seed(2));
   strut.has_line = strut.line.exists();
   // The line's offset and direction come from products of seeds' differences u and v, and are off
   // by 2^-52 |u| |v| (|u| + |v| + 4) over the triangle's size, |direction|; products above 2^5
   // leave that size above 1 or the seeds' circle so wide that it is no empty ball's.
   const double inverse_size = std::sqrt(strut.line.inverse_squared);
-  strut.home = corner_of(home, scale);
+  strut.home = corner_of(home, seeds.scale());
   strut.along = strut.line.direction * inverse_size;
-  strut.length = dot(strut.ab, strut.along);
   strut.error = 0x1p-47 * inverse_size;
+  return strut;
+}
+
+StrutLine StrutEntries::line(const SeededEdges& brick, size_t edge) const {
+  StrutLine strut;
+  if (brick.knows_seeds(edge)) strut = line(brick.seeds(edge));
+  const auto &a = brick.end(edge, 0), &b = brick.end(edge, 1);
+  strut.corner = corner_of(brick.corner(), foam_.seeds().scale());
+  strut.a = {a[0], a[1], a[2]};
+  strut.ab = Vec3{b[0], b[1], b[2]} - strut.a;
+  strut.length = dot(strut.ab, strut.along);
   return strut;
 }
 

@@ -10,6 +10,8 @@
 // is in the cylinder of another edge by then.
 #pragma once
 
+#include <array>
+
 #include "base/ray.h"
 #include "structure/foam/edge_line.h"
 #include "structure/foam/foam.h"
@@ -47,11 +49,20 @@ struct StrutLine {
   double error = 0;   ///< of the line
 };
 
+/// How far from 0 along the direction u the capsule of a segment is entered; infinite if it is
+/// missed. As in strut/capsule_rays.cpp.
+double capsule_entry(Vec3 a, Vec3 ab, Vec3 u, double radius);
+
 class StrutEntries {
  public:
   explicit StrutEntries(const Foam& foam);
 
   StrutLine line(const SeededEdges& brick, size_t edge) const;
+  /// As far as its three seeds tell, in their order: without ends.
+  StrutLine line(const std::array<CellIndex, 3>& seeds) const;
+
+  /// The frame that find() works in.
+  FoamRay ray(const RaySearch& search) const;
 
   /// What does not depend on anything but ray and edge: the same bits whoever asks. Entries into
   /// the strut where another strut covers its surface may be left out.
