@@ -45,7 +45,8 @@ void test_row(void** state) {
         },
         [&](const Ray& r, double first, double last) { return structure->leave(r, first, last); });
   }
-  if (count > 40) assert_true(entries > 0);
+  // Foams of fat struts in flat cells leave no holes.
+  if (count > 40 && row.kind.radius < 0.5) assert_true(entries > 0);
 }
 
 }  // namespace

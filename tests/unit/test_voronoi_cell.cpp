@@ -84,9 +84,10 @@ void test_random_cells(void**) {
     assert_true(std::abs(cell.radius_squared() - expected.radius_squared) <=
                 1e-5 * expected.radius_squared);
     std::vector<std::pair<Vec3, Vec3>> got;
-    cell.for_each_edge(static_cast<uint32_t>(first), [&](size_t from, size_t to, uint32_t, uint32_t) {
-      got.push_back({cell.vertex(from), cell.vertex(to)});
-    });
+    cell.for_each_edge(static_cast<uint32_t>(first),
+                       [&](size_t from, size_t to, uint32_t, uint32_t) {
+                         got.push_back({cell.vertex(from), cell.vertex(to)});
+                       });
     assert_int_equal(got.size(), expected.edges.size());
     for (const auto& e : expected.edges) {
       double best = 1e300;
@@ -115,12 +116,13 @@ void test_random_cells(void**) {
     size_t found = 0, again = 0;
     cell.for_each_new_vertex([&](const uint8_t*, Vec3) { ++found; });
     if (found > 0) resumed += known.size();  // 0: found anew in double precision
-    cell.for_each_edge(static_cast<uint32_t>(first), [&](size_t from, size_t to, uint32_t, uint32_t) {
-      const std::pair<Vec3, Vec3> edge{cell.vertex(from), cell.vertex(to)};
-      double best = 1e300;
-      for (const auto& g : got) best = std::min(best, apart(edge, g));
-      again += best <= 1e-9;
-    });
+    cell.for_each_edge(static_cast<uint32_t>(first),
+                       [&](size_t from, size_t to, uint32_t, uint32_t) {
+                         const std::pair<Vec3, Vec3> edge{cell.vertex(from), cell.vertex(to)};
+                         double best = 1e300;
+                         for (const auto& g : got) best = std::min(best, apart(edge, g));
+                         again += best <= 1e-9;
+                       });
     assert_int_equal(again, got.size());
   }
   assert_true(resumed > edges / 9);

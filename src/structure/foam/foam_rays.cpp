@@ -18,6 +18,7 @@
 #include "base/borrowed.h"
 #include "structure/foam/cell_struts.h"
 #include "structure/foam/strut_entry.h"
+#include "structure/foam/strut_surface.h"
 
 namespace msq {
 
@@ -389,6 +390,7 @@ class Walker {
     search.t =
         entry.at_from ? search.from : std::clamp(entry.t * foam_.unit(), search.from, search.to);
     search.normal = entry.at_from ? Vec3{} : entry.normal;
+    if (entry.by_ends) sharpen_entry(foam_, search);
   }
 
   const Foam& foam_;

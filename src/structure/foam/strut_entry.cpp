@@ -150,7 +150,11 @@ StrutLine StrutEntries::line(const SeededEdges& brick, size_t edge) const {
 }
 
 StrutEntry StrutEntries::find(const FoamRay& ray, const StrutLine& strut) const {
-  if (!strut.has_line) return find_by_ends(ray, strut);
+  if (!strut.has_line) {
+    StrutEntry entry = find_by_ends(ray, strut);
+    entry.by_ends = true;
+    return entry;
+  }
   const EdgeLine& line = strut.line;
   // From where the ray comes nearest to the middle of the owner's cell, which is near the line.
   const Vec3 o = ray.origin - strut.home, u = ray.direction;

@@ -33,6 +33,7 @@ struct FoamRay {
 struct StrutEntry {
   bool is_met = false;
   bool at_from = false;  ///< the ray is inside where it begins
+  bool by_ends = false;  ///< found without the strut's line, for sharpen_entry()
   double t = 0;          ///< foam units
   Vec3 normal;           ///< model frame; 0 where others are to find it
 };
@@ -68,13 +69,14 @@ class StrutEntries {
   /// the strut where another strut covers its surface may be left out.
   StrutEntry find(const FoamRay& ray, const StrutLine& strut) const;
 
+  /// The first t in (before, beyond], a multiple of half the tolerance, at which the ray is inside:
+  /// that does not depend on how near `before` and `beyond` are.
+  StrutEntry settle(const FoamRay& ray, double before, double beyond) const;
+
  private:
   bool inside(const FoamRay& ray, double t) const;
   StrutEntry graze(const FoamRay& ray, double middle, double half) const;
   StrutEntry find_by_ends(const FoamRay& ray, const StrutLine& strut) const;
-  /// The first t in (before, beyond], a multiple of half the tolerance, at which the ray is inside:
-  /// that does not depend on how near `before` and `beyond` are.
-  StrutEntry settle(const FoamRay& ray, double before, double beyond) const;
 
   const Foam& foam_;
   const double radius_, inverse_radius_, tolerance_;  // foam units

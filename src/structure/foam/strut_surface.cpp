@@ -79,7 +79,8 @@ void sharpen_entry(const Foam& foam, RaySearch& search) {
     if (!entry.is_met || entry.at_from || std::abs(entry.t - at) > near) continue;
     if (!best.is_met || entry.t < best.t) best = entry;
   }
-  if (!best.is_met) return;
+  if (!best.is_met)
+    best = entries.settle(ray, std::max(ray.from, at - foam.ray_tolerance() / unit), at);
   search.t = std::clamp(best.t * unit, search.from, search.to);
   search.normal = best.normal;
 }

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays through foams: the same bits whatever other rays are cast with them, in whichever order, and
+// whatever the cache holds; entries where marching finds them; normals that point out.
+#include <algorithm>
+
+#include "random.h"
+#include "structures.h"
+#include "suite.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+Ref<const Foam> foam_of(const StructureRow& row, Ref<Context> context) {
+  return make_ref<Foam>(std::move(context), row.variant.grid, Parameter(row.radius()),
+                        row.kind.jitter, uint64_t{7}, FoamMethod::direct);
+}
+
+RaySearch search_of(const Neighbourhood& grid, Vec3 a, Vec3 b, double reach) {
+  const Vec3 from = grid.from_grid(a * grid.cell_size), to = grid.from_grid(b * grid.cell_size);
+  RaySearch search;
+  search.ray = {from, (to - from) * (1 / length(to - from))};
+  search.to = reach;
+  return search;
+}
+
+/// As of a camera: a tile of rays that follow each other, parallel or not.
+std::vector<RaySearch> tile(const StructureRow& row, Random& random, size_t count) {
+  const Neighbourhood& grid = row.variant.grid;
+  std::vector<RaySearch> searches;
+  const Vec3 eye = random.in_box({{-1, -1, -1}, {2, 2, 2}});
+  Vec3 goal = random.in_box({{-1, -1, -1}, {2, 2, 2}});
+  if (random.below(3) == 0) {  // along an axis of the grid
+    goal = eye;
+    goal[static_cast<int>(random.below(3))] += 1;
+  }
+  const bool is_parallel = random.below(2) == 0;
+  const Vec3 right = random.in_box({{-1, -1, -1}, {1, 1, 1}}), up = cross(goal - eye, right);
+  const double pixel = random.below(2) == 0 ? 0.02 : 0.2;
+  for (size_t i = 0; i < count; ++i) {
+    const Vec3 away =
+        right * (pixel * static_cast<double>(i % 8)) + up * (pixel * static_cast<double>(i / 8));
+    searches.push_back(
+        search_of(grid, is_parallel ? eye + away : eye, goal + away, 3 * row.unit()));
+  }
+  return searches;
+}
+
+void check_same(const char* name, const char* what, const RaySearch& a, const RaySearch& b) {
+  if (a.found == b.found && (!a.found || (a.t == b.t && a.normal == b.normal))) return;
+  fail_msg("%s: %s: ray (%.17g, %.17g, %.17g) + t (%.17g, %.17g, %.17g): %d %.17g, %d %.17g", name,
+           what, a.ray.origin.x, a.ray.origin.y, a.ray.origin.z, a.ray.direction.x,
+           a.ray.direction.y, a.ray.direction.z, a.found, a.t, b.found, b.t);
+}
+
+void test_row(void** state) {
+  const StructureRow& row = *static_cast<const StructureRow*>(*state);
+  const char* const name = row.name.c_str();
+  const Ref<Context> none = make_ref<Context>(1u, uint64_t{0}, uint64_t{0});
+  const Ref<const Foam> foam = foam_of(row, shared_context()), bare = foam_of(row, none);
+  Random random(row.index + 11);
+  const double tolerance = foam->ray_tolerance();
+  const size_t tiles = row.samples(1200);
+  for (size_t n = 0; n < tiles; ++n) {
+    // A foam that rays were never cast through marches.
+    const Ref<const Foam> fresh = foam_of(row, none);
+    const std::vector<RaySearch> searches = tile(row, random, 64);
+    std::vector<RaySearch> found = searches, reversed = searches;
+    foam->enter(found.data(), found.size());
+    std::reverse(reversed.begin(), reversed.end());
+    bare->enter(reversed.data(), reversed.size());
+    for (size_t i = 0; i < found.size(); ++i) {
+      const RaySearch& ray = found[i];
+      check_same(name, "reversed, no cache", ray, reversed[found.size() - 1 - i]);
+      if (i % 8 != n % 8) continue;
+      RaySearch alone = searches[i], marched = searches[i];
+      fresh->enter(&alone, 1);
+      check_same(name, "alone", ray, alone);
+      foam->Structure::enter(&marched, 1);
+      if (ray.found != marched.found ||
+          (ray.found && !(std::abs(ray.t - marched.t) <= 2 * tolerance)))
+        fail_msg(
+            "%s: ray (%.17g, %.17g, %.17g) + t (%.17g, %.17g, %.17g): %d %.17g, march %d %.17g",
+            name, ray.ray.origin.x, ray.ray.origin.y, ray.ray.origin.z, ray.ray.direction.x,
+            ray.ray.direction.y, ray.ray.direction.z, ray.found, ray.t, marched.found, marched.t);
+      if (!ray.found || ray.t == ray.from) continue;
+      const Vec3 at = ray.ray.at(ray.t), seen = foam->normal(ray.ray, ray.t);
+      const bool has_normal = dot(ray.normal, ray.normal) > 0;
+      for (const Vec3 out : {has_normal ? ray.normal : seen, seen}) {
+        if (!(std::abs(length(out) - 1) < 1e-9)) fail_msg("%s: no normal of length 1", name);
+        const double away = 1e-6 * row.unit();
+        if (dot(out, ray.ray.direction) < -0.01 && !foam->inside(at - out * away))
+          fail_msg("%s: the normal at t %.17g points in", name, ray.t);
+      }
+      if (has_normal && dot(ray.normal, ray.ray.direction) < -0.01 &&
+          foam->inside(at + ray.normal * (1e-6 * row.unit()) -
+                       ray.ray.direction * (1e-6 * row.unit())))
+        fail_msg("%s: inside before the normal at t %.17g", name, ray.t);
+    }
+  }
+}
+
+}  // namespace
+
+int main() {
+  std::vector<StructureRow> rows;
+  for (const StructureRow& row : structures())
+    if (row.kind.family == "foam DIRECT" && !row.is_graded &&
+        row.kind.name.find("density") == std::string::npos && !row.kind.vary)
+      rows.push_back(row);
+  return run_for_each("foam rays", rows, test_row);
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sieve of capsules for rays, against what is found in double precision.
+#include <limits>
+#include <vector>
+
+#include "base/vec.h"
+#include "msq_test.h"
+#include "random.h"
+#include "strut/capsule_rays.h"
+#include "strut/segment.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+/// Where a ray is within `radius` of a segment from `from` on: by steps no longer than the distance
+/// that is left.
+double first_within(Vec3 o, Vec3 u, const Segment& segment, double radius, double from, double to) {
+  for (double t = from; t <= to;) {
+    const double left = std::sqrt(segment.distance_squared(o + u * t)) - radius;
+    if (left <= 1e-12) return t;
+    t += left;
+  }
+  return none;
+}
+
+Vec3 direction_of(Random& random) {
+  while (true) {
+    const Vec3 d = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+    const double size = length(d);
+    if (size > 0.1 && size < 1) return d * (1 / size);
+  }
+}
+
+struct List {
+  std::vector<Segment> segments;
+  std::vector<float> values;
+  std::vector<uint32_t> ids;
+  CapsuleView view;
+
+  /// Of all lengths, some along `u`.
+  List(Random& random, size_t count, Vec3 corner, Vec3 u) : values(6 * count + capsule_padding) {
+    for (size_t i = 0; i < count; ++i) {
+      const double size = i % 5 == 0 ? 0 : std::pow(10.0, -4 * random.in_box({{}, {1, 1, 1}}).x);
+      Vec3 d = i % 3 == 0 ? u : direction_of(random);
+      if (i % 6 == 0) d = d + direction_of(random) * 1e-3;
+      const Vec3 a = random.in_box({{-1, -1, -1}, {2, 2, 2}});
+      const double parts[6] = {a.x - corner.x, a.y - corner.y, a.z - corner.z,
+                               d.x * size,     d.y * size,     d.z * size};
+      double kept[6];
+      for (size_t k = 0; k < 6; ++k) kept[k] = values[k * count + i] = static_cast<float>(parts[k]);
+      const Vec3 from = Vec3{kept[0], kept[1], kept[2]} + corner;
+      segments.emplace_back(from, from + Vec3{kept[3], kept[4], kept[5]});
+      ids.push_back(static_cast<uint32_t>(7 * i));
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      view.a[k] = values.data() + k * count;
+      view.ab[k] = values.data() + (k + 3) * count;
+    }
+    view.ids = ids.data();
+    view.count = count;
+  }
+};
+
+struct Packet {
+  Vec3 origins[RayPacket::most], directions[RayPacket::most];
+  RayPacket rays;
+
+  Packet(Random& random, size_t count, double apart, Vec3 u) {
+    const Vec3 start = random.in_box({{-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}});
+    rays.count = count;
+    rays.starts = true;
+    const double reach = 2;
+    Vec3 in, out;
+    for (size_t n = 0; n < RayPacket::most; ++n) {
+      rays.from[n] = 1;
+      rays.to[n] = -1;
+    }
+    for (size_t n = 0; n < count; ++n) {
+      Vec3 d = u + direction_of(random) * (0.2 * apart);
+      d = d * (1 / length(d));
+      const Vec3 o = start + direction_of(random) * apart;
+      double kept[6] = {o.x, o.y, o.z, d.x, d.y, d.z};
+      for (int k = 0; k < 3; ++k) {
+        kept[k] = rays.origin[k][n] = static_cast<float>(kept[k]);
+        kept[k + 3] = rays.direction[k][n] = static_cast<float>(kept[k + 3]);
+      }
+      origins[n] = {kept[0], kept[1], kept[2]};
+      directions[n] = {kept[3], kept[4], kept[5]};
+      rays.from[n] = 0;
+      rays.to[n] = static_cast<float>(reach);
+      in = in + origins[n] * (1.0 / static_cast<double>(count));
+      out = out + (origins[n] + directions[n] * reach) * (1.0 / static_cast<double>(count));
+    }
+    const Vec3 along = (out - in) * (1 / length(out - in));
+    double spread = 0;
+    for (size_t n = 0; n < count; ++n)
+      spread = std::max(
+          {spread, length(origins[n] - in), length(origins[n] + directions[n] * reach - out)});
+    for (int k = 0; k < 3; ++k) {
+      rays.centre[k] = static_cast<float>(in[k]);
+      rays.along[k] = static_cast<float>(along[k]);
+    }
+    rays.spread = static_cast<float>(spread + 1e-5);
+  }
+};
+
+void finds_what_rays_meet_first(void**) {
+  Random random(5);
+  constexpr double radius = 0.1;
+  const size_t rounds = test_count(3000);
+  size_t met = 0, far = 0;
+  for (size_t round = 0; round < rounds; ++round) {
+    const Vec3 u = direction_of(random), corner{double(random.below(3)), -1, 0};
+    const List list(random, 1 + random.below(round % 10 == 0 ? 600 : 60), corner, u);
+    const Packet packet(random, 1 + random.below(RayPacket::most), round % 2 ? 0.1 : 1e-6, u);
+    const float from[3] = {static_cast<float>(corner.x), static_cast<float>(corner.y),
+                           static_cast<float>(corner.z)};
+    PacketHits hits;
+    hits.clear();
+    meet_capsules(list.view, static_cast<float>(radius), from, packet.rays, hits);
+    for (size_t n = 0; n < packet.rays.count; ++n) {
+      double first = none, other = none;
+      for (size_t i = 0; i < list.segments.size(); ++i) {
+        const double t =
+            first_within(packet.origins[n], packet.directions[n], list.segments[i], radius, 0, 2);
+        first = std::min(first, t);
+        if (list.ids[i] != hits.id[n]) other = std::min(other, t);
+      }
+      if (first == none) continue;
+      ++met;
+      if (!(hits.first[n] <= first)) fail_msg("met at %.9g, not before %.9g", first, hits.first[n]);
+      if (!(hits.second[n] <= other))
+        fail_msg("another met at %.9g, not before %.9g", other, hits.second[n]);
+      // It is the one, mostly: the bound of capsules along the ray is coarse.
+      far += hits.first[n] < first - 0.01;
+    }
+  }
+  assert_true(met > rounds / 4);
+  assert_true(far < met / 20);
+}
+
+void counts_a_strut_in_two_lists_once(void**) {
+  Random random(6);
+  const Vec3 u{0, 0, 1};
+  List list(random, 1, {}, u);
+  Packet packet(random, 4, 1e-3, u);
+  list.values[0] = packet.rays.centre[0];
+  list.values[1] = packet.rays.centre[1];
+  list.values[2] = packet.rays.centre[2] + 1;
+  const float corner[3] = {};
+  PacketHits hits;
+  hits.clear();
+  for (int times = 0; times < 2; ++times) meet_capsules(list.view, 0.1f, corner, packet.rays, hits);
+  for (size_t n = 0; n < 4; ++n) {
+    assert_true(std::abs(hits.first[n] - 0.9f) < 1e-2f);
+    assert_true(hits.second[n] == std::numeric_limits<float>::infinity());
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(finds_what_rays_meet_first),
+      cmocka_unit_test(counts_a_strut_in_two_lists_once),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
