@@ -61,7 +61,7 @@ class Walker {
   static constexpr size_t most = RayPacket::most;
   /// How far apart rays of a packet may be, across it, in foam units, and how unlike their
   /// directions.
-  static constexpr double most_apart = 1.25, most_turned = 0.05;
+  static constexpr double most_apart = 0.7, most_turned = 0.05;
   /// Cells of a slab that a packet may be in; one that spreads farther goes on ray by ray.
   static constexpr int most_across = 4;
 
@@ -212,19 +212,35 @@ class Walker {
     hits_.clear();
     slots_.clear();
     if (memory_.struts.is_full()) memory_.struts.forget();
+    // Cells in the order in which the packet comes to them; rays end in the first ones mostly.
+    order_.clear();
     for (int32_t j = first[1]; j <= last[1]; ++j)
-      for (int32_t i = first[0]; i <= last[0]; ++i) {
-        if (!passes(i - first[0], j - first[1])) continue;
-        int32_t cell[3];
-        cell[k] = slab;
-        cell[lateral[0]] = i;
-        cell[lateral[1]] = j;
-        const Slot& slot = add_slot(cell, corner);
-        meet_capsules(slot.list, static_cast<float>(radius_), slot.corner, packet_, hits_);
+      for (int32_t i = first[0]; i <= last[0]; ++i)
+        if (const float at = comes_to(i - first[0], j - first[1]); at <= 1)
+          order_.push_back({at, i, j});
+    std::sort(order_.begin(), order_.end(),
+              [](const Coming& x, const Coming& y) { return x.at < y.at; });
+    for (size_t c = 0; c < order_.size() && active; ++c) {
+      int32_t cell[3];
+      cell[k] = slab;
+      cell[lateral[0]] = order_[c].i;
+      cell[lateral[1]] = order_[c].j;
+      const Slot& slot = add_slot(cell, corner);
+      meet_capsules(slot.list, static_cast<float>(radius_), slot.corner, packet_, hits_);
+      const bool is_last = c + 1 == order_.size();
+      for (uint32_t rest = active; rest; rest &= rest - 1) {
+        const size_t n = static_cast<size_t>(std::countr_zero(rest));
+        if (hits_.first[n] == std::numeric_limits<float>::infinity()) continue;
+        // The other cells hold nothing that the ray may meet before.
+        const double last_t =
+            is_last
+                ? limit(n)
+                : std::min(limit(n), enter_[n] + double(order_[c + 1].at) * (exit_[n] - enter_[n]));
+        if (enter_[n] + double(hits_.first[n]) > last_t || !settle(n, last_t)) continue;
+        active &= ~(1u << n);
+        live_ &= ~(1u << n);
+        packet_.to[n] = -1;
       }
-    for (uint32_t rest = active; rest; rest &= rest - 1) {
-      const size_t n = static_cast<size_t>(std::countr_zero(rest));
-      if (hits_.first[n] < std::numeric_limits<float>::infinity() && settle(n)) live_ &= ~(1u << n);
     }
     return true;
   }
@@ -276,23 +292,24 @@ class Walker {
     packet_.spread = static_cast<float>(std::sqrt(squared) * 1.01 + 1e-5);
   }
 
-  /// Whether the packet may be in the cell that is (i, j) from the first along the two other axes.
-  bool passes(int32_t i, int32_t j) const {
+  /// The part of its way through the slab after which the packet may be in the cell that is (i, j)
+  /// from the first along the two other axes; above 1 if it never is.
+  float comes_to(int32_t i, int32_t j) const {
     const int32_t cell[2] = {i, j};
-    float low = 0, high = 1;  // from where it comes into the slab to where it leaves it
+    float low = 0, high = 1;
     const float rise = static_cast<float>(scale_[axis_]) / std::abs(packet_.along[axis_]);
     for (int side = 0; side < 2; ++side) {
       const int axis = (axis_ + 1 + side) % 3;
-      const float size = static_cast<float>(scale_[axis]), room = packet_.spread;
+      const float size = static_cast<float>(scale_[axis]), room = packet_.spread + 1e-5f;
       const float from = packet_.centre[axis], by = packet_.along[axis] * rise;
       const float begin = static_cast<float>(cell[side]) * size - room - from;
       const float end = begin + size + 2 * room;
       if (std::abs(by) < 1e-3f) continue;
       const float p = begin / by, q = end / by;
-      low = std::max(low, std::min(p, q));
-      high = std::min(high, std::max(p, q));
+      low = std::max(low, std::min(p, q) - 1e-4f);
+      high = std::min(high, std::max(p, q) + 1e-4f);
     }
-    return low <= high + 1e-3f;
+    return low <= high ? low : 2.0f;
   }
 
   /// Up to where the lists of this slab hold all that ray n may meet.
@@ -322,9 +339,10 @@ class Walker {
     return entries_.find(memory_.rays[ray_[n]], known.line);
   }
 
-  /// Whether ray n ends in this slab.
-  bool settle(size_t n) {
-    const double second = enter_[n] + double(hits_.second[n]), last = limit(n);
+  /// Whether ray n ends in this slab before `last`, up to where the lists at hand hold all that it
+  /// may meet.
+  bool settle(size_t n, double last) {
+    const double second = enter_[n] + double(hits_.second[n]);
     const StrutEntry found = entry(n, hits_.id[n]);
     if (found.is_met && (found.at_from || (found.t <= second && found.t <= last))) {
       take(n, found);
@@ -334,7 +352,7 @@ class Walker {
     return settle_all(n, last);
   }
 
-  /// Of all struts that the ray may meet in this slab.
+  /// Of all struts that the ray may meet in the slab's cells so far.
   bool settle_all(size_t n, double last) {
     RayPacket alone;
     alone.count = 1;
@@ -410,6 +428,11 @@ class Walker {
   double enter_[most], exit_[most];
   RayPacket packet_;
   PacketHits hits_;
+  struct Coming {
+    float at;
+    int32_t i, j;
+  };
+  std::vector<Coming> order_;
   std::vector<Slot> slots_;
   struct Candidate {
     float first;
@@ -437,6 +460,7 @@ CellIndex brick_at(const Foam& foam, Vec3 p) {
 }
 
 bool is_worth_edges(const Foam& foam, const RaySearch* searches, size_t count) {
+  if (foam.ray_demand().has_paid()) return true;
   uint64_t beginnings = 0;
   CellIndex last;
   Box3 bricks{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};

@@ -13,6 +13,9 @@ namespace msq {
 
 class RayDemand {
  public:
+  /// Whether it was said once.
+  bool has_paid() const { return has_edges_.load(std::memory_order_relaxed); }
+
   /// For a batch of rays that begin in so many bricks, and cross some of `about` bricks, which hold
   /// `most` at best.
   bool pays(uint64_t rays, uint64_t beginnings, double about, double most) {
@@ -20,7 +23,7 @@ class RayDemand {
       has_edges_.store(true, std::memory_order_relaxed);
       return true;
     }
-    if (has_edges_.load(std::memory_order_relaxed)) return true;
+    if (has_paid()) return true;
     const uint64_t marched = marched_.fetch_add(rays, std::memory_order_relaxed) + rays;
     if (about > most || static_cast<double>(marched) < marches_a_brick * about) return false;
     has_edges_.store(true, std::memory_order_relaxed);

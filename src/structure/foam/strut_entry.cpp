@@ -69,11 +69,27 @@ StrutEntry StrutEntries::settle(const FoamRay& ray, double before, double beyond
   return entry;
 }
 
-StrutEntry StrutEntries::graze(const FoamRay& ray, double middle, double half) const {
-  const double beyond = std::max(ray.from, middle), before = std::max(ray.from, middle - half);
+StrutEntry StrutEntries::graze(const FoamRay& ray, const StrutLine& strut, double middle,
+                               double half) const {
+  // The part of the ray that is between the ends.
+  double before = middle - half, after = middle + half;
+  const double low = std::min(0.0, strut.length) - end_error,
+               high = std::max(0.0, strut.length) + end_error;
+  const double at = dot(ray.at(middle) - strut.corner - strut.a, strut.along);
+  const double by = dot(ray.direction, strut.along);
   StrutEntry entry;
-  if (!inside(ray, beyond)) return entry;
-  if (!inside(ray, before)) return settle(ray, before, beyond);
+  if (std::abs(by) * half > end_error) {
+    const double one = middle + (low - at) / by, other = middle + (high - at) / by;
+    before = std::max(before, std::min(one, other));
+    after = std::min(after, std::max(one, other));
+  } else if (at < low || at > high) {
+    return entry;
+  }
+  before = std::max(before, ray.from);
+  after = std::min(after, ray.to);
+  if (before > after) return entry;
+  const double deepest = std::clamp(middle, before, after);
+  if (!inside(ray, before)) return inside(ray, deepest) ? settle(ray, before, deepest) : entry;
   // If not at the ray's beginning, then another strut holds it, and has an entry before.
   entry.is_met = entry.at_from = before == ray.from;
   entry.t = ray.from;
@@ -171,7 +187,7 @@ StrutEntry StrutEntries::find(const FoamRay& ray, const StrutLine& strut) const 
   const double inverse = 1 / qq, middle = t0 - pq * inverse;
   if (under <= 0 || error * radius_ > 0.25 * tolerance_ * std::sqrt(under)) {
     const double half = std::sqrt(std::max(under, 0.0) + 8 * radius_ * error * qq) * inverse;
-    return graze(ray, middle, half + tolerance_);
+    return graze(ray, strut, middle, half + tolerance_);
   }
   const double half = std::sqrt(under) * inverse;
   const double in = middle - half, out = middle + half;

@@ -75,7 +75,7 @@ class StrutEntries {
 
  private:
   bool inside(const FoamRay& ray, double t) const;
-  StrutEntry graze(const FoamRay& ray, double middle, double half) const;
+  StrutEntry graze(const FoamRay& ray, const StrutLine& strut, double middle, double half) const;
   StrutEntry find_by_ends(const FoamRay& ray, const StrutLine& strut) const;
 
   const Foam& foam_;
