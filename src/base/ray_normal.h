@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include <cstdint>
+
 #include "base/ray.h"
 
 namespace msq {
@@ -26,16 +28,39 @@ inline const std::array<Vec3, 48>& directions_all_around() {
 }
 
 /// The mean direction of the points outside, among points all around at `distance` from where the
-/// ray enters; the direction back along the ray where they say nothing.
-template <class Inside>
-Vec3 normal_by_membership(Inside&& inside, const Ray& ray, double t, double distance) {
+/// ray enters; the direction back along the ray where they say nothing. keep(points, inside, count)
+/// sets inside[i], which is 1, to 0 where a point is outside.
+template <class Keep>
+Vec3 normal_by_membership_of_all(Keep&& keep, const Ray& ray, double t, double distance) {
+  // On a spiral from pole to pole, evenly spread: Swinbank and Purser, "Fibonacci grids", 2006.
+  constexpr int count = 48;
+  constexpr double golden_angle = 2.39996322972865332;
   const Vec3 p = ray.at(t);
+  Vec3 away[count], points[count];
+  uint8_t inside[count];
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, across = std::sqrt(1 - z * z);
+    away[i] = {across * std::cos(golden_angle * i), across * std::sin(golden_angle * i), z};
+    points[i] = p + away[i] * distance;
+    inside[i] = 1;
+  }
+  keep(points, inside, size_t{count});
   Vec3 sum;
-  for (const Vec3& away : directions_all_around())
-    if (!inside(p + away * distance)) sum = sum + away;
+  for (int i = 0; i < count; ++i)
+    if (!inside[i]) sum = sum + away[i];
   const double size = length(sum);
   // Against the ray, as it enters.
   return size > 0.5 && dot(sum, ray.direction) < 0 ? sum * (1 / size) : ray.direction * -1.0;
+}
+
+/// The same, by inside(p).
+template <class Inside>
+Vec3 normal_by_membership(Inside&& inside, const Ray& ray, double t, double distance) {
+  return normal_by_membership_of_all(
+      [&](const Vec3* points, uint8_t* kept, size_t count) {
+        for (size_t i = 0; i < count; ++i) kept[i] = inside(points[i]);
+      },
+      ray, t, distance);
 }
 
 }  // namespace msq

@@ -36,7 +36,7 @@ double Structure::leave(const Ray& ray, double from, double to) const {
 
 Vec3 Structure::normal(const Ray& ray, double t) const {
   return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t,
-                              0x1p-12 * min_component(neighbourhood().cell_size));
+                              normal_distance());
 }
 
 }  // namespace msq

@@ -83,6 +83,8 @@ class Structure : public RefCounted {
   /// The outward normal, of length 1, where the ray enters at t; the direction back where there is
   /// none. Default: from membership around the point.
   virtual Vec3 normal(const Ray& ray, double t) const;
+  /// Around a point, for normals by membership.
+  double normal_distance() const { return 0x1p-12 * min_component(neighbourhood().cell_size); }
   double ray_tolerance() const { return 0x1p-36 * characteristic_length(); }
   /// Rays that march go on by no less than this, whatever clearance() says. Less only where
   /// clearance() is 0 nowhere but at the boundary.

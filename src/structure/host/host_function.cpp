@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "structure/host/march_together.h"
 
 namespace msq {
 
@@ -30,6 +33,7 @@ HostFunction::HostFunction(const Neighbourhood& neighbourhood, HostFunctionCalls
       is_sheet_(is_sheet),
       is_concurrent_(is_concurrent && level.is_concurrent()),
       level_(std::move(level)),
+      lipschitz_(lipschitz),
       side_(clusters ? clusters : automatic_clusters) {
   if (side_ > 1 && (calls_.range || std::isfinite(lipschitz))) build_clusters(lipschitz);
 }
@@ -176,6 +180,101 @@ Coverage HostFunction::coverage(const Box3& box) const {
         if (may_be_inside && may_be_outside) return Coverage::mixed;
       }
   return may_be_inside ? Coverage::inside : Coverage::outside;
+}
+
+double HostFunction::least_ray_step() const {
+  return std::isfinite(lipschitz_ + level_.lipschitz()) ? ray_tolerance()
+                                                        : Structure::least_ray_step();
+}
+
+double HostFunction::outside_along(const Ray& ray, double t, double gap) const {
+  const Neighbourhood& grid = neighbourhood();
+  const Vec3 p = ray.at(t);
+  const double least = Structure::least_ray_step();
+  const double slope = lipschitz_ * two_pi / min_component(grid.cell_size) + level_.lipschitz();
+  if (!std::isfinite(slope)) {
+    if (clusters_.empty()) return 0;
+    // As far as the clusters say.
+    for (const double step : {8 * least, 2 * least}) {
+      const Vec3 q = ray.at(t + step);
+      if (coverage({min(p, q), max(p, q)}) == Coverage::outside) return step;
+    }
+    return 0;
+  }
+  const Vec3 along = grid.rotation.apply_inverse(ray.direction);
+  const Vec3 fraction = grid.locate(p).fraction;
+  // Less by what the host's rounding may be.
+  double step = slope > 0 ? (gap - 0x1p-46 * (1 + gap)) / slope : max_component(grid.cell_size);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (along[axis] == 0) continue;
+    const double ahead = along[axis] > 0 ? 1 - fraction[axis] : fraction[axis];
+    step = std::min(step, ahead * grid.cell_size[axis] / std::abs(along[axis]));
+  }
+  return std::max(0.0, step * (1 - 0x1p-40));
+}
+
+void HostFunction::enter(RaySearch* searches, size_t count) const {
+  std::vector<Vec3> points, angles;
+  std::vector<double> onsets, levels;
+  const auto ask = [&](const std::vector<MarchPoint>& asked, uint8_t* inside, double* steps) {
+    points.clear();
+    angles.clear();
+    for (const MarchPoint& p : asked) {
+      points.push_back(searches[p.search].ray.at(p.t));
+      angles.push_back(angles_of(neighbourhood().locate(points.back()).fraction));
+    }
+    onsets.resize(asked.size());
+    levels.resize(asked.size());
+    evaluate(angles.data(), angles.size(), onsets.data());
+    level_.values(points.data(), points.size(), levels.data());
+    for (size_t i = 0; i < asked.size(); ++i) {
+      inside[i] = onsets[i] <= levels[i];
+      if (!inside[i] && !asked[i].is_settling)
+        steps[i] = outside_along(searches[asked[i].search].ray, asked[i].t, onsets[i] - levels[i]);
+    }
+  };
+  march_together(searches, count, least_ray_step(), ray_tolerance(), ask);
+  find_normals(searches, count);
+}
+
+void HostFunction::find_normals(RaySearch* searches, size_t count) const {
+  constexpr double step = 0x1p-16;  // of angles
+  const Vec3 size = neighbourhood().cell_size;
+  std::vector<Vec3> angles;
+  std::vector<size_t> found;
+  for (size_t i = 0; i < count; ++i) {
+    if (!searches[i].found) continue;
+    found.push_back(i);
+    const Vec3 at = angles_of(neighbourhood().locate(searches[i].ray.at(searches[i].t)).fraction);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double away : {-step, step}) {
+        Vec3 a = at;
+        a[axis] = std::clamp(a[axis] + away, 0.0, two_pi);  // hosts know nothing beyond
+        angles.push_back(a);
+      }
+  }
+  std::vector<double> onsets(angles.size());
+  evaluate(angles.data(), angles.size(), onsets.data());
+  for (size_t n = 0; n < found.size(); ++n) {
+    RaySearch& search = searches[found[n]];
+    Vec3 gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      const size_t low = 6 * n + 2 * static_cast<size_t>(axis), high = low + 1;
+      gradient[axis] = (onsets[high] - onsets[low]) * two_pi /
+                       ((angles[high][axis] - angles[low][axis]) * size[axis]);
+    }
+    const Vec3 away = neighbourhood().rotation.apply(gradient) -
+                      level_.gradient(search.ray.at(search.t), 0x1p-16 * min_component(size));
+    const double steepness = length(away);
+    search.normal = steepness > 0 && std::isfinite(steepness) ? away * (1 / steepness)
+                                                              : search.ray.direction * -1.0;
+  }
+}
+
+Vec3 HostFunction::normal(const Ray& ray, double t) const {
+  RaySearch search{ray, t, t, true, t};
+  find_normals(&search, 1);
+  return search.normal;
 }
 
 }  // namespace msq

@@ -34,6 +34,11 @@ class HostFunction final : public Structure {
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   Coverage coverage(const Box3& box) const override;
   bool knows_boxes() const override { return !clusters_.empty(); }
+  /// Rays go on together. Where the slope and the level's are bounded they lose no part longer than
+  /// the tolerance.
+  void enter(RaySearch* searches, size_t count) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
+  double least_ray_step() const override;
 
   HostUser& user() { return user_; }
 
@@ -41,6 +46,11 @@ class HostFunction final : public Structure {
   /// The onsets at angles.
   void evaluate(const Vec3* angles, size_t count, double* onsets) const;
   void build_clusters(double lipschitz);
+  /// How far along a ray from p, which is outside, all is so: that far the onset, which is above
+  /// the level by `gap`, cannot fall. Up to the border of the cell, over which it may jump.
+  double outside_along(const Ray& ray, double t, double gap) const;
+  /// Fills in those of searches that were found.
+  void find_normals(RaySearch* searches, size_t count) const;
   Interval onset_of(Interval function) const;
   int number(double angle) const;
   const Interval& cluster(int x, int y, int z) const {
@@ -51,6 +61,7 @@ class HostFunction final : public Structure {
   HostFunctionCalls calls_;
   bool is_sheet_, is_concurrent_;
   Parameter level_;
+  double lipschitz_;                // of angles
   int side_;                        // of the clusters
   std::vector<Interval> clusters_;  // the onset in each; none where nothing is known
 };

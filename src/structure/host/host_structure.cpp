@@ -5,6 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/ray_normal.h"
+#include "structure/host/march_together.h"
+
 namespace msq {
 
 namespace {
@@ -137,14 +140,69 @@ bool HostStructure::inside(Vec3 p) const {
 
 double HostStructure::clearance(Vec3 p) const {
   if (!calls_.distance) return 0;
-  const SinglePoint point(neighbourhood(), p);
   double bound;
-  calls_.distance(point.view(), &bound);
-  if (!std::isfinite(bound))
-    fail(Status::host,
-         "the host's structure has the distance %g at (%g, %g, %g); it must be finite", bound, p.x,
-         p.y, p.z);
-  return std::abs(bound);
+  find_clearances(&p, 1, &bound);
+  return bound;
+}
+
+void HostStructure::find_clearances(const Vec3* points, size_t count, double* bounds) const {
+  std::vector<Vec3> positions;
+  std::vector<CellIndex> cells;
+  for (size_t first = 0; first < count; first += host_batch) {
+    const size_t size = std::min(host_batch, count - first);
+    positions.clear();
+    cells.clear();
+    for (size_t i = first; i < first + size; ++i) {
+      const Neighbourhood::Located located = neighbourhood().locate(points[i]);
+      positions.push_back(located.fraction * neighbourhood().cell_size);
+      cells.push_back(located.cell);
+    }
+    calls_.distance({points + first, positions.data(), cells.data(), size}, bounds + first);
+  }
+  for (size_t i = 0; i < count; ++i) {
+    if (!std::isfinite(bounds[i]))
+      fail(Status::host,
+           "the host's structure has the distance %g at (%g, %g, %g); it must be finite", bounds[i],
+           points[i].x, points[i].y, points[i].z);
+    bounds[i] = std::abs(bounds[i]);
+  }
+}
+
+void HostStructure::enter(RaySearch* searches, size_t count) const {
+  std::vector<Vec3> points, near;
+  std::vector<double> bounds;
+  std::vector<size_t> index;
+  const double least = least_ray_step();
+  const auto ask = [&](const std::vector<MarchPoint>& asked, uint8_t* inside, double* steps) {
+    points.clear();
+    near.clear();
+    index.clear();
+    for (const MarchPoint& p : asked) points.push_back(searches[p.search].ray.at(p.t));
+    keep_points(points.data(), inside, points.size());
+    for (size_t i = 0; i < asked.size(); ++i) {
+      if (inside[i] || asked[i].is_settling) continue;
+      if (calls_.distance) {
+        near.push_back(points[i]);
+        index.push_back(i);
+      } else if (calls_.coverage) {
+        const Vec3 q = searches[asked[i].search].ray.at(asked[i].t + 8 * least);
+        if (calls_.coverage({min(points[i], q), max(points[i], q)}) == Coverage::outside)
+          steps[i] = 8 * least;
+      }
+    }
+    bounds.resize(near.size());
+    if (!near.empty()) find_clearances(near.data(), near.size(), bounds.data());
+    for (size_t i = 0; i < near.size(); ++i) steps[index[i]] = bounds[i];
+  };
+  march_together(searches, count, least, ray_tolerance(), ask);
+  // Normals as of any structure, all points of a ray at once.
+  for (size_t i = 0; i < count; ++i) {
+    RaySearch& s = searches[i];
+    if (!s.found || s.t == s.from) continue;
+    s.normal = normal_by_membership_of_all(
+        [&](const Vec3* around, uint8_t* inside, size_t n) { keep_points(around, inside, n); },
+        s.ray, s.t, normal_distance());
+  }
 }
 
 void HostStructure::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {

@@ -53,6 +53,8 @@ class HostStructure final : public Structure {
     return calls_.coverage ? calls_.coverage(box) : Coverage::mixed;
   }
   bool knows_boxes() const override { return static_cast<bool>(calls_.coverage); }
+  /// Rays go on together, by the host's distances and by what it says of boxes.
+  void enter(RaySearch* searches, size_t count) const override;
 
   HostUser& user() { return user_; }
 
@@ -60,6 +62,8 @@ class HostStructure final : public Structure {
   class Cell;
 
   std::shared_ptr<const CellData> cell(CellIndex index) const;
+  /// bounds[i] becomes clearance(points[i]).
+  void find_clearances(const Vec3* points, size_t count, double* bounds) const;
   void free_retired() const;
 
   HostUser user_;
