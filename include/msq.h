@@ -1383,11 +1383,21 @@ typedef struct msq_ray_hit {
  *
  * Membership (msq_point_membership) differs just before and just behind t, within 2^-36, about 1.5e-11,
  * of the characteristic length of the scale hit (of the shape: of its size and its coordinates), and
- * changes nowhere before it save for parts of the ray shorter than that. Where the distance
- * has no bound (functions of unbounded slope, parameters that are fields without a Lipschitz constant,
- * what the host defines) rays go in steps of no less than 1/64 of the cell, 1/1024 of a host's shape,
- * and may lose thinner parts. Scale by scale: finer scales are asked only
- * within the parts of the ray that lie in the coarser ones.
+ * changes nowhere before it save for parts of the ray shorter than that, also where rays graze surfaces.
+ * Thinner parts than these may be lost: 1/64 of the cell, in lattices and foams whose radius is a field
+ * without a Lipschitz constant, in host structures without a distance and host functions without a
+ * slope (lipschitz); 2^-10 of the cell, where an expression is no number along more of a ray than
+ * about a tolerance, or may be unbounded there; 2^-24 of the cell, where a ray grazes a strut whose
+ * radius is a field that is not linear; 1/1024 of its size, of a host's shape without a distance.
+ * Scale by scale: finer scales are asked only within the parts of the ray that lie in the coarser ones.
+ * Of hosts' structures and functions a callback is asked for up to a thousand rays at once.
+ *
+ * Normals: of functional structures the gradient of the function, to about 1e-8 (where the level is a
+ * field that is not linear, 1e-5), of a sheet's walls likewise, at the border of a cell over which the
+ * function jumps that of the border; of lattices the direction from the axis of the strut that is hit,
+ * with what a varying radius turns it by; of host functions by differences of the function, to 1e-5 if
+ * it is smooth; of host structures and shapes the mean direction of the points outside among 48 around
+ * the hit, to about 0.1.
  *
  * Normals are exact, to rounding, on boxes, balls, cylinders, meshes, lattices, functional structures and foams
  * whose radius and density are numbers. Elsewhere (voxel images, the inner faces of skins, other foams, what the

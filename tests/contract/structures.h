@@ -94,16 +94,20 @@ struct StructureRow {
   double unit() const { return max_component(variant.grid.cell_size); }
   double radius() const { return kind.radius * unit(); }
 
-  /// The structure with its radius changed by `extra`; a varying radius grows along an
-  /// oblique line through `centre`, from graded_from of its greatest value to that.
-  Ref<const Structure> make(Vec3 centre, double extra = 0) const {
+  /// The radius, changed by `extra`; a varying one grows along an oblique line through `centre`,
+  /// from graded_from of its greatest value to that.
+  Parameter parameter(Vec3 centre, double extra = 0) const {
     const double most = radius() + extra;
-    if (!is_graded) return kind.make(variant.grid, Parameter(most));
+    if (!is_graded) return Parameter(most);
     const Vec3 half = Vec3{1.1, 0.9, 0.7} * unit();
     FieldRef field =
         make_ref<GradientField>(centre - half, graded_from * radius() + extra, centre + half, most);
     if (kind.vary) field = kind.vary(variant.grid, field);
-    return kind.make(variant.grid, Parameter(field));
+    return Parameter(field);
+  }
+  /// The structure with that radius.
+  Ref<const Structure> make(Vec3 centre, double extra = 0) const {
+    return kind.make(variant.grid, parameter(centre, extra));
   }
 };
 
@@ -161,13 +165,13 @@ inline UnitCell factored_unit_cell() {
 inline Factory mixed_factory() {
   return [](const Neighbourhood& grid, Parameter radius) {
     const Vec3 half = Vec3{1.5, 1.1, 0.8} * grid.cell_size;
-    const Parameter choice(Ref<const Field>(make_ref<GradientField>(
-        grid.from_grid(half * -1.0), -1.0, grid.from_grid(half), 4.0)));
-    return Ref<const Structure>(make_ref<MixedLattice>(
-        grid,
-        std::vector<UnitCell>{cubic_unit_cell(), factored_unit_cell(), octet_unit_cell(),
-                              kelvin_unit_cell()},
-        choice, std::move(radius)));
+    const Parameter choice(Ref<const Field>(
+        make_ref<GradientField>(grid.from_grid(half * -1.0), -1.0, grid.from_grid(half), 4.0)));
+    return Ref<const Structure>(
+        make_ref<MixedLattice>(grid,
+                               std::vector<UnitCell>{cubic_unit_cell(), factored_unit_cell(),
+                                                     octet_unit_cell(), kelvin_unit_cell()},
+                               choice, std::move(radius)));
   };
 }
 
