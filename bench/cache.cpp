@@ -228,10 +228,10 @@ void bench_work(bench::Report& report, const std::string& name, void (*work)(msq
       rates[policy] = 100 * bench::hit_rate(policy, trace, static_cast<uint64_t>(part * all));
     report.compare(name, "cache " + std::to_string(part * 100).substr(0, 4) + " %", rates);
   }
-  for (const int32_t policy : {MSQ_CACHE_FIFO, MSQ_CACHE_SECOND_CHANCE}) {
+  for (const int32_t policy : {MSQ_CACHE_FIFO, MSQ_CACHE_SEGMENTED}) {
     msq_context* context = make_context({static_cast<uint64_t>(all) / 2, policy});
     const double seconds = bench::seconds_of([&] { work(context); });
-    const std::string title = policy ? ", half of it, second chance" : ", half of it, FIFO";
+    const std::string title = policy ? ", half of it, segmented" : ", half of it, FIFO";
     const msq_cache_report cache = bench::cache_of(context);
     report.add(name + title + ", two threads", seconds, static_cast<double>(trace.size()), "fetch");
     const double fetches = static_cast<double>(cache.hits + cache.misses);

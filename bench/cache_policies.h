@@ -86,11 +86,13 @@ class QueuePolicy : public Policy {
 /// A tenth for newcomers; those fetched again, or lately thrown out, go to the main queue.
 class S3Fifo : public Policy {
  public:
-  explicit S3Fifo(uint64_t limit) : limit_(limit) {}
+  /// `most`: up to which fetches are counted. `gone`: newcomers that are remembered, by the cells
+  /// that are there.
+  S3Fifo(uint64_t limit, int most, double gone) : limit_(limit), most_(most), gone_(gone) {}
 
   bool fetch(const Fetch& fetch) override {
     if (const auto found = table_.find(fetch.cell); found != table_.end()) {
-      if (found->second < 3) ++found->second;
+      if (found->second < most_) ++found->second;
       return true;
     }
     if (fetch.bytes > limit_) return false;
@@ -140,13 +142,15 @@ class S3Fifo : public Policy {
   void add_ghost(uint32_t cell) {
     if (!ghosts_.insert(cell).second) return;
     ghost_queue_.push_back(cell);
-    while (ghost_queue_.size() > main_.cells.size() + 1) {
+    while (static_cast<double>(ghost_queue_.size()) > gone_ * static_cast<double>(table_.size())) {
       ghosts_.erase(ghost_queue_.front());
       ghost_queue_.pop_front();
     }
   }
 
   const uint64_t limit_;
+  const int most_;
+  const double gone_;
   Queue small_, main_;
   std::unordered_map<uint32_t, int> table_;
   std::deque<uint32_t> ghost_queue_;
@@ -199,7 +203,8 @@ class Belady : public Policy {
 };
 
 inline const std::vector<std::string>& policy_names() {
-  static const std::vector<std::string> names{"FIFO", "CLOCK", "SIEVE", "S3-FIFO", "LRU", "MIN"};
+  static const std::vector<std::string> names{"FIFO",  "segmented", "S3-FIFO", "CLOCK",
+                                              "SIEVE", "LRU",       "MIN"};
   return names;
 }
 
@@ -210,7 +215,8 @@ inline std::unique_ptr<Policy> make_policy(const std::string& name, const Trace&
   if (name == "CLOCK") return std::make_unique<QueuePolicy>(Kind::clock, limit);
   if (name == "SIEVE") return std::make_unique<QueuePolicy>(Kind::sieve, limit);
   if (name == "LRU") return std::make_unique<QueuePolicy>(Kind::lru, limit);
-  if (name == "S3-FIFO") return std::make_unique<S3Fifo>(limit);
+  if (name == "S3-FIFO") return std::make_unique<S3Fifo>(limit, 3, 1.0);
+  if (name == "segmented") return std::make_unique<S3Fifo>(limit, 1, 0.5);
   return std::make_unique<Belady>(trace, limit);
 }
 

@@ -121,9 +121,9 @@ typedef struct msq_job msq_job;         /* one long call: its progress, and the 
 
 /* Which cached cells make room for others; those that a call is using are passed over. */
 enum {
-  MSQ_CACHE_FIFO = 0,         /* the oldest */
-  MSQ_CACHE_SECOND_CHANCE = 1 /* the oldest that was not asked for again since it came or was last
-                                 spared (CLOCK) */
+  MSQ_CACHE_FIFO = 0,     /* the oldest: best for slices from one end to the other */
+  MSQ_CACHE_SEGMENTED = 1 /* rather those that were asked for once: for frames and sets that come back to
+                             more cells than fit (S3-FIFO) */
 };
 
 typedef struct msq_context_def {

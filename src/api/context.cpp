@@ -7,7 +7,7 @@ using namespace msq::api;
 namespace {
 
 static_assert(static_cast<int>(CachePolicy::fifo) == MSQ_CACHE_FIFO);
-static_assert(static_cast<int>(CachePolicy::second_chance) == MSQ_CACHE_SECOND_CHANCE);
+static_assert(static_cast<int>(CachePolicy::segmented) == MSQ_CACHE_SEGMENTED);
 
 msq_context_def context_defaults() {
   msq_context_def def{};
@@ -27,7 +27,7 @@ msq_status msq_context_create(const msq_context_def* def, msq_context** context)
     const msq_context_def known =
         def ? read_def(def, context_defaults(), "def") : context_defaults();
     const int32_t policy =
-        require_range(known.cache_policy, MSQ_CACHE_FIFO, MSQ_CACHE_SECOND_CHANCE, "cache_policy");
+        require_range(known.cache_policy, MSQ_CACHE_FIFO, MSQ_CACHE_SEGMENTED, "cache_policy");
     require_reserved(known.reserved, "reserved");
     *context = new_handle<msq_context>(make_ref<Context>(known.threads, known.cache_bytes,
                                                          known.memory_limit, false,

@@ -111,14 +111,18 @@ CellCache::Data CellCache::keep(const Key& key, Data data, uint64_t bytes, Room&
     ++counters_.unkept;
     return data;
   }
-  queue_.push_back(nullptr);
+  const bool is_newcomer = policy_ == CachePolicy::segmented && !gone_.contains(key.hash);
+  Queue& queue = is_newcomer ? newcomers_ : queue_;
+  queue.push_back(nullptr);
   try {
     std::lock_guard lock(part.mutex);
-    queue_.back() = &*part.table.try_emplace(key, data, bytes).first;
+    queue.back() = &*part.table.try_emplace(key, data, bytes).first;
   } catch (...) {
-    queue_.pop_back();
+    queue.pop_back();
     throw;
   }
+  queue.back()->second.is_newcomer = is_newcomer;
+  if (is_newcomer) newcomer_bytes_ += bytes;
   room.become_kept();
   ++counters_.cells;
   return data;
@@ -149,19 +153,37 @@ bool CellCache::make_room(uint64_t bytes) {
   return true;
 }
 
-/// Evicts the first in the queue whose turn it is. Those that are in use or have a second chance go
-/// to its end, so that they are not looked at time and again.
 bool CellCache::evict() {
-  for (size_t looks = 2 * queue_.size(); looks > 0; --looks) {
-    const auto first = queue_.begin();
-    const bool has_chance =
-        policy_ == CachePolicy::second_chance &&
-        (*first)->second.is_fetched_again.exchange(false, std::memory_order_relaxed);
-    if (!has_chance && remove(first, false)) {
+  const bool newcomers_first = newcomer_bytes_ > limit_ / 10 || queue_.empty();
+  return evict_of(newcomers_first ? newcomers_ : queue_) ||
+         evict_of(newcomers_first ? queue_ : newcomers_);
+}
+
+/// Evicts the first in the queue whose turn it is. Those that are in use or spared go to its end,
+/// so that they are not looked at time and again.
+bool CellCache::evict_of(Queue& queue) {
+  for (size_t looks = 2 * queue.size(); looks > 0 && !queue.empty(); --looks) {
+    const auto first = queue.begin();
+    const size_t hash = (*first)->first.hash;
+    Entry& entry = (*first)->second;
+    const bool is_newcomer = entry.is_newcomer;
+    const bool is_spared = policy_ == CachePolicy::segmented &&
+                           entry.is_fetched_again.exchange(false, std::memory_order_relaxed);
+    if (is_spared && is_newcomer) {
+      entry.is_newcomer = false;
+      newcomer_bytes_ -= entry.bytes;
+      queue_.splice(queue_.end(), newcomers_, first);
+    } else if (is_spared || !remove(first, false)) {
+      queue.splice(queue.end(), queue, first);
+    } else {
       ++counters_.evictions;
+      if (is_newcomer && gone_.insert(hash).second) gone_queue_.push_back(hash);
+      while (gone_queue_.size() > counters_.cells / 2) {
+        gone_.erase(gone_queue_.front());
+        gone_queue_.pop_front();
+      }
       return true;
     }
-    queue_.splice(queue_.end(), queue_, first);
   }
   return false;
 }
@@ -172,6 +194,7 @@ bool CellCache::remove(Queue::iterator place, bool even_in_use) {
   const auto is_in_use = [&] { return !even_in_use && entry.data.use_count() > 1; };
   if (is_in_use()) return false;
   const uint64_t bytes = entry.bytes;
+  const bool is_newcomer = entry.is_newcomer;
   {
     Part& part = part_of(key);
     Table::node_type node;  // destroyed with the part unlocked
@@ -179,7 +202,8 @@ bool CellCache::remove(Queue::iterator place, bool even_in_use) {
     if (is_in_use()) return false;
     node = part.table.extract(key);
   }
-  queue_.erase(place);
+  (is_newcomer ? newcomers_ : queue_).erase(place);
+  if (is_newcomer) newcomer_bytes_ -= bytes;
   --counters_.cells;
   give_back(bytes);
   return true;
@@ -193,10 +217,11 @@ void CellCache::give_back(uint64_t bytes) {
 bool CellCache::drop_oldest() {
   std::lock_guard lock(mutex_);
   if (evict()) return true;
-  if (!queue_.empty()) {
-    ++counters_.evictions;
-    return remove(queue_.begin(), true);
-  }
+  for (Queue* queue : {&newcomers_, &queue_})
+    if (!queue->empty()) {
+      ++counters_.evictions;
+      return remove(queue->begin(), true);
+    }
   for (Room* room : rooms_)
     if (room->bytes() > 0) {
       room->give_back();
@@ -207,17 +232,21 @@ bool CellCache::drop_oldest() {
 
 void CellCache::drop(uint64_t structure) {
   std::lock_guard lock(mutex_);
-  for (auto place = queue_.begin(); place != queue_.end();) {
-    const auto next = std::next(place);
-    if ((*place)->first.structure == structure) remove(place, true);
-    place = next;
-  }
+  for (Queue* queue : {&newcomers_, &queue_})
+    for (auto place = queue->begin(); place != queue->end();) {
+      const auto next = std::next(place);
+      if ((*place)->first.structure == structure) remove(place, true);
+      place = next;
+    }
   expected_.erase(structure);
 }
 
 void CellCache::clear() {
   std::lock_guard lock(mutex_);
-  while (!queue_.empty()) remove(queue_.begin(), true);
+  for (Queue* queue : {&newcomers_, &queue_})
+    while (!queue->empty()) remove(queue->begin(), true);
+  gone_.clear();
+  gone_queue_.clear();
 }
 
 CellCache::Counters CellCache::counters() const {

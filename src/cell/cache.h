@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cache of per-cell data, limited in bytes, for any number of threads.
-// Source: paper, section "Set Queries for Ray-Casting" (first in, first out); the second chance is
-// Corbato's, "A paging experiment with the Multics system", 1968.
+// Sources: paper, section "Set Queries for Ray-Casting" (first in, first out); Yang, Zhang, Qiu,
+// Yue and Rashmi, "FIFO queues are all you need for cache eviction", SOSP 2023 (segmented).
 //
 // What the limit covers: at every moment the cells that are kept and the room that builders of
 // cells have set aside take no more bytes than it. A builder sets room aside before it begins, as
@@ -23,12 +23,14 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "base/memory.h"
@@ -45,8 +47,8 @@ class CellData {
 
 /// Which cells make room. Those in use are passed over by either.
 enum class CachePolicy {
-  fifo,          ///< the oldest
-  second_chance  ///< the oldest, unless it was fetched again since its last turn, or its arrival
+  fifo,      ///< the oldest
+  segmented  ///< of newcomers, which have a tenth of the limit, the oldest that was fetched once
 };
 
 class CellCache {
@@ -105,7 +107,8 @@ class CellCache {
     Entry(Data what, uint64_t size) : data(std::move(what)), bytes(size) {}
     const Data data;
     const uint64_t bytes;
-    std::atomic<bool> is_fetched_again{false};
+    std::atomic<bool> is_fetched_again{false};  // since it came, or was last spared
+    bool is_newcomer = false;
   };
   using Table = std::unordered_map<Key, Entry, KeyHash>;
   /// Of nodes of the tables, the next to go first.
@@ -126,6 +129,7 @@ class CellCache {
   void learn(uint64_t structure, uint64_t bytes);
   bool make_room(uint64_t bytes);
   bool evict();
+  bool evict_of(Queue& queue);
   bool remove(Queue::iterator place, bool even_in_use);
   void give_back(uint64_t bytes);
 
@@ -136,7 +140,13 @@ class CellCache {
   std::array<Part, 64> parts_;
   /// Of all below.
   mutable std::mutex mutex_;
-  Queue queue_;
+  /// Segmented: newcomers that are fetched again, or come back soon, join the queue, where being
+  /// fetched again spares a cell once.
+  Queue queue_, newcomers_;
+  uint64_t newcomer_bytes_ = 0;
+  /// Keys, by hash, of the last newcomers that went, half as many as there are cells.
+  std::unordered_set<size_t> gone_;
+  std::deque<size_t> gone_queue_;
   std::vector<Room*> rooms_;
   std::unordered_map<uint64_t, uint64_t> expected_;  // bytes of a cell, by structure
   Counters counters_;                                // but hits and misses

@@ -180,7 +180,7 @@ static void check_answers(int32_t method, int32_t first_policy) {
   msq_cache_report roomy, report;
   ask(method, MSQ_CACHE_FIFO, (uint64_t)1 << 30, wanted, &roomy);
   assert_true(roomy.misses > 0);
-  for (int32_t policy = first_policy; policy <= MSQ_CACHE_SECOND_CHANCE; ++policy) {
+  for (int32_t policy = first_policy; policy <= MSQ_CACHE_SEGMENTED; ++policy) {
     const uint64_t limits[] = {0, roomy.bytes / 3, roomy.bytes * 2 / 3};
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; ++i) {
       ask(method, policy, limits[i], got, &report);
@@ -195,9 +195,9 @@ static void check_answers(int32_t method, int32_t first_policy) {
 static void answers_are_the_same_at_any_cache_size(void** state) {
   (void)state;
   check_answers(MSQ_FOAM_DIRECT, MSQ_CACHE_FIFO);
-  check_answers(MSQ_FOAM_METHOD_1, MSQ_CACHE_SECOND_CHANCE);
+  check_answers(MSQ_FOAM_METHOD_1, MSQ_CACHE_SEGMENTED);
 #if MSQ_WITH_CGAL
-  check_answers(MSQ_FOAM_METHOD_2, MSQ_CACHE_SECOND_CHANCE);
+  check_answers(MSQ_FOAM_METHOD_2, MSQ_CACHE_SEGMENTED);
 #endif
 }
 

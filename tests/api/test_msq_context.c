@@ -57,7 +57,7 @@ static void definition_is_taken_over(void** state) {
 }
 
 static void policy_must_be_known(void** state) {
-  const int32_t refused[] = {-1, MSQ_CACHE_SECOND_CHANCE + 1, INT32_MIN, INT32_MAX};
+  const int32_t refused[] = {-1, MSQ_CACHE_SEGMENTED + 1, INT32_MIN, INT32_MAX};
   msq_context_def def;
   (void)state;
   assert_ok(msq_context_def_init(&def, sizeof def));
@@ -66,7 +66,7 @@ static void policy_must_be_known(void** state) {
     assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "cache_policy");
     assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "from 0 to 1");
   }
-  def.cache_policy = MSQ_CACHE_SECOND_CHANCE;
+  def.cache_policy = MSQ_CACHE_SEGMENTED;
   assert_ok(create(NULL, &def));
   def.reserved = 7;
   assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "reserved is 7");

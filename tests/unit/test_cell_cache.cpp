@@ -149,23 +149,27 @@ void test_failing_build(void**) {
   assert_true(fetch(cache, 1, {0, 0, 0}, 1));
 }
 
-void test_second_chance(void**) {
+void test_segmented(void**) {
   const uint64_t entry = entry_bytes(100);
-  CellCache cache(4 * entry, budget(), CachePolicy::second_chance);
-  for (int i = 0; i < 4; ++i) assert_true(fetch(cache, 1, {i, 0, 0}, 100));
-  assert_false(fetch(cache, 1, {0, 0, 0}, 100));
-  assert_false(fetch(cache, 1, {2, 0, 0}, 100));
-  assert_true(fetch(cache, 1, {4, 0, 0}, 100));  // spares 0, evicts 1
-  assert_true(fetch(cache, 1, {5, 0, 0}, 100));  // spares 2, evicts 3
-  assert_false(fetch(cache, 1, {0, 0, 0}, 100));
-  assert_false(fetch(cache, 1, {2, 0, 0}, 100));
-  assert_true(fetch(cache, 1, {1, 0, 0}, 100));  // evicts 4: of 4, 0, 5, 2 the oldest now
-  assert_false(fetch(cache, 1, {5, 0, 0}, 100));
-  // A chance is given once: all were fetched again but 1, which is the first to go, then 0.
-  assert_true(fetch(cache, 1, {6, 0, 0}, 100));
-  assert_true(fetch(cache, 1, {7, 0, 0}, 100));
-  assert_int_equal(cache.counters().cells, 4);
-  assert_int_equal(cache.counters().bytes, 4 * entry);
+  const auto fetch_row = [&](CellCache& cache, int first, int end) {
+    int built = 0;
+    for (int i = first; i < end; ++i) built += fetch(cache, 1, {i, 0, 0}, 100);
+    return built;
+  };
+  CellCache cache(20 * entry, budget(), CachePolicy::segmented);
+  assert_int_equal(fetch_row(cache, 0, 20), 20);
+  assert_int_equal(fetch_row(cache, 3, 9), 0);
+  // Many that are fetched once leave those that were fetched again, and go themselves.
+  assert_int_equal(fetch_row(cache, 100, 200), 100);
+  assert_int_equal(fetch_row(cache, 3, 9), 0);
+  assert_int_equal(fetch_row(cache, 0, 3), 3);
+  assert_int_equal(cache.counters().cells, 20);
+  assert_int_equal(cache.counters().bytes, 20 * entry);
+  // So do those that came back soon after they went. Of 0, 1 and 2, newcomers again, 0 is let go.
+  assert_int_equal(fetch_row(cache, 300, 318), 18);
+  assert_int_equal(fetch_row(cache, 0, 3), 3);
+  assert_int_equal(fetch_row(cache, 400, 500), 100);
+  assert_int_equal(fetch_row(cache, 0, 9), 0);
 }
 
 std::shared_ptr<const CellData> hold(CellCache& cache, CellIndex cell, uint64_t size) {
@@ -174,7 +178,7 @@ std::shared_ptr<const CellData> hold(CellCache& cache, CellIndex cell, uint64_t 
 
 void test_in_use(void**) {
   const uint64_t entry = entry_bytes(100);
-  for (const CachePolicy policy : {CachePolicy::fifo, CachePolicy::second_chance}) {
+  for (const CachePolicy policy : {CachePolicy::fifo, CachePolicy::segmented}) {
     CellCache cache(3 * entry, budget(), policy);
     auto held = hold(cache, {0, 0, 0}, 100);
     for (int i = 1; i < 4; ++i) assert_true(fetch(cache, 1, {i, 0, 0}, 100));
@@ -369,7 +373,7 @@ void check_all_within(CachePolicy policy) {
 
 void test_all_within(void**) {
   check_all_within(CachePolicy::fifo);
-  check_all_within(CachePolicy::second_chance);
+  check_all_within(CachePolicy::segmented);
 }
 
 /// Many threads under a cache limit and a memory limit, of which either binds.
@@ -408,7 +412,7 @@ void check_threads(uint64_t limit, uint64_t memory_limit, CachePolicy policy) {
 
 void test_threads(void**) {
   const uint64_t limit = 20 * entry_bytes(100);
-  for (const CachePolicy policy : {CachePolicy::fifo, CachePolicy::second_chance}) {
+  for (const CachePolicy policy : {CachePolicy::fifo, CachePolicy::segmented}) {
     check_threads(limit, limit / 2, policy);
     check_threads(limit, 2 * limit, policy);
   }
@@ -418,7 +422,7 @@ void test_threads(void**) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(test_order),
-                              cmocka_unit_test(test_second_chance),
+                              cmocka_unit_test(test_segmented),
                               cmocka_unit_test(test_drop),
                               cmocka_unit_test(test_keys),
                               cmocka_unit_test(test_too_large),

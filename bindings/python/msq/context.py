@@ -91,7 +91,7 @@ class Context(Handle):
 
     threads: of a call, the caller's included; 0: one a core. cache_bytes: of cell data, default
     1 GiB. memory_limit: bytes that meshes, slabs and cached cells may hold; 0: no limit.
-    cache_policy: `fifo`, or `second_chance`, which keeps cells that are asked for again. Results
+    cache_policy: `fifo`, or `segmented`, which rather keeps cells that are asked for again. Results
     never depend on them. Objects made without a context share that of what they are made from, or
     one of defaults.
     """

@@ -234,7 +234,7 @@ class Lifetimes(unittest.TestCase):
         self.assertEqual(context.cache.hits, 0)
         self.assertEqual(msq.Context(memory_limit=12345678).memory.limit_bytes, 12345678)
         self.assertEqual(msq.Context(cache_bytes=12345).cache.limit_bytes, 12345)
-        self.assertEqual(msq.Context(cache_policy="second_chance").cache.cells, 0)
+        self.assertEqual(msq.Context(cache_policy="segmented").cache.cells, 0)
         with self.assertRaisesRegex(ValueError, "cache_policy"):
             msq.Context(cache_policy="lifo")
         with self.assertRaises(ValueError):
