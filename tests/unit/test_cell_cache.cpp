@@ -170,6 +170,12 @@ void test_segmented(void**) {
   assert_int_equal(fetch_row(cache, 0, 3), 3);
   assert_int_equal(fetch_row(cache, 400, 500), 100);
   assert_int_equal(fetch_row(cache, 0, 9), 0);
+  // Newcomers have a tenth, and no more go than come.
+  CellCache share(40 * entry, budget(), CachePolicy::segmented);
+  for (int built : {40, 0}) assert_int_equal(fetch_row(share, 0, 40), built);
+  assert_int_equal(fetch_row(share, 100, 104), 4);
+  assert_int_equal(fetch_row(share, 100, 104), 0);
+  assert_int_equal(fetch_row(share, 4, 40), 0);
 }
 
 std::shared_ptr<const CellData> hold(CellCache& cache, CellIndex cell, uint64_t size) {
