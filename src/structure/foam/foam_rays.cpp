@@ -61,7 +61,7 @@ class Walker {
   static constexpr size_t most = RayPacket::most;
   /// How far apart rays of a packet may be, across it, in foam units, and how unlike their
   /// directions.
-  static constexpr double most_apart = 0.35, most_turned = 0.05;
+  static constexpr double most_apart = 0.6, most_turned = 0.05;
   /// Cells of a slab that a packet may be in; one that spreads farther goes on ray by ray.
   static constexpr int most_across = 4;
 
