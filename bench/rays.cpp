@@ -36,9 +36,40 @@ msq_context* make_context() {
   return context;
 }
 
-double median(std::vector<double> times) {
-  std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
-  return times[times.size() / 2];
+/// Runs of the same work.
+class Costs {
+ public:
+  void measure(const std::function<void()>& work) {
+    const std::clock_t start = std::clock();
+    seconds_.push_back(bench::seconds_of(work));
+    processor_.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  size_t runs() const { return seconds_.size(); }
+  /// Medians: of the time that passed, and of half the processor time, which on two free cores is
+  /// the same and on busy ones says more.
+  double seconds() const { return median(seconds_); }
+  double processor() const { return median(processor_) / 2; }
+  void add_to(bench::Report& report, const std::string& work, double units,
+              const std::string& unit) const {
+    report.add(work, seconds(), units, unit);
+    report.note("  half the processor time", processor(), "s");
+  }
+
+ private:
+  static double median(std::vector<double> times) {
+    std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
+    return times[times.size() / 2];
+  }
+  std::vector<double> seconds_, processor_;
+};
+
+/// At least three runs, of up to about 3 seconds together; one where one takes more.
+Costs costs_of(const std::function<void()>& work) {
+  Costs costs;
+  do costs.measure(work);
+  while (costs.seconds() < 3 &&
+         (costs.runs() < 3 || (costs.seconds() * costs.runs() < 3 && costs.runs() < 15)));
+  return costs;
 }
 
 /// Most memory of the process since it was last asked to forget; Linux alone.
@@ -64,30 +95,22 @@ struct Marks {
 /// Frames of a new context, from nothing to the picture, and the same again.
 void bench_foam(bench::Report& report, const std::string& name, int cells, uint32_t side,
                 std::array<double, 3> direction, Marks marks) {
-  std::vector<double> first, next, first_processor, next_processor;
+  Costs first, next;
   bench::Picture picture(side);  // a host reuses its own
   msq_cache_report cache{};
   double held = 0, peak = 0, hit = 0;
-  for (double spent = 0; first.size() < 9 && (first.empty() || (spent < 3 && first[0] < 3));) {
+  do {
     forget_peak();
     msq_context* context = nullptr;
     msq_model* model = nullptr;
     msq_camera camera;
-    const auto measure = [](std::vector<double>& seconds, std::vector<double>& processor,
-                            const std::function<void()>& work) {
-      const std::clock_t start = std::clock();
-      seconds.push_back(bench::seconds_of(work));
-      processor.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-    };
-    measure(first, first_processor, [&] {
+    first.measure([&] {
       context = make_context();
       model = bench::make_foam_model(context, cells);
       camera = bench::fit_camera(model, direction, side);
       picture.render(model, camera);
     });
-    for (int i = 0; i < 2; ++i)
-      measure(next, next_processor, [&] { picture.render(model, camera); });
-    spent += first.back() + 2 * next.back();
+    for (int i = 0; i < 2; ++i) next.measure([&] { picture.render(model, camera); });
     cache = bench::cache_of(context);
     msq_memory_report memory{};
     memory.struct_size = sizeof memory;
@@ -96,14 +119,12 @@ void bench_foam(bench::Report& report, const std::string& name, int cells, uint3
     peak = peak_megabytes();
     msq_model_release(model);
     msq_context_release(context);
-  }
+  } while (first.runs() < 7 && first.seconds() < 1.5);
   for (const float depth : picture.depth) hit += std::isfinite(depth);
-  report.add(name + ", first frame", median(first), picture.rays(), "ray");
-  if (marks.first > 0) report.mark("  first frame", median(first), "s", marks.first, false);
-  report.add(name + ", next frame", median(next), picture.rays(), "ray");
-  if (marks.next > 0) report.mark("  next frame", median(next), "s", marks.next, false);
-  report.note("  half the processor time, first", median(first_processor) / 2, "s");
-  report.note("  half the processor time, next", median(next_processor) / 2, "s");
+  first.add_to(report, name + ", first frame", picture.rays(), "ray");
+  if (marks.first > 0) report.mark("  first frame", first.seconds(), "s", marks.first, false);
+  next.add_to(report, name + ", next frame", picture.rays(), "ray");
+  if (marks.next > 0) report.mark("  next frame", next.seconds(), "s", marks.next, false);
   report.note("  hit", 100 * hit / picture.rays(), "% of rays");
   report.note("  memory of the context, at most", held, "MB");
   if (marks.megabytes > 0)
@@ -144,7 +165,7 @@ void bench_embree(bench::Report& report, int cells, uint32_t side) {
   const msq_camera camera = bench::fit_camera(model, front, side);
   bench::Picture picture(side);
   picture.render(model, camera);
-  const double ours = bench::median_seconds([&] { picture.render(model, camera); });
+  const Costs ours = costs_of([&] { picture.render(model, camera); });
   msq_model_release(model);
   msq_context_release(context);
 
@@ -166,20 +187,21 @@ void bench_embree(bench::Report& report, int cells, uint32_t side) {
       std::to_string(side) + "^2, " + std::to_string(cells) + "^3 cells, front, ";
   forget_peak();
   bench::EmbreeFoam foam(cells);
-  const double build = bench::median_seconds([&] { foam.build(); });
-  report.add("Embree: " + name + "build, edges not counted", build,
-             static_cast<double>(foam.edges()), "edge");
+  costs_of([&] { foam.build(); })
+      .add_to(report, "Embree: " + name + "build, edges not counted",
+              static_cast<double>(foam.edges()), "edge");
   report.note("  memory of the process, at most", peak_megabytes(), "MB");
   std::vector<float> t;
   double best = std::numeric_limits<double>::infinity();
   for (const bool by_packets : {false, true}) {
-    const double seconds = bench::median_seconds([&] { foam.cast(rays, by_packets, t); });
-    report.add("Embree: " + name + (by_packets ? "packets of 16" : "single rays"), seconds,
-               picture.rays(), "ray");
-    best = std::min(best, seconds);
+    const Costs costs = costs_of([&] { foam.cast(rays, by_packets, t); });
+    costs.add_to(report, "Embree: " + name + (by_packets ? "packets of 16" : "single rays"),
+                 picture.rays(), "ray");
+    best = std::min(best, costs.processor());
   }
-  report.note("  msq, next frame, in the same minute", ours, "s");
-  report.note("  Embree's best against that", best / ours, "times as long");
+  ours.add_to(report, "msq: " + name + "next frame", picture.rays(), "ray");
+  report.note("  Embree's best against that, processor time", best / ours.processor(),
+              "times as long");
   // Where a ray enters the cube inside a strut, Embree sees the strut's far side or the next one.
   double same = 0, compared = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
@@ -204,7 +226,7 @@ void bench_march(bench::Report& report, int32_t method, const std::string& metho
   const msq_camera camera = bench::fit_camera(model, front, side);
   bench::Picture picture(side);
   picture.render(direct, camera);
-  const double ours = bench::median_seconds([&] { picture.render(direct, camera); });
+  const Costs ours = costs_of([&] { picture.render(direct, camera); });
   const Rays rays(camera, side);
   std::vector<double> depth;
   const auto march = [&] {
@@ -237,13 +259,15 @@ void bench_march(bench::Report& report, int32_t method, const std::string& metho
       live.resize(left);
     }
   };
-  const double first = bench::seconds_of(march);
-  const double next = first > 20 ? first : bench::median_seconds(march);
+  Costs first;
+  first.measure(march);
+  const Costs next = first.seconds() > 20 ? first : costs_of(march);
   const std::string name = "march, " + method_name + ", 128^2, 32^3 cells, front";
-  report.add(name + ", first frame", first, picture.rays(), "ray");
-  report.add(name + ", next frame", next, picture.rays(), "ray");
-  report.note("  msq_render, next frame", ours, "s");
-  report.note("  march against that", next / ours, "times as long");
+  first.add_to(report, name + ", first frame", picture.rays(), "ray");
+  next.add_to(report, name + ", next frame", picture.rays(), "ray");
+  ours.add_to(report, "msq_render, 128^2, 32^3 cells, front, next frame", picture.rays(), "ray");
+  report.note("  march against that, processor time", next.processor() / ours.processor(),
+              "times as long");
   double late = 0;
   for (size_t i = 0; i < depth.size(); ++i)
     late += depth[i] > picture.depth[i] + 1.01 / cells / steps;
@@ -282,10 +306,12 @@ void bench_structure(bench::Report& report, const std::string& name,
       bench::make_cube_model(context, coarse(context), fine ? fine(context) : nullptr);
   const msq_camera camera = bench::fit_camera(model, {-0.3, 1, -0.2}, side);
   bench::Picture picture(side);
-  const double first = bench::seconds_of([&] { picture.render(model, camera); });
-  const double next = bench::median_seconds([&] { picture.render(model, camera); });
-  report.add("512^2, " + name + ", first frame", first, picture.rays(), "ray");
-  report.add("512^2, " + name + ", next frame", next, picture.rays(), "ray");
+  Costs first;
+  first.measure([&] { picture.render(model, camera); });
+  first.add_to(report, "512^2, " + name + ", first frame", picture.rays(), "ray");
+  costs_of([&] {
+    picture.render(model, camera);
+  }).add_to(report, "512^2, " + name + ", next frame", picture.rays(), "ray");
   msq_model_release(model);
   msq_context_release(context);
 }
