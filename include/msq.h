@@ -1387,7 +1387,8 @@ typedef struct msq_ray_hit {
  * Thinner parts than these may be lost: 1/64 of the cell, in lattices and foams whose radius is a field
  * without a Lipschitz constant, in host structures without a distance and host functions without a
  * slope (lipschitz); 2^-10 of the cell, where an expression is no number along more of a ray than
- * about a tolerance, or may be unbounded there; 2^-24 of the cell, where a ray grazes a strut whose
+ * about a tolerance, or may be unbounded there, or the level is a field whose ranges over small boxes
+ * stay wide; 2^-24 of the cell, where a ray grazes a strut whose
  * radius is a field that is not linear; 1/1024 of its size, of a host's shape without a distance.
  * Scale by scale: finer scales are asked only within the parts of the ray that lie in the coarser ones.
  * Of hosts' structures and functions a callback is asked for up to a thousand rays at once.

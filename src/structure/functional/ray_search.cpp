@@ -84,7 +84,8 @@ FunctionalRays::Level FunctionalRays::level_over(const Ray& ray, double t, doubl
     const Interval range = level_.range(Box3{p, p});
     const double off =
         2 * (range.high - range.low) + 0x1p-49 * steepest * (max_magnitude(p) + span);
-    return {value, -steepest, steepest, off, off};
+    const bool is_vague = range.high - range.low > 0x1p-36 * (std::abs(value) + 1);
+    return {value, -steepest, steepest, off, off, is_vague};
   }
   const Interval range = level_.range(piece);
   return {value, 0, 0, range.high - value, value - range.low, true};
@@ -133,12 +134,12 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
     live.blind_steps = 0;
     return live.t < search.to;
   }
-  if (is_clear && span > 2 * tolerance && (!is_bounded || (gap <= 0 && level.is_of_piece))) {
+  if (is_clear && span > 2 * tolerance && (!is_bounded || (gap <= 0 && level.is_vague))) {
     live.span = 0.25 * span;
     return true;
   }
   double step = tolerance;
-  if (is_bounded && is_clear) {
+  if (is_bounded && is_clear && (gap > 0 || !level.is_vague)) {
     live.blind_steps = 0;
   } else if (++live.blind_steps > short_blind_steps) {
     const uint32_t doublings = std::min<uint32_t>(live.blind_steps - short_blind_steps, 64);

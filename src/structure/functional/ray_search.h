@@ -6,8 +6,8 @@
 // towards a surface that it will cross, steps shrink as those of Newton's method do; past one that
 // it only grazes they are as long as the gap allows. Where they come below the tolerance the ray
 // goes on by that. So no part that is longer than the tolerance is overlooked, but where nothing is
-// known of the function (it is no number, or has a pole or an infinite slope): a ray that stays
-// there goes on by steps that grow to `most_blind_step`.
+// known of the function (it is no number, or has a pole or an infinite slope) or of the level: a
+// ray that stays there goes on by steps that grow to `most_blind_step`.
 #pragma once
 
 #include <vector>
@@ -45,7 +45,7 @@ class FunctionalRays {
   /// The level over a piece: value + [low, high] s, + above or - below.
   struct Level {
     double value = 0, low = 0, high = 0, above = 0, below = 0;
-    bool is_of_piece = false;  // by the range over all of it, which shorter ones have less of
+    bool is_vague = false;  // known by ranges; shorter pieces may have less of them
   };
 
   void start(uint32_t number, const RaySearch& search);

@@ -188,21 +188,24 @@ double HostFunction::least_ray_step() const {
 }
 
 double HostFunction::outside_along(const Ray& ray, double t, double gap) const {
-  const Neighbourhood& grid = neighbourhood();
+  if (std::isfinite(lipschitz_ + level_.lipschitz())) return steady_along(ray, t, gap);
+  if (clusters_.empty()) return 0;
+  // As far as the clusters say.
   const Vec3 p = ray.at(t);
-  const double least = Structure::least_ray_step();
-  const double slope = lipschitz_ * two_pi / min_component(grid.cell_size) + level_.lipschitz();
-  if (!std::isfinite(slope)) {
-    if (clusters_.empty()) return 0;
-    // As far as the clusters say.
-    for (const double step : {8 * least, 2 * least}) {
-      const Vec3 q = ray.at(t + step);
-      if (coverage({min(p, q), max(p, q)}) == Coverage::outside) return step;
-    }
-    return 0;
+  for (const double steps : {8, 2}) {
+    const double step = steps * Structure::least_ray_step();
+    const Vec3 q = ray.at(t + step);
+    if (coverage({min(p, q), max(p, q)}) == Coverage::outside) return step;
   }
+  return 0;
+}
+
+double HostFunction::steady_along(const Ray& ray, double t, double gap) const {
+  const Neighbourhood& grid = neighbourhood();
+  const double slope = lipschitz_ * two_pi / min_component(grid.cell_size) + level_.lipschitz();
+  if (!std::isfinite(slope)) return 0;
   const Vec3 along = grid.rotation.apply_inverse(ray.direction);
-  const Vec3 fraction = grid.locate(p).fraction;
+  const Vec3 fraction = grid.locate(ray.at(t)).fraction;
   // Less by what the host's rounding may be.
   double step = slope > 0 ? (gap - 0x1p-46 * (1 + gap)) / slope : max_component(grid.cell_size);
   for (int axis = 0; axis < 3; ++axis) {
@@ -211,6 +214,28 @@ double HostFunction::outside_along(const Ray& ray, double t, double gap) const {
     step = std::min(step, ahead * grid.cell_size[axis] / std::abs(along[axis]));
   }
   return std::max(0.0, step * (1 - 0x1p-40));
+}
+
+double HostFunction::leave(const Ray& ray, double from, double to) const {
+  const RayMarch march{least_ray_step(), ray_tolerance()};
+  const auto onset = [&](Vec3 p) {
+    const Vec3 angles = angles_of(neighbourhood().locate(p).fraction);
+    double value;
+    evaluate(&angles, 1, &value);
+    return value;
+  };
+  double at = from;
+  while (at < to) {
+    const Vec3 p = ray.at(at);
+    const double gap = level_.at(p) - onset(p);
+    if (!(gap >= 0)) return at;
+    const double next = std::min(to, at + std::max(steady_along(ray, at, gap), march.least_step));
+    if (!(next > at)) break;  // steps vanish in rounding
+    if (!inside(ray.at(next)))
+      return bisect(at, next, march.tolerance, [&](double t) { return !inside(ray.at(t)); });
+    at = next;
+  }
+  return at;
 }
 
 void HostFunction::enter(RaySearch* searches, size_t count) const {

@@ -37,6 +37,7 @@ class HostFunction final : public Structure {
   /// Rays go on together. Where the slope and the level's are bounded they lose no part longer than
   /// the tolerance.
   void enter(RaySearch* searches, size_t count) const override;
+  double leave(const Ray& ray, double from, double to) const override;
   Vec3 normal(const Ray& ray, double t) const override;
   double least_ray_step() const override;
 
@@ -46,8 +47,10 @@ class HostFunction final : public Structure {
   /// The onsets at angles.
   void evaluate(const Vec3* angles, size_t count, double* onsets) const;
   void build_clusters(double lipschitz);
-  /// How far along a ray from p, which is outside, all is so: that far the onset, which is above
-  /// the level by `gap`, cannot fall. Up to the border of the cell, over which it may jump.
+  /// How far along a ray from t the onset, which differs from the level by `gap`, cannot come to
+  /// it. Up to the border of the cell, over which it may jump. 0 where the slope is not bounded.
+  double steady_along(const Ray& ray, double t, double gap) const;
+  /// How far along a ray from t, where it is outside, all is so.
   double outside_along(const Ray& ray, double t, double gap) const;
   /// Fills in those of searches that were found.
   void find_normals(RaySearch* searches, size_t count) const;
