@@ -1388,22 +1388,20 @@ typedef struct msq_ray_hit {
  * without a Lipschitz constant, in host structures without a distance and host functions without a
  * slope (lipschitz); 2^-10 of the cell, where an expression is no number along more of a ray than
  * about a tolerance, or may be unbounded there, or the level is a field whose ranges over small boxes
- * stay wide; 2^-24 of the cell, where a ray grazes a strut whose
- * radius is a field that is not linear; 1/1024 of its size, of a host's shape without a distance.
+ * stay wide; 2^-24 of the cell, where a ray grazes a strut whose radius is a field that is not linear;
+ * 1/1024 of its size, of a host's shape without a distance. Foams whose radius or density is a field,
+ * skins, voxel images and hosts' shapes are followed by steps that their distance allows; where 64 of them lead
+ * no farther than 1/64 of the cell (of the shape: of its size and its coordinates), as beside a surface that
+ * the ray all but touches for long, the next are at least twice as long as before, and may lose thinner parts.
  * Scale by scale: finer scales are asked only within the parts of the ray that lie in the coarser ones.
  * Of hosts' structures and functions a callback is asked for up to a thousand rays at once.
  *
- * Normals: of functional structures the gradient of the function, to about 1e-8 (where the level is a
- * field that is not linear, 1e-5), of a sheet's walls likewise, at the border of a cell over which the
- * function jumps that of the border; of lattices the direction from the axis of the strut that is hit,
- * with what a varying radius turns it by; of host functions by differences of the function, to 1e-5 if
- * it is smooth; of host structures and shapes the mean direction of the points outside among 48 around
- * the hit, to about 0.1.
- *
- * Normals are exact, to rounding, on boxes, balls, cylinders, meshes, lattices, functional structures and foams
- * whose radius and density are numbers. Elsewhere (voxel images, the inner faces of skins, other foams, what the
- * host defines), and where rounding hides which strut was met, they are estimates, off by 0.1 or so: the mean
- * direction of those of 48 points close around that are outside.
+ * Normals are exact, to rounding, on boxes, balls, cylinders, meshes, lattices and foams whose radius and
+ * density are numbers, on functional structures to about 1e-8. Where the radius or level is a field that is not
+ * linear, and on host functions that are smooth, they are known to about 1e-5. At the border of a cell over which
+ * a function jumps the normal is that of the border. Elsewhere (voxel images, the inner faces of skins,
+ * other foams, hosts' structures and shapes), and where rounding hides which strut was met, they are estimates, off
+ * by 0.1 or so: the mean direction of those of 48 points close around that are outside.
  *
  * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY hits may be partly written. Cost:
  * in parallel, rays that follow each other best close to each other. A mesh builds its tree first, as

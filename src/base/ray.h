@@ -83,22 +83,35 @@ bool settle_entry(const Ray& ray, double from, double tolerance, Inside&& inside
 /// A march along a ray: in steps of no less than `least_step`, until membership changes, then by
 /// halves until it is known within `tolerance`. What changes and changes back within a step that
 /// clearance does not vouch for may be overlooked.
+///
+/// A ray may creep: along a surface that it all but touches, or where bounds of the distance are
+/// poor. Where 64 steps lead no farther than 2^30 tolerances, the least step doubles, so that a ray
+/// takes some thousand steps at most for so much of its way as 64 of those.
 struct RayMarch {
   double least_step, tolerance;
 
   /// The first t in [from, to] where inside(p) is `wanted`, found on the far side of the change;
   /// false if there is none. clearance(p) is a lower bound of the distance to the boundary.
+  /// *creeps becomes true if the ray did, so that more may have been overlooked.
   /// Source: Hart, "Sphere tracing", 1996.
   template <class Inside, class Clearance>
   bool find(bool wanted, const Ray& ray, double from, double to, Inside&& inside,
-            Clearance&& clearance, double& t) const {
-    double at = from;
+            Clearance&& clearance, double& t, bool* creeps = nullptr) const {
+    constexpr int steps_at_once = 64;
+    double at = from, least = least_step, looked_at = from;
+    int steps = 0;
     if (inside(ray.at(at)) == wanted) {
       t = at;
       return true;
     }
     while (at < to) {
-      const double next = std::min(to, at + std::max(clearance(ray.at(at)), least_step));
+      if (++steps % steps_at_once == 0) {
+        const bool is_slow = at - looked_at < 0x1p30 * tolerance;
+        if (creeps && is_slow) *creeps = true;
+        least = is_slow ? 2 * least : std::max(least_step, 0.5 * least);
+        looked_at = at;
+      }
+      const double next = std::min(to, at + std::max(clearance(ray.at(at)), least));
       if (!(next > at)) return false;  // steps vanish in rounding
       if (inside(ray.at(next)) == wanted) {
         t = bisect(at, next, tolerance,

@@ -16,10 +16,11 @@ void Structure::keep_rows(const RowBlock& block, const Job* job) const {
   SampledRows(*this, block, job).keep();
 }
 
-bool Structure::march(bool wanted, const Ray& ray, double from, double to, double& t) const {
+bool Structure::march(bool wanted, const Ray& ray, double from, double to, double& t,
+                      bool* creeps) const {
   const RayMarch steps{least_ray_step(), ray_tolerance()};
   return steps.find(wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
-                    [this](Vec3 p) { return clearance(p); }, t);
+                    [this](Vec3 p) { return clearance(p); }, t, creeps);
 }
 
 void Structure::enter(RaySearch* searches, size_t count) const {

@@ -98,7 +98,9 @@ class Structure : public RefCounted {
 
  protected:
   /// The first t in [from, to] at which membership is `wanted`, by clearance() and least_ray_step().
-  bool march(bool wanted, const Ray& ray, double from, double to, double& t) const;
+  /// `creeps`: as in RayMarch.
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t,
+             bool* creeps = nullptr) const;
 
  private:
   Neighbourhood neighbourhood_;

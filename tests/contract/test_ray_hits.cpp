@@ -3,7 +3,7 @@
 // the axes, and past surfaces that they only just touch or miss, found by halving between rays that
 // hit and rays that go on. Normals are the gradient of the onset, and point out.
 //
-// 10^5 rays of one structure: MSQ_TEST_SCALE=1000 contract_test_ray_hits "octet, thin".
+// 10^5 rays of one structure: MSQ_TEST_SCALE=1667 contract_test_ray_hits "octet, thin".
 #include <vector>
 
 #include "random.h"
@@ -146,7 +146,7 @@ void test_row(void** state) {
   const Ref<const Structure> structure = row.make(centre);
   Checker checker(row, *structure, row.parameter(centre));
   Random random(row.index + 17);
-  const size_t count = row.samples(60 * row.family_rows);
+  const size_t count = row.samples((row.is_lattice() ? 60 : 8) * row.family_rows);
   const double to = 2.5 * row.unit();
   for (size_t i = 0; i < count; ++i) {
     const Vec3 a = random.in_box({{-1, -1, -1}, {2, 2, 2}});
@@ -167,7 +167,8 @@ void test_row(void** state) {
   }
   assert_true(checker.hits > 0);
   if (count < 50) return;
-  if (structure->has_onset()) assert_true(checker.normals > 0);
+  // Foams that are graded leave their normals to others.
+  if (structure->has_onset() && row.is_lattice()) assert_true(checker.normals > 0);
   if (checker.inward * 10 > checker.outward)
     fail_msg("%zu normals point in, %zu out", checker.inward, checker.outward);
 }
@@ -175,9 +176,12 @@ void test_row(void** state) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1) cmocka_set_test_filter(argv[1]);
-  std::vector<StructureRow> rows;
-  for (const StructureRow& row : structures_by_point())
-    if (row.is_lattice()) rows.push_back(row);
+  std::vector<StructureRow> rows = structures_by_point();
+  if (argc > 1)
+    cmocka_set_test_filter(argv[1]);
+  else  // by name only: seconds a ray, and test_rays.cpp asks a few
+    std::erase_if(rows, [](const StructureRow& row) {
+      return row.name.find("density") != std::string::npos;
+    });
   return run_for_each("ray_hits", rows, test_row);
 }

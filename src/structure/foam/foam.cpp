@@ -83,9 +83,13 @@ void Foam::keep_rows(const RowBlock& block, const Job* job) const {
 void Foam::enter(RaySearch* searches, size_t count) const {
   if (!is_plain()) return Structure::enter(searches, count);
   if (enter_by_cells(*this, searches, count)) return;
-  Structure::enter(searches, count);
-  for (size_t i = 0; i < count; ++i)
-    if (searches[i].found) sharpen_entry(*this, searches[i]);
+  for (size_t i = 0; i < count; ++i) {
+    RaySearch& s = searches[i];
+    bool creeps = false;
+    s.found = march(true, s.ray, s.from, s.to, s.t, &creeps);
+    if (creeps && walk_cells(*this, &s, 1)) continue;
+    if (s.found) sharpen_entry(*this, s);
+  }
 }
 
 double Foam::leave(const Ray& ray, double from, double to) const {

@@ -485,11 +485,16 @@ bool is_worth_edges(const Foam& foam, const RaySearch* searches, size_t count) {
 
 }  // namespace
 
-bool enter_by_cells(const Foam& foam, RaySearch* searches, size_t count) {
-  if (!SeededEdges::fits(foam.seeds()) || !is_worth_edges(foam, searches, count)) return false;
+bool walk_cells(const Foam& foam, RaySearch* searches, size_t count) {
+  if (!SeededEdges::fits(foam.seeds())) return false;
   const Borrowed<Memory> borrowed_memory;
   Walker(foam, searches, *borrowed_memory).run(count);
   return true;
+}
+
+bool enter_by_cells(const Foam& foam, RaySearch* searches, size_t count) {
+  return SeededEdges::fits(foam.seeds()) && is_worth_edges(foam, searches, count) &&
+         walk_cells(foam, searches, count);
 }
 
 }  // namespace msq

@@ -13,5 +13,7 @@ namespace msq {
 /// those that have too many seeds near a cell, and for rays so far apart that each would need the
 /// edges of cells of its own.
 bool enter_by_cells(const Foam& foam, RaySearch* searches, size_t count);
+/// The same, however far apart the rays are.
+bool walk_cells(const Foam& foam, RaySearch* searches, size_t count);
 
 }  // namespace msq
