@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the PNG files that the examples write: 8 bits, grey or RGB, not interlaced."""
+import pathlib
+import struct
+import zlib
+
+
+def read(path):
+    """Width, height, and rows of tuples."""
+    data = pathlib.Path(path).read_bytes()
+    if data[:8] != b"\x89PNG\r\n\x1a\n":
+        raise ValueError(f"{path} is no PNG")
+    at, packed, header = 8, b"", None
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0] != zlib.crc32(kind + body):
+            raise ValueError(f"{path}: checksum of {kind}")
+        if kind == b"IHDR":
+            header = struct.unpack(">IIBBBBB", body)
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + size
+    width, height, depth, colour, _, _, interlace = header
+    if depth != 8 or colour not in (0, 2) or interlace:
+        raise ValueError(f"{path}: depth {depth}, colour {colour}, interlace {interlace}")
+    step = 3 if colour == 2 else 1
+    raw = zlib.decompress(packed)
+    before = bytearray(width * step)
+    rows = []
+    for y in range(height):
+        start = y * (width * step + 1)
+        row = bytearray(raw[start + 1:start + 1 + width * step])
+        unfilter(raw[start], row, before, step)
+        rows.append([tuple(row[x:x + step]) for x in range(0, len(row), step)])
+        before = row
+    return width, height, rows
+
+
+def unfilter(kind, row, above, step):
+    for i in range(len(row)):
+        left = row[i - step] if i >= step else 0
+        corner = above[i - step] if i >= step else 0
+        up = above[i]
+        if kind == 1:
+            add = left
+        elif kind == 2:
+            add = up
+        elif kind == 3:
+            add = (left + up) // 2
+        elif kind == 4:
+            p = left + up - corner
+            distances = abs(p - left), abs(p - up), abs(p - corner)
+            add = (left, up, corner)[distances.index(min(distances))]
+        else:
+            add = 0
+        row[i] = (row[i] + add) & 255
+
+
+def differ(a, b, by=12):
+    """Whether two pixels are of visibly different colours."""
+    return max(abs(u - v) for u, v in zip(a, b)) > by
