@@ -51,10 +51,10 @@ void set_search(const RayArray& rays, uint64_t i, RaySearch& search) {
   search_along(rays.origins.at(i), direction, size_of(direction), rays.from(i), rays.to(i), search);
 }
 
-msq_ray_hit answer_of(const RayHit& hit, double size, double t_min) {
+msq_ray_hit answer_of(const RayHit& hit, double size, double t_min, double t_max) {
   msq_ray_hit answer{};
   answer.scale = hit.scale;
-  answer.t = parameter_of(hit, size, t_min);
+  answer.t = parameter_of(hit, size, t_min, t_max);
   if (hit.scale < 0) return answer;
   answer.starts_inside = hit.starts_inside;
   for (int axis = 0; axis < 3; ++axis) answer.normal[axis] = hit.normal[axis];
@@ -99,7 +99,8 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
           uint32_t part = 0;  // of the skin, for points near each other
           for (size_t n = 0; n < count; ++n) {
             const uint64_t i = first + n;
-            hits[i] = answer_of(found[n], size_of(array.direction(i)), array.from(i));
+            hits[i] =
+                answer_of(found[n], size_of(array.direction(i)), array.from(i), array.to(i));
             hits[i].material = material_id(known, resolved, found[n], part);
           }
         },

@@ -120,6 +120,11 @@ class Caster {
   }
 
   void entered(uint32_t i, size_t level, double t, Vec3 normal) {
+    // What is settled within a tolerance past an entry may lie past the end.
+    if (t > end(i, level)) {
+      leave(i, level);
+      return;
+    }
     if (t > searches_[i].from) {
       searches_[i].from = t;
       hits_[i].scale = static_cast<int32_t>(level);
@@ -164,7 +169,7 @@ class Caster {
     RayHit& hit = hits_[i];
     const Ray& ray = searches_[i].ray;
     const double t = searches_[i].from;
-    hit.t = begins_[i].offset + t;
+    hit.t = std::min(begins_[i].offset + t, searches_[i].to);
     hit.point = ray.at(t);
     hit.starts_inside = hit.t == begins_[i].from;
     if (detail_ == HitDetail::place) return;

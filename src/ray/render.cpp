@@ -177,7 +177,8 @@ class Renderer {
     for (size_t i = 0; i < batch.hits.size(); ++i) {
       const RayHit& hit = batch.hits[i];
       Seen& seen = batch.seen[i];
-      seen.depth = parameter_of(hit, batch.samples[i].size, view_.camera().clip_near);
+      seen.depth = parameter_of(hit, batch.samples[i].size, view_.camera().clip_near,
+                                view_.camera().clip_far);
       if (wants_material) seen.material = material_id(model_, resolved_, hit, part);
     }
   }

@@ -25,10 +25,10 @@ inline void search_along(Vec3 origin, Vec3 direction, double size, double from, 
 }
 
 /// t of what it found, infinity where that is nothing.
-inline double parameter_of(const RayHit& hit, double size, double from) {
+inline double parameter_of(const RayHit& hit, double size, double from, double to) {
   return hit.scale < 0       ? std::numeric_limits<double>::infinity()
          : hit.starts_inside ? from
-                             : hit.t / size;
+                             : std::min(hit.t / size, to);
 }
 
 }  // namespace msq

@@ -120,6 +120,47 @@ static void hits_a_cylinder_along_its_axis(void** state) {
   msq_context_release(context);
 }
 
+/* Rays that end just before, at and just behind what the same ray without an end meets. */
+static void hits_nothing_past_the_end(void** state) {
+  enum { rays = 240, ends = 9 };
+  const double middle[3] = {0.3, 0.1, 0.2};
+  static double origins[rays * ends][3], directions[rays * ends][3], t_max[rays * ends];
+  static msq_ray_hit hits[rays * ends];
+  msq_context* context = make_context();
+  msq_shape* ball;
+  msq_rays_def def;
+  size_t i, met = 0;
+  (void)state;
+  assert_ok(msq_shape_from_sphere(context, middle, 0.7, &ball));
+  msq_model* model = make_model(context, ball, NULL, NULL);
+  for (i = 0; i < rays * ends; ++i) {
+    const double a = 0.7 * (double)(i / ends), b = 1.3 * (double)(i / ends);
+    const double origin[3] = {3 * cos(a), 3 * sin(a), sin(b)};
+    for (int axis = 0; axis < 3; ++axis) {
+      origins[i][axis] = origin[axis];
+      directions[i][axis] = 0.6 * sin(b + axis) + middle[axis] - origin[axis];
+    }
+    t_max[i] = INFINITY;
+  }
+  assert_ok(msq_rays_def_init(&def, sizeof def));
+  def.count = rays * ends;
+  def.origins = origins;
+  def.directions = directions;
+  def.t_max = t_max;
+  assert_ok(msq_ray_cast(model, &def, NULL, hits, def.count, NULL));
+  for (i = 0; i < rays * ends; ++i)
+    if (hits[i].scale >= 0) t_max[i] = hits[i].t + ((double)(i % ends) - 4) * 4e-12;
+  assert_ok(msq_ray_cast(model, &def, NULL, hits, def.count, NULL));
+  for (i = 0; i < rays * ends; ++i)
+    if (hits[i].scale >= 0) {
+      assert_true(hits[i].t <= t_max[i]);
+      ++met;
+    }
+  assert_true(met > rays);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void hits_struts_within_a_box(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_struts_model(context);
@@ -287,6 +328,7 @@ int main(void) {
       cmocka_unit_test(honours_every_struct_size),
       cmocka_unit_test(hits_a_box),
       cmocka_unit_test(hits_a_cylinder_along_its_axis),
+      cmocka_unit_test(hits_nothing_past_the_end),
       cmocka_unit_test(hits_struts_within_a_box),
       cmocka_unit_test(refuses_rays_that_make_no_sense),
       cmocka_unit_test(tells_the_material),
