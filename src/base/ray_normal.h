@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-
 #include <cstdint>
 
 #include "base/ray.h"
@@ -13,10 +12,11 @@ namespace msq {
 
 /// Unit vectors on a spiral from pole to pole, evenly spread: Swinbank and Purser, "Fibonacci
 /// grids", 2006.
-inline const std::array<Vec3, 48>& directions_all_around() {
-  static const std::array<Vec3, 48> directions = [] {
+using DirectionsAllAround = std::array<Vec3, 48>;
+inline const DirectionsAllAround& directions_all_around() {
+  static const DirectionsAllAround directions = [] {
     constexpr double golden_angle = 2.39996322972865332;
-    std::array<Vec3, 48> made;
+    DirectionsAllAround made;
     for (size_t i = 0; i < made.size(); ++i) {
       const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(made.size());
       const double across = std::sqrt(1 - z * z), turn = golden_angle * static_cast<double>(i);
@@ -32,22 +32,19 @@ inline const std::array<Vec3, 48>& directions_all_around() {
 /// sets inside[i], which is 1, to 0 where a point is outside.
 template <class Keep>
 Vec3 normal_by_membership_of_all(Keep&& keep, const Ray& ray, double t, double distance) {
-  // On a spiral from pole to pole, evenly spread: Swinbank and Purser, "Fibonacci grids", 2006.
-  constexpr int count = 48;
-  constexpr double golden_angle = 2.39996322972865332;
+  const auto& directions = directions_all_around();
+  constexpr size_t count = std::tuple_size_v<DirectionsAllAround>;
   const Vec3 p = ray.at(t);
-  Vec3 away[count], points[count];
+  Vec3 points[count];
   uint8_t inside[count];
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - (2 * i + 1.0) / count, across = std::sqrt(1 - z * z);
-    away[i] = {across * std::cos(golden_angle * i), across * std::sin(golden_angle * i), z};
-    points[i] = p + away[i] * distance;
+  for (size_t i = 0; i < count; ++i) {
+    points[i] = p + directions[i] * distance;
     inside[i] = 1;
   }
-  keep(points, inside, size_t{count});
+  keep(points, inside, count);
   Vec3 sum;
-  for (int i = 0; i < count; ++i)
-    if (!inside[i]) sum = sum + away[i];
+  for (size_t i = 0; i < count; ++i)
+    if (!inside[i]) sum = sum + directions[i];
   const double size = length(sum);
   // Against the ray, as it enters.
   return size > 0.5 && dot(sum, ray.direction) < 0 ? sum * (1 / size) : ray.direction * -1.0;
