@@ -2,9 +2,9 @@
 #include "ray/cast.h"
 
 #include <algorithm>
-#include <atomic>
 
 #include "base/borrowed.h"
+#include "base/run_parts.h"
 
 namespace msq {
 
@@ -230,9 +230,7 @@ void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const
     std::vector<RayHit> hits;
   };
   const uint64_t batches = count / ray_batch + (count % ray_batch != 0);
-  std::atomic<uint64_t> done{0};
-  model.executor().for_each(batches, [&](uint64_t b) {
-    check_cancelled(job);
+  run_parts(model.executor(), batches, job, {0, 1}, [&](uint64_t b) {
     const uint64_t first = b * ray_batch;
     const size_t size = static_cast<size_t>(std::min(count - first, ray_batch));
     const Borrowed<Batch> borrowed;
@@ -241,8 +239,6 @@ void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const
     fill(first, size, batch.searches.data());
     cast_batch(model, resolved, batch.searches, batch.hits, HitDetail::all, job);
     take(first, size, batch.hits.data());
-    const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
-    if (job) job->raise_progress(static_cast<double>(now) / static_cast<double>(batches));
   });
 }
 

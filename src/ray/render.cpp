@@ -2,10 +2,10 @@
 #include "ray/render.h"
 
 #include <array>
-#include <atomic>
 #include <cstring>
 
 #include "base/borrowed.h"
+#include "base/run_parts.h"
 #include "ray/search.h"
 
 namespace msq {
@@ -111,14 +111,13 @@ class Renderer {
   }
 
   void run(const Pass& pass) {
-    check_cancelled(job_);
     const uint64_t side = square_side(pass.samples);
     const uint64_t across = points_across(points_across(plan_.tile_width, pass.step), side);
     const uint64_t down = points_across(points_across(plan_.tile_height, pass.step), side);
-    const uint64_t rays = rays_of(pass);
-    std::atomic<uint64_t> done{0};
-    model_.executor().for_each(across * down, [&](uint64_t index) {
-      check_cancelled(job_);
+    const double rays = static_cast<double>(all_rays_), begin = static_cast<double>(rays_done_);
+    rays_done_ += rays_of(pass);
+    const Interval progress{begin / rays, static_cast<double>(rays_done_) / rays};
+    run_parts(model_.executor(), across * down, job_, progress, [&](uint64_t index) {
       const auto x = static_cast<uint32_t>(index % across * side);
       const auto y = static_cast<uint32_t>(index / across * side);
       const Borrowed<Batch> borrowed;
@@ -129,13 +128,7 @@ class Renderer {
       see(pass, batch);
       if (pass.has_data) write_data(pass, batch);
       if (pass.has_colour) write_colour(pass, x, y, batch);
-      if (!job_) return;
-      const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
-      const double part = static_cast<double>(now) / static_cast<double>(across * down);
-      job_->raise_progress((static_cast<double>(rays_done_) + part * static_cast<double>(rays)) /
-                           static_cast<double>(all_rays_));
     });
-    rays_done_ += rays;
   }
 
   /// Rays of the square of points that begins at point (x0, y0).
