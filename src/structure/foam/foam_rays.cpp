@@ -493,8 +493,7 @@ bool walk_cells(const Foam& foam, RaySearch* searches, size_t count) {
 }
 
 bool enter_by_cells(const Foam& foam, RaySearch* searches, size_t count) {
-  return SeededEdges::fits(foam.seeds()) && is_worth_edges(foam, searches, count) &&
-         walk_cells(foam, searches, count);
+  return is_worth_edges(foam, searches, count) && walk_cells(foam, searches, count);
 }
 
 }  // namespace msq
