@@ -17,11 +17,15 @@ struct Segment {
     inverse_length_squared = l2 > 0 ? 1 / l2 : 0;
   }
 
-  /// Squared distance of a point; this expression is the definition of strut membership.
-  double distance_squared(Vec3 p) const {
+  /// The way to a point from that of the segment that is next to it.
+  Vec3 way_to(Vec3 p) const {
     const Vec3 w = p - a;
     const double t = std::clamp(dot(w, ab) * inverse_length_squared, 0.0, 1.0);
-    const Vec3 d = w - ab * t;
+    return w - ab * t;
+  }
+  /// Squared distance of a point; this expression is the definition of strut membership.
+  double distance_squared(Vec3 p) const {
+    const Vec3 d = way_to(p);
     return dot(d, d);
   }
 };

@@ -119,8 +119,7 @@ bool StrutRays::approach(const Ray& ray, const Part& part, uint32_t strut, doubl
   constexpr int fast_steps = 1000;
   for (int n = 0; t <= to; ++n) {
     const Vec3 p = ray.at(t), q = locate(part, p);
-    const double s = std::clamp(dot(q - axis.a, axis.ab) * axis.inverse_length_squared, 0.0, 1.0);
-    const Vec3 away = q - axis.a - axis.ab * s;
+    const Vec3 away = axis.way_to(q);
     const double distance = length(away), gap = distance - factor * radius_.at(p);
     if (!(gap > 0)) return true;
     // The distance is convex along the ray, and the radius grows by no more than `steepest`.
@@ -162,8 +161,7 @@ bool StrutRays::enter_strut(const Ray& ray, const Part& part, const Candidate& c
 Vec3 StrutRays::normal_of(const Part& part, uint32_t strut, const Ray& ray, double t) const {
   const Segment axis = lists_.struts().axis(strut);
   const Vec3 p = ray.at(t), q = locate(part, p);
-  const double s = std::clamp(dot(q - axis.a, axis.ab) * axis.inverse_length_squared, 0.0, 1.0);
-  const Vec3 away = q - axis.a - axis.ab * s;
+  const Vec3 away = axis.way_to(q);
   const double distance = length(away);
   if (!(distance > 0)) return {};
   Vec3 normal = grid_.rotation.apply(away * (1 / distance));
