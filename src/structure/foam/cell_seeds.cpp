@@ -5,9 +5,11 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/simd.h"
 #include "structure/foam/cell_seeds.h"
+#include "structure/foam/point.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace msq {
@@ -82,22 +84,29 @@ const CellSeeds::Block& CellSeeds::block(size_t step) {
   return blocks_[step];
 }
 
-double CellSeeds::distances(const Block& block, Vec3 q, std::vector<double>& distance_squared) {
-  distance_squared.resize(block.count + most_simd_doubles);
+double CellSeeds::find_distances(const Block& block, Vec3 q) {
+  distance_squared_.resize(block.count + most_simd_doubles);
   return HWY_DYNAMIC_DISPATCH(squared_distances)(block.x.data(), block.y.data(), block.z.data(),
-                                                 block.count, q, distance_squared.data());
+                                                 block.count, q, distance_squared_.data());
 }
 
-void CellSeeds::within(const Block& block, const std::vector<double>& distance_squared,
-                       double most_squared, std::vector<uint32_t>& found) {
+const CellSeeds::Block& CellSeeds::find_near(Vec3 q, double radius, std::vector<uint32_t>& found) {
+  const Block* block;
+  double needed;
+  for (size_t step = 0;; ++step) {
+    block = &this->block(step);
+    needed = std::sqrt(find_distances(*block, q)) + 2 * radius + near_slack;
+    if (needed <= block->reach(q, seeds_->scale())) break;
+  }
   // Without a branch on the distance: which seeds are near is a coin toss.
-  found.resize(block.count + 1);
+  found.resize(block->count + 1);
   size_t count = 0;
-  for (size_t i = 0; i < block.count; ++i) {
+  for (size_t i = 0; i < block->count; ++i) {
     found[count] = static_cast<uint32_t>(i);
-    count += distance_squared[i] <= most_squared;
+    count += distance_squared_[i] <= needed * needed;
   }
   found.resize(count);
+  return *block;
 }
 
 }  // namespace msq

@@ -25,16 +25,17 @@ class CellSeeds {
     /// How far around a point of the cell the block reaches.
     double reach(Vec3 q, Vec3 scale) const;
   };
-  /// The block that reaches at least `step` + 1 foam units out of the cell.
-  const Block& block(size_t step);
-
-  /// Fills `distance_squared` with the squared distances of a block's seeds; returns the least.
-  static double distances(const Block& block, Vec3 q, std::vector<double>& distance_squared);
-  /// Fills `found` with the seeds of a block within a distance.
-  static void within(const Block& block, const std::vector<double>& distance_squared,
-                     double most_squared, std::vector<uint32_t>& found);
+  /// Fills `found` with the seeds within nearest distance + 2 radius + near_slack (point.h) of a
+  /// point of the cell, numbered as in the block returned, which lives until the next call.
+  const Block& find_near(Vec3 q, double radius, std::vector<uint32_t>& found);
 
  private:
+  /// The block that reaches at least `step` + 1 foam units out of the cell.
+  const Block& block(size_t step);
+  /// Finds the squared distances of a block's seeds; returns the least.
+  double find_distances(const Block& block, Vec3 q);
+
+  std::vector<double> distance_squared_;
   std::optional<FoamSeeds> seeds_;
   CellIndex cell_;
   std::vector<Block> blocks_;

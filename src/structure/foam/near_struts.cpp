@@ -6,40 +6,31 @@
 #include <cmath>
 
 #include "structure/foam/cell_seeds.h"
-#include "structure/foam/point.h"
 
 namespace msq {
 
 void find_near_struts(const FoamSeeds& seeds, CellIndex cell, Vec3 q, double radius,
                       std::vector<NearStrut>& struts) {
   thread_local CellSeeds around;
-  thread_local std::vector<double> distance_squared;
   thread_local std::vector<uint32_t> near;
   struts.clear();
   around.move_to(seeds, cell);
-  const CellSeeds::Block* block;
-  double needed;
-  for (size_t step = 0;; ++step) {
-    block = &around.block(step);
-    needed = std::sqrt(CellSeeds::distances(*block, q, distance_squared)) + 2 * radius + near_slack;
-    if (needed <= block->reach(q, seeds.scale())) break;
-  }
-  CellSeeds::within(*block, distance_squared, needed * needed, near);
+  const CellSeeds::Block& block = around.find_near(q, radius, near);
   const auto cell_of = [&](uint32_t i) {
-    const int n = static_cast<int>(i), x = 2 * block->half[0] + 1, y = 2 * block->half[1] + 1;
-    return CellIndex{cell.x + n % x - block->half[0], cell.y + n / x % y - block->half[1],
-                     cell.z + n / x / y - block->half[2]};
+    const int n = static_cast<int>(i), x = 2 * block.half[0] + 1, y = 2 * block.half[1] + 1;
+    return CellIndex{cell.x + n % x - block.half[0], cell.y + n / x % y - block.half[1],
+                     cell.z + n / x / y - block.half[2]};
   };
   const size_t count = near.size();
   for (size_t a = 0; a < count; ++a)
     for (size_t b = a + 1; b < count; ++b)
       for (size_t c = b + 1; c < count; ++c) {
-        const EdgeLine line(block->position(near[a]), block->position(near[b]),
-                            block->position(near[c]));
+        const EdgeLine line(block.position(near[a]), block.position(near[b]),
+                            block.position(near[c]));
         if (!line.exists()) continue;
         LineInterval part = line.chord(q, radius * radius);
         for (size_t i = 0; i < count && line.holds(part); ++i)
-          if (i != a && i != b && i != c) line.cut(block->position(near[i]), part);
+          if (i != a && i != b && i != c) line.cut(block.position(near[i]), part);
         if (!line.holds(part)) continue;
         const Vec3 to_line = q - line.seed - line.offset;
         const double foot = dot(to_line, line.direction) * line.inverse_squared;

@@ -91,7 +91,6 @@ double edge_within(const std::vector<Vec3>& seeds, Vec3 q, double radius) {
 double foam_onset(const FoamSeeds& seeds, CellIndex cell, Vec3 q) {
   // Points come cell by cell where the caller can arrange it.
   thread_local CellSeeds around;
-  thread_local std::vector<double> distance_squared;
   thread_local std::vector<uint32_t> found;
   thread_local std::vector<Vec3> positions;
   around.move_to(seeds, cell);
@@ -99,16 +98,10 @@ double foam_onset(const FoamSeeds& seeds, CellIndex cell, Vec3 q) {
   // than the empty radius.
   const double most = 2 * seeds.empty_radius();
   return nearest_edge(q, first_onset_radius, most, [&](double radius) -> const std::vector<Vec3>& {
-    for (size_t step = 0;; ++step) {
-      const CellSeeds::Block& block = around.block(step);
-      const double nearest = std::sqrt(CellSeeds::distances(block, q, distance_squared));
-      const double needed = nearest + 2 * radius + slack;
-      if (needed > block.reach(q, seeds.scale())) continue;
-      CellSeeds::within(block, distance_squared, needed * needed, found);
-      positions.clear();
-      for (const uint32_t i : found) positions.push_back(block.position(i));
-      return positions;
-    }
+    const CellSeeds::Block& block = around.find_near(q, radius, found);
+    positions.clear();
+    for (const uint32_t i : found) positions.push_back(block.position(i));
+    return positions;
   });
 }
 

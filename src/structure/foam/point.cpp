@@ -22,22 +22,13 @@ namespace msq {
 bool foam_point_inside(const FoamSeeds& seeds, CellIndex cell, Vec3 q, double radius) {
   // Points come cell by cell where the caller can arrange it.
   thread_local CellSeeds around;
-  thread_local std::vector<double> distance_squared;
   thread_local std::vector<uint32_t> found;
   thread_local std::vector<Vec3> near;
   around.move_to(seeds, cell);
-
-  const CellSeeds::Block* block;
-  double needed;
-  for (size_t step = 0;; ++step) {
-    block = &around.block(step);
-    needed = std::sqrt(CellSeeds::distances(*block, q, distance_squared)) + 2 * radius + near_slack;
-    if (needed <= block->reach(q, seeds.scale())) break;
-  }
-  CellSeeds::within(*block, distance_squared, needed * needed, found);
+  const CellSeeds::Block& block = around.find_near(q, radius, found);
   if (found.size() < 3) return false;
   near.clear();
-  for (const uint32_t i : found) near.push_back(block->position(i));
+  for (const uint32_t i : found) near.push_back(block.position(i));
   return foam_point_inside(near, q, radius);
 }
 
