@@ -147,7 +147,7 @@ typedef struct answers {
 
 /* Points and rays of a foam, at a cache size and policy. */
 static void ask(int32_t method, int32_t policy, uint64_t cache_bytes, answers* got,
-                msq_cache_report* report) {
+                msq_cache_report* of_sets, msq_cache_report* report) {
   msq_context* context = make_context_by(policy, cache_bytes);
   msq_model* model = make_wide_foam_model(context, method);
   msq_points_def points = grid_points(0, 4, set_side);
@@ -157,6 +157,7 @@ static void ask(int32_t method, int32_t policy, uint64_t cache_bytes, answers* g
   assert_ok(msq_set_membership(model, &points, NULL, got->inside, sizeof got->inside, NULL));
   points.counts[2] = 1;
   assert_ok(msq_set_distance(model, &points, NULL, got->distances, set_side * set_side, NULL));
+  *of_sets = cache_of(context);
   for (int i = 0; i < ray_side * ray_side; ++i) {
     const double u = i % ray_side * (8.0 / ray_side), v = i / ray_side * (4.0 / ray_side);
     const double origin[3] = {u, -1, v}, direction[3] = {0.1, 1, 0.05 * (i % 5)};
@@ -177,15 +178,16 @@ static void ask(int32_t method, int32_t policy, uint64_t cache_bytes, answers* g
 /* Sets, distances and rays, with room for all cells, for some and for none. */
 static void check_answers(int32_t method, int32_t first_policy) {
   answers *wanted = (answers*)malloc(sizeof *wanted), *got = (answers*)malloc(sizeof *got);
-  msq_cache_report roomy, report;
-  ask(method, MSQ_CACHE_FIFO, (uint64_t)1 << 30, wanted, &roomy);
+  msq_cache_report roomy, roomy_sets, report, sets;
+  ask(method, MSQ_CACHE_FIFO, (uint64_t)1 << 30, wanted, &roomy_sets, &roomy);
   assert_true(roomy.misses > 0);
   for (int32_t policy = first_policy; policy <= MSQ_CACHE_SEGMENTED; ++policy) {
     const uint64_t limits[] = {0, roomy.bytes / 3, roomy.bytes * 2 / 3};
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; ++i) {
-      ask(method, policy, limits[i], got, &report);
+      ask(method, policy, limits[i], got, &sets, &report);
       assert_memory_equal(got, wanted, sizeof *got);
-      /* Rays that find no room for cells may do without. */
+      /* (Rays that find no room for cells may do without.) */
+      assert_true(sets.misses >= roomy_sets.misses - roomy_sets.duplicates);
       if (limits[i] > 0 || method != MSQ_FOAM_DIRECT) assert_true(report.misses > 0);
     }
   }
