@@ -18,4 +18,9 @@ inline uint64_t splitmix_output(uint64_t key, uint64_t n) {
   return splitmix_finalise(key + n * 0x9e3779b97f4a7c15ULL);
 }
 
+/// In [0, 1), of 64 random bits.
+inline double random_fraction(uint64_t bits) {
+  return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
 }  // namespace msq

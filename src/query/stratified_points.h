@@ -46,7 +46,7 @@ class StratifiedPoints final : public PointSet {
   }
   /// In [0, 1).
   double fraction(uint64_t n) const {
-    return static_cast<double>(splitmix_output(key_, n) >> 11) * 0x1p-53;
+    return random_fraction(splitmix_output(key_, n));
   }
 
   Strata strata_;

@@ -13,11 +13,6 @@ namespace {
 constexpr double lift = 4096;
 constexpr size_t rays_at_once = 1024;
 
-/// In [0, 1).
-double fraction_of(uint64_t random) {
-  return static_cast<double>(random >> 11) * 0x1p-53;
-}
-
 double wrapped(double x) {
   return x - std::floor(x);
 }
@@ -37,8 +32,8 @@ void complete_basis(Vec3 n, Vec3& a, Vec3& b) {
 struct Directions {
   Directions(Vec3 normal, uint64_t key, uint32_t count)
       : normal(normal),
-        first(fraction_of(splitmix_output(key, 1))),
-        second(fraction_of(splitmix_output(key, 2))),
+        first(random_fraction(splitmix_output(key, 1))),
+        second(random_fraction(splitmix_output(key, 2))),
         part(1.0 / count) {
     complete_basis(normal, a, b);
   }

@@ -23,7 +23,7 @@ bool GradedSeeds::splits(const Node& node) const {
   if (expected >= 8) return true;
   // Outputs 2 path and 2 path + 1 of the cell's stream: of the seed, and of this decision.
   const uint64_t bits = splitmix_output(cells_.bits(node.cell), 2 * uint64_t{node.path} + 1);
-  return static_cast<double>(bits >> 11) * 0x1p-53 < (expected - 1) / 7;
+  return random_fraction(bits) < (expected - 1) / 7;
 }
 
 Vec3 GradedSeeds::in_leaf(const Node& leaf) const {
