@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/random.h"
+#include "cell/cell_hash.h"
 
 namespace msq {
 
@@ -64,11 +64,7 @@ class CellCache::Room {
 };
 
 CellCache::Key::Key(uint64_t of_structure, CellIndex of_cell)
-    : structure(of_structure), cell(of_cell) {
-  const uint64_t yz =
-      static_cast<uint32_t>(cell.y) | static_cast<uint64_t>(static_cast<uint32_t>(cell.z)) << 32;
-  hash = splitmix_output(splitmix_finalise(yz) ^ structure, static_cast<uint32_t>(cell.x));
-}
+    : structure(of_structure), cell(of_cell), hash(hash_of(of_cell, of_structure)) {}
 
 CellCache::CellCache(uint64_t limit, std::shared_ptr<MemoryBudget> budget, CachePolicy policy)
     : limit_(limit), budget_(std::move(budget)), policy_(policy) {}

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/random.h"
+#include "cell/cell_hash.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/seeded_edges.h"
 #include "strut/capsule_rays.h"
@@ -41,12 +41,6 @@ class CellStruts {
  private:
   static constexpr size_t most_bricks = 4096, chunk_floats = size_t{1} << 16, most_chunks = 256;
 
-  struct Hash {
-    size_t operator()(CellIndex c) const {
-      const uint64_t yz = static_cast<uint32_t>(c.y) | uint64_t{static_cast<uint32_t>(c.z)} << 32;
-      return splitmix_output(splitmix_finalise(yz), static_cast<uint32_t>(c.x));
-    }
-  };
   /// A brick found last among those whose numbers are alike in their last bits.
   struct Recent {
     CellIndex brick;
@@ -67,8 +61,8 @@ class CellStruts {
   double radius_ = 0;
   std::array<int, 3> reach_{};
   std::vector<std::shared_ptr<const SeededEdges>> bricks_;
-  std::unordered_map<CellIndex, uint32_t, Hash> brick_numbers_;
-  std::unordered_map<CellIndex, CapsuleView, Hash> lists_;
+  std::unordered_map<CellIndex, uint32_t, CellHash> brick_numbers_;
+  std::unordered_map<CellIndex, CapsuleView, CellHash> lists_;
   Recent recent_[64];
   RecentList recent_lists_[64];
   std::vector<std::unique_ptr<float[]>> chunks_;
