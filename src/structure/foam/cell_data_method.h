@@ -16,7 +16,7 @@ namespace msq {
 /// inside.
 template <class Data>
 void keep_points_by_cell(const Foam& foam, const Vec3* points, uint8_t* alive, size_t count) {
-  const double most_radius = foam.radius().range().high / foam.unit();
+  const double most_radius = foam.most_radius();
   const auto grouped = group_by_cell(foam.neighbourhood(), points, alive, count);
   for_each_cell(grouped, [&](CellIndex cell, std::span<const LocatedPoint> group) {
     const auto data = foam.context().cache.fetch(foam.id(), cell, [&] {

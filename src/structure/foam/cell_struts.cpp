@@ -21,7 +21,7 @@ size_t slot_of(CellIndex c) {
 void CellStruts::move_to(const Foam& foam) {
   forget();
   foam_ = &foam;
-  radius_ = foam.radius().range().high / foam.unit();
+  radius_ = foam.most_radius();
   reach_ = SeededEdges::reach(foam.seeds(), radius_);
 }
 

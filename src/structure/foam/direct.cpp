@@ -51,7 +51,7 @@ void direct_keep_rows(const Foam& foam, const RowBlock& block, const Job* job) {
   const GradedSeeds* graded = foam.graded().get();
   const double critical =
       graded ? critical_samples_of_leaf * graded->mean_density(reach.grown(owner_distance))
-             : critical_samples(foam.radius().range().high / unit);
+             : critical_samples(foam.most_radius());
   if (!rows.pays(grid, critical))
     return graded ? foam.Structure::keep_rows(block, job)
                   : foam_keep_rows_by_point(foam, block, job);

@@ -59,6 +59,8 @@ class Foam final : public Structure {
   /// Length of a foam unit in model units.
   double unit() const { return unit_; }
   const Parameter& radius() const { return radius_; }
+  /// The greatest, in foam units.
+  double most_radius() const { return radius_.range().high / unit_; }
   RayDemand& ray_demand() const { return ray_demand_; }
   Context& context() const { return *context_; }
   /// Names in the cache, of edges for slices and for rays.

@@ -35,7 +35,7 @@ class Walker {
   Walker(const Foam& foam, RaySearch* searches, Memory& memory)
       : foam_(foam),
         scale_(foam.seeds().scale()),
-        radius_(foam.radius().range().high / foam.unit()),
+        radius_(foam.most_radius()),
         entries_(foam),
         searches_(searches),
         memory_(memory) {

@@ -92,7 +92,7 @@ class RowTiles {
         x_(along(foam, block, 0, 0, block.grid->nx)),
         y_(along(foam, block, 1, block.y0, block.y1)),
         z_(along(foam, block, 2, block.z0, block.z1)),
-        most_radius_(foam.radius().range().high / foam.unit()),
+        most_radius_(foam.most_radius()),
         batch_(foam.seeds(), most_radius_) {}
 
   void keep(const Job* job) {

@@ -77,7 +77,7 @@ void foam_keep_points_by_point(const Foam& foam, const Vec3* points, uint8_t* al
   w.order.clear();
   order_by_cell(w, alive, count, corner, wide);
 
-  const double most_radius = foam.radius().range().high / foam.unit();
+  const double most_radius = foam.most_radius();
   PointBatch batch(seeds, most_radius);
   batch.answer_to(alive);
   int size[3];

@@ -45,7 +45,7 @@ double capsule_entry(Vec3 a, Vec3 ab, Vec3 u, double radius) {
 
 StrutEntries::StrutEntries(const Foam& foam)
     : foam_(foam),
-      radius_(foam.radius().range().high / foam.unit()),
+      radius_(foam.most_radius()),
       inverse_radius_(1 / radius_),
       tolerance_(foam.ray_tolerance() / foam.unit()) {}
 

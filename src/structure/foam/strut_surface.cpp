@@ -27,7 +27,7 @@ constexpr double surface_error = 1e-8;
 }  // namespace
 
 Vec3 strut_normal(const Foam& foam, const Ray& ray, double t) {
-  const double radius = foam.radius().range().high / foam.unit();
+  const double radius = foam.most_radius();
   Vec3 q;
   const NearStrut* nearest = nullptr;
   for (const NearStrut& strut : struts_near(foam, ray.at(t), radius + surface_error, q))
@@ -43,7 +43,7 @@ Vec3 strut_normal(const Foam& foam, const Ray& ray, double t) {
 }
 
 double strut_exit(const Foam& foam, const Ray& ray, double from, double to) {
-  const double unit = foam.unit(), radius = foam.radius().range().high / unit;
+  const double unit = foam.unit(), radius = foam.most_radius();
   const Vec3 u = foam.neighbourhood().rotation.apply_inverse(ray.direction);
   Vec3 q;
   double farthest = 0;
@@ -59,7 +59,7 @@ double strut_exit(const Foam& foam, const Ray& ray, double from, double to) {
 
 void sharpen_entry(const Foam& foam, RaySearch& search) {
   if (!(search.t > search.from)) return;
-  const double unit = foam.unit(), radius = foam.radius().range().high / unit;
+  const double unit = foam.unit(), radius = foam.most_radius();
   const StrutEntries entries(foam);
   const FoamRay ray = entries.ray(search);
   const double at = search.t / unit, near = 4 * foam.ray_tolerance() / unit;
