@@ -78,18 +78,11 @@ struct Setting {
 };
 
 msq_context* make_context(const Setting& setting) {
-  msq_context_def def;
-  check(msq_context_def_init(&def, sizeof def));
-  def.threads = setting.threads;
-  def.cache_bytes = setting.cache_bytes;
-  def.cache_policy = setting.policy;
-  msq_context* context;
-  check(msq_context_create(&def, &context));
-  return context;
+  return bench::make_context(setting.threads, setting.cache_bytes, setting.policy);
 }
 
 double uniform(uint64_t& state) {
-  return static_cast<double>(msq::splitmix_output(77, state++) >> 11) * 0x1p-53;
+  return msq::random_fraction(msq::splitmix_output(77, state++));
 }
 
 msq_slicer* make_slicer(const msq_model* model) {
@@ -173,7 +166,7 @@ void random_boxes(msq_context* context) {
   };
   msq_structure* structure;
   check(msq_structure_host(context, &def, &structure));
-  msq_model* model = bench::make_cube_model(context, structure);
+  msq_model* model = bench::make_model(context, bench::make_cube(context), structure);
   uint64_t state = 0;
   std::vector<double> points(3 * 20000);
   std::vector<uint8_t> inside(20000);

@@ -5,31 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "bench.h"
+#include "setup.h"
 
 namespace bench {
-
-/// A structure in the unit cube, and another in that, or NULL; releases them.
-inline msq_model* make_cube_model(msq_context* context, msq_structure* structure,
-                                  msq_structure* finer = nullptr) {
-  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
-  msq_shape* cube;
-  check(msq_shape_from_box(context, low, high, &cube));
-  msq_scale_def scales[3] = {};
-  scales[0].shape = cube;
-  scales[1].structure = structure;
-  scales[2].structure = finer;
-  msq_model_def def;
-  check(msq_model_def_init(&def, sizeof def));
-  def.scales = scales;
-  def.scale_count = finer ? 3 : 2;
-  msq_model* model;
-  check(msq_model_create(context, &def, &model));
-  msq_structure_release(structure);
-  msq_structure_release(finer);
-  msq_shape_release(cube);
-  return model;
-}
 
 /// Foam of cells^3 cells, r = 0.1 cell.
 inline msq_model* make_foam_model(msq_context* context, int cells, int32_t method = MSQ_FOAM_AUTO) {
@@ -40,7 +18,7 @@ inline msq_model* make_foam_model(msq_context* context, int cells, int32_t metho
   def.radius.value = 0.1 / cells;
   msq_structure* foam;
   check(msq_structure_foam(context, &def, &foam));
-  return make_cube_model(context, foam);
+  return make_model(context, make_cube(context), foam);
 }
 
 inline msq_cache_report cache_of(const msq_context* context) {

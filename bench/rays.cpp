@@ -27,15 +27,6 @@ using bench::check;
 
 constexpr std::array<double, 3> front{0, 1, 0}, corner{-1, -1, -1};
 
-msq_context* make_context() {
-  msq_context_def def;
-  check(msq_context_def_init(&def, sizeof def));
-  def.threads = 2;
-  msq_context* context;
-  check(msq_context_create(&def, &context));
-  return context;
-}
-
 /// Runs of the same work.
 class Costs {
  public:
@@ -105,7 +96,7 @@ void bench_foam(bench::Report& report, const std::string& name, int cells, uint3
     msq_model* model = nullptr;
     msq_camera camera;
     first.measure([&] {
-      context = make_context();
+      context = bench::make_context();
       model = bench::make_foam_model(context, cells);
       camera = bench::fit_camera(model, direction, side);
       picture.render(model, camera);
@@ -160,7 +151,7 @@ bool clip(const msq::Ray& ray, double& from, double& to) {
 
 #if MSQ_WITH_EMBREE
 void bench_embree(bench::Report& report, int cells, uint32_t side) {
-  msq_context* context = make_context();
+  msq_context* context = bench::make_context();
   msq_model* model = bench::make_foam_model(context, cells);
   const msq_camera camera = bench::fit_camera(model, front, side);
   bench::Picture picture(side);
@@ -220,7 +211,7 @@ void bench_embree(bench::Report& report, int cells, uint32_t side) {
 void bench_march(bench::Report& report, int32_t method, const std::string& method_name) {
   constexpr int cells = 32, steps = 20;  // a step is 0.05 cell, half the radius
   constexpr uint32_t side = 128;
-  msq_context* context = make_context();
+  msq_context* context = bench::make_context();
   msq_model* model = bench::make_foam_model(context, cells, method);
   msq_model* direct = bench::make_foam_model(context, cells);
   const msq_camera camera = bench::fit_camera(model, front, side);
@@ -301,9 +292,10 @@ msq_structure* make_gyroid(msq_context* context, int cells) {
 void bench_structure(bench::Report& report, const std::string& name,
                      msq_structure* (*coarse)(msq_context*), msq_structure* (*fine)(msq_context*)) {
   constexpr uint32_t side = 512;
-  msq_context* context = make_context();
+  msq_context* context = bench::make_context();
   msq_model* model =
-      bench::make_cube_model(context, coarse(context), fine ? fine(context) : nullptr);
+      bench::make_model(context, bench::make_cube(context), coarse(context), {0, nullptr},
+                        fine ? fine(context) : nullptr);
   const msq_camera camera = bench::fit_camera(model, {-0.3, 1, -0.2}, side);
   bench::Picture picture(side);
   Costs first;

@@ -8,11 +8,13 @@
 
 namespace bench {
 
-inline msq_context* make_context(uint32_t threads = 2, uint64_t cache_bytes = uint64_t{1} << 30) {
+inline msq_context* make_context(uint32_t threads = 2, uint64_t cache_bytes = uint64_t{1} << 30,
+                                 int32_t cache_policy = MSQ_CACHE_FIFO) {
   msq_context_def def;
   check(msq_context_def_init(&def, sizeof def));
   def.threads = threads;
   def.cache_bytes = cache_bytes;
+  def.cache_policy = cache_policy;
   msq_context* context;
   check(msq_context_create(&def, &context));
   return context;
@@ -26,20 +28,22 @@ inline msq_shape* make_cube(msq_context* context, double extent = 1) {
   return shape;
 }
 
-/// Takes over the shape and the structure, which may be null.
+/// Takes over the shape and the structures, the second within the first; they may be null.
 inline msq_model* make_model(msq_context* context, msq_shape* shape, msq_structure* structure,
-                             msq_param skin = {0, nullptr}) {
-  msq_scale_def scales[2] = {};
+                             msq_param skin = {0, nullptr}, msq_structure* finer = nullptr) {
+  msq_scale_def scales[3] = {};
   scales[0].shape = shape;
   scales[1].structure = structure;
   scales[1].skin = skin;
+  scales[2].structure = finer;
   msq_model_def def;
   check(msq_model_def_init(&def, sizeof def));
   def.scales = scales;
-  def.scale_count = structure ? 2 : 1;
+  def.scale_count = finer ? 3 : structure ? 2 : 1;
   def.scale_size = sizeof scales[0];
   msq_model* model;
   check(msq_model_create(context, &def, &model));
+  msq_structure_release(finer);
   msq_structure_release(structure);
   msq_shape_release(shape);
   return model;
