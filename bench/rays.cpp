@@ -293,9 +293,8 @@ void bench_structure(bench::Report& report, const std::string& name,
                      msq_structure* (*coarse)(msq_context*), msq_structure* (*fine)(msq_context*)) {
   constexpr uint32_t side = 512;
   msq_context* context = bench::make_context();
-  msq_model* model =
-      bench::make_model(context, bench::make_cube(context), coarse(context), {0, nullptr},
-                        fine ? fine(context) : nullptr);
+  msq_model* model = bench::make_model(context, bench::make_cube(context), coarse(context),
+                                       {0, nullptr}, fine ? fine(context) : nullptr);
   const msq_camera camera = bench::fit_camera(model, {-0.3, 1, -0.2}, side);
   bench::Picture picture(side);
   Costs first;
