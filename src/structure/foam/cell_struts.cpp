@@ -2,7 +2,6 @@
 #include "structure/foam/cell_struts.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace msq {
 
@@ -33,20 +32,20 @@ void CellStruts::forget() {
   std::fill(std::begin(recent_), std::end(recent_), Recent{});
   std::fill(std::begin(recent_lists_), std::end(recent_lists_), RecentList{});
   used_chunks_ = 0;
-  used_floats_ = chunk_floats;
+  used_bytes_ = chunk_bytes;
 }
 
-float* CellStruts::room(size_t floats) {
-  if (used_floats_ + floats > chunk_floats) {
-    const size_t size = std::max(floats, chunk_floats);
-    if (used_chunks_ == chunks_.size() || floats > chunk_floats)
+std::byte* CellStruts::room(size_t bytes) {
+  if (used_bytes_ + bytes > chunk_bytes) {
+    const size_t size = std::max(bytes, chunk_bytes);
+    if (used_chunks_ == chunks_.size() || bytes > chunk_bytes)
       chunks_.insert(chunks_.begin() + static_cast<ptrdiff_t>(used_chunks_),
-                     std::make_unique<float[]>(size));
+                     std::make_unique<std::byte[]>(size));
     ++used_chunks_;
-    used_floats_ = 0;
+    used_bytes_ = 0;
   }
-  float* const place = chunks_[used_chunks_ - 1].get() + used_floats_;
-  used_floats_ += floats;
+  std::byte* const place = chunks_[used_chunks_ - 1].get() + used_bytes_;
+  used_bytes_ += bytes;
   return place;
 }
 
@@ -79,43 +78,62 @@ const CapsuleView& CellStruts::list(CellIndex cell) {
   return found->second;
 }
 
-CapsuleView CellStruts::make_list(CellIndex cell) {
+/// Finds the bricks whose edges may come near a cell.
+void CellStruts::find_bricks(CellIndex cell) {
   const int at[3] = {cell.x, cell.y, cell.z};
-  int first[3], last[3];
+  int own[3], in_own[3], first[3], last[3];
+  bool is_within_half = true;
   for (size_t axis = 0; axis < 3; ++axis) {
     const int place = at[axis] + SeededEdges::lead;
+    own[axis] = floor_div(place, SeededEdges::side);
+    in_own[axis] = place - own[axis] * SeededEdges::side;
     first[axis] = floor_div(place - reach_[axis], SeededEdges::side);
     last[axis] = floor_div(place + reach_[axis], SeededEdges::side);
+    is_within_half &= reach_[axis] <= SeededEdges::side / 2;
   }
-  ids_.clear();
+  if (is_within_half) {
+    const SeededEdges& brick = *find_brick({own[0], own[1], own[2]}).edges;
+    for (size_t axis = 0; axis < 3; ++axis)
+      if (!brick.looks_beyond(in_own[0], in_own[1], in_own[2], axis))
+        first[axis] = last[axis] = own[axis];
+  }
+  sources_.clear();
   for (int k = first[2]; k <= last[2]; ++k)
     for (int j = first[1]; j <= last[1]; ++j)
       for (int i = first[0]; i <= last[0]; ++i) {
         const Recent& brick = find_brick({i, j, k});
         const CellIndex corner = brick.edges->corner();
-        for (const uint16_t edge :
-             brick.edges->list(cell.x - corner.x, cell.y - corner.y, cell.z - corner.z))
-          ids_.push_back(brick.number << 16 | edge);
+        const auto edges =
+            brick.edges->list(cell.x - corner.x, cell.y - corner.y, cell.z - corner.z);
+        if (!edges.empty()) sources_.push_back({brick.edges, edges, brick.number << 16});
       }
-  const size_t count = ids_.size();
-  float* const values = room(7 * count + capsule_padding);
+}
+
+CapsuleView CellStruts::make_list(CellIndex cell) {
+  find_bricks(cell);
+  size_t count = 0;
+  for (const Source& source : sources_) count += source.edges.size();
+  std::byte* const place = room((7 * count + capsule_padding) * sizeof(float));
+  auto* const values = reinterpret_cast<float*>(place);
+  auto* const ids = reinterpret_cast<uint32_t*>(place + 6 * count * sizeof(float));
   const Vec3 scale = foam_->seeds().scale();
-  uint32_t number = UINT32_MAX;
-  const SeededEdges* brick = nullptr;
-  float shift[3] = {};
-  for (size_t i = 0; i < count; ++i) {
-    if (ids_[i] >> 16 != number) {
-      number = ids_[i] >> 16;
-      brick = bricks_[number].get();
-      const CellIndex corner = brick->corner();
-      shift[0] = static_cast<float>((cell.x - corner.x) * scale.x);
-      shift[1] = static_cast<float>((cell.y - corner.y) * scale.y);
-      shift[2] = static_cast<float>((cell.z - corner.z) * scale.z);
-    }
-    const auto &a = brick->end(ids_[i] & 0xffff, 0), &b = brick->end(ids_[i] & 0xffff, 1);
-    for (size_t axis = 0; axis < 3; ++axis) {
-      values[axis * count + i] = a[axis] - shift[axis];
-      values[(axis + 3) * count + i] = b[axis] - a[axis];
+  size_t i = 0;
+  for (const Source& source : sources_) {
+    const SeededEdges& brick = *source.brick;
+    const CellIndex corner = brick.corner();
+    const float x = static_cast<float>((cell.x - corner.x) * scale.x);
+    const float y = static_cast<float>((cell.y - corner.y) * scale.y);
+    const float z = static_cast<float>((cell.z - corner.z) * scale.z);
+    for (const uint16_t edge : source.edges) {
+      const auto &a = brick.end(edge, 0), &b = brick.end(edge, 1);
+      float* const value = values + i;
+      value[0] = a[0] - x;
+      value[count] = a[1] - y;
+      value[2 * count] = a[2] - z;
+      value[3 * count] = b[0] - a[0];
+      value[4 * count] = b[1] - a[1];
+      value[5 * count] = b[2] - a[2];
+      ids[i++] = source.first_id | edge;
     }
   }
   CapsuleView view;
@@ -123,8 +141,7 @@ CapsuleView CellStruts::make_list(CellIndex cell) {
     view.a[axis] = values + axis * count;
     view.ab[axis] = values + (axis + 3) * count;
   }
-  std::memcpy(values + 6 * count, ids_.data(), count * sizeof(uint32_t));
-  view.ids = reinterpret_cast<const uint32_t*>(values + 6 * count);
+  view.ids = ids;
   view.count = count;
   return view;
 }

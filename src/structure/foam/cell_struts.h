@@ -2,8 +2,10 @@
 // For each cell that rays cross the struts that they may meet in it, for one batch of rays.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -39,7 +41,7 @@ class CellStruts {
   Edge edge(uint32_t id) const { return {*bricks_[id >> 16], id & 0xffff}; }
 
  private:
-  static constexpr size_t most_bricks = 4096, chunk_floats = size_t{1} << 16, most_chunks = 256;
+  static constexpr size_t most_bricks = 4096, chunk_bytes = size_t{1} << 18, most_chunks = 256;
 
   /// A brick found last among those whose numbers are alike in their last bits.
   struct Recent {
@@ -53,8 +55,10 @@ class CellStruts {
   };
 
   const Recent& find_brick(CellIndex brick);
+  void find_bricks(CellIndex cell);
   CapsuleView make_list(CellIndex cell);
-  float* room(size_t floats);
+  /// For floats and numbers of 32 bits.
+  std::byte* room(size_t bytes);
 
   const Foam* foam_ = nullptr;
   uint64_t era_ = 0;
@@ -65,9 +69,15 @@ class CellStruts {
   std::unordered_map<CellIndex, CapsuleView, CellHash> lists_;
   Recent recent_[64];
   RecentList recent_lists_[64];
-  std::vector<std::unique_ptr<float[]>> chunks_;
-  size_t used_chunks_ = 0, used_floats_ = chunk_floats;
-  std::vector<uint32_t> ids_;  // of the list at hand
+  std::vector<std::unique_ptr<std::byte[]>> chunks_;
+  size_t used_chunks_ = 0, used_bytes_ = chunk_bytes;
+  /// What a brick has for the list at hand.
+  struct Source {
+    const SeededEdges* brick;
+    std::span<const uint16_t> edges;
+    uint32_t first_id;
+  };
+  std::vector<Source> sources_;
 };
 
 }  // namespace msq

@@ -13,22 +13,6 @@ namespace {
 /// Room for roundings in single precision, coordinates below 16.
 constexpr double slack = 1e-5;
 
-/// Squared distance between a point and a segment.
-float distance_squared(const float (&p)[3], const std::array<float, 3>& a, const float (&ab)[3]) {
-  float across = 0, length = 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    across += (p[axis] - a[axis]) * ab[axis];
-    length += ab[axis] * ab[axis];
-  }
-  const float s = std::clamp(across / std::max(length, 1e-30f), 0.0f, 1.0f);
-  float squared = 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const float d = p[axis] - a[axis] - s * ab[axis];
-    squared += d * d;
-  }
-  return squared;
-}
-
 /// Rounds down; std::floor is a call where the processor at hand is not known.
 int floor_of(float x) {
   return static_cast<int>(x + 128) - 128;
@@ -75,36 +59,46 @@ SeededEdges::SeededEdges(const FoamSeeds& seeds, CellIndex corner, double radius
       }
       edges_[e].ends[end] = static_cast<uint16_t>(numbers[vertex] - 1);
     }
-    const std::array<uint32_t, 3>& triple = builder.seeds()[e];
-    const std::array<int, 3> own = builder.block().cell(triple[0]);
-    edges_[e].owner = static_cast<uint8_t>((own[2] * side + own[1]) * side + own[0]);
-    for (size_t i = 0; i < 2; ++i) {
-      const std::array<int, 3> cell = builder.block().cell(triple[i + 1]);
-      for (size_t axis = 0; axis < 3; ++axis)
-        edges_[e].others[i][axis] = static_cast<int8_t>(cell[axis] - own[axis]);
-    }
-    if (triple[0] == triple[1]) {
-      edges_[e].others[0][0] = no_seed;
-      continue;
-    }
-    // The owner comes before both.
-    const auto place = [](const Offset& o) { return std::array<int8_t, 3>{o[2], o[1], o[0]}; };
-    if (place(edges_[e].others[1]) < place(edges_[e].others[0]))
-      std::swap(edges_[e].others[0], edges_[e].others[1]);
+    edges_[e].seeds = pack_seeds(builder.block(), builder.seeds()[e]);
   }
   nodes_.shrink_to_fit();
   list_edges(seeds, radius);
+  beyond_.fill(7);
+  if (*std::max_element(reach_.begin(), reach_.end()) <= side / 2)
+    beyond_ = find_beyond_faces(builder.block(), seeds.scale(), radius + ray_list_margin + slack);
+}
+
+uint32_t SeededEdges::pack_seeds(const SeedBlock& block, const std::array<uint32_t, 3>& triple) {
+  if (triple[0] == triple[1]) return no_seeds;
+  const std::array<int, 3> own = block.cell(triple[0]);
+  auto packed = static_cast<uint32_t>((own[2] * side + own[1]) * side + own[0]);
+  int shift = 6;
+  // In the order of cells; the owner comes before both.
+  for (const uint32_t seed : {std::min(triple[1], triple[2]), std::max(triple[1], triple[2])}) {
+    const std::array<int, 3> cell = block.cell(seed);
+    for (size_t axis = 0; axis < 3; ++axis, shift += 4) {
+      const int apart = cell[axis] - own[axis];
+      if (std::abs(apart) > most_apart) return no_seeds;
+      packed |= static_cast<uint32_t>(apart + most_apart) << shift;
+    }
+  }
+  return packed;
 }
 
 std::array<CellIndex, 3> SeededEdges::seeds(size_t edge) const {
-  const Edge& e = edges_[edge];
-  const CellIndex own{corner_.x + e.owner % side, corner_.y + e.owner / side % side,
-                      corner_.z + e.owner / side / side};
+  uint32_t packed = edges_[edge].seeds;
+  const auto take = [&](int bits) {
+    const auto value = static_cast<int>(packed & ((uint32_t{1} << bits) - 1));
+    packed >>= bits;
+    return value;
+  };
+  const int x = take(2), y = take(2), z = take(2);
+  const CellIndex own{corner_.x + x, corner_.y + y, corner_.z + z};
   std::array<CellIndex, 3> cells{own, own, own};
-  for (size_t i = 0; i < 2; ++i) {
-    cells[i + 1].x += e.others[i][0];
-    cells[i + 1].y += e.others[i][1];
-    cells[i + 1].z += e.others[i][2];
+  for (size_t i = 1; i < 3; ++i) {
+    cells[i].x += take(4) - most_apart;
+    cells[i].y += take(4) - most_apart;
+    cells[i].z += take(4) - most_apart;
   }
   return cells;
 }
@@ -121,28 +115,39 @@ void SeededEdges::list_edges(const FoamSeeds& seeds, double radius) {
                          static_cast<float>(scale.z)};
   const float to_cell[3] = {1 / size[0], 1 / size[1], 1 / size[2]};
   const float grown = static_cast<float>(radius + ray_list_margin + slack);
-  // A point within the margin of a cell along each axis, and the axis of its strut from there.
-  const float most = static_cast<float>(0.5 * length(scale) + radius + 2 * ray_list_margin + slack);
+  // Of a cell, grown by as much.
+  const float extent[3] = {0.5f * size[0] + grown, 0.5f * size[1] + grown, 0.5f * size[2] + grown};
   const int across[3] = {side + 2 * reach_[0], side + 2 * reach_[1], side + 2 * reach_[2]};
   for (size_t e = 0; e < edges_.size(); ++e) {
     const std::array<float, 3>&a = end(e, 0), &b = end(e, 1);
     int first[3], last[3];
-    float ab[3];
+    float middle[3], half[3], wide[3];
     bool is_one = true;
     for (size_t axis = 0; axis < 3; ++axis) {
       const auto [least, greatest] = std::minmax(a[axis], b[axis]);
       first[axis] = std::max(floor_of((least - grown) * to_cell[axis]), -reach_[axis]);
       last[axis] = std::min(floor_of((greatest + grown) * to_cell[axis]), side - 1 + reach_[axis]);
-      ab[axis] = b[axis] - a[axis];
+      middle[axis] = 0.5f * (a[axis] + b[axis]);
+      half[axis] = 0.5f * (b[axis] - a[axis]);
+      wide[axis] = std::abs(half[axis]);
       is_one &= first[axis] == last[axis];
+    }
+    // The planes that a box and a segment may be told apart by, but those of the box.
+    float limit[3];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+      limit[axis] = extent[u] * wide[v] + extent[v] * wide[u] + static_cast<float>(slack);
     }
     for (int z = first[2]; z <= last[2]; ++z)
       for (int y = first[1]; y <= last[1]; ++y)
         for (int x = first[0]; x <= last[0]; ++x) {
-          const float middle[3] = {(static_cast<float>(x) + 0.5f) * size[0],
-                                   (static_cast<float>(y) + 0.5f) * size[1],
-                                   (static_cast<float>(z) + 0.5f) * size[2]};
-          if (!is_one && distance_squared(middle, a, ab) > most * most) continue;
+          const float p[3] = {middle[0] - (static_cast<float>(x) + 0.5f) * size[0],
+                              middle[1] - (static_cast<float>(y) + 0.5f) * size[1],
+                              middle[2] - (static_cast<float>(z) + 0.5f) * size[2]};
+          if (!is_one && (std::abs(p[1] * half[2] - p[2] * half[1]) > limit[0] ||
+                          std::abs(p[2] * half[0] - p[0] * half[2]) > limit[1] ||
+                          std::abs(p[0] * half[1] - p[1] * half[0]) > limit[2]))
+            continue;
           const int bucket =
               ((z + reach_[2]) * across[1] + y + reach_[1]) * across[0] + x + reach_[0];
           places.push_back({static_cast<uint32_t>(bucket), static_cast<uint16_t>(e)});

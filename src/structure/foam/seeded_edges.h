@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cell/cache.h"
+#include "structure/foam/beyond_faces.h"
 #include "structure/foam/seeds.h"
 
 namespace msq {
@@ -22,7 +23,7 @@ class SeededEdges final : public CellData {
  public:
   /// Cells along each axis: few, since rays end soon after they enter a foam. And where bricks
   /// begin in space: `lead` before cell 0, as those of EdgeBrick and for the same reason.
-  static constexpr int side = 4, lead = 2;
+  static constexpr int side = beyond_faces_side, lead = 2;
 
   /// Whether the cells are not so flat or long that numbers of seeds and cells exceed their bits.
   static bool fits(const FoamSeeds& seeds);
@@ -38,8 +39,14 @@ class SeededEdges final : public CellData {
     return nodes_[edges_[edge].ends[which]];
   }
   /// Whether its three seeds are known, and their cells, in the order of seeds.
-  bool knows_seeds(size_t edge) const { return edges_[edge].others[0][0] != no_seed; }
+  bool knows_seeds(size_t edge) const { return edges_[edge].seeds != no_seeds; }
   std::array<CellIndex, 3> seeds(size_t edge) const;
+
+  /// Whether edges that come near a cell of the brick may be owned beyond the brick's face across
+  /// an axis: of two, that which is next to the cell, if edges reach no farther than half a brick.
+  bool looks_beyond(int x, int y, int z, size_t axis) const {
+    return beyond_[static_cast<size_t>((z * side + y) * side + x)] >> axis & 1;
+  }
 
   /// Numbers of the edges for the cell that lies (x, y, z) from the brick's first.
   std::span<const uint16_t> list(int x, int y, int z) const {
@@ -60,14 +67,17 @@ class SeededEdges final : public CellData {
   }
 
  private:
-  static constexpr int8_t no_seed = INT8_MIN;
-  using Offset = std::array<int8_t, 3>;
+  static constexpr uint32_t no_seeds = UINT32_MAX;
+  /// Cells of seeds are up to this from their owner's along each axis, or are not kept.
+  static constexpr int most_apart = 7;
   struct Edge {
     std::array<uint16_t, 2> ends;
-    uint8_t owner;                 // x first, then y, then z
-    std::array<Offset, 2> others;  // the cells of the other seeds, from the owner's
+    /// Six bits for the owner's cell, x first; then, for each of the two others, four bits an axis
+    /// for its cell from there.
+    uint32_t seeds;
   };
 
+  static uint32_t pack_seeds(const SeedBlock& block, const std::array<uint32_t, 3>& triple);
   void list_edges(const FoamSeeds& seeds, double radius);
 
   CellIndex corner_;
@@ -76,6 +86,7 @@ class SeededEdges final : public CellData {
   std::array<int, 3> reach_;
   std::vector<uint32_t> starts_;
   std::vector<uint16_t> listed_;
+  BeyondFaces beyond_;
 };
 
 }  // namespace msq
