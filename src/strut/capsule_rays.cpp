@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "base/mask_bits-inl.h"
@@ -59,10 +60,22 @@ HWY_INLINE V clamp01(V s) {
   return hn::Min(hn::Max(s, hn::Zero(d)), hn::Set(d, 1.0f));
 }
 
-/// Writes the numbers of those of a chunk whose axes come within `reach` of the packet's line.
-HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t end, float reach,
-                            const float (&corner)[3], const RayPacket& rays, uint32_t* found) {
+/// Of the ids that the bits tell, those that were not seen.
+HWY_INLINE uint64_t new_ones(const uint32_t* ids, uint64_t bits, SeenIds* seen) {
+  if (!seen) return bits;
+  for (uint64_t rest = bits; rest; rest &= rest - 1)
+    if (!seen->add(ids[std::countr_zero(rest)])) bits &= ~(rest & -rest);
+  return bits;
+}
+
+/// Writes the numbers of those of a chunk whose axes come within `reach` of the packet's line, and
+/// the planes across it between `near` and `far`.
+HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t end, float radius,
+                            const float (&corner)[3], const RayPacket& rays, SeenIds* seen,
+                            uint32_t* found) {
   const D d;
+  const float reach = radius + rays.spread;
+  const V low = hn::Set(d, rays.near - radius), high = hn::Set(d, rays.far + radius);
   const Vector centre =
       set(rays.centre[0] - corner[0], rays.centre[1] - corner[1], rays.centre[2] - corner[2]);
   const Vector u = set(rays.along[0], rays.along[1], rays.along[2]);
@@ -70,27 +83,33 @@ HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t en
   size_t count = 0;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const Vector w = sub(load(capsules.a, i), centre), ab = load(capsules.ab, i);
-    const Vector p = add_scaled(w, u, hn::Neg(dot(w, u)));
-    const Vector q = add_scaled(ab, u, hn::Neg(dot(ab, u)));
+    const V z0 = dot(w, u), dz = dot(ab, u);
+    const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
     const V s = clamp01(hn::Div(hn::Neg(dot(p, q)), hn::Max(dot(q, q), tiny)));
     const Vector v = add_scaled(p, q, s);
-    uint64_t bits = bits_of(d, hn::Le(dot(v, v), most));
+    const V z1 = hn::Add(z0, dz);
+    const auto is_there = hn::And(hn::Ge(hn::Max(z0, z1), low), hn::Le(hn::Min(z0, z1), high));
+    uint64_t bits = bits_of(d, hn::And(is_there, hn::Le(dot(v, v), most)));
     if (end - i < hn::Lanes(d)) bits &= (uint64_t{1} << (end - i)) - 1;
+    bits = new_ones(capsules.ids + i, bits, seen);
     for (; bits; bits &= bits - 1)
       found[count++] = static_cast<uint32_t>(i + static_cast<size_t>(std::countr_zero(bits)));
   }
   return count;
 }
 
+/// Of |q|^2 / |ab|^2, and of |ab|^2.
+constexpr float least_across = 1.0f / 1600, least_squared = 1e-10f;
+
 template <bool kStarts>
 HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t chosen_count,
                      float radius, const float (&corner)[3], const RayPacket& rays,
                      PacketHits& hits) {
+  if (chosen_count == 0) return;
   const D d;
   const hn::RebindToUnsigned<D> du;
   const V r2 = hn::Set(d, radius * radius), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const V none = hn::Set(d, std::numeric_limits<float>::infinity());
-  constexpr float least_across = 1.0f / 1600, least_squared = 1e-10f;  // of |q|^2 / |ab|^2, |ab|^2
   for (size_t lane = 0; lane < rays.count; lane += hn::Lanes(d)) {
     const Vector o = {hn::Sub(hn::Load(d, rays.origin[0] + lane), hn::Set(d, corner[0])),
                       hn::Sub(hn::Load(d, rays.origin[1] + lane), hn::Set(d, corner[1])),
@@ -156,15 +175,151 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
   }
 }
 
+/// What rays of one direction meet, in the plane across it: capsules of a chunk, as seen from
+/// there.
+struct SeenCapsules {
+  static constexpr size_t most = 64;
+  /// An end's place and the way to the other, along two axes of the plane and along the rays; of
+  /// |q|^2, its inverse; and what s0 - s is over sqrt(H).
+  alignas(64) float px[most], py[most], pz[most], qx[most], qy[most], qz[most], inverse[most],
+      shift[most];
+};
+
+/// Two directions across one of length 1, and each other. Source: Duff et al., "Building an
+/// Orthonormal Basis, Revisited", JCGT 2017.
+HWY_INLINE void directions_across(const float (&u)[3], float (&e)[3], float (&f)[3]) {
+  const float sign = std::copysign(1.0f, u[2]), a = -1 / (sign + u[2]), b = u[0] * u[1] * a;
+  e[0] = 1 + sign * u[0] * u[0] * a;
+  e[1] = sign * b;
+  e[2] = -sign * u[0];
+  f[0] = b;
+  f[1] = sign + u[1] * u[1] * a;
+  f[2] = -u[1];
+}
+
+template <bool kStarts>
+HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const uint32_t* chosen,
+                          size_t chosen_count, float radius, const RayPacket& rays,
+                          const Vector (&axes)[3], PacketHits& hits) {
+  const D d;
+  const hn::RebindToUnsigned<D> du;
+  const V r2 = hn::Set(d, radius * radius), zero = hn::Zero(d);
+  const V none = hn::Set(d, std::numeric_limits<float>::infinity());
+  for (size_t lane = 0; lane < rays.count; lane += hn::Lanes(d)) {
+    const Vector o = {hn::Sub(hn::Load(d, rays.origin[0] + lane), hn::Set(d, rays.centre[0])),
+                      hn::Sub(hn::Load(d, rays.origin[1] + lane), hn::Set(d, rays.centre[1])),
+                      hn::Sub(hn::Load(d, rays.origin[2] + lane), hn::Set(d, rays.centre[2]))};
+    const V x = dot(o, axes[0]), y = dot(o, axes[1]), z = dot(o, axes[2]);
+    const V from = hn::Load(d, rays.from + lane), to = hn::Load(d, rays.to + lane);
+    V first = hn::Load(d, hits.first + lane), second = hn::Load(d, hits.second + lane);
+    auto id = hn::Load(du, hits.id + lane);
+    for (size_t n = 0; n < chosen_count; ++n) {
+      const size_t i = chosen[n];
+      const V qx = hn::Set(d, seen.qx[i]), qy = hn::Set(d, seen.qy[i]);
+      const V px = hn::Sub(hn::Set(d, seen.px[i]), x), py = hn::Sub(hn::Set(d, seen.py[i]), y);
+      const V s0 =
+          hn::Mul(hn::NegMulAdd(px, qx, hn::Neg(hn::Mul(py, qy))), hn::Set(d, seen.inverse[i]));
+      const V ax = hn::MulAdd(qx, s0, px), ay = hn::MulAdd(qy, s0, py);
+      const V room = hn::NegMulAdd(ax, ax, hn::NegMulAdd(ay, ay, r2));
+      if (hn::AllTrue(d, hn::Lt(room, zero))) continue;
+      const V shift = hn::Mul(hn::Set(d, seen.shift[i]), hn::Sqrt(hn::Max(room, zero)));
+      const V pz = hn::Sub(hn::Set(d, seen.pz[i]), z), qz = hn::Set(d, seen.qz[i]);
+      const V s = clamp01(hn::Sub(s0, shift));
+      const V vx = hn::MulAdd(qx, s, px), vy = hn::MulAdd(qy, s, py);
+      const V under = hn::NegMulAdd(vx, vx, hn::NegMulAdd(vy, vy, r2));
+      V t = hn::Sub(hn::MulAdd(s, qz, pz), hn::Sqrt(hn::Max(under, zero)));
+      auto met = hn::And(hn::Ge(under, zero), hn::Ge(room, zero));
+      if constexpr (kStarts) {
+        const V s_out = clamp01(hn::Add(s0, shift));
+        const V ox = hn::MulAdd(qx, s_out, px), oy = hn::MulAdd(qy, s_out, py);
+        const V left = hn::NegMulAdd(ox, ox, hn::NegMulAdd(oy, oy, r2));
+        const V exit = hn::Add(hn::MulAdd(s_out, qz, pz), hn::Sqrt(hn::Max(left, zero)));
+        met = hn::And(met, hn::Ge(exit, from));
+      }
+      t = hn::Max(t, from);
+      met = hn::And(met, hn::Le(t, to));
+      t = hn::IfThenElse(met, t, none);
+      const auto is_first = hn::Lt(t, first);
+      const auto own_id = hn::Set(du, ids[i]);
+      const auto is_same = hn::RebindMask(d, hn::Eq(own_id, id));
+      second = hn::IfThenElse(is_same, second, hn::Min(second, hn::Max(t, first)));
+      id = hn::IfThenElse(hn::RebindMask(du, is_first), own_id, id);
+      first = hn::Min(first, t);
+    }
+    hn::Store(first, d, hits.first + lane);
+    hn::Store(second, d, hits.second + lane);
+    hn::Store(id, du, hits.id + lane);
+  }
+}
+
+/// Rays of one direction: what of a capsule does not depend on the ray is found once.
+HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const float (&corner)[3],
+                              const RayPacket& rays, SeenIds* ids, PacketHits& hits) {
+  const D d;
+  SeenCapsules seen;
+  uint32_t chosen[SeenCapsules::most], along[SeenCapsules::most];
+  float e[3], f[3];
+  directions_across(rays.along, e, f);
+  const Vector axes[3] = {set(e[0], e[1], e[2]), set(f[0], f[1], f[2]),
+                          set(rays.along[0], rays.along[1], rays.along[2])};
+  const Vector centre =
+      set(rays.centre[0] - corner[0], rays.centre[1] - corner[1], rays.centre[2] - corner[2]);
+  const float reach = wide + rays.spread;
+  const V most = hn::Set(d, reach * reach), tiny = hn::Set(d, 1e-30f), one = hn::Set(d, 1.0f);
+  const V low = hn::Set(d, rays.near - wide), high = hn::Set(d, rays.far + wide);
+  for (size_t begin = 0; begin < capsules.count; begin += SeenCapsules::most) {
+    const size_t end = std::min(capsules.count, begin + SeenCapsules::most);
+    size_t chosen_count = 0, along_count = 0;
+    for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+      const Vector w = sub(load(capsules.a, i), centre), ab = load(capsules.ab, i);
+      const V px = dot(w, axes[0]), py = dot(w, axes[1]), pz = dot(w, axes[2]);
+      const V qx = dot(ab, axes[0]), qy = dot(ab, axes[1]), qz = dot(ab, axes[2]);
+      const V qq = hn::MulAdd(qx, qx, hn::Mul(qy, qy));
+      const V inverse = hn::Div(one, hn::Max(qq, tiny));
+      const V s = clamp01(hn::Mul(hn::NegMulAdd(px, qx, hn::Neg(hn::Mul(py, qy))), inverse));
+      const V vx = hn::MulAdd(qx, s, px), vy = hn::MulAdd(qy, s, py), z1 = hn::Add(pz, qz);
+      const auto is_near =
+          hn::And(hn::Le(hn::MulAdd(vx, vx, hn::Mul(vy, vy)), most),
+                  hn::And(hn::Ge(hn::Max(pz, z1), low), hn::Le(hn::Min(pz, z1), high)));
+      uint64_t bits = bits_of(d, is_near);
+      if (end - i < hn::Lanes(d)) bits &= (uint64_t{1} << (end - i)) - 1;
+      bits = new_ones(capsules.ids + i, bits, ids);
+      if (!bits) continue;
+      const V ll = hn::Max(hn::MulAdd(qz, qz, qq), hn::Set(d, least_squared));
+      const uint64_t small = bits_of(d, hn::Lt(qq, hn::Mul(ll, hn::Set(d, least_across))));
+      const size_t at = i - begin;
+      hn::Store(px, d, seen.px + at);
+      hn::Store(py, d, seen.py + at);
+      hn::Store(pz, d, seen.pz + at);
+      hn::Store(qx, d, seen.qx + at);
+      hn::Store(qy, d, seen.qy + at);
+      hn::Store(qz, d, seen.qz + at);
+      hn::Store(inverse, d, seen.inverse + at);
+      hn::Store(hn::Mul(qz, hn::Sqrt(hn::Div(inverse, ll))), d, seen.shift + at);
+      for (uint64_t rest = bits & ~small; rest; rest &= rest - 1)
+        chosen[chosen_count++] = static_cast<uint32_t>(at + std::countr_zero(rest));
+      for (uint64_t rest = bits & small; rest; rest &= rest - 1)
+        along[along_count++] = static_cast<uint32_t>(i + std::countr_zero(rest));
+    }
+    if (rays.starts) {
+      meet_seen<true>(seen, capsules.ids + begin, chosen, chosen_count, wide, rays, axes, hits);
+      meet<true>(capsules, along, along_count, wide, corner, rays, hits);
+    } else {
+      meet_seen<false>(seen, capsules.ids + begin, chosen, chosen_count, wide, rays, axes, hits);
+      meet<false>(capsules, along, along_count, wide, corner, rays, hits);
+    }
+  }
+}
+
 void meet_list(const CapsuleView& capsules, float radius, const float (&corner)[3],
-               const RayPacket& rays, PacketHits& hits) {
+               const RayPacket& rays, SeenIds* seen, PacketHits& hits) {
+  const float wide = radius + capsule_ray_slack;
+  if (rays.is_parallel) return meet_parallel(capsules, wide, corner, rays, seen, hits);
   constexpr size_t chunk = 256;
   uint32_t chosen[chunk];
-  const float wide = radius + capsule_ray_slack, reach = wide + rays.spread;
   for (size_t begin = 0; begin < capsules.count; begin += chunk) {
     const size_t end = std::min(capsules.count, begin + chunk);
-    const size_t count = near_line(capsules, begin, end, reach, corner, rays, chosen);
-    if (count == 0) continue;
+    const size_t count = near_line(capsules, begin, end, wide, corner, rays, seen, chosen);
     if (rays.starts)
       meet<true>(capsules, chosen, count, wide, corner, rays, hits);
     else
@@ -174,8 +329,8 @@ void meet_list(const CapsuleView& capsules, float radius, const float (&corner)[
 
 size_t near_list(const CapsuleView& capsules, float radius, const float (&corner)[3],
                  const RayPacket& rays, uint32_t* found) {
-  return near_line(capsules, 0, capsules.count, radius + capsule_ray_slack + rays.spread, corner,
-                   rays, found);
+  return near_line(capsules, 0, capsules.count, radius + capsule_ray_slack, corner, rays, nullptr,
+                   found);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -195,8 +350,8 @@ void PacketHits::clear() {
 }
 
 void meet_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
-                   const RayPacket& rays, PacketHits& hits) {
-  HWY_DYNAMIC_DISPATCH(meet_list)(capsules, radius, corner, rays, hits);
+                   const RayPacket& rays, SeenIds* seen, PacketHits& hits) {
+  HWY_DYNAMIC_DISPATCH(meet_list)(capsules, radius, corner, rays, seen, hits);
 }
 
 size_t near_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],

@@ -6,8 +6,11 @@
 // caller measures from a place near by, in units of its cells.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 
 namespace msq {
 
@@ -37,6 +40,12 @@ struct RayPacket {
   /// A line, with a direction of length 1, and how far any ray is from it within its [from, to].
   float centre[3] = {}, along[3] = {};
   float spread = 0;
+  /// Where along that line rays may meet what is asked for; capsules that they meet elsewhere may
+  /// be left out.
+  float near = -std::numeric_limits<float>::infinity();
+  float far = std::numeric_limits<float>::infinity();
+  /// Whether all rays have the direction `along`.
+  bool is_parallel = false;
 };
 
 /// For each ray of a packet where it may first meet a capsule, and where one with another id: lower
@@ -48,6 +57,22 @@ struct PacketHits {
   void clear();
 };
 
+/// Ids of capsules that a packet was asked about, if they were not crowded out.
+class SeenIds {
+ public:
+  void clear() { std::fill(std::begin(ids_), std::end(ids_), UINT32_MAX); }
+  /// Whether it is new; then it is kept.
+  bool add(uint32_t id) {
+    uint32_t& place = ids_[(id ^ id >> 13) % std::size(ids_)];
+    if (place == id) return false;
+    place = id;
+    return true;
+  }
+
+ private:
+  uint32_t ids_[256];
+};
+
 /// Coordinates of rays and capsules may be up to 8, and their rounding and that of these functions
 /// then amounts to less than this in the radius and in t.
 constexpr float capsule_ray_slack = 4e-5f;
@@ -55,8 +80,10 @@ constexpr float capsule_ray_slack = 4e-5f;
 /// Adds a list of capsules to what the rays meet. `corner` is where the list's coordinates are
 /// from, in the rays'. No ray that meets a capsule in [from, to] is left without it, and its bound
 /// is at most the t of that; some may be found that are missed by less than twice the slack.
+/// Capsules that were `seen` are left out, and those that are asked about are added to it; null:
+/// none are.
 void meet_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
-                   const RayPacket& rays, PacketHits& hits);
+                   const RayPacket& rays, SeenIds* seen, PacketHits& hits);
 
 /// Fills `found` with the numbers, in ascending order, of the capsules that a packet's rays may
 /// meet as far as can be said of all together, and returns how many they are.

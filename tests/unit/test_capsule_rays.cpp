@@ -69,10 +69,12 @@ struct Packet {
   Vec3 origins[RayPacket::most], directions[RayPacket::most];
   RayPacket rays;
 
-  Packet(Random& random, size_t count, double apart, Vec3 u) {
+  /// All along u, or with directions like it.
+  Packet(Random& random, size_t count, double apart, Vec3 u, bool is_parallel = false) {
     const Vec3 start = random.in_box({{-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}});
     rays.count = count;
     rays.starts = true;
+    rays.is_parallel = is_parallel;
     const double reach = 2;
     Vec3 in, out;
     for (size_t n = 0; n < RayPacket::most; ++n) {
@@ -80,7 +82,7 @@ struct Packet {
       rays.to[n] = -1;
     }
     for (size_t n = 0; n < count; ++n) {
-      Vec3 d = u + direction_of(random) * (0.2 * apart);
+      Vec3 d = is_parallel ? u : u + direction_of(random) * (0.2 * apart);
       d = d * (1 / length(d));
       const Vec3 o = start + direction_of(random) * apart;
       double kept[6] = {o.x, o.y, o.z, d.x, d.y, d.z};
@@ -102,7 +104,7 @@ struct Packet {
           {spread, length(origins[n] - in), length(origins[n] + directions[n] * reach - out)});
     for (int k = 0; k < 3; ++k) {
       rays.centre[k] = static_cast<float>(in[k]);
-      rays.along[k] = static_cast<float>(along[k]);
+      rays.along[k] = is_parallel ? rays.direction[k][0] : static_cast<float>(along[k]);
     }
     rays.spread = static_cast<float>(spread + 1e-5);
   }
@@ -116,12 +118,13 @@ void finds_what_rays_meet_first(void**) {
   for (size_t round = 0; round < rounds; ++round) {
     const Vec3 u = direction_of(random), corner{double(random.below(3)), -1, 0};
     const List list(random, 1 + random.below(round % 10 == 0 ? 600 : 60), corner, u);
-    const Packet packet(random, 1 + random.below(RayPacket::most), round % 2 ? 0.1 : 1e-6, u);
+    const Packet packet(random, 1 + random.below(RayPacket::most), round % 2 ? 0.1 : 1e-6, u,
+                        round % 4 < 2);
     const float from[3] = {static_cast<float>(corner.x), static_cast<float>(corner.y),
                            static_cast<float>(corner.z)};
     PacketHits hits;
     hits.clear();
-    meet_capsules(list.view, static_cast<float>(radius), from, packet.rays, hits);
+    meet_capsules(list.view, static_cast<float>(radius), from, packet.rays, nullptr, hits);
     for (size_t n = 0; n < packet.rays.count; ++n) {
       double first = none, other = none;
       for (size_t i = 0; i < list.segments.size(); ++i) {
@@ -154,11 +157,51 @@ void counts_a_strut_in_two_lists_once(void**) {
   const float corner[3] = {};
   PacketHits hits;
   hits.clear();
-  for (int times = 0; times < 2; ++times) meet_capsules(list.view, 0.1f, corner, packet.rays, hits);
+  for (int times = 0; times < 2; ++times)
+    meet_capsules(list.view, 0.1f, corner, packet.rays, nullptr, hits);
   for (size_t n = 0; n < 4; ++n) {
     assert_true(std::abs(hits.first[n] - 0.9f) < 1e-2f);
     assert_true(hits.second[n] == std::numeric_limits<float>::infinity());
   }
+}
+
+/// In parts of the way, each capsule asked about once: as all at once.
+void parts_find_what_the_whole_does(void**) {
+  Random random(7);
+  constexpr float radius = 0.1f;
+  for (size_t round = 0; round < test_count(300); ++round) {
+    const Vec3 u = direction_of(random);
+    const List list(random, 1 + random.below(100), {}, u);
+    Packet packet(random, RayPacket::most, 0.1, u, round % 2);
+    const float corner[3] = {};
+    PacketHits whole, parts;
+    whole.clear();
+    parts.clear();
+    meet_capsules(list.view, radius, corner, packet.rays, nullptr, whole);
+    SeenIds seen;
+    seen.clear();
+    for (int part = 0; part < 8; ++part) {
+      // Beyond the ends by what rays differ in; the last ones again.
+      packet.rays.near = std::min(part, 6) * 0.4f - 0.3f;
+      packet.rays.far = packet.rays.near + 0.9f;
+      meet_capsules(list.view, radius, corner, packet.rays, &seen, parts);
+    }
+    for (size_t n = 0; n < RayPacket::most; ++n) {
+      assert_true(parts.first[n] == whole.first[n]);
+      assert_true(parts.second[n] == whole.second[n]);
+    }
+  }
+}
+
+void tells_new_ids(void**) {
+  SeenIds seen;
+  seen.clear();
+  for (uint32_t id = 0; id < 100; ++id) assert_true(seen.add(id << 16 | id));
+  size_t again = 0;
+  for (uint32_t id = 0; id < 100; ++id) again += !seen.add(id << 16 | id);
+  assert_true(again > 50);
+  seen.clear();
+  assert_true(seen.add(0));
 }
 
 }  // namespace
@@ -167,6 +210,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(finds_what_rays_meet_first),
       cmocka_unit_test(counts_a_strut_in_two_lists_once),
+      cmocka_unit_test(parts_find_what_the_whole_does),
+      cmocka_unit_test(tells_new_ids),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

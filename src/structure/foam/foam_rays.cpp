@@ -17,6 +17,7 @@
 
 #include "base/borrowed.h"
 #include "structure/foam/cell_struts.h"
+#include "structure/foam/packet_path.h"
 #include "structure/foam/strut_entry.h"
 #include "structure/foam/strut_surface.h"
 
@@ -59,9 +60,13 @@ class Walker {
 
  private:
   static constexpr size_t most = RayPacket::most;
+  struct Coming {
+    float at, last;
+    int32_t i, j;
+  };
   /// How far apart rays of a packet may be, across it, in foam units, and how unlike their
   /// directions.
-  static constexpr double most_apart = 0.6, most_turned = 0.05;
+  static constexpr double most_apart = 0.9, most_turned = 0.05;
   /// Cells of a slab that a packet may be in; one that spreads farther goes on ray by ray.
   static constexpr int most_across = 4;
 
@@ -99,18 +104,17 @@ class Walker {
   bool take_packet(const uint32_t* rays, size_t count) {
     count_ = count;
     Vec3 sum;
+    packet_.is_parallel = true;
     for (size_t n = 0; n < count; ++n) {
       ray_[n] = rays[n];
       const FoamRay& ray = memory_.rays[rays[n]];
       sum = sum + ray.direction;
       for (int axis = 0; axis < 3; ++axis) {
-        origin_[axis][n] = ray.origin[axis];
-        direction_[axis][n] = ray.direction[axis];
         packet_.direction[axis][n] = static_cast<float>(ray.direction[axis]);
+        packet_.is_parallel &= packet_.direction[axis][n] == packet_.direction[axis][0];
       }
-      from_[n] = ray.from;
-      to_[n] = ray.to;
     }
+    for (int axis = 0; axis < 3; ++axis) packet_.along[axis] = packet_.direction[axis][0];
     // The axis along which the most cells are crossed; then each ray crosses it.
     axis_ = 0;
     for (int axis = 1; axis < 3; ++axis)
@@ -118,12 +122,13 @@ class Walker {
     up_ = sum[axis_] > 0;
     const double least = 0.5 * std::abs(sum[axis_]) / static_cast<double>(count);
     for (size_t n = 0; n < count; ++n) {
-      const double d = direction_[axis_][n];
+      const double d = memory_.rays[rays[n]].direction[axis_];
       if (!((up_ ? d : -d) >= least)) return false;
       inverse_[n] = 1 / d;
     }
     packet_.count = count;
     live_ = (uint32_t{1} << count) - 1;
+    has_base_ = false;
     return true;
   }
 
@@ -131,7 +136,8 @@ class Walker {
   int32_t first_slab() const {
     double first = 0;
     for (size_t n = 0; n < count_; ++n) {
-      const double place = origin_[axis_][n] + direction_[axis_][n] * from_[n];
+      const FoamRay& ray = memory_.rays[ray_[n]];
+      const double place = ray.origin[axis_] + ray.direction[axis_] * ray.from;
       const double at = std::floor(place / scale_[axis_]);
       first = n == 0 ? at : up_ ? std::min(first, at) : std::max(first, at);
     }
@@ -159,83 +165,129 @@ class Walker {
     }
   }
 
-  /// One slab; false, and nothing is done, if the packet is in too many of its cells.
-  bool cross(int32_t slab) {
+  /// Measures the rays from a slab on, and from the cell there that the first live one is in.
+  void set_base(int32_t slab) {
     const int k = axis_, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
-    const double plane_in = (slab + !up_) * scale_[k], plane_out = (slab + up_) * scale_[k];
-    uint32_t active = 0;
+    const double plane = (slab + !up_) * scale_[k];
+    const auto crossing = [&](size_t n) {
+      return (plane - memory_.rays[ray_[n]].origin[k]) * inverse_[n];
+    };
+    base_slab_ = slab;
+    has_base_ = true;
+    const auto first = static_cast<size_t>(std::countr_zero(live_));
+    const FoamRay& live = memory_.rays[ray_[first]];
+    const Vec3 place = live.at(std::max(live.from, crossing(first)));
+    for (int side = 0; side < 2; ++side)
+      base_[side] = static_cast<int32_t>(std::floor(place[lateral[side]] / scale_[lateral[side]]));
     for (size_t n = 0; n < count_; ++n) {
-      enter_[n] = (plane_in - origin_[k][n]) * inverse_[n];
-      exit_[n] = (plane_out - origin_[k][n]) * inverse_[n];
-      active |= static_cast<uint32_t>(enter_[n] <= to_[n] && exit_[n] >= from_[n]) << n;
-      live_ &= ~(static_cast<uint32_t>(enter_[n] > to_[n]) << n);
-    }
-    active &= live_;
-    if (!active) return true;
-    // The places where rays come in and go out, and their box.
-    const double far = 1e300;
-    double low[2] = {far, far}, high[2] = {-far, -far};
-    double in[2][most], out[2][most];
-    for (int side = 0; side < 2; ++side) {
-      const double *o = origin_[lateral[side]], *d = direction_[lateral[side]];
-      for (size_t n = 0; n < count_; ++n) {
-        in[side][n] = o[n] + d[n] * enter_[n];
-        out[side][n] = o[n] + d[n] * exit_[n];
-        const double p = o[n] + d[n] * std::max(from_[n], enter_[n]);
-        const double q = o[n] + d[n] * std::min(to_[n], exit_[n]);
-        const bool is_active = active >> n & 1;
-        low[side] = std::min(low[side], is_active ? std::min(p, q) : far);
-        high[side] = std::max(high[side], is_active ? std::max(p, q) : -far);
+      const FoamRay& ray = memory_.rays[ray_[n]];
+      const double t = crossing(n), step = scale_[k] * std::abs(inverse_[n]);
+      enter_[n] = t;
+      step_[n] = step;
+      path_.step[n] = static_cast<float>(step);
+      path_.from[n] = single(ray.from - t);
+      path_.to[n] = single(ray.to - t);
+      for (int side = 0; side < 2; ++side) {
+        const int axis = lateral[side];
+        const double at = ray.origin[axis] + ray.direction[axis] * t - base_[side] * scale_[axis];
+        path_.place[side][n] = single(at);
+        path_.slope[side][n] = static_cast<float>(ray.direction[axis] * step);
       }
     }
+    for (size_t n = count_; n < most; ++n) {
+      path_.step[n] = 1;
+      path_.from[n] = path_.to[n] = path_.place[0][n] = path_.place[1][n] = 0;
+      path_.slope[0][n] = path_.slope[1][n] = 0;
+    }
+    packet_.starts = false;
+    for (size_t n = 0; n < most; ++n) {
+      const bool is_live = live_ >> n & 1;
+      packet_.origin[k][n] = static_cast<float>(up_ ? 0 : scale_[k]);
+      packet_.origin[lateral[0]][n] = path_.place[0][n];
+      packet_.origin[lateral[1]][n] = path_.place[1][n];
+      packet_.from[n] = is_live ? std::max(path_.from[n], 0.0f) : 1;
+      packet_.to[n] = is_live ? path_.to[n] + 4e-6f : -1;  // room for roundings
+      packet_.starts |= is_live && path_.from[n] >= -static_cast<float>(ray_list_margin);
+    }
+    hits_.clear();
+    seen_.clear();
+  }
+
+  static float single(double x) { return static_cast<float>(std::clamp(x, -1e30, 1e30)); }
+
+  /// One slab; false, and nothing is done, if the packet is in too many of its cells.
+  bool cross(int32_t slab) {
+    // Coordinates stay small from slabs and cells near by.
+    constexpr int most_slabs = 4;
+    constexpr float most_cells = 5;
+    const int k = axis_, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
+    int number = up_ ? slab - base_slab_ : base_slab_ - slab;
+    if (!has_base_ || number < 0 || number >= most_slabs) {
+      set_base(slab);
+      number = 0;
+    }
+    SlabCrossing crossing;
+    while (true) {
+      const double rise = up_ ? scale_[k] : -scale_[k];
+      crossing = cross_slab(path_,
+                            {number, k, static_cast<float>((up_ ? 0 : scale_[k]) + number * rise),
+                             static_cast<float>(rise)},
+                            live_, packet_);
+      live_ &= ~crossing.ended;
+      if (!crossing.active) return true;
+      if (number == 0) break;
+      bool is_far = false;
+      for (int side = 0; side < 2; ++side) {
+        const float size = static_cast<float>(scale_[lateral[side]]);
+        is_far |=
+            crossing.low[side] < -most_cells * size || crossing.high[side] > most_cells * size;
+      }
+      if (!is_far) break;
+      set_base(slab);
+      number = 0;
+    }
+    uint32_t active = crossing.active;
     int32_t first[2], last[2];
     for (int side = 0; side < 2; ++side) {
-      const double size = scale_[lateral[side]];
-      first[side] = static_cast<int32_t>(std::floor(low[side] / size));
-      last[side] = static_cast<int32_t>(std::floor(high[side] / size));
+      const float size = static_cast<float>(scale_[lateral[side]]);
+      // Roundings are within the margin of the lists.
+      first[side] = static_cast<int32_t>(std::floor(crossing.low[side] / size));
+      last[side] = static_cast<int32_t>(std::floor(crossing.high[side] / size));
     }
     if (count_ > 1 && (last[0] - first[0] >= most_across || last[1] - first[1] >= most_across))
       return false;
 
-    int32_t corner[3];
-    corner[k] = slab;
-    corner[lateral[0]] = first[0];
-    corner[lateral[1]] = first[1];
-    for (int side = 0; side < 2; ++side) {
-      const double shift = first[side] * scale_[lateral[side]];
-      for (size_t n = 0; n < count_; ++n) {
-        in[side][n] -= shift;
-        out[side][n] -= shift;
-      }
-    }
-    fill_packet(active, in, out);
-    hits_.clear();
+    number_ = number;
     slots_.clear();
-    if (memory_.struts.is_full()) memory_.struts.forget();
+    if (memory_.struts.is_full()) {
+      memory_.struts.forget();
+      set_base(slab);
+      return cross(slab);
+    }
     // Cells in the order in which the packet comes to them; rays end in the first ones mostly.
     order_.clear();
     for (int32_t j = first[1]; j <= last[1]; ++j)
       for (int32_t i = first[0]; i <= last[0]; ++i)
-        if (const float at = comes_to(i - first[0], j - first[1]); at <= 1)
-          order_.push_back({at, i, j});
+        if (Coming coming{0, 1, i, j}; comes_to(coming)) order_.push_back(coming);
     std::sort(order_.begin(), order_.end(),
               [](const Coming& x, const Coming& y) { return x.at < y.at; });
+    const float rise = static_cast<float>(scale_[k]) / std::abs(packet_.along[k]);
+    // Where a ray and the centre are in one plane of the slab, the centre may be as much behind.
+    const float behind =
+        packet_.spread * std::sqrt(std::max(0.0f, 1 - packet_.along[k] * packet_.along[k])) +
+        static_cast<float>(ray_list_margin);
     for (size_t c = 0; c < order_.size() && active; ++c) {
-      int32_t cell[3];
-      cell[k] = slab;
-      cell[lateral[0]] = order_[c].i;
-      cell[lateral[1]] = order_[c].j;
-      const Slot& slot = add_slot(cell, corner);
-      meet_capsules(slot.list, static_cast<float>(radius_), slot.corner, packet_, hits_);
+      packet_.near = order_[c].at * rise - behind;
+      packet_.far = order_[c].last * rise + behind;
+      const Slot& slot = add_slot(order_[c], slab);
+      meet_capsules(slot.list, static_cast<float>(radius_), slot.corner, packet_, &seen_, hits_);
       const bool is_last = c + 1 == order_.size();
       for (uint32_t rest = active; rest; rest &= rest - 1) {
         const size_t n = static_cast<size_t>(std::countr_zero(rest));
         if (hits_.first[n] == std::numeric_limits<float>::infinity()) continue;
         // The other cells hold nothing that the ray may meet before.
         const double last_t =
-            is_last
-                ? limit(n)
-                : std::min(limit(n), enter_[n] + double(order_[c + 1].at) * (exit_[n] - enter_[n]));
+            is_last ? limit(n) : std::min(limit(n), enter(n) + double(order_[c + 1].at) * step_[n]);
         if (enter_[n] + double(hits_.first[n]) > last_t || !settle(n, last_t)) continue;
         active &= ~(1u << n);
         live_ &= ~(1u << n);
@@ -245,57 +297,13 @@ class Walker {
     return true;
   }
 
-  /// The rays in single precision, from the corner of a cell. in, out: where they cross the slab's
-  /// planes, from there, along the two other axes.
-  void fill_packet(uint32_t active, const double (&in)[2][most], const double (&out)[2][most]) {
-    const int k = axis_, a = (k + 1) % 3, b = (k + 2) % 3;
-    const double begin = up_ ? 0 : scale_[k];
-    packet_.starts = false;
-    double sums[4] = {}, total = 0;
-    for (size_t n = 0; n < count_; ++n) {
-      const bool is_active = active >> n & 1;
-      packet_.origin[k][n] = static_cast<float>(begin);
-      packet_.origin[a][n] = static_cast<float>(in[0][n]);
-      packet_.origin[b][n] = static_cast<float>(in[1][n]);
-      packet_.starts |= is_active && from_[n] >= enter_[n] - ray_list_margin;
-      const double from = std::max(from_[n], enter_[n]) - enter_[n];
-      packet_.from[n] = is_active ? static_cast<float>(from) : 1.0f;
-      packet_.to[n] = is_active ? static_cast<float>(limit(n) - enter_[n]) + 1e-6f : -1.0f;
-      const double weight = is_active ? 1 : 0;
-      total += weight;
-      sums[0] += weight * in[0][n];
-      sums[1] += weight * in[1][n];
-      sums[2] += weight * out[0][n];
-      sums[3] += weight * out[1][n];
-    }
-    for (size_t n = count_; n < most; ++n) {
-      packet_.from[n] = 1;
-      packet_.to[n] = -1;
-    }
-    for (double& sum : sums) sum /= total;
-    double squared = 0;
-    for (size_t n = 0; n < count_; ++n) {
-      const double x = in[0][n] - sums[0], y = in[1][n] - sums[1];
-      const double u = out[0][n] - sums[2], v = out[1][n] - sums[3];
-      const double far = std::max(x * x + y * y, u * u + v * v);
-      squared = std::max(squared, active >> n & 1 ? far : 0.0);
-    }
-    const double rise = up_ ? scale_[k] : -scale_[k], x = sums[2] - sums[0], y = sums[3] - sums[1];
-    const double inverse = 1 / std::sqrt(rise * rise + x * x + y * y);
-    packet_.centre[k] = static_cast<float>(begin);
-    packet_.centre[a] = static_cast<float>(sums[0]);
-    packet_.centre[b] = static_cast<float>(sums[1]);
-    packet_.along[k] = static_cast<float>(rise * inverse);
-    packet_.along[a] = static_cast<float>(x * inverse);
-    packet_.along[b] = static_cast<float>(y * inverse);
-    // And as much farther as rays go beyond the slab.
-    packet_.spread = static_cast<float>(std::sqrt(squared) * 1.01 + 1e-5);
-  }
+  /// Where ray n crosses the first plane of the slab at hand.
+  double enter(size_t n) const { return enter_[n] + number_ * step_[n]; }
 
-  /// The part of its way through the slab after which the packet may be in the cell that is (i, j)
-  /// from the first along the two other axes; above 1 if it never is.
-  float comes_to(int32_t i, int32_t j) const {
-    const int32_t cell[2] = {i, j};
+  /// Whether the packet may be in the cell that is (i, j) from the base along the two other axes,
+  /// and in which part of its way through the slab.
+  bool comes_to(Coming& coming) const {
+    const int32_t cell[2] = {coming.i, coming.j};
     float low = 0, high = 1;
     const float rise = static_cast<float>(scale_[axis_]) / std::abs(packet_.along[axis_]);
     for (int side = 0; side < 2; ++side) {
@@ -309,11 +317,15 @@ class Walker {
       low = std::max(low, std::min(p, q) - 1e-4f);
       high = std::min(high, std::max(p, q) + 1e-4f);
     }
-    return low <= high ? low : 2.0f;
+    coming.at = low;
+    coming.last = high;
+    return low <= high;
   }
 
   /// Up to where the lists of this slab hold all that ray n may meet.
-  double limit(size_t n) const { return std::min(to_[n], exit_[n] + 0.5 * ray_list_margin); }
+  double limit(size_t n) const {
+    return std::min(memory_.rays[ray_[n]].to, enter(n) + step_[n] + 0.5 * ray_list_margin);
+  }
 
   /// The list of a cell, for one slab.
   struct Slot {
@@ -321,11 +333,17 @@ class Walker {
     float corner[3];
   };
 
-  const Slot& add_slot(const int32_t (&cell)[3], const int32_t (&origin)[3]) {
+  const Slot& add_slot(const Coming& coming, int32_t slab) {
+    const int a = (axis_ + 1) % 3, b = (axis_ + 2) % 3;
+    int32_t cell[3];
+    cell[axis_] = slab;
+    cell[a] = base_[0] + coming.i;
+    cell[b] = base_[1] + coming.j;
     Slot& slot = slots_.emplace_back();
     slot.list = memory_.struts.list({cell[0], cell[1], cell[2]});
-    for (int axis = 0; axis < 3; ++axis)
-      slot.corner[axis] = static_cast<float>((cell[axis] - origin[axis]) * scale_[axis]);
+    slot.corner[axis_] = static_cast<float>((slab - base_slab_) * scale_[axis_]);
+    slot.corner[a] = static_cast<float>(coming.i * scale_[a]);
+    slot.corner[b] = static_cast<float>(coming.j * scale_[b]);
     return slot;
   }
 
@@ -365,6 +383,7 @@ class Walker {
     alone.from[0] = packet_.from[n];
     alone.to[0] = packet_.to[n];
     alone.starts = packet_.starts;
+    alone.is_parallel = true;
     candidates_.clear();
     for (const Slot& slot : slots_) {
       near_.resize(slot.list.count);
@@ -381,7 +400,7 @@ class Walker {
         one.count = 1;
         PacketHits hits;
         hits.clear();
-        meet_capsules(one, static_cast<float>(radius_), slot.corner, alone, hits);
+        meet_capsules(one, static_cast<float>(radius_), slot.corner, alone, nullptr, hits);
         if (hits.first[0] < std::numeric_limits<float>::infinity())
           candidates_.push_back({hits.first[0], hits.id[0]});
       }
@@ -423,15 +442,16 @@ class Walker {
   bool up_ = true;
   size_t count_ = 0;
   uint32_t ray_[most], live_ = 0;
-  double origin_[3][most], direction_[3][most], inverse_[most], from_[most], to_[most];
-  // In the slab at hand.
-  double enter_[most], exit_[most];
+  double inverse_[most];
+  bool has_base_ = false;
+  int32_t base_slab_ = 0, base_[2];
+  PacketPath path_;
+  double enter_[most], step_[most];  // of t: at the first plane of the base, and by slab
+  int number_ = 0;                   // of the slab at hand, from the base
   RayPacket packet_;
+  // From the base on.
   PacketHits hits_;
-  struct Coming {
-    float at;
-    int32_t i, j;
-  };
+  SeenIds seen_;
   std::vector<Coming> order_;
   std::vector<Slot> slots_;
   struct Candidate {
@@ -444,7 +464,7 @@ class Walker {
     uint64_t era = 0;
     StrutLine line;
   };
-  Known known_[16];
+  Known known_[64];
   std::vector<uint32_t> near_;
 };
 
