@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays hit where membership first changes, against dense samples of membership: at random, along
 // the axes, and past surfaces that they only just touch or miss, found by halving between rays that
-// hit and rays that go on. Normals are the gradient of the onset, and point out.
+// hit and rays that go on. Some are aimed at a point inside, which they must not pass. Normals are
+// the gradient of the onset, and point out.
 //
-// 10^5 rays of one structure: MSQ_TEST_SCALE=1667 contract_test_ray_hits "octet, thin".
+// 10^5 rays of one structure: contract_test_ray_hits "octet, thin" 100000; of every kind,
+// scripts/test_rays.
 #include <vector>
 
 #include "random.h"
@@ -15,6 +17,7 @@ using namespace msq::test;
 
 namespace {
 
+size_t asked_rays = 0;  // of each row, on the command line
 constexpr size_t ray_samples = 256, window_samples = 64;
 
 class Checker {
@@ -52,6 +55,18 @@ class Checker {
     if (t > 0) check_normal(search);
   }
 
+  /// A point on the ray lies in a part that rays must not overlook.
+  bool is_seen(const Ray& ray, double t) const {
+    for (double away : {0.0, -1.0, -0.5, 0.5, 1.0})
+      if (!structure_.inside(ray.at(t + away * part_))) return false;
+    return true;
+  }
+
+  /// It hits at t or before.
+  void check_aimed(const RaySearch& search, double t) const {
+    if (!search.found || search.t > t + part_) fail_at(search.ray, t, "is inside, and passed");
+  }
+
   /// Between two rays, one beside the other, that meet different surfaces: near the nearer surface.
   void check_graze(Ray near, Ray far, double to, double apart) {
     RaySearch a = cast(near, to), b = cast(far, to);
@@ -87,10 +102,7 @@ class Checker {
     structure_.keep_points(points_.data(), alive_.data(), samples);
     for (size_t i = 0; i < samples; ++i) {
       if (!alive_[i] || at(i) > to - part_) continue;
-      bool is_long = true;
-      for (double away : {-1.0, -0.5, 0.5, 1.0})
-        is_long = is_long && structure_.inside(ray.at(at(i) + away * part_));
-      if (is_long) fail_at(ray, to, "has a point inside before it", at(i));
+      if (is_seen(ray, at(i))) fail_at(ray, to, "has a point inside before it", at(i));
     }
   }
 
@@ -146,7 +158,8 @@ void test_row(void** state) {
   const Ref<const Structure> structure = row.make(centre);
   Checker checker(row, *structure, row.parameter(centre));
   Random random(row.index + 17);
-  const size_t count = row.samples((row.is_lattice() ? 60 : 8) * row.family_rows);
+  const size_t count =
+      asked_rays ? asked_rays : row.samples((row.is_lattice() ? 60 : 8) * row.family_rows);
   const double to = 2.5 * row.unit();
   for (size_t i = 0; i < count; ++i) {
     const Vec3 a = random.in_box({{-1, -1, -1}, {2, 2, 2}});
@@ -157,14 +170,30 @@ void test_row(void** state) {
     }
     const Vec3 from = grid.from_grid(a * grid.cell_size),
                target = grid.from_grid(b * grid.cell_size);
-    const Ray ray{from, (target - from) * (1 / length(target - from))};
-    checker.check(checker.cast(ray, to));
+    Ray ray{from, (target - from) * (1 / length(target - from))};
+    double aimed = -1;
+    if (i % 4 == 1) {
+      const Vec3 direction = ray.direction;
+      for (int tries = 0; tries < 500 && aimed < 0; ++tries) {
+        const Vec3 p = grid.from_grid(random.in_box({{-1, -1, -1}, {2, 2, 2}}) * grid.cell_size);
+        if (!structure->inside(p)) continue;
+        const double t = random.between(0.1, 0.9) * to;
+        ray.origin = p - direction * t;
+        if (checker.is_seen(ray, t)) aimed = t;
+      }
+    }
+    const RaySearch search = checker.cast(ray, to);
+    if (aimed >= 0) checker.check_aimed(search, aimed);
+    checker.check(search);
     if (i % 2) continue;
     Ray beside = ray;
     const Vec3 across{random.normal(), random.normal(), random.normal()};
     beside.origin = from + across * (0.1 * row.unit());
     checker.check_graze(ray, beside, to, std::exp2(-random.between(4, 30)) * row.unit());
   }
+  if (asked_rays)
+    print_message("rays %zu hits %zu grazes %zu normals %zu\n", count, checker.hits, checker.grazes,
+                  checker.normals);
   assert_true(checker.hits > 0);
   if (count < 50) return;
   // Foams that are graded leave their normals to others.
@@ -177,6 +206,7 @@ void test_row(void** state) {
 
 int main(int argc, char** argv) {
   std::vector<StructureRow> rows = structures_by_point();
+  if (argc > 2) asked_rays = std::strtoull(argv[2], nullptr, 10);
   if (argc > 1)
     cmocka_set_test_filter(argv[1]);
   else  // by name only: seconds a ray, and test_rays.cpp asks a few

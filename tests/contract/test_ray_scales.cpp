@@ -67,6 +67,7 @@ void test_row(void** state) {
     if (!inside(end) && !inside(end + 0x1p-36)) fail_at("it is outside", end);
     assert_true(std::abs(length(hits[i].normal) - 1) < 1e-9);
   }
+  if (count < 100) return;  // too few to say how many hit which
   assert_true(by_scale[1] > count / 20);
   assert_true(by_scale[2] > count / 5);
 }
