@@ -110,7 +110,8 @@ static void thin_foams_have_their_edges(void** state) {
     assert_ok(msq_points_def_init(&sample, sizeof sample));
     sample.kind = MSQ_POINTS_STRATIFIED;
     sample.per_cell = 2;
-    const uint64_t side = (uint64_t)cbrt((double)test_count(45 * 45 * 45));
+    /* At least so many that one point is less than the fraction's tolerance. */
+    const uint64_t side = (uint64_t)fmax(18, cbrt((double)test_count(45 * 45 * 45)));
     for (int axis = 0; axis < 3; ++axis) {
       sample.counts[axis] = side;
       sample.spacing[axis] = 16 * a / (double)side;

@@ -50,7 +50,8 @@ void test_row(void** state) {
         [&](const Ray& r, double from, double to) { return shape->leave(r, from, to); });
   }
   // Some rules leave nothing of some meshes.
-  if (row.least > 0 && !is_marched) assert_true(entries > static_cast<int>(count / 20));
+  if (row.least > 0 && !is_marched && count >= 50)
+    assert_true(entries > static_cast<int>(count / 20));
 }
 
 }  // namespace
