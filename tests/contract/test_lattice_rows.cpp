@@ -9,7 +9,9 @@
 #include <tuple>
 
 #include "bit_rows.h"
+#include "field/gradient.h"
 #include "random.h"
+#include "structure/lattice/lattice.h"
 #include "structures.h"
 #include "suite.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grids that reach far beyond the shape, and matrices that are rotations only nearly: the answers are
-// those of the point query, and come in the time that the samples in the shape take.
+// Grids that reach far beyond the shape, and matrices that are rotations only nearly: the answers
+// are those of the point query, and come in the time that the samples in the shape take.
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -67,7 +67,8 @@ size_t compare(const Model& made, const double (&origin)[3], const double (&spac
     points.counts[axis] = counts[axis];
   }
   std::vector<uint8_t> inside(counts[0] * counts[1] * counts[2]);
-  assert_ok(msq_set_membership(made.model, &points, nullptr, inside.data(), inside.size(), nullptr));
+  assert_ok(
+      msq_set_membership(made.model, &points, nullptr, inside.data(), inside.size(), nullptr));
   size_t index = 0, count = 0, wrong = 0;
   for (uint64_t k = 0; k < counts[2]; ++k)
     for (uint64_t j = 0; j < counts[1]; ++j)

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cstring>
 
+#include "field/gradient.h"
 #include "query/array_points.h"
 #include "query/membership.h"
 #include "random.h"
 #include "shape/primitive.h"
 #include "structure/foam/point_set.h"
+#include "structure/lattice/lattice.h"
 #include "structures.h"
 #include "suite.h"
 

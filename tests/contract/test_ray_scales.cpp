@@ -7,6 +7,7 @@
 #include "random.h"
 #include "ray/cast.h"
 #include "shape/primitive.h"
+#include "structure/functional/presets.h"
 #include "structures.h"
 #include "suite.h"
 

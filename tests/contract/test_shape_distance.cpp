@@ -4,7 +4,11 @@
 // distance of two points, and those of meshes that triangles bound are exact.
 #include <limits>
 
+#include "meshes.h"
 #include "random.h"
+#include "shape/host.h"
+#include "shape/mesh.h"
+#include "shape/voxels.h"
 #include "shapes.h"
 #include "suite.h"
 

@@ -4,6 +4,7 @@
 // and on grids that fit nothing.
 #include "bit_rows.h"
 #include "random.h"
+#include "shape/mesh.h"
 #include "shapes.h"
 #include "suite.h"
 

@@ -6,9 +6,11 @@
 #include <limits>
 
 #include "bit_rows.h"
+#include "field/gradient.h"
 #include "model/scale.h"
 #include "random.h"
 #include "shapes.h"
+#include "structure/lattice/lattice.h"
 #include "structures.h"
 #include "suite.h"
 

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structures.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "expression/parser.h"
+#include "field/gradient.h"
+#include "field/grid.h"
+#include "field/map.h"
+#include "host_structures.h"
+#include "images.h"
+#include "structure/foam/delaunay.h"
+#include "structure/foam/foam.h"
+#include "structure/functional/functional.h"
+#include "structure/functional/presets.h"
+#include "structure/lattice/lattice.h"
+#include "structure/lattice/mixed_lattice.h"
+
+namespace msq::test {
+
+namespace {
+
+/// Through a bent curve.
+FieldRef mapped(const Neighbourhood&, FieldRef linear) {
+  const auto [low, high] = linear->range();
+  const auto between = [low = low, high = high](double part) { return low + part * (high - low); };
+  return make_ref<MapField>(
+      linear,
+      Curve(
+          {{low, low}, {between(0.4), between(0.7)}, {between(0.7), between(0.5)}, {high, high}}));
+}
+
+/// Sampled about the grid's origin, on a turned grid of its own.
+FieldRef sampled_field(const Neighbourhood& grid, FieldRef linear) {
+  const ImageFrame frame{grid.origin - Vec3{4, 4, 4} * max_component(grid.cell_size),
+                         grid.cell_size * 0.7, skew_rotation()};
+  const ImageSize size{16, 17, 18};
+  const auto values = sampled<double>(size, [&](Vec3 u) {
+    return linear->at(frame.rotation.apply(u * frame.spacing) + frame.origin);
+  });
+  return make_ref<GridField>(make_image(values, size, frame));
+}
+
+/// The density of seeds rises from 1 to 30 along an oblique line through the grid's origin.
+Factory graded_foam_factory(double jitter) {
+  return [=](const Neighbourhood& grid, Parameter radius) {
+    const Vec3 half = Vec3{1.6, 1.2, 0.9} * grid.cell_size;
+    const Parameter density(Ref<const Field>(
+        make_ref<GradientField>(grid.from_grid(half * -1.0), 1.0, grid.from_grid(half), 30.0)));
+    return Ref<const Structure>(make_ref<Foam>(shared_context(), grid, std::move(radius), jitter,
+                                               uint64_t{7}, FoamMethod::direct, density));
+  };
+}
+
+}  // namespace
+
+Ref<Context> shared_context() {
+  static const Ref<Context> context = make_ref<Context>(1u, uint64_t{64} << 20, uint64_t{0});
+  return context;
+}
+
+Parameter StructureRow::parameter(Vec3 centre, double extra) const {
+  const double most = radius() + extra;
+  if (!is_graded) return Parameter(most);
+  const Vec3 half = Vec3{1.1, 0.9, 0.7} * unit();
+  FieldRef field =
+      make_ref<GradientField>(centre - half, graded_from * radius() + extra, centre + half, most);
+  if (kind.vary) field = kind.vary(variant.grid, field);
+  return Parameter(field);
+}
+
+Factory lattice_factory(UnitCell cell) {
+  return [cell](const Neighbourhood& grid, Parameter radius) {
+    return Ref<const Structure>(make_ref<Lattice>(grid, cell, std::move(radius)));
+  };
+}
+
+Factory foam_factory(FoamMethod method, double jitter) {
+  return [=](const Neighbourhood& grid, Parameter radius) {
+    return Ref<const Structure>(
+        make_ref<Foam>(shared_context(), grid, std::move(radius), jitter, uint64_t{7}, method));
+  };
+}
+
+Factory functional_factory(const char* expression, FunctionalKind kind, int clusters) {
+  const Tape tape = parse_expression(expression, {});
+  return [=](const Neighbourhood& grid, Parameter level) {
+    return Ref<const Structure>(make_ref<Functional>(grid, tape, kind, std::move(level), clusters));
+  };
+}
+
+UnitCell skew_unit_cell() {
+  UnitCell cell;
+  cell.nodes = {{0, 0.25, 0.75},   {1, 0.5, 0.125}, {0.3, 0, 1},     {0.7, 1, 0},  {0, 0, 0},
+                {0.6, 0.45, 0.55}, {1, 1, 0.4},     {0.2, 0.3, 0.1}, {0.9, 0.8, 1}};
+  cell.struts = {{0, 1}, {2, 3}, {4, 5}, {5, 6}, {7, 8}, {0, 5}};
+  return cell;
+}
+
+UnitCell factored_unit_cell() {
+  UnitCell cell = skew_unit_cell();
+  cell.factors = {1, 0.5, 1.75, 1, 0.25, 1.5};
+  return cell;
+}
+
+Factory mixed_factory() {
+  return [](const Neighbourhood& grid, Parameter radius) {
+    const Vec3 half = Vec3{1.5, 1.1, 0.8} * grid.cell_size;
+    const Parameter choice(Ref<const Field>(
+        make_ref<GradientField>(grid.from_grid(half * -1.0), -1.0, grid.from_grid(half), 4.0)));
+    return Ref<const Structure>(
+        make_ref<MixedLattice>(grid,
+                               std::vector<UnitCell>{cubic_unit_cell(), factored_unit_cell(),
+                                                     octet_unit_cell(), kelvin_unit_cell()},
+                               choice, std::move(radius)));
+  };
+}
+
+namespace {
+
+std::vector<Kind> kinds() {
+  std::vector<Kind> kinds = {
+      {"cubic", "thin", 0.08, 1, lattice_factory(cubic_unit_cell())},
+      {"cubic", "ties", 0.25, 1, lattice_factory(cubic_unit_cell())},
+      {"BCC", "thin", 0.06, 1, lattice_factory(bcc_unit_cell())},
+      {"BCC", "fat", 0.2, 1, lattice_factory(bcc_unit_cell())},
+      {"octet", "thin", 0.03, 1, lattice_factory(octet_unit_cell())},
+      {"octet", "ties", 0.125, 1, lattice_factory(octet_unit_cell())},
+      {"skew", "thin", 0.05, 1, lattice_factory(skew_unit_cell())},
+      {"skew", "beyond its cell", 0.21, 1, lattice_factory(skew_unit_cell())},
+      {"factors", "", 0.09, 1, lattice_factory(factored_unit_cell())},
+      {"presets", "Kelvin", 0.05, 1, lattice_factory(kelvin_unit_cell())},
+      {"presets", "re-entrant", 0.07, 1, lattice_factory(reentrant_unit_cell())},
+      {"mixed", "", 0.07, 1, mixed_factory()},
+  };
+  // A sum with the tables of a row, one of them with its magnitude taken, and what is none.
+  const FunctionalKind network = FunctionalKind::network, sheet = FunctionalKind::sheet;
+  const char* const choice =
+      "min(sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x), sqrt(4+cos(x)+cos(y)*cos(z))-2)";
+  kinds.push_back(
+      {"functional", "gyroid", 0.2, 1, functional_factory(preset_expressions[0], network, 0)});
+  kinds.push_back(
+      {"functional", "split P sheet", 0.1, 1, functional_factory(preset_expressions[7], sheet, 0)});
+  kinds.push_back({"functional", "choice", 0.05, 1, functional_factory(choice, network, 0)});
+  kinds.push_back(
+      {"functional", "choice sheet, few clusters", 0.1, 1, functional_factory(choice, sheet, 3)});
+  for (bool by_cell : {false, true})
+    kinds.push_back({"host", by_cell ? "lattice by cells" : "lattice by points", 0.12, 1,
+                     [=](const Neighbourhood& grid, Parameter radius) {
+                       return make_copy(shared_context(), octet_unit_cell(), grid,
+                                        std::move(radius), by_cell);
+                     }});
+  struct Function {
+    const char* name;
+    bool is_sheet, has_range;
+    double lipschitz;
+  };
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  for (const Function& f : {Function{"function", false, false, unknown},
+                            Function{"function of bounded slope", false, false, 3.4642},
+                            Function{"sheet of known ranges", true, true, unknown}})
+    kinds.push_back({"host", f.name, 0.2, 1, [=](const Neighbourhood& grid, Parameter level) {
+                       return make_host_gyroid(grid, std::move(level), f.is_sheet, f.has_range,
+                                               f.lipschitz);
+                     }});
+  struct Method {
+    const char* family;
+    FoamMethod method;
+  };
+  std::vector<Method> methods = {{"foam POINT", FoamMethod::point},
+                                 {"foam METHOD_1", FoamMethod::method_1},
+                                 {"foam DIRECT", FoamMethod::direct}};
+  if (can_triangulate()) methods.push_back({"foam METHOD_2", FoamMethod::method_2});
+  for (const Method& m : methods)
+    for (double jitter : {1.0, 0.5, 0.01, 0.0})
+      for (double radius : {0.05, 0.1, 0.26, 0.5}) {
+        if (m.method == FoamMethod::point && radius == 0.5) continue;
+        char name[64];
+        std::snprintf(name, sizeof name, "jitter %g r %g", jitter, radius);
+        kinds.push_back({m.family, name, radius, jitter, foam_factory(m.method, jitter)});
+      }
+  for (double jitter : {1.0, 0.01, 0.0})
+    for (double radius : {0.02, 0.06, 0.26}) {
+      if (jitter < 1 && radius != 0.06) continue;
+      char name[64];
+      std::snprintf(name, sizeof name, "density 1 to 30, jitter %g r %g", jitter, radius);
+      kinds.push_back({"foam DIRECT", name, radius, jitter, graded_foam_factory(jitter)});
+    }
+  // Fields that are not linear.
+  kinds.push_back({"BCC", "mapped radius", 0.15, 1, lattice_factory(bcc_unit_cell()), mapped});
+  kinds.push_back({"functional", "gyroid, sampled level", 0.2, 1,
+                   functional_factory(preset_expressions[0], network, 0), sampled_field});
+  kinds.push_back({"foam DIRECT", "sampled radius 0.1", 0.1, 1, foam_factory(FoamMethod::direct, 1),
+                   sampled_field});
+  return kinds;
+}
+
+}  // namespace
+
+std::vector<GridVariant> grid_variants(bool is_lattice) {
+  const Vec3 uneven = is_lattice ? Vec3{1.25, 0.75, 1} : Vec3{1, 1, 0.5};
+  const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(-1.1), t = std::sin(-1.1);
+  const Rotation skew{{c, -s * d, s * t, s, c * d, -c * t, 0, t, d}};
+  const Rotation quarter{{0, -1, 0, 1, 0, 0, 0, 0, 1}};
+  return {{"", {}, true},
+          {"uneven cells", {{0.5, -0.25, 0.125}, uneven, {}}, true},
+          {"turned", {{0.3, 0.2, -0.7}, {2.5, 2.5, 2.5}, skew}, false},
+          {"uneven, quarter turn", {{0, 1, 0}, uneven * 4.0, quarter}, true}};
+}
+
+std::vector<StructureRow> structures() {
+  std::vector<StructureRow> rows;
+  for (const Kind& kind : kinds())
+    for (const GridVariant& variant : grid_variants(kind.family.find("foam") == std::string::npos))
+      for (bool is_graded : {false, true})
+        rows.push_back({kind.family + ", " + kind.name +
+                            (variant.name.empty() ? "" : ", " + variant.name) +
+                            (is_graded ? ", graded" : ""),
+                        kind, variant, is_graded, 0, 0});
+  for (StructureRow& row : rows)
+    for (const StructureRow& other : rows)
+      if (other.kind.family == row.kind.family) {
+        if (&other < &row) ++row.index;
+        ++row.family_rows;
+      }
+  return rows;
+}
+
+std::vector<StructureRow> structures_by_point() {
+  std::vector<StructureRow> rows;
+  for (const StructureRow& row : structures())
+    if (row.is_lattice() || row.kind.family == "foam DIRECT") rows.push_back(row);
+  return rows;
+}
+
+bool may_differ(const StructureRow& row, Vec3 centre, Vec3 p) {
+  if (!row.is_method_2() || row.kind.jitter >= 0.01) return false;
+  const double near = 1e-9 * row.unit();
+  return !row.make(centre, -near)->inside(p) && row.make(centre, near)->inside(p);
+}
+
+}  // namespace msq::test
