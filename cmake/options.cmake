@@ -12,3 +12,13 @@ function(msq_compile_options target)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
   endif()
 endfunction()
+
+# Compile options of those of the files that include a header, in sanitized builds.
+function(msq_lighten header options)
+  foreach(file IN LISTS ARGN)
+    file(STRINGS ${file} found REGEX "^#include <${header}" LIMIT_COUNT 1)
+    if(MSQ_SANITIZE AND found)
+      set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS "${options}")
+    endif()
+  endforeach()
+endfunction()
