@@ -59,7 +59,7 @@ struct StructureRow {
   bool has_dear_points() const { return kind.family == "foam POINT"; }
   /// A test's number of samples, cut down where they are dear.
   size_t samples(size_t full) const {
-    const size_t part = has_dear_points() ? 1000 : is_method_1() ? 10 : 1;
+    const size_t part = has_dear_points() ? 1000 : is_method_1() ? 10 : is_method_2() ? 4 : 1;
     return test_count(full / part) / family_rows + 2;
   }
   double unit() const { return max_component(variant.grid.cell_size); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // keep_rows answers as inside() does, at 10^6 samples a family of structures (fewer of the slow
-// METHOD_1 and POINT). Grids have their
+// METHOD_1, METHOD_2 and POINT). Grids have their
 // samples on borders, axes and symmetry planes of the cells, or anywhere; pitches of 1/3 to 1/100
 // of a cell; by the origin, at negative coordinates and 1000 cells away.
 #include "bit_rows.h"

@@ -16,7 +16,7 @@ void test_row(void** state) {
   const Vec3 centre = grid.from_grid(Vec3{0.5, 0.5, 0.5} * grid.cell_size);
   const Ref<const Structure> structure = row.make(centre);
   Random random(row.index + 3);
-  const size_t count = row.samples(2000);
+  const size_t count = row.samples(row.is_lattice() ? 2000 : 700);
   int entries = 0;
   for (size_t i = 0; i < count; ++i) {
     const Vec3 a = random.in_box({{-1, -1, -1}, {2, 2, 2}});

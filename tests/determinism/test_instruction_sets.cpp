@@ -47,7 +47,7 @@ uint64_t hash_of(const std::function<Ref<const Structure>(Ref<Context>)>& make) 
       hash = splitmix_finalise(hash ^ splitmix_output(word, ++count));
     }
   };
-  slicer.run(0, test_scale() < 0.5 ? slicer.grid().nz / 4 : slicer.grid().nz, take, nullptr);
+  slicer.run(0, test_scale() < 0.5 ? slicer.grid().nz / 4 : slicer.grid().nz / 2, take, nullptr);
   return hash;
 }
 

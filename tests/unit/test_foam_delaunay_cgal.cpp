@@ -142,13 +142,13 @@ void check_membership(double jitter, uint64_t seed, Vec3 cell_size,
 }
 
 void test_membership(void**) {
-  check_membership(1, 2024, {1, 1, 1}, {0.1, 0.26, 0.3, 0.5, 0.9}, middle, test_count(250000));
+  check_membership(1, 2024, {1, 1, 1}, {0.1, 0.26, 0.3, 0.5, 0.9}, middle, test_count(120000));
 }
 void test_membership_half(void**) {
   check_membership(0.5, 31, {1, 1, 1}, {0.1, 0.3, 0.5}, 2, test_count(30000));
 }
 void test_membership_uneven(void**) {
-  check_membership(1, 5, {1, 0.75, 0.5}, {0.1, 0.26, 0.3, 0.5}, 2, test_count(30000));
+  check_membership(1, 5, {1, 0.75, 0.5}, {0.1, 0.26, 0.3, 0.5}, 2, test_count(20000));
   check_membership(1, 6, {0.5, 1, 1}, {0.1, 0.5}, 2, test_count(30000));
 }
 

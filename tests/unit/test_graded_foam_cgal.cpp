@@ -125,7 +125,7 @@ Diagram diagram_of(const DensityRow& row) {
 }
 
 void check_membership(const DensityRow& row, const Diagram& diagram) {
-  const size_t count = test_count(120000) / row.radii.size();
+  const size_t count = test_count(60000) / row.radii.size();
   Random random(3);
   for (double radius : row.radii) {
     const EdgeGrid grid(diagram.edges, row.middle, radius + 0.01);
