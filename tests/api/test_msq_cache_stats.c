@@ -184,6 +184,7 @@ static void check_answers(int32_t method, int32_t first_policy) {
   for (int32_t policy = first_policy; policy <= MSQ_CACHE_SEGMENTED; ++policy) {
     const uint64_t limits[] = {0, roomy.bytes / 3, roomy.bytes * 2 / 3};
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; ++i) {
+      if (test_scale() < 0.5 && i != (size_t)policy) continue;
       ask(method, policy, limits[i], got, &sets, &report);
       assert_memory_equal(got, wanted, sizeof *got);
       /* (Rays that find no room for cells may do without.) */

@@ -56,7 +56,7 @@ static void functions_have_their_fractions(void** state) {
                {MSQ_FUNCTION_DIAMOND, 0.5, 0.705759},   {MSQ_FUNCTION_DIAMOND, 1, 0.919410}};
   msq_context* context = make_context();
   (void)state;
-  for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i)
+  for (size_t i = 0; i < sizeof known / sizeof known[0]; i += test_scale() < 0.5 ? 2 : 1)
     for (int32_t kind = MSQ_FUNCTIONAL_NETWORK; kind <= MSQ_FUNCTIONAL_SHEET; ++kind) {
       const double target =
           kind == MSQ_FUNCTIONAL_SHEET ? 2 * known[i].fraction - 1 : known[i].fraction;
