@@ -297,6 +297,7 @@ static void callbacks_that_fail_stop_the_call(void** state) {
     for (int bad = 0; bad < 3; ++bad) { /* 1: too large, 2: no number */
       uint64_t calls = 0;
       for (int attempt = 0; attempt < 5; ++attempt) {
+        if (test_scale() < 0.5 && attempt && attempt != bad + 2) continue;
         msq_context* context = make_context();
         ramp r = make_ramp(low_of(use), high_of(use));
         msq_host_field_def def = ramp_def(&r);
