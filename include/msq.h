@@ -1404,8 +1404,10 @@ typedef struct msq_ray_hit {
  * by 0.1 or so: the mean direction of those of 48 points close around that are outside.
  *
  * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY hits may be partly written. Cost:
- * in parallel, rays that follow each other best close to each other. A mesh builds its tree first, as
- * for msq_point_distance. Errors: ARGUMENT (also rays that are not finite, by index, and directions of
+ * in parallel; rays that lie close together share their work. Where those that follow each other do not, up to
+ * 2^20 at once are sorted first by where they come in and where they go, in 16 bytes each, at most 1/16 of the
+ * context's memory_limit, and none where that has no room. Hits do not depend on it. A mesh builds its tree
+ * first, as for msq_point_distance. Errors: ARGUMENT (also rays that are not finite, by index, and directions of
  * length 0), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting". */
 MSQ_API msq_status msq_ray_cast(const msq_model *model, const msq_rays_def *rays,
                                 const msq_query_def *query, msq_ray_hit *hits, uint64_t hit_count,

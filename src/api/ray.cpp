@@ -25,7 +25,22 @@ struct RayArray {
   Vec3 direction(uint64_t i) const { return directions.at(i); }
   double from(uint64_t i) const { return t_min ? t_min[i] : 0; }
   double to(uint64_t i) const { return t_max ? t_max[i] : std::numeric_limits<double>::infinity(); }
+  void prefetch(uint64_t i) const {
+    origins.prefetch(i);
+    directions.prefetch(i);
+  }
 };
+
+/// Rays in an order that is not the array's come from and go to anywhere.
+constexpr size_t ahead = 16;
+
+void prefetch_to_write([[maybe_unused]] msq_ray_hit& hit) {
+#ifdef __GNUC__
+  auto* const first = reinterpret_cast<unsigned char*>(&hit);
+  __builtin_prefetch(first, 1);
+  __builtin_prefetch(first + sizeof hit - 1, 1);
+#endif
+}
 
 void check_ray(const RayArray& rays, uint64_t i) {
   const auto number = static_cast<unsigned long long>(i);
@@ -92,15 +107,21 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
     JobScope scope(work);
     cast_rays(
         known, resolved, def.count,
-        [&](uint64_t first, size_t count, RaySearch* searches) {
-          for (size_t n = 0; n < count; ++n) set_search(array, first + n, searches[n]);
+        [&](std::span<const uint64_t> numbers, RaySearch* searches) {
+          for (size_t n = 0; n < numbers.size(); ++n) {
+            if (n + ahead < numbers.size()) array.prefetch(numbers[n + ahead]);
+            set_search(array, numbers[n], searches[n]);
+          }
         },
-        [&](uint64_t first, size_t count, const RayHit* found) {
+        [&](std::span<const uint64_t> numbers, const RayHit* found) {
           uint32_t part = 0;  // of the skin, for points near each other
-          for (size_t n = 0; n < count; ++n) {
-            const uint64_t i = first + n;
-            hits[i] =
-                answer_of(found[n], size_of(array.direction(i)), array.from(i), array.to(i));
+          for (size_t n = 0; n < numbers.size(); ++n) {
+            const uint64_t i = numbers[n];
+            if (n + ahead < numbers.size()) {
+              array.directions.prefetch(numbers[n + ahead]);
+              prefetch_to_write(hits[numbers[n + ahead]]);
+            }
+            hits[i] = answer_of(found[n], size_of(array.direction(i)), array.from(i), array.to(i));
             hits[i].material = material_id(known, resolved, found[n], part);
           }
         },

@@ -2,6 +2,7 @@
 #include "ray/cast.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/borrowed.h"
 #include "base/run_parts.h"
@@ -221,25 +222,73 @@ void cast_batch(const Model& model, const Scales& resolved, std::vector<RaySearc
   Caster(model, resolved, detail, job, *memory, searches.data(), hits.data()).run(count);
 }
 
-void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
-               const TakeHits& take, Job* job) {
-  if (count == 0) return;
-  prepare_rays(model, resolved);
+namespace {
+
+/// Casts rays [first, first + count), in that order where `order` is null.
+void cast_part(const Model& model, const Scales& resolved, uint64_t first, uint64_t count,
+               const RayOrder* order, const FillRays& fill, const TakeHits& take, Job* job,
+               Interval progress) {
   struct Batch {
+    std::vector<uint64_t> numbers;
     std::vector<RaySearch> searches;
     std::vector<RayHit> hits;
   };
   const uint64_t batches = count / ray_batch + (count % ray_batch != 0);
-  run_parts(model.executor(), batches, job, {0, 1}, [&](uint64_t b) {
-    const uint64_t first = b * ray_batch;
-    const size_t size = static_cast<size_t>(std::min(count - first, ray_batch));
+  run_parts(model.executor(), batches, job, progress, [&](uint64_t b) {
+    const uint64_t begin = b * ray_batch;
+    const size_t size = static_cast<size_t>(std::min(count - begin, ray_batch));
     const Borrowed<Batch> borrowed;
     Batch& batch = *borrowed;
+    batch.numbers.resize(size);
+    if (order)
+      order->take(begin, batch.numbers);
+    else
+      std::iota(batch.numbers.begin(), batch.numbers.end(), first + begin);
     batch.searches.assign(size, {});
-    fill(first, size, batch.searches.data());
+    fill(batch.numbers, batch.searches.data());
     cast_batch(model, resolved, batch.searches, batch.hits, HitDetail::all, job);
-    take(first, size, batch.hits.data());
+    take(batch.numbers, batch.hits.data());
   });
+}
+
+/// How many rays may be sorted at once, so that it takes no more than a part of the memory.
+uint64_t sorted_at_once(const MemoryBudget& budget) {
+  constexpr uint64_t part = 16;
+  if (budget.limit() == 0) return RayOrder::most;
+  return std::clamp(budget.limit() / part / RayOrder::bytes_of_ray, ray_batch, RayOrder::most);
+}
+
+}  // namespace
+
+void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
+               const TakeHits& take, Job* job) {
+  if (count == 0) return;
+  prepare_rays(model, resolved);
+  if (resolved.empty()) {
+    cast_part(model, resolved, 0, count, nullptr, fill, take, job, {0, 1});
+    return;
+  }
+  const std::shared_ptr<MemoryBudget>& budget = model.context().budget;
+  const uint64_t at_once = std::min(count, sorted_at_once(*budget));
+  Reservation room;
+  try {
+    room = Reservation(budget, at_once * RayOrder::bytes_of_ray, "an order of rays");
+  } catch (const Error& error) {
+    if (error.status != Status::limit) throw;
+    cast_part(model, resolved, 0, count, nullptr, fill, take, job, {0, 1});
+    return;
+  }
+  RayOrder order(model.bounds(), resolved.front()->structure->characteristic_length());
+  const auto part_of = [&](uint64_t n) {
+    return static_cast<double>(n) / static_cast<double>(count);
+  };
+  for (uint64_t first = 0; first < count; first += at_once) {
+    const uint64_t size = std::min(count - first, at_once);
+    check_cancelled(job);
+    const bool is_sorted = order.sort(model.executor(), first, size, fill);
+    cast_part(model, resolved, first, size, is_sorted ? &order : nullptr, fill, take, job,
+              {part_of(first), part_of(first + size)});
+  }
 }
 
 }  // namespace msq

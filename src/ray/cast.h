@@ -6,12 +6,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/job.h"
 #include "base/ray.h"
 #include "cell/neighbourhood.h"
 #include "model/model.h"
+#include "ray/ray_order.h"
 
 namespace msq {
 
@@ -25,9 +27,7 @@ struct RayHit {
   CellIndex cell;  ///< of the finest scale, at the hit
 };
 
-/// Rays of a batch. A count of rays is cast in batches [0, ray_batch), [ray_batch, 2 ray_batch) ..:
-/// a caller that numbers the rays of a camera tile by tile, in the order of tile_pixel, has batches
-/// and parts of batches that stay close together.
+/// Rays of a batch.
 constexpr uint64_t ray_batch = 1024;
 
 /// Pixel of ray n, below ray_batch, in a tile of tile_side x tile_side pixels: every 16 rays from a
@@ -45,14 +45,13 @@ constexpr TilePixel tile_pixel(uint32_t n) {
   return pixel;
 }
 
-/// Writes the rays [first, first + count) to searches[0, count): their ray, from and to. One with
-/// from > to meets nothing. Several batches are filled at once, by threads of the executor.
-using FillRays = std::function<void(uint64_t first, size_t count, RaySearch* searches)>;
-/// Takes what the rays [first, first + count) meet.
-using TakeHits = std::function<void(uint64_t first, size_t count, const RayHit* hits)>;
+/// Takes what rays, by their numbers, meet.
+using TakeHits = std::function<void(std::span<const uint64_t> rays, const RayHit* hits)>;
 
 /// Fills, casts and takes the rays [0, count) batch by batch, in parallel. t is from the ray's
-/// origin on. What a ray meets does not depend on the others.
+/// origin on. What a ray meets does not depend on the others, nor on their order: rays through
+/// structures that do not lie together already are cast in an order in which they do (RayOrder), up
+/// to RayOrder::most at once, as far as the memory budget has room.
 void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
                const TakeHits& take, Job* job);
 

@@ -304,6 +304,63 @@ static void tells_the_material(void** state) {
   msq_context_release(context);
 }
 
+enum { tile_side = 96, many = tile_side * tile_side };
+
+/* Hits of rays of a picture of a foam, cast in an order: ray order[n] goes to place n. */
+static void cast_in_order(const msq_model* model, const uint32_t* order, msq_ray_hit* hits) {
+  static double origins[many][3], directions[many][3], t_max[many];
+  static msq_ray_hit found[many];
+  msq_rays_def rays;
+  for (uint32_t n = 0; n < many; ++n) {
+    const uint32_t i = order[n], x = i % tile_side, y = i / tile_side;
+    const double origin[3] = {-1, 9.0 * x / tile_side - 0.5, 5.0 * y / tile_side - 0.5};
+    const double direction[3] = {1, 0.002 * (i % 7), i % 5 == 0 ? -0.1 : 0.01};
+    memcpy(origins[n], origin, sizeof origin);
+    memcpy(directions[n], direction, sizeof direction);
+    t_max[n] = i % 11 == 0 ? 3 : i % 13 == 0 ? -5 : 20; /* some end early or before they begin */
+  }
+  assert_ok(msq_rays_def_init(&rays, sizeof rays));
+  rays.count = many;
+  rays.origins = origins;
+  rays.directions = directions;
+  rays.t_max = t_max;
+  memset(found, 0, sizeof found);
+  assert_ok(msq_ray_cast(model, &rays, NULL, found, many, NULL));
+  for (uint32_t n = 0; n < many; ++n) hits[order[n]] = found[n];
+}
+
+static void hits_do_not_depend_on_the_order_of_rays(void** state) {
+  static msq_ray_hit wanted[many], got[many];
+  static uint32_t order[many];
+  /* One with room to sort rays, one without. */
+  const uint64_t limits[] = {0, 40000};
+  (void)state;
+  for (size_t i = 0; i < 2; ++i) {
+    msq_context* context = make_context_of(2, 1 << 20, limits[i]);
+    const double low[3] = {0, 0, 0}, high[3] = {8, 8, 4};
+    msq_shape* box;
+    assert_ok(msq_shape_from_box(context, low, high, &box));
+    msq_model* model = make_model(context, box, make_foam(context, MSQ_FOAM_AUTO), NULL);
+    for (uint32_t n = 0; n < many; ++n) order[n] = n;
+    cast_in_order(model, order, i == 0 ? wanted : got);
+    if (i > 0) assert_memory_equal(got, wanted, sizeof got);
+    size_t missed = 0;
+    for (uint32_t n = 0; n < many; ++n) missed += wanted[n].scale < 0;
+    assert_in_range(missed, many / 10, many * 3 / 4);
+    uint64_t random = 1;
+    for (uint32_t n = many - 1; n > 0; --n) {
+      random = random * 6364136223846793005u + 1442695040888963407u;
+      const uint32_t other = (uint32_t)((random >> 33) % (n + 1)), kept = order[n];
+      order[n] = order[other];
+      order[other] = kept;
+    }
+    cast_in_order(model, order, got);
+    assert_memory_equal(got, wanted, sizeof got);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+}
+
 static void can_be_cancelled(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_unit_box_model(context, NULL);
@@ -332,6 +389,7 @@ int main(void) {
       cmocka_unit_test(hits_struts_within_a_box),
       cmocka_unit_test(refuses_rays_that_make_no_sense),
       cmocka_unit_test(tells_the_material),
+      cmocka_unit_test(hits_do_not_depend_on_the_order_of_rays),
       cmocka_unit_test(can_be_cancelled),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -38,11 +38,11 @@ void test_row(void** state) {
   std::vector<RayHit> hits(count);
   cast_rays(
       *model, resolved, count,
-      [&](uint64_t first, size_t size, RaySearch* searches) {
-        std::copy_n(rays.data() + first, size, searches);
+      [&](std::span<const uint64_t> numbers, RaySearch* searches) {
+        for (size_t n = 0; n < numbers.size(); ++n) searches[n] = rays[numbers[n]];
       },
-      [&](uint64_t first, size_t size, const RayHit* found) {
-        std::copy_n(found, size, hits.data() + first);
+      [&](std::span<const uint64_t> numbers, const RayHit* found) {
+        for (size_t n = 0; n < numbers.size(); ++n) hits[numbers[n]] = found[n];
       },
       nullptr);
   const double part = std::max(model->shape().ray_tolerance(),
