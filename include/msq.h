@@ -179,7 +179,8 @@ typedef struct msq_cache_report {
  * Errors: ARGUMENT. Source: paper, section "Set Queries for Ray-Casting" (FIFO cache). */
 MSQ_API msq_status msq_cache_stats(const msq_context *context, msq_cache_report *report);
 
-/* Drops all cached cells (calls in flight keep theirs). Counters stay. Errors: ARGUMENT. */
+/* Drops all cached cells (calls in flight keep theirs). Counters stay. A structure's cells go with the last
+ * reference to it, that of a model included. Errors: ARGUMENT. */
 MSQ_API msq_status msq_cache_clear(msq_context *context);
 
 /* Creates a job to pass to one long call at a time (in two at once, their progress is mixed). Errors: ARGUMENT, MEMORY. */

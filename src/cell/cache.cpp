@@ -17,10 +17,10 @@ class CellCache::Room {
  public:
   Room(CellCache& cache, const Key& key, uint64_t expected_bytes) : cache_(cache) {
     std::lock_guard lock(cache_.mutex_);
-    const auto known = cache_.expected_.find(key.structure);
-    const uint64_t expected = known != cache_.expected_.end() ? known->second
-                              : expected_bytes                ? expected_bytes + entry_overhead
-                                                              : 0;
+    const auto known = cache_.structures_.find(key.structure);
+    const uint64_t expected = known != cache_.structures_.end() ? known->second.cell_bytes
+                              : expected_bytes                  ? expected_bytes + entry_overhead
+                                                                : 0;
     const uint64_t wanted = std::min(expected, cache_.limit_);
     cache_.rooms_.push_back(this);
     if (cache_.make_room(wanted)) bytes_ = wanted;
@@ -121,13 +121,14 @@ CellCache::Data CellCache::keep(const Key& key, Data data, uint64_t bytes, Room&
   if (is_newcomer) newcomer_bytes_ += bytes;
   room.become_kept();
   ++counters_.cells;
+  ++structures_[key.structure].cells;
   return data;
 }
 
 /// Up at once, down by and by: rooms are nearly always large enough, and one huge cell does not
 /// make the others of its structure push out many for good.
 void CellCache::learn(uint64_t structure, uint64_t bytes) {
-  uint64_t& expected = expected_[structure];
+  uint64_t& expected = structures_[structure].cell_bytes;
   expected = bytes >= expected ? bytes : expected - (expected - bytes) / 16;
 }
 
@@ -189,7 +190,7 @@ bool CellCache::remove(Queue::iterator place, bool even_in_use) {
   // Others may let go of the cell at any time; another use begins only in find(), under the lock.
   const auto is_in_use = [&] { return !even_in_use && entry.data.use_count() > 1; };
   if (is_in_use()) return false;
-  const uint64_t bytes = entry.bytes;
+  const uint64_t bytes = entry.bytes, structure = key.structure;
   const bool is_newcomer = entry.is_newcomer;
   {
     Part& part = part_of(key);
@@ -201,6 +202,7 @@ bool CellCache::remove(Queue::iterator place, bool even_in_use) {
   (is_newcomer ? newcomers_ : queue_).erase(place);
   if (is_newcomer) newcomer_bytes_ -= bytes;
   --counters_.cells;
+  --structures_.find(structure)->second.cells;
   give_back(bytes);
   return true;
 }
@@ -228,13 +230,16 @@ bool CellCache::drop_oldest() {
 
 void CellCache::drop(uint64_t structure) {
   std::lock_guard lock(mutex_);
+  const auto known = structures_.find(structure);
+  if (known == structures_.end()) return;
+  const uint64_t& cells = known->second.cells;
   for (Queue* queue : {&newcomers_, &queue_})
-    for (auto place = queue->begin(); place != queue->end();) {
+    for (auto place = queue->begin(); cells > 0 && place != queue->end();) {
       const auto next = std::next(place);
       if ((*place)->first.structure == structure) remove(place, true);
       place = next;
     }
-  expected_.erase(structure);
+  structures_.erase(known);
 }
 
 void CellCache::clear() {

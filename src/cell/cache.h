@@ -77,7 +77,7 @@ class CellCache {
   }
 
   void clear();
-  /// Drops the cells of a structure.
+  /// Drops the cells of a structure; looks through those of others until it has them all.
   void drop(uint64_t structure);
   /// Gives way: drops a cell, in use or not, or takes back what is set aside for one. False if
   /// there is nothing left.
@@ -148,8 +148,12 @@ class CellCache {
   std::unordered_set<size_t> gone_;
   std::deque<size_t> gone_queue_;
   std::vector<Room*> rooms_;
-  std::unordered_map<uint64_t, uint64_t> expected_;  // bytes of a cell, by structure
-  Counters counters_;                                // but hits and misses
+  struct OfStructure {
+    uint64_t cell_bytes = 0;  // to expect of its next cell
+    uint64_t cells = 0;       // kept now
+  };
+  std::unordered_map<uint64_t, OfStructure> structures_;
+  Counters counters_;  // but hits and misses
 };
 
 }  // namespace msq

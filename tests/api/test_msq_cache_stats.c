@@ -44,17 +44,19 @@ static msq_model* make_wide_foam_model(msq_context* context, int32_t method) {
   return make_model(context, box, make_foam(context, method), NULL);
 }
 
-/* Slices a foam and returns its layers. */
-static layer_stack slice_foam(msq_context* context, int32_t method) {
+/* Slices a foam and returns its layers; *report: while the foam lives, may be NULL. */
+static layer_stack slice_foam(msq_context* context, int32_t method, msq_cache_report* report) {
   const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 64, 64, 0.2);
   msq_model* model = make_wide_foam_model(context, method);
   msq_slicer* slicer = make_slicer(model, &def);
   layer_stack stack = run_all(slicer, MSQ_LAYER_BITS);
+  if (report) *report = cache_of(context);
   msq_slicer_release(slicer);
   msq_model_release(model);
   return stack;
 }
 
+/* While all that was ever cached is kept or was evicted. */
 static void assert_within_limit(const msq_cache_report* report) {
   assert_true(report->bytes <= report->peak_bytes);
   assert_true(report->peak_bytes <= report->limit_bytes);
@@ -66,8 +68,8 @@ static void assert_within_limit(const msq_cache_report* report) {
 /* One method with a roomy cache, a small one and none: the same bytes, counters as they should. */
 static void check_method(int32_t method) {
   msq_context* roomy = make_context();
-  layer_stack wanted = slice_foam(roomy, method);
-  const msq_cache_report first = cache_of(roomy);
+  msq_cache_report first, squeezed, empty;
+  layer_stack wanted = slice_foam(roomy, method, &first);
   assert_true(first.misses > 0);
   assert_true(first.bytes > 0);
   assert_int_equal(first.evictions, 0);
@@ -93,8 +95,7 @@ static void check_method(int32_t method) {
   free_stack(&twice);
 
   msq_context* small = make_context_of(2, first.bytes / 3, 0);
-  layer_stack got = slice_foam(small, method);
-  const msq_cache_report squeezed = cache_of(small);
+  layer_stack got = slice_foam(small, method, &squeezed);
   assert_same_layers(&wanted, &got);
   assert_true(squeezed.evictions > 0);
   assert_true(squeezed.bytes > 0);
@@ -103,8 +104,7 @@ static void check_method(int32_t method) {
   free_stack(&got);
 
   msq_context* none = make_context_of(2, 0, 0);
-  got = slice_foam(none, method);
-  const msq_cache_report empty = cache_of(none);
+  got = slice_foam(none, method, &empty);
   assert_same_layers(&wanted, &got);
   assert_true(empty.misses > 0);
   assert_int_equal(empty.hits + empty.evictions + empty.bytes + empty.peak_bytes, 0);
@@ -207,15 +207,88 @@ static void answers_are_the_same_at_any_cache_size(void** state) {
 
 static void foams_of_one_context_share_no_cells(void** state) {
   msq_context* context = make_context();
+  msq_cache_report of_first, of_both;
   (void)state;
-  layer_stack first = slice_foam(context, MSQ_FOAM_DIRECT);
-  const uint64_t misses = cache_of(context).misses;
-  layer_stack second = slice_foam(context, MSQ_FOAM_DIRECT);
-  assert_true(cache_of(context).misses > misses);
+  msq_model* keep = make_wide_foam_model(context, MSQ_FOAM_DIRECT);
+  layer_stack first = slice_foam(context, MSQ_FOAM_DIRECT, &of_first);
+  layer_stack second = slice_foam(context, MSQ_FOAM_DIRECT, &of_both);
+  assert_true(of_both.misses > of_first.misses);
   assert_same_layers(&first, &second);
   free_stack(&first);
   free_stack(&second);
+  msq_model_release(keep);
   msq_context_release(context);
+}
+
+static void cast_some(const msq_model* model) {
+  const double origin[3] = {1.3, -1, 2.2}, direction[3] = {0.1, 1, 0.05};
+  double origins[64][3], directions[64][3];
+  msq_ray_hit hits[64];
+  msq_rays_def rays;
+  for (int i = 0; i < 64; ++i) {
+    memcpy(origins[i], origin, sizeof origin);
+    memcpy(directions[i], direction, sizeof direction);
+    origins[i][0] += 0.01 * i;
+  }
+  assert_ok(msq_rays_def_init(&rays, sizeof rays));
+  rays.count = 64;
+  rays.origins = origins;
+  rays.directions = directions;
+  assert_ok(msq_ray_cast(model, &rays, NULL, hits, 64, NULL));
+}
+
+/* Of points, layers and rays. */
+static void fill_cache(msq_model* model) {
+  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 64, 64, 0.2);
+  uint8_t inside[16 * 16 * 16];
+  const msq_points_def points = grid_points(0, 4, 16);
+  msq_slicer* slicer = make_slicer(model, &def);
+  layer_stack stack = run_all(slicer, MSQ_LAYER_BITS);
+  free_stack(&stack);
+  msq_slicer_release(slicer);
+  assert_ok(msq_set_membership(model, &points, NULL, inside, sizeof inside, NULL));
+  for (int i = 0; i < 8; ++i) cast_some(model);
+}
+
+/* With the last model that holds a foam go its cells, and no other's. */
+static void released_foams_leave_no_cells(void** state) {
+  (void)state;
+  for (int32_t method = MSQ_FOAM_POINT; method <= MSQ_FOAM_METHOD_1; ++method) {
+    if (method == MSQ_FOAM_METHOD_2 && !MSQ_WITH_CGAL) continue;
+    msq_context* context = make_context();
+    msq_model* kept = make_wide_foam_model(context, MSQ_FOAM_DIRECT);
+    fill_cache(kept);
+    const msq_cache_report before = cache_of(context);
+    assert_true(before.cells > 0);
+
+    const double low[3] = {0, 0, 0}, high[3] = {8, 8, 4};
+    msq_shape *box, *second_box;
+    assert_ok(msq_shape_from_box(context, low, high, &box));
+    assert_ok(msq_shape_from_box(context, low, high, &second_box));
+    msq_structure* foam = make_foam(context, method);
+    msq_structure_retain(foam);
+    msq_model* model = make_model(context, box, foam, NULL);
+    msq_model* second = make_model(context, second_box, foam, NULL);
+    fill_cache(model);
+    const msq_cache_report both = cache_of(context);
+    if (method != MSQ_FOAM_POINT) assert_true(both.bytes > before.bytes);
+    msq_model_release(model);
+    msq_cache_report after = cache_of(context);
+    assert_int_equal(after.bytes, both.bytes);
+    msq_model_release(second);
+    after = cache_of(context);
+    assert_int_equal(after.bytes, before.bytes);
+    assert_int_equal(after.cells, before.cells);
+    assert_int_equal(after.evictions, before.evictions);
+
+    fill_cache(kept); /* its cells are still there */
+    after = cache_of(context);
+    assert_int_equal(after.misses, both.misses);
+    msq_model_release(kept);
+    after = cache_of(context);
+    assert_int_equal(after.bytes + after.cells, 0);
+    msq_context_release(context);
+  }
 }
 
 int main(void) {
@@ -229,6 +302,7 @@ int main(void) {
 #endif
     cmocka_unit_test(answers_are_the_same_at_any_cache_size),
     cmocka_unit_test(foams_of_one_context_share_no_cells),
+    cmocka_unit_test(released_foams_leave_no_cells),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,6 +31,11 @@ Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter r
     graded_ = std::make_shared<const GradedSeeds>(seeds_, neighbourhood, std::move(density));
 }
 
+Foam::~Foam() {
+  context_->cache.drop(id_);
+  context_->cache.drop(seeded_edges_id_);
+}
+
 bool Foam::inside(const Neighbourhood::Located& located, Vec3 p) const {
   const Vec3 q = located.fraction * seeds_.scale();
   const double radius = radius_.at(p) / unit_;

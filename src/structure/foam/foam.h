@@ -29,6 +29,8 @@ class Foam final : public Structure {
   /// `density`: as in GradedSeeds. Where it is above 1 anywhere, the method is `direct`.
   Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius, double jitter,
        uint64_t seed, FoamMethod method, Parameter density = Parameter(1));
+  /// Its cells leave the cache.
+  ~Foam() override;
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return is_concurrent_; }
