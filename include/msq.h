@@ -1395,7 +1395,7 @@ typedef struct msq_ray_hit {
  * no farther than 1/64 of the cell (of the shape: of its size and its coordinates), as beside a surface that
  * the ray all but touches for long, the next are at least twice as long as before, and may lose thinner parts.
  * Scale by scale: finer scales are asked only within the parts of the ray that lie in the coarser ones.
- * Of hosts' structures and functions a callback is asked for up to a thousand rays at once.
+ * Of hosts' shapes, structures and functions a callback is asked for up to a thousand rays at once.
  *
  * Normals are exact, to rounding, on boxes, balls, cylinders, meshes, lattices and foams whose radius and
  * density are numbers, on functional structures to about 1e-8. Where the radius or level is a field that is not

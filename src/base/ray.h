@@ -44,8 +44,8 @@ struct RaySearch {
   Vec3 normal{};
 };
 
-/// Where membership changes between `before` and `beyond`, as is_beyond(t) tells, which is false and
-/// true there: on the far side of a change, within `tolerance` of it.
+/// Where membership changes between `before` and `beyond`, as is_beyond(t) tells, which is false
+/// and true there: on the far side of a change, within `tolerance` of it.
 template <class IsBeyond>
 double bisect(double before, double beyond, double tolerance, IsBeyond&& is_beyond) {
   while (beyond - before > tolerance) {
@@ -80,38 +80,59 @@ bool settle_entry(const Ray& ray, double from, double tolerance, Inside&& inside
   return true;
 }
 
-/// A march along a ray: in steps of no less than `least_step`, until membership changes, then by
-/// halves until it is known within `tolerance`. What changes and changes back within a step that
-/// clearance does not vouch for may be overlooked.
-///
-/// A ray may creep: along a surface that it all but touches, or where bounds of the distance are
-/// poor. Where 64 steps lead no farther than 2^30 tolerances, the least step doubles, so that a ray
-/// takes some thousand steps at most for so much of its way as 64 of those.
+/// The least step of a march along a ray, which may creep: along a surface that it all but touches,
+/// or where bounds of the distance are poor. Where 64 steps lead no farther than 2^30 tolerances,
+/// the least step doubles, so that a ray takes some thousand steps at most for so much of its way
+/// as 64 of those.
+class LeastStep {
+ public:
+  LeastStep() = default;
+  LeastStep(double least, double tolerance, double from)
+      : at_first_(least), least_(least), slow_(0x1p30 * tolerance), looked_at_(from) {}
+
+  /// Of the step that begins at t; called once for each.
+  double of_step(double t) {
+    constexpr int steps_at_once = 64;
+    if (++steps_ % steps_at_once == 0) {
+      const bool is_slow = t - looked_at_ < slow_;
+      creeps_ = creeps_ || is_slow;
+      least_ = is_slow ? 2 * least_ : std::max(at_first_, 0.5 * least_);
+      looked_at_ = t;
+    }
+    return least_;
+  }
+  /// Whether the ray ever did, so that more may have been overlooked.
+  bool creeps() const { return creeps_; }
+
+ private:
+  double at_first_ = 0, least_ = 0, slow_ = 0, looked_at_ = 0;
+  int steps_ = 0;
+  bool creeps_ = false;
+};
+
+/// A march along a ray: in steps of no less than `least_step` (LeastStep), until membership
+/// changes, then by halves until it is known within `tolerance`. What changes and changes back
+/// within a step that clearance does not vouch for may be overlooked.
 struct RayMarch {
   double least_step, tolerance;
 
   /// The first t in [from, to] where inside(p) is `wanted`, found on the far side of the change;
   /// false if there is none. clearance(p) is a lower bound of the distance to the boundary.
-  /// *creeps becomes true if the ray did, so that more may have been overlooked.
+  /// *creeps becomes true if the ray did.
   /// Source: Hart, "Sphere tracing", 1996.
   template <class Inside, class Clearance>
   bool find(bool wanted, const Ray& ray, double from, double to, Inside&& inside,
             Clearance&& clearance, double& t, bool* creeps = nullptr) const {
-    constexpr int steps_at_once = 64;
-    double at = from, least = least_step, looked_at = from;
-    int steps = 0;
+    double at = from;
+    LeastStep least(least_step, tolerance, from);
     if (inside(ray.at(at)) == wanted) {
       t = at;
       return true;
     }
     while (at < to) {
-      if (++steps % steps_at_once == 0) {
-        const bool is_slow = at - looked_at < 0x1p30 * tolerance;
-        if (creeps && is_slow) *creeps = true;
-        least = is_slow ? 2 * least : std::max(least_step, 0.5 * least);
-        looked_at = at;
-      }
-      const double next = std::min(to, at + std::max(clearance(ray.at(at)), least));
+      const double least_now = least.of_step(at);
+      if (creeps && least.creeps()) *creeps = true;
+      const double next = std::min(to, at + std::max(clearance(ray.at(at)), least_now));
       if (!(next > at)) return false;  // steps vanish in rounding
       if (inside(ray.at(next)) == wanted) {
         t = bisect(at, next, tolerance,

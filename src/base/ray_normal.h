@@ -27,27 +27,51 @@ inline const DirectionsAllAround& directions_all_around() {
   return directions;
 }
 
-/// The mean direction of the points outside, among points all around at `distance` from where the
-/// ray enters; the direction back along the ray where they say nothing. keep(points, inside, count)
-/// sets inside[i], which is 1, to 0 where a point is outside.
+/// For each search the mean direction of the points outside, among points all around at `distance`
+/// from where the ray is at t; the direction back along the ray where they say nothing. Searches
+/// that are not wanted(search) are left alone. keep(points, inside, count) sets inside[i], which is
+/// 1, to 0 where a point is outside.
+template <class Keep, class Wanted>
+void normals_by_membership(Keep&& keep, RaySearch* searches, size_t count, double distance,
+                           Wanted&& wanted) {
+  const auto& directions = directions_all_around();
+  constexpr size_t around = std::tuple_size_v<DirectionsAllAround>;
+  constexpr size_t at_once = 64;  // rays
+  Vec3 points[at_once * around];
+  uint8_t inside[at_once * around];
+  RaySearch* asked[at_once];
+  size_t size = 0;
+  for (size_t i = 0; i < count; ++i) {
+    if (wanted(searches[i])) {
+      const Vec3 p = searches[i].ray.at(searches[i].t);
+      for (size_t k = 0; k < around; ++k) {
+        points[size * around + k] = p + directions[k] * distance;
+        inside[size * around + k] = 1;
+      }
+      asked[size++] = &searches[i];
+    }
+    if (size < (i + 1 < count ? at_once : 1)) continue;
+    keep(points, inside, size * around);
+    for (size_t n = 0; n < size; ++n) {
+      Vec3 sum;
+      for (size_t k = 0; k < around; ++k)
+        if (!inside[n * around + k]) sum = sum + directions[k];
+      const Vec3 along = asked[n]->ray.direction;
+      const double length_of_sum = length(sum);
+      // Against the ray, as it enters.
+      asked[n]->normal =
+          length_of_sum > 0.5 && dot(sum, along) < 0 ? sum * (1 / length_of_sum) : along * -1.0;
+    }
+    size = 0;
+  }
+}
+
+/// Of one ray.
 template <class Keep>
 Vec3 normal_by_membership_of_all(Keep&& keep, const Ray& ray, double t, double distance) {
-  const auto& directions = directions_all_around();
-  constexpr size_t count = std::tuple_size_v<DirectionsAllAround>;
-  const Vec3 p = ray.at(t);
-  Vec3 points[count];
-  uint8_t inside[count];
-  for (size_t i = 0; i < count; ++i) {
-    points[i] = p + directions[i] * distance;
-    inside[i] = 1;
-  }
-  keep(points, inside, count);
-  Vec3 sum;
-  for (size_t i = 0; i < count; ++i)
-    if (!inside[i]) sum = sum + directions[i];
-  const double size = length(sum);
-  // Against the ray, as it enters.
-  return size > 0.5 && dot(sum, ray.direction) < 0 ? sum * (1 / size) : ray.direction * -1.0;
+  RaySearch search{ray, t, t, true, t};
+  normals_by_membership(keep, &search, 1, distance, [](const RaySearch&) { return true; });
+  return search.normal;
 }
 
 /// The same, by inside(p).

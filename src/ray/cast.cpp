@@ -22,7 +22,7 @@ struct CastMemory {
   std::vector<double> ends;  // ray by ray
   std::vector<Begin> begins;
   std::vector<std::vector<uint32_t>> waiting;  // by level
-  std::vector<uint32_t> rays;
+  std::vector<uint32_t> rays, without_normal;
 
   void make_room(size_t count, size_t levels) {
     if (batch.size() < count) {
@@ -32,6 +32,7 @@ struct CastMemory {
     if (ends.size() < count * levels) ends.resize(count * levels);
     if (waiting.size() < levels) waiting.resize(levels);
     for (std::vector<uint32_t>& level : waiting) level.clear();
+    without_normal.clear();
   }
 };
 
@@ -53,7 +54,8 @@ class Caster {
         begins_(memory.begins.data()),
         batch_(memory.batch.data()),
         waiting_(memory.waiting),
-        rays_(memory.rays) {}
+        rays_(memory.rays),
+        without_normal_(memory.without_normal) {}
 
   void run(size_t count) {
     for (uint32_t i = 0; i < count; ++i) start(i);
@@ -61,7 +63,7 @@ class Caster {
       // The coarsest level first: rays then reach finer ones in large batches.
       size_t level = 0;
       while (level < levels_ && waiting_[level].empty()) ++level;
-      if (level == levels_) return;
+      if (level == levels_) break;
       check_cancelled(job_);
       rays_.clear();
       rays_.swap(waiting_[level]);
@@ -70,6 +72,7 @@ class Caster {
       else
         enter_scale(level);
     }
+    if (!without_normal_.empty()) find_normals();
   }
 
  private:
@@ -93,6 +96,7 @@ class Caster {
 
   void enter_shape() {
     const Shape& shape = model_.shape();
+    if (shape.gains_by_rays()) return enter_shape_together();
     for (const uint32_t i : rays_) {
       const RaySearch& s = searches_[i];
       double t;
@@ -103,7 +107,26 @@ class Caster {
     }
   }
 
-  void enter_scale(size_t level) {
+  void enter_shape_together() {
+    const Shape& shape = model_.shape();
+    fill_batch(0);
+    shape.enter_all(batch_, rays_.size());
+    size_t kept = 0;
+    for (size_t n = 0; n < rays_.size(); ++n) {
+      const uint32_t i = rays_[n];
+      if (!batch_[n].found)
+        leave(i, 0);
+      else if (come_in(i, 0, batch_[n].t, {}))
+        rays_[kept++] = i;
+    }
+    if (levels_ == 1) return;
+    rays_.resize(kept);
+    fill_batch(0);
+    shape.leave_all(batch_, kept);
+    for (size_t n = 0; n < kept; ++n) go_deeper(rays_[n], 0, batch_[n].t);
+  }
+
+  void fill_batch(size_t level) {
     for (size_t n = 0; n < rays_.size(); ++n) {
       const RaySearch& s = searches_[rays_[n]];
       batch_[n].ray = s.ray;
@@ -111,6 +134,10 @@ class Caster {
       batch_[n].to = end(rays_[n], level);
       batch_[n].normal = {};
     }
+  }
+
+  void enter_scale(size_t level) {
+    fill_batch(level);
     resolved_[level - 1]->enter(batch_, rays_.size());
     for (size_t n = 0; n < rays_.size(); ++n) {
       if (batch_[n].found)
@@ -121,21 +148,29 @@ class Caster {
   }
 
   void entered(uint32_t i, size_t level, double t, Vec3 normal) {
+    if (come_in(i, level, t, normal) && level + 1 < levels_)
+      go_deeper(i, level, leave_of(level, searches_[i].ray, t, end(i, level)));
+  }
+
+  /// Whether it did; a hit where this is the finest level.
+  bool come_in(uint32_t i, size_t level, double t, Vec3 normal) {
     // What is settled within a tolerance past an entry may lie past the end.
     if (t > end(i, level)) {
       leave(i, level);
-      return;
+      return false;
     }
     if (t > searches_[i].from) {
       searches_[i].from = t;
       hits_[i].scale = static_cast<int32_t>(level);
       hits_[i].normal = normal;
     }
-    if (level + 1 == levels_) {
-      hit(i);
-      return;
-    }
-    end(i, level + 1) = leave_of(level, searches_[i].ray, t, end(i, level));
+    if (level + 1 == levels_) hit(i);
+    return true;
+  }
+
+  /// On to the next level, up to where this one ends.
+  void go_deeper(uint32_t i, size_t level, double to) {
+    end(i, level + 1) = to;
     waiting_[level + 1].push_back(i);
   }
 
@@ -176,11 +211,25 @@ class Caster {
     if (detail_ == HitDetail::place) return;
     if (hit.starts_inside)
       hit.normal = ray.direction * -1.0;
+    else if (hit.scale == 0 && model_.shape().gains_by_rays())
+      without_normal_.push_back(i);
     else if (dot(hit.normal, hit.normal) == 0)
       hit.normal = hit.scale == 0 ? model_.shape().normal(ray, t)
                                   : resolved_[static_cast<size_t>(hit.scale) - 1]->normal(ray, t);
     if (hit.starts_inside) hit.scale = static_cast<int32_t>(levels_) - 1;
     if (levels_ > 1) hit.cell = resolved_.back()->structure->neighbourhood().locate(hit.point).cell;
+  }
+
+  /// Of the shape, at all hits on it.
+  void find_normals() {
+    for (size_t n = 0; n < without_normal_.size(); ++n) {
+      const RaySearch& s = searches_[without_normal_[n]];
+      batch_[n].ray = s.ray;
+      batch_[n].t = s.from;
+    }
+    model_.shape().find_normals(batch_, without_normal_.size());
+    for (size_t n = 0; n < without_normal_.size(); ++n)
+      hits_[without_normal_[n]].normal = batch_[n].normal;
   }
 
   const Model& model_;
@@ -196,6 +245,7 @@ class Caster {
   RaySearch* const batch_;
   std::vector<std::vector<uint32_t>>& waiting_;
   std::vector<uint32_t>& rays_;
+  std::vector<uint32_t>& without_normal_;
 };
 
 }  // namespace

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shape/host.h"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
+#include "base/march_together.h"
+#include "base/ray_normal.h"
+
 namespace msq {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+}
 
 HostShape::HostShape(HostShapeCalls calls, const Box3& bounds, bool is_concurrent)
     : calls_(std::move(calls)), is_concurrent_(is_concurrent) {
@@ -67,16 +75,76 @@ void HostShape::fill_rows(const RowBlock& block) const {
 }
 
 double HostShape::clearance(Vec3 p) const {
-  const Vec3 gap = max(max(bounds().min - p, p - bounds().max), Vec3{});
-  // Less the rounding of the differences and of the length.
-  const double outside = length(gap) * (1 - 0x1p-50);
-  if (!calls_.distance) return outside;
   double bound;
-  calls_.distance(&p, 1, &bound);
-  if (!std::isfinite(bound))
-    fail(Status::host, "the host's shape has the distance %g at (%g, %g, %g); it must be finite",
-         bound, p.x, p.y, p.z);
-  return std::max(outside, std::abs(bound));
+  find_clearances(&p, 1, &bound);
+  return bound;
+}
+
+void HostShape::find_clearances(const Vec3* points, size_t count, double* bounds) const {
+  if (calls_.distance)
+    for (size_t first = 0; first < count; first += host_batch)
+      calls_.distance(points + first, std::min(host_batch, count - first), bounds + first);
+  else
+    std::fill_n(bounds, count, 0.0);
+  for (size_t i = 0; i < count; ++i) {
+    const Vec3 p = points[i];
+    if (!std::isfinite(bounds[i]))
+      fail(Status::host, "the host's shape has the distance %g at (%g, %g, %g); it must be finite",
+           bounds[i], p.x, p.y, p.z);
+    const Vec3 gap = max(max(this->bounds().min - p, p - this->bounds().max), Vec3{});
+    // Less the rounding of the differences and of the length.
+    bounds[i] = std::max(length(gap) * (1 - 0x1p-50), std::abs(bounds[i]));
+  }
+}
+
+void HostShape::march_all(bool wanted, RaySearch* searches, size_t count) const {
+  std::vector<Vec3> points, near;
+  std::vector<size_t> index;
+  std::vector<double> clearances;
+  const auto ask = [&](const std::vector<MarchPoint>& asked, uint8_t* there, double* steps) {
+    points.clear();
+    near.clear();
+    index.clear();
+    for (const MarchPoint& p : asked) points.push_back(searches[p.search].ray.at(p.t));
+    find_inside(points.data(), points.size(), there);
+    for (size_t i = 0; i < asked.size(); ++i) {
+      there[i] = there[i] == static_cast<uint8_t>(wanted);
+      if (there[i] || asked[i].is_settling) continue;
+      near.push_back(points[i]);
+      index.push_back(i);
+    }
+    clearances.resize(near.size());
+    if (!near.empty()) find_clearances(near.data(), near.size(), clearances.data());
+    for (size_t i = 0; i < near.size(); ++i) steps[index[i]] = clearances[i];
+  };
+  march_together(searches, count, least_ray_step(), ray_tolerance(), ask);
+}
+
+void HostShape::enter_all(RaySearch* searches, size_t count) const {
+  for (size_t i = 0; i < count; ++i) {
+    RaySearch& s = searches[i];
+    if (!clip_to_box(s.ray, bounds(), s.from, s.to)) s.to = -infinity;
+  }
+  march_all(true, searches, count);
+}
+
+void HostShape::leave_all(RaySearch* searches, size_t count) const {
+  for (size_t i = 0; i < count; ++i) {
+    RaySearch& s = searches[i];
+    s.t = s.from;
+    if (!clip_to_box(s.ray, bounds(), s.from, s.to)) s.to = -infinity;
+  }
+  march_all(false, searches, count);
+  for (size_t i = 0; i < count; ++i) {
+    RaySearch& s = searches[i];
+    if (!s.found && s.to > -infinity) s.t = s.to;
+  }
+}
+
+void HostShape::find_normals(RaySearch* searches, size_t count) const {
+  normals_by_membership(
+      [this](const Vec3* points, uint8_t* inside, size_t n) { find_inside(points, n, inside); },
+      searches, count, normal_distance(), [](const RaySearch&) { return true; });
 }
 
 }  // namespace msq

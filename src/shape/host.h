@@ -25,6 +25,11 @@ class HostShape final : public Shape {
   void find_inside(const Vec3* points, size_t count, uint8_t* inside) const override;
   bool is_concurrent() const override { return is_concurrent_; }
   void fill_rows(const RowBlock& block) const override;
+  /// Rays march together, so that the host is asked for many points at once.
+  bool gains_by_rays() const override { return true; }
+  void enter_all(RaySearch* searches, size_t count) const override;
+  void leave_all(RaySearch* searches, size_t count) const override;
+  void find_normals(RaySearch* searches, size_t count) const override;
   /// The host's bounds may jump.
   bool has_steady_distance() const override { return !calls_.distance; }
 
@@ -34,6 +39,11 @@ class HostShape final : public Shape {
   double clearance(Vec3 p) const override;
 
  private:
+  /// bounds[i] becomes clearance(points[i]).
+  void find_clearances(const Vec3* points, size_t count, double* bounds) const;
+  /// As RayMarch::find() for each search.
+  void march_all(bool wanted, RaySearch* searches, size_t count) const;
+
   HostUser user_;
   HostShapeCalls calls_;
   bool is_concurrent_;

@@ -22,8 +22,9 @@ double Shape::distance(Vec3 p) const {
 
 bool Shape::march(bool wanted, const Ray& ray, double from, double to, double& t) const {
   const RayMarch steps{least_ray_step(), ray_tolerance()};
-  return steps.find(wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
-                    [this](Vec3 p) { return clearance(p); }, t);
+  return steps.find(
+      wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
+      [this](Vec3 p) { return clearance(p); }, t);
 }
 
 bool Shape::enter(const Ray& ray, double from, double to, double& t) const {
@@ -36,9 +37,24 @@ double Shape::leave(const Ray& ray, double from, double to) const {
   return march(false, ray, from, to, t) ? t : to;
 }
 
+void Shape::enter_all(RaySearch* searches, size_t count) const {
+  for (size_t i = 0; i < count; ++i) {
+    RaySearch& s = searches[i];
+    s.found = enter(s.ray, s.from, s.to, s.t);
+  }
+}
+
+void Shape::leave_all(RaySearch* searches, size_t count) const {
+  for (size_t i = 0; i < count; ++i)
+    searches[i].t = leave(searches[i].ray, searches[i].from, searches[i].to);
+}
+
 Vec3 Shape::normal(const Ray& ray, double t) const {
-  return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t,
-                              1e-4 * max_component(bounds().extent()));
+  return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t, normal_distance());
+}
+
+void Shape::find_normals(RaySearch* searches, size_t count) const {
+  for (size_t i = 0; i < count; ++i) searches[i].normal = normal(searches[i].ray, searches[i].t);
 }
 
 void Shape::fill_rows(const RowBlock& block) const {

@@ -70,9 +70,17 @@ class Shape : public RefCounted {
   /// A t up to which a ray that is inside at `from` stays inside: as far as is known at once, at
   /// most `to`. Default: marches by the distance.
   virtual double leave(const Ray& ray, double from, double to) const;
+  /// Whether rays are best asked about together, by the functions that take several.
+  virtual bool gains_by_rays() const { return false; }
+  /// As enter() for each search: found and t, where it was.
+  virtual void enter_all(RaySearch* searches, size_t count) const;
+  /// As leave() for each search: t.
+  virtual void leave_all(RaySearch* searches, size_t count) const;
   /// The outward normal, of length 1, where the ray enters at t; the direction back where there is
   /// none. Default: from membership around the point.
   virtual Vec3 normal(const Ray& ray, double t) const;
+  /// normal() for each search, at t.
+  virtual void find_normals(RaySearch* searches, size_t count) const;
   /// Rays that march go on by no less than this, whatever distance() says. Less only where that is
   /// 0 nowhere but at the boundary.
   virtual double least_ray_step() const { return max_component(bounds().extent()) / 1024; }
@@ -94,6 +102,9 @@ class Shape : public RefCounted {
   /// finite, not negative, with the rounding of this function and of inside() subtracted. The point
   /// lies no farther from bounds() than 2^60 times their size.
   virtual double clearance(Vec3 p) const = 0;
+
+  /// At which membership is asked for a normal.
+  double normal_distance() const { return 1e-4 * max_component(bounds().extent()); }
 
   /// Calls visit(y, z, row, first, end) for each row of a block that has samples first to end - 1
   /// in bounds().

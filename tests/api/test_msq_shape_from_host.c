@@ -131,6 +131,55 @@ static void sets_ask_in_batches(void** state) {
   msq_context_release(context);
 }
 
+/* Rays from all around, within a finer structure, too: callbacks for all at once, not for each.
+ */
+static void rays_ask_in_batches(void** state) {
+  enum { count = 1000 };
+  static double origins[count][3], directions[count][3];
+  static msq_ray_hit hits[count], wanted[count];
+  (void)state;
+  for (int i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      origins[i][axis] = centre[axis] + 4 * cos(0.7 * i + axis * 1.9);
+      directions[i][axis] = centre[axis] - origins[i][axis] + 1.2 * cos(1.3 * i + axis);
+    }
+  for (int has_distance = 0; has_distance < 2; ++has_distance)
+    for (int has_lattice = 0; has_lattice < 2; ++has_lattice) {
+      msq_context* context = make_context();
+      host_log log = make_log();
+      msq_host_shape_def def = ball_def(&log);
+      def.distance = has_distance ? bound_of_ball : NULL;
+      msq_model* model = make_model(context, make_ball(context, &def),
+                                    has_lattice ? make_lattice(context) : NULL, NULL);
+      msq_model* own = make_model(context, make_own_ball(context),
+                                  has_lattice ? make_lattice(context) : NULL, NULL);
+      msq_rays_def rays;
+      assert_ok(msq_rays_def_init(&rays, sizeof rays));
+      rays.count = count;
+      rays.origins = origins;
+      rays.directions = directions;
+      assert_ok(msq_ray_cast(own, &rays, NULL, wanted, count, NULL));
+      log.calls = log.points = 0;
+      assert_ok(msq_ray_cast(model, &rays, NULL, hits, count, NULL));
+      int same = 0, hit = 0;
+      for (int i = 0; i < count; ++i) {
+        hit += wanted[i].scale >= 0;
+        same += hits[i].scale == wanted[i].scale &&
+                (hits[i].scale < 0 || fabs(hits[i].t - wanted[i].t) < 1e-9);
+      }
+      assert_true(hit > count / 2);
+      /* Thin slices of the ball may be lost without a distance. */
+      assert_true(has_distance ? same == count : same > count * 98 / 100);
+      assert_in_range(log.points, 10 * count, 2000 * count);
+      /* In and out by steps of 1/1024 without a distance. */
+      assert_in_range(log.calls, 1, has_distance ? 2000 : 6000);
+      assert_right(&log);
+      msq_model_release(own);
+      msq_model_release(model);
+      msq_context_release(context);
+    }
+}
+
 static void distances_are_bounds_with_the_sign_of_membership(void** state) {
   const double tips[3] = {centre[0] + 3 * radius, centre[1] + 0.5, centre[2] - 2 * radius};
   (void)state;
@@ -331,6 +380,7 @@ int main(void) {
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(a_ball_is_a_ball),
       cmocka_unit_test(sets_ask_in_batches),
+      cmocka_unit_test(rays_ask_in_batches),
       cmocka_unit_test(distances_are_bounds_with_the_sign_of_membership),
       cmocka_unit_test(fields_of_its_distance_ask_the_calling_thread),
       cmocka_unit_test(volume_and_area_are_not_known),

@@ -11,6 +11,29 @@ using namespace msq::test;
 
 namespace {
 
+/// Rays together are answered as each alone.
+void check_together(const char* name, const Shape& shape, const std::vector<RaySearch>& searches) {
+  std::vector<RaySearch> together = searches, found;
+  shape.enter_all(together.data(), together.size());
+  for (size_t i = 0; i < searches.size(); ++i) {
+    const RaySearch& s = searches[i];
+    double t = 0;
+    const bool is_found = shape.enter(s.ray, s.from, s.to, t);
+    if (together[i].found != is_found || (is_found && together[i].t != t))
+      fail_msg("%s: ray %zu enters at %.17g, with others at %.17g", name, i, t, together[i].t);
+    if (is_found) found.push_back({s.ray, t, s.to, true, t});
+  }
+  std::vector<RaySearch> left = found;
+  shape.find_normals(found.data(), found.size());
+  shape.leave_all(left.data(), left.size());
+  for (size_t i = 0; i < found.size(); ++i) {
+    assert_true(found[i].normal == shape.normal(found[i].ray, found[i].t));
+    const double t = shape.leave(found[i].ray, found[i].from, found[i].to);
+    if (left[i].t != t)
+      fail_msg("%s: ray %zu leaves at %.17g, with others at %.17g", name, i, t, left[i].t);
+  }
+}
+
 void test_row(void** state) {
   const ShapeRow& row = *static_cast<const ShapeRow*>(*state);
   const Ref<const Shape> shape = row.make();
@@ -18,6 +41,7 @@ void test_row(void** state) {
   const Box3 around = box.grown(0.3 * max_component(box.extent()));
   Random random(5);
   int entries = 0;
+  std::vector<RaySearch> searches;
   // Images and host shapes are marched through by their distance, which is dear.
   const bool is_marched = !shape->facts().is_mesh && std::isnan(shape->facts().area);
   const size_t count = test_count(is_marched ? 12 : 300);
@@ -37,6 +61,7 @@ void test_row(void** state) {
     const double size = length(b - a);
     if (!(size > 0)) continue;
     const Ray ray{a, (b - a) * (1 / size)};
+    searches.push_back({ray, random.between(-0.5, 0.5), random.between(-1, 3)});
     // Parts that are shorter than the steps of a march may be lost.
     const RayWalk walk{is_marched ? shape->least_ray_step() : shape->ray_tolerance(), 150};
     entries += check_ray(
@@ -52,6 +77,7 @@ void test_row(void** state) {
   // Some rules leave nothing of some meshes.
   if (row.least > 0 && !is_marched && count >= 50)
     assert_true(entries > static_cast<int>(count / 20));
+  check_together(row.name.c_str(), *shape, searches);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Marches along rays: what they find, and how often they ask where the distance is next to nothing.
+#include "base/march_together.h"
 #include "base/ray.h"
+#include "structure/host/host_function.h"
 #include "suite.h"
 
 using namespace msq;
@@ -24,8 +26,8 @@ March march(double surface, double to, Clearance&& clearance) {
     ++m.asked;
     return p.x >= surface;
   };
-  m.found = RayMarch{tolerance, tolerance}.find(true, ray, 0, to, inside, clearance, m.t,
-                                                &m.creeps);
+  m.found =
+      RayMarch{tolerance, tolerance}.find(true, ray, 0, to, inside, clearance, m.t, &m.creeps);
   return m;
 }
 
@@ -49,12 +51,74 @@ void test_creeps_no_more_than_thousands_of_steps(void**) {
   assert_true(behind.found && std::abs(behind.t - 3) <= tolerance);
 }
 
+/// March::asked: by any of the rays.
+std::vector<March> march_together(const std::vector<double>& surfaces, double to,
+                                  double clearance) {
+  std::vector<RaySearch> searches;
+  for (size_t i = 0; i < surfaces.size(); ++i) searches.push_back({ray, 0, to});
+  std::vector<March> marches(surfaces.size());
+  msq::march_together(searches.data(), searches.size(), tolerance, tolerance,
+                      [&](const std::vector<MarchPoint>& points, uint8_t* there, double* steps) {
+                        for (size_t i = 0; i < points.size(); ++i) {
+                          ++marches[points[i].search].asked;
+                          there[i] = points[i].t >= surfaces[points[i].search];
+                          steps[i] = clearance;
+                        }
+                      });
+  for (size_t i = 0; i < searches.size(); ++i) {
+    marches[i].found = searches[i].found;
+    marches[i].t = searches[i].t;
+  }
+  return marches;
+}
+
+void test_rays_together_march_as_each_alone(void**) {
+  for (const double clearance : {0.25, 1e-3, 1e-9}) {
+    const std::vector<double> surfaces = {-1, 0, 0.3, 2, 3.9999, 5, 1e9};
+    const std::vector<March> together = march_together(surfaces, 4, clearance);
+    for (size_t i = 0; i < surfaces.size(); ++i) {
+      const March alone = march(surfaces[i], 4, [&](Vec3) { return clearance; });
+      assert_true(together[i].found == alone.found);
+      assert_true(together[i].t == alone.t);
+      assert_int_equal(together[i].asked, alone.asked);
+      assert_true(alone.asked < 30000);
+    }
+  }
+}
+
+/// A steep function of a host: a plate, |y - pi| <= 1 in angles, with a wall at x = 5 to 5.5.
+void test_steep_functions_of_hosts_do_not_hang(void**) {
+  constexpr double slope = 1e6, pi = 3.14159265358979324, off = 1e-7;
+  size_t asked = 0;
+  HostFunctionCalls calls;
+  calls.evaluate = [&](const Vec3* angles, size_t count, double* values) {
+    asked += count;
+    for (size_t i = 0; i < count; ++i)
+      values[i] =
+          slope * std::min(std::abs(angles[i].y - pi) - 1, std::abs(angles[i].x - 5.25) - 0.25);
+  };
+  const HostFunction function({}, calls, false, Parameter(0.0), 1, slope, true);
+  // All but along the plate, beside it and in it.
+  const Ray beside{{0.01, (pi + 1 + off) / (2 * pi), 0.5}, {1, 0, 0}};
+  RaySearch searches[2] = {{beside, 0, 0.9}, {beside, 0, 0.7}};
+  function.enter(searches, 2);
+  assert_true(searches[0].found && std::abs(searches[0].t + 0.01 - 5 / (2 * pi)) < 1e-9);
+  assert_false(searches[1].found);
+  assert_true(asked < 60000);
+  asked = 0;
+  const Ray within{{0.01, (pi + 1 - off) / (2 * pi), 0.5}, {1, 0, 0}};
+  assert_true(function.leave(within, 0, 0.9) > 0);
+  assert_true(asked < 60000);
+}
+
 }  // namespace
 
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(test_steps_by_the_distance),
       cmocka_unit_test(test_creeps_no_more_than_thousands_of_steps),
+      cmocka_unit_test(test_rays_together_march_as_each_alone),
+      cmocka_unit_test(test_steep_functions_of_hosts_do_not_hang),
   };
   return cmocka_run_group_tests_name("ray_march", tests, nullptr, nullptr);
 }

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "structure/host/march_together.h"
+#include "base/march_together.h"
 
 namespace msq {
 
@@ -217,7 +217,7 @@ double HostFunction::steady_along(const Ray& ray, double t, double gap) const {
 }
 
 double HostFunction::leave(const Ray& ray, double from, double to) const {
-  const RayMarch march{least_ray_step(), ray_tolerance()};
+  const double tolerance = ray_tolerance();
   const auto onset = [&](Vec3 p) {
     const Vec3 angles = angles_of(neighbourhood().locate(p).fraction);
     double value;
@@ -225,14 +225,15 @@ double HostFunction::leave(const Ray& ray, double from, double to) const {
     return value;
   };
   double at = from;
+  LeastStep least(least_ray_step(), tolerance, from);
   while (at < to) {
     const Vec3 p = ray.at(at);
     const double gap = level_.at(p) - onset(p);
     if (!(gap >= 0)) return at;
-    const double next = std::min(to, at + std::max(steady_along(ray, at, gap), march.least_step));
+    const double next = std::min(to, at + std::max(steady_along(ray, at, gap), least.of_step(at)));
     if (!(next > at)) break;  // steps vanish in rounding
     if (!inside(ray.at(next)))
-      return bisect(at, next, march.tolerance, [&](double t) { return !inside(ray.at(t)); });
+      return bisect(at, next, tolerance, [&](double t) { return !inside(ray.at(t)); });
     at = next;
   }
   return at;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/march_together.h"
 #include "base/ray_normal.h"
-#include "structure/host/march_together.h"
 
 namespace msq {
 
@@ -195,14 +195,10 @@ void HostStructure::enter(RaySearch* searches, size_t count) const {
     for (size_t i = 0; i < near.size(); ++i) steps[index[i]] = bounds[i];
   };
   march_together(searches, count, least, ray_tolerance(), ask);
-  // Normals as of any structure, all points of a ray at once.
-  for (size_t i = 0; i < count; ++i) {
-    RaySearch& s = searches[i];
-    if (!s.found || s.t == s.from) continue;
-    s.normal = normal_by_membership_of_all(
-        [&](const Vec3* around, uint8_t* inside, size_t n) { keep_points(around, inside, n); },
-        s.ray, s.t, normal_distance());
-  }
+  normals_by_membership(
+      [&](const Vec3* around, uint8_t* inside, size_t n) { keep_points(around, inside, n); },
+      searches, count, normal_distance(),
+      [](const RaySearch& s) { return s.found && s.t != s.from; });
 }
 
 void HostStructure::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {

@@ -14,43 +14,46 @@ namespace msq {
 struct MarchPoint {
   uint32_t search;
   double t;
-  bool is_settling;  ///< only membership is asked for
+  bool is_settling;  ///< only whether it is there is asked for
 };
 
-/// As RayMarch::find() for each search, of points inside. ask(points, inside, steps) says of each
-/// point whether it is inside, and, of those outside that are not settling, up to how much farther
-/// along the ray all is outside: those go on by that, and by no less than least_step.
+/// As RayMarch::find() for each search, of points that are `there`, inside or outside as the caller
+/// has it: its normal is left to others. ask(points, there, steps) sets there[i], which is 1, to 0
+/// where point i is not, and, of those that are not settling either, steps[i], which is 0, to how
+/// much farther along the ray none is: those go on by that, and by no less than least_step.
 template <class Ask>
 void march_together(RaySearch* searches, size_t count, double least_step, double tolerance,
                     Ask&& ask) {
   std::vector<MarchPoint> points;
-  std::vector<double> before(count), beyond(count);  // of the settling: outside, inside
+  std::vector<double> before(count), beyond(count);  // of the settling: not there, there
+  std::vector<LeastStep> least(count);
   for (size_t i = 0; i < count; ++i) {
     searches[i].found = false;
     searches[i].normal = {};
     before[i] = searches[i].from;
+    least[i] = LeastStep(least_step, tolerance, searches[i].from);
     if (searches[i].from <= searches[i].to)
       points.push_back({static_cast<uint32_t>(i), searches[i].from, false});
   }
-  std::vector<uint8_t> inside;
+  std::vector<uint8_t> there;
   std::vector<double> steps;
   while (!points.empty()) {
-    inside.assign(points.size(), 1);
+    there.assign(points.size(), 1);
     steps.assign(points.size(), 0);
-    ask(points, inside.data(), steps.data());
+    ask(points, there.data(), steps.data());
     size_t kept = 0;
     for (size_t n = 0; n < points.size(); ++n) {
       MarchPoint p = points[n];
       RaySearch& search = searches[p.search];
       double& low = before[p.search];
       double& high = beyond[p.search];
-      if (inside[n]) {
+      if (there[n]) {
         high = p.t;
       } else {
         low = p.t;
         if (!p.is_settling) {
           if (p.t >= search.to) continue;
-          p.t = std::min(search.to, p.t + std::max(steps[n], least_step));
+          p.t = std::min(search.to, p.t + std::max(steps[n], least[p.search].of_step(p.t)));
           if (p.t > low) points[kept++] = p;  // else steps vanish in rounding
           continue;
         }
