@@ -124,6 +124,16 @@ class Image {
         return body(static_cast<const double*>(values));
     }
   }
+  /// Samples of a cell: bit 0 of their number for x, bit 1 for y, bit 2 for z. At least two samples
+  /// along each axis.
+  void corners(const uint64_t (&cell)[3], double (&samples)[8]) const {
+    visit([&](const auto* values) {
+      const uint64_t dy = size_[0], dz = size_[0] * size_[1];
+      const auto* v = values + cell[2] * dz + cell[1] * dy + cell[0];
+      for (unsigned i = 0; i < 8; ++i)
+        samples[i] = static_cast<double>(v[(i & 1) + (i & 2 ? dy : 0) + (i & 4 ? dz : 0)]);
+    });
+  }
   static uint64_t bytes_of(Type type);
 
  private:

@@ -103,6 +103,8 @@ class Shape : public RefCounted {
   /// lies no farther from bounds() than 2^60 times their size.
   virtual double clearance(Vec3 p) const = 0;
 
+  /// The first t in [from, to] where membership is `wanted`, by clearance() and least_ray_step().
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t) const;
   /// At which membership is asked for a normal.
   double normal_distance() const { return 1e-4 * max_component(bounds().extent()); }
 
@@ -112,9 +114,6 @@ class Shape : public RefCounted {
   void for_each_row_in_bounds(const RowBlock& block, Visit&& visit) const;
 
   ShapeFacts facts_;
-
- private:
-  bool march(bool wanted, const Ray& ray, double from, double to, double& t) const;
 };
 
 template <class Visit>

@@ -8,12 +8,6 @@
 
 namespace msq {
 
-namespace {
-/// Points this far beyond the outermost samples, in voxels, are still in the image: rounding does
-/// not open its border.
-constexpr double border = 1e-9;
-}  // namespace
-
 Voxels::Voxels(Image image, double threshold, Solid solid)
     : image_(std::move(image)), threshold_(threshold), solid_(solid) {
   const Interval range = image_.range();

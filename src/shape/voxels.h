@@ -22,11 +22,19 @@ class Voxels final : public Shape {
 
   bool inside(Vec3 p) const override;
   void fill_rows(const RowBlock& block) const override;
+  /// Both follow the function cell by cell, past blocks that the pyramid decides: no part longer
+  /// than the tolerance is lost.
+  bool enter(const Ray& ray, double from, double to, double& t) const override;
+  double leave(const Ray& ray, double from, double to) const override;
 
  protected:
   double clearance(Vec3 p) const override;
 
  private:
+  /// Points this far beyond the outermost samples, in voxels, are still in the image: rounding does
+  /// not open its border.
+  static constexpr double border = 1e-9;
+
   /// What is known of the samples of cells.
   enum class Side { outside, inside, both };
   Side side(Interval samples) const;
@@ -35,6 +43,9 @@ class Voxels final : public Shape {
   }
   bool in_image(Vec3 voxels) const;
   void measure();
+  class RayWalk;
+  /// The first t in [from, to], in bounds(), where membership is `wanted`, settled by it.
+  bool find(bool wanted, const Ray& ray, double from, double to, double& t) const;
 
   /// Samples [first, end) of a row of an image that is not turned; u_first is where the first is.
   template <class T>
