@@ -115,11 +115,15 @@ bool StrutRays::approach(const Ray& ray, const Part& part, uint32_t strut, doubl
   const Vec3 begin = ray.at(t), end = ray.at(to);
   if (radius_.is_linear(Box3{min(begin, end), max(begin, end)}, gradient))
     steepest = dot(gradient, ray.direction);
+  const double first = t;
+  const Vec3 at_first = locate(part, begin);
   // Past nearly as many steps a ray only grazes the strut.
   constexpr int fast_steps = 1000;
+  // Few steps do where the radius is about as steep here as it is anywhere.
+  constexpr int few_steps = 4;
+  double stride = to - t;
   for (int n = 0; t <= to; ++n) {
-    const Vec3 p = ray.at(t), q = locate(part, p);
-    const Vec3 away = axis.way_to(q);
+    const Vec3 p = ray.at(t), away = axis.way_to(at_first + along * (t - first));
     const double distance = length(away), gap = distance - factor * radius_.at(p);
     if (!(gap > 0)) return true;
     // The distance is convex along the ray, and the radius grows by no more than `steepest`.
@@ -128,6 +132,19 @@ bool StrutRays::approach(const Ray& ray, const Part& part, uint32_t strut, doubl
     const double least = n < fast_steps ? tolerance_ : std::max(tolerance_, 0x1p-24 * cell_);
     const double next = t + std::max(gap / fall, least);
     if (!(next > t)) return false;
+    // Mostly it is not, and its range over a longer way says so.
+    stride = std::min(stride, to - t);
+    if (n >= few_steps && stride > next - t) {
+      const Vec3 q = ray.at(t + stride);
+      const Interval range = radius_.range(Box3{min(p, q), max(p, q)}.grown(tolerance_));
+      const double nearest = distance + std::min(0.0, dot(away, along) / distance) * stride;
+      if (nearest - tolerance_ > factor * std::max(0.0, range.high)) {
+        t += stride;
+        stride *= 2;
+        continue;
+      }
+      stride *= 0.5;
+    }
     t = next;
   }
   return false;
