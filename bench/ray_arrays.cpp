@@ -55,7 +55,10 @@ RayArray random_rays(uint64_t count, Random& random) {
   RayArray rays;
   for (uint64_t i = 0; i < count; ++i) {
     double from[3], to[3], size = 0;
-    for (double& x : from) size += (x = normal(random)) * x;
+    for (double& x : from) {
+      x = normal(random);
+      size += x * x;
+    }
     for (int axis = 0; axis < 3; ++axis) {
       from[axis] = 0.5 + from[axis] / std::sqrt(size);
       to[axis] = uniform(random) - from[axis];
