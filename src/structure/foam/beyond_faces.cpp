@@ -32,9 +32,11 @@ class Finder {
       half_[axis] = (0.5f * size_[axis] + around_[axis]) / cuts;
     }
     diagonal_ = std::sqrt(half_[0] * half_[0] + half_[1] * half_[1] + half_[2] * half_[2]);
-    for (int i = 0; i < boxes; ++i)
-      for (int axis = 0, rest = i; axis < 3; ++axis, rest /= cuts)
-        middle_[axis][i] = half_[axis] * static_cast<float>(2 * (rest % cuts) - cuts + 1);
+    for (int i = 0; i < boxes; ++i) {
+      const int box[3] = {i & 3, (i >> 2 & 1) + 2 * (i >> 4 & 1), (i >> 3 & 1) + 2 * (i >> 5)};
+      for (int axis = 0; axis < 3; ++axis)
+        middle_[axis][i] = half_[axis] * static_cast<float>(2 * box[axis] - cuts + 1);
+    }
     for (int z = 0, i = 0; z < wide; ++z)
       for (int y = 0; y < wide; ++y)
         for (int x = 0; x < wide; ++x, ++i) {
@@ -72,13 +74,16 @@ class Finder {
   /// Room for roundings of squares, coordinates below 8.
   static constexpr float slack = 1e-4f;
 
-  /// Finds the seed nearest to the middles of the boxes from i on.
+  /// Finds the seeds nearest to the middles of the boxes from i on, of the twelve cells next to the
+  /// quarter of the cell, across x, that the boxes are in.
   void nearest(size_t i) {
     const D d;
     const V x = hn::Load(d, middle_[0] + i), y = hn::Load(d, middle_[1] + i),
             z = hn::Load(d, middle_[2] + i);
     V best = hn::Set(d, 1e6f), best_x = x, best_y = y, best_z = z;
-    for (int n = 0; n < 27; ++n) {
+    const int first_y = i / 16 % 2 ? 1 : 0, first_z = i / 32 ? 1 : 0;
+    for (int k = 0; k < 12; ++k) {
+      const int n = ((first_z + k / 6) * 3 + first_y + k / 3 % 2) * 3 + k % 3;
       const V sx = hn::Set(d, near_[0][n]), sy = hn::Set(d, near_[1][n]),
               sz = hn::Set(d, near_[2][n]);
       const V squared = distance_squared(hn::Sub(sx, x), hn::Sub(sy, y), hn::Sub(sz, z));
@@ -147,6 +152,7 @@ class Finder {
   }
 
   float size_[3], around_[3], half_[3], diagonal_;
+  /// Boxes come in quarters of the cell across x, 16 each: that of the lower y and z first.
   alignas(64) float middle_[3][boxes];
   float seed_[3][wide * wide * wide], near_[3][27];
   alignas(64) float best_squared_[16], best_[3][16];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "structure/foam/cells_near_edges.h"
 #include "structure/foam/edge_builder.h"
 
 namespace msq {
@@ -12,11 +13,6 @@ namespace {
 
 /// Room for roundings in single precision, coordinates below 16.
 constexpr double slack = 1e-5;
-
-/// Rounds down; std::floor is a call where the processor at hand is not known.
-int floor_of(float x) {
-  return static_cast<int>(x + 128) - 128;
-}
 
 }  // namespace
 
@@ -104,62 +100,27 @@ std::array<CellIndex, 3> SeededEdges::seeds(size_t edge) const {
 }
 
 void SeededEdges::list_edges(const FoamSeeds& seeds, double radius) {
-  struct Place {
-    uint32_t bucket;
-    uint16_t edge;
-  };
-  thread_local std::vector<Place> places;
-  places.clear();
-  const Vec3 scale = seeds.scale();
-  const float size[3] = {static_cast<float>(scale.x), static_cast<float>(scale.y),
-                         static_cast<float>(scale.z)};
-  const float to_cell[3] = {1 / size[0], 1 / size[1], 1 / size[2]};
-  const float grown = static_cast<float>(radius + ray_list_margin + slack);
-  // Of a cell, grown by as much.
-  const float extent[3] = {0.5f * size[0] + grown, 0.5f * size[1] + grown, 0.5f * size[2] + grown};
-  const int across[3] = {side + 2 * reach_[0], side + 2 * reach_[1], side + 2 * reach_[2]};
-  for (size_t e = 0; e < edges_.size(); ++e) {
-    const std::array<float, 3>&a = end(e, 0), &b = end(e, 1);
-    int first[3], last[3];
-    float middle[3], half[3], wide[3];
-    bool is_one = true;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const auto [least, greatest] = std::minmax(a[axis], b[axis]);
-      first[axis] = std::max(floor_of((least - grown) * to_cell[axis]), -reach_[axis]);
-      last[axis] = std::min(floor_of((greatest + grown) * to_cell[axis]), side - 1 + reach_[axis]);
-      middle[axis] = 0.5f * (a[axis] + b[axis]);
-      half[axis] = 0.5f * (b[axis] - a[axis]);
-      wide[axis] = std::abs(half[axis]);
-      is_one &= first[axis] == last[axis];
-    }
-    // The planes that a box and a segment may be told apart by, but those of the box.
-    float limit[3];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-      limit[axis] = extent[u] * wide[v] + extent[v] * wide[u] + static_cast<float>(slack);
-    }
-    for (int z = first[2]; z <= last[2]; ++z)
-      for (int y = first[1]; y <= last[1]; ++y)
-        for (int x = first[0]; x <= last[0]; ++x) {
-          const float p[3] = {middle[0] - (static_cast<float>(x) + 0.5f) * size[0],
-                              middle[1] - (static_cast<float>(y) + 0.5f) * size[1],
-                              middle[2] - (static_cast<float>(z) + 0.5f) * size[2]};
-          if (!is_one && (std::abs(p[1] * half[2] - p[2] * half[1]) > limit[0] ||
-                          std::abs(p[2] * half[0] - p[0] * half[2]) > limit[1] ||
-                          std::abs(p[0] * half[1] - p[1] * half[0]) > limit[2]))
-            continue;
-          const int bucket =
-              ((z + reach_[2]) * across[1] + y + reach_[1]) * across[0] + x + reach_[0];
-          places.push_back({static_cast<uint32_t>(bucket), static_cast<uint16_t>(e)});
-        }
+  thread_local EdgeEnds ends;
+  thread_local std::vector<NearCell> near;
+  ends.resize(edges_.size());
+  for (size_t e = 0; e < edges_.size(); ++e) ends.set(e, end(e, 0), end(e, 1));
+  CellBox box;
+  size_t cells = 1;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    box.size[axis] = static_cast<float>(seeds.scale()[static_cast<int>(axis)]);
+    box.first[axis] = -reach_[axis];
+    box.count[axis] = side + 2 * reach_[axis];
+    cells *= static_cast<size_t>(box.count[axis]);
   }
-  starts_.assign(static_cast<size_t>(across[0] * across[1] * across[2]) + 1, 0);
-  for (const Place& place : places) ++starts_[place.bucket + 1];
+  find_cells_near_edges(ends, box, static_cast<float>(radius + ray_list_margin + slack), near);
+  starts_.assign(cells + 1, 0);
+  for (const NearCell& place : near) ++starts_[place.cell + 1];
   for (size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-  listed_.resize(places.size());
+  listed_.resize(near.size());
   thread_local std::vector<uint32_t> next;
   next = starts_;
-  for (const Place& place : places) listed_[next[place.bucket]++] = place.edge;
+  for (const NearCell& place : near)
+    listed_[next[place.cell]++] = static_cast<uint16_t>(place.edge);
 }
 
 }  // namespace msq
