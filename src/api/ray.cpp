@@ -66,16 +66,16 @@ void set_search(const RayArray& rays, uint64_t i, RaySearch& search) {
   search_along(rays.origins.at(i), direction, size_of(direction), rays.from(i), rays.to(i), search);
 }
 
-msq_ray_hit answer_of(const RayHit& hit, double size, double t_min, double t_max) {
+msq_ray_hit answer_of(const RayHit& hit, CellIndex cell, double size, double t_min, double t_max) {
   msq_ray_hit answer{};
   answer.scale = hit.scale;
   answer.t = parameter_of(hit, size, t_min, t_max);
   if (hit.scale < 0) return answer;
   answer.starts_inside = hit.starts_inside;
   for (int axis = 0; axis < 3; ++axis) answer.normal[axis] = hit.normal[axis];
-  answer.cell[0] = hit.cell.x;
-  answer.cell[1] = hit.cell.y;
-  answer.cell[2] = hit.cell.z;
+  answer.cell[0] = cell.x;
+  answer.cell[1] = cell.y;
+  answer.cell[2] = cell.z;
   return answer;
 }
 
@@ -121,7 +121,8 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
               array.directions.prefetch(numbers[n + ahead]);
               prefetch_to_write(hits[numbers[n + ahead]]);
             }
-            hits[i] = answer_of(found[n], size_of(array.direction(i)), array.from(i), array.to(i));
+            hits[i] = answer_of(found[n], cell_of(resolved, found[n]), size_of(array.direction(i)),
+                                array.from(i), array.to(i));
             hits[i].material = material_id(known, resolved, found[n], part);
           }
         },

@@ -217,7 +217,6 @@ class Caster {
       hit.normal = hit.scale == 0 ? model_.shape().normal(ray, t)
                                   : resolved_[static_cast<size_t>(hit.scale) - 1]->normal(ray, t);
     if (hit.starts_inside) hit.scale = static_cast<int32_t>(levels_) - 1;
-    if (levels_ > 1) hit.cell = resolved_.back()->structure->neighbourhood().locate(hit.point).cell;
   }
 
   /// Of the shape, at all hits on it.
@@ -249,6 +248,11 @@ class Caster {
 };
 
 }  // namespace
+
+CellIndex cell_of(const Scales& resolved, const RayHit& hit) {
+  if (hit.scale < 0 || resolved.empty()) return {};
+  return resolved.back()->structure->neighbourhood().locate(hit.point).cell;
+}
 
 uint32_t material_id(const Model& model, const Scales& resolved, const RayHit& hit,
                      uint32_t& part) {

@@ -24,7 +24,6 @@ struct RayHit {
   Vec3 normal;
   /// On the boundary, on the inside, to the accuracy of numbers no larger than the shape's.
   Vec3 point;
-  CellIndex cell;  ///< of the finest scale, at the hit
 };
 
 /// Rays of a batch.
@@ -54,6 +53,9 @@ using TakeHits = std::function<void(std::span<const uint64_t> rays, const RayHit
 /// to RayOrder::most at once, as far as the memory budget has room.
 void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
                const TakeHits& take, Job* job);
+
+/// The cell of the finest scale that a hit is in; 0, 0, 0 in a miss and where there is none.
+CellIndex cell_of(const Scales& resolved, const RayHit& hit);
 
 /// Id of the material at a hit, 0 in a miss and where there is none. `part`: as in Skin::find().
 uint32_t material_id(const Model& model, const Scales& resolved, const RayHit& hit, uint32_t& part);

@@ -185,12 +185,12 @@ class Walker {
       enter_[n] = t;
       step_[n] = step;
       path_.step[n] = static_cast<float>(step);
-      path_.from[n] = single(ray.from - t);
-      path_.to[n] = single(ray.to - t);
+      path_.from[n] = static_cast<float>(ray.from - t);
+      path_.to[n] = static_cast<float>(ray.to - t);
       for (int side = 0; side < 2; ++side) {
         const int axis = lateral[side];
         const double at = ray.origin[axis] + ray.direction[axis] * t - base_[side] * scale_[axis];
-        path_.place[side][n] = single(at);
+        path_.place[side][n] = static_cast<float>(at);
         path_.slope[side][n] = static_cast<float>(ray.direction[axis] * step);
       }
     }
@@ -212,8 +212,6 @@ class Walker {
     hits_.clear();
     seen_.clear();
   }
-
-  static float single(double x) { return static_cast<float>(std::clamp(x, -1e30, 1e30)); }
 
   /// One slab; false, and nothing is done, if the packet is in too many of its cells.
   bool cross(int32_t slab) {
@@ -464,7 +462,7 @@ class Walker {
     uint64_t era = 0;
     StrutLine line;
   };
-  Known known_[64];
+  Known known_[256];
   std::vector<uint32_t> near_;
 };
 
