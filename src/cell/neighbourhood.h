@@ -47,8 +47,9 @@ struct Neighbourhood {
   }
 
   /// For each axis of the grid the axis of the samples that it runs along; all -1 where the grid is
-  /// turned by other than quarter turns. Those permute the axes: each coordinate in the grid is then,
-  /// to the last bit, a function of one coordinate of the sample, as the products with 0 add nothing.
+  /// turned by other than quarter turns. Those permute the axes: each coordinate in the grid is
+  /// then, to the last bit, a function of one coordinate of the sample, as the products with 0 add
+  /// nothing.
   std::array<int, 3> sample_axes() const {
     std::array<int, 3> axes{-1, -1, -1};
     for (size_t i = 0; i < 9; ++i) {
@@ -71,6 +72,20 @@ struct Neighbourhood {
                  std::abs(m[1]) * half.x + std::abs(m[4]) * half.y + std::abs(m[7]) * half.z,
                  std::abs(m[2]) * half.x + std::abs(m[5]) * half.y + std::abs(m[8]) * half.z};
     return {c - h, c + h};
+  }
+
+  /// Bounding box, in model coordinates, of a box in grid coordinates.
+  Box3 from_grid(const Box3& box) const {
+    const Vec3 centre = from_grid((box.min + box.max) * 0.5);
+    const Vec3 half = box.extent() * 0.5;
+    const auto& m = rotation.m;
+    const Vec3 h{std::abs(m[0]) * half.x + std::abs(m[1]) * half.y + std::abs(m[2]) * half.z,
+                 std::abs(m[3]) * half.x + std::abs(m[4]) * half.y + std::abs(m[5]) * half.z,
+                 std::abs(m[6]) * half.x + std::abs(m[7]) * half.y + std::abs(m[8]) * half.z};
+    // Positions carry a few units of 2^-53 of the largest magnitude; this is thousands of them.
+    const double slack =
+        0x1p-40 * (max_magnitude(centre) + max_magnitude(h) + max_magnitude(origin));
+    return Box3{centre - h, centre + h}.grown(slack);
   }
 
  private:

@@ -33,19 +33,6 @@ Vec3 GradedSeeds::in_leaf(const Node& leaf) const {
   return leaf.low + cells_.fractions(bits) * leaf.size();
 }
 
-Box3 GradedSeeds::model_box(const Box3& grid_box) const {
-  const Vec3 centre = grid_.from_grid((grid_box.min + grid_box.max) * 0.5);
-  const Vec3 half = grid_box.extent() * 0.5;
-  const auto& m = grid_.rotation.m;
-  const Vec3 h{std::abs(m[0]) * half.x + std::abs(m[1]) * half.y + std::abs(m[2]) * half.z,
-               std::abs(m[3]) * half.x + std::abs(m[4]) * half.y + std::abs(m[5]) * half.z,
-               std::abs(m[6]) * half.x + std::abs(m[7]) * half.y + std::abs(m[8]) * half.z};
-  // Positions carry a few units of 2^-53 of the largest magnitude; this is thousands of them.
-  const double slack =
-      0x1p-40 * (max_magnitude(centre) + max_magnitude(h) + max_magnitude(grid_.origin));
-  return Box3{centre - h, centre + h}.grown(slack);
-}
-
 int GradedSeeds::least_level(const Box3& box) const {
   // Nodes about the points of the box lie in the cells that the box meets, and so do their centres.
   // Where the density is nowhere below 8^n there, a node of level l < n expects 8^(n - l) >= 8.
@@ -56,7 +43,7 @@ int GradedSeeds::least_level(const Box3& box) const {
     cells.min[axis] = std::floor(box.min[axis] / size - slack) * size;
     cells.max[axis] = (std::floor(box.max[axis] / size + slack) + 1) * size;
   }
-  const double least = density_.range(model_box(cells)).low;
+  const double least = density_.range(grid_.from_grid(cells)).low;
   int level = 0;
   for (double next = 8; level < most_levels && least >= next; next *= 8) ++level;
   return level;
@@ -76,7 +63,7 @@ bool GradedSeeds::may_own_edges(CellIndex corner, const Box3& box) const {
 }
 
 double GradedSeeds::mean_density(const Box3& box) const {
-  const Interval range = density_.range(model_box(box));
+  const Interval range = density_.range(grid_.from_grid(box));
   return std::max(1.0, 0.5 * (range.low + range.high));
 }
 

@@ -68,8 +68,6 @@ class GradedSeeds {
   int brick_side() const;
 
  private:
-  Box3 model_box(const Box3& grid_box) const;
-
   FoamSeeds cells_;
   Neighbourhood grid_;
   Parameter density_;
