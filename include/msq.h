@@ -1395,6 +1395,10 @@ typedef struct msq_ray_hit {
  * distance allows; where 64 of them lead no farther than 1/64 of the cell (of the shape: of its size and its
  * coordinates), as beside a surface that the ray all but touches for long, the next are at least twice as long
  * as before, and may lose thinner parts.
+ * 1/1024 of its size, of a host's shape without a distance. Foams whose density is a field,
+ * skins, voxel images and hosts' shapes are followed by steps that their distance allows; where 64 of them lead
+ * no farther than 1/64 of the cell (of the shape: of its size and its coordinates), as beside a surface that
+ * the ray all but touches for long, the next are at least twice as long as before, and may lose thinner parts.
  * Scale by scale: finer scales are asked only within the parts of the ray that lie in the coarser ones.
  * Of hosts' shapes, structures and functions a callback is asked for up to a thousand rays at once.
  *

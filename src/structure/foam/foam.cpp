@@ -36,6 +36,14 @@ Foam::~Foam() {
   context_->cache.drop(seeded_edges_id_);
 }
 
+double Foam::most_radius(CellIndex cell, double margin) const {
+  if (radius_.is_constant()) return most_radius();
+  const Neighbourhood& grid = neighbourhood();
+  const Vec3 low = Vec3{double(cell.x), double(cell.y), double(cell.z)} * grid.cell_size;
+  const Box3 box = Box3{low, low + grid.cell_size}.grown(margin * unit_);
+  return radius_.range(grid.from_grid(box)).high / unit_;
+}
+
 bool Foam::inside(const Neighbourhood::Located& located, Vec3 p) const {
   const Vec3 q = located.fraction * seeds_.scale();
   const double radius = radius_.at(p) / unit_;
@@ -87,7 +95,8 @@ void Foam::keep_rows(const RowBlock& block, const Job* job) const {
 
 void Foam::enter(RaySearch* searches, size_t count) const {
   if (!is_plain()) return Structure::enter(searches, count);
-  if (enter_by_cells(*this, searches, count)) return;
+  if (may_march() ? enter_by_cells(*this, searches, count) : walk_cells(*this, searches, count))
+    return;
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];
     bool creeps = false;
@@ -98,7 +107,7 @@ void Foam::enter(RaySearch* searches, size_t count) const {
 }
 
 double Foam::leave(const Ray& ray, double from, double to) const {
-  if (is_plain()) {
+  if (has_capsules()) {
     const double exit = strut_exit(*this, ray, from, to);
     if (exit > from) return exit;
   }

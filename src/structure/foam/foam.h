@@ -63,6 +63,8 @@ class Foam final : public Structure {
   const Parameter& radius() const { return radius_; }
   /// The greatest, in foam units.
   double most_radius() const { return radius_.range().high / unit_; }
+  /// The greatest in a cell and within `margin` of it, all in foam units.
+  double most_radius(CellIndex cell, double margin) const;
   RayDemand& ray_demand() const { return ray_demand_; }
   Context& context() const { return *context_; }
   /// Names in the cache, of edges for slices and for rays.
@@ -71,8 +73,11 @@ class Foam final : public Structure {
 
  private:
   bool inside(const Neighbourhood::Located& located, Vec3 p) const;
-  /// Whether struts are capsules with a seed in each cell about them.
-  bool is_plain() const { return !graded_ && radius_.is_constant(); }
+  /// Whether there is a seed in each cell and no other; and all struts have one radius.
+  bool is_plain() const { return !graded_; }
+  bool has_capsules() const { return is_plain() && radius_.is_constant(); }
+  /// Whether marching overlooks nothing.
+  bool may_march() const { return radius_.lipschitz() < std::numeric_limits<double>::infinity(); }
 
   Ref<Context> context_;
   uint64_t id_, seeded_edges_id_;

@@ -5,15 +5,11 @@
 #include <cmath>
 
 #include "structure/foam/edge_line.h"
-#include "structure/foam/edges.h"
 #include "strut/segment.h"
 
 namespace msq {
 
 namespace {
-
-/// Room for the error of ends, in single precision, and of the line that they are compared with.
-constexpr double end_error = 4 * edge_error;
 
 double square(double x) {
   return x * x;
@@ -50,9 +46,7 @@ StrutEntries::StrutEntries(const Foam& foam)
       tolerance_(foam.ray_tolerance() / foam.unit()) {}
 
 bool StrutEntries::inside(const FoamRay& ray, double t) const {
-  const RaySearch& search = *ray.search;
-  const double at = t <= ray.from ? search.from : t * foam_.unit();
-  return foam_.inside(search.ray.at(at));
+  return foam_.inside(ray.model_point(t, foam_.unit()));
 }
 
 StrutEntry StrutEntries::settle(const FoamRay& ray, double before, double beyond) const {
@@ -161,11 +155,16 @@ StrutLine StrutEntries::line(const SeededEdges& brick, size_t edge) const {
   strut.corner = corner_of(brick.corner(), foam_.seeds().scale());
   strut.a = {a[0], a[1], a[2]};
   strut.ab = Vec3{b[0], b[1], b[2]} - strut.a;
+  if (!strut.has_line) {
+    const double size = length(strut.ab);
+    strut.along = size > 0 ? strut.ab * (1 / size) : Vec3{};
+  }
   strut.length = dot(strut.ab, strut.along);
   return strut;
 }
 
 StrutEntry StrutEntries::find(const FoamRay& ray, const StrutLine& strut) const {
+  if (!foam_.radius().is_constant()) return find_tapered(ray, strut);
   if (!strut.has_line) {
     StrutEntry entry = find_by_ends(ray, strut);
     entry.by_ends = true;

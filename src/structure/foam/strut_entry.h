@@ -14,6 +14,7 @@
 
 #include "base/ray.h"
 #include "structure/foam/edge_line.h"
+#include "structure/foam/edges.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/seeded_edges.h"
 
@@ -28,6 +29,10 @@ struct FoamRay {
   const RaySearch* search;  ///< the same in model units
 
   Vec3 at(double t) const { return origin + direction * t; }
+  /// In model units, `unit` being the foam's: the point whose membership is asked.
+  Vec3 model_point(double t, double unit) const {
+    return search->ray.at(t <= from ? search->from : t * unit);
+  }
 };
 
 struct StrutEntry {
@@ -49,6 +54,11 @@ struct StrutLine {
   double length = 0;  ///< from a along that
   double error = 0;   ///< of the line
 };
+
+class TaperedStrut;
+
+/// Room for the error of ends, in single precision, and of the line that they are compared with.
+constexpr double end_error = 4 * edge_error;
 
 /// How far from 0 along the direction u the capsule of a segment is entered; infinite if it is
 /// missed. As in strut/capsule_rays.cpp.
@@ -73,10 +83,19 @@ class StrutEntries {
   /// that does not depend on how near `before` and `beyond` are.
   StrutEntry settle(const FoamRay& ray, double before, double beyond) const;
 
+  /// Where the radius is a field: the entry into a strut that is within `near` of `about`, if the
+  /// ray comes in there; the bits that find() finds.
+  StrutEntry find_tapered_near(const FoamRay& ray, const StrutLine& strut, double about,
+                               double near) const;
+
  private:
   bool inside(const FoamRay& ray, double t) const;
   StrutEntry graze(const FoamRay& ray, const StrutLine& strut, double middle, double half) const;
   StrutEntry find_by_ends(const FoamRay& ray, const StrutLine& strut) const;
+  // tapered_entry.cpp
+  StrutEntry find_tapered(const FoamRay& ray, const StrutLine& strut) const;
+  StrutEntry tapered_entry(const FoamRay& ray, const TaperedStrut& tapered, double at,
+                           bool has_line) const;
 
   const Foam& foam_;
   const double radius_, inverse_radius_, tolerance_;  // foam units

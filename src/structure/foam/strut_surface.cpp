@@ -27,7 +27,8 @@ constexpr double surface_error = 1e-8;
 }  // namespace
 
 Vec3 strut_normal(const Foam& foam, const Ray& ray, double t) {
-  const double radius = foam.most_radius();
+  const double radius = foam.radius().at(ray.at(t)) / foam.unit();
+  const Vec3 tilt = foam.radius().gradient(ray.at(t), foam.normal_distance());
   Vec3 q;
   const NearStrut* nearest = nullptr;
   for (const NearStrut& strut : struts_near(foam, ray.at(t), radius + surface_error, q))
@@ -38,7 +39,11 @@ Vec3 strut_normal(const Foam& foam, const Ray& ray, double t) {
   const Vec3 out = q - line.at(std::clamp(foot, nearest->part.low, nearest->part.high));
   const double size = length(out);
   if (!(size > 0.5 * radius)) return {};
-  const Vec3 normal = foam.neighbourhood().rotation.apply(out * (1 / size));
+  Vec3 normal = foam.neighbourhood().rotation.apply(out * (1 / size));
+  if (!foam.radius().is_constant()) {
+    normal = normal - tilt;
+    normal = normal * (1 / length(normal));
+  }
   return dot(normal, ray.direction) < 0 ? normal : Vec3{};
 }
 
@@ -59,7 +64,7 @@ double strut_exit(const Foam& foam, const Ray& ray, double from, double to) {
 
 void sharpen_entry(const Foam& foam, RaySearch& search) {
   if (!(search.t > search.from)) return;
-  const double unit = foam.unit(), radius = foam.most_radius();
+  const double unit = foam.unit(), radius = foam.radius().at(search.ray.at(search.t)) / unit;
   const StrutEntries entries(foam);
   const FoamRay ray = entries.ray(search);
   const double at = search.t / unit, near = 4 * foam.ray_tolerance() / unit;
@@ -75,7 +80,9 @@ void sharpen_entry(const Foam& foam, RaySearch& search) {
     line.a = line.line.at(0) - line.along * beyond;
     line.length = 2 * beyond;
     line.ab = line.along * line.length;
-    const StrutEntry entry = entries.find(ray, line);
+    const StrutEntry entry = foam.radius().is_constant()
+                                 ? entries.find(ray, line)
+                                 : entries.find_tapered_near(ray, line, at, near);
     if (!entry.is_met || entry.at_from || std::abs(entry.t - at) > near) continue;
     if (!best.is_met || entry.t < best.t) best = entry;
   }

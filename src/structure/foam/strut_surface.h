@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a foam about single points of rays. For foams of one radius that are not graded.
+// The surface of a foam about single points of rays. For foams whose seeds are not graded.
 #pragma once
 
 #include "base/ray.h"
@@ -11,7 +11,7 @@ namespace msq {
 Vec3 strut_normal(const Foam& foam, const Ray& ray, double t);
 
 /// Up to where a ray that is inside at `from` stays in a strut that holds it, as far as that is
-/// seen from there, at most `to`; `from` if none is found.
+/// seen from there, at most `to`; `from` if none is found. For foams of one radius.
 double strut_exit(const Foam& foam, const Ray& ray, double from, double to);
 
 /// Makes of an entry that was found within the tolerance what the entry into its strut is exactly:
