@@ -1397,16 +1397,18 @@ typedef struct msq_ray_hit {
  * as before, and may lose thinner parts.
  * 1/1024 of its size, of a host's shape without a distance. Foams whose density is a field,
  * skins, voxel images and hosts' shapes are followed by steps that their distance allows; where 64 of them lead
+ * 1/1024 of its size, of a host's shape without a distance. Skins, voxel images and hosts' shapes are
+ * followed by steps that their distance allows, and so are foams by rays far apart; where 64 of them lead
  * no farther than 1/64 of the cell (of the shape: of its size and its coordinates), as beside a surface that
  * the ray all but touches for long, the next are at least twice as long as before, and may lose thinner parts.
  * Scale by scale: finer scales are asked only within the parts of the ray that lie in the coarser ones.
  * Of hosts' shapes, structures and functions a callback is asked for up to a thousand rays at once.
  *
- * Normals are exact, to rounding, on boxes, balls, cylinders, meshes, lattices and foams whose radius and
- * density are numbers, on functional structures to about 1e-8. Where the radius or level is a field that is not
- * linear, and on host functions that are smooth, they are known to about 1e-5. At the border of a cell over which
+ * Normals are exact, to rounding, on boxes, balls, cylinders, meshes, lattices and foams, on functional
+ * structures to about 1e-8. Where the radius or level is a field that is not linear, and on host
+ * functions that are smooth, they are known to about 1e-5. At the border of a cell over which
  * a function jumps the normal is that of the border. Elsewhere (voxel images, the inner faces of skins,
- * other foams, hosts' structures and shapes), and where rounding hides which strut was met, they are estimates, off
+ * hosts' structures and shapes), and where rounding hides which strut was met, they are estimates, off
  * by 0.1 or so: the mean direction of those of 48 points close around that are outside.
  *
  * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY hits may be partly written. Cost:

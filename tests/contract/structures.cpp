@@ -44,18 +44,21 @@ FieldRef sampled_field(const Neighbourhood& grid, FieldRef linear) {
   return make_ref<GridField>(make_image(values, size, frame));
 }
 
-/// The density of seeds rises from 1 to 30 along an oblique line through the grid's origin.
 Factory graded_foam_factory(double jitter) {
   return [=](const Neighbourhood& grid, Parameter radius) {
-    const Vec3 half = Vec3{1.6, 1.2, 0.9} * grid.cell_size;
-    const Parameter density(Ref<const Field>(
-        make_ref<GradientField>(grid.from_grid(half * -1.0), 1.0, grid.from_grid(half), 30.0)));
+    const Parameter density = rising_density(grid);
     return Ref<const Structure>(make_ref<Foam>(shared_context(), grid, std::move(radius), jitter,
                                                uint64_t{7}, FoamMethod::direct, density));
   };
 }
 
 }  // namespace
+
+Parameter rising_density(const Neighbourhood& grid) {
+  const Vec3 half = Vec3{1.6, 1.2, 0.9} * grid.cell_size;
+  return Parameter(Ref<const Field>(
+      make_ref<GradientField>(grid.from_grid(half * -1.0), 1.0, grid.from_grid(half), 30.0)));
+}
 
 Ref<Context> shared_context() {
   static const Ref<Context> context = make_ref<Context>(1u, uint64_t{64} << 20, uint64_t{0});

@@ -76,6 +76,8 @@ struct StructureRow {
 
 Factory lattice_factory(UnitCell cell);
 Factory foam_factory(FoamMethod method, double jitter);
+/// Rises from 1 to 30 along an oblique line through the grid's origin.
+Parameter rising_density(const Neighbourhood& grid);
 /// The radius of the suite stands for the level.
 Factory functional_factory(const char* expression, FunctionalKind kind, int clusters);
 /// Skew struts that start and end on faces, edges and corners of the cell, one that joins two

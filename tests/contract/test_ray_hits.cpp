@@ -211,8 +211,7 @@ void test_row(void** state) {
   }
   assert_true(checker.hits > 0);
   if (count < 50) return;
-  // Foams that are graded leave their normals to others.
-  if (structure->has_onset() && row.is_lattice()) assert_true(checker.normals > 0);
+  if (structure->has_onset()) assert_true(checker.normals > 0);
   if (checker.inward * 10 > checker.outward)
     fail_msg("%zu normals point in, %zu out", checker.inward, checker.outward);
 }
@@ -224,9 +223,11 @@ int main(int argc, char** argv) {
   if (argc > 2) asked_rays = std::strtoull(argv[2], nullptr, 10);
   if (argc > 1)
     cmocka_set_test_filter(argv[1]);
-  else  // by name only: seconds a ray, and test_rays.cpp asks a few
+  else  // the others by name only: their edges are dear, and test_rays.cpp asks a few
     std::erase_if(rows, [](const StructureRow& row) {
-      return row.name.find("density") != std::string::npos;
+      const std::string tried = "foam DIRECT, density 1 to 30, jitter 1 r 0.06";
+      return row.name.find("density") != std::string::npos && row.name != tried &&
+             row.name != tried + ", graded";
     });
   return run_for_each("ray_hits", rows, test_row);
 }

@@ -12,6 +12,7 @@
 #include "cell/cell_hash.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/seeded_edges.h"
+#include "structure/foam/strut_entry.h"
 #include "strut/capsule_rays.h"
 
 namespace msq {
@@ -30,15 +31,13 @@ class CellStruts {
   /// Another number after lists were forgotten.
   uint64_t era() const { return era_; }
 
-  /// Struts that may be met in a cell; foam units, from the cell's corner. Ids are for edge(),
+  /// Struts that may be met in a cell; foam units, from the cell's corner. Ids are for line(),
   /// unlike for unlike struts, until lists are forgotten.
   const CapsuleView& list(CellIndex cell);
 
-  struct Edge {
-    const SeededEdges& brick;
-    size_t number;
-  };
-  Edge edge(uint32_t id) const { return {*bricks_[id >> 16], id & 0xffff}; }
+  StrutLine line(const StrutEntries& entries, uint32_t id) const {
+    return entries.line(*bricks_[id >> 16], id & 0xffff);
+  }
 
  private:
   static constexpr size_t most_bricks = 4096, chunk_bytes = size_t{1} << 18, most_chunks = 256;

@@ -22,6 +22,7 @@ Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter r
       context_(std::move(context)),
       id_(context_->new_structure_id()),
       seeded_edges_id_(context_->new_structure_id()),
+      cell_struts_id_(context_->new_structure_id()),
       radius_(std::move(radius)),
       unit_(max_component(neighbourhood.cell_size)),
       seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
@@ -34,6 +35,7 @@ Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter r
 Foam::~Foam() {
   context_->cache.drop(id_);
   context_->cache.drop(seeded_edges_id_);
+  context_->cache.drop(cell_struts_id_);
 }
 
 double Foam::most_radius(CellIndex cell, double margin) const {
@@ -94,7 +96,6 @@ void Foam::keep_rows(const RowBlock& block, const Job* job) const {
 }
 
 void Foam::enter(RaySearch* searches, size_t count) const {
-  if (!is_plain()) return Structure::enter(searches, count);
   if (may_march() ? enter_by_cells(*this, searches, count) : walk_cells(*this, searches, count))
     return;
   for (size_t i = 0; i < count; ++i) {
@@ -115,7 +116,7 @@ double Foam::leave(const Ray& ray, double from, double to) const {
 }
 
 Vec3 Foam::normal(const Ray& ray, double t) const {
-  if (is_plain()) {
+  {
     const Vec3 normal = strut_normal(*this, ray, t);
     if (dot(normal, normal) > 0) return normal;
   }

@@ -70,17 +70,18 @@ class Foam final : public Structure {
   /// Names in the cache, of edges for slices and for rays.
   uint64_t id() const { return id_; }
   uint64_t seeded_edges_id() const { return seeded_edges_id_; }
+  /// And of the struts of a cell, where seeds are graded.
+  uint64_t cell_struts_id() const { return cell_struts_id_; }
+  /// Whether struts are capsules of one radius, and there is a seed in each cell and no other.
+  bool has_capsules() const { return !graded_ && radius_.is_constant(); }
 
  private:
   bool inside(const Neighbourhood::Located& located, Vec3 p) const;
-  /// Whether there is a seed in each cell and no other; and all struts have one radius.
-  bool is_plain() const { return !graded_; }
-  bool has_capsules() const { return is_plain() && radius_.is_constant(); }
   /// Whether marching overlooks nothing.
   bool may_march() const { return radius_.lipschitz() < std::numeric_limits<double>::infinity(); }
 
   Ref<Context> context_;
-  uint64_t id_, seeded_edges_id_;
+  uint64_t id_, seeded_edges_id_, cell_struts_id_;
   Parameter radius_;
   double unit_;
   FoamSeeds seeds_;

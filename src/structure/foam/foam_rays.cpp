@@ -13,10 +13,13 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 #include "base/borrowed.h"
+#include "cell/cell_hash.h"
 #include "structure/foam/cell_struts.h"
+#include "structure/foam/graded_struts.h"
 #include "structure/foam/packet_path.h"
 #include "structure/foam/strut_entry.h"
 #include "structure/foam/strut_surface.h"
@@ -26,17 +29,20 @@ namespace msq {
 namespace {
 
 /// What one thread keeps from batch to batch; the struts are forgotten in between.
+template <class Struts>
 struct Memory {
   std::vector<FoamRay> rays;
-  CellStruts struts;
+  Struts struts;
 };
 
+/// `Struts`: lists of struts for cells: CellStruts, or as those.
+template <class Struts>
 class Walker {
  public:
-  Walker(const Foam& foam, RaySearch* searches, Memory& memory)
+  Walker(const Foam& foam, RaySearch* searches, Memory<Struts>& memory)
       : foam_(foam),
         scale_(foam.seeds().scale()),
-        radius_(foam.most_radius()),
+        asks_once_(!foam.graded() && foam.radius().is_constant()),
         entries_(foam),
         searches_(searches),
         memory_(memory) {
@@ -256,6 +262,7 @@ class Walker {
       return false;
 
     number_ = number;
+    if (!asks_once_) hits_.clear();
     slots_.clear();
     if (memory_.struts.is_full()) {
       memory_.struts.forget();
@@ -278,7 +285,8 @@ class Walker {
       packet_.near = order_[c].at * rise - behind;
       packet_.far = order_[c].last * rise + behind;
       const Slot& slot = add_slot(order_[c], slab);
-      meet_capsules(slot.list, static_cast<float>(radius_), slot.corner, packet_, &seen_, hits_);
+      meet_capsules(slot.list, slot.radius, slot.corner, packet_, asks_once_ ? &seen_ : nullptr,
+                    hits_);
       const bool is_last = c + 1 == order_.size();
       for (uint32_t rest = active; rest; rest &= rest - 1) {
         const size_t n = static_cast<size_t>(std::countr_zero(rest));
@@ -329,6 +337,7 @@ class Walker {
   struct Slot {
     CapsuleView list;
     float corner[3];
+    float radius;  // no strut has a greater one there
   };
 
   const Slot& add_slot(const Coming& coming, int32_t slab) {
@@ -342,15 +351,23 @@ class Walker {
     slot.corner[axis_] = static_cast<float>((slab - base_slab_) * scale_[axis_]);
     slot.corner[a] = static_cast<float>(coming.i * scale_[a]);
     slot.corner[b] = static_cast<float>(coming.j * scale_[b]);
+    slot.radius = radius_in({cell[0], cell[1], cell[2]});
+    if (slot.radius < 0) slot.list.count = 0;
     return slot;
+  }
+
+  float radius_in(CellIndex cell) {
+    if (foam_.radius().is_constant()) return static_cast<float>(foam_.most_radius());
+    const auto [found, is_new] = radii_.try_emplace(cell, 0.0f);
+    if (is_new) found->second = static_cast<float>(foam_.most_radius(cell, ray_list_margin));
+    return found->second;
   }
 
   StrutEntry entry(size_t n, uint32_t id) {
     // Rays of a packet meet few struts.
     Known& known = known_[id % std::size(known_)];
     if (known.id != id || known.era != memory_.struts.era()) {
-      const CellStruts::Edge edge = memory_.struts.edge(id);
-      known = {id, memory_.struts.era(), entries_.line(edge.brick, edge.number)};
+      known = {id, memory_.struts.era(), memory_.struts.line(entries_, id)};
     }
     return entries_.find(memory_.rays[ray_[n]], known.line);
   }
@@ -385,8 +402,7 @@ class Walker {
     candidates_.clear();
     for (const Slot& slot : slots_) {
       near_.resize(slot.list.count);
-      const size_t found =
-          near_capsules(slot.list, static_cast<float>(radius_), slot.corner, alone, near_.data());
+      const size_t found = near_capsules(slot.list, slot.radius, slot.corner, alone, near_.data());
       for (size_t c = 0; c < found; ++c) {
         const uint32_t i = near_[c];
         CapsuleView one = slot.list;
@@ -398,7 +414,7 @@ class Walker {
         one.count = 1;
         PacketHits hits;
         hits.clear();
-        meet_capsules(one, static_cast<float>(radius_), slot.corner, alone, nullptr, hits);
+        meet_capsules(one, slot.radius, slot.corner, alone, nullptr, hits);
         if (hits.first[0] < std::numeric_limits<float>::infinity())
           candidates_.push_back({hits.first[0], hits.id[0]});
       }
@@ -430,10 +446,12 @@ class Walker {
 
   const Foam& foam_;
   const Vec3 scale_;
-  const double radius_;
+  /// Whether what a packet was told of a strut in one cell holds in all: not where cells have radii
+  /// of their own.
+  const bool asks_once_;
   const StrutEntries entries_;
   RaySearch* const searches_;
-  Memory& memory_;
+  Memory<Struts>& memory_;
 
   // The packet at hand.
   int axis_ = 0;
@@ -452,6 +470,7 @@ class Walker {
   SeenIds seen_;
   std::vector<Coming> order_;
   std::vector<Slot> slots_;
+  std::unordered_map<CellIndex, float, CellHash> radii_;  // where they vary
   struct Candidate {
     float first;
     uint32_t id;
@@ -505,8 +524,13 @@ bool is_worth_edges(const Foam& foam, const RaySearch* searches, size_t count) {
 
 bool walk_cells(const Foam& foam, RaySearch* searches, size_t count) {
   if (!SeededEdges::fits(foam.seeds())) return false;
-  const Borrowed<Memory> borrowed_memory;
-  Walker(foam, searches, *borrowed_memory).run(count);
+  if (foam.graded()) {
+    const Borrowed<Memory<GradedStruts>> memory;
+    Walker<GradedStruts>(foam, searches, *memory).run(count);
+  } else {
+    const Borrowed<Memory<CellStruts>> memory;
+    Walker<CellStruts>(foam, searches, *memory).run(count);
+  }
   return true;
 }
 

@@ -9,7 +9,7 @@
 
 namespace msq {
 
-/// Structure::enter for foams whose seeds are not graded. False, and nothing is done, for
+/// Structure::enter for foams. False, and nothing is done, for
 /// those that have too many seeds near a cell, and for rays so far apart that each would need the
 /// edges of cells of its own.
 bool enter_by_cells(const Foam& foam, RaySearch* searches, size_t count);

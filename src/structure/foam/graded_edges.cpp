@@ -52,6 +52,7 @@ struct Neighbour {
   Vec3 at;
   double half_squared;  // of its length
   uint64_t order;
+  int level;
 };
 
 /// Works for one brick after another, in memory that it keeps.
@@ -68,8 +69,9 @@ class CellBuilder {
     trees_.visit_cell(home_, cell, [&](const LeafSeed& seed) { owners.push_back(seed); });
   }
 
-  /// Appends the edges that a seed owns.
-  void add_owned_edges(const LeafSeed& own, std::vector<FloatSegment>& edges) {
+  /// Calls take(edge) for the edges that a seed owns.
+  template <class Take>
+  void find_owned_edges(const LeafSeed& own, Take&& take) {
     own_ = own;
     unit_ = 1.0 / (1 << own.level);
     gather();
@@ -77,22 +79,37 @@ class CellBuilder {
     if (!walk() && !clip()) try_pairs();
     for (const Edge& edge : edges_) {
       const Vec3 a = own.position + edge.from * unit_, b = own.position + edge.to * unit_;
-      FloatSegment& added = edges.emplace_back();
+      GradedEdge taken;
       for (int axis = 0; axis < 3; ++axis) {
-        added.a[axis] = static_cast<float>(a[axis]);
-        added.b[axis] = static_cast<float>(b[axis]);
+        taken.a[static_cast<size_t>(axis)] = static_cast<float>(a[axis]);
+        taken.b[static_cast<size_t>(axis)] = static_cast<float>(b[axis]);
       }
+      taken.seeds[0] = name_of(own);
+      taken.knows_seeds = edge.is_sure;
+      for (size_t i = 0; i < 2; ++i)
+        taken.seeds[i + 1] = name_of({{}, edge.others[i].level, edge.others[i].order});
+      if (edge.others[0].order > edge.others[1].order) std::swap(taken.seeds[1], taken.seeds[2]);
+      take(taken);
     }
   }
 
  private:
+  struct Seed {
+    uint64_t order;
+    int level;
+  };
   struct Edge {
     Vec3 from, to;
+    std::array<Seed, 2> others;
+    bool is_sure;  // that these seeds make it, and that no other is as near
   };
 
   Neighbour neighbour(const LeafSeed& seed) const {
     const Vec3 at = (seed.position - own_.position) * (1 / unit_);
-    return {at, 0.5 * dot(at, at), seed.order};
+    return {at, 0.5 * dot(at, at), seed.order, seed.level};
+  }
+  static std::array<Seed, 2> others(const Neighbour& a, const Neighbour& b) {
+    return {{{a.order, a.level}, {b.order, b.level}}};
   }
   static uint32_t octant(Vec3 v) { return (v.x > 0) | (v.y > 0) << 1 | (v.z > 0) << 2; }
 
@@ -213,8 +230,8 @@ class CellBuilder {
     }
     if (!cell_.walk()) return false;
     for (size_t i = 0; i < cell_.vertex_count(); ++i) vertices_.push_back(cell_.vertex(i));
-    cell_.for_each_edge(after, [&](size_t from, size_t to, uint32_t, uint32_t) {
-      edges_.push_back({vertices_[from], vertices_[to]});
+    cell_.for_each_edge(after, [&](size_t from, size_t to, uint32_t a, uint32_t b) {
+      edges_.push_back({vertices_[from], vertices_[to], others(planes_[a], planes_[b]), true});
     });
     return true;
   }
@@ -249,7 +266,9 @@ class CellBuilder {
       return plane >= ClippedCell::first_neighbour &&
              by_distance_[plane - ClippedCell::first_neighbour].order > own_.order;
     };
-    clipped_.for_each_edge(is_after, [&](Vec3 from, Vec3 to) { edges_.push_back({from, to}); });
+    clipped_.for_each_edge(is_after, [&](Vec3 from, Vec3 to) {
+      edges_.push_back({from, to, {}, false});
+    });
     return true;
   }
 
@@ -271,7 +290,7 @@ class CellBuilder {
         for (size_t k = 0; k < count && line.holds(part); ++k)
           if (k != i && k != j) line.cut(by_distance_[k].at, part);
         if (!line.holds(part) || part.low == -1e300 || part.high == 1e300) continue;
-        const Edge edge{line.at(part.low), line.at(part.high)};
+        const Edge edge{line.at(part.low), line.at(part.high), {}, false};
         vertices_.push_back(edge.from);
         vertices_.push_back(edge.to);
         if (by_distance_[i].order > own_.order && by_distance_[j].order > own_.order)
@@ -356,27 +375,49 @@ class CellBuilder {
   std::vector<Edge> edges_;  // owned ones
 };
 
-}  // namespace
-
-std::shared_ptr<const EdgeBrick> graded_edge_brick(const std::shared_ptr<const GradedSeeds>& seeds,
-                                                   CellIndex corner) {
+/// Calls begin() and then take(edge) for the edges of each run of owners.
+template <class Begin, class Take>
+void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner, Begin&& begin,
+                Take&& take) {
   // The density may be the host's.
   const Borrowed<CellBuilder> borrowed_builder;
   CellBuilder& builder = *borrowed_builder;
   std::vector<LeafSeed> owners;
-  std::vector<FloatSegment> edges;
   builder.move_to(seeds, corner);
   const int side = seeds->brick_side();
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x)
         builder.append_owners({corner.x + x, corner.y + y, corner.z + z}, owners);
-  std::vector<uint32_t> starts;
   for (size_t i = 0; i < owners.size(); ++i) {
-    if (i % owners_in_run == 0) starts.push_back(static_cast<uint32_t>(edges.size()));
-    builder.add_owned_edges(owners[i], edges);
+    if (i % owners_in_run == 0) begin();
+    builder.find_owned_edges(owners[i], take);
   }
+}
+
+}  // namespace
+
+std::shared_ptr<const EdgeBrick> graded_edge_brick(const std::shared_ptr<const GradedSeeds>& seeds,
+                                                   CellIndex corner) {
+  std::vector<FloatSegment> edges;
+  std::vector<uint32_t> starts;
+  find_edges(
+      seeds, corner, [&] { starts.push_back(static_cast<uint32_t>(edges.size())); },
+      [&](const GradedEdge& edge) {
+        FloatSegment& added = edges.emplace_back();
+        std::copy_n(edge.a.data(), 3, added.a);
+        std::copy_n(edge.b.data(), 3, added.b);
+      });
   return std::make_shared<const EdgeBrick>(edges, starts);
+}
+
+std::shared_ptr<const GradedEdges> graded_edges(const std::shared_ptr<const GradedSeeds>& seeds,
+                                                CellIndex corner) {
+  std::vector<GradedEdge> edges;
+  find_edges(
+      seeds, corner, [] {}, [&](const GradedEdge& edge) { edges.push_back(edge); });
+  edges.shrink_to_fit();
+  return std::make_shared<const GradedEdges>(std::move(edges));
 }
 
 }  // namespace msq

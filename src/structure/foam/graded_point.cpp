@@ -29,6 +29,7 @@ struct NearSeeds {
   std::vector<Vec3> positions;
   std::vector<double> planes;  // distances to the planes between them and the nearest one
   std::vector<uint32_t> order;
+  std::vector<GradedSeedName> names;  // from the point's cell
 };
 
 /// Positions come in sizes of the leaf of the nearest seed, all else is in foam units.
@@ -47,6 +48,7 @@ void gather(SeedTrees& trees, CellIndex cell, Vec3 q, const LeafSeed& nearest,
   };
   near.positions.clear();
   near.planes.clear();
+  near.names.clear();
   trees.visit(
       cell, Box3{q, q}.grown(reach),
       [&](const Box3& box) {
@@ -59,6 +61,7 @@ void gather(SeedTrees& trees, CellIndex cell, Vec3 q, const LeafSeed& nearest,
         const double squared = dot(d, d), apart_squared = dot(apart, apart);
         if (squared > reach_squared || too_far(squared - nearest_squared, apart_squared)) return;
         near.positions.push_back(seed.position * unit);
+        near.names.push_back(name_of(seed));
         near.planes.push_back(
             apart_squared > 0 ? (squared - nearest_squared) / std::sqrt(apart_squared) : -1);
       });
@@ -103,6 +106,49 @@ bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIn
       return true;
     if (tried >= radius) return false;
   }
+}
+
+void find_near_graded_struts(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell,
+                             Vec3 q, double radius, std::vector<NearGradedStrut>& struts) {
+  // The density may be the host's.
+  const Borrowed<SeedTrees> borrowed_trees;
+  const Borrowed<NearSeeds> borrowed_near;
+  SeedTrees& trees = *borrowed_trees;
+  NearSeeds& near = *borrowed_near;
+  struts.clear();
+  trees.move_to(seeds);
+  double nearest_squared;
+  const LeafSeed nearest = nearest_seed(trees, cell, q, nearest_squared);
+  gather(trees, cell, q, nearest, nearest_squared, radius, near);
+  const double unit = 1 << nearest.level, reach = radius * unit;
+  const Vec3 p = q * unit;
+  const size_t count = near.positions.size();
+  // Whether the plane between two seeds is farther than the radius: then so are their edges.
+  const auto too_far = [&](size_t a, size_t b) {
+    const Vec3 to_a = near.positions[a] - p, to_b = near.positions[b] - p, apart = to_a - to_b;
+    const double over = std::abs(dot(to_a, to_a) - dot(to_b, to_b)) - 1e-9;
+    return over > 0 && over * over > 4 * reach * reach * dot(apart, apart);
+  };
+  for (size_t a = 0; a < count; ++a)
+    for (size_t b = a + 1; b < count; ++b) {
+      if (too_far(a, b)) continue;
+      for (size_t c = b + 1; c < count; ++c) {
+        if (too_far(a, c) || too_far(b, c)) continue;
+        const EdgeLine line(near.positions[a], near.positions[b], near.positions[c]);
+        if (!line.exists()) continue;
+        LineInterval part = line.chord(p, reach * reach);
+        for (size_t i = 0; i < count && line.holds(part); ++i) {
+          const uint32_t cut = near.order[i];
+          if (cut != a && cut != b && cut != c) line.cut(near.positions[cut], part);
+        }
+        if (!line.holds(part)) continue;
+        const Vec3 to_line = p - line.seed - line.offset;
+        const double foot = dot(to_line, line.direction) * line.inverse_squared;
+        const Vec3 d = to_line - line.direction * std::max(part.low, std::min(part.high, foot));
+        struts.push_back(
+            {{near.names[a], near.names[b], near.names[c]}, dot(d, d) / (unit * unit)});
+      }
+    }
 }
 
 double graded_onset(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q) {

@@ -3,8 +3,11 @@
 // onset.
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
+#include "structure/foam/graded_line.h"
 #include "structure/foam/graded_seeds.h"
 
 namespace msq {
@@ -15,5 +18,13 @@ bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIn
 
 /// Distance from q to the nearest edge, in foam units: onset.h.
 double graded_onset(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell, Vec3 q);
+
+struct NearGradedStrut {
+  std::array<GradedSeedName, 3> seeds;  ///< from the point's cell, in the order of seeds
+  double distance_squared;              ///< of the point from the edge, foam units
+};
+/// Fills `struts` with the edges that come within `radius` of q.
+void find_near_graded_struts(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell,
+                             Vec3 q, double radius, std::vector<NearGradedStrut>& struts);
 
 }  // namespace msq

@@ -151,8 +151,13 @@ StrutLine StrutEntries::line(const std::array<CellIndex, 3>& cells) const {
 StrutLine StrutEntries::line(const SeededEdges& brick, size_t edge) const {
   StrutLine strut;
   if (brick.knows_seeds(edge)) strut = line(brick.seeds(edge));
-  const auto &a = brick.end(edge, 0), &b = brick.end(edge, 1);
-  strut.corner = corner_of(brick.corner(), foam_.seeds().scale());
+  set_ends(brick.end(edge, 0), brick.end(edge, 1), brick.corner(), strut);
+  return strut;
+}
+
+void StrutEntries::set_ends(const std::array<float, 3>& a, const std::array<float, 3>& b,
+                            CellIndex corner, StrutLine& strut) const {
+  strut.corner = corner_of(corner, foam_.seeds().scale());
   strut.a = {a[0], a[1], a[2]};
   strut.ab = Vec3{b[0], b[1], b[2]} - strut.a;
   if (!strut.has_line) {
@@ -160,11 +165,10 @@ StrutLine StrutEntries::line(const SeededEdges& brick, size_t edge) const {
     strut.along = size > 0 ? strut.ab * (1 / size) : Vec3{};
   }
   strut.length = dot(strut.ab, strut.along);
-  return strut;
 }
 
 StrutEntry StrutEntries::find(const FoamRay& ray, const StrutLine& strut) const {
-  if (!foam_.radius().is_constant()) return find_tapered(ray, strut);
+  if (!foam_.has_capsules()) return find_tapered(ray, strut);
   if (!strut.has_line) {
     StrutEntry entry = find_by_ends(ray, strut);
     entry.by_ends = true;

@@ -72,6 +72,10 @@ class StrutEntries {
   /// As far as its three seeds tell, in their order: without ends.
   StrutLine line(const std::array<CellIndex, 3>& seeds) const;
 
+  /// Sets the ends of a strut, from the corner of a cell, in single precision.
+  void set_ends(const std::array<float, 3>& a, const std::array<float, 3>& b, CellIndex corner,
+                StrutLine& strut) const;
+
   /// The frame that find() works in.
   FoamRay ray(const RaySearch& search) const;
 

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include "base/borrowed.h"
+#include "structure/foam/graded_point.h"
 #include "structure/foam/near_struts.h"
 #include "structure/foam/strut_entry.h"
+#include "structure/foam/tapered_entry.h"
 
 namespace msq {
 
@@ -21,29 +24,52 @@ const std::vector<NearStrut>& struts_near(const Foam& foam, Vec3 p, double radiu
   return struts;
 }
 
+/// The same of foams whose seeds are graded: lines, and the squared distances of their edges.
+struct NearLine {
+  StrutLine line;
+  double distance_squared;
+};
+void find_graded_lines(const Foam& foam, Vec3 p, double radius, std::vector<NearLine>& lines) {
+  const Borrowed<std::vector<NearGradedStrut>> struts;
+  const Neighbourhood::Located located = foam.neighbourhood().locate(p);
+  find_near_graded_struts(foam.graded(), located.cell, located.fraction * foam.seeds().scale(),
+                          radius, *struts);
+  for (const NearGradedStrut& strut : *struts)
+    lines.push_back(
+        {graded_line(*foam.graded(), located.cell, strut.seeds), strut.distance_squared});
+}
+
+/// The lines of the edges within a radius of a point, in the frame of StrutEntries.
+std::vector<NearLine> lines_near(const Foam& foam, const StrutEntries& entries, Vec3 p,
+                                 double radius) {
+  std::vector<NearLine> lines;
+  if (foam.graded()) {
+    find_graded_lines(foam, p, radius, lines);
+    return lines;
+  }
+  Vec3 q;
+  for (const NearStrut& strut : struts_near(foam, p, radius, q))
+    lines.push_back({entries.line(strut.seeds), strut.distance_squared});
+  return lines;
+}
+
 /// Points of the surface are this near to it, in foam units.
 constexpr double surface_error = 1e-8;
 
 }  // namespace
 
 Vec3 strut_normal(const Foam& foam, const Ray& ray, double t) {
-  const double radius = foam.radius().at(ray.at(t)) / foam.unit();
-  const Vec3 tilt = foam.radius().gradient(ray.at(t), foam.normal_distance());
-  Vec3 q;
-  const NearStrut* nearest = nullptr;
-  for (const NearStrut& strut : struts_near(foam, ray.at(t), radius + surface_error, q))
-    if (!nearest || strut.distance_squared < nearest->distance_squared) nearest = &strut;
-  if (!nearest) return {};
-  const EdgeLine& line = nearest->line;
-  const double foot = dot(q - line.seed - line.offset, line.direction) * line.inverse_squared;
-  const Vec3 out = q - line.at(std::clamp(foot, nearest->part.low, nearest->part.high));
-  const double size = length(out);
-  if (!(size > 0.5 * radius)) return {};
-  Vec3 normal = foam.neighbourhood().rotation.apply(out * (1 / size));
-  if (!foam.radius().is_constant()) {
-    normal = normal - tilt;
-    normal = normal * (1 / length(normal));
-  }
+  const Vec3 p = ray.at(t);
+  const double radius = foam.radius().at(p) / foam.unit();
+  const StrutEntries entries(foam);
+  const RaySearch search{ray, t, t};
+  const FoamRay foam_ray = entries.ray(search);
+  const NearLine* nearest = nullptr;
+  const std::vector<NearLine> lines = lines_near(foam, entries, p, radius + surface_error);
+  for (const NearLine& near : lines)
+    if (!nearest || near.distance_squared < nearest->distance_squared) nearest = &near;
+  if (!nearest || !(nearest->distance_squared > 0.25 * radius * radius)) return {};
+  const Vec3 normal = TaperedStrut(foam, foam_ray, nearest->line).normal(foam_ray.from);
   return dot(normal, ray.direction) < 0 ? normal : Vec3{};
 }
 
@@ -69,10 +95,9 @@ void sharpen_entry(const Foam& foam, RaySearch& search) {
   const FoamRay ray = entries.ray(search);
   const double at = search.t / unit, near = 4 * foam.ray_tolerance() / unit;
   StrutEntry best;
-  Vec3 q;
-  for (const NearStrut& strut :
-       struts_near(foam, search.ray.at(search.t), radius + surface_error, q)) {
-    StrutLine line = entries.line(strut.seeds);
+  for (NearLine& near_line :
+       lines_near(foam, entries, search.ray.at(search.t), radius + surface_error)) {
+    StrutLine& line = near_line.line;
     if (!line.has_line) continue;
     // The ray enters where this edge is: whatever its ends, they are not in the way.
     constexpr double beyond = 16;
@@ -80,9 +105,8 @@ void sharpen_entry(const Foam& foam, RaySearch& search) {
     line.a = line.line.at(0) - line.along * beyond;
     line.length = 2 * beyond;
     line.ab = line.along * line.length;
-    const StrutEntry entry = foam.radius().is_constant()
-                                 ? entries.find(ray, line)
-                                 : entries.find_tapered_near(ray, line, at, near);
+    const StrutEntry entry = foam.has_capsules() ? entries.find(ray, line)
+                                                 : entries.find_tapered_near(ray, line, at, near);
     if (!entry.is_met || entry.at_from || std::abs(entry.t - at) > near) continue;
     if (!best.is_met || entry.t < best.t) best = entry;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface of a foam about single points of rays. For foams whose seeds are not graded.
+// The surface of a foam about single points of rays.
 #pragma once
 
 #include "base/ray.h"

@@ -46,11 +46,12 @@ TaperedStrut::TaperedStrut(const Foam& foam, const FoamRay& ray, const StrutLine
   // Coordinates of points are known to a few units of 2^-53 of themselves, here and in membership,
   // which also asks the field at such points.
   const double slope = std::min(foam.radius().lipschitz(), 64.0);
-  error_ = 0x1p-51 * (8 + ray.most) * (1 + slope) + strut.error;
+  error_ = 0x1p-51 * (8 + ray.most) * (1 + slope) + (strut.has_line ? strut.error : 2 * end_error);
 }
 
 double TaperedStrut::radius(double t) const {
-  return foam_.radius().at(ray_.model_point(t, foam_.unit())) / foam_.unit();
+  return foam_.radius().at(ray_.model_point(t, foam_.unit())) / foam_.unit() +
+         (strut_.has_line ? 0 : end_error);
 }
 
 double TaperedStrut::distance_slope(double t) const {
@@ -163,7 +164,8 @@ bool TaperedStrut::approach_by_ranges(double& at, double to) const {
   for (Creep creep(0.5 * tolerance_); at < to;) {
     const double end = std::min(to, at + width);
     const Interval range = radius.range(box(at, end));
-    const double safe = first_within_cone(at, range.high / foam_.unit(), 0);
+    const double safe =
+        first_within_cone(at, range.high / foam_.unit() + (strut_.has_line ? 0 : end_error), 0);
     if (!(safe <= end)) {
       at = end;
       width *= 2;
@@ -244,16 +246,18 @@ StrutEntry StrutEntries::find_tapered(const FoamRay& ray, const StrutLine& strut
       if (from + tolerance_ < to && inside(ray, from + tolerance_))
         return settle(ray, from, from + tolerance_);
     }
-  } else if (gap <= 0) {
+  } else if (gap < -error) {
     // Another strut holds what comes in past an end, and has an entry before.
     return entry;
   }
+  bool is_there = gap <= 0;
   for (double at = from;;) {
-    for (double step = tolerance_; tapered.gap(at) <= 0; step *= 2)
-      if ((at += step) > to) return entry;
-    if (!tapered.approach(at, to)) return entry;
+    if (!is_there && !tapered.approach(at, to)) return entry;
     entry = tapered_entry(ray, tapered, at, strut.has_line);
     if (entry.is_met) return entry;
+    for (double step = tolerance_; tapered.gap(at) <= 0; step *= 2)
+      if ((at += step) > to) return entry;
+    is_there = false;
   }
 }
 
@@ -268,7 +272,7 @@ StrutEntry StrutEntries::find_tapered_near(const FoamRay& ray, const StrutLine& 
 /// At a multiple of half the tolerance, as settle().
 StrutEntry StrutEntries::tapered_entry(const FoamRay& ray, const TaperedStrut& tapered, double at,
                                        bool has_line) const {
-  const double step = 0.5 * tolerance_, error = tapered.error() + (has_line ? 0 : end_error);
+  const double step = 0.5 * tolerance_, error = tapered.error();
   double n = std::ceil(at / step);
   for (int i = 0; i < 4 && tapered.gap((n - 1) * step) <= 0; ++i) --n;
   const double t = std::max(ray.from, n * step);
@@ -286,11 +290,9 @@ StrutEntry StrutEntries::tapered_entry(const FoamRay& ray, const TaperedStrut& t
   // By membership, where rounding leaves a doubt: from where the ray is surely outside to where it
   // is surely inside.
   const double most = has_line ? 0.5 * double(ray_list_margin) * 0.0625 : 1;
-  double before = t - step, beyond = t;
+  double before = t - step;
   for (double by = step; tapered.gap(before) <= error && by < most; by *= 2) before = t - 2 * by;
-  for (double by = step; tapered.gap(beyond) >= -error && by < most; by *= 2) beyond = t + by;
   before = std::max(before, ray.from);
-  beyond = std::max(std::min(beyond, ray.to), t);
   StrutEntry entry;
   if (inside(ray, before)) {
     // If not at the ray's beginning, then another strut holds it, and has an entry before.
@@ -299,8 +301,28 @@ StrutEntry StrutEntries::tapered_entry(const FoamRay& ray, const TaperedStrut& t
     if (entry.at_from) entry.t = ray.from;
     return entry;
   }
-  for (const double seen : {t, t + step, t + 2 * step, 0.5 * (t + beyond), beyond})
-    if (seen > before && inside(ray, seen)) return entry_at(settle(ray, before, seen).t);
+  const auto settled = [&](double seen) {
+    if (seen > before && inside(ray, seen)) entry = entry_at(settle(ray, before, seen).t);
+    return entry.is_met;
+  };
+  double after = t;
+  if (settled(t)) return entry;
+  for (double by = step; by < most; by *= 2) {
+    after = t + by;
+    if (settled(after) || tapered.gap(after) > error) break;
+  }
+  // A graze: about the place that is deepest in the strut.
+  double low = t, high = after;
+  for (int i = 0; i < 64 && high - low > step; ++i) {
+    const double one = low + (high - low) / 3, other = high - (high - low) / 3;
+    if (tapered.gap(one) > tapered.gap(other))
+      low = one;
+    else
+      high = other;
+  }
+  const double deepest = 0.5 * (low + high);
+  for (double by = 0; !entry.is_met && by < after - t; by = std::max(step, 2 * by))
+    if (!settled(deepest - by)) settled(deepest + by);
   return entry;
 }
 

@@ -27,7 +27,8 @@ class TaperedStrut {
   /// How far the foot is beyond an end; negative between them.
   double beyond_ends(double t) const;
 
-  /// Distance from the line less the radius there; by how much rounding may move it.
+  /// Distance from the line less the radius there, and by how much that may be off. Where the line
+  /// is known by its ends only the gap is less by their error, so that no strut is missed.
   double gap(double t) const { return distance(t) - radius(t); }
   double error() const { return error_; }
 
@@ -43,7 +44,7 @@ class TaperedStrut {
  private:
   Vec3 across(double t) const { return p_ + q_ * (t - t0_); }
   double distance(double t) const { return length(across(t)); }
-  double radius(double t) const;
+  double radius(double t) const;  // and room for the error of ends
   /// How fast the distance changes at t.
   double distance_slope(double t) const;
   double first_within_cone(double at, double radius, double slope) const;
