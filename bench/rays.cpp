@@ -307,6 +307,50 @@ void bench_structure(bench::Report& report, const std::string& name,
   msq_context_release(context);
 }
 
+/// 16^3 cells; radius (in cells) and density by expressions, where not null, r = 0.1 otherwise.
+msq_structure* make_field_foam(msq_context* context, const char* radius, const char* density) {
+  constexpr int cells = 16;
+  const auto make_field = [&](const char* expression, double low, double high) {
+    msq_expression_field_def def;
+    check(msq_expression_field_def_init(&def, sizeof def));
+    def.expression = expression;
+    def.low = low;
+    def.high = high;
+    msq_field* field;
+    check(msq_field_expression(context, &def, &field));
+    return field;
+  };
+  msq_foam_def def;
+  check(msq_foam_def_init(&def, sizeof def));
+  for (double& size : def.grid.cell_size) size = 1.0 / cells;
+  def.radius.value = 0.1 / cells;
+  msq_field* const radii = radius ? make_field(radius, 0.05 / cells, 0.15 / cells) : nullptr;
+  msq_field* const seeds = density ? make_field(density, 1, 8) : nullptr;
+  def.radius.field = radii;
+  def.density.field = seeds;
+  msq_structure* foam;
+  check(msq_structure_foam(context, &def, &foam));
+  msq_field_release(radii);
+  msq_field_release(seeds);
+  return foam;
+}
+
+/// The same with a linear radius, from 0.05 cell at one corner to 0.15 at the other.
+msq_structure* make_tapered_foam(msq_context* context) {
+  constexpr int cells = 16;
+  const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
+  msq_foam_def def;
+  check(msq_foam_def_init(&def, sizeof def));
+  for (double& size : def.grid.cell_size) size = 1.0 / cells;
+  msq_field* radius;
+  check(msq_field_gradient(context, low, 0.05 / cells, high, 0.15 / cells, &radius));
+  def.radius.field = radius;
+  msq_structure* foam;
+  check(msq_structure_foam(context, &def, &foam));
+  msq_field_release(radius);
+  return foam;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) try {
@@ -342,6 +386,19 @@ int main(int count, char** arguments) try {
       report, "gyroid of 128^3 cells in an octet lattice of 8^3",
       [](msq_context* c) { return make_lattice(c, MSQ_UNIT_CELL_OCTET, 8); },
       [](msq_context* c) { return make_gyroid(c, 128); });
+  bench_structure(
+      report, "foam, 16^3 cells",
+      [](msq_context* c) { return make_field_foam(c, nullptr, nullptr); }, nullptr);
+  bench_structure(report, "foam of linear radius, 16^3 cells", make_tapered_foam, nullptr);
+  bench_structure(
+      report, "foam of radius by expression, 16^3 cells",
+      [](msq_context* c) {
+        return make_field_foam(c, "(0.1 + 0.05 * sin(5 * x) * cos(4 * y + 3 * z)) / 16", nullptr);
+      },
+      nullptr);
+  bench_structure(
+      report, "foam of density 1 to 8, 16^3 cells",
+      [](msq_context* c) { return make_field_foam(c, nullptr, "1 + 7 * x"); }, nullptr);
   report.write(count, arguments);
   return 0;
 } catch (const std::exception& error) {
