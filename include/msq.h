@@ -1390,17 +1390,11 @@ typedef struct msq_ray_hit {
  * slope (lipschitz); 2^-10 of the cell, where an expression is no number along more of a ray than
  * about a tolerance, or may be unbounded there, or the level is a field whose ranges over small boxes
  * stay wide; 2^-24 of the cell, where a ray grazes a strut whose radius is a field that is not linear;
- * 1/1024 of its size, of a host's shape without a distance. Foams whose radius or density is a field,
- * skins, hosts' shapes and, along the faces of their cells, voxel images are followed by steps that their
- * distance allows; where 64 of them lead no farther than 1/64 of the cell (of the shape: of its size and its
- * coordinates), as beside a surface that the ray all but touches for long, the next are at least twice as long
- * as before, and may lose thinner parts.
- * 1/1024 of its size, of a host's shape without a distance. Foams whose density is a field,
- * skins, voxel images and hosts' shapes are followed by steps that their distance allows; where 64 of them lead
- * 1/1024 of its size, of a host's shape without a distance. Skins, voxel images and hosts' shapes are
- * followed by steps that their distance allows, and so are foams by rays far apart; where 64 of them lead
- * no farther than 1/64 of the cell (of the shape: of its size and its coordinates), as beside a surface that
- * the ray all but touches for long, the next are at least twice as long as before, and may lose thinner parts.
+ * 1/1024 of its size, of a host's shape without a distance. Skins, hosts' shapes, along the faces of their
+ * cells voxel images, and foams by rays far apart are followed by steps that their distance allows; where 64 of
+ * them lead no farther than 1/64 of the cell (of the shape: of its size and its coordinates), as beside a
+ * surface that the ray all but touches for long, the next are at least twice as long as before, and may lose
+ * thinner parts.
  * Scale by scale: finer scales are asked only within the parts of the ray that lie in the coarser ones.
  * Of hosts' shapes, structures and functions a callback is asked for up to a thousand rays at once.
  *
