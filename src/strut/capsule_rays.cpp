@@ -98,6 +98,37 @@ HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t en
   return count;
 }
 
+/// What a group of rays met so far.
+struct LaneHits {
+  HWY_INLINE LaneHits(const PacketHits& hits, size_t lane)
+      : first(hn::Load(D(), hits.first + lane)),
+        second(hn::Load(D(), hits.second + lane)),
+        id(hn::Load(DU(), hits.id + lane)) {}
+
+  HWY_INLINE void add(V t, hn::Mask<D> met, uint32_t own) {
+    const D d;
+    const DU du;
+    t = hn::IfThenElse(met, t, hn::Set(d, std::numeric_limits<float>::infinity()));
+    const auto is_first = hn::Lt(t, first);
+    const auto own_id = hn::Set(du, own);
+    const auto is_same = hn::RebindMask(d, hn::Eq(own_id, id));
+    second = hn::IfThenElse(is_same, second, hn::Min(second, hn::Max(t, first)));
+    id = hn::IfThenElse(hn::RebindMask(du, is_first), own_id, id);
+    first = hn::Min(first, t);
+  }
+
+  HWY_INLINE void store(PacketHits& hits, size_t lane) const {
+    hn::Store(first, D(), hits.first + lane);
+    hn::Store(second, D(), hits.second + lane);
+    hn::Store(id, DU(), hits.id + lane);
+  }
+
+ private:
+  using DU = hn::RebindToUnsigned<D>;
+  V first, second;
+  hn::Vec<DU> id;
+};
+
 /// Of |q|^2 / |ab|^2, and of |ab|^2.
 constexpr float least_across = 1.0f / 1600, least_squared = 1e-10f;
 
@@ -107,7 +138,6 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
                      PacketHits& hits) {
   if (chosen_count == 0) return;
   const D d;
-  const hn::RebindToUnsigned<D> du;
   const V r2 = hn::Set(d, radius * radius), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const V none = hn::Set(d, std::numeric_limits<float>::infinity());
   for (size_t lane = 0; lane < rays.count; lane += hn::Lanes(d)) {
@@ -117,8 +147,7 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
     const Vector u = {hn::Load(d, rays.direction[0] + lane), hn::Load(d, rays.direction[1] + lane),
                       hn::Load(d, rays.direction[2] + lane)};
     const V from = hn::Load(d, rays.from + lane), to = hn::Load(d, rays.to + lane);
-    V first = hn::Load(d, hits.first + lane), second = hn::Load(d, hits.second + lane);
-    auto id = hn::Load(du, hits.id + lane);
+    LaneHits found(hits, lane);
     for (size_t n = 0; n < chosen_count; ++n) {
       const size_t i = chosen[n];
       const Vector a = set(capsules.a[0][i], capsules.a[1][i], capsules.a[2][i]);
@@ -161,17 +190,9 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
       t = hn::Max(t, from);
       met = hn::And(met, hn::Le(t, to));
       if constexpr (kStarts) met = hn::And(met, hn::Ge(exit, from));
-      t = hn::IfThenElse(met, t, none);
-      const auto is_first = hn::Lt(t, first);
-      const auto own_id = hn::Set(du, capsules.ids[i]);
-      const auto is_same = hn::RebindMask(d, hn::Eq(own_id, id));
-      second = hn::IfThenElse(is_same, second, hn::Min(second, hn::Max(t, first)));
-      id = hn::IfThenElse(hn::RebindMask(du, is_first), own_id, id);
-      first = hn::Min(first, t);
+      found.add(t, met, capsules.ids[i]);
     }
-    hn::Store(first, d, hits.first + lane);
-    hn::Store(second, d, hits.second + lane);
-    hn::Store(id, du, hits.id + lane);
+    found.store(hits, lane);
   }
 }
 
@@ -202,17 +223,14 @@ HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const u
                           size_t chosen_count, float radius, const RayPacket& rays,
                           const Vector (&axes)[3], PacketHits& hits) {
   const D d;
-  const hn::RebindToUnsigned<D> du;
   const V r2 = hn::Set(d, radius * radius), zero = hn::Zero(d);
-  const V none = hn::Set(d, std::numeric_limits<float>::infinity());
   for (size_t lane = 0; lane < rays.count; lane += hn::Lanes(d)) {
     const Vector o = {hn::Sub(hn::Load(d, rays.origin[0] + lane), hn::Set(d, rays.centre[0])),
                       hn::Sub(hn::Load(d, rays.origin[1] + lane), hn::Set(d, rays.centre[1])),
                       hn::Sub(hn::Load(d, rays.origin[2] + lane), hn::Set(d, rays.centre[2]))};
     const V x = dot(o, axes[0]), y = dot(o, axes[1]), z = dot(o, axes[2]);
     const V from = hn::Load(d, rays.from + lane), to = hn::Load(d, rays.to + lane);
-    V first = hn::Load(d, hits.first + lane), second = hn::Load(d, hits.second + lane);
-    auto id = hn::Load(du, hits.id + lane);
+    LaneHits found(hits, lane);
     for (size_t n = 0; n < chosen_count; ++n) {
       const size_t i = chosen[n];
       const V qx = hn::Set(d, seen.qx[i]), qy = hn::Set(d, seen.qy[i]);
@@ -238,17 +256,9 @@ HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const u
       }
       t = hn::Max(t, from);
       met = hn::And(met, hn::Le(t, to));
-      t = hn::IfThenElse(met, t, none);
-      const auto is_first = hn::Lt(t, first);
-      const auto own_id = hn::Set(du, ids[i]);
-      const auto is_same = hn::RebindMask(d, hn::Eq(own_id, id));
-      second = hn::IfThenElse(is_same, second, hn::Min(second, hn::Max(t, first)));
-      id = hn::IfThenElse(hn::RebindMask(du, is_first), own_id, id);
-      first = hn::Min(first, t);
+      found.add(t, met, ids[i]);
     }
-    hn::Store(first, d, hits.first + lane);
-    hn::Store(second, d, hits.second + lane);
-    hn::Store(id, du, hits.id + lane);
+    found.store(hits, lane);
   }
 }
 
