@@ -105,8 +105,9 @@ void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest)
   }
 }
 
-bool StrutRays::approach(const Ray& ray, const Part& part, uint32_t strut, double& t,
-                         double to) const {
+template <class Inside>
+bool StrutRays::approach(const Ray& ray, const Part& part, uint32_t strut, Inside&& inside,
+                         double& t, double to) const {
   const Segment axis = lists_.struts().axis(strut);
   const double factor = lists_.struts().factor(strut);
   const Vec3 along = grid_.rotation.apply_inverse(ray.direction);
@@ -125,9 +126,10 @@ bool StrutRays::approach(const Ray& ray, const Part& part, uint32_t strut, doubl
   for (int n = 0; t <= to; ++n) {
     const Vec3 p = ray.at(t), away = axis.way_to(at_first + along * (t - first));
     const double distance = length(away), gap = distance - factor * radius_.at(p);
-    if (!(gap > 0)) return true;
+    // Where a ray grazes the strut the gap may round to 0 long before membership changes.
+    if (!(gap > 0) && inside(p)) return true;
     // The distance is convex along the ray, and the radius grows by no more than `steepest`.
-    const double fall = factor * steepest - dot(away, along) / distance;
+    const double fall = distance > 0 ? factor * steepest - dot(away, along) / distance : 1;
     if (!(fall > 0)) return false;
     const double least = n < fast_steps ? tolerance_ : std::max(tolerance_, 0x1p-24 * cell_);
     const double next = t + std::max(gap / fall, least);
@@ -164,7 +166,7 @@ bool StrutRays::enter_strut(const Ray& ray, const Part& part, const Candidate& c
       return march.find(
           true, ray, enter, std::max(enter, leave), is_in, [](Vec3) { return 0.0; }, t);
     }
-    if (!approach(ray, part, candidate.strut, enter, leave)) return false;
+    if (!approach(ray, part, candidate.strut, is_in, enter, leave)) return false;
   }
   t = enter;
   if (settle_entry(ray, from, tolerance_, is_in, t)) return true;

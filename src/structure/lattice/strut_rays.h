@@ -64,9 +64,12 @@ class StrutRays {
   /// The first t in [from, to] at which the strut holds the ray.
   bool enter_strut(const Ray& ray, const Part& part, const Candidate& candidate, double from,
                    double to, double& t) const;
-  /// Where the distance to the axis first comes down to the radius, which varies, about; never
-  /// behind that. False if nowhere before `to`.
-  bool approach(const Ray& ray, const Part& part, uint32_t strut, double& t, double to) const;
+  /// From t on, where the strut of a radius that varies first holds the ray, as inside(p) tells:
+  /// about the first such t, behind it by tolerances where the ray grazes. False if nowhere before
+  /// `to`.
+  template <class Inside>
+  bool approach(const Ray& ray, const Part& part, uint32_t strut, Inside&& inside, double& t,
+                double to) const;
   bool holds(const Part& part, uint32_t strut, Vec3 p) const;
   /// From the corner of the part's cell.
   Vec3 locate(const Part& part, Vec3 p) const;
