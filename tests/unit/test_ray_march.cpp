@@ -2,6 +2,7 @@
 // Marches along rays: what they find, and how often they ask where the distance is next to nothing.
 #include "base/march_together.h"
 #include "base/ray.h"
+#include "random.h"
 #include "structure/host/host_function.h"
 #include "suite.h"
 
@@ -111,6 +112,38 @@ void test_steep_functions_of_hosts_do_not_hang(void**) {
   assert_true(asked < 60000);
 }
 
+/// A function of a host of slope 1 in angles, at most what its bound says: a plate of 2e-5 angles,
+/// about x = pi.
+HostFunction plate(bool is_solid) {
+  constexpr double pi = 3.14159265358979324, half = 1e-5;
+  HostFunctionCalls calls;
+  calls.evaluate = [=](const Vec3* angles, size_t count, double* values) {
+    for (size_t i = 0; i < count; ++i) {
+      const double away = std::abs(angles[i].x - pi) - half;
+      values[i] = is_solid ? away : -away;
+    }
+  };
+  return HostFunction({}, calls, false, Parameter(0.0), 1, 1, true);
+}
+
+void test_functions_of_hosts_lose_no_plates(void**) {
+  const HostFunction solid = plate(true), gap = plate(false);
+  test::Random random(5);
+  std::vector<RaySearch> searches;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 a = random.in_box({{0, 0, 0}, {0.49, 1, 1}});
+    const Vec3 b = random.in_box({{0.51, 0, 0}, {1, 1, 1}});
+    const double way = length(b - a);
+    searches.push_back({{a, (b - a) * (1 / way)}, 0, way});
+  }
+  solid.enter(searches.data(), searches.size());
+  for (const RaySearch& s : searches) {
+    assert_true(s.found && std::abs(s.ray.at(s.t).x - 0.5) < 2e-6);
+    const double until = gap.leave(s.ray, 0, s.to);
+    assert_true(s.ray.at(until).x < 0.5);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -119,6 +152,7 @@ int main() {
       cmocka_unit_test(test_creeps_no_more_than_thousands_of_steps),
       cmocka_unit_test(test_rays_together_march_as_each_alone),
       cmocka_unit_test(test_steep_functions_of_hosts_do_not_hang),
+      cmocka_unit_test(test_functions_of_hosts_lose_no_plates),
   };
   return cmocka_run_group_tests_name("ray_march", tests, nullptr, nullptr);
 }
