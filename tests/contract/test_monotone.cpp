@@ -15,7 +15,7 @@ void test_row(void** state) {
   const Neighbourhood& n = row.variant.grid;
   Random random(row.index + 21);
   const size_t count = test_count(row.is_lattice() ? 20000 : 500);
-  const Vec3 centre = n.from_grid({});
+  const Vec3 centre = n.from_grid(Vec3{});
   std::vector<Ref<const Structure>> growing;
   for (double part : {-0.9, -0.5, -0.1, -1e-6, -1e-12, 0.0, 1e-12, 1e-9, 1e-3, 0.2})
     growing.push_back(row.make(centre, part * row.radius()));

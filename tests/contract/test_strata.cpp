@@ -42,7 +42,7 @@ void test_row(void** state) {
   const StructureRow& row = *static_cast<const StructureRow*>(*state);
   const Neighbourhood& n = row.variant.grid;
   Random random(row.index + 77);
-  const Vec3 centre = n.from_grid({});
+  const Vec3 centre = n.from_grid(Vec3{});
   const Ref<const Structure> structure = row.make(centre);
   const double half = 1.5 * row.unit();
   const Box3 box{centre - Vec3{half, half, half}, centre + Vec3{half, half, half}};
