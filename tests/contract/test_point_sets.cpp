@@ -68,7 +68,7 @@ void sets_answer_as_points_do(void** state) {
   Random random(row.index + 1);
   const double radius = row.radius * row.unit();
   const auto field =
-      make_ref<GradientField>(row.grid.origin, 0.0, row.grid.from_grid({3, 2, 1}), radius);
+      make_ref<GradientField>(row.grid.origin, 0.0, row.grid.from_grid(Vec3{3, 2, 1}), radius);
   const Ref<const Foam> foams[] = {row.make(Parameter(radius)),
                                    row.make(Parameter(Ref<const Field>(field)))};
   const size_t count = test_count(1000000) / row.rows / 6 + 1;
