@@ -85,6 +85,10 @@ int main() {
   const auto octet = lattice_factory(octet_unit_cell());
   std::vector<Row> rows{
       {"a sheet in struts", octet(coarse, Parameter(0.07)), sheet(fine, Parameter(0.3))},
+      {"a sheet in struts that end", lattice_factory(factored_unit_cell())(coarse, Parameter(0.06)),
+       sheet(fine, Parameter(0.3))},
+      {"struts that end in a network", network(coarse, Parameter(0.2)),
+       lattice_factory(factored_unit_cell())(fine, Parameter(0.015))},
       {"struts in a network", network(coarse, Parameter(0.2)), octet(fine, Parameter(0.02))},
       {"mixed struts in a host's function",
        make_host_gyroid(coarse, Parameter(0.3), false, false, 3.5),
