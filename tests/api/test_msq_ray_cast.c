@@ -197,6 +197,44 @@ static void hits_struts_within_a_box(void** state) {
   msq_context_release(context);
 }
 
+/* Seeds in the middle of cells: struts along all edges of the cells. A ray as far beside one of
+ * them as it is thick meets the next one across. */
+static void meets_struts_beside_others_along_the_ray(void** state) {
+  const double low[3] = {0, 0, 0}, high[3] = {4, 4, 4};
+  const double beside[] = {0.1, 0.1 + 5e-9, 0.1 - 5e-9, 0.1 + 1e-6, 0.06};
+  msq_context* context = make_context();
+  msq_foam_def foam_def;
+  msq_structure* foam;
+  msq_shape* box;
+  (void)state;
+  assert_ok(msq_foam_def_init(&foam_def, sizeof foam_def));
+  foam_def.jitter = 0;
+  foam_def.radius.value = 0.1;
+  assert_ok(msq_structure_foam(context, &foam_def, &foam));
+  assert_ok(msq_shape_from_box(context, low, high, &box));
+  msq_model* model = make_model(context, box, foam, NULL);
+  for (int axis = 0; axis < 3; ++axis)
+    for (size_t i = 0; i < sizeof beside / sizeof beside[0]; ++i) {
+      double origin[3] = {2, 2, 2}, direction[3] = {0, 0, 0};
+      msq_rays_def def;
+      msq_ray_hit hit;
+      origin[axis] = 1.5;
+      origin[(axis + 1) % 3] += beside[i];
+      direction[axis] = 1;
+      assert_ok(msq_rays_def_init(&def, sizeof def));
+      def.count = 1;
+      def.origins = origin;
+      def.directions = direction;
+      assert_ok(msq_ray_cast(model, &def, NULL, &hit, 1, NULL));
+      assert_int_equal(hit.scale, 1);
+      if (beside[i] == 0.1) continue; /* rounding says whether it is in the strut along it */
+      assert_int_equal(hit.starts_inside, beside[i] < 0.1);
+      assert_near(hit.t, beside[i] < 0.1 ? 0 : 0.4, 1e-10);
+    }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void refuses_rays_that_make_no_sense(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_unit_box_model(context, NULL);
@@ -387,6 +425,7 @@ int main(void) {
       cmocka_unit_test(hits_a_cylinder_along_its_axis),
       cmocka_unit_test(hits_nothing_past_the_end),
       cmocka_unit_test(hits_struts_within_a_box),
+      cmocka_unit_test(meets_struts_beside_others_along_the_ray),
       cmocka_unit_test(refuses_rays_that_make_no_sense),
       cmocka_unit_test(tells_the_material),
       cmocka_unit_test(hits_do_not_depend_on_the_order_of_rays),

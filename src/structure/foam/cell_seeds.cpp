@@ -96,7 +96,7 @@ const CellSeeds::Block& CellSeeds::find_near(Vec3 q, double radius, std::vector<
   for (size_t step = 0;; ++step) {
     block = &this->block(step);
     needed = std::sqrt(find_distances(*block, q)) + 2 * radius + near_slack;
-    if (needed <= block->reach(q, seeds_->scale())) break;
+    if (!(needed > block->reach(q, seeds_->scale()))) break;  // also where q is no number
   }
   // Without a branch on the distance: which seeds are near is a coin toss.
   found.resize(block->count + 1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "structure/foam/edge_line.h"
 #include "strut/segment.h"
@@ -10,6 +11,10 @@
 namespace msq {
 
 namespace {
+
+/// Squared sine of the angle below which a ray never leaves the distance that it has from a line:
+/// far below what rounding makes of a direction, but in rays that are exactly along one.
+constexpr double parallel_squared = 1e-60;
 
 double square(double x) {
   return x * x;
@@ -186,14 +191,21 @@ StrutEntry StrutEntries::find(const FoamRay& ray, const StrutLine& strut) const 
   // Coordinates of points are known to a few units of 2^-53 of themselves, here and in membership.
   const double error = 0x1p-51 * (8 + ray.most) + strut.error;
   StrutEntry entry;
-  if (under < -8 * radius_ * error * qq) return entry;
-  const double inverse = 1 / qq, middle = t0 - pq * inverse;
-  if (under <= 0 || error * radius_ > 0.25 * tolerance_ * std::sqrt(under)) {
-    const double half = std::sqrt(std::max(under, 0.0) + 8 * radius_ * error * qq) * inverse;
-    return graze(ray, strut, middle, half + tolerance_);
+  double in = -std::numeric_limits<double>::infinity(), out = -in;
+  if (qq < parallel_squared) {
+    // Where rounding leaves a doubt, membership settles it where the ray begins.
+    if (length(p) > radius_ + error) return entry;
+  } else {
+    if (under < -8 * radius_ * error * qq) return entry;
+    const double inverse = 1 / qq, middle = t0 - pq * inverse;
+    if (under <= 0 || error * radius_ > 0.25 * tolerance_ * std::sqrt(under)) {
+      const double half = std::sqrt(std::max(under, 0.0) + 8 * radius_ * error * qq) * inverse;
+      return graze(ray, strut, middle, half + tolerance_);
+    }
+    const double half = std::sqrt(under) * inverse;
+    in = middle - half;
+    out = middle + half;
   }
-  const double half = std::sqrt(under) * inverse;
-  const double in = middle - half, out = middle + half;
   if (out < ray.from || in > ray.to) return entry;
 
   // How far beyond an end, along the line.
