@@ -113,6 +113,10 @@ StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutLine& strut
   // A graze, or a ray that begins by the surface: steps from there to where it has left the strut.
   const double exit =
       about - capsule_entry(a, strut.ab, ray.direction * -1.0, radius_ + end_error) + end_error;
+  // First where it is deepest in the strut, which those may miss where it begins after the first.
+  const double deepest = 0.5 * (first - end_error + exit);
+  if (deepest > before && deepest < ray.to && inside(ray, deepest))
+    return settle(ray, before, deepest);
   constexpr int steps = 8;
   for (int n = 1; n <= steps; ++n) {
     const double t = before + (std::min(exit, ray.to) - before) * n / steps;
