@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "base/basis.h"
 #include "base/random.h"
 
 namespace msq {
@@ -15,15 +16,6 @@ constexpr size_t rays_at_once = 1024;
 
 double wrapped(double x) {
   return x - std::floor(x);
-}
-
-/// Two unit vectors normal to a unit vector and to each other.
-/// Source: Duff et al., "Building an orthonormal basis, revisited", JCGT 6(1), 2017.
-void complete_basis(Vec3 n, Vec3& a, Vec3& b) {
-  const double sign = std::copysign(1.0, n.z);
-  const double f = -1 / (sign + n.z), g = n.x * n.y * f;
-  a = {1 + sign * n.x * n.x * f, sign * g, -sign * n.x};
-  b = {g, sign + n.y * n.y * f, -n.y};
 }
 
 /// Directions about a normal, as dense as their cosine with it: point `index` of `count` of a

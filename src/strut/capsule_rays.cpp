@@ -23,6 +23,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/basis.h"
 #include "base/mask_bits-inl.h"
 #include "strut/capsule_rays.h"
 
@@ -54,6 +55,9 @@ HWY_INLINE Vector load(const float* const (&v)[3], size_t i) {
 HWY_INLINE Vector set(float x, float y, float z) {
   const D d;
   return {hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
+}
+HWY_INLINE Vector set(Vec3 v) {
+  return set(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
 }
 HWY_INLINE V clamp01(V s) {
   const D d;
@@ -206,18 +210,6 @@ struct SeenCapsules {
       shift[most];
 };
 
-/// Two directions across one of length 1, and each other. Source: Duff et al., "Building an
-/// Orthonormal Basis, Revisited", JCGT 2017.
-HWY_INLINE void directions_across(const float (&u)[3], float (&e)[3], float (&f)[3]) {
-  const float sign = std::copysign(1.0f, u[2]), a = -1 / (sign + u[2]), b = u[0] * u[1] * a;
-  e[0] = 1 + sign * u[0] * u[0] * a;
-  e[1] = sign * b;
-  e[2] = -sign * u[0];
-  f[0] = b;
-  f[1] = sign + u[1] * u[1] * a;
-  f[2] = -u[1];
-}
-
 template <bool kStarts>
 HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const uint32_t* chosen,
                           size_t chosen_count, float radius, const RayPacket& rays,
@@ -268,10 +260,10 @@ HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const flo
   const D d;
   SeenCapsules seen;
   uint32_t chosen[SeenCapsules::most], along[SeenCapsules::most];
-  float e[3], f[3];
-  directions_across(rays.along, e, f);
-  const Vector axes[3] = {set(e[0], e[1], e[2]), set(f[0], f[1], f[2]),
-                          set(rays.along[0], rays.along[1], rays.along[2])};
+  const Vec3 along_rays{rays.along[0], rays.along[1], rays.along[2]};
+  Vec3 e, f;
+  complete_basis(along_rays, e, f);
+  const Vector axes[3] = {set(e), set(f), set(along_rays)};
   const Vector centre =
       set(rays.centre[0] - corner[0], rays.centre[1] - corner[1], rays.centre[2] - corner[2]);
   const float reach = wide + rays.spread;
