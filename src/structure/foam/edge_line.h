@@ -61,6 +61,13 @@ struct EdgeLine {
     return {foot - half, foot + half};
   }
 
+  /// The way to a point from the point of a part of the line that is next to it.
+  Vec3 way_from(LineInterval part, Vec3 to) const {
+    const Vec3 w = to - seed - offset;
+    const double foot = dot(w, direction) * inverse_squared;
+    return w - direction * std::max(part.low, std::min(part.high, foot));
+  }
+
   /// Cuts away where another seed is nearer than the line's own three.
   void cut(Vec3 other, LineInterval& part) const {
     const Vec3 e = other - seed;

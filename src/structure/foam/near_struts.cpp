@@ -32,9 +32,7 @@ void find_near_struts(const FoamSeeds& seeds, CellIndex cell, Vec3 q, double rad
         for (size_t i = 0; i < count && line.holds(part); ++i)
           if (i != a && i != b && i != c) line.cut(block.position(near[i]), part);
         if (!line.holds(part)) continue;
-        const Vec3 to_line = q - line.seed - line.offset;
-        const double foot = dot(to_line, line.direction) * line.inverse_squared;
-        const Vec3 d = to_line - line.direction * std::max(part.low, std::min(part.high, foot));
+        const Vec3 d = line.way_from(part, q);
         struts.push_back(
             {line, part, {cell_of(near[a]), cell_of(near[b]), cell_of(near[c])}, dot(d, d)});
       }

@@ -77,10 +77,7 @@ double edge_within(const std::vector<Vec3>& seeds, Vec3 q, double radius) {
         for (size_t i = 0; i < count && line.holds(part); ++i)
           if (i != a && i != b && i != c) line.cut(near[i].position, part);
         if (!line.holds(part)) continue;
-        const Vec3 to_line = q - line.seed - line.offset;
-        const double foot = dot(to_line, line.direction) * line.inverse_squared;
-        const double t = std::max(part.low, std::min(part.high, foot));
-        best = std::min(best, length(to_line - line.direction * t));
+        best = std::min(best, length(line.way_from(part, q)));
         reach = best + slack;
         chord_squared = best * best;
       }
