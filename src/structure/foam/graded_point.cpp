@@ -29,12 +29,12 @@ struct NearSeeds {
   std::vector<Vec3> positions;
   std::vector<double> planes;  // distances to the planes between them and the nearest one
   std::vector<uint32_t> order;
-  std::vector<GradedSeedName> names;  // from the point's cell
+  std::vector<GradedSeedName> names;  // from the point's cell; where they are wanted
 };
 
 /// Positions come in sizes of the leaf of the nearest seed, all else is in foam units.
 void gather(SeedTrees& trees, CellIndex cell, Vec3 q, const LeafSeed& nearest,
-            double nearest_squared, double radius, NearSeeds& near) {
+            double nearest_squared, double radius, bool wants_names, NearSeeds& near) {
   const double unit = 1 << nearest.level;
   // Room for the rounding of distances; a seed too many never changes the answer.
   constexpr double slack = 1e-9, slack_squared = 1e-12;
@@ -61,7 +61,7 @@ void gather(SeedTrees& trees, CellIndex cell, Vec3 q, const LeafSeed& nearest,
         const double squared = dot(d, d), apart_squared = dot(apart, apart);
         if (squared > reach_squared || too_far(squared - nearest_squared, apart_squared)) return;
         near.positions.push_back(seed.position * unit);
-        near.names.push_back(name_of(seed));
+        if (wants_names) near.names.push_back(name_of(seed));
         near.planes.push_back(
             apart_squared > 0 ? (squared - nearest_squared) / std::sqrt(apart_squared) : -1);
       });
@@ -99,7 +99,7 @@ bool graded_point_inside(const std::shared_ptr<const GradedSeeds>& seeds, CellIn
   // it first. Points inside for one of them are inside for the last.
   const double unit = 1 << nearest.level;
   for (double tried = std::min(radius, 1 / unit);; tried = std::min(radius, 2 * tried)) {
-    gather(trees, cell, q, nearest, nearest_squared, tried, near);
+    gather(trees, cell, q, nearest, nearest_squared, tried, false, near);
     if (near.order.size() >= 3 &&
         meets_edge(
             near.order, [&](uint32_t i) { return near.positions[i]; }, q * unit, tried * unit))
@@ -119,7 +119,7 @@ void find_near_graded_struts(const std::shared_ptr<const GradedSeeds>& seeds, Ce
   trees.move_to(seeds);
   double nearest_squared;
   const LeafSeed nearest = nearest_seed(trees, cell, q, nearest_squared);
-  gather(trees, cell, q, nearest, nearest_squared, radius, near);
+  gather(trees, cell, q, nearest, nearest_squared, radius, true, near);
   const double unit = 1 << nearest.level, reach = radius * unit;
   const Vec3 p = q * unit;
   const size_t count = near.positions.size();
@@ -142,9 +142,7 @@ void find_near_graded_struts(const std::shared_ptr<const GradedSeeds>& seeds, Ce
           if (cut != a && cut != b && cut != c) line.cut(near.positions[cut], part);
         }
         if (!line.holds(part)) continue;
-        const Vec3 to_line = p - line.seed - line.offset;
-        const double foot = dot(to_line, line.direction) * line.inverse_squared;
-        const Vec3 d = to_line - line.direction * std::max(part.low, std::min(part.high, foot));
+        const Vec3 d = line.way_from(part, p);
         struts.push_back(
             {{near.names[a], near.names[b], near.names[c]}, dot(d, d) / (unit * unit)});
       }
@@ -164,7 +162,7 @@ double graded_onset(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex c
   // A coarse leaf may begin right behind a fine one: the last radius is that of cells.
   const double most = 2 * seeds->cells().empty_radius() * unit;
   const auto seeds_within = [&](double radius) -> const std::vector<Vec3>& {
-    gather(trees, cell, q, nearest, nearest_squared, radius / unit, near);
+    gather(trees, cell, q, nearest, nearest_squared, radius / unit, false, near);
     return near.positions;
   };
   return nearest_edge(q * unit, first_onset_radius, most, seeds_within) / unit;
