@@ -70,4 +70,35 @@ void march_together(RaySearch* searches, size_t count, double least_step, double
   }
 }
 
+/// The same, with membership asked of all points and then bounds of those that go on:
+/// keep(points, there, count) as `ask` says, bound(asked, points, bounds) up to how far about each
+/// point, or along its ray, none is there.
+template <class Keep, class Bound>
+void march_by_bounds(RaySearch* searches, size_t count, double least_step, double tolerance,
+                     Keep&& keep, Bound&& bound) {
+  std::vector<Vec3> points, near;
+  std::vector<MarchPoint> going_on;
+  std::vector<size_t> index;
+  std::vector<double> bounds;
+  const auto ask = [&](const std::vector<MarchPoint>& asked, uint8_t* there, double* steps) {
+    points.clear();
+    near.clear();
+    going_on.clear();
+    index.clear();
+    for (const MarchPoint& p : asked) points.push_back(searches[p.search].ray.at(p.t));
+    keep(points.data(), there, points.size());
+    for (size_t i = 0; i < asked.size(); ++i) {
+      if (there[i] || asked[i].is_settling) continue;
+      near.push_back(points[i]);
+      going_on.push_back(asked[i]);
+      index.push_back(i);
+    }
+    if (near.empty()) return;
+    bounds.assign(near.size(), 0);
+    bound(going_on, near.data(), bounds.data());
+    for (size_t i = 0; i < near.size(); ++i) steps[index[i]] = bounds[i];
+  };
+  march_together(searches, count, least_step, tolerance, ask);
+}
+
 }  // namespace msq

@@ -98,26 +98,15 @@ void HostShape::find_clearances(const Vec3* points, size_t count, double* bounds
 }
 
 void HostShape::march_all(bool wanted, RaySearch* searches, size_t count) const {
-  std::vector<Vec3> points, near;
-  std::vector<size_t> index;
-  std::vector<double> clearances;
-  const auto ask = [&](const std::vector<MarchPoint>& asked, uint8_t* there, double* steps) {
-    points.clear();
-    near.clear();
-    index.clear();
-    for (const MarchPoint& p : asked) points.push_back(searches[p.search].ray.at(p.t));
-    find_inside(points.data(), points.size(), there);
-    for (size_t i = 0; i < asked.size(); ++i) {
-      there[i] = there[i] == static_cast<uint8_t>(wanted);
-      if (there[i] || asked[i].is_settling) continue;
-      near.push_back(points[i]);
-      index.push_back(i);
-    }
-    clearances.resize(near.size());
-    if (!near.empty()) find_clearances(near.data(), near.size(), clearances.data());
-    for (size_t i = 0; i < near.size(); ++i) steps[index[i]] = clearances[i];
-  };
-  march_together(searches, count, least_ray_step(), ray_tolerance(), ask);
+  march_by_bounds(
+      searches, count, least_ray_step(), ray_tolerance(),
+      [&](const Vec3* points, uint8_t* there, size_t n) {
+        find_inside(points, n, there);
+        for (size_t i = 0; i < n; ++i) there[i] = there[i] == static_cast<uint8_t>(wanted);
+      },
+      [&](const std::vector<MarchPoint>& asked, const Vec3* points, double* bounds) {
+        find_clearances(points, asked.size(), bounds);
+      });
 }
 
 void HostShape::enter_all(RaySearch* searches, size_t count) const {

@@ -169,36 +169,22 @@ void HostStructure::find_clearances(const Vec3* points, size_t count, double* bo
 }
 
 void HostStructure::enter(RaySearch* searches, size_t count) const {
-  std::vector<Vec3> points, near;
-  std::vector<double> bounds;
-  std::vector<size_t> index;
   const double least = least_ray_step();
-  const auto ask = [&](const std::vector<MarchPoint>& asked, uint8_t* inside, double* steps) {
-    points.clear();
-    near.clear();
-    index.clear();
-    for (const MarchPoint& p : asked) points.push_back(searches[p.search].ray.at(p.t));
-    keep_points(points.data(), inside, points.size());
-    for (size_t i = 0; i < asked.size(); ++i) {
-      if (inside[i] || asked[i].is_settling) continue;
-      if (calls_.distance) {
-        near.push_back(points[i]);
-        index.push_back(i);
-      } else if (calls_.coverage) {
-        const Vec3 q = searches[asked[i].search].ray.at(asked[i].t + 8 * least);
-        if (calls_.coverage({min(points[i], q), max(points[i], q)}) == Coverage::outside)
-          steps[i] = 8 * least;
-      }
-    }
-    bounds.resize(near.size());
-    if (!near.empty()) find_clearances(near.data(), near.size(), bounds.data());
-    for (size_t i = 0; i < near.size(); ++i) steps[index[i]] = bounds[i];
+  const auto keep = [this](const Vec3* points, uint8_t* inside, size_t n) {
+    keep_points(points, inside, n);
   };
-  march_together(searches, count, least, ray_tolerance(), ask);
-  normals_by_membership(
-      [&](const Vec3* around, uint8_t* inside, size_t n) { keep_points(around, inside, n); },
-      searches, count, normal_distance(),
-      [](const RaySearch& s) { return s.found && s.t != s.from; });
+  const auto bound = [&](const std::vector<MarchPoint>& asked, const Vec3* points, double* bounds) {
+    if (calls_.distance) return find_clearances(points, asked.size(), bounds);
+    if (!calls_.coverage) return;
+    for (size_t i = 0; i < asked.size(); ++i) {
+      const Vec3 q = searches[asked[i].search].ray.at(asked[i].t + 8 * least);
+      if (calls_.coverage({min(points[i], q), max(points[i], q)}) == Coverage::outside)
+        bounds[i] = 8 * least;
+    }
+  };
+  march_by_bounds(searches, count, least, ray_tolerance(), keep, bound);
+  normals_by_membership(keep, searches, count, normal_distance(),
+                        [](const RaySearch& s) { return s.found && s.t != s.from; });
 }
 
 void HostStructure::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
