@@ -116,11 +116,8 @@ double Foam::leave(const Ray& ray, double from, double to) const {
 }
 
 Vec3 Foam::normal(const Ray& ray, double t) const {
-  {
-    const Vec3 normal = strut_normal(*this, ray, t);
-    if (dot(normal, normal) > 0) return normal;
-  }
-  return Structure::normal(ray, t);
+  const Vec3 normal = strut_normal(*this, ray, t);
+  return dot(normal, normal) > 0 ? normal : Structure::normal(ray, t);
 }
 
 }  // namespace msq

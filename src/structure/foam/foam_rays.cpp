@@ -269,14 +269,15 @@ class Walker {
       set_base(slab);
       return cross(slab);
     }
+    // How far the packet's line goes through the slab.
+    const float rise = static_cast<float>(scale_[k]) / std::abs(packet_.along[k]);
     // Cells in the order in which the packet comes to them; rays end in the first ones mostly.
     order_.clear();
     for (int32_t j = first[1]; j <= last[1]; ++j)
       for (int32_t i = first[0]; i <= last[0]; ++i)
-        if (Coming coming{0, 1, i, j}; comes_to(coming)) order_.push_back(coming);
+        if (Coming coming{0, 1, i, j}; comes_to(coming, rise)) order_.push_back(coming);
     std::sort(order_.begin(), order_.end(),
               [](const Coming& x, const Coming& y) { return x.at < y.at; });
-    const float rise = static_cast<float>(scale_[k]) / std::abs(packet_.along[k]);
     // Where a ray and the centre are in one plane of the slab, the centre may be as much behind.
     const float behind =
         packet_.spread * std::sqrt(std::max(0.0f, 1 - packet_.along[k] * packet_.along[k])) +
@@ -308,10 +309,9 @@ class Walker {
 
   /// Whether the packet may be in the cell that is (i, j) from the base along the two other axes,
   /// and in which part of its way through the slab.
-  bool comes_to(Coming& coming) const {
+  bool comes_to(Coming& coming, float rise) const {
     const int32_t cell[2] = {coming.i, coming.j};
     float low = 0, high = 1;
-    const float rise = static_cast<float>(scale_[axis_]) / std::abs(packet_.along[axis_]);
     for (int side = 0; side < 2; ++side) {
       const int axis = (axis_ + 1 + side) % 3;
       const float size = static_cast<float>(scale_[axis]), room = packet_.spread + 1e-5f;
