@@ -16,11 +16,11 @@ void Structure::keep_rows(const RowBlock& block, const Job* job) const {
   SampledRows(*this, block, job).keep();
 }
 
-bool Structure::march(bool wanted, const Ray& ray, double from, double to, double& t,
-                      bool* creeps) const {
+bool Structure::march(bool wanted, const Ray& ray, double from, double to,
+                      double& t) const {
   const RayMarch steps{least_ray_step(), ray_tolerance()};
   return steps.find(wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
-                    [this](Vec3 p) { return clearance(p); }, t, creeps);
+                    [this](Vec3 p) { return clearance(p); }, t);
 }
 
 void Structure::enter(RaySearch* searches, size_t count) const {

@@ -98,9 +98,7 @@ class Structure : public RefCounted {
 
  protected:
   /// The first t in [from, to] at which membership is `wanted`, by clearance() and least_ray_step().
-  /// `creeps`: as in RayMarch.
-  bool march(bool wanted, const Ray& ray, double from, double to, double& t,
-             bool* creeps = nullptr) const;
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t) const;
 
  private:
   Neighbourhood neighbourhood_;

@@ -98,10 +98,19 @@ void Foam::keep_rows(const RowBlock& block, const Job* job) const {
 void Foam::enter(RaySearch* searches, size_t count) const {
   if (may_march() ? enter_by_cells(*this, searches, count) : walk_cells(*this, searches, count))
     return;
+  const RayMarch steps{least_ray_step(), ray_tolerance()};
+  const double near = 0.02 * min_component(neighbourhood().cell_size);
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];
+    const auto way = [&](Vec3 p) {
+      const double around = clearance(p);
+      // The way to a strut that is met slantingly is much longer than the distance.
+      if (around > near || !has_capsules()) return around;
+      return std::max(around, way_to_strut(*this, p, s.ray.direction));
+    };
     bool creeps = false;
-    s.found = march(true, s.ray, s.from, s.to, s.t, &creeps);
+    s.found = steps.find(
+        true, s.ray, s.from, s.to, [this](Vec3 p) { return inside(p); }, way, s.t, &creeps);
     if (creeps && walk_cells(*this, &s, 1)) continue;
     if (s.found) sharpen_entry(*this, s);
   }

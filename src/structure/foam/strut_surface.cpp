@@ -88,6 +88,23 @@ double strut_exit(const Foam& foam, const Ray& ray, double from, double to) {
   return std::min(to, from + farthest * unit);
 }
 
+double way_to_strut(const Foam& foam, Vec3 p, Vec3 direction) {
+  // Farther, more seeds take part, and the triples of them to look at grow with their cube.
+  const double reach = 0.05 * min_component(foam.seeds().scale());
+  const double unit = foam.unit(), radius = foam.most_radius();
+  const Vec3 u = foam.neighbourhood().rotation.apply_inverse(direction);
+  Vec3 q;
+  double way = reach;
+  for (const NearStrut& strut : struts_near(foam, p, radius + reach, q)) {
+    const Vec3 a = strut.line.at(strut.part.low) - q, b = strut.line.at(strut.part.high) - q;
+    const double entry = capsule_entry(a, b - a, u, radius);
+    // Behind p, unless p is on its surface to rounding.
+    if (entry < 0 && -capsule_entry(a, b - a, u * -1.0, radius) < -surface_error) continue;
+    way = std::min(way, entry);
+  }
+  return way * unit - foam.ray_tolerance();
+}
+
 void sharpen_entry(const Foam& foam, RaySearch& search) {
   if (!(search.t > search.from)) return;
   const double unit = foam.unit(), radius = foam.radius().at(search.ray.at(search.t)) / unit;
