@@ -24,6 +24,7 @@
 #include <limits>
 
 #include "base/basis.h"
+#include "base/compress-inl.h"
 #include "base/mask_bits-inl.h"
 #include "strut/capsule_rays.h"
 
@@ -200,6 +201,34 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
   }
 }
 
+size_t on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray, uint32_t* found) {
+  const D d;
+  const hn::RebindToUnsigned<D> du;
+  const float wide = radius + capsule_ray_slack;
+  const Vector o = set(ray.origin[0], ray.origin[1], ray.origin[2]);
+  const Vector u = set(ray.direction[0], ray.direction[1], ray.direction[2]);
+  const V most = hn::Set(d, wide * wide), tiny = hn::Set(d, 1e-30f);
+  const V low = hn::Set(d, -wide), high = hn::Set(d, ray.to + wide);
+  size_t count = 0;
+  for (size_t i = 0; i < capsules.count; i += hn::Lanes(d)) {
+    const Vector w = sub(load(capsules.a, i), o), ab = load(capsules.ab, i);
+    const V z0 = dot(w, u), dz = dot(ab, u);
+    const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
+    // Of s, an estimate will do: the distance is least there, and changes by the error's square.
+    const V s =
+        clamp01(hn::Mul(hn::Neg(dot(p, q)), hn::ApproximateReciprocal(hn::Max(dot(q, q), tiny))));
+    const Vector v = add_scaled(p, q, s);
+    const V z1 = hn::Add(z0, dz);
+    const auto is_there = hn::And(hn::Ge(hn::Max(z0, z1), low), hn::Le(hn::Min(z0, z1), high));
+    const auto is_near =
+        hn::And(hn::And(is_there, hn::Le(dot(v, v), most)), hn::FirstN(d, capsules.count - i));
+    const auto order = Compression<D>(is_near);
+    hn::StoreU(order(hn::LoadU(du, capsules.ids + i)), du, found + count);
+    count += hn::CountTrue(d, is_near);
+  }
+  return count;
+}
+
 /// What rays of one direction meet, in the plane across it: capsules of a chunk, as seen from
 /// there.
 struct SeenCapsules {
@@ -343,6 +372,7 @@ HWY_AFTER_NAMESPACE();
 namespace msq {
 
 HWY_EXPORT(meet_list);
+HWY_EXPORT(on_ray);
 HWY_EXPORT(near_list);
 
 void PacketHits::clear() {
@@ -354,6 +384,11 @@ void PacketHits::clear() {
 void meet_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
                    const RayPacket& rays, SeenIds* seen, PacketHits& hits) {
   HWY_DYNAMIC_DISPATCH(meet_list)(capsules, radius, corner, rays, seen, hits);
+}
+
+size_t capsules_on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray,
+                       uint32_t* ids) {
+  return HWY_DYNAMIC_DISPATCH(on_ray)(capsules, radius, ray, ids);
 }
 
 size_t near_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],

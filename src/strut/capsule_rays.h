@@ -23,7 +23,7 @@ struct CapsuleView {
   const uint32_t* ids;
   size_t count;
 };
-constexpr size_t capsule_padding = 64;
+constexpr size_t capsule_padding = 16;
 
 struct RayPacket {
   static constexpr size_t most = 16;
@@ -84,6 +84,18 @@ constexpr float capsule_ray_slack = 4e-5f;
 /// none are.
 void meet_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
                    const RayPacket& rays, SeenIds* seen, PacketHits& hits);
+
+/// The points origin + t direction of one ray, for t in [0, to], from where the coordinates of a
+/// list are; directions of length 1.
+struct CapsuleRay {
+  float origin[3], direction[3];
+  float to;
+};
+/// Writes the ids of the capsules that a ray meets there, and of some that it misses by less than
+/// twice the slack or that lie next to its ends, and returns how many. There is room for
+/// capsules.count + capsule_padding.
+size_t capsules_on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray,
+                       uint32_t* ids);
 
 /// Fills `found` with the numbers, in ascending order, of the capsules that a packet's rays may
 /// meet as far as can be said of all together, and returns how many they are.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sieve of capsules for rays, against what is found in double precision.
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -146,6 +147,41 @@ void finds_what_rays_meet_first(void**) {
   assert_true(far < met / 20);
 }
 
+void finds_all_that_one_ray_meets(void**) {
+  Random random(8);
+  constexpr double radius = 0.1, reach = 2;
+  const size_t rounds = test_count(3000);
+  size_t met = 0, found = 0;
+  std::vector<uint32_t> ids;
+  for (size_t round = 0; round < rounds; ++round) {
+    const Vec3 u = direction_of(random), o = random.in_box({{}, {1, 1, 1}});
+    const List list(random, 1 + random.below(round % 10 == 0 ? 600 : 60), {}, u);
+    CapsuleRay ray;
+    Vec3 origin, direction;
+    for (int k = 0; k < 3; ++k) {
+      origin[k] = ray.origin[k] = static_cast<float>(o[k]);
+      direction[k] = ray.direction[k] = static_cast<float>(u[k]);
+    }
+    ray.to = static_cast<float>(reach);
+    ids.assign(list.segments.size() + capsule_padding, UINT32_MAX);
+    const size_t count = capsules_on_ray(list.view, static_cast<float>(radius), ray, ids.data());
+    assert_in_range(count, 0, list.segments.size());
+    ids.resize(count);
+    for (size_t i = 0; i < list.segments.size(); ++i) {
+      const bool is_found = std::find(ids.begin(), ids.end(), list.ids[i]) != ids.end();
+      const Segment& s = list.segments[i];
+      if (first_within(origin, direction, s, radius, 0, reach) < none) {
+        ++met;
+        if (!is_found) fail_msg("capsule %zu of round %zu is left out", i, round);
+      }
+      found += is_found;
+    }
+  }
+  assert_true(met > rounds / 10);
+  // Those beside the ray's ends, and few others.
+  assert_true(found < met + met / 4);
+}
+
 void counts_a_strut_in_two_lists_once(void**) {
   Random random(6);
   const Vec3 u{0, 0, 1};
@@ -209,6 +245,7 @@ void tells_new_ids(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(finds_what_rays_meet_first),
+      cmocka_unit_test(finds_all_that_one_ray_meets),
       cmocka_unit_test(counts_a_strut_in_two_lists_once),
       cmocka_unit_test(parts_find_what_the_whole_does),
       cmocka_unit_test(tells_new_ids),

@@ -11,6 +11,13 @@ int floor_div(int a, int b) {
   return a >= 0 ? a / b : -((b - 1 - a) / b);
 }
 
+/// Vectors that are read from two lines of memory just after they were written take several times
+/// as long.
+size_t whole_vectors(size_t floats) {
+  constexpr size_t lanes = 16;
+  return (floats + lanes - 1) / lanes * lanes;
+}
+
 size_t slot_of(CellIndex c) {
   return static_cast<size_t>((c.x & 3) | (c.y & 3) << 2 | (c.z & 3) << 4);
 }
@@ -28,24 +35,23 @@ void CellStruts::forget() {
   ++era_;
   bricks_.clear();
   brick_numbers_.clear();
-  lists_.clear();
+  list_count_ = 0;
   std::fill(std::begin(recent_), std::end(recent_), Recent{});
-  std::fill(std::begin(recent_lists_), std::end(recent_lists_), RecentList{});
   used_chunks_ = 0;
-  used_bytes_ = chunk_bytes;
+  used_floats_ = chunk_floats;
 }
 
-std::byte* CellStruts::room(size_t bytes) {
-  if (used_bytes_ + bytes > chunk_bytes) {
-    const size_t size = std::max(bytes, chunk_bytes);
-    if (used_chunks_ == chunks_.size() || bytes > chunk_bytes)
+float* CellStruts::room(size_t floats) {
+  if (used_floats_ + floats > chunk_floats) {
+    const size_t size = std::max(floats, chunk_floats);
+    if (used_chunks_ == chunks_.size() || floats > chunk_floats)
       chunks_.insert(chunks_.begin() + static_cast<ptrdiff_t>(used_chunks_),
-                     std::make_unique<std::byte[]>(size));
+                     hwy::AllocateAligned<float>(size));
     ++used_chunks_;
-    used_bytes_ = 0;
+    used_floats_ = 0;
   }
-  std::byte* const place = chunks_[used_chunks_ - 1].get() + used_bytes_;
-  used_bytes_ += bytes;
+  float* const place = chunks_[used_chunks_ - 1].get() + used_floats_;
+  used_floats_ += floats;
   return place;
 }
 
@@ -69,13 +75,36 @@ const CellStruts::Recent& CellStruts::find_brick(CellIndex brick) {
   return recent = {brick, bricks_[number].get(), number};
 }
 
-const CapsuleView& CellStruts::list(CellIndex cell) {
-  RecentList& recent = recent_lists_[slot_of(cell)];
-  if (recent.list && recent.cell == cell) return *recent.list;
-  auto found = lists_.find(cell);
-  if (found == lists_.end()) found = lists_.emplace(cell, make_list(cell)).first;
-  recent = {cell, &found->second};  // elements of the map stay in place
-  return found->second;
+CellStruts::List& CellStruts::find_list(CellIndex cell) {
+  const size_t mask = lists_.size() - 1;
+  size_t place = CellHash()(cell) & mask;
+  while (lists_[place].era == era_ && !(lists_[place].cell == cell)) place = (place + 1) & mask;
+  return lists_[place];
+}
+
+CapsuleView CellStruts::list(CellIndex cell) {
+  if (2 * list_count_ >= lists_.size()) {
+    std::vector<List> old(std::max<size_t>(1024, 2 * lists_.size()));
+    old.swap(lists_);
+    for (const List& list : old)
+      if (list.era == era_) find_list(list.cell) = list;
+  }
+  List& list = find_list(cell);
+  if (list.era != era_) {
+    list.cell = cell;
+    make_list(list);
+    list.era = era_;
+    ++list_count_;
+  }
+  const size_t stride = whole_vectors(list.count);
+  CapsuleView view;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    view.a[axis] = list.values + axis * stride;
+    view.ab[axis] = list.values + (axis + 3) * stride;
+  }
+  view.ids = reinterpret_cast<const uint32_t*>(list.values + 6 * stride);
+  view.count = list.count;
+  return view;
 }
 
 /// Finds the bricks whose edges may come near a cell.
@@ -109,13 +138,14 @@ void CellStruts::find_bricks(CellIndex cell) {
       }
 }
 
-CapsuleView CellStruts::make_list(CellIndex cell) {
+void CellStruts::make_list(List& list) {
+  const CellIndex cell = list.cell;
   find_bricks(cell);
   size_t count = 0;
   for (const Source& source : sources_) count += source.edges.size();
-  std::byte* const place = room((7 * count + capsule_padding) * sizeof(float));
-  auto* const values = reinterpret_cast<float*>(place);
-  auto* const ids = reinterpret_cast<uint32_t*>(place + 6 * count * sizeof(float));
+  const size_t stride = whole_vectors(count);
+  float* const values = room(7 * stride);
+  auto* const ids = reinterpret_cast<uint32_t*>(values + 6 * stride);
   const Vec3 scale = foam_->seeds().scale();
   size_t i = 0;
   for (const Source& source : sources_) {
@@ -128,22 +158,16 @@ CapsuleView CellStruts::make_list(CellIndex cell) {
       const auto &a = brick.end(edge, 0), &b = brick.end(edge, 1);
       float* const value = values + i;
       value[0] = a[0] - x;
-      value[count] = a[1] - y;
-      value[2 * count] = a[2] - z;
-      value[3 * count] = b[0] - a[0];
-      value[4 * count] = b[1] - a[1];
-      value[5 * count] = b[2] - a[2];
+      value[stride] = a[1] - y;
+      value[2 * stride] = a[2] - z;
+      value[3 * stride] = b[0] - a[0];
+      value[4 * stride] = b[1] - a[1];
+      value[5 * stride] = b[2] - a[2];
       ids[i++] = source.first_id | edge;
     }
   }
-  CapsuleView view;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    view.a[axis] = values + axis * count;
-    view.ab[axis] = values + (axis + 3) * count;
-  }
-  view.ids = ids;
-  view.count = count;
-  return view;
+  list.count = static_cast<uint32_t>(count);
+  list.values = values;
 }
 
 }  // namespace msq

@@ -2,6 +2,8 @@
 // For each cell that rays cross the struts that they may meet in it, for one batch of rays.
 #pragma once
 
+#include <hwy/aligned_allocator.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -33,14 +35,14 @@ class CellStruts {
 
   /// Struts that may be met in a cell; foam units, from the cell's corner. Ids are for line(),
   /// unlike for unlike struts, until lists are forgotten.
-  const CapsuleView& list(CellIndex cell);
+  CapsuleView list(CellIndex cell);
 
   StrutLine line(const StrutEntries& entries, uint32_t id) const {
     return entries.line(*bricks_[id >> 16], id & 0xffff);
   }
 
  private:
-  static constexpr size_t most_bricks = 4096, chunk_bytes = size_t{1} << 18, most_chunks = 256;
+  static constexpr size_t most_bricks = 4096, chunk_floats = size_t{1} << 16, most_chunks = 256;
 
   /// A brick found last among those whose numbers are alike in their last bits.
   struct Recent {
@@ -48,16 +50,21 @@ class CellStruts {
     const SeededEdges* edges = nullptr;
     uint32_t number = 0;
   };
-  struct RecentList {
+  /// The values of a list component by component, each in whole vectors, and then its ids.
+  struct List {
     CellIndex cell;
-    const CapsuleView* list = nullptr;
+    uint32_t count = 0;
+    uint64_t era = 0;  ///< when it was made
+    const float* values = nullptr;
   };
 
   const Recent& find_brick(CellIndex brick);
   void find_bricks(CellIndex cell);
-  CapsuleView make_list(CellIndex cell);
-  /// For floats and numbers of 32 bits.
-  std::byte* room(size_t bytes);
+  void make_list(List& list);
+  /// The list of a cell, or the place for it.
+  List& find_list(CellIndex cell);
+  /// Aligned to vectors.
+  float* room(size_t floats);
 
   const Foam* foam_ = nullptr;
   uint64_t era_ = 0;
@@ -65,11 +72,12 @@ class CellStruts {
   std::array<int, 3> reach_{};
   std::vector<std::shared_ptr<const SeededEdges>> bricks_;
   std::unordered_map<CellIndex, uint32_t, CellHash> brick_numbers_;
-  std::unordered_map<CellIndex, CapsuleView, CellHash> lists_;
   Recent recent_[64];
-  RecentList recent_lists_[64];
-  std::vector<std::unique_ptr<std::byte[]>> chunks_;
-  size_t used_chunks_ = 0, used_bytes_ = chunk_bytes;
+  /// At least half of them free, and the free ones of an era that is over.
+  std::vector<List> lists_;
+  size_t list_count_ = 0;
+  std::vector<hwy::AlignedFreeUniquePtr<float[]>> chunks_;
+  size_t used_chunks_ = 0, used_floats_ = chunk_floats;
   /// What a brick has for the list at hand.
   struct Source {
     const SeededEdges* brick;

@@ -13,16 +13,14 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 #include <vector>
 
 #include "base/borrowed.h"
-#include "cell/cell_hash.h"
 #include "structure/foam/cell_struts.h"
 #include "structure/foam/graded_struts.h"
+#include "structure/foam/lone_ray.h"
 #include "structure/foam/packet_path.h"
-#include "structure/foam/strut_entry.h"
-#include "structure/foam/strut_surface.h"
+#include "structure/foam/ray_struts.h"
 
 namespace msq {
 
@@ -35,7 +33,6 @@ struct Memory {
   Struts struts;
 };
 
-/// `Struts`: lists of struts for cells: CellStruts, or as those.
 template <class Struts>
 class Walker {
  public:
@@ -43,9 +40,10 @@ class Walker {
       : foam_(foam),
         scale_(foam.seeds().scale()),
         asks_once_(!foam.graded() && foam.radius().is_constant()),
-        entries_(foam),
         searches_(searches),
-        memory_(memory) {
+        memory_(memory),
+        struts_(foam, memory.struts),
+        lone_(foam, struts_) {
     memory_.struts.move_to(foam);
   }
   ~Walker() { memory_.struts.forget(); }
@@ -55,7 +53,7 @@ class Walker {
     rays.clear();
     for (size_t i = 0; i < count; ++i) {
       searches_[i].found = false;
-      rays.push_back(entries_.ray(searches_[i]));
+      rays.push_back(struts_.ray(searches_[i]));
     }
     for (size_t i = 0; i < count;) {
       const size_t end = packet_end(i, count);
@@ -73,6 +71,8 @@ class Walker {
   /// How far apart rays of a packet may be, across it, in foam units, and how unlike their
   /// directions.
   static constexpr double most_apart = 0.9, most_turned = 0.05;
+  /// Fewer rays go each alone.
+  static constexpr size_t least_packet = 12;
   /// Cells of a slab that a packet may be in; one that spreads farther goes on ray by ray.
   static constexpr int most_across = 4;
 
@@ -98,12 +98,9 @@ class Walker {
     size_t count = 0;
     for (size_t i = begin; i < end; ++i)
       if (memory_.rays[i].from <= memory_.rays[i].to) rays[count++] = static_cast<uint32_t>(i);
-    if (count == 0) return;
-    if (take_packet(rays, count)) return walk(first_slab());
-    for (size_t n = 0; n < count; ++n) {
-      take_packet(rays + n, 1);
-      walk(first_slab());
-    }
+    if (count >= least_packet && take_packet(rays, count)) return walk(first_slab());
+    for (size_t n = 0; n < count; ++n)
+      lone_.walk(memory_.rays[rays[n]], memory_.rays[rays[n]].from, searches_[rays[n]]);
   }
 
   /// False if the rays cross too unlike cells along the axis that they go along.
@@ -160,14 +157,12 @@ class Walker {
 
   /// Ray by ray from a slab on.
   void go_on_alone(int32_t slab) {
-    const uint32_t left = live_;
-    const int axis = axis_;
-    uint32_t rays[most];
-    std::copy_n(ray_, count_, rays);
-    for (uint32_t rest = left; rest; rest &= rest - 1) {
-      take_packet(rays + std::countr_zero(rest), 1);
-      // Alone, it may go along another axis, and from its beginning then.
-      walk(axis_ == axis ? slab : first_slab());
+    const double plane = (slab + !up_) * scale_[axis_];
+    for (uint32_t rest = live_; rest; rest &= rest - 1) {
+      const auto n = static_cast<size_t>(std::countr_zero(rest));
+      const FoamRay& ray = memory_.rays[ray_[n]];
+      const double crossing = (plane - ray.origin[axis_]) * inverse_[n];
+      lone_.walk(ray, std::max(ray.from, crossing), searches_[ray_[n]]);
     }
   }
 
@@ -258,8 +253,7 @@ class Walker {
       first[side] = static_cast<int32_t>(std::floor(crossing.low[side] / size));
       last[side] = static_cast<int32_t>(std::floor(crossing.high[side] / size));
     }
-    if (count_ > 1 && (last[0] - first[0] >= most_across || last[1] - first[1] >= most_across))
-      return false;
+    if (last[0] - first[0] >= most_across || last[1] - first[1] >= most_across) return false;
 
     number_ = number;
     if (!asks_once_) hits_.clear();
@@ -351,34 +345,18 @@ class Walker {
     slot.corner[axis_] = static_cast<float>((slab - base_slab_) * scale_[axis_]);
     slot.corner[a] = static_cast<float>(coming.i * scale_[a]);
     slot.corner[b] = static_cast<float>(coming.j * scale_[b]);
-    slot.radius = radius_in({cell[0], cell[1], cell[2]});
+    slot.radius = struts_.radius_in({cell[0], cell[1], cell[2]});
     if (slot.radius < 0) slot.list.count = 0;
     return slot;
-  }
-
-  float radius_in(CellIndex cell) {
-    if (foam_.radius().is_constant()) return static_cast<float>(foam_.most_radius());
-    const auto [found, is_new] = radii_.try_emplace(cell, 0.0f);
-    if (is_new) found->second = static_cast<float>(foam_.most_radius(cell, ray_list_margin));
-    return found->second;
-  }
-
-  StrutEntry entry(size_t n, uint32_t id) {
-    // Rays of a packet meet few struts.
-    Known& known = known_[id % std::size(known_)];
-    if (known.id != id || known.era != memory_.struts.era()) {
-      known = {id, memory_.struts.era(), memory_.struts.line(entries_, id)};
-    }
-    return entries_.find(memory_.rays[ray_[n]], known.line);
   }
 
   /// Whether ray n ends in this slab before `last`, up to where the lists at hand hold all that it
   /// may meet.
   bool settle(size_t n, double last) {
     const double second = enter_[n] + double(hits_.second[n]);
-    const StrutEntry found = entry(n, hits_.id[n]);
+    const StrutEntry found = struts_.entry(memory_.rays[ray_[n]], hits_.id[n]);
     if (found.is_met && (found.at_from || (found.t <= second && found.t <= last))) {
-      take(n, found);
+      struts_.take(found, searches_[ray_[n]]);
       return true;
     }
     if (second > last) return false;
@@ -426,22 +404,13 @@ class Walker {
     for (const Candidate& candidate : candidates_) {
       const double first = enter_[n] + double(candidate.first);
       if (first > last || (best.is_met && first > best.t)) break;
-      const StrutEntry found = entry(n, candidate.id);
+      const StrutEntry found = struts_.entry(memory_.rays[ray_[n]], candidate.id);
       if (found.is_met && (!best.is_met || found.t < best.t)) best = found;
       if (best.at_from) break;
     }
     if (!best.is_met || best.t > last) return false;
-    take(n, best);
+    struts_.take(best, searches_[ray_[n]]);
     return true;
-  }
-
-  void take(size_t n, const StrutEntry& entry) {
-    RaySearch& search = searches_[ray_[n]];
-    search.found = true;
-    search.t =
-        entry.at_from ? search.from : std::clamp(entry.t * foam_.unit(), search.from, search.to);
-    search.normal = entry.at_from ? Vec3{} : entry.normal;
-    if (entry.by_ends) sharpen_entry(foam_, search);
   }
 
   const Foam& foam_;
@@ -449,9 +418,10 @@ class Walker {
   /// Whether what a packet was told of a strut in one cell holds in all: not where cells have radii
   /// of their own.
   const bool asks_once_;
-  const StrutEntries entries_;
   RaySearch* const searches_;
   Memory<Struts>& memory_;
+  RayStruts<Struts> struts_;
+  LoneRay<Struts> lone_;
 
   // The packet at hand.
   int axis_ = 0;
@@ -470,18 +440,11 @@ class Walker {
   SeenIds seen_;
   std::vector<Coming> order_;
   std::vector<Slot> slots_;
-  std::unordered_map<CellIndex, float, CellHash> radii_;  // where they vary
   struct Candidate {
     float first;
     uint32_t id;
   };
   std::vector<Candidate> candidates_;
-  struct Known {
-    uint32_t id = UINT32_MAX;
-    uint64_t era = 0;
-    StrutLine line;
-  };
-  Known known_[256];
   std::vector<uint32_t> near_;
 };
 
