@@ -448,41 +448,6 @@ class Walker {
   std::vector<uint32_t> near_;
 };
 
-/// The brick of edges that a point is in.
-CellIndex brick_at(const Foam& foam, Vec3 p) {
-  const Vec3 cells = foam.neighbourhood().to_grid(p) * (1 / foam.unit());
-  const Vec3 scale = foam.seeds().scale();
-  const auto brick = [](double place, double size) {
-    return static_cast<int32_t>(
-        std::floor((place / size + SeededEdges::lead) * (1.0 / SeededEdges::side)));
-  };
-  return {brick(cells.x, scale.x), brick(cells.y, scale.y), brick(cells.z, scale.z)};
-}
-
-bool is_worth_edges(const Foam& foam, const RaySearch* searches, size_t count) {
-  if (foam.ray_demand().has_paid()) return true;
-  uint64_t beginnings = 0;
-  CellIndex last;
-  Box3 bricks{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
-  const auto add = [&](CellIndex c) {
-    const Vec3 place{double(c.x), double(c.y), double(c.z)};
-    bricks = {min(bricks.min, place), max(bricks.max, place)};
-  };
-  for (size_t i = 0; i < count; ++i) {
-    const RaySearch& s = searches[i];
-    const CellIndex brick = brick_at(foam, s.ray.at(s.from));
-    if (beginnings > 0 && brick == last) continue;
-    last = brick;
-    ++beginnings;
-    add(brick);
-    add(brick_at(foam, s.ray.at(s.to)));
-  }
-  const Vec3 sides = bricks.extent() + Vec3{3, 3, 3};
-  constexpr double brick_bytes = 24e3;
-  const double most = 0.5 * static_cast<double>(foam.context().cache.limit()) / brick_bytes;
-  return foam.ray_demand().pays(count, beginnings, sides.x * sides.y * sides.z, most);
-}
-
 }  // namespace
 
 bool walk_cells(const Foam& foam, RaySearch* searches, size_t count) {
@@ -498,7 +463,7 @@ bool walk_cells(const Foam& foam, RaySearch* searches, size_t count) {
 }
 
 bool enter_by_cells(const Foam& foam, RaySearch* searches, size_t count) {
-  return is_worth_edges(foam, searches, count) && walk_cells(foam, searches, count);
+  return foam.ray_demand().pays(foam, searches, count) && walk_cells(foam, searches, count);
 }
 
 }  // namespace msq

@@ -1,41 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a foam's rays are worth the edges of the cells that they cross.
+// Which of a foam's rays are worth the edges of the cells that they cross.
 //
-// The edges about a ray cost as much as 20 to 30 marches, and serve all rays that come near. So
-// rays that begin in bricks of cells of their own march, until marches have cost what the edges of
-// all bricks that the rays may cross do. Both ways find the same bits.
+// The edges about a ray cost many marches, and serve all rays that come near. So rays march, until
+// those that began in the same brick of cells have cost what the edges there do: all together then
+// cost at most twice the least that they could. Both ways find the same bits.
+// Source: Karlin, Manasse, McGeoch and Owicki, "Competitive randomized algorithms for nonuniform
+// problems", 1994.
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
+
+#include "base/ray.h"
+#include "cell/neighbourhood.h"
 
 namespace msq {
 
+class Foam;
+
 class RayDemand {
  public:
-  /// Whether it was said once.
-  bool has_paid() const { return has_edges_.load(std::memory_order_relaxed); }
+  /// Whether a batch of rays is worth its edges: whether most bricks where its rays begin are.
+  bool pays(const Foam& foam, const RaySearch* searches, size_t count);
 
-  /// For a batch of rays that begin in so many bricks, and cross some of `about` bricks, which hold
-  /// `most` at best.
-  bool pays(uint64_t rays, uint64_t beginnings, double about, double most) {
-    if (rays >= rays_a_brick * beginnings) {
-      has_edges_.store(true, std::memory_order_relaxed);
-      return true;
-    }
-    if (has_paid()) return true;
-    const uint64_t marched = marched_.fetch_add(rays, std::memory_order_relaxed) + rays;
-    if (about > most || static_cast<double>(marched) < marches_a_brick * about) return false;
-    has_edges_.store(true, std::memory_order_relaxed);
-    return true;
-  }
+  /// Counts rays that begin in a brick of cells. It is worth its edges from about `worth` rays on:
+  /// some bricks earlier, some later, so that not all of a picture become so in the same frame.
+  /// Where rays come few at a time no more than `most` bricks do; then the count begins anew.
+  void add(CellIndex brick, size_t rays, size_t worth, size_t most);
+  bool pays(CellIndex brick, size_t worth);
 
  private:
-  static constexpr uint64_t rays_a_brick = 8;
-  static constexpr double marches_a_brick = 4;
+  static constexpr size_t places = size_t{1} << 16;
+  /// What is known of a brick.
+  struct Place {
+    std::atomic<uint32_t>* count;
+    uint32_t name;   ///< of the brick, in there
+    uint32_t worth;  ///< from so many rays on
+    uint32_t rays;
+  };
 
-  std::atomic<uint64_t> marched_{0};
-  std::atomic<bool> has_edges_{false};
+  Place find(CellIndex brick, size_t worth);
+
+  /// Brick by brick, as far as they do not share a place: the upper half of a hash, and rays.
+  std::once_flag is_there_;
+  std::unique_ptr<std::atomic<uint32_t>[]> counts_;
+  std::atomic<size_t> worthy_{0};
 };
 
 }  // namespace msq
