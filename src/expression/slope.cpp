@@ -67,22 +67,20 @@ struct Part {
 
 class Differentiation {
  public:
-  Differentiation(const Tape& tape, double coordinate_error)
-      : tape_(tape), coordinate_error_(coordinate_error), parts_(tape.nodes.size()) {}
-
   /// The root's part; null where something is unbounded.
-  const Part* over(const Interval (&box)[3]) {
+  const Part* over(const Tape& tape, const Interval (&box)[3], double coordinate_error) {
     Interval wider[3];
-    for (int i = 0; i < 3; ++i) wider[i] = widened(box[i], coordinate_error_);
-    enclose(tape_, wider, computed_);
+    for (int i = 0; i < 3; ++i) wider[i] = widened(box[i], coordinate_error);
+    coordinate_error_ = coordinate_error;
+    enclose(tape, wider, computed_);
+    parts_.resize(tape.nodes.size());
     for (uint32_t i = 0; i < parts_.size(); ++i)
-      if (!find(i)) return nullptr;
+      if (!find(tape.nodes[i], i)) return nullptr;
     return &parts_.back();
   }
 
  private:
-  bool find(uint32_t i) {
-    const Node& node = tape_.nodes[i];
+  bool find(const Node& node, uint32_t i) {
     Part& part = parts_[i];
     part.along[0] = part.along[1] = part.along[2] = {0, 0};
     part.error = 0;
@@ -186,8 +184,7 @@ class Differentiation {
            is_bounded(part.along[2]);
   }
 
-  const Tape& tape_;
-  double coordinate_error_;
+  double coordinate_error_ = 0;
   std::vector<Enclosure> computed_;
   std::vector<Part> parts_;
 };
@@ -203,6 +200,24 @@ bool is_flatter(const Piece& a, const Piece& b) {
   return a.most < b.most || (a.most == b.most && a.number < b.number);
 }
 
+void find_slopes(Differentiation& differentiation, const Tape& tape, Vec3 scale,
+                 double coordinate_error, Piece& piece) {
+  piece.least = 0;
+  piece.most = piece.error = infinity;
+  const Part* root = differentiation.over(tape, piece.box, coordinate_error);
+  if (!root) return;
+  double low = 0, high = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double a = distance_from_zero(root->along[k]) * scale[k];
+    const double b = magnitude(root->along[k]) * scale[k];
+    low += a * a;
+    high += b * b;
+  }
+  piece.least = std::sqrt(low);
+  piece.most = std::sqrt(high) * (1 + 0x1p-50) + least;
+  piece.error = root->error;
+}
+
 }  // namespace
 
 Slope bound_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale, double coordinate_error) {
@@ -210,25 +225,12 @@ Slope bound_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale, double
   const size_t pieces = std::clamp<size_t>((1 << 18) / tape.nodes.size(), 256, 8192);
   constexpr double narrow = 0x1p-8, near = 1 + 0x1p-6;
 
-  Differentiation differentiation(tape, coordinate_error);
+  Differentiation differentiation;
   std::vector<Piece> heap;  // the steepest first
   uint32_t count = 0;
   const auto add = [&](Piece piece) {
     piece.number = ++count;
-    piece.least = 0;
-    piece.most = piece.error = infinity;
-    if (const Part* root = differentiation.over(piece.box)) {
-      double low = 0, high = 0;
-      for (int k = 0; k < 3; ++k) {
-        const double a = distance_from_zero(root->along[k]) * scale[k];
-        const double b = magnitude(root->along[k]) * scale[k];
-        low += a * a;
-        high += b * b;
-      }
-      piece.least = std::sqrt(low);
-      piece.most = std::sqrt(high) * (1 + 0x1p-50) + least;
-      piece.error = root->error;
-    }
+    find_slopes(differentiation, tape, scale, coordinate_error, piece);
     heap.push_back(piece);
     std::push_heap(heap.begin(), heap.end(), is_flatter);
   };
@@ -255,6 +257,14 @@ Slope bound_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale, double
   Slope slope{heap[0].most, 0};
   for (const Piece& piece : heap) slope.error = std::max(slope.error, piece.error);
   return slope;
+}
+
+Slope enclose_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale,
+                    double coordinate_error) {
+  thread_local Differentiation differentiation;
+  Piece piece{{box[0], box[1], box[2]}};
+  find_slopes(differentiation, tape, scale, coordinate_error, piece);
+  return {piece.most, piece.error};
 }
 
 }  // namespace msq

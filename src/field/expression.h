@@ -18,6 +18,9 @@ class ExpressionField final : public Field {
   bool is_linear(const Box3& box, Vec3& gradient) const override;
   Interval range() const override { return range_; }
   Interval range(const Box3& box) const override;
+  double lipschitz(const Box3& box) const override;
+
+  using Field::lipschitz;
 
  private:
   double cut(double v) const { return v > range_.low ? std::min(v, range_.high) : range_.low; }

@@ -35,6 +35,12 @@ class Field : public RefCounted {
   /// No two points' values differ by more than this times their distance, but for the rounding that
   /// range(box) of the points alone covers. Infinite where nothing is known, which is always right.
   virtual double lipschitz() const { return std::numeric_limits<double>::infinity(); }
+  /// The same of two points of a box, for small ones; but for rounding, of each value up to 2^-44 of
+  /// the largest magnitude of range().
+  virtual double lipschitz(const Box3& box) const {
+    (void)box;
+    return lipschitz();
+  }
   /// How many fields over other fields are within each other.
   virtual unsigned depth() const { return 0; }
 };
@@ -62,6 +68,7 @@ class Parameter {
     return field_ ? field_->range(box) : Interval{value_, value_};
   }
   double lipschitz() const { return field_ ? field_->lipschitz() : 0; }
+  double lipschitz(const Box3& box) const { return field_ ? field_->lipschitz(box) : 0; }
   /// About p; where it is not linear by differences over `step` on either side.
   Vec3 gradient(Vec3 p, double step) const {
     Vec3 gradient;

@@ -12,12 +12,14 @@ namespace msq::test {
 
 /// How well a field knows itself.
 struct FieldOutcome {
-  size_t boxes = 0, linear = 0;  ///< boxes on which it is known to be linear
-  double width = 0;              ///< range of a box over that of the points sampled in it: least
+  size_t boxes = 0;
+  size_t linear = 0;   ///< boxes on which it is known to be linear
+  size_t bounded = 0;  ///< whose Lipschitz constant is known
+  double width = 0;    ///< range of a box over that of the points sampled in it: least
 };
 
-/// Checks range(), range(box), is_linear() and lipschitz() of a field by `boxes` boxes, of sizes
-/// from `least` to `most`, in `space`.
+/// Checks range(), is_linear() and lipschitz(), of all and of boxes, of a field by `boxes` boxes,
+/// of sizes from `least` to `most`, in `space`.
 inline FieldOutcome check_field(const Field& field, const Box3& space, double least, double most,
                                 size_t boxes, Random& random) {
   FieldOutcome outcome;
@@ -25,6 +27,7 @@ inline FieldOutcome check_field(const Field& field, const Box3& space, double le
   outcome.width = 1e300;
   const Interval all = field.range();
   const double lipschitz = field.lipschitz();
+  const double rounded = 0x1p-43 * std::max(std::abs(all.low), std::abs(all.high));
   if (!(std::isfinite(all.low) && std::isfinite(all.high) && all.low <= all.high))
     fail_msg("range() is %g to %g", all.low, all.high);
   if (!(lipschitz >= 0)) fail_msg("lipschitz() is %g", lipschitz);
@@ -41,6 +44,10 @@ inline FieldOutcome check_field(const Field& field, const Box3& space, double le
     Vec3 gradient;
     const bool is_linear = field.is_linear(box, gradient);
     outcome.linear += is_linear;
+    const double in_box = field.lipschitz(box);
+    if (!(in_box <= lipschitz))
+      fail_msg("lipschitz() of a box is %g, %g of all", in_box, lipschitz);
+    outcome.bounded += std::isfinite(in_box);
     double low = 1e300, high = -1e300;
     Vec3 last = box.min;
     for (int i = 0; i < 24; ++i) {
@@ -59,6 +66,9 @@ inline FieldOutcome check_field(const Field& field, const Box3& space, double le
       const double rounding = (here.high - here.low) + (there.high - there.low);
       if (way > 0 && !(change <= lipschitz * way * (1 + 1e-12) + rounding))
         fail_msg("changes by %.17g within %.17g, Lipschitz constant %.17g", change, way, lipschitz);
+      if (way > 0 && !(change <= in_box * way * (1 + 1e-12) + rounding + rounded))
+        fail_msg("changes by %.17g within %.17g, Lipschitz constant of the box %.17g", change, way,
+                 in_box);
       last = p;
       if (!is_linear) continue;
       const double along = field.at(box.min) + dot(gradient, p - box.min);

@@ -28,13 +28,17 @@ void test_promises(void**) {
                                "0.5",
                                "(x^2+y^2)^0.25 - abs(z)"};
   Random random(14);
-  size_t linear = 0;
+  size_t linear = 0, bounded = 0;
   for (const char* text : texts) {
     const ExpressionField field(parse_expression(text, {}), {-1.5, 2});
-    linear += check_field(field, Box3{}.grown(3), 1e-6, 4, test_count(2000), random).linear;
+    const FieldOutcome near =
+        check_field(field, Box3{}.grown(3), 1e-6, 4, test_count(2000), random);
+    linear += near.linear;
+    bounded += near.bounded;
     linear += check_field(field, Box3{}.grown(1e6), 1e-3, 4, test_count(500), random).linear;
   }
   assert_true(linear > 0);
+  assert_true(bounded > test_count(2000) * 7 / 2);
 }
 
 void test_ranges_are_tight(void**) {

@@ -122,7 +122,7 @@ bool TaperedStrut::approach(double& at, double to) const {
     const double slope = dot(gradient, ray_.search->ray.direction);
     return approach_by_slopes(slope, slope, at, to);
   }
-  const double lipschitz = radius.lipschitz();
+  const double lipschitz = radius.lipschitz(box(at, to));
   return lipschitz < never ? approach_by_slopes(-lipschitz, lipschitz, at, to)
                            : approach_by_ranges(at, to);
 }

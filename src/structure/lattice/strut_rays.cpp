@@ -105,6 +105,12 @@ void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest)
   }
 }
 
+/// A box about a part of a ray, and about points of it that are rounded.
+Box3 box_of(const Ray& ray, double from, double to) {
+  const Vec3 a = ray.at(from), b = ray.at(to);
+  return Box3{min(a, b), max(a, b)}.grown(0x1p-50 * (max_magnitude(a) + max_magnitude(b)));
+}
+
 template <class Inside>
 bool StrutRays::approach(const Ray& ray, const Part& part, uint32_t strut, Inside&& inside,
                          double& t, double to) const {
@@ -112,10 +118,10 @@ bool StrutRays::approach(const Ray& ray, const Part& part, uint32_t strut, Insid
   const double factor = lists_.struts().factor(strut);
   const Vec3 along = grid_.rotation.apply_inverse(ray.direction);
   Vec3 gradient;
-  double steepest = radius_.lipschitz();
-  const Vec3 begin = ray.at(t), end = ray.at(to);
-  if (radius_.is_linear(Box3{min(begin, end), max(begin, end)}, gradient))
-    steepest = dot(gradient, ray.direction);
+  const Vec3 begin = ray.at(t);
+  const Box3 way = box_of(ray, t, to);
+  const double steepest =
+      radius_.is_linear(way, gradient) ? dot(gradient, ray.direction) : radius_.lipschitz(way);
   const double first = t;
   const Vec3 at_first = locate(part, begin);
   // Past nearly as many steps a ray only grazes the strut.
@@ -161,7 +167,7 @@ bool StrutRays::enter_strut(const Ray& ray, const Part& part, const Candidate& c
     return is_short ? structure_.inside(p) : holds(part, candidate.strut, p);
   };
   if (!radius_.is_constant() && !is_in(ray.at(enter))) {
-    if (radius_.lipschitz() == infinity) {
+    if (radius_.lipschitz(box_of(ray, enter, leave)) == infinity) {
       const RayMarch march{structure_.least_ray_step(), tolerance_};
       return march.find(
           true, ray, enter, std::max(enter, leave), is_in, [](Vec3) { return 0.0; }, t);
