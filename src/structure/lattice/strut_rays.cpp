@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+
+#include "cell/cell_hash.h"
 
 namespace msq {
 
@@ -76,6 +79,17 @@ bool StrutRays::holds(const Part& part, uint32_t strut, Vec3 p) const {
   return s.holds(locate(part, p), radius_.at(p));
 }
 
+Interval StrutRays::radii_in(CellIndex cell) {
+  CellRadii& known = radii_[hash_of(cell) % std::size(radii_)];
+  if (!known.is_known || !(known.cell == cell)) {
+    const Vec3 corner = Vec3{double(cell.x), double(cell.y), double(cell.z)} * grid_.cell_size;
+    const Box3 box =
+        Box3{corner, corner + grid_.cell_size}.grown(2 * tolerance_ + formula_error * cell_);
+    known = {cell, true, radius_.range(grid_.from_grid(box))};
+  }
+  return known.range;
+}
+
 void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest) {
   candidates_.clear();
   runs_.clear();
@@ -85,9 +99,7 @@ void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest)
   if (radius_.is_constant()) {
     radius = radius_.at(p);
   } else {
-    const Vec3 q = ray.at(part.to);
-    const Box3 box = Box3{min(p, q), max(p, q)}.grown(2 * tolerance_ + formula_error * cell_);
-    const Interval range = radius_.range(box);
+    const Interval range = radii_in(part.cell);
     radius = std::max(0.0, greatest ? range.high : range.low);
   }
   // Wider by what lists are.

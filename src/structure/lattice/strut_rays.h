@@ -59,6 +59,8 @@ class StrutRays {
   /// Calls visit(part), which answers whether to go on, along [from, to] of the ray.
   template <class Visit>
   void walk(const Ray& ray, double from, double to, Visit&& visit) const;
+  /// What the radius may be in a cell.
+  Interval radii_in(CellIndex cell);
   /// Those that the ray meets in a part, were their radius the least or the greatest there.
   void find_candidates(const Ray& ray, const Part& part, bool greatest);
   /// The first t in [from, to] at which the strut holds the ray.
@@ -83,6 +85,13 @@ class StrutRays {
   std::vector<StrutLists::Run> runs_;
   std::vector<CapsuleList::Met> met_;
   std::vector<Candidate> candidates_;
+  /// Of cells that rays came through last.
+  struct CellRadii {
+    CellIndex cell;
+    bool is_known = false;
+    Interval range{};
+  };
+  CellRadii radii_[64];
 };
 
 }  // namespace msq
