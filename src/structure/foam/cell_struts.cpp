@@ -120,16 +120,15 @@ void CellStruts::find_bricks(CellIndex cell) {
     last[axis] = floor_div(place + reach_[axis], SeededEdges::side);
     is_within_half &= reach_[axis] <= SeededEdges::side / 2;
   }
-  if (is_within_half) {
-    const SeededEdges& brick = *find_brick({own[0], own[1], own[2]}).edges;
-    for (size_t axis = 0; axis < 3; ++axis)
-      if (!brick.looks_beyond(in_own[0], in_own[1], in_own[2], axis))
-        first[axis] = last[axis] = own[axis];
-  }
+  unsigned owning = 0xff;
+  if (is_within_half)
+    owning = find_brick({own[0], own[1], own[2]}).edges->owning(in_own[0], in_own[1], in_own[2]);
   sources_.clear();
   for (int k = first[2]; k <= last[2]; ++k)
     for (int j = first[1]; j <= last[1]; ++j)
       for (int i = first[0]; i <= last[0]; ++i) {
+        const int across = (i != own[0]) | (j != own[1]) << 1 | (k != own[2]) << 2;
+        if (!(owning >> across & 1)) continue;
         const Recent& brick = find_brick({i, j, k});
         const CellIndex corner = brick.edges->corner();
         const auto edges =

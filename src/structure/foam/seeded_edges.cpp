@@ -59,9 +59,9 @@ SeededEdges::SeededEdges(const FoamSeeds& seeds, CellIndex corner, double radius
   }
   nodes_.shrink_to_fit();
   list_edges(seeds, radius);
-  beyond_.fill(7);
+  owning_.fill(0xff);
   if (*std::max_element(reach_.begin(), reach_.end()) <= side / 2)
-    beyond_ = find_beyond_faces(builder.block(), seeds.scale(), radius + ray_list_margin + slack);
+    owning_ = find_owning_bricks(builder.block(), seeds.scale(), radius + ray_list_margin + slack);
 }
 
 uint32_t SeededEdges::pack_seeds(const SeedBlock& block, const std::array<uint32_t, 3>& triple) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cell/cache.h"
-#include "structure/foam/beyond_faces.h"
+#include "structure/foam/owning_bricks.h"
 #include "structure/foam/seeds.h"
 
 namespace msq {
@@ -23,7 +23,7 @@ class SeededEdges final : public CellData {
  public:
   /// Cells along each axis: few, since rays end soon after they enter a foam. And where bricks
   /// begin in space: `lead` before cell 0, as those of EdgeBrick and for the same reason.
-  static constexpr int side = beyond_faces_side, lead = 2;
+  static constexpr int side = owning_bricks_side, lead = 2;
 
   /// Whether the cells are not so flat or long that numbers of seeds and cells exceed their bits.
   static bool fits(const FoamSeeds& seeds);
@@ -42,10 +42,10 @@ class SeededEdges final : public CellData {
   bool knows_seeds(size_t edge) const { return edges_[edge].seeds != no_seeds; }
   std::array<CellIndex, 3> seeds(size_t edge) const;
 
-  /// Whether edges that come near a cell of the brick may be owned beyond the brick's face across
-  /// an axis: of two, that which is next to the cell, if edges reach no farther than half a brick.
-  bool looks_beyond(int x, int y, int z, size_t axis) const {
-    return beyond_[static_cast<size_t>((z * side + y) * side + x)] >> axis & 1;
+  /// The bricks that may own edges which come near a cell of this one, by the bits of
+  /// OwningBricks, if edges reach no farther than half a brick.
+  uint8_t owning(int x, int y, int z) const {
+    return owning_[static_cast<size_t>((z * side + y) * side + x)];
   }
 
   /// Numbers of the edges for the cell that lies (x, y, z) from the brick's first.
@@ -86,7 +86,7 @@ class SeededEdges final : public CellData {
   std::array<int, 3> reach_;
   std::vector<uint32_t> starts_;
   std::vector<uint16_t> listed_;
-  BeyondFaces beyond_;
+  OwningBricks owning_;
 };
 
 }  // namespace msq
