@@ -111,19 +111,21 @@ void SeedBlock::move_to(const FoamSeeds& seeds, CellIndex corner, int side, doub
     // Stretches may end beyond the last seed.
     for (std::vector<float>* v : {&fractions_.x, &fractions_.y, &fractions_.z})
       v->assign(count + 2 * Stretches::lanes, 0);
+    cells_.clear();
+    for (int z = -halo_[2]; z < side + halo_[2]; ++z)
+      for (int y = -halo_[1]; y < side + halo_[1]; ++y)
+        for (int x = -halo_[0]; x < side + halo_[0]; ++x) cells_.push_back({x, y, z});
   }
-  size_t i = 0;
-  for (int z = -halo_[2]; z < side + halo_[2]; ++z)
-    for (int y = -halo_[1]; y < side + halo_[1]; ++y) {
-      const uint64_t key = seeds.row_key(corner, y, z);
-      for (int x = -halo_[0]; x < side + halo_[0]; ++x, ++i) {
-        const Vec3 p = seeds.in_row(key, corner, x, y, z);
-        positions_[i] = p;
-        fractions_.x[i] = static_cast<float>(p.x - x * scale.x);
-        fractions_.y[i] = static_cast<float>(p.y - y * scale.y);
-        fractions_.z[i] = static_cast<float>(p.z - z * scale.z);
-      }
-    }
+  tile_.build(seeds, corner, {side, side, side}, halo_);
+  const float *x = tile_.fraction(0), *y = tile_.fraction(1), *z = tile_.fraction(2);
+  for (size_t i = 0; i < positions_.size(); ++i) {
+    const Vec3 cell{double(cells_[i][0]), double(cells_[i][1]), double(cells_[i][2])};
+    const Vec3 p = (cell + Vec3{x[i], y[i], z[i]}) * scale, corner_of_cell = cell * scale;
+    positions_[i] = p;
+    fractions_.x[i] = static_cast<float>(p.x - corner_of_cell.x);
+    fractions_.y[i] = static_cast<float>(p.y - corner_of_cell.y);
+    fractions_.z[i] = static_cast<float>(p.z - corner_of_cell.z);
+  }
 }
 
 SeedBlock::Stretches SeedBlock::stretches(Vec3 scale, double distance_squared) const {

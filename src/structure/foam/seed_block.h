@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "structure/foam/seed_tile.h"
 #include "structure/foam/seeds.h"
 #include "structure/foam/voronoi_cell.h"
 
@@ -27,11 +28,7 @@ class SeedBlock {
            static_cast<size_t>(x + halo_[0]);
   }
   /// The cell of a seed, from the brick's first cell.
-  std::array<int, 3> cell(size_t index) const {
-    return {static_cast<int>(index % size_[0]) - halo_[0],
-            static_cast<int>(index / size_[0] % size_[1]) - halo_[1],
-            static_cast<int>(index / size_[0] / size_[1]) - halo_[2]};
-  }
+  const std::array<int, 3>& cell(size_t index) const { return cells_[index]; }
   /// Foam units, from the corner of the brick's first cell.
   Vec3 position(size_t index) const { return positions_[index]; }
 
@@ -63,6 +60,8 @@ class SeedBlock {
   Vec3 scale_;
   int halo_[3];
   size_t size_[3];
+  std::vector<std::array<int, 3>> cells_;
+  SeedTile tile_;
   std::vector<Vec3> positions_;
   Fractions fractions_;
   double most_often_ = 0;
