@@ -38,26 +38,28 @@ bool SeededEdges::fits(const FoamSeeds& seeds) {
 SeededEdges::SeededEdges(const FoamSeeds& seeds, CellIndex corner, double radius)
     : corner_(corner), reach_(reach(seeds, radius)) {
   thread_local EdgeBuilder builder;
-  thread_local std::vector<uint16_t> numbers;  // of nodes; 0: none yet, then from 1 on
+  thread_local std::vector<uint16_t> numbers;  // of nodes, or no_number
+  constexpr uint16_t no_number = UINT16_MAX;
+  thread_local std::vector<std::array<float, 3>> nodes;
   builder.build(seeds, corner, side, true);
-  numbers.assign(builder.vertex_count(), 0);
-  const size_t count = builder.ends().size();
-  nodes_.reserve(count);
-  edges_.resize(count);
-  for (size_t e = 0; e < count; ++e) {
+  numbers.assign(builder.vertex_count(), no_number);
+  nodes.resize(builder.vertex_count() + 1);
+  uint16_t count = 0;
+  edges_.resize(builder.ends().size());
+  for (size_t e = 0; e < edges_.size(); ++e) {
     for (size_t end = 0; end < 2; ++end) {
+      // Without a branch: whether a vertex is new is a coin toss.
       const uint32_t vertex = builder.ends()[e][end];
-      if (numbers[vertex] == 0) {
-        const Vec3 p = builder.vertex(vertex);
-        nodes_.push_back(
-            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-        numbers[vertex] = static_cast<uint16_t>(nodes_.size());
-      }
-      edges_[e].ends[end] = static_cast<uint16_t>(numbers[vertex] - 1);
+      const Vec3 p = builder.vertex(vertex);
+      nodes[count] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+      const uint16_t known = numbers[vertex];
+      const uint16_t number = known == no_number ? count : known;
+      count = static_cast<uint16_t>(count + (known == no_number));
+      numbers[vertex] = edges_[e].ends[end] = number;
     }
     edges_[e].seeds = pack_seeds(builder.block(), builder.seeds()[e]);
   }
-  nodes_.shrink_to_fit();
+  nodes_.assign(nodes.begin(), nodes.begin() + count);
   list_edges(seeds, radius);
   owning_.fill(0xff);
   if (*std::max_element(reach_.begin(), reach_.end()) <= side / 2)
@@ -66,12 +68,12 @@ SeededEdges::SeededEdges(const FoamSeeds& seeds, CellIndex corner, double radius
 
 uint32_t SeededEdges::pack_seeds(const SeedBlock& block, const std::array<uint32_t, 3>& triple) {
   if (triple[0] == triple[1]) return no_seeds;
-  const std::array<int, 3> own = block.cell(triple[0]);
+  const std::array<int, 3>& own = block.cell(triple[0]);
   auto packed = static_cast<uint32_t>((own[2] * side + own[1]) * side + own[0]);
   int shift = 6;
   // In the order of cells; the owner comes before both.
   for (const uint32_t seed : {std::min(triple[1], triple[2]), std::max(triple[1], triple[2])}) {
-    const std::array<int, 3> cell = block.cell(seed);
+    const std::array<int, 3>& cell = block.cell(seed);
     for (size_t axis = 0; axis < 3; ++axis, shift += 4) {
       const int apart = cell[axis] - own[axis];
       if (std::abs(apart) > most_apart) return no_seeds;
