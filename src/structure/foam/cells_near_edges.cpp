@@ -7,10 +7,9 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
-#include "base/mask_bits-inl.h"
+#include "base/compress-inl.h"
 #include "structure/foam/cells_near_edges.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -61,20 +60,38 @@ void measure(const EdgeEnds& edges, size_t begin, size_t end, const CellBox& box
   }
 }
 
-/// Tells of cells in groups of two along each axis which a segment comes near.
+/// Finds cells in groups of two along each axis, by whether a segment comes near them.
 class Eight {
  public:
+  /// Cells that are written at once.
+  static constexpr size_t most = 8;
+
   explicit Eight(const CellBox& box) {
-    for (size_t lane = 0; lane < 8; ++lane)
-      for (size_t axis = 0; axis < 3; ++axis)
-        offset_[axis][lane] = (lane >> axis & 1) ? box.size[axis] : 0;
+    const auto across = static_cast<uint32_t>(box.count[0]);
+    const uint32_t steps[3] = {1, across, across * static_cast<uint32_t>(box.count[1])};
+    for (size_t lane = 0; lane < most; ++lane) {
+      step_[lane] = 0;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const bool is_second = lane >> axis & 1;
+        offset_[axis][lane] = is_second ? box.size[axis] : 0;
+        step_[lane] += is_second ? steps[axis] : 0;
+      }
+    }
+    // Where along an axis the first alone is there.
+    for (uint32_t alone = 0; alone < 8; ++alone)
+      for (uint32_t lane = 0; lane < most; ++lane) is_there_[alone][lane] = lane & alone ? 0 : 1;
   }
 
-  /// The bits of the cells that edge i of the block comes near, of those from `cell` on.
-  uint32_t near(const Block& block, size_t i, const CellBox& box, const int (&cell)[3]) const {
+  /// Writes the cells that edge i of the block comes near, of those from `cell` on, whose number is
+  /// `number`, and any up to `most`; returns how many. `alone` has the bits of the axes along which
+  /// the first cell is the last.
+  HWY_INLINE size_t find(const Block& block, size_t i, uint32_t edge, const CellBox& box,
+                         const int (&cell)[3], uint32_t number, uint32_t alone,
+                         NearCell* found) const {
     const D d;
-    uint64_t bits = 0;
-    for (size_t lane = 0; lane < 8; lane += hn::Lanes(d)) {
+    const DU du;
+    size_t count = 0;
+    for (size_t lane = 0; lane < most; lane += hn::Lanes(d)) {
       hn::Vec<D> p[3], half[3];
       for (size_t axis = 0; axis < 3; ++axis) {
         const float from = (static_cast<float>(cell[axis]) + 0.5f) * box.size[axis];
@@ -88,32 +105,30 @@ class Eight {
                                         hn::Set(d, block.limit[1][i])));
       is_near = hn::And(is_near, hn::Le(hn::Abs(hn::MulSub(p[0], half[1], hn::Mul(p[1], half[0]))),
                                         hn::Set(d, block.limit[2][i])));
-      bits |= bits_of(d, is_near) << lane;
+      is_near = hn::And(
+          is_near, hn::RebindMask(d, hn::Ne(hn::Load(du, is_there_[alone] + lane), hn::Zero(du))));
+      const Compression<D> compressed(is_near);
+      const auto cells = hn::Add(hn::Set(du, number), hn::Load(du, step_ + lane));
+      hn::StoreInterleaved2(compressed(cells), hn::Set(du, edge), du,
+                            reinterpret_cast<uint32_t*>(found + count));
+      count += hn::CountTrue(d, is_near);
     }
-    return static_cast<uint32_t>(bits);
+    return count;
   }
 
  private:
-  using D = hn::CappedTag<float, 8>;
-  alignas(32) float offset_[3][8];
+  using D = hn::CappedTag<float, most>;
+  using DU = hn::RebindToUnsigned<D>;
+  alignas(32) float offset_[3][most];
+  alignas(32) uint32_t step_[most], is_there_[8][most];
 };
-
-/// Of eight cells, those that are there where the first alone, or both, are along each axis.
-constexpr uint32_t are_there(int x, int y, int z) {
-  uint32_t bits = 0xff;
-  if (x == 0) bits &= 0x55;
-  if (y == 0) bits &= 0x33;
-  if (z == 0) bits &= 0x0f;
-  return bits;
-}
 
 void find(const EdgeEnds& edges, const CellBox& box, float reach, std::vector<NearCell>& found) {
   const auto across = static_cast<uint32_t>(box.count[0]);
   const uint32_t layer = across * static_cast<uint32_t>(box.count[1]);
-  uint32_t step[8];
-  for (uint32_t n = 0; n < 8; ++n) step[n] = (n & 1) + (n >> 1 & 1) * across + (n >> 2) * layer;
   const Eight eight(box);
   Block block;
+  size_t found_count = 0;
   const size_t count = edges.count();
   for (size_t begin = 0; begin < count; begin += Block::most) {
     const size_t end = std::min(count, begin + Block::most);
@@ -123,18 +138,20 @@ void find(const EdgeEnds& edges, const CellBox& box, float reach, std::vector<Ne
       for (cell[2] = block.first[2][i]; cell[2] <= block.last[2][i]; cell[2] += 2)
         for (cell[1] = block.first[1][i]; cell[1] <= block.last[1][i]; cell[1] += 2)
           for (cell[0] = block.first[0][i]; cell[0] <= block.last[0][i]; cell[0] += 2) {
-            uint32_t bits = eight.near(block, i, box, cell) & are_there(block.last[0][i] - cell[0],
-                                                                        block.last[1][i] - cell[1],
-                                                                        block.last[2][i] - cell[2]);
+            uint32_t alone = 0;
+            for (size_t axis = 0; axis < 3; ++axis)
+              alone |= uint32_t{cell[axis] == block.last[axis][i]} << axis;
             const uint32_t number = static_cast<uint32_t>(cell[2] - box.first[2]) * layer +
                                     static_cast<uint32_t>(cell[1] - box.first[1]) * across +
                                     static_cast<uint32_t>(cell[0] - box.first[0]);
-            for (; bits; bits &= bits - 1)
-              found.push_back(
-                  {number + step[std::countr_zero(bits)], static_cast<uint32_t>(begin + i)});
+            if (found.size() < found_count + Eight::most)
+              found.resize(2 * found_count + Eight::most);
+            found_count += eight.find(block, i, static_cast<uint32_t>(begin + i), box, cell, number,
+                                      alone, found.data() + found_count);
           }
     }
   }
+  found.resize(found_count);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -148,7 +165,6 @@ HWY_EXPORT(find);
 
 void find_cells_near_edges(const EdgeEnds& edges, const CellBox& box, float reach,
                            std::vector<NearCell>& found) {
-  found.clear();
   HWY_DYNAMIC_DISPATCH(find)(edges, box, reach, found);
 }
 
