@@ -208,28 +208,39 @@ class Finder {
     const Seeds& seeds = of_boxes_[list];
     uint32_t before = found_;
     uint64_t left = ~of_found(seeds);
-    for (unsigned n = 0; n < 8 && (possible_owners(of_box) & left); ++n) {
-      Box part;
-      for (int axis = 0; axis < 3; ++axis) {
-        part.half[axis] = 0.5f * box.half[axis];
-        // Outermost first, where most is found.
-        part.middle[axis] =
-            box.middle[axis] + (n >> axis & 1 ? -outside_[axis] : outside_[axis]) * part.half[axis];
-      }
-      const uint64_t of_part = of_box & find_nearer(seeds, part, nearest(seeds, part));
-      if (!(possible_owners(of_part) & left)) continue;
+    if (!(possible_owners(of_box) & left)) return;
+    // All parts before what they lead to: they do not wait for each other.
+    Box parts[8];
+    uint64_t of_parts[8];
+    for (unsigned n = 0; n < 8; ++n) {
+      parts[n] = part(box, n);
+      of_parts[n] = of_box & find_nearer(seeds, parts[n], nearest(seeds, parts[n]));
+    }
+    for (unsigned n = 0; n < 8; ++n) {
+      if (!(possible_owners(of_parts[n]) & left)) continue;
       if (deeper > 1)
-        cut(list, of_part, part, deeper - 1);
+        cut(list, of_parts[n], parts[n], deeper - 1);
       else
-        add_owners(seeds, of_part, part);
+        add_owners(seeds, of_parts[n], parts[n]);
       if (found_ == before) continue;
       before = found_;
       left = ~of_found(seeds);
     }
   }
+  /// An eighth of a box, the outermost of the brick first, where most is found.
+  Box part(const Box& box, unsigned n) const {
+    Box part;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float half = 0.5f * box.half[axis];
+      part.half[axis] = half;
+      part.middle[axis] = box.middle[axis] + (n >> axis & 1 ? -half : half) * outside_[axis];
+    }
+    return part;
+  }
 
   /// Compares each of a box' seeds with each, and adds the bricks that are left.
   void add_owners(const Seeds& seeds, uint64_t of_box, const Box& box) {
+    nearest(seeds, box);
     for (uint64_t rest = of_box; rest; rest &= rest - 1)
       of_box &= find_nearer(seeds, box, static_cast<size_t>(std::countr_zero(rest)));
     for (uint64_t owners = possible_owners(of_box); owners; owners &= owners - 1)
