@@ -105,7 +105,7 @@ void Foam::enter(RaySearch* searches, size_t count) const {
     const auto way = [&](Vec3 p) {
       const double around = clearance(p);
       // The way to a strut that is met slantingly is much longer than the distance.
-      if (around > near || !has_capsules()) return around;
+      if (around > near || graded_) return around;
       return std::max(around, way_to_strut(*this, p, s.ray.direction));
     };
     bool creeps = false;

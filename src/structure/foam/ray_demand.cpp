@@ -14,9 +14,9 @@ namespace msq {
 
 namespace {
 
-/// What the edges about where a ray begins cost, in marches: 3 bricks, 170 us each, for 12 us.
-/// Marches by distance alone take longer, and so do graded edges.
-constexpr size_t marches_to_strut = 45, marches_by_distance = 20;
+/// What the edges about where a ray begins cost, in marches: 3 bricks, 150 to 170 us each, for 12
+/// us. Where fields rule, marches take longer, 30 us and more, and so do edges.
+constexpr size_t worth_of_capsules = 45, worth_of_others = 20;
 /// Bricks that are built where rays begin in one, and their size.
 constexpr uint64_t bricks_about = 3, brick_bytes = 21000;
 
@@ -68,7 +68,7 @@ void RayDemand::add(CellIndex brick, size_t rays, size_t worth, size_t most) {
 }
 
 bool RayDemand::pays(const Foam& foam, const RaySearch* searches, size_t count) {
-  const size_t worth = foam.has_capsules() ? marches_to_strut : marches_by_distance;
+  const size_t worth = foam.has_capsules() ? worth_of_capsules : worth_of_others;
   const size_t most = foam.context().cache.limit() / (bricks_about * brick_bytes);
   const auto at = [&](size_t i) { return brick_at(foam, searches[i].ray.at(searches[i].from)); };
   // Rays that are close together come one after the other: a few tell of most.

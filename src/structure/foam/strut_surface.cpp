@@ -89,18 +89,38 @@ double strut_exit(const Foam& foam, const Ray& ray, double from, double to) {
 }
 
 double way_to_strut(const Foam& foam, Vec3 p, Vec3 direction) {
-  // Farther, more seeds take part, and the triples of them to look at grow with their cube.
-  const double reach = 0.05 * min_component(foam.seeds().scale());
-  const double unit = foam.unit(), radius = foam.most_radius();
+  const double unit = foam.unit();
   const Vec3 u = foam.neighbourhood().rotation.apply_inverse(direction);
+  const auto most_radius = [&](double ahead) {
+    if (foam.radius().is_constant()) return foam.most_radius();
+    const Vec3 end = p + direction * (ahead * unit);
+    const Box3 box = Box3{min(p, end), max(p, end)}.grown(0x1p-50 * max_magnitude(p));
+    return foam.radius().range(box).high / unit;
+  };
+  // Farther, more seeds take part, and the triples of them to look at grow with their cube.
+  double ahead = 0.05 * min_component(foam.seeds().scale());
+  double radius = most_radius(ahead);
   Vec3 q;
-  double way = reach;
-  for (const NearStrut& strut : struts_near(foam, p, radius + reach, q)) {
-    const Vec3 a = strut.line.at(strut.part.low) - q, b = strut.line.at(strut.part.high) - q;
-    const double entry = capsule_entry(a, b - a, u, radius);
-    // Behind p, unless p is on its surface to rounding.
-    if (entry < 0 && -capsule_entry(a, b - a, u * -1.0, radius) < -surface_error) continue;
-    way = std::min(way, entry);
+  const std::vector<NearStrut>& struts = struts_near(foam, p, radius + ahead, q);
+  // To where struts of a radius begin.
+  const auto entry = [&] {
+    double first = ahead;
+    for (const NearStrut& strut : struts) {
+      const Vec3 a = strut.line.at(strut.part.low) - q, b = strut.line.at(strut.part.high) - q;
+      const double in = capsule_entry(a, b - a, u, radius);
+      // Behind p, unless p is on its surface to rounding.
+      if (in < 0 && -capsule_entry(a, b - a, u * -1.0, radius) < -surface_error) continue;
+      first = std::min(first, in);
+    }
+    return first;
+  };
+  double way = entry();
+  // The less far it is, the less the radius changes on the way.
+  constexpr int most_times = 4;
+  for (int n = 0; n < most_times && way < ahead && !foam.radius().is_constant(); ++n) {
+    ahead = std::max(2 * way, 0.125 * ahead);
+    radius = most_radius(ahead);
+    way = std::max(way, entry());
   }
   return way * unit - foam.ray_tolerance();
 }

@@ -16,7 +16,7 @@ double strut_exit(const Foam& foam, const Ray& ray, double from, double to);
 
 /// How far a ray of some direction certainly goes on from p, which is outside, before it enters a
 /// strut: up to a fraction of a cell, and short of the strut by the tolerance. For foams of one
-/// radius.
+/// density.
 double way_to_strut(const Foam& foam, Vec3 p, Vec3 direction);
 
 /// Makes of an entry that was found within the tolerance what the entry into its strut is exactly:
