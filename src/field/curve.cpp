@@ -7,12 +7,21 @@
 namespace msq {
 
 Curve::Curve(std::vector<Knot> knots) : knots_(std::move(knots)) {
-  for (size_t i = 1; i < knots_.size(); ++i) {
-    const Knot &a = knots_[i - 1], &b = knots_[i];
-    // Rounded up by more than the three operations lose.
-    const double slope = std::abs(b.value - a.value) / (b.at - a.at) * (1 + 0x1p-50);
-    lipschitz_ = std::max(lipschitz_, slope);
-  }
+  for (size_t i = 1; i < knots_.size(); ++i) lipschitz_ = std::max(lipschitz_, slope_to(i));
+}
+
+double Curve::slope_to(size_t i) const {
+  const Knot &a = knots_[i - 1], &b = knots_[i];
+  // Rounded up by more than the three operations lose.
+  return std::abs(b.value - a.value) / (b.at - a.at) * (1 + 0x1p-50);
+}
+
+double Curve::lipschitz(Interval over) const {
+  double most = 0;
+  const size_t end = std::min(knots_to(over.high) + 1, knots_.size());
+  for (size_t i = std::max<size_t>(knots_to(over.low), 1); i < end; ++i)
+    most = std::max(most, slope_to(i));
+  return most;
 }
 
 size_t Curve::knots_to(double v) const {

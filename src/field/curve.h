@@ -24,8 +24,12 @@ class Curve {
   /// No two values differ by more than this times the difference of where they are taken, but for
   /// rounding.
   double lipschitz() const { return lipschitz_; }
+  /// The same of values in an interval.
+  double lipschitz(Interval over) const;
 
  private:
+  /// Of the piece that ends at knot i.
+  double slope_to(size_t i) const;
   /// Number of knots at or below v.
   size_t knots_to(double v) const;
 

@@ -35,8 +35,8 @@ class Field : public RefCounted {
   /// No two points' values differ by more than this times their distance, but for the rounding that
   /// range(box) of the points alone covers. Infinite where nothing is known, which is always right.
   virtual double lipschitz() const { return std::numeric_limits<double>::infinity(); }
-  /// The same of two points of a box, for small ones; but for rounding, of each value up to 2^-44 of
-  /// the largest magnitude of range().
+  /// The same of two points of a box, for small ones; but for rounding, of each value up to 2^-44
+  /// of the largest magnitude of range().
   virtual double lipschitz(const Box3& box) const {
     (void)box;
     return lipschitz();

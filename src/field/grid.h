@@ -22,6 +22,7 @@ class GridField final : public Field {
   Interval range() const override { return image_.range(); }
   Interval range(const Box3& box) const override { return image_.range(box); }
   double lipschitz() const override { return image_.lipschitz(); }
+  double lipschitz(const Box3& box) const override { return image_.lipschitz(box); }
 
  private:
   Image image_;

@@ -30,16 +30,17 @@ class MapField final : public Field {
   // the argument encloses the field.
   Interval range() const override { return curve_.range(argument_->range()); }
   Interval range(const Box3& box) const override { return curve_.range(argument_->range(box)); }
-  double lipschitz() const override { return lipschitz_by(argument_->lipschitz()); }
+  double lipschitz() const override {
+    return product_of(curve_.lipschitz(), argument_->lipschitz());
+  }
   double lipschitz(const Box3& box) const override {
-    return lipschitz_by(argument_->lipschitz(box));
+    return product_of(curve_.lipschitz(argument_->range(box)), argument_->lipschitz(box));
   }
   unsigned depth() const override { return depth_; }
 
  private:
-  double lipschitz_by(double of_argument) const {
+  static double product_of(double of_curve, double of_argument) {
     // Where one of them is constant, so is the field, however steep the other.
-    const double of_curve = curve_.lipschitz();
     return of_curve > 0 && of_argument > 0 ? of_curve * of_argument * (1 + 0x1p-50) : 0;
   }
 

@@ -84,8 +84,7 @@ Image::Image(const Source& source, const ImageFrame& frame, std::shared_ptr<Memo
     const auto [low, high] = std::minmax_element(values, values + count);
     range_ = {static_cast<double>(*low), static_cast<double>(*high)};
     // Within a cell the slope along an axis is a mean of those of its edges.
-    const Vec3 slope = steepest(values, size_) * scale_;
-    lipschitz_ = std::hypot(slope.x, slope.y, slope.z) * (1 + 0x1p-48);
+    lipschitz_ = lipschitz_of(steepest(values, size_));
   });
   // Each of seven joins loses at most five units of 2^-53 of the greatest sample, three in a row.
   value_slack_ = 0x1p-48 * std::max(std::abs(range_.low), std::abs(range_.high));
@@ -154,14 +153,32 @@ bool Image::is_constant(const Box3& box) const {
   return range.low == range.high;
 }
 
-Interval Image::range(const Box3& box) const {
-  const Box3 voxels = to_voxels(box);
-  const VoxelRange cells = cells_in(voxels);
+bool Image::are_few(const VoxelRange& cells) const {
   constexpr uint64_t most_samples = 64;
   uint64_t samples = 1;
   for (int axis = 0; axis < 3 && samples <= most_samples; ++axis)
     samples *= cells.high[axis] - cells.low[axis] + 2;
-  if (samples > most_samples) {
+  return samples <= most_samples;
+}
+
+double Image::lipschitz_of(Vec3 slope) const {
+  const Vec3 by_length = slope * scale_;
+  return std::hypot(by_length.x, by_length.y, by_length.z) * (1 + 0x1p-48);
+}
+
+double Image::lipschitz(const Box3& box) const {
+  const VoxelRange cells = cells_in(to_voxels(box));
+  if (are_few(cells))
+    return lipschitz_of(visit([&](const auto* values) { return spread_of(values, cells); }).slope);
+  const Interval range = bounds_.over(cells);
+  const double most = range.high - range.low;
+  return std::min(lipschitz_, lipschitz_of({most, most, most}));
+}
+
+Interval Image::range(const Box3& box) const {
+  const Box3 voxels = to_voxels(box);
+  const VoxelRange cells = cells_in(voxels);
+  if (!are_few(cells)) {
     const Interval bound = bounds_.over(cells);
     return {std::max(bound.low, range_.low), std::min(bound.high, range_.high)};
   }

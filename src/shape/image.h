@@ -52,6 +52,8 @@ class Image {
   double value_slack() const { return value_slack_; }
   /// In model units; of the function without rounding.
   double lipschitz() const { return lipschitz_; }
+  /// The same of the function in a box.
+  double lipschitz(const Box3& box) const;
 
   /// Sample (i, j, k) is at (i, j, k).
   Vec3 to_voxels(Vec3 p) const { return frame_.rotation.apply_inverse(p - frame_.origin) * scale_; }
@@ -145,6 +147,9 @@ class Image {
   };
   template <class T>
   Spread spread_of(const T* values, const VoxelRange& cells) const;
+  /// Whether they have so few samples that all may be looked at.
+  bool are_few(const VoxelRange& cells) const;
+  double lipschitz_of(Vec3 slope) const;
 
   Type type_;
   uint64_t size_[3];

@@ -17,6 +17,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// are settled by membership alone; and parts of a ray this short within a strut may be rounding's.
 constexpr double formula_error = 1e-6, short_part = 0x1p-12;
 
+/// A box about a part of a ray, and about points of it that are rounded.
+Box3 box_of(const Ray& ray, double from, double to) {
+  const Vec3 a = ray.at(from), b = ray.at(to);
+  return Box3{min(a, b), max(a, b)}.grown(0x1p-50 * (max_magnitude(a) + max_magnitude(b)));
+}
+
 }  // namespace
 
 StrutRays::StrutRays(const Structure& structure, StrutLists& lists, const Parameter& radius)
@@ -79,7 +85,8 @@ bool StrutRays::holds(const Part& part, uint32_t strut, Vec3 p) const {
   return s.holds(locate(part, p), radius_.at(p));
 }
 
-Interval StrutRays::radii_in(CellIndex cell) {
+Interval StrutRays::radii_in(const Ray& ray, const Part& part) {
+  const CellIndex cell = part.cell;
   CellRadii& known = radii_[hash_of(cell) % std::size(radii_)];
   if (!known.is_known || !(known.cell == cell)) {
     const Vec3 corner = Vec3{double(cell.x), double(cell.y), double(cell.z)} * grid_.cell_size;
@@ -87,7 +94,11 @@ Interval StrutRays::radii_in(CellIndex cell) {
         Box3{corner, corner + grid_.cell_size}.grown(2 * tolerance_ + formula_error * cell_);
     known = {cell, true, radius_.range(grid_.from_grid(box))};
   }
-  return known.range;
+  // Where it changes much in the cell, the part's own leaves out many struts.
+  constexpr double much = 0.25;
+  if (known.range.high - known.range.low <= much * known.range.high) return known.range;
+  return radius_.range(
+      box_of(ray, part.from, part.to).grown(2 * tolerance_ + formula_error * cell_));
 }
 
 void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest) {
@@ -99,7 +110,7 @@ void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest)
   if (radius_.is_constant()) {
     radius = radius_.at(p);
   } else {
-    const Interval range = radii_in(part.cell);
+    const Interval range = radii_in(ray, part);
     radius = std::max(0.0, greatest ? range.high : range.low);
   }
   // Wider by what lists are.
@@ -115,12 +126,6 @@ void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest)
       candidates_.push_back(
           {met_[i].capsule, part.from + met_[i].enter, part.from + met_[i].leave});
   }
-}
-
-/// A box about a part of a ray, and about points of it that are rounded.
-Box3 box_of(const Ray& ray, double from, double to) {
-  const Vec3 a = ray.at(from), b = ray.at(to);
-  return Box3{min(a, b), max(a, b)}.grown(0x1p-50 * (max_magnitude(a) + max_magnitude(b)));
 }
 
 template <class Inside>

@@ -59,8 +59,8 @@ class StrutRays {
   /// Calls visit(part), which answers whether to go on, along [from, to] of the ray.
   template <class Visit>
   void walk(const Ray& ray, double from, double to, Visit&& visit) const;
-  /// What the radius may be in a cell.
-  Interval radii_in(CellIndex cell);
+  /// What the radius may be in a part.
+  Interval radii_in(const Ray& ray, const Part& part);
   /// Those that the ray meets in a part, were their radius the least or the greatest there.
   void find_candidates(const Ray& ray, const Part& part, bool greatest);
   /// The first t in [from, to] at which the strut holds the ray.
