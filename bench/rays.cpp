@@ -3,7 +3,7 @@
 // first and next frame, against Embree and against the paper's march; other structures for the
 // record.
 //
-// usage: rays [results.json] [most cells along a side: 32, 128, 256 (default) or 4096]
+// usage: rays [results.json] [most cells along a side: 32, 128, 256 or 4096 (default)]
 //        [most cells that Embree gets, default 32]
 #include <cmath>
 #include <cstdlib>
@@ -355,7 +355,7 @@ msq_structure* make_tapered_foam(msq_context* context) {
 
 int main(int count, char** arguments) try {
   bench::Report report("Rays, two threads");
-  const int largest = count > 2 ? std::atoi(arguments[2]) : 256;
+  const int largest = count > 2 ? std::atoi(arguments[2]) : 4096;
   [[maybe_unused]] const int embree = count > 3 ? std::atoi(arguments[3]) : 32;
   bench_foam(report, "1024^2, 32^3 cells, front", 32, 1024, front, {0.20, 0.14, 0});
   bench_foam(report, "1024^2, 32^3 cells, corner", 32, 1024, corner, {});
