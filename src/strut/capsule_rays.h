@@ -15,7 +15,7 @@
 namespace msq {
 
 /// The axes of capsules of one radius, component by component: an end, and from there to the other.
-/// `capsule_padding` more of each may be read.
+/// `capsule_padding` more of each, and of the ids, may be read.
 struct CapsuleView {
   const float* a[3];
   const float* ab[3];

@@ -46,7 +46,7 @@ const CapsuleView& GradedStruts::list(CellIndex cell) {
     for (const CellIndex corner : data.bricks)
       numbers.push_back(
           numbers_.try_emplace(corner, static_cast<uint32_t>(numbers_.size())).first->second);
-    list.ids.reserve(data.origins.size());
+    list.ids.reserve(data.origins.size() + capsule_padding);
     for (const Cell::Origin& origin : data.origins)
       list.ids.push_back(numbers[origin.brick] << edge_bits | origin.number);
     const size_t stride = data.ends.size() / 6;
@@ -54,8 +54,9 @@ const CapsuleView& GradedStruts::list(CellIndex cell) {
       list.view.a[axis] = data.ends.data() + axis * stride;
       list.view.ab[axis] = data.ends.data() + (axis + 3) * stride;
     }
-    list.view.ids = list.ids.data();
     list.view.count = list.ids.size();
+    list.ids.resize(list.view.count + capsule_padding);
+    list.view.ids = list.ids.data();
   }
   recent_[recent_count_++ % recent_.size()] = &list;
   return list.view;
@@ -65,10 +66,11 @@ StrutLine GradedStruts::line(const StrutEntries& entries, uint32_t id) const {
   for (size_t back = 1; back <= recent_.size(); ++back) {
     const List* const list = recent_[(recent_count_ - back) % recent_.size()];
     if (!list) break;
-    const auto found = std::find(list->ids.begin(), list->ids.end(), id);
-    if (found == list->ids.end()) continue;
+    const uint32_t *const ids = list->view.ids, *const end = ids + list->view.count;
+    const uint32_t* const found = std::find(ids, end, id);
+    if (found == end) continue;
     const Cell& data = *list->data;
-    const size_t i = static_cast<size_t>(found - list->ids.begin());
+    const auto i = static_cast<size_t>(found - ids);
     const GradedEdge& edge = data.edges[i];
     const CellIndex corner = data.bricks[data.origins[i].brick];
     StrutLine strut;
