@@ -214,9 +214,7 @@ size_t on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray, 
     const Vector w = sub(load(capsules.a, i), o), ab = load(capsules.ab, i);
     const V z0 = dot(w, u), dz = dot(ab, u);
     const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
-    // Of s, an estimate will do: the distance is least there, and changes by the error's square.
-    const V s =
-        clamp01(hn::Mul(hn::Neg(dot(p, q)), hn::ApproximateReciprocal(hn::Max(dot(q, q), tiny))));
+    const V s = clamp01(hn::Div(hn::Neg(dot(p, q)), hn::Max(dot(q, q), tiny)));
     const Vector v = add_scaled(p, q, s);
     const V z1 = hn::Add(z0, dz);
     const auto is_there = hn::And(hn::Ge(hn::Max(z0, z1), low), hn::Le(hn::Min(z0, z1), high));

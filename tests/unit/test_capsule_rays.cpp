@@ -43,7 +43,8 @@ struct List {
   CapsuleView view;
 
   /// Of all lengths, some along `u`.
-  List(Random& random, size_t count, Vec3 corner, Vec3 u) : values(6 * count + capsule_padding) {
+  List(Random& random, size_t count, Vec3 corner, Vec3 u)
+      : values(6 * count + capsule_padding), ids(count + capsule_padding) {
     for (size_t i = 0; i < count; ++i) {
       const double size = i % 5 == 0 ? 0 : std::pow(10.0, -4 * random.in_box({{}, {1, 1, 1}}).x);
       Vec3 d = i % 3 == 0 ? u : direction_of(random);
@@ -55,7 +56,7 @@ struct List {
       for (size_t k = 0; k < 6; ++k) kept[k] = values[k * count + i] = static_cast<float>(parts[k]);
       const Vec3 from = Vec3{kept[0], kept[1], kept[2]} + corner;
       segments.emplace_back(from, from + Vec3{kept[3], kept[4], kept[5]});
-      ids.push_back(static_cast<uint32_t>(7 * i));
+      ids[i] = static_cast<uint32_t>(7 * i);
     }
     for (size_t k = 0; k < 3; ++k) {
       view.a[k] = values.data() + k * count;
@@ -182,6 +183,36 @@ void finds_all_that_one_ray_meets(void**) {
   assert_true(found < met + met / 4);
 }
 
+/// One by one, where the ray comes close to the radius anywhere along the axis.
+void finds_thin_capsules_that_one_ray_meets(void**) {
+  Random random(9);
+  for (const double radius : {1e-5, 1e-4, 1e-3, 0.02, 0.1})
+    for (size_t round = 0; round < test_count(20000); ++round) {
+      const Vec3 d = direction_of(random), u = direction_of(random), side = cross(d, u);
+      if (length(side) < 0.2) continue;
+      const Vec3 a = random.in_box({{}, {1, 1, 1}}), ab = d * random.between(0.1, 2.5);
+      const Vec3 o =
+          a + ab * random.unit() + side * (0.9 * radius / length(side)) - u * random.unit();
+      float values[6 + capsule_padding] = {};
+      uint32_t ids[1 + capsule_padding] = {7}, found[1 + capsule_padding];
+      CapsuleView view;
+      view.ids = ids;
+      view.count = 1;
+      CapsuleRay ray;
+      ray.to = 1;
+      for (int k = 0; k < 3; ++k) {
+        values[k] = static_cast<float>(a[k]);
+        values[k + 3] = static_cast<float>(ab[k]);
+        view.a[k] = values + k;
+        view.ab[k] = values + k + 3;
+        ray.origin[k] = static_cast<float>(o[k]);
+        ray.direction[k] = static_cast<float>(u[k]);
+      }
+      if (capsules_on_ray(view, static_cast<float>(radius), ray, found) != 1 || found[0] != 7)
+        fail_msg("a capsule of radius %g and length %g is left out", radius, length(ab));
+    }
+}
+
 void counts_a_strut_in_two_lists_once(void**) {
   Random random(6);
   const Vec3 u{0, 0, 1};
@@ -246,6 +277,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(finds_what_rays_meet_first),
       cmocka_unit_test(finds_all_that_one_ray_meets),
+      cmocka_unit_test(finds_thin_capsules_that_one_ray_meets),
       cmocka_unit_test(counts_a_strut_in_two_lists_once),
       cmocka_unit_test(parts_find_what_the_whole_does),
       cmocka_unit_test(tells_new_ids),
