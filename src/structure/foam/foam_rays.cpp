@@ -206,8 +206,9 @@ class Walker {
       packet_.origin[k][n] = static_cast<float>(up_ ? 0 : scale_[k]);
       packet_.origin[lateral[0]][n] = path_.place[0][n];
       packet_.origin[lateral[1]][n] = path_.place[1][n];
-      packet_.from[n] = is_live ? std::max(path_.from[n], 0.0f) : 1;
-      packet_.to[n] = is_live ? path_.to[n] + 4e-6f : -1;  // room for roundings
+      constexpr float room = 4e-6f;  // for roundings
+      packet_.from[n] = is_live ? std::max(path_.from[n] - room, 0.0f) : 1;
+      packet_.to[n] = is_live ? path_.to[n] + room : -1;
       packet_.starts |= is_live && path_.from[n] >= -static_cast<float>(ray_list_margin);
     }
     hits_.clear();
