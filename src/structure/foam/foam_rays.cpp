@@ -406,7 +406,7 @@ class Walker {
       const double first = enter_[n] + double(candidate.first);
       if (first > last || (best.is_met && first > best.t)) break;
       const StrutEntry found = struts_.entry(memory_.rays[ray_[n]], candidate.id);
-      if (found.is_met && (!best.is_met || found.t < best.t)) best = found;
+      if (comes_before(found, best)) best = found;
       if (best.at_from) break;
     }
     if (!best.is_met || best.t > last) return false;

@@ -77,7 +77,7 @@ class LoneRay {
       if (std::find(asked_.begin(), asked_.end(), ids_[n]) != asked_.end()) continue;
       asked_.push_back(ids_[n]);
       const StrutEntry found = struts_.entry(ray, ids_[n]);
-      if (found.is_met && (!first_.is_met || found.t < first_.t)) first_ = found;
+      if (comes_before(found, first_)) first_ = found;
     }
     if (!first_.is_met || first_.t > last) return false;
     struts_.take(first_, search);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "structure/foam/edge_line.h"
 #include "strut/segment.h"
@@ -42,6 +43,14 @@ double capsule_entry(Vec3 a, Vec3 ab, Vec3 u, double radius) {
   const double under = radius * radius - dot(v, v);
   if (under < 0) return std::numeric_limits<double>::infinity();
   return z0 + s * dz - std::sqrt(under);
+}
+
+bool comes_before(const StrutEntry& entry, const StrutEntry& other) {
+  if (!entry.is_met || !other.is_met) return entry.is_met;
+  const auto rank = [](const StrutEntry& e) {
+    return std::make_tuple(e.t, !e.at_from, e.by_ends, e.normal.x, e.normal.y, e.normal.z);
+  };
+  return rank(entry) < rank(other);
 }
 
 StrutEntries::StrutEntries(const Foam& foam)

@@ -43,6 +43,10 @@ struct StrutEntry {
   Vec3 normal;           ///< model frame; 0 where others are to find it
 };
 
+/// Whether a ray meets one entry before another. Edges that coincide are entered at one place: then
+/// it is by what else tells them apart, so that no matter in which order they are asked.
+bool comes_before(const StrutEntry& entry, const StrutEntry& other);
+
 /// What of an edge does not depend on the ray.
 struct StrutLine {
   Vec3 corner;            ///< the edge is relative to, foam units

@@ -145,7 +145,7 @@ void sharpen_entry(const Foam& foam, RaySearch& search) {
     const StrutEntry entry = foam.has_capsules() ? entries.find(ray, line)
                                                  : entries.find_tapered_near(ray, line, at, near);
     if (!entry.is_met || entry.at_from || std::abs(entry.t - at) > near) continue;
-    if (!best.is_met || entry.t < best.t) best = entry;
+    if (comes_before(entry, best)) best = entry;
   }
   if (!best.is_met)
     best = entries.settle(ray, std::max(ray.from, at - foam.ray_tolerance() / unit), at);
