@@ -1382,19 +1382,20 @@ typedef struct msq_ray_hit {
 /* Where each ray first is in the solid at t_min <= t <= t_max: hits[i] is of ray i. hit_count: length
  * of that array, which must be the number of rays. query, job NULL: defaults, no job.
  *
- * Membership (msq_point_membership) differs just before and just behind t, within 2^-36, about 1.5e-11,
- * of the characteristic length of the scale hit (of the shape: of its size and its coordinates), and
- * changes nowhere before it save for parts of the ray shorter than that, also where rays graze surfaces.
- * Thinner parts than these may be lost: 1/64 of the cell, in lattices and foams whose radius is a field
- * without a Lipschitz constant, in host structures without a distance and host functions without a
- * slope (lipschitz); 2^-10 of the cell, where an expression is no number along more of a ray than
- * about a tolerance, or may be unbounded there, or the level is a field whose ranges over small boxes
- * stay wide; 2^-24 of the cell, where a ray grazes a strut whose radius is a field that is not linear;
- * 1/1024 of its size, of a host's shape without a distance. Skins, hosts' shapes, along the faces of their
- * cells voxel images, and foams by rays far apart are followed by steps that their distance allows; where 64 of
- * them lead no farther than 1/64 of the cell (of the shape: of its size and its coordinates), as beside a
- * surface that the ray all but touches for long, the next are at least twice as long as before, and may lose
- * thinner parts.
+ * Membership (msq_point_membership) differs just before and just behind t, within 2^-36, about 1.5e-11, of
+ * the characteristic length of the scale hit (of the shape: of its size and its coordinates), or within the
+ * rounding of coordinates where that is more, some 1e5 cells from the origin, and changes nowhere before it
+ * save for parts of the ray shorter than that, also where rays graze surfaces. Thinner parts than these may
+ * be lost: 1/64 of the cell, in lattices and foams whose radius is a field without a Lipschitz constant
+ * (expressions have one where they are smooth), in host structures without a distance and host functions
+ * without a slope (lipschitz); 2^-10 of the cell, where an expression is no number along more of a ray than
+ * about a tolerance, or may be unbounded there, or the level is a field whose ranges over small boxes stay
+ * wide; 2^-24 of the cell, where a ray grazes a strut whose radius is a field that is not linear; 1/1024 of
+ * its size, of a host's shape without a distance. Skins, hosts' shapes, along the faces of their cells voxel
+ * images, and foams by rays far apart are followed by steps that their distance allows; where 64 of them lead
+ * no farther than 1/64 of the cell (of the shape: of its size and its coordinates), as beside a surface that
+ * the ray all but touches for long, the next are at least twice as long as before, and may lose thinner
+ * parts.
  * Scale by scale: finer scales are asked only within the parts of the ray that lie in the coarser ones.
  * Of hosts' shapes, structures and functions a callback is asked for up to a thousand rays at once.
  *
@@ -1408,7 +1409,8 @@ typedef struct msq_ray_hit {
  * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY hits may be partly written. Cost:
  * in parallel; rays that lie close together share their work. Where those that follow each other do not, up to
  * 2^20 at once are sorted first by where they come in and where they go, in 16 bytes each, at most 1/16 of the
- * context's memory_limit, and none where that has no room. Hits do not depend on it. A mesh builds its tree
+ * context's memory_limit, and none where that has no room. Hits do not depend on it, but for rounding where
+ * struts of a foam without jitter fall together or so far from the origin. A mesh builds its tree
  * first, as for msq_point_distance. Errors: ARGUMENT (also rays that are not finite, by index, and directions of
  * length 0), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting". */
 MSQ_API msq_status msq_ray_cast(const msq_model *model, const msq_rays_def *rays,
