@@ -46,7 +46,7 @@ float* CellStruts::room(size_t floats) {
     const size_t size = std::max(floats, chunk_floats);
     if (used_chunks_ == chunks_.size() || floats > chunk_floats)
       chunks_.insert(chunks_.begin() + static_cast<ptrdiff_t>(used_chunks_),
-                     hwy::AllocateAligned<float>(size));
+                     allocate_aligned(size));
     ++used_chunks_;
     used_floats_ = 0;
   }

@@ -2,8 +2,6 @@
 // For each cell that rays cross the struts that they may meet in it, for one batch of rays.
 #pragma once
 
-#include <hwy/aligned_allocator.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/simd.h"
 #include "cell/cell_hash.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/seeded_edges.h"
@@ -76,7 +75,7 @@ class CellStruts {
   /// At least half of them free, and the free ones of an era that is over.
   std::vector<List> lists_;
   size_t list_count_ = 0;
-  std::vector<hwy::AlignedFreeUniquePtr<float[]>> chunks_;
+  std::vector<AlignedFloats> chunks_;
   size_t used_chunks_ = 0, used_floats_ = chunk_floats;
   /// What a brick has for the list at hand.
   struct Source {
