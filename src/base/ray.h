@@ -18,6 +18,12 @@ struct Ray {
   Vec3 at(double t) const { return origin + direction * t; }
 };
 
+/// About a part of a ray, and about points of it that are rounded.
+inline Box3 box_of(const Ray& ray, double from, double to) {
+  const Vec3 a = ray.at(from), b = ray.at(to);
+  return Box3{min(a, b), max(a, b)}.grown(0x1p-50 * (max_magnitude(a) + max_magnitude(b)));
+}
+
 /// The part of [from, to] in which a ray is in a box, wider by rounding; false if there is none.
 inline bool clip_to_box(const Ray& ray, const Box3& box, double& from, double& to) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -73,6 +73,19 @@ HWY_INLINE uint64_t new_ones(const uint32_t* ids, uint64_t bits, SeenIds* seen) 
   return bits;
 }
 
+/// Whether axes from w on come within the root of `most` of the line through 0 along u, and between
+/// the planes across it at `low` and `high`.
+HWY_INLINE hn::Mask<D> come_near(const Vector& w, const Vector& ab, const Vector& u, V most, V low,
+                                 V high) {
+  const V z0 = dot(w, u), dz = dot(ab, u);
+  const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
+  const V s = clamp01(hn::Div(hn::Neg(dot(p, q)), hn::Max(dot(q, q), hn::Set(D(), 1e-30f))));
+  const Vector v = add_scaled(p, q, s);
+  const V z1 = hn::Add(z0, dz);
+  const auto is_there = hn::And(hn::Ge(hn::Max(z0, z1), low), hn::Le(hn::Min(z0, z1), high));
+  return hn::And(is_there, hn::Le(dot(v, v), most));
+}
+
 /// Writes the numbers of those of a chunk whose axes come within `reach` of the packet's line, and
 /// the planes across it between `near` and `far`.
 HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t end, float radius,
@@ -84,17 +97,11 @@ HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t en
   const Vector centre =
       set(rays.centre[0] - corner[0], rays.centre[1] - corner[1], rays.centre[2] - corner[2]);
   const Vector u = set(rays.along[0], rays.along[1], rays.along[2]);
-  const V most = hn::Set(d, reach * reach), tiny = hn::Set(d, 1e-30f);
+  const V most = hn::Set(d, reach * reach);
   size_t count = 0;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const Vector w = sub(load(capsules.a, i), centre), ab = load(capsules.ab, i);
-    const V z0 = dot(w, u), dz = dot(ab, u);
-    const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
-    const V s = clamp01(hn::Div(hn::Neg(dot(p, q)), hn::Max(dot(q, q), tiny)));
-    const Vector v = add_scaled(p, q, s);
-    const V z1 = hn::Add(z0, dz);
-    const auto is_there = hn::And(hn::Ge(hn::Max(z0, z1), low), hn::Le(hn::Min(z0, z1), high));
-    uint64_t bits = bits_of(d, hn::And(is_there, hn::Le(dot(v, v), most)));
+    const Vector w = sub(load(capsules.a, i), centre);
+    uint64_t bits = bits_of(d, come_near(w, load(capsules.ab, i), u, most, low, high));
     if (end - i < hn::Lanes(d)) bits &= (uint64_t{1} << (end - i)) - 1;
     bits = new_ones(capsules.ids + i, bits, seen);
     for (; bits; bits &= bits - 1)
@@ -207,19 +214,13 @@ size_t on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray, 
   const float wide = radius + capsule_ray_slack;
   const Vector o = set(ray.origin[0], ray.origin[1], ray.origin[2]);
   const Vector u = set(ray.direction[0], ray.direction[1], ray.direction[2]);
-  const V most = hn::Set(d, wide * wide), tiny = hn::Set(d, 1e-30f);
+  const V most = hn::Set(d, wide * wide);
   const V low = hn::Set(d, -wide), high = hn::Set(d, ray.to + wide);
   size_t count = 0;
   for (size_t i = 0; i < capsules.count; i += hn::Lanes(d)) {
-    const Vector w = sub(load(capsules.a, i), o), ab = load(capsules.ab, i);
-    const V z0 = dot(w, u), dz = dot(ab, u);
-    const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
-    const V s = clamp01(hn::Div(hn::Neg(dot(p, q)), hn::Max(dot(q, q), tiny)));
-    const Vector v = add_scaled(p, q, s);
-    const V z1 = hn::Add(z0, dz);
-    const auto is_there = hn::And(hn::Ge(hn::Max(z0, z1), low), hn::Le(hn::Min(z0, z1), high));
-    const auto is_near =
-        hn::And(hn::And(is_there, hn::Le(dot(v, v), most)), hn::FirstN(d, capsules.count - i));
+    const Vector w = sub(load(capsules.a, i), o);
+    const auto is_near = hn::And(come_near(w, load(capsules.ab, i), u, most, low, high),
+                                 hn::FirstN(d, capsules.count - i));
     const auto order = Compression<D>(is_near);
     hn::StoreU(order(hn::LoadU(du, capsules.ids + i)), du, found + count);
     count += hn::CountTrue(d, is_near);

@@ -259,8 +259,8 @@ class Walker {
     number_ = number;
     if (!asks_once_) hits_.clear();
     slots_.clear();
-    if (memory_.struts.is_full()) {
-      memory_.struts.forget();
+    if (struts_.lists().is_full()) {
+      struts_.forget();
       set_base(slab);
       return cross(slab);
     }

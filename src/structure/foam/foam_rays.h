@@ -9,11 +9,10 @@
 
 namespace msq {
 
-/// Structure::enter for foams. False, and nothing is done, for
-/// those that have too many seeds near a cell, and for rays so far apart that each would need the
-/// edges of cells of its own.
+/// Structure::enter for foams. False, and nothing is done, for those that have too many seeds near
+/// a cell, and for rays that are not worth the edges about them (RayDemand).
 bool enter_by_cells(const Foam& foam, RaySearch* searches, size_t count);
-/// The same, however far apart the rays are.
+/// The same, whatever the rays are worth.
 bool walk_cells(const Foam& foam, RaySearch* searches, size_t count);
 
 }  // namespace msq

@@ -50,7 +50,7 @@ class LoneRay {
 
  private:
   void forget() {
-    struts_.lists().forget();
+    struts_.forget();
     asked_.clear();  // those ids are of others by now
   }
 

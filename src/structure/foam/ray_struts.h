@@ -20,6 +20,11 @@ class RayStruts {
   RayStruts(const Foam& foam, Struts& lists) : foam_(foam), entries_(foam), lists_(lists) {}
 
   Struts& lists() { return lists_; }
+  /// All lists; to be called where they are full.
+  void forget() {
+    lists_.forget();
+    radii_.clear();
+  }
   FoamRay ray(const RaySearch& search) const { return entries_.ray(search); }
 
   /// No strut has a greater one in a cell; below 0 where there is none.

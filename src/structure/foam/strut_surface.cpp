@@ -93,9 +93,7 @@ double way_to_strut(const Foam& foam, Vec3 p, Vec3 direction) {
   const Vec3 u = foam.neighbourhood().rotation.apply_inverse(direction);
   const auto most_radius = [&](double ahead) {
     if (foam.radius().is_constant()) return foam.most_radius();
-    const Vec3 end = p + direction * (ahead * unit);
-    const Box3 box = Box3{min(p, end), max(p, end)}.grown(0x1p-50 * max_magnitude(p));
-    return foam.radius().range(box).high / unit;
+    return foam.radius().range(box_of({p, direction}, 0, ahead * unit)).high / unit;
   };
   // Farther, more seeds take part, and the triples of them to look at grow with their cube.
   double ahead = 0.05 * min_component(foam.seeds().scale());

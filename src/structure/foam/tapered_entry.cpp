@@ -110,9 +110,7 @@ double TaperedStrut::first_within_cone(double at, double radius, double slope) c
 }
 
 Box3 TaperedStrut::box(double from, double to) const {
-  const Vec3 a = ray_.model_point(from, foam_.unit()), b = ray_.model_point(to, foam_.unit());
-  // Points between are rounded.
-  return Box3{min(a, b), max(a, b)}.grown(0x1p-50 * (max_magnitude(a) + max_magnitude(b)));
+  return box_of(ray_.search->ray, from * foam_.unit(), to * foam_.unit());
 }
 
 bool TaperedStrut::approach(double& at, double to) const {

@@ -17,12 +17,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// are settled by membership alone; and parts of a ray this short within a strut may be rounding's.
 constexpr double formula_error = 1e-6, short_part = 0x1p-12;
 
-/// A box about a part of a ray, and about points of it that are rounded.
-Box3 box_of(const Ray& ray, double from, double to) {
-  const Vec3 a = ray.at(from), b = ray.at(to);
-  return Box3{min(a, b), max(a, b)}.grown(0x1p-50 * (max_magnitude(a) + max_magnitude(b)));
-}
-
 }  // namespace
 
 StrutRays::StrutRays(const Structure& structure, StrutLists& lists, const Parameter& radius)
