@@ -38,8 +38,13 @@ def view(folder, script, *options):
     environment = dict(os.environ, SDL_VIDEODRIVER="x11", SDL_RENDER_DRIVER="software",
                        SDL_FRAMEBUFFER_ACCELERATION="0",
                        LSAN_OPTIONS=f"suppressions={LEAKS}:print_suppressions=0")
-    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True,
-                          timeout=240)
+    # On busy machines xvfb-run at times fails to remove its own files, and hides what the viewer said.
+    for _ in range(3):
+        result = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True,
+                                timeout=240)
+        if "xvfb-run: error" not in result.stderr:
+            break
+    return result
 
 
 def expect(condition, text):
