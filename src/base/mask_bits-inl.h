@@ -33,6 +33,14 @@ HWY_INLINE uint64_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
   return bits;
 }
 
+/// The lanes that the lowest bits tell.
+template <class D>
+HWY_INLINE hwy::HWY_NAMESPACE::Mask<D> lanes_of(D d, uint64_t bits) {
+  uint8_t bytes[8];
+  std::memcpy(bytes, &bits, sizeof bytes);  // as LoadMaskBits has it: the first lanes first
+  return hwy::HWY_NAMESPACE::LoadMaskBits(d, bytes);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
 HWY_AFTER_NAMESPACE();

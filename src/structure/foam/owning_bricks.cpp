@@ -8,7 +8,6 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <cstring>
 
 #include "base/compress-inl.h"
 #include "structure/foam/owning_bricks.h"
@@ -270,12 +269,8 @@ class Finder {
   static void copy(const Seeds& seeds, uint64_t some, Seeds& copies) {
     const D d;
     copies.count = 0;
-    for (size_t i = 0; i < seeds.count; i += hn::Lanes(d)) {
-      const uint64_t bits = some >> i;
-      uint8_t bytes[sizeof bits];
-      std::memcpy(bytes, &bits, sizeof bits);
-      copies.add(seeds, i, hn::LoadMaskBits(d, bytes));
-    }
+    for (size_t i = 0; i < seeds.count; i += hn::Lanes(d))
+      copies.add(seeds, i, lanes_of(d, some >> i));
     copies.pad();
   }
 

@@ -5,7 +5,6 @@
 #include <hwy/highway.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "base/mask_bits-inl.h"
 #include "structure/foam/packet_path.h"
@@ -17,13 +16,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::CappedTag<float, RayPacket::most>;
 using V = hn::Vec<D>;
-
-HWY_INLINE hn::Mask<D> lanes_of(uint32_t bits, size_t lane) {
-  const uint64_t own = bits >> lane;
-  uint8_t bytes[8];
-  std::memcpy(bytes, &own, sizeof bytes);  // as LoadMaskBits has it: the first lanes first
-  return hn::LoadMaskBits(D(), bytes);
-}
 
 SlabCrossing cross(const PacketPath& path, const PathSlab& slab, uint32_t live, RayPacket& packet) {
   const D d;
@@ -37,7 +29,7 @@ SlabCrossing cross(const PacketPath& path, const PathSlab& slab, uint32_t live, 
     const V step = hn::Load(d, path.step + lane), enter = hn::Mul(begin, step);
     const V from = hn::Sub(hn::Load(d, path.from + lane), enter);
     const V to = hn::Sub(hn::Load(d, path.to + lane), enter);
-    const auto is_live = lanes_of(live, lane);
+    const auto is_live = lanes_of(d, live >> lane);
     const auto has_ended = hn::And(is_live, hn::Lt(to, zero));
     const auto active = hn::And(is_live, hn::And(hn::Ge(to, zero), hn::Le(from, step)));
     crossing.active |= static_cast<uint32_t>(bits_of(d, active)) << lane;
@@ -77,7 +69,7 @@ SlabCrossing cross(const PacketPath& path, const PathSlab& slab, uint32_t live, 
       in_squared = hn::MulAdd(by_in, by_in, in_squared);
       out_squared = hn::MulAdd(by_out, by_out, out_squared);
     }
-    squared = hn::Max(squared, hn::IfThenElseZero(lanes_of(crossing.active, lane),
+    squared = hn::Max(squared, hn::IfThenElseZero(lanes_of(d, crossing.active >> lane),
                                                   hn::Max(in_squared, out_squared)));
   }
   packet.centre[slab.axis] = slab.begin;
