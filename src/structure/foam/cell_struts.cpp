@@ -7,10 +7,6 @@ namespace msq {
 
 namespace {
 
-int floor_div(int a, int b) {
-  return a >= 0 ? a / b : -((b - 1 - a) / b);
-}
-
 /// Vectors that are read from two lines of memory just after they were written take several times
 /// as long.
 size_t whole_vectors(size_t floats) {
@@ -113,11 +109,10 @@ void CellStruts::find_bricks(CellIndex cell) {
   int own[3], in_own[3], first[3], last[3];
   bool is_within_half = true;
   for (size_t axis = 0; axis < 3; ++axis) {
-    const int place = at[axis] + SeededEdges::lead;
-    own[axis] = floor_div(place, SeededEdges::side);
-    in_own[axis] = place - own[axis] * SeededEdges::side;
-    first[axis] = floor_div(place - reach_[axis], SeededEdges::side);
-    last[axis] = floor_div(place + reach_[axis], SeededEdges::side);
+    own[axis] = SeededEdges::brick_of(at[axis]);
+    in_own[axis] = at[axis] + SeededEdges::lead - own[axis] * SeededEdges::side;
+    first[axis] = SeededEdges::brick_of(at[axis] - reach_[axis]);
+    last[axis] = SeededEdges::brick_of(at[axis] + reach_[axis]);
     is_within_half &= reach_[axis] <= SeededEdges::side / 2;
   }
   unsigned owning = 0xff;

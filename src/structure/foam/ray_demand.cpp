@@ -2,7 +2,6 @@
 #include "structure/foam/ray_demand.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "base/borrowed.h"
@@ -19,17 +18,6 @@ namespace {
 constexpr size_t worth_of_capsules = 45, worth_of_others = 20;
 /// Bricks that are built where rays begin in one, and their size.
 constexpr uint64_t bricks_about = 3, brick_bytes = 21000;
-
-/// The brick of edges that a point is in.
-CellIndex brick_at(const Foam& foam, Vec3 p) {
-  const Vec3 cells = foam.neighbourhood().to_grid(p) * (1 / foam.unit());
-  const Vec3 scale = foam.seeds().scale();
-  const auto brick = [](double place, double size) {
-    return static_cast<int32_t>(
-        std::floor((place / size + SeededEdges::lead) * (1.0 / SeededEdges::side)));
-  };
-  return {brick(cells.x, scale.x), brick(cells.y, scale.y), brick(cells.z, scale.z)};
-}
 
 }  // namespace
 
@@ -70,7 +58,13 @@ void RayDemand::add(CellIndex brick, size_t rays, size_t worth, size_t most) {
 bool RayDemand::pays(const Foam& foam, const RaySearch* searches, size_t count) {
   const size_t worth = foam.has_capsules() ? worth_of_capsules : worth_of_others;
   const size_t most = foam.context().cache.limit() / (bricks_about * brick_bytes);
-  const auto at = [&](size_t i) { return brick_at(foam, searches[i].ray.at(searches[i].from)); };
+  // The brick that a ray begins in.
+  const auto at = [&](size_t i) {
+    const Vec3 p = searches[i].ray.at(searches[i].from);
+    const CellIndex cell = foam.neighbourhood().locate(p).cell;
+    return CellIndex{SeededEdges::brick_of(cell.x), SeededEdges::brick_of(cell.y),
+                     SeededEdges::brick_of(cell.z)};
+  };
   // Rays that are close together come one after the other: a few tell of most.
   if (pays(at(0), worth) && pays(at(count / 2), worth) && pays(at(count - 1), worth)) return true;
   constexpr size_t stride = 16;

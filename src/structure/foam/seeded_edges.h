@@ -25,6 +25,12 @@ class SeededEdges final : public CellData {
   /// begin in space: `lead` before cell 0, as those of EdgeBrick and for the same reason.
   static constexpr int side = owning_bricks_side, lead = 2;
 
+  /// The place along an axis of the brick that a cell is in.
+  static constexpr int brick_of(int cell) {
+    const int place = cell + lead;
+    return place >= 0 ? place / side : -((side - 1 - place) / side);
+  }
+
   /// Whether the cells are not so flat or long that numbers of seeds and cells exceed their bits.
   static bool fits(const FoamSeeds& seeds);
   /// How many cells beyond the brick struts of a radius (foam units) may reach along each axis.
