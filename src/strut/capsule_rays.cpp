@@ -357,12 +357,6 @@ void meet_list(const CapsuleView& capsules, float radius, const float (&corner)[
   }
 }
 
-size_t near_list(const CapsuleView& capsules, float radius, const float (&corner)[3],
-                 const RayPacket& rays, uint32_t* found) {
-  return near_line(capsules, 0, capsules.count, radius + capsule_ray_slack, corner, rays, nullptr,
-                   found);
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
 HWY_AFTER_NAMESPACE();
@@ -372,7 +366,6 @@ namespace msq {
 
 HWY_EXPORT(meet_list);
 HWY_EXPORT(on_ray);
-HWY_EXPORT(near_list);
 
 void PacketHits::clear() {
   std::fill_n(first, RayPacket::most, std::numeric_limits<float>::infinity());
@@ -388,11 +381,6 @@ void meet_capsules(const CapsuleView& capsules, float radius, const float (&corn
 size_t capsules_on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray,
                        uint32_t* ids) {
   return HWY_DYNAMIC_DISPATCH(on_ray)(capsules, radius, ray, ids);
-}
-
-size_t near_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
-                     const RayPacket& rays, uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(near_list)(capsules, radius, corner, rays, found);
 }
 
 }  // namespace msq

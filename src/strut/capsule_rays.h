@@ -97,9 +97,4 @@ struct CapsuleRay {
 size_t capsules_on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray,
                        uint32_t* ids);
 
-/// Fills `found` with the numbers, in ascending order, of the capsules that a packet's rays may
-/// meet as far as can be said of all together, and returns how many they are.
-size_t near_capsules(const CapsuleView& capsules, float radius, const float (&corner)[3],
-                     const RayPacket& rays, uint32_t* found);
-
 }  // namespace msq

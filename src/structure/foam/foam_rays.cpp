@@ -71,6 +71,8 @@ class Walker {
   /// How far apart rays of a packet may be, across it, in foam units, and how unlike their
   /// directions.
   static constexpr double most_apart = 0.9, most_turned = 0.05;
+  /// Room for that of places along rays.
+  static constexpr float rounding = 4e-6f;
   /// Fewer rays go each alone.
   static constexpr size_t least_packet = 12;
   /// Cells of a slab that a packet may be in; one that spreads farther goes on ray by ray.
@@ -206,9 +208,8 @@ class Walker {
       packet_.origin[k][n] = static_cast<float>(up_ ? 0 : scale_[k]);
       packet_.origin[lateral[0]][n] = path_.place[0][n];
       packet_.origin[lateral[1]][n] = path_.place[1][n];
-      constexpr float room = 4e-6f;  // for roundings
-      packet_.from[n] = is_live ? std::max(path_.from[n] - room, 0.0f) : 1;
-      packet_.to[n] = is_live ? path_.to[n] + room : -1;
+      packet_.from[n] = is_live ? std::max(path_.from[n] - rounding, 0.0f) : 1;
+      packet_.to[n] = is_live ? path_.to[n] + rounding : -1;
       packet_.starts |= is_live && path_.from[n] >= -static_cast<float>(ray_list_margin);
     }
     hits_.clear();
@@ -366,51 +367,21 @@ class Walker {
 
   /// Of all struts that the ray may meet in the slab's cells so far.
   bool settle_all(size_t n, double last) {
-    RayPacket alone;
-    alone.count = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      alone.origin[axis][0] = alone.centre[axis] = packet_.origin[axis][n];
-      alone.direction[axis][0] = alone.along[axis] = packet_.direction[axis][n];
-    }
-    std::fill_n(alone.from, most, 1.0f);
-    std::fill_n(alone.to, most, -1.0f);
-    alone.from[0] = packet_.from[n];
-    alone.to[0] = packet_.to[n];
-    alone.starts = packet_.starts;
-    alone.is_parallel = true;
-    candidates_.clear();
+    const FoamRay& ray = memory_.rays[ray_[n]];
+    const float from = packet_.from[n];
+    CapsuleRay alone;
+    alone.to = std::min(packet_.to[n], static_cast<float>(last - enter_[n]) + rounding) - from;
+    first_.clear();
     for (const Slot& slot : slots_) {
-      near_.resize(slot.list.count);
-      const size_t found = near_capsules(slot.list, slot.radius, slot.corner, alone, near_.data());
-      for (size_t c = 0; c < found; ++c) {
-        const uint32_t i = near_[c];
-        CapsuleView one = slot.list;
-        for (int axis = 0; axis < 3; ++axis) {
-          one.a[axis] += i;
-          one.ab[axis] += i;
-        }
-        one.ids += i;
-        one.count = 1;
-        PacketHits hits;
-        hits.clear();
-        meet_capsules(one, slot.radius, slot.corner, alone, nullptr, hits);
-        if (hits.first[0] < std::numeric_limits<float>::infinity())
-          candidates_.push_back({hits.first[0], hits.id[0]});
+      for (int axis = 0; axis < 3; ++axis) {
+        alone.direction[axis] = packet_.direction[axis][n];
+        alone.origin[axis] =
+            packet_.origin[axis][n] + alone.direction[axis] * from - slot.corner[axis];
       }
+      struts_.ask(ray, slot.list, slot.radius, alone, first_);
     }
-    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-      return a.first < b.first || (a.first == b.first && a.id < b.id);
-    });
-    StrutEntry best;
-    for (const Candidate& candidate : candidates_) {
-      const double first = enter_[n] + double(candidate.first);
-      if (first > last || (best.is_met && first > best.t)) break;
-      const StrutEntry found = struts_.entry(memory_.rays[ray_[n]], candidate.id);
-      if (comes_before(found, best)) best = found;
-      if (best.at_from) break;
-    }
-    if (!best.is_met || best.t > last) return false;
-    struts_.take(best, searches_[ray_[n]]);
+    if (!first_.entry.is_met || first_.entry.t > last) return false;
+    struts_.take(first_.entry, searches_[ray_[n]]);
     return true;
   }
 
@@ -441,12 +412,7 @@ class Walker {
   SeenIds seen_;
   std::vector<Coming> order_;
   std::vector<Slot> slots_;
-  struct Candidate {
-    float first;
-    uint32_t id;
-  };
-  std::vector<Candidate> candidates_;
-  std::vector<uint32_t> near_;
+  FirstEntry first_;
 };
 
 }  // namespace

@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "structure/foam/ray_struts.h"
-#include "strut/capsule_rays.h"
 
 namespace msq {
 
@@ -22,8 +20,7 @@ class LoneRay {
   /// Goes on from `from`, before which the ray meets nothing.
   void walk(const FoamRay& ray, double from, RaySearch& search) {
     const Vec3 begin = ray.at(from);
-    asked_.clear();
-    first_ = {};
+    first_.clear();
     int32_t cell[3];
     double inverse[3], next[3];  // next: where the ray leaves the cell across an axis
     const auto leaves = [&](int axis) {
@@ -51,7 +48,7 @@ class LoneRay {
  private:
   void forget() {
     struts_.forget();
-    asked_.clear();  // those ids are of others by now
+    first_.asked.clear();  // those ids are of others by now
   }
 
   /// Whether the ray meets a strut in a cell, which it is in from `in` to `out`.
@@ -70,26 +67,15 @@ class LoneRay {
       near.direction[axis] = static_cast<float>(ray.direction[axis]);
     }
     near.to = static_cast<float>(last - in) + 4e-6f;  // room for roundings
-    if (ids_.size() < list.count + capsule_padding) ids_.resize(list.count + capsule_padding);
-    const size_t count = capsules_on_ray(list, radius, near, ids_.data());
-    for (size_t n = 0; n < count; ++n) {
-      // Cells have struts in common.
-      if (std::find(asked_.begin(), asked_.end(), ids_[n]) != asked_.end()) continue;
-      asked_.push_back(ids_[n]);
-      const StrutEntry found = struts_.entry(ray, ids_[n]);
-      if (comes_before(found, first_)) first_ = found;
-    }
-    if (!first_.is_met || first_.t > last) return false;
-    struts_.take(first_, search);
+    struts_.ask(ray, list, radius, near, first_);
+    if (!first_.entry.is_met || first_.entry.t > last) return false;
+    struts_.take(first_.entry, search);
     return true;
   }
 
   const Vec3 scale_;
   RayStruts<Struts>& struts_;
-  // Of the ray at hand:
-  std::vector<uint32_t> asked_;
-  StrutEntry first_;  // of those
-  std::vector<uint32_t> ids_;
+  FirstEntry first_;  // of the ray at hand
 };
 
 }  // namespace msq

@@ -3,15 +3,29 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_map>
+#include <vector>
 
 #include "cell/cell_hash.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/seeded_edges.h"
 #include "structure/foam/strut_entry.h"
 #include "structure/foam/strut_surface.h"
+#include "strut/capsule_rays.h"
 
 namespace msq {
+
+/// What a ray meets first of the struts that it was asked about.
+struct FirstEntry {
+  StrutEntry entry;
+  std::vector<uint32_t> asked;
+
+  void clear() {
+    entry = {};
+    asked.clear();
+  }
+};
 
 /// `Struts`: lists of struts for cells: CellStruts, or as those.
 template <class Struts>
@@ -44,6 +58,21 @@ class RayStruts {
     return entries_.find(ray, known.line);
   }
 
+  /// Of those that a ray may meet by a list of a cell: the first of their entries and of those
+  /// asked before, each strut once.
+  void ask(const FoamRay& ray, const CapsuleView& list, float radius, const CapsuleRay& near,
+           FirstEntry& first) {
+    if (ids_.size() < list.count + capsule_padding) ids_.resize(list.count + capsule_padding);
+    const size_t count = capsules_on_ray(list, radius, near, ids_.data());
+    for (size_t n = 0; n < count; ++n) {
+      // Cells have struts in common.
+      if (std::find(first.asked.begin(), first.asked.end(), ids_[n]) != first.asked.end()) continue;
+      first.asked.push_back(ids_[n]);
+      const StrutEntry found = entry(ray, ids_[n]);
+      if (comes_before(found, first.entry)) first.entry = found;
+    }
+  }
+
   /// The entry is what the ray meets.
   void take(const StrutEntry& entry, RaySearch& search) const {
     search.found = true;
@@ -64,6 +93,7 @@ class RayStruts {
     StrutLine line;
   };
   Known known_[256];
+  std::vector<uint32_t> ids_;
 };
 
 }  // namespace msq
