@@ -3,7 +3,7 @@
 //
 // The edges about a ray cost many marches, and serve all rays that come near. So rays march, until
 // those that began in the same brick of cells have cost what the edges there do: all together then
-// cost at most twice the least that they could. Both ways find the same bits.
+// cost about twice the least that they could, at most. Both ways find the same bits.
 // Source: Karlin, Manasse, McGeoch and Owicki, "Competitive randomized algorithms for nonuniform
 // problems", 1994.
 #pragma once
