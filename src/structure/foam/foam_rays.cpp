@@ -71,8 +71,6 @@ class Walker {
   /// How far apart rays of a packet may be, across it, in foam units, and how unlike their
   /// directions.
   static constexpr double most_apart = 0.9, most_turned = 0.05;
-  /// Room for that of places along rays.
-  static constexpr float rounding = 4e-6f;
   /// Fewer rays go each alone.
   static constexpr size_t least_packet = 12;
   /// Cells of a slab that a packet may be in; one that spreads farther goes on ray by ray.
@@ -208,8 +206,8 @@ class Walker {
       packet_.origin[k][n] = static_cast<float>(up_ ? 0 : scale_[k]);
       packet_.origin[lateral[0]][n] = path_.place[0][n];
       packet_.origin[lateral[1]][n] = path_.place[1][n];
-      packet_.from[n] = is_live ? std::max(path_.from[n] - rounding, 0.0f) : 1;
-      packet_.to[n] = is_live ? path_.to[n] + rounding : -1;
+      packet_.from[n] = is_live ? std::max(path_.from[n] - along_rounding, 0.0f) : 1;
+      packet_.to[n] = is_live ? path_.to[n] + along_rounding : -1;
       packet_.starts |= is_live && path_.from[n] >= -static_cast<float>(ray_list_margin);
     }
     hits_.clear();
@@ -370,7 +368,8 @@ class Walker {
     const FoamRay& ray = memory_.rays[ray_[n]];
     const float from = packet_.from[n];
     CapsuleRay alone;
-    alone.to = std::min(packet_.to[n], static_cast<float>(last - enter_[n]) + rounding) - from;
+    alone.to =
+        std::min(packet_.to[n], static_cast<float>(last - enter_[n]) + along_rounding) - from;
     first_.clear();
     for (const Slot& slot : slots_) {
       for (int axis = 0; axis < 3; ++axis) {

@@ -4,9 +4,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
+#include "base/grid_walk.h"
 #include "structure/foam/ray_struts.h"
 
 namespace msq {
@@ -19,30 +18,13 @@ class LoneRay {
 
   /// Goes on from `from`, before which the ray meets nothing.
   void walk(const FoamRay& ray, double from, RaySearch& search) {
-    const Vec3 begin = ray.at(from);
     first_.clear();
-    int32_t cell[3];
-    double inverse[3], next[3];  // next: where the ray leaves the cell across an axis
-    const auto leaves = [&](int axis) {
-      if (!(std::abs(ray.direction[axis]) > 1e-200)) return std::numeric_limits<double>::infinity();
-      const double plane = (cell[axis] + (ray.direction[axis] > 0)) * scale_[axis];
-      return (plane - ray.origin[axis]) * inverse[axis];
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-      cell[axis] = static_cast<int32_t>(std::floor(begin[axis] / scale_[axis]));
-      inverse[axis] = 1 / ray.direction[axis];
-      next[axis] = leaves(axis);
-    }
-    while (true) {
-      const int axis =
-          next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-      const double out = next[axis];
-      if (ends_in({cell[0], cell[1], cell[2]}, ray, from, out, search)) return;
-      if (!(out < ray.to)) return;
-      cell[axis] += ray.direction[axis] > 0 ? 1 : -1;
-      next[axis] = leaves(axis);
-      from = std::max(from, out);
-    }
+    walk_grid({ray.origin, ray.direction}, ray.at(from), scale_, from, ray.to,
+              [&](const int64_t(&index)[3], double in, double out) {
+                const CellIndex cell{static_cast<int32_t>(index[0]), static_cast<int32_t>(index[1]),
+                                     static_cast<int32_t>(index[2])};
+                return !ends_in(cell, ray, in, out, search);
+              });
   }
 
  private:
@@ -66,7 +48,7 @@ class LoneRay {
       near.origin[axis] = static_cast<float>(place[axis] - at[axis] * scale_[axis]);
       near.direction[axis] = static_cast<float>(ray.direction[axis]);
     }
-    near.to = static_cast<float>(last - in) + 4e-6f;  // room for roundings
+    near.to = static_cast<float>(last - in) + along_rounding;
     struts_.ask(ray, list, radius, near, first_);
     if (!first_.entry.is_met || first_.entry.t > last) return false;
     struts_.take(first_.entry, search);

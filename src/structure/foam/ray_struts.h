@@ -16,6 +16,9 @@
 
 namespace msq {
 
+/// Room for the rounding of places along rays in single precision, foam units.
+constexpr float along_rounding = 4e-6f;
+
 /// What a ray meets first of the struts that it was asked about.
 struct FirstEntry {
   StrutEntry entry;

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "base/grid_walk.h"
 #include "cell/cell_hash.h"
 
 namespace msq {
@@ -27,41 +28,25 @@ StrutRays::StrutRays(const Structure& structure, StrutLists& lists, const Parame
       tolerance_(structure.ray_tolerance()),
       cell_(min_component(grid_.cell_size)) {}
 
-/// Source: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", 1987; each
-/// crossing from its plane, so that nothing adds up.
 template <class Visit>
 void StrutRays::walk(const Ray& ray, double from, double to, Visit&& visit) const {
-  const Vec3 along = grid_.rotation.apply_inverse(ray.direction);
-  const Vec3 origin = grid_.to_grid(ray.origin), start = grid_.to_grid(ray.at(from));
+  const Ray in_grid{grid_.to_grid(ray.origin), grid_.rotation.apply_inverse(ray.direction)};
   const int parts = lists_.parts();
-  const Vec3 size = grid_.cell_size * (1.0 / parts);
-  int64_t index[3];
-  double next[3];
-  const auto crossing = [&](int axis) {
-    const double plane = static_cast<double>(index[axis] + (along[axis] > 0)) * size[axis];
-    return along[axis] == 0 ? infinity : (plane - origin[axis]) / along[axis];
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    index[axis] = static_cast<int64_t>(std::floor(start[axis] / size[axis]));
-    next[axis] = crossing(axis);
-  }
-  Part part;
-  part.from = from;
-  while (true) {
-    const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-    part.to = std::max(part.from, std::min(next[axis], to));
-    int32_t cell[3];
-    for (int i = 0; i < 3; ++i) {
-      const int64_t n = index[i] >= 0 ? index[i] / parts : -((-index[i] + parts - 1) / parts);
-      cell[i] = static_cast<int32_t>(n);
-      part.number[i] = static_cast<int>(index[i] - n * parts);
-    }
-    part.cell = {cell[0], cell[1], cell[2]};
-    if (!visit(static_cast<const Part&>(part)) || next[axis] >= to) return;
-    part.from = part.to;
-    index[axis] += along[axis] > 0 ? 1 : -1;
-    next[axis] = crossing(axis);
-  }
+  walk_grid(in_grid, grid_.to_grid(ray.at(from)), grid_.cell_size * (1.0 / parts), from, to,
+            [&](const int64_t(&index)[3], double begin, double end) {
+              Part part;
+              int32_t cell[3];
+              for (int i = 0; i < 3; ++i) {
+                const int64_t n =
+                    index[i] >= 0 ? index[i] / parts : -((-index[i] + parts - 1) / parts);
+                cell[i] = static_cast<int32_t>(n);
+                part.number[i] = static_cast<int>(index[i] - n * parts);
+              }
+              part.cell = {cell[0], cell[1], cell[2]};
+              part.from = begin;
+              part.to = end;
+              return visit(static_cast<const Part&>(part));
+            });
 }
 
 Vec3 StrutRays::locate(const Part& part, Vec3 p) const {
