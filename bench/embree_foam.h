@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench.h"
-#include "structure/foam/edges.h"
+#include "structure/foam/edges/edge_brick.h"
 
 namespace bench {
 

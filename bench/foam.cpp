@@ -9,7 +9,7 @@
 #include <string>
 
 #include "foam_setup.h"
-#include "structure/foam/edges.h"
+#include "structure/foam/edges/edge_brick.h"
 
 #if MSQ_WITH_CGAL
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -94,6 +94,19 @@ void bench_slices(bench::Report& report, uint32_t largest) {
     }
 }
 
+/// Closed cells.
+void bench_walls(bench::Report& report, uint32_t resolution) {
+  for (int cells : {32, 128}) {
+    bench::FoamSetup setup{cells, MSQ_FOAM_DIRECT};
+    setup.wall = 0.1;
+    double peak;
+    const double seconds = bench::foam_slice_seconds(setup, resolution, UINT64_MAX, peak);
+    report.add("walls of 0.1 cell, " + bench::foam_work(resolution, cells), seconds,
+               std::pow(double(resolution), 3), "sample");
+    report.note("  peak memory", peak / 1e6, "MB");
+  }
+}
+
 /// What fields of r, and AVX2 in place of wider vectors, cost.
 void bench_variants(bench::Report& report, uint32_t resolution) {
   const double samples = std::pow(double(resolution), 3);
@@ -134,6 +147,7 @@ int main(int count, char** arguments) try {
   bench_edges(report);
   const uint32_t largest = count > 2 ? static_cast<uint32_t>(std::atoi(arguments[2])) : 2048;
   bench_slices(report, largest);
+  bench_walls(report, largest);
   bench_variants(report, largest);
   report.write(count, arguments);
   return 0;

@@ -11,7 +11,7 @@
 #include "base/random.h"
 #include "foam_setup.h"
 #include "paper_point.h"
-#include "structure/foam/seeds.h"
+#include "structure/foam/seeds/seeds.h"
 
 namespace {
 

@@ -17,6 +17,7 @@ struct FoamSetup {
   uint32_t threads = 2;
   double extent = 1;       ///< the shape: a cube from the origin with such sides
   bool is_graded = false;  ///< r from 0.05 cell at one corner of the cube to 0.15 at the other
+  double wall = 0;         ///< thickness in cells, in place of struts; 0: struts
   uint64_t samples = 0;    ///< of a radius that waves so, along each axis; 0: none
 };
 
@@ -34,7 +35,10 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
   check(msq_foam_def_init(&def, sizeof def));
   def.method = setup.method;
   for (double& size : def.grid.cell_size) size = 1.0 / setup.cells;
-  def.radius.value = 0.1 / setup.cells;
+  if (setup.wall > 0)
+    def.wall_thickness.value = setup.wall / setup.cells;
+  else
+    def.radius.value = 0.1 / setup.cells;
   msq_field* field = nullptr;
   if (setup.is_graded) {
     const double low[3] = {0, 0, 0}, high[3] = {setup.extent, setup.extent, setup.extent};

@@ -3,7 +3,7 @@
 // that is not msq's.
 #pragma once
 
-#include "structure/foam/seeds.h"
+#include "structure/foam/seeds/seeds.h"
 
 namespace bench {
 

@@ -12,7 +12,7 @@
 #include "query/array_points.h"
 #include "query/point_groups.h"
 #include "setup.h"
-#include "structure/foam/point_set.h"
+#include "structure/foam/sets/point_set.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 # The libraries that msq stands on. Debian: libtbb-dev libhwy-dev, and for the optional parts
-# libassimp-dev libminizip-dev libpugixml-dev (mesh files), libcgal-dev (foam method 2).
+# libassimp-dev libminizip-dev libpugixml-dev (binary STL, 3MF, AMF), libcgal-dev (foam method 2).
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(PkgConfig REQUIRED)

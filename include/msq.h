@@ -1,46 +1,62 @@
-/* SPDX-License-Identifier: Apache-2.0
+/* SPDX-License-Identifier: Apache-2.0 */
+/** @file
+ * msq ("multiscale set queries"): lattices, TPMS and Voronoi foams inside a part, without meshing
+ * them.
  *
- * msq: multiscale set queries. A coarse shape and fine-scale structures (strut
- * lattices, Voronoi foams) answered point by point, set by set and layer by
- * layer, without ever meshing the fine geometry.
+ * A host describes a coarse shape and the fine-scale structures that fill it. msq tells which
+ * points are solid, returns layers for printing, casts rays and measures. The method is that of
+ * Igouchkine and Liu, "Set-based queries for multiscale shape-material modeling". docs/concepts.md
+ * defines all terms.
  *
- * Source of the method: Igouchkine and Liu, "Set-based queries for multiscale
- * shape-material modeling". What the words mean exactly: docs/concepts.md.
+ * These rules hold for every declaration:
  *
- * Rules that hold for every declaration below:
+ * Units. Lengths are in the model's unit. Files are read in millimetres, so the unit of a model
+ * that is made from a file is the millimetre. Coordinates are right-handed: x, y, z.
  *
- *  Units     Lengths are in the model's unit. Files are read as millimetres, so
- *            with files the model's unit is the millimetre. Coordinates are
- *            right-handed, x, y, z.
- *  Status    Every function that can fail returns msq_status: MSQ_OK (0) or a
- *            negative MSQ_E_*. msq_error_message() then says what was wrong, with
- *            the value and the limit. On failure no output argument is written,
- *            save where a function says so.
- *  Handles   Opaque, reference-counted and immutable once built: any number of
- *            threads may use one handle at once. X_create and its kin return a
- *            handle with one reference; X_retain adds one, X_release drops one and
- *            frees the object with the last. Retaining and releasing NULL do nothing.
- *            A handle keeps alive whatever it was built from, so release order is
- *            free, also from within a callback. What one model is built from should
- *            come from one context: memory and cached cells count where they were made.
- *  Structs   A definition begins with struct_size. X_def_init(&def, sizeof def)
- *            sets it and the defaults, and writes no byte past that size. A struct
- *            that is longer than the library knows must be zero in the rest. In a
- *            report, which msq fills in, the caller sets struct_size and msq writes
- *            no byte past it, and 0 into what it does not know. Sizes below that of
- *            version 0.1 and above 4096 are refused.
- *  Inputs    Arrays and strings given to a constructor are copied; the caller keeps
- *            its own. NULL is refused save where a function gives it a meaning.
- *            Non-finite numbers are refused.
- *  Threads   Callbacks of a call run on the thread that made the call, and may call msq. Only those of
- *            objects that the host defined with concurrent = 1 may run on any thread of msq.
- *  Process   msq never prints, exits, aborts, installs a signal handler, reads the
- *            environment or changes locale or floating-point state, and lets no
- *            C++ exception out. (oneTBB, which runs the threads, prints its version
- *            where the environment has TBB_VERSION set.)
- *  Cost      Where a comment says none, a call costs next to nothing.
+ * Status. A function that can fail returns msq_status: MSQ_OK (0) or a negative MSQ_E_*.
+ * msq_error_message() then returns a message with the offending value and its limit. A function
+ * that fails writes no output argument, unless its comment says otherwise. A comment that lists
+ * "Errors" names the statuses without their prefix.
  *
- * Every declaration is here since 0.1 unless it says otherwise.
+ * Handles. Handles are opaque, reference-counted and immutable. Any number of threads may use one
+ * handle at the same time. A constructor returns a handle with one reference. X_retain adds a
+ * reference. X_release drops one and frees the object with the last one. Retaining or releasing
+ * NULL does nothing. A handle retains the handles that it was built from, so handles may be
+ * released in any order, also from a callback. Build all parts of a model in one context: memory
+ * and cached cells count against the context in which a part was created.
+ *
+ * Definitions. A definition is a struct that begins with struct_size. X_def_init(&def, sizeof def)
+ * sets struct_size and all defaults, and writes no byte past the given size. A struct larger than
+ * the library's must be zero in the excess. Sizes below that of version 0.1 and sizes above 4096
+ * are refused.
+ *
+ * Reports. A report is a struct that msq fills in. The caller sets its struct_size. msq writes no
+ * byte past that size, and zeroes the bytes that it does not know.
+ *
+ * Inputs. A constructor copies the arrays and strings that it is given. NULL is refused unless the
+ * comment gives it a meaning. Numbers that are not finite are refused.
+ *
+ * Threads. Every function may be called from any thread. Callbacks run on the thread that called
+ * msq and may call msq. Only callbacks of objects defined with concurrent = 1 may run on other
+ * threads. If threads cannot be started, a call uses those that there are. Working memory is kept
+ * for the next call and freed with the last context of the process.
+ *
+ * Stack. A thread of the host with a stack of 64 KiB may call every function: large working memory
+ * is on the heap, and thread-local storage takes less than 1 KiB. Calls that enter Assimp (some
+ * mesh files) or CGAL (MSQ_FOAM_METHOD_2, msq_shape_self_intersections) need the stack that these
+ * need.
+ *
+ * Process. msq never prints, exits, aborts, installs a signal handler, reads the environment, or
+ * changes the locale. No C++ exception leaves it. (oneTBB, the thread library, prints its version
+ * if the environment variable TBB_VERSION is set.)
+ *
+ * Floating point. Each call sets the floating-point environment on entry (round to nearest, no
+ * traps, denormals kept) and restores the host's on return, flags included. Results never depend on
+ * the host's. Callbacks run in the host's environment, also on threads of msq.
+ *
+ * Cost. A function whose comment states no cost takes constant time.
+ *
+ * Every declaration exists since version 0.1 unless its comment says otherwise.
  */
 #ifndef MSQ_H
 #define MSQ_H
@@ -64,209 +80,295 @@
 extern "C" {
 #endif
 
-/* ---- version, status, errors ------------------------------------------- */
+/* ---- Version, status, errors ----------------------------------------------------------------- */
 
 #define MSQ_VERSION_MAJOR 0
 #define MSQ_VERSION_MINOR 1
 #define MSQ_VERSION_PATCH 0
-/* major * 10000 + minor * 100 + patch, of this header. */
+/** Version of this header: major * 10000 + minor * 100 + patch. */
 #define MSQ_VERSION 100
 
-typedef int32_t msq_status; /* MSQ_OK or one of MSQ_E_* */
+/** Result of a function: MSQ_OK or a negative MSQ_E_*. */
+typedef int32_t msq_status;
 
-enum {
+/** Values of msq_status. */
+enum msq_status_code {
   MSQ_OK = 0,
-  MSQ_E_ARGUMENT = -1,    /* an argument is NULL, non-finite, out of range or inconsistent */
-  MSQ_E_MEMORY = -2,      /* an allocation failed */
-  MSQ_E_CANCELLED = -3,   /* the job was cancelled */
-  MSQ_E_HOST = -4,        /* a host callback asked to stop: msq_error_host_code(); or its answer
-                             cannot be: code 0 */
-  MSQ_E_IO = -5,          /* a file cannot be opened or read */
-  MSQ_E_UNSUPPORTED = -6, /* not in this build, or a file format that msq does not read */
-  MSQ_E_MESH = -7,        /* mesh data that cannot be made sense of (not: a dirty mesh) */
-  MSQ_E_LIMIT = -8,       /* a stated limit, such as the context's memory limit, would be passed */
-  MSQ_E_INTERNAL = -9     /* a defect in msq: please report it */
+  /** An argument is NULL, not finite, out of range, or inconsistent with another. */
+  MSQ_E_ARGUMENT = -1,
+  /** An allocation failed. */
+  MSQ_E_MEMORY = -2,
+  /** The job was cancelled. */
+  MSQ_E_CANCELLED = -3,
+  /** A host callback failed, see msq_error_host_code(), or returned an invalid value (host code 0).
+   */
+  MSQ_E_HOST = -4,
+  /** A file cannot be opened or read, is truncated, or is malformed. */
+  MSQ_E_IO = -5,
+  /** This build lacks the feature, or msq does not read the file format. */
+  MSQ_E_UNSUPPORTED = -6,
+  /** Malformed mesh arrays. Dirty meshes are not an error. */
+  MSQ_E_MESH = -7,
+  /** A documented limit would be exceeded, for example the memory limit of the context. */
+  MSQ_E_LIMIT = -8,
+  /** A defect in msq. Please report it. */
+  MSQ_E_INTERNAL = -9
 };
 
-/* Version of the loaded library, to compare with MSQ_VERSION. Never fails. */
+/** Returns the version of the loaded library, in the form of MSQ_VERSION. */
 MSQ_API uint32_t msq_version(void);
 
-/* Name of a status, such as "MSQ_E_LIMIT"; "MSQ_E_UNKNOWN" for other numbers.
- * Static storage. */
-MSQ_API const char *msq_status_name(msq_status status);
+/** Returns the name of a status, for example "MSQ_E_LIMIT"; "MSQ_E_UNKNOWN" for other values.
+ * The string is static. */
+MSQ_API const char* msq_status_name(msq_status status);
 
-/* Message of the last failure on the calling thread, UTF-8; "" before the first. Valid until the
- * next call on this thread that fails: calls that succeed leave it. */
-MSQ_API const char *msq_error_message(void);
+/** Returns the message of the last failure on the calling thread, in UTF-8; "" before the first
+ * failure. The string is valid until the next failure on this thread. */
+MSQ_API const char* msq_error_message(void);
 
-/* Code that the host's callback returned at the last MSQ_E_HOST on the calling thread; 0 before. */
+/** Returns the code that a host callback returned at the last MSQ_E_HOST on the calling thread; 0
+ * before the first one. */
 MSQ_API int32_t msq_error_host_code(void);
 
+/** How the loaded library was built. */
 typedef struct msq_build_report {
-  uint32_t struct_size; /* in: sizeof of the caller's struct */
-  uint32_t version;     /* as msq_version() */
-  int32_t with_assimp;  /* 1 if mesh files can be read */
-  int32_t with_cgal;    /* 1 if MSQ_FOAM_METHOD_2 and msq_shape_self_intersections are available */
-  const char *licence;  /* effective SPDX licence of this binary with what it is built upon; static */
-  const char *simd;     /* instruction set that the kernels use on this machine, e.g. "AVX3"; static */
+  /** In: size of the caller's struct. */
+  uint32_t struct_size;
+  /** As msq_version(). */
+  uint32_t version;
+  /** 1 if all mesh formats are read. 0: no binary STL, 3MF and AMF. */
+  int32_t with_assimp;
+  /** 1 if MSQ_FOAM_METHOD_2 and msq_shape_self_intersections are available. */
+  int32_t with_cgal;
+  /** SPDX licence of this binary together with the libraries it is built on. Static. */
+  const char* licence;
+  /** Instruction set that the kernels use on this machine, for example "AVX3". Static. */
+  const char* simd;
 } msq_build_report;
 
-/* Says how the loaded library was built. Errors: ARGUMENT. */
-MSQ_API msq_status msq_build_info(msq_build_report *report);
+/** Reports how the loaded library was built. Errors: ARGUMENT. */
+MSQ_API msq_status msq_build_info(msq_build_report* report);
 
-/* ---- context and job ----------------------------------------------------- */
+/* ---- Context and job ------------------------------------------------------------------------- */
 
-typedef struct msq_context msq_context; /* threads, cell cache and memory limit that objects share */
-typedef struct msq_job msq_job;         /* one long call: its progress, and the means to cancel it */
+/** Threads, cell cache and memory limit that objects share. */
+typedef struct msq_context msq_context;
 
-/* Which cached cells make room for others; those that a call is using are passed over. */
-enum {
-  MSQ_CACHE_FIFO = 0,     /* the oldest: best for slices from one end to the other */
-  MSQ_CACHE_SEGMENTED = 1 /* rather those that were asked for once: for frames and sets that come back to
-                             more cells than fit (S3-FIFO) */
+/** Progress and cancellation of one long call. */
+typedef struct msq_job msq_job;
+
+/** Which cached cells are evicted first. Cells in use are never evicted. */
+enum msq_cache_policy {
+  /** The oldest cell first. Best for slicing from one end to the other. */
+  MSQ_CACHE_FIFO = 0,
+  /** Cells that were used once first (S3-FIFO). Best for frames and sets that return to more cells
+   * than fit. */
+  MSQ_CACHE_SEGMENTED = 1
 };
 
+/** Definition of a context. */
 typedef struct msq_context_def {
   uint32_t struct_size;
-  uint32_t threads;      /* threads of a call, the caller's included; 0 (default) and more than the
-                            machine has: one a core; 1: the calling thread alone */
-  uint64_t cache_bytes;  /* limit of the cache of cell data (default 1 GiB); 0: no cache. Same
-                            results at any size. */
-  uint64_t memory_limit; /* bytes that meshes, images, slabs, cached cells and the reading of files (8 times
-                            the file's size) may hold at once; cached cells give way to the rest.
-                            0 (default): no limit */
-  int32_t cache_policy;  /* MSQ_CACHE_*; default FIFO. Same results by either; they differ where the
-                            cache is smaller than what a call comes back to (docs/benchmarks.md). */
-  uint32_t reserved;     /* 0 */
+  /** Threads per call, including the caller. 0 (default): one per core; larger values are clamped
+   * to that. 1: the calling thread only. */
+  uint32_t threads;
+  /** Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.
+   */
+  uint64_t cache_bytes;
+  /** Maximum number of bytes that meshes, images, beams, slabs, cached cells and file reading (8
+   * times the size of the file) hold at the same time. Cached cells are evicted to make room. 0
+   * (default): no limit. */
+  uint64_t memory_limit;
+  /** An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results. */
+  int32_t cache_policy;
+  /** Must be 0. */
+  uint32_t reserved;
 } msq_context_def;
 
-/* Sets defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */
-MSQ_API msq_status msq_context_def_init(msq_context_def *def, size_t size);
+/** Sets the defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */
+MSQ_API msq_status msq_context_def_init(msq_context_def* def, size_t size);
 
-/* Creates a context; def NULL: defaults. Results never depend on it. Cost: starts no threads yet. Errors: ARGUMENT, MEMORY. */
-MSQ_API msq_status msq_context_create(const msq_context_def *def, msq_context **context);
-MSQ_API void msq_context_retain(msq_context *context);
-MSQ_API void msq_context_release(msq_context *context);
+/** Creates a context. def NULL: defaults. Results never depend on the context. No thread is started
+ * before the first call that needs one. Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_context_create(const msq_context_def* def, msq_context** context);
+/** Adds a reference. */
+MSQ_API void msq_context_retain(msq_context* context);
+/** Drops a reference. */
+MSQ_API void msq_context_release(msq_context* context);
 
+/** Memory that is accounted to a context. */
 typedef struct msq_memory_report {
   uint32_t struct_size;
-  uint32_t reserved;    /* 0 */
-  uint64_t bytes;       /* held now by meshes, images, slabs and cached cells */
-  uint64_t peak_bytes;  /* most ever held at once */
-  uint64_t limit_bytes; /* as in the definition; 0: no limit */
+  uint32_t reserved;
+  /** Bytes that meshes, images, beams, slabs and cached cells hold now. */
+  uint64_t bytes;
+  /** Maximum of bytes so far. */
+  uint64_t peak_bytes;
+  /** The limit of the definition. 0: no limit. */
+  uint64_t limit_bytes;
 } msq_memory_report;
 
-/* Memory accounted to the context. Any thread, at any time. Errors: ARGUMENT. */
-MSQ_API msq_status msq_context_memory(const msq_context *context, msq_memory_report *report);
+/** Reports the memory accounted to the context. Errors: ARGUMENT. */
+MSQ_API msq_status msq_context_memory(const msq_context* context, msq_memory_report* report);
 
+/** Counters of the cell cache. */
 typedef struct msq_cache_report {
   uint32_t struct_size;
-  uint32_t reserved; /* 0 */
-  uint64_t hits, misses, evictions; /* of cells */
-  uint64_t bytes;                   /* held now, by cells and for cells that are being built; never
-                                       above limit_bytes */
+  uint32_t reserved;
+  /** Number of cell lookups that found the cell, and that did not; number of evicted cells. */
+  uint64_t hits, misses, evictions;
+  /** Bytes held now by cells and reserved for cells under construction. Never above limit_bytes. */
+  uint64_t bytes;
   uint64_t peak_bytes, limit_bytes;
-  uint64_t building_bytes;          /* of bytes: set aside for cells that are being built */
-  uint64_t cells;                   /* held now */
-  uint64_t duplicates;              /* of misses: two threads built the cell at once */
-  uint64_t unkept;                  /* of misses: no room was found, and the cell served one caller */
+  /** The part of bytes that is reserved for cells under construction. */
+  uint64_t building_bytes;
+  /** Number of cells held now. */
+  uint64_t cells;
+  /** Misses for which two threads built the same cell at the same time. */
+  uint64_t duplicates;
+  /** Misses for which no room was found: the cell served one caller and was freed. */
+  uint64_t unkept;
 } msq_cache_report;
 
-/* Counters of the cell cache since the context was made. Any thread, at any time. Room for a cell is
- * set aside before it is built, as much as cells of its structure lately took; one that turns out
- * larger is counted in full from then on. Not counted: what builders work with, unkept cells, and
- * cells that a call uses while msq_cache_clear or a memory_limit drops them.
+/** Reports the counters of the cell cache since the context was created.
+ *
+ * Before a cell is built, msq reserves the size that recent cells of the structure had. A cell that
+ * turns out larger is counted in full from then on. Not counted: working memory of builders, unkept
+ * cells, and cells in use that msq_cache_clear or the memory limit dropped.
  * Errors: ARGUMENT. Source: paper, section "Set Queries for Ray-Casting" (FIFO cache). */
-MSQ_API msq_status msq_cache_stats(const msq_context *context, msq_cache_report *report);
+MSQ_API msq_status msq_cache_stats(const msq_context* context, msq_cache_report* report);
 
-/* Drops all cached cells (calls in flight keep theirs). Counters stay. A structure's cells go with the last
- * reference to it, that of a model included. Errors: ARGUMENT. */
-MSQ_API msq_status msq_cache_clear(msq_context *context);
+/** Drops all cached cells. Running calls keep the cells that they use. The counters remain. The
+ * cells of a structure are also dropped when its last reference goes. Errors: ARGUMENT. */
+MSQ_API msq_status msq_cache_clear(msq_context* context);
 
-/* Creates a job to pass to one long call at a time (in two at once, their progress is mixed). Errors: ARGUMENT, MEMORY. */
-MSQ_API msq_status msq_job_create(msq_job **job);
-MSQ_API void msq_job_retain(msq_job *job);
-MSQ_API void msq_job_release(msq_job *job);
+/** Creates a job. Pass it to one long call at a time; two calls at once mix their progress.
+ * Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_job_create(msq_job** job);
+/** Adds a reference. */
+MSQ_API void msq_job_retain(msq_job* job);
+/** Drops a reference. */
+MSQ_API void msq_job_release(msq_job* job);
 
-/* Asks the call that works under the job to stop; it returns MSQ_E_CANCELLED when the tiles or layers
- * in work are done, mostly within tens of milliseconds (arrays asked of foams by MSQ_FOAM_POINT,
- * seconds, at a large radius minutes). Stays set: calls made later under this job stop at once. Any thread. Errors: ARGUMENT. */
-MSQ_API msq_status msq_job_cancel(msq_job *job);
+/** Cancels the call that runs under the job. The call returns MSQ_E_CANCELLED, usually within tens
+ * of milliseconds. Arrays of points in foams with MSQ_FOAM_POINT take seconds, with a large radius
+ * minutes. The job stays cancelled: later calls under it return at once. Errors: ARGUMENT. */
+MSQ_API msq_status msq_job_cancel(msq_job* job);
 
-/* Fraction done, 0 to 1, of the last call under the job; 1 only after success. Any thread.
- * Errors: ARGUMENT. */
-MSQ_API msq_status msq_job_progress(const msq_job *job, double *fraction);
+/** Returns the completed fraction, 0 to 1, of the last call under the job. It is 1 only after
+ * success. Errors: ARGUMENT. */
+MSQ_API msq_status msq_job_progress(const msq_job* job, double* fraction);
 
+/** Which parts of the engine evaluated the points of a set query. */
 typedef struct msq_job_report {
   uint32_t struct_size;
-  uint32_t reserved;  /* 0 */
-  uint64_t points;    /* of a set query, answered */
-  uint64_t by_shape;  /* of these, answered by the coarse shape alone: outside it, or no finer scale resolved */
-  uint64_t by_point;  /* asked of structures one by one: counted once for each structure that is asked */
-  uint64_t by_set;    /* asked of structures in groups, likewise */
-  uint64_t groups;    /* into which by_set fell; of grids, tiles of rows */
+  uint32_t reserved;
+  /** Points evaluated so far. */
+  uint64_t points;
+  /** Points decided by the coarse shape alone: they are outside it, or no finer scale is resolved.
+   */
+  uint64_t by_shape;
+  /** Points that structures evaluated one at a time. A point counts once per structure. */
+  uint64_t by_point;
+  /** Points that structures evaluated in groups. A point counts once per structure. */
+  uint64_t by_set;
+  /** Number of these groups. On grids a group is a tile of rows. */
+  uint64_t groups;
 } msq_job_report;
 
-/* What answered the points of the last call under the job, a set query or statistic (0 for others),
- * as far as it has come. Any thread. Errors: ARGUMENT.
+/** Reports the counters of the last set query or statistic under the job; zeros for other calls.
+ * Errors: ARGUMENT.
  * Source: paper, section "Structured and Unstructured Set Queries" (critical number of points). */
-MSQ_API msq_status msq_job_info(const msq_job *job, msq_job_report *report);
+MSQ_API msq_status msq_job_info(const msq_job* job, msq_job_report* report);
 
-/* ---- objects that the host defines ----------------------------------------- */
+/* ---- Windows --------------------------------------------------------------------------------- */
 
-/* Fields, shapes and structures may be functions of the host's own, which msq calls with batches of
- * points: msq_field_host, msq_shape_from_host, msq_structure_host, msq_structure_host_function. Of all of
- * their callbacks it holds:
+/** A part of a grid: the samples (i, j, k) with first <= (i, j, k) < first + count along each axis.
+ * All zeros (default): the whole grid. Otherwise each count is at least 1.
  *
- *  Answers   depend on the arguments alone: a point has the same answer, to the last bit, whenever it
- *            is asked and whatever else is in its batch.
- *  Threads   concurrent = 0 (default): they run on the thread that made the call to msq, one at a time,
- *            and models with such an object are computed by that thread alone. (Calls that the host
- *            makes at once call back at once, each on its own thread.) concurrent = 1: they may run on
- *            any thread of msq, several at once.
- *  Failure   They return 0 to go on; any other code, best negative, stops the call with MSQ_E_HOST.
- *            So do answers that are no number or beyond what the definition states, with code 0. What
- *            a failed set query was to write may then be partly written. Exceptions of the host's
- *            language must not leave them.
- *  Lifetime  Each gets the definition's user. release, if not NULL, gets it once, when the object is
- *            freed and no callback will come any more, on the thread that let go of it last; not where
- *            the constructor fails. They may call msq, not on what they are part of.
+ * Positions depend on the index in the whole grid alone: origin + (i, j, k) * spacing. So windows
+ * that tile a grid have, byte for byte, the results of the whole. A smaller grid with a shifted
+ * origin does not: its positions are rounded differently. */
+typedef struct msq_window {
+  /** Index of the first sample in the whole grid. */
+  uint64_t first[3];
+  /** Number of samples along x, y and z. */
+  uint64_t count[3];
+} msq_window;
+
+/* ---- Objects that the host defines ----------------------------------------------------------- */
+
+/* A host may define its own fields, shapes and structures by callbacks: msq_field_host,
+ * msq_shape_from_host, msq_structure_host, msq_structure_host_function. These rules hold for all of
+ * their callbacks:
  *
- * Points and boxes belong to msq and are valid until the callback returns. Coordinates are triples
- * x, y, z, and a batch has at most 4096 points. docs/hosts.md shows the smallest example. */
+ * Results depend on the arguments alone. A point has the same result, to the last bit, in every
+ * batch.
+ *
+ * Threads. concurrent = 0 (default): callbacks run on the thread that called msq, one at a time,
+ * and msq computes models with such an object on that thread alone. If several host threads call
+ * msq, each receives its own callbacks. concurrent = 1: callbacks may run on any thread, several at
+ * once.
+ *
+ * Failure. A callback returns 0 for success. Any other code, preferably negative, stops the call
+ * with MSQ_E_HOST. A value that is not a number, or outside the range that the definition promises,
+ * stops it with MSQ_E_HOST and host code 0. The outputs of a set query that stops may be partly
+ * written. Exceptions of the host's language must not leave a callback.
+ *
+ * Lifetime. Every callback receives the definition's user pointer. release, if not NULL, is called
+ * once with it, when the object is freed and no other callback can follow, on the thread that
+ * dropped the last reference. It is not called if the constructor fails. Callbacks may call msq,
+ * except on an object that they are part of.
+ *
+ * Points and boxes belong to msq and are valid until the callback returns. A batch has at most 4096
+ * points, as triples x, y, z. docs/hosts.md shows the smallest example. */
 
-typedef void (*msq_release_fn)(void *user);
+/** Called once when an object is freed. */
+typedef void (*msq_release_fn)(void* user);
 
-/* values[i] = the value at point i, for i < count. */
-typedef int32_t (*msq_values_fn)(void *user, const double *points, uint64_t count,
-                                 double *values);
+/** Writes values[i], the value at point i, for i < count. */
+typedef int32_t (*msq_values_fn)(void* user, const double* points, uint64_t count, double* values);
 
-/* *low and *high: bounds, rounding included, of all values in the box from min to max. */
-typedef int32_t (*msq_range_fn)(void *user, const double min[3], const double max[3],
-                                double *low, double *high);
+/** Writes bounds of all values in the box from min to max. The bounds include rounding. */
+typedef int32_t (*msq_range_fn)(void* user, const double min[3], const double max[3], double* low,
+                                double* high);
 
-/* ---- shapes: scale 0 ------------------------------------------------------ */
+/* ---- Shapes: scale 0 ------------------------------------------------------------------------- */
 
-typedef struct msq_shape msq_shape; /* a coarse solid */
+/** A coarse solid. */
+typedef struct msq_shape msq_shape;
 
-/* Which winding numbers are inside a mesh. */
-enum {
-  MSQ_WINDING_NONZERO = 0, /* any but 0 (default): overlapping and inside-out parts are solid */
+/** Winding numbers that are inside a mesh. */
+enum msq_winding {
+  /** All except 0. Overlapping and inverted parts are solid. */
+  MSQ_WINDING_NONZERO = 0,
   MSQ_WINDING_EVEN_ODD = 1,
-  MSQ_WINDING_POSITIVE = 2 /* only parts with outward normals are solid */
+  /** Only parts whose normals point outwards are solid. */
+  MSQ_WINDING_POSITIVE = 2,
+  /** Default. NONZERO; for meshes that are not closed, NONZERO of the generalised winding number,
+   * rounded half up to a whole number. */
+  MSQ_WINDING_AUTO = 3
 };
 
-enum { /* type of a host's numbers; coordinates are of the first two */
+/** Type of the numbers in a host's array. Coordinates in model units are MSQ_FLOAT32 or
+ * MSQ_FLOAT64. Images take all but MSQ_INT32 and MSQ_INT64. Polygons to fill
+ * (msq_fill_def) take only these; contours take these and MSQ_FLOAT64. */
+enum msq_number_type {
   MSQ_FLOAT32 = 1,
   MSQ_FLOAT64 = 2,
   MSQ_UINT8 = 3,
   MSQ_INT16 = 4,
-  MSQ_UINT16 = 5
+  MSQ_UINT16 = 5,
+  MSQ_INT32 = 6,
+  MSQ_INT64 = 7
 };
 
-enum { /* mesh file formats; the only ones read */
-  MSQ_FORMAT_AUTO = 0, /* by the file's extension */
-  MSQ_FORMAT_STL = 1,  /* binary or ASCII */
+/** Mesh file formats that msq reads. */
+enum msq_format {
+  /** By the extension of the file. */
+  MSQ_FORMAT_AUTO = 0,
+  /** Binary or ASCII. */
+  MSQ_FORMAT_STL = 1,
   MSQ_FORMAT_OBJ = 2,
   MSQ_FORMAT_PLY = 3,
   MSQ_FORMAT_OFF = 4,
@@ -274,1271 +376,2086 @@ enum { /* mesh file formats; the only ones read */
   MSQ_FORMAT_AMF = 6
 };
 
-/* The grid of neighbourhood cells that a structure stands on, or an image. Cell (i, j, k) holds the points
- * origin + rotation * ((i, j, k) + u) * cell_size, 0 <= u < 1 in each component.
+/** The grid of neighbourhood cells of a structure, or the frame of an image. Cell (i, j, k) holds
+ * the points origin + rotation * ((i, j, k) + u) * cell_size with 0 <= u < 1 in each component.
  * Source: paper, section "Multiscale Shape-Material Modeling API". */
 typedef struct msq_neighbourhood {
-  double origin[3];    /* default 0 */
-  double cell_size[3]; /* > 0, along the grid's own axes (default 1) */
-  double rotation[9];  /* row-major, orthonormal within 1e-9 (the nearest rotation is taken),
-                          determinant +1 (default identity) */
+  /** Default 0. */
+  double origin[3];
+  /** Along the axes of the grid, 1e-75 to 1e75. Default 1. */
+  double cell_size[3];
+  /** Row-major. Orthonormal within 1e-9 with determinant +1; msq takes the nearest rotation.
+   * Default identity. */
+  double rotation[9];
 } msq_neighbourhood;
 
-/* An image: numbers on a regular grid, linear between them along x, y and z. Where one is given, its
- * values are copied, and about 1/8 byte a value kept besides. */
+/** Moves a grid along with a part: *placed receives the grid whose cells are those of grid, placed
+ * by a matrix as in msq_shape_placed. A structure on that grid, with its radius or thickness scaled
+ * as lengths are, is the same structure at another place: seeds and unit cells go with the cells.
+ * Fields and beams are the host's to move. Without this call a structure stays fixed to the model's
+ * frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that
+ * mirrors, shears or stretches by more than 1e-9). Since 0.2. */
+MSQ_API msq_status msq_neighbourhood_placed(const msq_neighbourhood* grid, const double matrix[12],
+                                            msq_neighbourhood* placed);
+
+/** Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about
+ * 1/7 byte per value in addition. */
 typedef struct msq_image {
-  const void *values;    /* value (i, j, k) after i of its row, j rows of its layer, k layers */
-  int32_t value_type;    /* MSQ_UINT8, INT16, UINT16, FLOAT32 or FLOAT64; no default: it must be set.
-                            Floating-point values: at most 1e100 in magnitude */
-  uint32_t reserved;     /* 0 */
-  uint64_t size[3];      /* values along x, y and z, 1 to 2^20 */
-  uint64_t row_stride;   /* bytes from one row to the next; 0 (default): tightly packed */
-  uint64_t layer_stride; /* bytes from one layer to the next; 0 (default): size[1] rows */
-  msq_neighbourhood grid; /* value (i, j, k) stands at the corner of the grid's cell (i, j, k) that is
-                             nearest to its origin: origin + rotation * ((i, j, k) * cell_size), so
-                             cell_size is the spacing of the values */
+  /** size[2] layers of size[1] rows of size[0] values. */
+  const void* values;
+  /** MSQ_UINT8, INT16, UINT16, FLOAT32 or FLOAT64. No default. Floating-point values: at most 1e100
+   * in magnitude. */
+  int32_t value_type;
+  /** Must be 0. */
+  uint32_t reserved;
+  /** Number of values along x, y and z: 1 to 2^20 each. */
+  uint64_t size[3];
+  /** Bytes from one row to the next. 0 (default): tightly packed. */
+  uint64_t row_stride;
+  /** Bytes from one layer to the next. 0 (default): size[1] rows. */
+  uint64_t layer_stride;
+  /** Value (i, j, k) is at origin + rotation * ((i, j, k) * cell_size): cell_size is the spacing of
+   * the values. */
+  msq_neighbourhood grid;
 } msq_image;
 
+/** How a mesh file is read. */
 typedef struct msq_file_def {
   uint32_t struct_size;
-  int32_t format;         /* MSQ_FORMAT_*; AUTO (default) needs a path */
-  int32_t winding_rule;   /* MSQ_WINDING_* */
-  uint32_t reserved;      /* 0 */
-  double unit_mm;         /* length of the file's unit in mm for STL, OBJ, PLY and OFF, which name
-                             none (default 1); 3MF and AMF name theirs, and it is applied */
-  uint64_t max_bytes;     /* refuse larger files, and archives that unpack to more; 0 and default:
-                             4 GiB */
-  uint64_t max_triangles; /* refuse more; 0 and default: 200 million */
+  /** An msq_format. Default MSQ_FORMAT_AUTO, which needs a path. */
+  int32_t format;
+  /** An msq_winding. Default MSQ_WINDING_AUTO. */
+  int32_t winding_rule;
+  /** Must be 0. */
+  uint32_t reserved;
+  /** Length of the file's unit in mm for STL, OBJ, PLY and OFF, which name no unit. Default 1. The
+   * units of 3MF and AMF files are read and applied. */
+  double unit_mm;
+  /** Maximum size in bytes of the file, and of what an archive unpacks to. 0 and default: 4 GiB. */
+  uint64_t max_bytes;
+  /** Maximum number of triangles. 0 and default: 200 million. */
+  uint64_t max_triangles;
 } msq_file_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_file_def_init(msq_file_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_file_def_init(msq_file_def* def, size_t size);
 
-/* Reads a triangle mesh from a file; def NULL: defaults. All instances in the file become one shape
- * in millimetres: transforms applied, polygons triangulated, equal vertices welded, triangles
- * with fewer than three distinct vertices dropped. No other file is ever opened. Cost: linear in the file.
- * Errors: ARGUMENT, IO (no such file, truncated, malformed), UNSUPPORTED (format, or a build without
- * Assimp), MESH (no triangles, index out of range, triangle with a non-finite vertex), LIMIT, MEMORY. */
-MSQ_API msq_status msq_shape_from_file(msq_context *context, const char *path,
-                                       const msq_file_def *def, msq_shape **shape);
+/** Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job.
+ *
+ * All instances in the file become one shape in millimetres. msq applies transforms, triangulates
+ * polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It
+ * opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ:
+ * vertices and faces are read. Limit: coordinates up to 1e100 in magnitude, in millimetres. Cost:
+ * linear in the size of the file (a million triangles: about a second). Cancelling ends the call
+ * within tens of milliseconds, except while the XML of 3MF or AMF is parsed.
+ * Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and ASCII STL the message
+ * names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or AMF in a build without
+ * Assimp), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY,
+ * CANCELLED. */
+MSQ_API msq_status msq_shape_from_file(msq_context* context, const char* path,
+                                       const msq_file_def* def, msq_shape** shape, msq_job* job);
 
-/* The same from bytes in memory; def must name the format and may not be NULL. Errors: as
- * msq_shape_from_file, IO for bytes that are truncated or malformed. */
-MSQ_API msq_status msq_shape_from_memory(msq_context *context, const void *data, uint64_t bytes,
-                                         const msq_file_def *def, msq_shape **shape);
+/** Reads a triangle mesh from bytes in memory. def must name the format and must not be NULL. See
+ * msq_shape_from_file. */
+MSQ_API msq_status msq_shape_from_memory(msq_context* context, const void* data, uint64_t bytes,
+                                         const msq_file_def* def, msq_shape** shape, msq_job* job);
 
+/** A triangle mesh in arrays. */
 typedef struct msq_mesh_def {
   uint32_t struct_size;
-  int32_t coordinate_type; /* MSQ_FLOAT32 or MSQ_FLOAT64 (default) */
-  int32_t winding_rule;    /* MSQ_WINDING_* */
-  uint32_t reserved;       /* 0 */
-  const void *vertices;    /* vertex_count triples x, y, z, at any address */
+  /** MSQ_FLOAT32 or MSQ_FLOAT64 (default). */
+  int32_t coordinate_type;
+  /** An msq_winding. Default MSQ_WINDING_AUTO. */
+  int32_t winding_rule;
+  /** Must be 0. */
+  uint32_t reserved;
+  /** vertex_count triples x, y, z. No alignment is needed. */
+  const void* vertices;
   uint64_t vertex_count;
-  uint64_t vertex_stride;  /* bytes from one vertex to the next; 0 (default): tightly packed */
-  const uint32_t *triangles; /* triangle_count triples of vertex indices, counter-clockwise from
-                                outside */
+  /** Bytes from one vertex to the next. 0 (default): tightly packed. */
+  uint64_t vertex_stride;
+  /** triangle_count triples of vertex indices, counter-clockwise seen from outside. */
+  const uint32_t* triangles;
   uint64_t triangle_count;
 } msq_mesh_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_mesh_def_init(msq_mesh_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_mesh_def_init(msq_mesh_def* def, size_t size);
 
-/* Makes a shape from a triangle mesh in arrays. Dirty meshes (open, self-intersecting, flipped,
- * duplicate triangles) are accepted and diagnosed by msq_shape_info.
+/** Creates a shape from a triangle mesh. Dirty meshes (open, self-intersecting, flipped or
+ * duplicate triangles) are accepted; msq_shape_info diagnoses them.
  *
- * Membership: a point of the mesh's bounding box is inside where the winding number of the +x ray
- * from it satisfies the winding rule. Crossings are half-open in y and z, so shared edges and
- * vertices count once, and closed in x: a point on a crossing is inside if either side of it is. So
- * points exactly on a face that is highest in y or z are outside, those on the opposite face inside.
- * Limits: coordinates up to 1e100, 2^32 - 1 vertices and triangles. Cost: linear in the triangles,
- * about 100 bytes for each are kept.
- * Errors: ARGUMENT, MESH (no triangles, index out of range, triangle with a non-finite vertex), LIMIT, MEMORY. */
-MSQ_API msq_status msq_shape_from_mesh(msq_context *context, const msq_mesh_def *def,
-                                       msq_shape **shape);
+ * Membership. A point in the bounding box of the mesh is inside if the winding number of the ray
+ * from it along +x satisfies the winding rule. Crossings are half-open in y and z, so shared edges
+ * and vertices count once. They are closed in x: a point on a crossing is inside if either side is.
+ * Points exactly on a face that is highest in y or z are therefore outside; points on the opposite
+ * face are inside. On faces that are not normal to an axis the position of the crossing is rounded,
+ * by about 1e-16 of the coordinates.
+ *
+ * With MSQ_WINDING_AUTO a mesh that is not closed (msq_shape_report.closed is 0) uses the
+ * generalised winding number, rounded half up to a whole number. The solid ends at the bounding
+ * box. Distances are lower bounds. A skin follows the triangles, not the holes. Additional cost:
+ * about 500 bytes per open edge; a point near a hole, or where the number is near a half, may sum
+ * over all open edges.
+ *
+ * Limits: coordinates up to 1e100; 2^32 - 1 vertices and triangles. Cost: linear in the number of
+ * triangles; msq keeps about 75 bytes per triangle and needs 100 during construction. Errors:
+ * ARGUMENT, MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY.
+ * Source: Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using
+ * generalized winding numbers", 2013. */
+MSQ_API msq_status msq_shape_from_mesh(msq_context* context, const msq_mesh_def* def,
+                                       msq_shape** shape);
 
-/* Axis-aligned box, boundary included, in model units up to 1e75. Errors: ARGUMENT unless min < max in
- * each axis; MEMORY. */
-MSQ_API msq_status msq_shape_from_box(msq_context *context, const double min[3],
-                                      const double max[3], msq_shape **shape);
-/* Ball, boundary included, in model units up to 1e75. Errors: ARGUMENT unless radius > 0; MEMORY. */
-MSQ_API msq_status msq_shape_from_sphere(msq_context *context, const double center[3],
-                                         double radius, msq_shape **shape);
-/* Flat-ended round cylinder between two points, boundary included, in model units up to 1e75. Errors: ARGUMENT unless the
- * points differ and radius > 0; MEMORY. */
-MSQ_API msq_status msq_shape_from_cylinder(msq_context *context, const double from[3],
-                                           const double to[3], double radius, msq_shape **shape);
+/** Creates an axis-aligned box with its boundary. Coordinates of min, and sides: up to 1e75.
+ * Errors: ARGUMENT unless min < max along each axis; MEMORY. */
+MSQ_API msq_status msq_shape_from_box(msq_context* context, const double min[3],
+                                      const double max[3], msq_shape** shape);
 
-/* inside[i] = 0 where point i is outside, any other value where it is inside or on the boundary. */
-typedef int32_t (*msq_inside_fn)(void *user, const double *points, uint64_t count,
-                                 uint8_t *inside);
+/** Creates a ball with its boundary. Coordinates and radius: up to 1e75. Errors: ARGUMENT unless
+ * radius > 0; MEMORY. */
+MSQ_API msq_status msq_shape_from_sphere(msq_context* context, const double center[3],
+                                         double radius, msq_shape** shape);
 
+/** Creates a round cylinder with flat ends and its boundary. Coordinates, their differences and the
+ * radius: up to 1e75. Errors: ARGUMENT unless from and to differ and radius > 0; MEMORY. */
+MSQ_API msq_status msq_shape_from_cylinder(msq_context* context, const double from[3],
+                                           const double to[3], double radius, msq_shape** shape);
+
+/** Creates the shape that every point is inside of, for models of structures alone that the host
+ * clips itself. Its bounds are infinite, its volume is infinite, and it has no surface: no scale
+ * can leave a skin in it, and msq_field_shape_distance refuses it.
+ *
+ * A model of all space is queried like any other, with these differences. The limit of 2^24 cells
+ * from the origin of a structure's grid, and of 1e75 for coordinates, holds for the points of each
+ * query: LIMIT, which writes nothing. A slicer needs a region. Rays need a finite t_max. Pictures
+ * need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no
+ * camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT,
+ * MEMORY. */
+MSQ_API msq_status msq_shape_all_space(msq_context* context, msq_shape** shape);
+
+/** Writes inside[i]: 0 if point i is outside, any other value if it is inside or on the boundary.
+ */
+typedef int32_t (*msq_inside_fn)(void* user, const double* points, uint64_t count, uint8_t* inside);
+
+/** A shape that the host computes. */
 typedef struct msq_host_shape_def {
   uint32_t struct_size;
-  int32_t concurrent;     /* 0 (default) or 1: see "objects that the host defines" */
-  msq_inside_fn inside;   /* of points in the box, in model coordinates */
-  msq_values_fn distance; /* of any points: at most the distance to the boundary, on either side of it,
-                             and changing by no more than the points do; the sign is nothing.
-                             NULL (default): the distance to the box */
-  void *user;
+  /** 0 (default) or 1. See "Objects that the host defines". */
+  int32_t concurrent;
+  /** Membership of points in the bounding box, in model coordinates. */
+  msq_inside_fn inside;
+  /** Lower bound on the distance to the boundary, for any points, on either side; its sign is
+   * ignored. It must have Lipschitz constant 1. NULL (default): the distance to the bounding box, 0
+   * inside it. */
+  msq_values_fn distance;
+  void* user;
   msq_release_fn release;
-  double min[3], max[3];  /* box outside of which nothing is inside. No default: must be set */
+  /** Bounding box, with the limits of msq_shape_from_box. No default. */
+  double min[3], max[3];
 } msq_host_shape_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_host_shape_def_init(msq_host_shape_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_host_shape_def_init(msq_host_shape_def* def, size_t size);
 
-/* Shape that the host computes: the points of a box, up to 1e75 in model units, that its callback
- * finds inside. Slices and arrays of points ask in batches, distances point by point. def may not be
- * NULL. Errors: ARGUMENT unless min < max in each axis; MEMORY; of calls that ask the shape, HOST. */
-MSQ_API msq_status msq_shape_from_host(msq_context *context, const msq_host_shape_def *def,
-                                       msq_shape **shape);
+/** Creates a shape from callbacks. It has no depth, so no scale can leave a skin in it. Slices and
+ * arrays call back with batches of points, distances with single points. def must not be NULL.
+ * Errors: ARGUMENT unless min < max along each axis; MEMORY. Calls that use the shape: HOST. */
+MSQ_API msq_status msq_shape_from_host(msq_context* context, const msq_host_shape_def* def,
+                                       msq_shape** shape);
 
-enum { /* which side of an image's threshold is solid; the threshold itself is, too */
-  MSQ_SOLID_ABOVE = 0,
-  MSQ_SOLID_BELOW = 1
-};
+/** Which side of an image's threshold is solid. The threshold itself is solid. */
+enum msq_solid_side { MSQ_SOLID_ABOVE = 0, MSQ_SOLID_BELOW = 1 };
 
+/** A shape from a voxel image. */
 typedef struct msq_voxels_def {
   uint32_t struct_size;
-  int32_t solid;    /* MSQ_SOLID_*; default ABOVE */
-  msq_image image;  /* at least 2 values along each axis */
-  double threshold; /* in the unit of the values (default 0) */
+  /** An msq_solid_side. Default MSQ_SOLID_ABOVE. */
+  int32_t solid;
+  /** At least 2 values along each axis. */
+  msq_image image;
+  /** In the unit of the values. Default 0. */
+  double threshold;
 } msq_voxels_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_voxels_def_init(msq_voxels_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_voxels_def_init(msq_voxels_def* def, size_t size);
 
-/* Makes a shape from a voxel image, such as a CT scan: the points where the trilinear function between
- * its values is on the solid side of the threshold, within the box that the outermost values span. A
- * solid that reaches the image's border ends there. def may not be NULL. Limits: coordinates up to 1e75.
- * Cost: linear in the values, on the calling thread (a second or two for 10^8); rows and layers ask
- * little more than the cells that the surface crosses.
- * Errors: ARGUMENT (also where no value is solid), LIMIT (the image would pass the context's
- * memory_limit), MEMORY. */
-MSQ_API msq_status msq_shape_from_voxels(msq_context *context, const msq_voxels_def *def,
-                                         msq_shape **shape);
+/** Creates a shape from a voxel image, for example a CT scan: the points where the trilinear
+ * function is on the solid side of the threshold, inside the box that the outermost values span.
+ * def must not be NULL. It has no depth, so no scale can leave a skin in it. Limits: coordinates of
+ * the origin, and the sum of the extents along the axes, up to 1e75. Cost: linear in the number of
+ * values, on the calling thread (one or two seconds for 10^8). Rows and layers then visit the cells
+ * that the surface crosses. Errors: ARGUMENT (also if no value is solid), LIMIT (memory limit of
+ * the context), MEMORY. */
+MSQ_API msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_def* def,
+                                         msq_shape** shape);
 
-MSQ_API void msq_shape_retain(msq_shape *shape);
-MSQ_API void msq_shape_release(msq_shape *shape);
+/** Creates a shape from another one by an affine map, for example an instance of a part on a plate.
+ * The two share mesh, image and trees. matrix: three rows of four numbers, row-major; a point q of
+ * the original is placed at matrix * (q, 1). Rotations, scalings, mirror images and shears are
+ * allowed.
+ *
+ * A point p is inside if the original holds B * (p - b), where B is the inverse of the first three
+ * columns, computed once in double precision, and b the last column. Lengths keep the unit of the
+ * model. Distance and depth are those of the original where all lengths grow alike (within 1e-6);
+ * otherwise the distance is at least the original's times the smallest growth of a length, and the
+ * shape has no depth, so no scale can leave a skin in it: transform the vertices of a mesh instead.
+ * Bounds enclose the placed bounding box of the original.
+ *
+ * Cost: constant. Points and rays cost what they cost in the original. Layers ask the distance at a
+ * few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors:
+ * ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6;
+ * lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64
+ * shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. Since 0.2. */
+MSQ_API msq_status msq_shape_placed(const msq_shape* original, const double matrix[12],
+                                    msq_shape** shape);
 
+/** Boolean operations on shapes. */
+enum msq_boolean_operation {
+  /** Points in any of the shapes. */
+  MSQ_BOOLEAN_UNION = 1,
+  /** Points in all of the shapes. */
+  MSQ_BOOLEAN_INTERSECTION = 2,
+  /** Points of the first shape that are in no other. The boundary of a subtracted shape is outside.
+   */
+  MSQ_BOOLEAN_DIFFERENCE = 3
+};
+
+/** Creates the union, intersection or difference of shapes (operation: an msq_boolean_operation)
+ * from their memberships. shapes: count shapes, 1 to 4096.
+ *
+ * Distance. Of a union: the smallest of the shapes' signed distances, exact outside if theirs are,
+ * a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference:
+ * as an intersection with complements. Depth, and hence skin: intersections and differences of
+ * shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do
+ * not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an
+ * intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed),
+ * UNSUPPORTED (all space), MEMORY. Since 0.2. */
+MSQ_API msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* shapes,
+                                     uint64_t count, msq_shape** shape);
+
+/** Creates a shape from another one by moving its surface by a distance, outwards if it is positive
+ * and inwards if it is negative: the points whose signed distance to the original
+ * (msq_point_distance) is at most distance. Outwards, edges become round.
+ *
+ * The original's distance must be exact on the side to which the surface moves: primitives, closed
+ * meshes, uniformly placed ones of these, outwards unions, inwards intersections and differences of
+ * these, and offsets once more to the same side. Triangles of a mesh that bound nothing count as
+ * its surface. The distance of the new shape is exact beyond its surface on that side, a bound on
+ * the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its
+ * tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not
+ * finite, an offset inwards by more than half the bounding box, coordinates above 1e75),
+ * UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as
+ * msq_shape_placed; memory), MEMORY. Since 0.2. */
+MSQ_API msq_status msq_shape_offset(const msq_shape* original, double distance, msq_shape** shape);
+
+/** Adds a reference. */
+MSQ_API void msq_shape_retain(msq_shape* shape);
+/** Drops a reference. */
+MSQ_API void msq_shape_release(msq_shape* shape);
+
+/** Bounds, size and diagnosis of a shape. */
 typedef struct msq_shape_report {
   uint32_t struct_size;
-  int32_t is_mesh;     /* 1 for meshes; 0 for others, whose counts below are 0 */
-  double min[3];       /* bounding box */
+  /** 1 for a mesh, also a placed one. 0 for other shapes; their counts below are 0. */
+  int32_t is_mesh;
+  /** Bounding box. */
+  double min[3];
   double max[3];
-  double volume;       /* cubic model units; meshes: signed sum over triangles, exact for closed
-                          ones but for rounding, negative if inside out; voxels: by counting solid
-                          values, each the part of its spacing's box that is in the image; NaN of a
-                          host's shape */
-  double area;         /* square model units; NaN of voxels and of a host's shape */
-  uint64_t vertices;             /* after welding */
-  uint64_t triangles;            /* kept */
-  uint64_t degenerate_triangles; /* without area. Those with fewer than three distinct vertices are
-                                    dropped, collinear ones kept: they close the surface */
-  uint64_t duplicate_triangles;  /* kept: same three vertices as an earlier one */
-  uint64_t open_edges;           /* with one triangle */
-  uint64_t non_manifold_edges;   /* with three or more */
-  uint64_t flipped_edges;        /* with two triangles that run along it the same way */
-  int32_t closed;                /* 1 if every edge has as many triangles one way as the other */
-  int32_t reserved;              /* 0 */
+  /** Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to
+   * rounding, negative if inside out. Open meshes with
+   * MSQ_WINDING_AUTO: with capped holes, except pieces whose caps exceed 3/4 of their area. Voxels:
+   * sum of the boxes of the solid values. Host shapes, booleans and offsets: NaN. */
+  double volume;
+  /** Square model units. NaN of shapes without a formula: voxels, host shapes, booleans, offsets,
+   * stretched shapes. Meshes: infinite or 0 if triangles are beyond
+   * 1e75 or below 1e-75. */
+  double area;
+  /** Vertices after welding. */
+  uint64_t vertices;
+  /** Triangles that were kept. */
+  uint64_t triangles;
+  /** Triangles without area. Those with fewer than three distinct vertices are dropped. Collinear
+   * ones are kept, because they close the surface. */
+  uint64_t degenerate_triangles;
+  /** Kept triangles with the same three vertices as an earlier one. */
+  uint64_t duplicate_triangles;
+  /** Edges with one triangle. */
+  uint64_t open_edges;
+  /** Edges with three or more triangles. */
+  uint64_t non_manifold_edges;
+  /** Edges with two triangles that run along the edge in the same direction. */
+  uint64_t flipped_edges;
+  /** 1 if along every edge as many triangles run one way as the other. */
+  int32_t closed;
+  int32_t reserved;
 } msq_shape_report;
 
-/* Bounds, volume, area and the diagnosis of a dirty mesh. Cost: none, found at construction.
+/** Reports bounds, volume, area and the diagnosis of a dirty mesh, as found at construction.
  * Errors: ARGUMENT. */
-MSQ_API msq_status msq_shape_info(const msq_shape *shape, msq_shape_report *report);
+MSQ_API msq_status msq_shape_info(const msq_shape* shape, msq_shape_report* report);
 
-/* Counts the pairs of triangles in which a mesh intersects itself; 0 for other shapes. A pair counts
- * if its triangles meet other than in a vertex or an edge that both have: they cross, touch, overlap
- * in a plane or are duplicates, in the sense of CGAL::Polygon_mesh_processing::self_intersections.
- * Decided exactly, after welding; triangles without area are left out. A diagnosis only: meshes that
- * intersect themselves are shapes like others, and no answer of the shape depends on this.
- * Cost: about n log^3 n for n triangles and a test for each pair whose boxes meet, on the calling
- * thread (about a second for 270,000 triangles), and about 100 bytes a triangle meanwhile. job NULL:
- * none; its progress goes from 0 to 1 at the end.
- * Errors: ARGUMENT, CANCELLED, UNSUPPORTED (a mesh, in a build without CGAL), MEMORY.
- * Source: Zomorodian and Edelsbrunner, "Fast software for box intersections", 2002. */
-MSQ_API msq_status msq_shape_self_intersections(const msq_shape *shape, uint64_t *pairs,
-                                                msq_job *job);
+/** Counts the pairs of triangles in which a mesh intersects itself. Other shapes: 0.
+ *
+ * A pair counts if its triangles cross, touch, overlap in a plane or are duplicates; a shared
+ * vertex or edge alone does not count (CGAL::Polygon_mesh_processing::self_intersections). The
+ * decision is exact, after welding, without triangles that have no area. This is a diagnosis: no
+ * result of a shape depends on it.
+ *
+ * job NULL: no job; progress jumps from 0 to 1 at the end. Cost: about n log^3 n for n triangles
+ * plus a test per pair of overlapping boxes, on the calling thread (about a second for 270,000
+ * triangles), with about 100 bytes per triangle. Errors: ARGUMENT, CANCELLED, UNSUPPORTED (a mesh,
+ * in a build without CGAL), MEMORY. Source: Zomorodian and Edelsbrunner, "Fast software for box
+ * intersections", 2002. */
+MSQ_API msq_status msq_shape_self_intersections(const msq_shape* shape, uint64_t* pairs,
+                                                msq_job* job);
 
-/* ---- fields ----------------------------------------------------------------- */
+/* ---- Fields ---------------------------------------------------------------------------------- */
 
-typedef struct msq_field msq_field; /* a number at every point of space, of known range */
+/** A number at every point of space, with a known range. */
+typedef struct msq_field msq_field;
 
-/* Field that runs linearly from from_value in the plane through from, normal to to - from, to
- * to_value in the plane through to, and is constant beyond both. Errors: ARGUMENT unless the points
- * differ, by 1e-140 at least, and the values by less than overflows; MEMORY. */
-MSQ_API msq_status msq_field_gradient(msq_context *context, const double from[3],
-                                      double from_value, const double to[3], double to_value,
-                                      msq_field **field);
+/** Creates a linear gradient: from_value in the plane through from, to_value in the plane through
+ * to, both normal to to - from; linear between the planes and constant beyond them. Errors:
+ * ARGUMENT unless from and to are 1e-140 to 1.3e154 apart and the difference of the values is
+ * finite; MEMORY. */
+MSQ_API msq_status msq_field_gradient(msq_context* context, const double from[3], double from_value,
+                                      const double to[3], double to_value, msq_field** field);
 
+/** A field by the distance from a point or a line. */
 typedef struct msq_radial_field_def {
   uint32_t struct_size;
-  uint32_t reserved;    /* 0 */
-  double center[3];     /* default 0 */
-  double axis[3];       /* of any length: distances count from the line along it through center;
-                           0 (default): from center */
-  double from_radius;   /* >= 0 (default 0) */
+  uint32_t reserved;
+  /** Default 0. */
+  double center[3];
+  /** Direction of the line through center, of any length. 0 (default): distance from the point
+   * center. */
+  double axis[3];
+  /** At least 0. Default 0. */
+  double from_radius;
   double from_value;
-  double to_radius;     /* > from_radius (default 1) */
+  /** Greater than from_radius. Default 1. */
+  double to_radius;
   double to_value;
 } msq_radial_field_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_radial_field_def_init(msq_radial_field_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_radial_field_def_init(msq_radial_field_def* def, size_t size);
 
-/* Field that runs linearly with the distance from a point or a line: from_value up to from_radius, to
- * to_value at to_radius and beyond. def may not be NULL. Errors: ARGUMENT, MEMORY. */
-MSQ_API msq_status msq_field_radial(msq_context *context, const msq_radial_field_def *def,
-                                    msq_field **field);
+/** Creates a field that is from_value up to from_radius, to_value from to_radius on, and linear
+ * between. def must not be NULL. Errors: ARGUMENT (also if the difference of the values is not
+ * finite), MEMORY. */
+MSQ_API msq_status msq_field_radial(msq_context* context, const msq_radial_field_def* def,
+                                    msq_field** field);
 
-/* Field that is a piecewise linear curve over another field. curve: curve_count pairs (value of
- * argument, value of this field), 1 to 65536 of them, ascending in the first, constant beyond the
- * ends. Cost at a point: that of argument, and as log(curve_count). Errors: ARGUMENT, LIMIT (more than
- * 64 maps within each other), MEMORY. */
-MSQ_API msq_status msq_field_map(msq_context *context, const msq_field *argument,
-                                 const double *curve, uint64_t curve_count, msq_field **field);
+/** Creates a piecewise linear curve over another field.
+ *
+ * curve: curve_count pairs (value of argument, value of this field), 1 to 65536, strictly ascending
+ * in the first component. The curve is constant beyond its ends. Differences of neighbours must be
+ * finite. Cost per point: that of argument plus log(curve_count). Errors: ARGUMENT, LIMIT (more
+ * than 64 nested maps), MEMORY. */
+MSQ_API msq_status msq_field_map(msq_context* context, const msq_field* argument,
+                                 const double* curve, uint64_t curve_count, msq_field** field);
 
+/** A field that the host computes. */
 typedef struct msq_host_field_def {
   uint32_t struct_size;
-  int32_t concurrent;     /* 0 (default) or 1: see "objects that the host defines" */
-  msq_values_fn evaluate; /* values at points of space, anywhere, in model coordinates */
-  msq_range_fn range;     /* over a box in model coordinates; NULL (default): from lipschitz */
-  void *user;
+  /** 0 (default) or 1. See "Objects that the host defines". */
+  int32_t concurrent;
+  /** Values at points of space, anywhere, in model coordinates. */
+  msq_values_fn evaluate;
+  /** Bounds over a box in model coordinates. NULL (default): derived from lipschitz. */
+  msq_range_fn range;
+  void* user;
   msq_release_fn release;
-  double low, high;       /* finite; no value is ever outside. No default: they must be set */
-  double lipschitz;       /* no two values differ by more than this times the distance of their
-                             points; infinity (default): unknown */
+  /** Bounds of all values. Finite. No default. */
+  double low, high;
+  /** Lipschitz constant of the values. Infinity (default): unknown. */
+  double lipschitz;
 } msq_host_field_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_host_field_def_init(msq_host_field_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_host_field_def_init(msq_host_field_def* def, size_t size);
 
-/* Field that the host computes. def may not be NULL. What msq does with whole blocks of points rests on
- * the range over a box: without range and lipschitz it is low to high everywhere, which is right but slow
- * where the field varies. Where lipschitz or range promise too much, answers are wrong, no worse. Cost:
- * a point at a time in single queries and along struts, batches in sets and slices of functional
- * structures. Errors: ARGUMENT, MEMORY; of calls that ask the field, HOST. */
-MSQ_API msq_status msq_field_host(msq_context *context, const msq_host_field_def *def,
-                                  msq_field **field);
+/** Creates a field from callbacks. def must not be NULL.
+ *
+ * msq decides whole blocks of points by the range over a box. Without range and lipschitz the range
+ * is low to high everywhere: correct, but slow. If range or lipschitz promise too much, results are
+ * wrong; behaviour stays defined. Cost: single points and struts call back with one point; sets and
+ * slices of functional structures with batches.
+ * Errors: ARGUMENT, MEMORY. Calls that use the field: HOST. */
+MSQ_API msq_status msq_field_host(msq_context* context, const msq_host_field_def* def,
+                                  msq_field** field);
+
+/** A field from an image. */
 typedef struct msq_grid_field_def {
   uint32_t struct_size;
-  uint32_t reserved; /* 0 */
+  /** Must be 0. */
+  uint32_t reserved;
   msq_image image;
 } msq_grid_field_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_grid_field_def_init(msq_grid_field_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_grid_field_def_init(msq_grid_field_def* def, size_t size);
 
-/* Field that is an image: trilinear between its values, and beyond it what it is at the nearest point of
- * its border. Its Lipschitz constant is that of the steepest neighbours. def may not be NULL. Cost:
- * linear in the values, on the calling thread (a second for 10^8); at a point, nanoseconds. Errors:
- * ARGUMENT, LIMIT (the image would pass the context's memory_limit), MEMORY. */
-MSQ_API msq_status msq_field_grid(msq_context *context, const msq_grid_field_def *def,
-                                  msq_field **field);
+/** Creates a field from an image: trilinear between the values; outside the image it has the value
+ * of the nearest point of its border. Its Lipschitz constant is that of the steepest pair of
+ * neighbours. def must not be NULL. Cost: linear in the number of values, on the calling thread (a
+ * second for 10^8); nanoseconds per point. Errors: ARGUMENT, LIMIT (memory limit of the context),
+ * MEMORY. */
+MSQ_API msq_status msq_field_grid(msq_context* context, const msq_grid_field_def* def,
+                                  msq_field** field);
 
+/** A named number in an expression. */
 typedef struct msq_named_value {
-  const char *name; /* letters, digits and _, no digit first, and none that expressions know already */
+  /** Letters a to z and A to Z, digits and _; does not begin with a digit; not a name that
+   * expressions define; no name twice. */
+  const char* name;
   double value;
 } msq_named_value;
 
+/** A field from an expression. */
 typedef struct msq_expression_field_def {
   uint32_t struct_size;
-  uint32_t reserved;                 /* 0 */
-  const char *expression;            /* as in msq_structure_functional */
-  const msq_named_value *parameters; /* parameter_count names that it may use */
-  uint64_t parameter_count;          /* at most 1024 */
-  double low, high;                  /* finite, low <= high (default 0); no value is ever outside */
+  /** Must be 0. */
+  uint32_t reserved;
+  /** Text in the grammar of msq_structure_functional. */
+  const char* expression;
+  /** parameter_count names that the text may use. */
+  const msq_named_value* parameters;
+  /** At most 1024. */
+  uint64_t parameter_count;
+  /** The value is clamped to this range. Finite, low <= high. Default 0. */
+  double low, high;
 } msq_expression_field_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_expression_field_def_init(msq_expression_field_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_expression_field_def_init(msq_expression_field_def* def, size_t size);
 
-/* Field that is an expression (msq_structure_functional says of what), cut to low and high; low where
- * it is no number. x, y and z are the model's coordinates, in its unit, not angles. def may not be NULL. A
- * Lipschitz constant is not known: distances to surfaces that depend on it are 0. Errors: ARGUMENT, LIMIT
- * (as msq_structure_functional), MEMORY. */
-MSQ_API msq_status msq_field_expression(msq_context *context, const msq_expression_field_def *def,
-                                        msq_field **field);
+/** Creates a field from an expression in x, y and z, clamped to low and high; low where the value
+ * is not a number. x, y and z are model coordinates, not angles. def must not be NULL. Rays use a
+ * bound of the slope over each box where the expression is smooth. Distances to surfaces that
+ * depend on the field are 0, because the field has no global Lipschitz constant. Errors: ARGUMENT,
+ * LIMIT (as msq_structure_functional), MEMORY. */
+MSQ_API msq_status msq_field_expression(msq_context* context, const msq_expression_field_def* def,
+                                        msq_field** field);
 
+/** A field by the signed distance to a shape. */
 typedef struct msq_shape_distance_field_def {
   uint32_t struct_size;
-  uint32_t reserved;     /* 0 */
-  const msq_shape *shape;
-  const double *curve;   /* curve_count pairs (signed distance, value), as in msq_field_map; distances are
-                            negative inside */
+  /** Must be 0. */
+  uint32_t reserved;
+  const msq_shape* shape;
+  /** curve_count pairs (signed distance, value), strictly ascending in the first component, as in
+   * msq_field_map. Distances inside are negative. */
+  const double* curve;
   uint64_t curve_count;
-  double step;           /* 0 (default): the distance itself at every point; > 0: samples of it this far
-                            apart, trilinear between them */
+  /** 0 (default): exact distance at every point. > 0: spacing of samples that are interpolated
+   * trilinearly. */
+  double step;
 } msq_shape_distance_field_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_shape_distance_field_def_init(msq_shape_distance_field_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_shape_distance_field_def_init(msq_shape_distance_field_def* def,
+                                                     size_t size);
 
-/* Field that is a piecewise linear curve over the signed distance to a shape, that of msq_point_distance: a
- * lower bound of its magnitude where the shape is dirty, voxels or the host's. def may not be NULL.
- * With a step the distance is sampled once over the shape's box, on the context's threads, and is what
- * it is at the box's border beyond it; it is off by less than the step times sqrt(3), and by far less away
- * from edges and middle surfaces. Cost: without a step that of msq_point_distance at every point and strut
- * that is asked (microseconds: slices of fine structures take many times longer); with one, as
- * msq_field_grid of 4-byte values. Errors: ARGUMENT, LIMIT (samples, or the mesh's tree, would pass
- * the context's memory_limit), HOST, MEMORY. */
-MSQ_API msq_status msq_field_shape_distance(msq_context *context,
-                                            const msq_shape_distance_field_def *def,
-                                            msq_field **field);
+/** Creates a piecewise linear curve over the signed distance to a shape, as msq_point_distance
+ * returns it. def must not be NULL. job NULL: no job.
+ *
+ * With a step, msq samples the distance once over the bounding box of the shape and a step around
+ * it, on the threads of the context, in single precision. Outside, the field has the value of the
+ * nearest point of the border. The error inside is below step * sqrt(3), and far smaller away from
+ * edges and medial surfaces. Cost: without a step, that of msq_point_distance per point and strut
+ * (microseconds); with a step, that of msq_field_grid with 4-byte values. Errors: ARGUMENT (also
+ * more than 2^20 steps along an axis), LIMIT (memory limit of the context), HOST, CANCELLED,
+ * MEMORY. */
+MSQ_API msq_status msq_field_shape_distance(msq_context* context,
+                                            const msq_shape_distance_field_def* def,
+                                            msq_field** field, msq_job* job);
 
-MSQ_API void msq_field_retain(msq_field *field);
-MSQ_API void msq_field_release(msq_field *field);
+/** Adds a reference. */
+MSQ_API void msq_field_retain(msq_field* field);
+/** Drops a reference. */
+MSQ_API void msq_field_release(msq_field* field);
 
-/* A parameter: the field, or the value where field is NULL. What is built with a field retains it. */
+/** A parameter: the field, or value if field is NULL. Objects retain the fields of their
+ * parameters. */
 typedef struct msq_param {
   double value;
-  const msq_field *field;
+  const msq_field* field;
 } msq_param;
 
-/* ---- structures: scales 1 and finer -------------------------------------------- */
+/* ---- Structures: scales 1 and finer ---------------------------------------------------------- */
 
-typedef struct msq_structure msq_structure; /* a fine-scale structure that fills all space */
+/** A fine-scale structure: a solid in all space. */
+typedef struct msq_structure msq_structure;
 
-enum { /* unit cells of strut lattices, by nodes and struts in the unit cube */
-  MSQ_UNIT_CELL_CUSTOM = 0, /* nodes and struts of the definition */
-  MSQ_UNIT_CELL_CUBIC = 1,  /* the cube's edges: 3 struts a cell */
-  MSQ_UNIT_CELL_BCC = 2,    /* centre to the 8 corners */
-  MSQ_UNIT_CELL_OCTET = 3,  /* corners to face centres, and the octahedron of face centres: 24 */
-  MSQ_UNIT_CELL_FCC = 4,    /* the diagonals of the faces: 12 */
-  MSQ_UNIT_CELL_KELVIN = 5, /* the edges of truncated octahedra that fill space: 24 */
-  MSQ_UNIT_CELL_DIAMOND = 6, /* the bonds of the diamond crystal: 16 */
-  MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7, /* the edges of rhombic dodecahedra that fill space: 32 */
-  MSQ_UNIT_CELL_REENTRANT = 8 /* uprights along z, 3/4 of the cell high, every second half a cell
-                                 higher than those beside it, and slanted struts from their ends back
-                                 to the ends of their four neighbours: 22. Auxetic: pulled along z it
-                                 widens in x and y */
+/** Unit cells of strut lattices. Nodes and struts are in the unit cube; the number of struts is
+ * that of one cell. */
+enum msq_unit_cell {
+  /** Nodes and struts of the definition. */
+  MSQ_UNIT_CELL_CUSTOM = 0,
+  /** Edges of the cube: 3 struts. */
+  MSQ_UNIT_CELL_CUBIC = 1,
+  /** Centre to the 8 corners. */
+  MSQ_UNIT_CELL_BCC = 2,
+  /** Corners to face centres, and the octahedron of the face centres: 24 struts. */
+  MSQ_UNIT_CELL_OCTET = 3,
+  /** Diagonals of the faces: 12 struts. */
+  MSQ_UNIT_CELL_FCC = 4,
+  /** Edges of space-filling truncated octahedra: 24 struts. */
+  MSQ_UNIT_CELL_KELVIN = 5,
+  /** Bonds of the diamond crystal: 16 struts. */
+  MSQ_UNIT_CELL_DIAMOND = 6,
+  /** Edges of space-filling rhombic dodecahedra: 32 struts. */
+  MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7,
+  /** Auxetic: widens in x and y when pulled along z. Uprights along z, 3/4 of the cell high, every
+   * second one half a cell higher, and slanted struts between the ends of neighbours: 22 struts. */
+  MSQ_UNIT_CELL_REENTRANT = 8
 };
 
-/* A unit cell by itself: a named one, or nodes and struts. */
+/** A unit cell: a named one, or nodes and struts. */
 typedef struct msq_unit_cell_def {
   uint32_t struct_size;
-  int32_t unit_cell;      /* MSQ_UNIT_CELL_*; default BCC */
-  const double *nodes;    /* CUSTOM: node_count triples in [0, 1] of the cell */
-  uint64_t node_count;    /* at most 4096 */
-  const uint32_t *struts; /* CUSTOM: strut_count pairs of node indices */
-  uint64_t strut_count;   /* at most 4096; of a named cell needed with strut_factors alone */
-  const double *strut_factors; /* of the radius, one a strut, 0.001 to 1000; NULL (default): all 1 */
+  /** An msq_unit_cell. Default MSQ_UNIT_CELL_BCC. */
+  int32_t unit_cell;
+  /** CUSTOM: node_count triples, in [0, 1]. */
+  const double* nodes;
+  /** 1 to 4096. */
+  uint64_t node_count;
+  /** CUSTOM: strut_count pairs of indices of different nodes. */
+  const uint32_t* struts;
+  /** 1 to 4096. A named cell needs it only with strut_factors. */
+  uint64_t strut_count;
+  /** Factor of the radius for each strut, 0.001 to 1000. NULL (default): all 1. */
+  const double* strut_factors;
 } msq_unit_cell_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_unit_cell_def_init(msq_unit_cell_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_unit_cell_def_init(msq_unit_cell_def* def, size_t size);
 
+/** Counts of a unit cell and the nodes that do not match their neighbours. */
 typedef struct msq_unit_cell_report {
   uint32_t struct_size;
-  int32_t is_periodic;        /* 1 if unmatched_count is 0 */
-  uint64_t node_count;        /* of the definition, or of the named cell */
+  /** 1 if unmatched_count is 0. */
+  int32_t is_periodic;
+  uint64_t node_count;
   uint64_t strut_count;
-  uint64_t tiled_strut_count; /* struts a cell of the tiling: those whole cells apart count once */
-  double tiled_length;        /* of these, in a cell of size 1 */
-  uint64_t low_nodes[3];      /* nodes on the face at 0 of each axis */
-  uint64_t high_nodes[3];     /* and on that at 1 */
-  uint64_t unmatched_nodes[3]; /* of both, those without a copy on the opposite face */
-  uint64_t unmatched_count;   /* nodes that have none along one axis or more */
+  /** Struts per cell of the tiling. Struts that coincide in neighbouring cells count once. */
+  uint64_t tiled_strut_count;
+  /** Total length of these struts in a cell of size 1. */
+  double tiled_length;
+  /** Nodes on the face at 0 of each axis. */
+  uint64_t low_nodes[3];
+  /** Nodes on the face at 1 of each axis. */
+  uint64_t high_nodes[3];
+  /** Nodes on both faces without a copy on the opposite face. */
+  uint64_t unmatched_nodes[3];
+  /** Nodes without a copy along at least one axis. */
+  uint64_t unmatched_count;
 } msq_unit_cell_report;
 
-/* Counts the nodes and struts of a unit cell, and says which nodes on its faces meet those of the next
- * cell, wherever struts end; a cell that is not periodic may be used as any other, but its struts may
- * end there without joining another. unmatched: becomes the indices of the unmatched nodes, ascending,
- * the first unmatched_room of them; NULL if unmatched_room is 0. Nodes within 1e-9 of the cell size
- * of each other are the same. Cost: the squares of the numbers of nodes and of struts, less than a
- * second. Errors: ARGUMENT, MEMORY. */
-MSQ_API msq_status msq_unit_cell_info(const msq_unit_cell_def *cell, msq_unit_cell_report *report,
-                                      uint32_t *unmatched, uint64_t unmatched_room);
+/** Counts the nodes and struts of a unit cell, and finds the nodes on its faces that do not meet a
+ * node of the next cell. A cell that is not periodic may be used, but its struts may end at the
+ * face.
+ *
+ * unmatched: receives the indices of the unmatched nodes, ascending, at most unmatched_room; NULL
+ * if unmatched_room is 0. Nodes within 1e-9 of the cell size are equal. Cost: quadratic in the
+ * numbers of nodes and struts, below a second. Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_unit_cell_info(const msq_unit_cell_def* cell, msq_unit_cell_report* report,
+                                      uint32_t* unmatched, uint64_t unmatched_room);
 
-/* Copies the nodes of a unit cell, node_count triples, and its struts, strut_count pairs of node
- * indices, into the host's arrays, in the order that strut_factors takes: to draw a named cell, or to
- * change it. The counts must be those of msq_unit_cell_info. Errors: ARGUMENT, MEMORY. */
-MSQ_API msq_status msq_unit_cell_geometry(const msq_unit_cell_def *cell, double *nodes,
-                                          uint64_t node_count, uint32_t *struts,
+/** Copies the nodes (node_count triples) and struts (strut_count pairs of node indices) of a unit
+ * cell, in the order of strut_factors, for example to draw or modify a named cell. The counts must
+ * equal those of msq_unit_cell_info. Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_unit_cell_geometry(const msq_unit_cell_def* cell, double* nodes,
+                                          uint64_t node_count, uint32_t* struts,
                                           uint64_t strut_count);
 
+/** A periodic strut lattice. */
 typedef struct msq_lattice_def {
   uint32_t struct_size;
-  int32_t unit_cell;      /* MSQ_UNIT_CELL_*; default BCC */
+  /** An msq_unit_cell. Default MSQ_UNIT_CELL_BCC. Ignored with a library. */
+  int32_t unit_cell;
   msq_neighbourhood grid;
-  msq_param radius;       /* of the struts, in model units; constant: > 0, field: >= 0, nowhere
-                             negative. No default: it must be set */
-  const double *nodes;    /* CUSTOM: node_count triples in [0, 1] of the cell */
-  uint64_t node_count;    /* at most 4096 */
-  const uint32_t *struts; /* CUSTOM: strut_count pairs of node indices */
-  uint64_t strut_count;   /* at most 4096 */
-  const double *strut_factors; /* as in msq_unit_cell_def */
-  const msq_unit_cell_def *cells; /* NULL (default): the unit cell above; else a library of cell_count
-                             of them, all of one struct_size, and unit_cell does not count. Together
-                             at most 4096 nodes and 4096 struts */
-  uint32_t cell_count;    /* 1 to 256 */
-  uint32_t clusters;      /* parts along each axis into which the cell is divided, without a library,
-                             to find the struts near points of arrays: 1 (none) to 64; 0 (default):
-                             as many as pay. Same results at any number */
-  msq_param cell_choice;  /* which of the library stands in each neighbourhood cell: its value at the
-                             cell's centre, rounded to the nearest index, half up, and kept within
-                             the library */
+  /** Radius of the struts in model units. A constant must be > 0, a field >= 0. No default. */
+  msq_param radius;
+  /** CUSTOM: node_count triples, in [0, 1]. */
+  const double* nodes;
+  /** 1 to 4096. */
+  uint64_t node_count;
+  /** CUSTOM: strut_count pairs of indices of different nodes. */
+  const uint32_t* struts;
+  /** 1 to 4096. A named cell needs it only with strut_factors. */
+  uint64_t strut_count;
+  /** As in msq_unit_cell_def. */
+  const double* strut_factors;
+  /** Library of cell_count unit cells, all with the same struct_size, with at most 4096 nodes and
+   * 4096 struts in total. NULL (default): the unit cell above. */
+  const msq_unit_cell_def* cells;
+  /** 1 to 256. */
+  uint32_t cell_count;
+  /** The cell is divided into this many clusters along each axis to find the struts near points of
+   * arrays. 1 (none) to 64. 0 (default): chosen by cost. Ignored with a library. Does not change
+   * results. */
+  uint32_t clusters;
+  /** With a library: index of the unit cell of each neighbourhood cell. It is evaluated at the
+   * cell's centre, rounded half up, and clamped to the library. */
+  msq_param cell_choice;
 } msq_lattice_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_lattice_def_init(msq_lattice_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size);
 
-/* Periodic strut lattice: the points within radius, times the strut's factor, of the unit cell's
- * struts, tiled without end. Struts are capsules: round at their ends, circular in model units
- * whatever the cell sizes, and they reach over cell borders. With a library, each cell holds the
- * struts of the unit cell that the choice names there, and struts reach over borders likewise; where
- * the nodes of two unlike cells do not match (msq_lattice_faces), struts end at the face. def may not
- * be NULL. Cost: as the struts that can reach one cell;
- * milliseconds for the presets, seconds for thousands of struts as wide as cells, and as much again for the first array or distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell
- * size, too large a library), MEMORY. */
-MSQ_API msq_status msq_structure_lattice(msq_context *context, const msq_lattice_def *def,
-                                         msq_structure **structure);
+/** Creates a periodic strut lattice: the points within radius, times the factor of the strut, of
+ * the struts of the tiled unit cell. def must not be NULL.
+ *
+ * Struts are capsules: circular in model units for any cell size, with round ends, and they reach
+ * across cell borders. With a library, each cell holds the struts of the unit cell that cell_choice
+ * selects. If the nodes of two different neighbours do not match (msq_lattice_faces), struts end at
+ * the face.
+ *
+ * Cost: proportional to the struts that can reach one cell: milliseconds for the named cells,
+ * seconds for thousands of struts as wide as cells, and the same again for the first array or
+ * distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest
+ * cell size; library too large), MEMORY. */
+MSQ_API msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* def,
+                                         msq_structure** structure);
 
+/** Faces between unlike cells of a lattice. */
 typedef struct msq_lattice_faces_report {
   uint32_t struct_size;
-  int32_t axis;         /* of the first unmatched face: 0, 1, 2: normal to x, y, z of the grid; -1:
-                           there is none, and the fields below are 0 */
-  uint64_t cells;       /* looked at */
-  uint64_t faces;       /* between two of them with different unit cells of the library */
-  uint64_t unmatched;   /* of these faces, with a node on one side that has no copy on the other */
-  int32_t cell[3];      /* index of the cell below the first unmatched face; the other is the next
-                           along the axis. First: cells taken by z, then y, then x */
-  uint32_t reserved;    /* 0 */
-  uint32_t types[2];    /* what stands in the two cells, as indices in the library */
-  double point[3];      /* centre of the face, in model units */
+  /** Axis of the grid normal to the first unmatched face: 0, 1 or 2. -1: there is none, and the
+   * fields below cell are 0. */
+  int32_t axis;
+  /** Cells that were examined. */
+  uint64_t cells;
+  /** Faces between two of them with different unit cells. */
+  uint64_t faces;
+  /** Faces with a node on one side that has no copy on the other. */
+  uint64_t unmatched;
+  /** Index of the cell below the first unmatched face. The other cell is the next one along the
+   * axis. Cells are ordered by z, then y, then x. */
+  int32_t cell[3];
+  uint32_t reserved;
+  /** Library indices of the unit cells in these two cells. */
+  uint32_t types[2];
+  /** Centre of the face in model units. */
+  double point[3];
 } msq_lattice_faces_report;
 
-/* Says how many faces between neighbouring cells of a lattice have unit cells on either side whose
- * nodes there do not match, and where the first is. The cells are those that the box from min to max,
- * in model units, has inner points in (msq_model_bounds: those of a model); on turned grids those of
- * its bounding box along the grid's axes. A lattice without a library has no such faces:
- * msq_unit_cell_info tells whether it is periodic. job NULL: none. Cost: asks the choice once a cell, a byte for each cell of a layer.
- * Errors: ARGUMENT (also: a structure that is no lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 from the
- * grid's origin), MEMORY. */
-MSQ_API msq_status msq_lattice_faces(const msq_structure *lattice, const double min[3],
-                                     const double max[3], msq_lattice_faces_report *report,
-                                     msq_job *job);
+/** Counts the faces between cells of a lattice whose unit cells have nodes there that do not match,
+ * and finds the first such face.
+ *
+ * The cells are those with inner points in the box from min to max, in model units (for a model:
+ * msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the
+ * grid. A lattice without a library has no such faces; msq_unit_cell_info tells whether it is
+ * periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a
+ * layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than
+ * 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY. */
+MSQ_API msq_status msq_lattice_faces(const msq_structure* lattice, const double min[3],
+                                     const double max[3], msq_lattice_faces_report* report,
+                                     msq_job* job);
 
-/* How the points of sets, grids and slices are answered: the same solid, at different cost. Single
- * points (msq_point_membership) are answered by the definition whatever the method. POINT, METHOD_1
- * and METHOD_2 are those of the paper, for comparison; their times are those of cubic cells, r = 0.1
- * cell, one thread, and grow fast with r. */
-enum {
-  MSQ_FOAM_AUTO = 0,     /* the fastest: at present DIRECT */
-  MSQ_FOAM_POINT = 1,    /* the paper's naive query, each point by itself: gather seeds, triplets with
-                            the nearest, projection, validity; about 0.2 ms a point */
-  MSQ_FOAM_METHOD_2 = 2, /* per cell, the edges of a Delaunay triangulation (CGAL) kept in the cache;
-                            about 0.5 ms a cell and 0.3 us a point */
-  MSQ_FOAM_DIRECT = 3,   /* each edge built once, kept in the cache and written as spans; arrays of
-                            points, and grids of few samples a cell, by the seeds near each point,
-                            grouped by cell and in vectors */
-  MSQ_FOAM_METHOD_1 = 4  /* per cell, the lines of triplets of seeds kept in the cache, validity
-                            tested per point; about 0.04 ms a cell and 0.3 us a point */
+/** How sets, grids and slices of a foam are evaluated. All methods yield the same solid. POINT,
+ * METHOD_1 and METHOD_2 are those of the paper, for comparison. docs/benchmarks.md compares their
+ * cost. Single points (msq_point_membership) are always evaluated by the definition. */
+enum msq_foam_method {
+  /** The fastest method; now DIRECT. */
+  MSQ_FOAM_AUTO = 0,
+  /** The paper's naive query per point: gather seeds, form triplets with the nearest seed, project,
+   * validate. */
+  MSQ_FOAM_POINT = 1,
+  /** Per cell: edges of a Delaunay triangulation (CGAL), kept in the cache. */
+  MSQ_FOAM_METHOD_2 = 2,
+  /** Each Voronoi edge is built once, kept in the cache, and rasterised as spans. Arrays of points,
+   * and grids with few samples per cell, use the seeds near each point, grouped by cell, with SIMD.
+   */
+  MSQ_FOAM_DIRECT = 3,
+  /** Per cell: lines of seed triplets, kept in the cache and validated per point. */
+  MSQ_FOAM_METHOD_1 = 4
 };
 
+/** A Voronoi foam: open-cell (struts), closed-cell (walls), or with both. */
 typedef struct msq_foam_def {
   uint32_t struct_size;
-  int32_t method;         /* MSQ_FOAM_* */
+  /** An msq_foam_method. */
+  int32_t method;
   msq_neighbourhood grid;
-  msq_param radius;       /* of the struts, in model units; constant: > 0, field: >= 0, nowhere
-                             negative. No default: it must be set */
-  double jitter;          /* 0: seeds at cell centres; 1 (default): anywhere in their cells */
-  uint64_t seed;          /* any number picks another foam (default 0) */
-  msq_param density;      /* seeds in a cell's volume, 0 to 32768; below 1 counts as 1 (default) */
+  /** Radius of the struts in model units. A constant must be > 0, a field >= 0. No default. With
+   * walls, the constant 0 stands for no struts. */
+  msq_param radius;
+  /** 0: seeds at the cell centres. 1 (default): anywhere in their cells. */
+  double jitter;
+  /** Selects the foam. Default 0. */
+  uint64_t seed;
+  /** Seeds per cell volume, up to 32768. Values below 1 count as 1 (default). */
+  msq_param density;
+  /** Whole thickness of the walls between the cells of the foam, in model units, >= 0. The constant
+   * 0 (default): no walls. */
+  msq_param wall_thickness;
 } msq_foam_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_foam_def_init(msq_foam_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
 
-/* Open-cell Voronoi foam: the points within radius of the edges of the Voronoi diagram of one
- * jittered seed per neighbourhood cell, all space over. Struts are capsules, circular in model
- * units. Seeds follow from cell index and seed number alone, on every machine alike. Where density
- * is above 1, cells are refined 2x2x2, recursively, one jittered seed a leaf, to that density on
- * average (docs/concepts.md has the rule). def may not be NULL. Cost: none; cells are built by the
- * calls that need them. Errors: ARGUMENT, LIMIT (radius above the smallest cell size, cell sizes
- * that differ by more than 4 times, density above 32768), UNSUPPORTED (METHOD_2 without CGAL;
- * others than AUTO and DIRECT with a density above 1), MEMORY.
- * Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. */
-MSQ_API msq_status msq_structure_foam(msq_context *context, const msq_foam_def *def,
-                                      msq_structure **structure);
+/** Creates a Voronoi foam of one jittered seed per neighbourhood cell: the points within radius of
+ * the edges of the Voronoi diagram, and those within half of wall_thickness of its faces. def must
+ * not be NULL.
+ *
+ * Struts are capsules, circular in model units. Walls are plane and as thick as said: their
+ * thickness is measured across the face. Foams with walls alone have an onset, the thickness; those
+ * with struts and walls have none (msq_structure_calibrate). Seeds are a function of the cell index
+ * and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2,
+ * recursively, with one jittered seed per leaf, to that density on average (docs/concepts.md).
+ * Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius or wall_thickness
+ * above the smallest cell size; cell sizes that differ by a factor above 4; density above 32768),
+ * UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other than AUTO and
+ * DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and
+ * Lefebvre 2016. */
+MSQ_API msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
+                                      msq_structure** structure);
 
-enum { /* functions of functional structures; x, y, z: 2 pi times the position within the cell */
-  MSQ_FUNCTION_EXPRESSION = 0, /* the text of the definition */
-  MSQ_FUNCTION_GYROID = 1,     /* sin x cos y + sin y cos z + sin z cos x */
-  MSQ_FUNCTION_SCHWARZ_P = 2,  /* cos x + cos y + cos z */
-  MSQ_FUNCTION_DIAMOND = 3,    /* sin x sin y sin z + sin x cos y cos z + cos x sin y cos z
-                                  + cos x cos y sin z */
-  MSQ_FUNCTION_I_WP = 4,       /* 2 (cos x cos y + cos y cos z + cos z cos x)
-                                  - (cos 2x + cos 2y + cos 2z) */
-  MSQ_FUNCTION_NEOVIUS = 5,    /* 3 (cos x + cos y + cos z) + 4 cos x cos y cos z */
-  MSQ_FUNCTION_F_RD = 6,       /* 4 cos x cos y cos z
-                                  - (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) */
-  MSQ_FUNCTION_LIDINOID = 7,   /* 0.5 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y)
-                                  - 0.5 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) + 0.15 */
-  MSQ_FUNCTION_SPLIT_P = 8     /* 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x)
-                                  - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x)
-                                  - 0.4 (cos 2x + cos 2y + cos 2z) */
+/** Functions of functional structures. x, y, z are 2 pi times the position in the cell. */
+enum msq_function {
+  /** The expression of the definition. */
+  MSQ_FUNCTION_EXPRESSION = 0,
+  /** sin x cos y + sin y cos z + sin z cos x */
+  MSQ_FUNCTION_GYROID = 1,
+  /** cos x + cos y + cos z */
+  MSQ_FUNCTION_SCHWARZ_P = 2,
+  /** sin x sin y sin z + sin x cos y cos z + cos x sin y cos z + cos x cos y sin z */
+  MSQ_FUNCTION_DIAMOND = 3,
+  /** 2 (cos x cos y + cos y cos z + cos z cos x) - (cos 2x + cos 2y + cos 2z) */
+  MSQ_FUNCTION_I_WP = 4,
+  /** 3 (cos x + cos y + cos z) + 4 cos x cos y cos z */
+  MSQ_FUNCTION_NEOVIUS = 5,
+  /** 4 cos x cos y cos z - (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) */
+  MSQ_FUNCTION_F_RD = 6,
+  /** 0.5 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y)
+   * - 0.5 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) + 0.15 */
+  MSQ_FUNCTION_LIDINOID = 7,
+  /** 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x)
+   * - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) - 0.4 (cos 2x + cos 2y + cos 2z) */
+  MSQ_FUNCTION_SPLIT_P = 8
 };
 
-enum {
-  MSQ_FUNCTIONAL_NETWORK = 1, /* solid where the function is at most the level */
-  MSQ_FUNCTIONAL_SHEET = 2    /* solid where its magnitude is at most the level */
+/** Which points of a functional structure are solid. */
+enum msq_functional_kind {
+  /** Where the function is at most the level. */
+  MSQ_FUNCTIONAL_NETWORK = 1,
+  /** Where the magnitude of the function is at most the level. */
+  MSQ_FUNCTIONAL_SHEET = 2
 };
 
+/** A functional structure. */
 typedef struct msq_functional_def {
   uint32_t struct_size;
-  int32_t function;       /* MSQ_FUNCTION_*; default GYROID */
-  int32_t kind;           /* MSQ_FUNCTIONAL_*; default NETWORK */
-  uint32_t clusters;      /* parts along each axis into which the cell is divided to answer whole
-                             blocks at once: 1 (none) to 64; 0 (default): as many as pay. Same
-                             results at any number */
-  msq_neighbourhood grid; /* one period a cell */
-  msq_param level;        /* a number as the function gives it, not a length (default 0); of a sheet:
-                             constant > 0, field nowhere negative nor 0 everywhere, or thickness */
-  const char *expression; /* EXPRESSION: text as below; else NULL */
-  const msq_named_value *parameters; /* EXPRESSION: parameter_count names that it may use */
-  uint64_t parameter_count;          /* at most 1024 */
-  msq_param thickness; /* SHEET, instead of level: mean thickness of the walls, model units; constant > 0,
-                          field nowhere negative nor 0 everywhere; default 0: level counts */
+  /** An msq_function. Default MSQ_FUNCTION_GYROID. */
+  int32_t function;
+  /** An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK. */
+  int32_t kind;
+  /** The cell is divided into this many clusters along each axis to decide whole blocks at once. 1
+   * (none) to 64. 0 (default): chosen by cost. Does not change results. */
+  uint32_t clusters;
+  /** One period per cell. */
+  msq_neighbourhood grid;
+  /** Value of the function, not a length. Default 0. SHEET: a constant must be > 0, a field >= 0
+   * and not 0 everywhere; or give thickness instead. */
+  msq_param level;
+  /** EXPRESSION: text in the grammar below. Otherwise NULL. */
+  const char* expression;
+  /** EXPRESSION: parameter_count names that the text may use. */
+  const msq_named_value* parameters;
+  /** At most 1024. */
+  uint64_t parameter_count;
+  /** SHEET, instead of level: mean wall thickness in model units. A constant must be > 0, a field
+   * >= 0 and not 0 everywhere. Default 0: level is used. */
+  msq_param thickness;
 } msq_functional_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_functional_def_init(msq_functional_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size);
 
-/* Functional structure: the points where a function of the position within the cell is at most the
- * level. def may not be NULL.
+/** Creates a functional structure: the points where a function of the position in the cell is at
+ * most a level. def must not be NULL.
  *
- * Expressions are made of numbers, pi, parameters, x, y, z, + - * / ^, brackets, and pow(a, b),
+ * Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, and pow(a, b),
  * min(a, b), max(a, b), abs, sqrt, sin, cos, exp and log (natural). ^ binds tighter than a sign
- * before it and groups to the right. x, y and z are angles, 2 pi times the position within the cell
- * in cell sizes, 0 to 2 pi: a function that does not repeat by itself is made to, and jumps at the
- * cell's border. Powers with whole constant exponents up to 65536 are products; others exp(b log(a)), so
- * of a > 0. Where the value is no number (as sqrt(-1), 0 / 0) the point is outside. At most 4096 bytes,
- * 100 brackets, signs and exponents within each other, 1024 different operations.
+ * before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is
+ * not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are
+ * evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. A NaN
+ * operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE
+ * 754-2019). Points where the value is NaN are outside. Limits: 4096 bytes; 100 nested parentheses,
+ * signs and exponents; 1024 distinct operations, numbers and variables in total.
  *
- * Thickness is the walls' volume over the area of their middle surface, where the function is 0, both
- * in one cell; its level is read off a curve of 512 pieces that 65^3 values of the function give, good to
- * about 0.3 % of the thickness for the named functions (docs/concepts.md). Walls are thicker where the
- * function is flatter. A field of thicknesses means at each point the level of that thickness.
+ * Thickness is the volume of the walls divided by the area of their middle surface, where the
+ * function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of
+ * the function, accurate to about 0.3 % for the named functions (docs/concepts.md). Walls are
+ * thicker where the function is flatter. A field of thickness selects at each point the level of
+ * that thickness.
  *
- * Functions are computed of IEEE operations alone, not by the C library: the same bits on every machine.
- * Cost: none; the first slice or grid takes clusters^3 evaluations in intervals (tens of milliseconds by
- * default; seconds for the longest expressions in 64^3 clusters); a thickness takes some tens of milliseconds at once.
- * Errors: ARGUMENT (thickness for a network, together with a level, or above what fills the cell; of a
- * function that has no 0, or is nowhere more than 1e-300; for expressions the message has the position, from 1, and the reason), LIMIT (expressions
- * too long, too deep, with too many operations), MEMORY.
+ * Functions use IEEE operations only, not the C library, so their bits are equal on every machine.
+ * Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by
+ * default, seconds for the longest expressions); a thickness takes tens of milliseconds at
+ * construction. Errors: ARGUMENT (also: thickness for a network, together with a level, above what
+ * fills the cell, or of a function without a zero or nowhere above 1e-300; for expressions the
+ * message gives the position, from 1, and the reason), LIMIT (limits of expressions), MEMORY.
  * Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and
  * Nesper 1991. */
-MSQ_API msq_status msq_structure_functional(msq_context *context, const msq_functional_def *def,
-                                            msq_structure **structure);
+MSQ_API msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def,
+                                            msq_structure** structure);
 
-/* Points as a structure of the host sees them: valid until the callback returns. */
-typedef struct msq_host_points {
-  uint32_t struct_size;    /* out: sizeof(msq_host_points) of the library */
+/** How a beam ends. */
+enum msq_cap {
+  /** With the ball of its radius there. With unlike radii the ball of the thicker end protrudes
+   * from the side of the beam. */
+  MSQ_CAP_SPHERE = 0,
+  /** With the half of that ball beyond the end. */
+  MSQ_CAP_HEMISPHERE = 1,
+  /** Flat. */
+  MSQ_CAP_BUTT = 2
+};
+
+/** A list of beams. Strides are bytes from one element to the next; 0 (default): tightly packed. No
+ * alignment is needed. */
+typedef struct msq_beams_def {
+  uint32_t struct_size;
+  /** An msq_cap, of all ends unless caps is given. Default MSQ_CAP_SPHERE. */
+  int32_t cap;
+  /** Of nodes, radii and ball_radii: MSQ_FLOAT32 or MSQ_FLOAT64 (default). */
+  int32_t coordinate_type;
+  /** Must be 0. */
   uint32_t reserved;
-  uint64_t count;          /* at most 4096 */
-  const double *points;    /* triples x, y, z in model coordinates */
-  const double *positions; /* triples: from the corner of the point's cell, in model units along the
-                              grid's axes; each from 0 to the cell size */
-  const int32_t *cells;    /* triples i, j, k: the cell that each point lies in */
+  /** node_count triples x, y, z. */
+  const void* nodes;
+  uint64_t node_count;
+  uint64_t node_stride;
+  /** beam_count pairs of node indices. */
+  const uint32_t* beams;
+  uint64_t beam_count;
+  uint64_t beam_stride;
+  /** beam_count pairs: radius at the first and at the second node. NULL (default): radius. */
+  const void* radii;
+  uint64_t radius_stride;
+  /** beam_count pairs of msq_cap, at the first and at the second node. NULL (default): cap. */
+  const uint8_t* caps;
+  uint64_t cap_stride;
+  /** ball_count node indices: balls in addition to those of the caps. */
+  const uint32_t* balls;
+  uint64_t ball_count;
+  uint64_t ball_stride;
+  /** ball_count numbers. NULL (default): ball_radius. */
+  const void* ball_radii;
+  uint64_t ball_radius_stride;
+  /** Radius of all beams if radii is NULL. No default. */
+  double radius;
+  /** Radius of all balls if ball_radii is NULL. No default. */
+  double ball_radius;
+  /** Shorter beams are dropped. Default 0. */
+  double min_length;
+  /** Characteristic length of the scale. 0 (default): the longest beam, or the largest diameter if
+   * that is more. */
+  double length_scale;
+} msq_beams_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_beams_def_init(msq_beams_def* def, size_t size);
+
+/** Creates a structure of beams: the points in at least one beam or ball of a list. It has no grid
+ * and is empty elsewhere. def must not be NULL. job NULL: no job.
+ *
+ * A beam is a conical frustum between two nodes, with a radius that is linear along its axis, and
+ * caps. A beam shorter than 1e-100 has no axis: its round caps are balls; with two flat caps it is
+ * dropped. Beams may overlap and repeat. Limits: 2^31 - 1 beams and balls in total; coordinates up
+ * to 1e75; radii 0 or from 1e-100 to 1e75. One radius of a beam may be 0; that of a ball may not.
+ * Cost: n log n, in parallel: about 0.3 us of processor time and 100 bytes per beam, of which 73
+ * are kept, in the memory limit of the context. Queries search a tree of boxes. Errors: ARGUMENT
+ * (also, with its index: a node that is not finite; a node index, radius or cap out of range),
+ * CANCELLED, LIMIT, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Kamel and
+ * Faloutsos, "On packing R-trees", 1993. */
+MSQ_API msq_status msq_structure_beams(msq_context* context, const msq_beams_def* def,
+                                       msq_structure** structure, msq_job* job);
+
+/** Points that a host structure evaluates. Valid until the callback returns. */
+typedef struct msq_host_points {
+  /** Out: sizeof(msq_host_points) of the library. */
+  uint32_t struct_size;
+  uint32_t reserved;
+  /** At most 4096. */
+  uint64_t count;
+  /** Triples x, y, z in model coordinates. */
+  const double* points;
+  /** Triples: offset from the corner of the point's cell, in model units along the axes of the
+   * grid, from 0 to the cell size. */
+  const double* positions;
+  /** Triples i, j, k: the cell of each point. */
+  const int32_t* cells;
 } msq_host_points;
 
-/* inside[i] = 0 where point i is outside, any other value where it is inside or on the boundary. */
-typedef int32_t (*msq_points_inside_fn)(void *user, const msq_host_points *points,
-                                        uint8_t *inside);
+/** Writes inside[i]: 0 if point i is outside, any other value if it is inside or on the boundary.
+ */
+typedef int32_t (*msq_points_inside_fn)(void* user, const msq_host_points* points, uint8_t* inside);
 
-/* distances[i]: at most the distance from point i to the boundary, on either side of it, and changing
- * by no more than the points do; the sign is nothing. */
-typedef int32_t (*msq_points_distance_fn)(void *user, const msq_host_points *points,
-                                          double *distances);
+/** Writes distances[i]: a lower bound on the distance from point i to the boundary, on either side,
+ * with Lipschitz constant 1. The sign is ignored. */
+typedef int32_t (*msq_points_distance_fn)(void* user, const msq_host_points* points,
+                                          double* distances);
 
-/* *data: what is to be known of a cell, NULL where that is nothing; *bytes: its size in memory. */
-typedef int32_t (*msq_build_cell_fn)(void *user, const int32_t cell[3], void **data,
-                                     uint64_t *bytes);
+/** Builds the data of a cell. *data: the data, may be NULL. *bytes: its size in memory. */
+typedef int32_t (*msq_build_cell_fn)(void* user, const int32_t cell[3], void** data,
+                                     uint64_t* bytes);
 
-/* As msq_points_inside_fn, of points that all lie in one cell, whose data this is. */
-typedef int32_t (*msq_evaluate_cell_fn)(void *user, const void *data,
-                                        const msq_host_points *points, uint8_t *inside);
+/** As msq_points_inside_fn, for points in the one cell that data belongs to. */
+typedef int32_t (*msq_evaluate_cell_fn)(void* user, const void* data, const msq_host_points* points,
+                                        uint8_t* inside);
 
-/* Frees data that is not NULL. */
-typedef void (*msq_free_cell_fn)(void *user, void *data);
+/** Frees data of a cell. data is not NULL. */
+typedef void (*msq_free_cell_fn)(void* user, void* data);
 
-enum { /* what is known of all points of a box */
+/** What holds for all points of a box. */
+enum msq_box_answer {
+  /** Unknown, or neither of the others. */
   MSQ_BOX_MIXED = 0,
   MSQ_BOX_OUTSIDE = 1,
   MSQ_BOX_INSIDE = 2
 };
 
-/* *answer: MSQ_BOX_* of the box from min to max, boundary included, in model coordinates; MIXED where
- * it is not known. */
-typedef int32_t (*msq_box_fn)(void *user, const double min[3], const double max[3],
-                              int32_t *answer);
+/** Writes *answer, an msq_box_answer, for the closed box from min to max in model coordinates. */
+typedef int32_t (*msq_box_fn)(void* user, const double min[3], const double max[3],
+                              int32_t* answer);
 
+/** A structure that the host computes. inside, or both build_cell and evaluate_cell, must be given.
+ * If all are given, inside evaluates single points and evaluate_cell sets. */
 typedef struct msq_host_structure_def {
   uint32_t struct_size;
-  int32_t concurrent;                 /* 0 (default) or 1: see "objects that the host defines" */
+  /** 0 (default) or 1. See "Objects that the host defines". */
+  int32_t concurrent;
   msq_neighbourhood grid;
-  msq_points_inside_fn inside;        /* this, or both of the next two, must be there; where all are,
-                                         single points are asked of this one, sets of those */
+  msq_points_inside_fn inside;
   msq_build_cell_fn build_cell;
   msq_evaluate_cell_fn evaluate_cell;
-  msq_free_cell_fn free_cell;         /* may be NULL, as what follows */
-  msq_box_fn box;                     /* spares asking the points of boxes without boundary */
-  msq_points_distance_fn distance;    /* NULL: 0, which is right and of no use to sphere tracing */
-  void *user;
+  /** May be NULL. */
+  msq_free_cell_fn free_cell;
+  /** May be NULL. Spares evaluating the points of boxes without boundary. */
+  msq_box_fn box;
+  /** May be NULL: the distance bound is then 0, which is correct but does not help sphere tracing.
+   */
+  msq_points_distance_fn distance;
+  void* user;
+  /** May be NULL. */
   msq_release_fn release;
 } msq_host_structure_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_host_structure_def_init(msq_host_structure_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_host_structure_def_init(msq_host_structure_def* def, size_t size);
 
-/* Structure that the host computes; everything works with inside alone. def may not be NULL.
+/** Creates a structure from callbacks. def must not be NULL. All applications work with inside
+ * alone.
  *
- * Cells are built when points in them are asked about, once for as long as the context's cache keeps
- * them, else again; two threads may build the same cell at once. Those that the cache drops are freed
- * when the next is built, or with the structure. Neighbouring cells know nothing of each other:
- * what reaches from one into the other must be in the data of both.
- * Cost: sets, grids and slices ask in batches; with build_cell they are grouped by cell, and without
- * given in their own order. Single points and distances ask point by point.
- * Errors: ARGUMENT, MEMORY; of calls that ask the structure, HOST.
+ * A cell is built when a point in it is evaluated, and kept as long as the cache of the context
+ * keeps it. Two threads may build the same cell at once. Evicted cells are freed when the next cell
+ * is built, or with the structure. A cell does not see its neighbours: whatever reaches across a
+ * border must be in the data of both cells. Cost: sets, grids and slices call back with batches,
+ * grouped by cell if build_cell is given. Single points and distances call back point by point.
+ * Errors: ARGUMENT, MEMORY. Calls that use the structure: HOST.
  * Source: paper, section "Multiscale Shape-Material Modeling API". */
-MSQ_API msq_status msq_structure_host(msq_context *context, const msq_host_structure_def *def,
-                                      msq_structure **structure);
+MSQ_API msq_status msq_structure_host(msq_context* context, const msq_host_structure_def* def,
+                                      msq_structure** structure);
 
+/** A functional structure whose function the host computes. */
 typedef struct msq_host_function_def {
   uint32_t struct_size;
-  int32_t concurrent;     /* 0 (default) or 1: see "objects that the host defines" */
-  int32_t kind;           /* MSQ_FUNCTIONAL_*; default NETWORK */
-  uint32_t clusters;      /* as in msq_functional_def; of no use without range and lipschitz */
-  msq_neighbourhood grid; /* one period a cell */
-  msq_param level;        /* as in msq_functional_def */
-  msq_values_fn evaluate; /* of triples of angles, 2 pi times the position within the cell, 0 to 2 pi */
-  msq_range_fn range;     /* over a box of angles, from -1e-9 to 2 pi + 1e-9; NULL (default): from
-                             lipschitz */
-  void *user;
+  /** 0 (default) or 1. See "Objects that the host defines". */
+  int32_t concurrent;
+  /** An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK. */
+  int32_t kind;
+  /** As in msq_functional_def. Not used without range and lipschitz. */
+  uint32_t clusters;
+  /** One period per cell. */
+  msq_neighbourhood grid;
+  /** As in msq_functional_def. */
+  msq_param level;
+  /** Values at triples of angles: 2 pi times the position in the cell, 0 to 2 pi. */
+  msq_values_fn evaluate;
+  /** Bounds over a box of angles, from -1e-9 to 2 pi + 1e-9. NULL (default): derived from
+   * lipschitz. */
+  msq_range_fn range;
+  void* user;
   msq_release_fn release;
-  double lipschitz;       /* no two values differ by more than this times the distance of their angles;
-                             infinity (default): unknown */
+  /** Lipschitz constant of the values with respect to the angles. Infinity (default): unknown. */
+  double lipschitz;
 } msq_host_function_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_host_function_def_init(msq_host_function_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_host_function_def_init(msq_host_function_def* def, size_t size);
 
-/* Functional structure, as msq_structure_functional, of a function that the host computes. It may be
- * infinite, but must be a number. Where range or lipschitz are given, blocks that are inside or outside
- * as a whole are answered without asking points. def may not be NULL. Cost: clusters^3 calls of range (32768
- * by default), and as many points of evaluate where lipschitz is given.
- * Errors: ARGUMENT, HOST, MEMORY; of calls that ask the structure, HOST.
- * Source: paper, section "Preprocessing for Repeating Structures". */
-MSQ_API msq_status msq_structure_host_function(msq_context *context,
-                                               const msq_host_function_def *def,
-                                               msq_structure **structure);
+/** Creates a functional structure from callbacks, see msq_structure_functional. def must not be
+ * NULL. The function may be infinite but not NaN. With range or lipschitz, blocks that are entirely
+ * inside or outside are decided without evaluating points. Distances to its surface are 0. Cost:
+ * clusters^3 calls of range (32768 by default), and as many points of evaluate with lipschitz.
+ * Errors: ARGUMENT, HOST, MEMORY. Calls that use the structure: HOST. Source: paper, section
+ * "Preprocessing for Repeating Structures". */
+MSQ_API msq_status msq_structure_host_function(msq_context* context,
+                                               const msq_host_function_def* def,
+                                               msq_structure** structure);
 
-MSQ_API void msq_structure_retain(msq_structure *structure);
-MSQ_API void msq_structure_release(msq_structure *structure);
+/** Adds a reference. */
+MSQ_API void msq_structure_retain(msq_structure* structure);
+/** Drops a reference. */
+MSQ_API void msq_structure_release(msq_structure* structure);
 
-/* ---- materials --------------------------------------------------------------------- */
+/* ---- Materials ------------------------------------------------------------------------------- */
 
-typedef struct msq_material msq_material; /* an id and named channels: density, modulus, colour ... */
+/** An id and named channels, for example density, modulus or colour. */
+typedef struct msq_material msq_material;
 
-enum { MSQ_MATERIAL_VOID = 0 }; /* id where a model is not */
+/** Material id of points outside the model. */
+enum msq_material_id { MSQ_MATERIAL_VOID = 0 };
 
+/** A named channel of a material. */
 typedef struct msq_channel {
-  const char *name; /* 1 to 255 bytes */
+  /** 1 to 255 bytes. */
+  const char* name;
   msq_param value;
 } msq_channel;
 
+/** A material. */
 typedef struct msq_material_def {
   uint32_t struct_size;
-  uint32_t id;                 /* > 0; what it is for is the host's to say. No default: it must be set */
-  const msq_channel *channels; /* channel_count, each name once */
-  uint64_t channel_count;      /* at most 256 */
+  /** Positive. Its meaning is the host's. No default. */
+  uint32_t id;
+  /** channel_count channels with distinct names. */
+  const msq_channel* channels;
+  /** At most 256. */
+  uint64_t channel_count;
 } msq_material_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_material_def_init(msq_material_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_material_def_init(msq_material_def* def, size_t size);
 
-/* Makes a material. def may not be NULL. Errors: ARGUMENT, MEMORY.
+/** Creates a material. def must not be NULL. Errors: ARGUMENT, MEMORY.
  * Source: paper, section "Multiscale Shape-Material Modeling API". */
-MSQ_API msq_status msq_material_create(msq_context *context, const msq_material_def *def,
-                                       msq_material **material);
+MSQ_API msq_status msq_material_create(msq_context* context, const msq_material_def* def,
+                                       msq_material** material);
 
-/* Grades one material into another: each channel is (1 - f) times that of a plus f times that of b, f
- * being the fraction at the point, everywhere from 0 to 1. id > 0, of the blend. Errors: ARGUMENT (also
- * where one has a channel that the other lacks), LIMIT (more than 64 blends within each other, or of more
- * than 4096 materials, the same counted as often as it is asked), MEMORY. */
-MSQ_API msq_status msq_material_blend(msq_context *context, uint32_t id, const msq_material *a,
-                                      const msq_material *b, const msq_param *fraction,
-                                      msq_material **material);
-MSQ_API void msq_material_retain(msq_material *material);
-MSQ_API void msq_material_release(msq_material *material);
+/** Creates a blend of two materials: each channel is (1 - f) * a + f * b, where f is the fraction
+ * at the point, 0 to 1 everywhere. id: positive, of the blend. Errors: ARGUMENT (also if one
+ * material has a channel that the other lacks), LIMIT (more than 64 nested blends, or more than
+ * 4096 materials in a blend, counted with repetition), MEMORY. */
+MSQ_API msq_status msq_material_blend(msq_context* context, uint32_t id, const msq_material* a,
+                                      const msq_material* b, const msq_param* fraction,
+                                      msq_material** material);
+/** Adds a reference. */
+MSQ_API void msq_material_retain(msq_material* material);
+/** Drops a reference. */
+MSQ_API void msq_material_release(msq_material* material);
 
-/* ---- model ------------------------------------------------------------------------ */
+/* ---- Model ----------------------------------------------------------------------------------- */
 
-typedef struct msq_model msq_model; /* a coarse shape and the structures that fill it, scale by scale */
+/** A coarse shape and the structures that fill it, scale by scale. */
+typedef struct msq_model msq_model;
 
-typedef struct msq_scale_def {    /* {0} but for what is set: it may grow */
-  const msq_shape *shape;         /* for scale 0, else NULL */
-  const msq_structure *structure; /* for scales 1 and finer, else NULL */
-  msq_param skin;                 /* thickness, in model units, of the solid skin that the scale leaves
-                                     under the coarse surface; nowhere negative; 0: none. Not for
-                                     scale 0 */
-  const msq_material *material;      /* of what the scale resolves; NULL: as the next coarser scale */
-  const msq_material *skin_material; /* of its skin; NULL: as material. Not for scale 0 */
+/** One scale of a model. Zero-initialise it, then set what you need; fields may be added. */
+typedef struct msq_scale_def {
+  /** Scale 0: the shape. Other scales: NULL. */
+  const msq_shape* shape;
+  /** Scales 1 and finer: the structure. Scale 0: NULL. */
+  const msq_structure* structure;
+  /** Thickness, in model units, of the solid skin that the scale leaves under the surface of the
+   * coarse shape. At least 0 everywhere. 0: none. Not for scale 0, nor in shapes without depth. */
+  msq_param skin;
+  /** Material of what the scale resolves. NULL: that of the next coarser scale. */
+  const msq_material* material;
+  /** Material of the skin. NULL: material. Not for scale 0. */
+  const msq_material* skin_material;
 } msq_scale_def;
 
+/** A model. */
 typedef struct msq_model_def {
   uint32_t struct_size;
-  uint32_t scale_count;        /* 1 to 64 */
-  const msq_scale_def *scales; /* coarsest first: a shape, then structures */
-  uint32_t scale_size;         /* sizeof(msq_scale_def) of the caller; 0 (default): that of 0.1 */
-  uint32_t reserved;           /* 0 */
+  /** 1 to 64. */
+  uint32_t scale_count;
+  /** Coarsest first: a shape, then structures. */
+  const msq_scale_def* scales;
+  /** sizeof(msq_scale_def) of the caller. A multiple of 8. 0 (default): that of version
+   * 0.1. */
+  uint32_t scale_size;
+  /** Must be 0. */
+  uint32_t reserved;
 } msq_model_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_model_def_init(msq_model_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_model_def_init(msq_model_def* def, size_t size);
 
-/* Makes the model whose solid is the intersection of its scales: of the shape with each structure
- * or, where the scale leaves a skin, with the structure and the skin together. The skin holds the
- * points of the shape whose depth, the distance to its boundary as in msq_point_distance, is at
- * most the skin's thickness at the point, where that is above 0. def may not be NULL.
- * Cost: none; with a skin, the first call that asks it builds the tree of a mesh's triangles.
- * Errors: ARGUMENT, LIMIT (the shape reaches 2^24 cells of a structure from its grid's origin),
- * UNSUPPORTED (a skin in a shape that does not know depths), MEMORY.
- * Source: paper, section "Multiscale Shape-Material Modeling API"; the skin is ours. */
-MSQ_API msq_status msq_model_create(msq_context *context, const msq_model_def *def,
-                                    msq_model **model);
-MSQ_API void msq_model_retain(msq_model *model);
-MSQ_API void msq_model_release(msq_model *model);
+/** Creates a model: the intersection of the shape with every structure. Where a scale leaves a
+ * skin, the union of structure and skin takes the place of the structure. def must not be NULL.
+ *
+ * The skin holds the points of the shape whose depth is at most the thickness at the point, where
+ * the thickness is above 0. Depth is the distance to the boundary of the shape, as in
+ * msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the
+ * distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of
+ * the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the
+ * origin of a structure's grid), UNSUPPORTED (a skin in a voxel image, a host shape or all space),
+ * MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the skin is ours. */
+MSQ_API msq_status msq_model_create(msq_context* context, const msq_model_def* def,
+                                    msq_model** model);
+/** Creates a model of several regions, for example the parts of a plate and the modifier volumes in
+ * them. regions: count models, 1 to 4096; each has its own shape, scales, skins and materials.
+ *
+ * A point belongs to the first region whose shape contains it, and is inside where that region is:
+ * later regions count for nothing there, also where the region is empty. A region that is itself a
+ * model of regions is replaced by these, in their order. All functions take the model: one slice,
+ * ray or query serves a whole plate. Its coarse shape is the union of those of its regions. Scales
+ * are numbered by region: hits name the scale of the region that they are in, and
+ * msq_model_scale_length returns the largest length of any region.
+ *
+ * Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups,
+ * so a sample costs the memberships in the shapes before its region, and its region. Two bits per
+ * sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a
+ * region of all space), MEMORY. Since 0.2. */
+MSQ_API msq_status msq_model_regions(msq_context* context, const msq_model* const* regions,
+                                     uint64_t count, msq_model** model);
+/** Adds a reference. */
+MSQ_API void msq_model_retain(msq_model* model);
+/** Drops a reference. */
+MSQ_API void msq_model_release(msq_model* model);
 
-/* Bounding box of the coarse shape, which holds the model. Errors: ARGUMENT. */
-MSQ_API msq_status msq_model_bounds(const msq_model *model, double min[3], double max[3]);
+/** Returns the bounding box of the coarse shape, which contains the model; of regions, that of all.
+ * Infinite for msq_shape_all_space. Errors: ARGUMENT. */
+MSQ_API msq_status msq_model_bounds(const msq_model* model, double min[3], double max[3]);
 
-/* Characteristic length of a scale: its largest cell size; infinite for scale 0.
+/** Returns the characteristic length of a scale: its largest cell size; the length_scale of beams,
+ * which have no cells; infinity for scale 0.
  * Errors: ARGUMENT (no such scale). */
-MSQ_API msq_status msq_model_scale_length(const msq_model *model, uint32_t scale, double *length);
+MSQ_API msq_status msq_model_scale_length(const msq_model* model, uint32_t scale, double* length);
 
-/* ---- queries ------------------------------------------------------------------------ */
+/* ---- Queries --------------------------------------------------------------------------------- */
 
-enum { /* how a structure is asked about the points of a set: the same answers, at different cost */
-  MSQ_QUERY_AUTO = 0,  /* by sets, and point by point where a group has few points */
-  MSQ_QUERY_POINT = 1, /* each point by itself */
-  MSQ_QUERY_SET = 2    /* groups of points that lie close together at once, however small */
+/** How structures evaluate the points of a set. Does not change results. */
+enum msq_query_method {
+  /** Groups of points; groups with few points one at a time. */
+  MSQ_QUERY_AUTO = 0,
+  /** Each point by itself. */
+  MSQ_QUERY_POINT = 1,
+  /** Groups of nearby points, however small. */
+  MSQ_QUERY_SET = 2
 };
 
+/** Options of a query. */
 typedef struct msq_query_def {
   uint32_t struct_size;
-  int32_t method;      /* of msq_set_membership: MSQ_QUERY_*; default AUTO */
-  double length_scale; /* scales whose characteristic length is at least this are resolved; finer
-                          ones are taken as solid. 0 (default): all are resolved; infinity: the
-                          coarse shape alone */
-  uint64_t critical_count; /* AUTO: points that a group must have at least to be asked as a set; 0
-                              (default): as measured for each kind of structure */
-  uint32_t group_parts;    /* parts of a cell along each axis that arrays are grouped by, where parts hold
-                              hundreds of points: 1 (by cell) to 64, rounded down to a power of 2; 0
-                              (default): as measured. Same results at any number */
-  uint32_t reserved;       /* 0 */
+  /** An msq_query_method, for msq_set_membership. Default MSQ_QUERY_AUTO. */
+  int32_t method;
+  /** Scales with a characteristic length of at least this are resolved; finer ones are solid. 0
+   * (default): all. Infinity: the coarse shape only. */
+  double length_scale;
+  /** AUTO: minimum number of points in a group that is evaluated as a set. 0 (default): measured
+   * for each kind of structure. */
+  uint64_t critical_count;
+  /** Arrays of points are grouped by this many parts of a cell along each axis, where parts hold
+   * hundreds of points. 1 (by cell) to 64, rounded down to a power of 2. 0 (default): measured.
+   * Does not change results. */
+  uint32_t group_parts;
+  /** Must be 0. */
+  uint32_t reserved;
 } msq_query_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_query_def_init(msq_query_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_query_def_init(msq_query_def* def, size_t size);
 
-enum { MSQ_POINTS_ARRAY = 1, MSQ_POINTS_GRID = 2, MSQ_POINTS_STRATIFIED = 3 };
+/** Kinds of point sets. */
+enum msq_points_kind { MSQ_POINTS_ARRAY = 1, MSQ_POINTS_GRID = 2, MSQ_POINTS_STRATIFIED = 3 };
 
+/** A set of points.
+ *
+ * ARRAY: count points in any order.
+ * GRID: point (i, j, k) is origin + (i, j, k) * spacing and has index i + nx * (j + ny * k). With a
+ * window, the set is the points of the window, and point window.first + (i, j, k) has index
+ * i + window.count[0] * (j + window.count[1] * k).
+ * STRATIFIED: per_cell uniformly random points in each cell of a box of nx * ny * nz cells. Cell
+ * (i, j, k) has its corner at origin + rotation * ((i, j, k) * spacing) and its size is spacing.
+ * Its point s has index s + per_cell * (i + nx * (j + ny * k)). Points are a function of their
+ * index and the seed, equal on every machine, and are never stored. */
 typedef struct msq_points_def {
   uint32_t struct_size;
-  int32_t kind;            /* MSQ_POINTS_* */
-  /* ARRAY: any points, in any order */
-  const void *coordinates; /* count triples x, y, z, at any address */
+  /** An msq_points_kind. No default. */
+  int32_t kind;
+  /** ARRAY: count triples x, y, z. No alignment is needed. */
+  const void* coordinates;
+  /** ARRAY. */
   uint64_t count;
-  uint64_t stride;         /* bytes from one point to the next; 0 (default): tightly packed */
-  int32_t coordinate_type; /* MSQ_FLOAT32 or MSQ_FLOAT64 (default) */
-  uint32_t reserved;       /* 0 */
-  /* GRID: point (i, j, k) is origin + (i, j, k) * spacing, and has index i + nx * (j + ny * k) */
+  /** ARRAY: bytes from one point to the next. 0 (default): tightly packed. */
+  uint64_t stride;
+  /** ARRAY: MSQ_FLOAT32 or MSQ_FLOAT64 (default). */
+  int32_t coordinate_type;
+  /** Must be 0. */
+  uint32_t reserved;
+  /** GRID, STRATIFIED. */
   double origin[3];
-  double spacing[3];       /* > 0 */
-  uint64_t counts[3];      /* nx, ny, nz, each 1 to 2^31 - 1 */
-  /* STRATIFIED: per_cell random points, uniform, in each cell of a box of nx * ny * nz cells. Cell
-     (i, j, k) has its corner at origin + rotation * ((i, j, k) * spacing) and measures spacing; its
-     point s has index s + per_cell * (i + nx * (j + ny * k)). Points follow from their index and the
-     seed alone, on every machine alike, and are never stored */
-  uint64_t seed;           /* any number picks another sample (default 0) */
-  uint32_t per_cell;       /* at least 1 (default); at least 2 for standard errors */
-  uint32_t reserved2;      /* 0 */
-  double rotation[9];      /* as in msq_neighbourhood (default identity) */
+  /** GRID, STRATIFIED. Positive. GRID: large enough that rounding keeps neighbours apart. */
+  double spacing[3];
+  /** GRID, STRATIFIED: nx, ny, nz, each 1 to 2^31 - 1; fewer than 2^63 points in total, or in the
+   * window. */
+  uint64_t counts[3];
+  /** STRATIFIED: selects the sample. Default 0. */
+  uint64_t seed;
+  /** STRATIFIED: at least 1 (default). Standard errors need at least 2. */
+  uint32_t per_cell;
+  /** Must be 0. */
+  uint32_t reserved2;
+  /** STRATIFIED: as in msq_neighbourhood. Default identity. */
+  double rotation[9];
+  /** GRID: the points of the set. All zeros (default): the whole grid. */
+  msq_window window;
 } msq_points_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_points_def_init(msq_points_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_points_def_init(msq_points_def* def, size_t size);
 
-/* Writes points first .. first + count - 1 of a set, of any kind, as count triples x, y, z into
- * coordinates: the very numbers that queries of the set see. Cost: about 5 ns a point, on the calling
- * thread; call for ranges from several threads for more. Errors: ARGUMENT (also points past the set's end).
- * Source: paper, section "Structured and Unstructured Set Queries"; Steele, Lea and Flood 2014 (SplitMix64). */
-MSQ_API msq_status msq_points_generate(const msq_points_def *points, uint64_t first, uint64_t count,
-                                       double *coordinates);
+/** Writes points first to first + count - 1 of a set as count triples x, y, z: the exact numbers
+ * that queries of the set use. Cost: about 5 ns per point, on the calling thread. Errors: ARGUMENT
+ * (also past the end). Source: paper, section "Structured and Unstructured Set Queries"; Steele,
+ * Lea and Flood 2014 (SplitMix64). */
+MSQ_API msq_status msq_points_generate(const msq_points_def* points, uint64_t first, uint64_t count,
+                                       double* coordinates);
 
-/* Membership of one point: *inside becomes 1 in the model or on its boundary (for meshes see
- * msq_shape_from_mesh), else 0. query NULL: defaults. This is the definition that all other paths agree with bit for bit
- * (MSQ_FOAM_METHOD_2 at jitters below 0.01: outside 1e-9 of a cell about the boundary).
- * Cost: a mesh tests the triangles that share its y, z bin; a lattice the struts that can reach the
- * cell; a foam gathers 27 to a few hundred seeds (about a microsecond). Errors: ARGUMENT, MEMORY. */
-MSQ_API msq_status msq_point_membership(const msq_model *model, const double point[3],
-                                        const msq_query_def *query, int32_t *inside);
-
-/* Membership of a set of points: inside[i] becomes 1 or 0 for point i. inside_count: length of that
- * array, which must be the number of points. query, job NULL: defaults, no job. Scale by scale, from
- * the coarsest; points that a scale answers are not asked of finer ones (msq_job_info counts them).
- * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY inside may be partly written.
- * Cost: arrays as their points, each as in msq_point_membership but in parallel; in foams points are
- * grouped by cell first, whatever their order, and cost far less each. Memory for that: 6 bytes a
- * point, at most 15 MB; less where the memory limit leaves no room. Grids as slices, far less a point.
- * Stratified samples come grouped as they are, and need no such memory.
- * Errors: ARGUMENT (also non-finite points, by index), CANCELLED, LIMIT, MEMORY.
- * Source: paper, section "Set-based queries". */
-MSQ_API msq_status msq_set_membership(const msq_model *model, const msq_points_def *points,
-                                      const msq_query_def *query, uint8_t *inside,
-                                      uint64_t inside_count, msq_job *job);
-
-/* Material of one point: *id becomes that of its material, MSQ_MATERIAL_VOID outside the model, and
- * values[c], of channel_count, the value there of the channel called channels[c]; 0 outside, and where
- * the material has no such channel. The material is that of the finest resolved scale that has one, or
- * of its skin within it: what stands for structures that are not resolved is the material of the
- * scale that they fill, which the host gives as it is on the whole. channels and values may be NULL
- * where channel_count is 0; query NULL: defaults. Errors: ARGUMENT (also where no resolved scale has a
- * material, or none of their materials a channel of that name), MEMORY.
- * Source: paper, section "Multiscale Shape-Material Modeling API". */
-MSQ_API msq_status msq_point_material(const msq_model *model, const double point[3],
-                                      const msq_query_def *query, const char *const *channels,
-                                      uint64_t channel_count, uint32_t *id, double *values);
-
-/* Materials of a set of points: ids[i] and values[i * channel_count + c] become, bit for bit, what
- * msq_point_material answers for point i. id_count: length of ids, the number of points; value_count: that
- * of values, channel_count times as many. query, job NULL: defaults, no job. On ARGUMENT and LIMIT nothing
- * is written; on CANCELLED and MEMORY the arrays may be partly written. Cost: membership as in
- * msq_set_membership and a byte a point for it; channels of the points inside, a few thousand at
- * a time. Errors: ARGUMENT (also non-finite points, by index), CANCELLED, LIMIT, MEMORY.
- * Source: paper, section "Set-based queries". */
-MSQ_API msq_status msq_set_material(const msq_model *model, const msq_points_def *points,
-                                    const msq_query_def *query, const char *const *channels,
-                                    uint64_t channel_count, uint32_t *ids, uint64_t id_count,
-                                    double *values, uint64_t value_count, msq_job *job);
-
-/* Signed distance of one point to the model's boundary, in model units: *distance becomes positive
- * (at least 2.2e-308) where msq_point_membership answers 0, and 0 or negative where it answers 1.
- * Always finite. query NULL: defaults.
+/** Membership of one point: *inside receives 1 in the model or on its boundary, otherwise 0. query
+ * NULL: defaults. For the boundary of meshes see msq_shape_from_mesh.
  *
- * Its magnitude never exceeds the distance to the boundary of the resolved model, so a step of that
- * length along a ray crosses no surface. It is that of one scale: of the coarsest that the point is
- * outside of; where it is inside all, of the nearest of their boundaries.
- * - Box, ball and cylinder: exact, on both sides.
- * - Meshes: distance to the nearest triangle; exact where every triangle bounds the solid, as in
- *   clean meshes, else a bound. With open edges, rays of msq_shape_from_mesh that pass a hole bound
- *   the solid too: distances to what they sweep, from the hole towards lower x, count as well.
- * - Voxel images: a bound, short by less than the diagonal of a cell between eight values.
- * - Lattices and foams: exact outside for constant radius (lattices whose cell sizes differ by more
- *   than 8 times, 4 times with strut factors: within as many times the smallest; with a library of
- *   unit cells: within twice the smallest); inside a bound, the radius less the distance to the
- *   nearest axis. With a radius that is a field of Lipschitz constant L (msq_field_gradient: the
- *   difference of the values over the distance of the points) these are divided by 1 + L, L times the
- *   greatest strut factor.
- * - Skins: the difference of depth and thickness, divided by 1 + L; a scale that leaves one has the
- *   lesser of its structure's and its skin's distance.
- * - Functional structures: a bound on both sides, the difference of onset and level over G + L: G the
- *   greatest slope of the function over its cell, proven by intervals (0 to 30 % above the true one
- *   for the named functions), L the level's Lipschitz constant. Where a function does not repeat by
- *   itself, no more than the distance to the cell's border along that axis. Where its slope has no
- *   bound (poles, roots and logarithms that reach 0, x^y with y no whole number), 0.
- * - Points outside the coarse shape: distance to the shape, however far its structures are.
- * "Exact" is up to rounding, which is subtracted from the magnitude: 1e-13 of the distance and of
- * the coordinates (from the grid's origin, for structures), besides 1e-9 of the largest cell size for
- * foams, 1e-12 of it for lattices and, for meshes with needle-like triangles, up to 3e-7 of the
- * longest edge. The distance of each scale changes by no more than the distance between two points;
- * that of a model may jump where the scale that it is taken from changes.
+ * This function is the definition. All other queries agree with it bit for bit. The one exception
+ * is MSQ_FOAM_METHOD_2 with a jitter below 0.01, within 1e-9 of a cell of the boundary. Cost: a
+ * mesh tests the triangles in one y, z bin; a lattice the struts that can reach the cell; a foam 27
+ * to a few hundred seeds (about a microsecond). Errors: ARGUMENT, MEMORY. */
+MSQ_API msq_status msq_point_membership(const msq_model* model, const double point[3],
+                                        const msq_query_def* query, int32_t* inside);
+
+/** Membership of a set: inside[i] receives 1 or 0 for point i. inside_count must be the number of
+ * points. query NULL: defaults. job NULL: no job.
  *
- * Cost: a mesh builds a tree of its triangles at the first call that asks it (n log n, seconds for
- * millions, and about 120 bytes each until the shape is freed) and then searches about log n of it; a
- * lattice, the struts that can be nearest; a foam, the edges of the seeds about (a few
- * microseconds); a functional structure takes some ten milliseconds at the first call for the greatest
- * slope. Errors: ARGUMENT, LIMIT (the mesh's tree would pass the context's memory_limit),
- * MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing",
- * 1996, for the bound. */
-MSQ_API msq_status msq_point_distance(const msq_model *model, const double point[3],
-                                      const msq_query_def *query, double *distance);
-
-/* Signed distances of a set of points: distance[i] becomes, bit for bit, what msq_point_distance
- * answers for point i. distance_count: length of that array, which must be the number of points.
- * query, job NULL: defaults, no job. On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY
- * distance may be partly written. Cost: as msq_point_distance, in parallel, and cheaper for foams
- * where points of a cell follow each other; the building of a mesh's tree is not interrupted.
- * Errors: ARGUMENT (also non-finite points, by index), CANCELLED, LIMIT, MEMORY.
+ * Scales are evaluated from coarse to fine. A finer scale does not evaluate points that a coarser
+ * one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY
+ * may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in
+ * any order, with 6 bytes per point and at most 15 MB, or less if the memory limit leaves no room.
+ * Grids cost far less per point, as slices. Stratified samples need no grouping and no memory.
+ * Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY.
  * Source: paper, section "Set-based queries". */
-MSQ_API msq_status msq_set_distance(const msq_model *model, const msq_points_def *points,
-                                    const msq_query_def *query, double *distance,
-                                    uint64_t distance_count, msq_job *job);
+MSQ_API msq_status msq_set_membership(const msq_model* model, const msq_points_def* points,
+                                      const msq_query_def* query, uint8_t* inside,
+                                      uint64_t inside_count, msq_job* job);
 
-/* ---- statistics --------------------------------------------------------------------------- */
+/** Region of one point: *region receives the index of the first region whose shape contains it, -1
+ * if none does. The point need not be in the solid of the region. A model that is not made of
+ * regions is region 0. Regions of regions are counted in their order. Errors: ARGUMENT, MEMORY.
+ * Since 0.2. */
+MSQ_API msq_status msq_point_region(const msq_model* model, const double point[3], int32_t* region);
 
-/* An estimated number between 0 and 1. */
+/** Regions of a set: regions[i] receives the result of msq_point_region for point i. region_count
+ * must be the number of points. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and
+ * MEMORY may leave regions partly written. Cost: in parallel, the memberships in the shapes.
+ * Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY.
+ * Since 0.2.
+ */
+MSQ_API msq_status msq_set_region(const msq_model* model, const msq_points_def* points,
+                                  int32_t* regions, uint64_t region_count, msq_job* job);
+
+/** Material of one point. *id receives the id of its material, or MSQ_MATERIAL_VOID outside the
+ * model. values[c] receives the value of the channel named channels[c]; 0 outside, and where the
+ * material has no such channel. query NULL: defaults. channels and values may be NULL if
+ * channel_count is 0.
+ *
+ * The material is that of the finest resolved scale that has one, or of its skin inside the skin.
+ * Where finer scales are not resolved, the host's material stands for the mixture. Errors: ARGUMENT
+ * (also if no resolved scale has a material, or none of their materials has a channel of that
+ * name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API". */
+MSQ_API msq_status msq_point_material(const msq_model* model, const double point[3],
+                                      const msq_query_def* query, const char* const* channels,
+                                      uint64_t channel_count, uint32_t* id, double* values);
+
+/** Materials of a set: ids[i] and values[i * channel_count + c] receive, bit for bit, the result of
+ * msq_point_material for point i. id_count must be the number of points, value_count channel_count
+ * times that. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED
+ * and MEMORY may leave the arrays partly written. Cost: msq_set_membership plus a byte per point;
+ * channels are evaluated at the points inside. Errors: ARGUMENT (also points that are not finite,
+ * with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries". */
+MSQ_API msq_status msq_set_material(const msq_model* model, const msq_points_def* points,
+                                    const msq_query_def* query, const char* const* channels,
+                                    uint64_t channel_count, uint32_t* ids, uint64_t id_count,
+                                    double* values, uint64_t value_count, msq_job* job);
+
+/** Signed distance of one point to the boundary of the model, in model units. *distance is
+ * positive, at least 2.2e-308, where msq_point_membership returns 0, and at most 0 where it
+ * returns 1. It is always finite. query NULL: defaults.
+ *
+ * The magnitude never exceeds the true distance, so a step of that length along a ray crosses no
+ * surface. It is exact for primitives, clean meshes, and outside of lattices and foams with a
+ * constant radius, and a lower bound otherwise. docs/accuracy.md tells, for each kind of shape and
+ * structure, where the distance is exact and how tight the bound is. Outside the model the distance
+ * is that of the coarsest scale that the point is outside of; inside, that of the nearest boundary
+ * of any scale. Of regions it is a bound: up to where another region begins (docs/accuracy.md).
+ *
+ * Cost: a mesh builds a tree of its triangles on first use (n log n; seconds for millions; about
+ * 120 bytes per triangle until the shape is freed) and then visits about log n nodes. A lattice
+ * evaluates the struts that can be nearest, a foam the edges of the seeds around (microseconds). A
+ * functional structure takes about ten milliseconds on first use to bound its slope. Errors:
+ * ARGUMENT, LIMIT (tree above the memory limit), MEMORY. Source: paper, section "Multiscale
+ * Shape-Material Modeling API"; Hart, "Sphere tracing", 1996. */
+MSQ_API msq_status msq_point_distance(const msq_model* model, const double point[3],
+                                      const msq_query_def* query, double* distance);
+
+/** Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance
+ * for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job.
+ * ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost:
+ * msq_point_distance in parallel, less for foams if points of a cell follow each other. Cancelling
+ * does not interrupt the construction of a mesh's tree. Errors: ARGUMENT (also points that are not
+ * finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
+ */
+MSQ_API msq_status msq_set_distance(const msq_model* model, const msq_points_def* points,
+                                    const msq_query_def* query, double* distance,
+                                    uint64_t distance_count, msq_job* job);
+
+/** What msq_set_onset writes. */
+enum msq_onset_value {
+  /** The onset: the smallest radius or level at which the point is inside. Lattices and foams: the
+   * distance to the nearest strut axis in model units; with factors of struts the least of these
+   * distances over the factors. Functional structures: the function; sheets: its magnitude. */
+  MSQ_ONSET_PLAIN = 0,
+  /** The onset minus the structure's radius or level at the point: at most 0 inside, positive
+   * outside. */
+  MSQ_ONSET_SIGNED = 1
+};
+
+/** Writes the onset of a structure, of itself and of no model, at each point of a set. value: an
+ * msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size
+ * (lattices) or is not a number. onset_count must be the number of points.
+ *
+ * gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives
+ * the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central
+ * difference over 2^-17 of the smallest cell size on either side: off by about 1e-8 of the largest
+ * slope where the function is smooth, a mean of both sides along ridges, and 0 where it is not
+ * finite.
+ *
+ * MSQ_ONSET_SIGNED agrees in sign with membership; for lattices and foams except within 1e-9 of a
+ * cell of the boundary. job NULL: no job. ARGUMENT, LIMIT and UNSUPPORTED write nothing; CANCELLED,
+ * HOST and MEMORY may leave the arrays partly written. Cost: in parallel, lattices and functions
+ * about 0.1 us, foams 1.5 us per point, seven times that with gradients; foams less if points of a
+ * cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index),
+ * UNSUPPORTED (kinds without onset, as in msq_structure_calibrate), LIMIT (a point 2^24 cells from
+ * the origin of the grid), HOST (fields), CANCELLED, MEMORY. */
+MSQ_API msq_status msq_set_onset(msq_context* context, const msq_structure* structure,
+                                 const msq_points_def* points, int32_t value, double* onsets,
+                                 uint64_t onset_count, double* gradients, uint64_t gradient_count,
+                                 msq_job* job);
+
+/** Writes the value of a field at each point of a set: values[i] of point i, the number that msq
+ * uses there. value_count must be the number of points. job NULL: no job. ARGUMENT writes nothing;
+ * CANCELLED, HOST and MEMORY may leave values partly written. Cost: that of the field
+ * (docs/concepts.md), in parallel. Errors: ARGUMENT (also points that are not finite, with their
+ * index), HOST, CANCELLED, MEMORY. */
+MSQ_API msq_status msq_field_evaluate(msq_context* context, const msq_field* field,
+                                      const msq_points_def* points, double* values,
+                                      uint64_t value_count, msq_job* job);
+
+/* ---- Statistics ------------------------------------------------------------------------------ */
+
+/* The functions of this section take a MSQ_POINTS_STRATIFIED sample with 2 to 4096 points per cell.
+ * They measure in the box of the sample; only the far ends of segments may lie outside it. Outside
+ * the coarse shape everything is void: to measure a structure by itself, use a model of it in all
+ * space (msq_shape_all_space) or in a larger box. The error falls at least as 1 / sqrt(n) with the
+ * number of points, faster with many small cells. It describes the sample, not the spread between
+ * foams with other seeds. The same sample yields the same bits for any number of threads. Memory: a
+ * few MB. Functions that take a model also fail with LIMIT where msq_set_membership or
+ * msq_set_distance would. */
+
+/** An estimate of a number between 0 and 1. */
 typedef struct msq_estimate {
   double value;
-  double standard_error; /* from the spread within the sample's cells */
-  double low, high;      /* interval that holds the true value with a probability of 95 % (Wilson) */
+  /** From the spread within the cells of the sample. */
+  double standard_error;
+  /** 95 % confidence interval (Wilson). */
+  double low, high;
 } msq_estimate;
 
-/* Functions of this section take a sample of kind MSQ_POINTS_STRATIFIED with 2 to 4096 points a cell.
- * Its box is what is measured: model and structure are asked nowhere else, save at the far ends of
- * segments, which may lie outside of it. Outside the coarse shape all is void; a structure by itself is
- * measured by a model of it in a larger box. The error of n points falls at least as 1 / sqrt(n), with many small
- * cells faster. It is that of the sample alone: of another foam of the same kind, with another seed,
- * the value itself differs. The same sample gives the same bits, whatever the threads. Memory: a few MB. */
+/** What is measured. */
+enum msq_phase { MSQ_PHASE_SOLID = 1, MSQ_PHASE_VOID = 2 };
 
-enum { MSQ_PHASE_SOLID = 1, MSQ_PHASE_VOID = 2 };
-
-/* Volume fraction of a phase (MSQ_PHASE_*) in the sample's box. query, job NULL: defaults, no job. On
- * failure nothing is written. Cost: as msq_set_membership. Errors: ARGUMENT, CANCELLED, MEMORY.
+/** Estimates the volume fraction of a phase (msq_phase) in the box of the sample. query NULL:
+ * defaults. job NULL: no job. Cost: msq_set_membership. Errors: ARGUMENT, CANCELLED, MEMORY.
  * Source: paper, section "Set-based queries"; Cochran, "Sampling Techniques", 1977, chapter 5. */
-MSQ_API msq_status msq_volume_fraction(const msq_model *model, const msq_points_def *sample,
-                                       const msq_query_def *query, int32_t phase,
-                                       msq_estimate *estimate, msq_job *job);
+MSQ_API msq_status msq_volume_fraction(const msq_model* model, const msq_points_def* sample,
+                                       const msq_query_def* query, int32_t phase,
+                                       msq_estimate* estimate, msq_job* job);
 
-typedef struct msq_segments_def { /* one segment of each length begins at each point of the sample */
+/** Segments for correlations. One segment of each length starts at each point of the sample. */
+typedef struct msq_segments_def {
   uint32_t struct_size;
-  int32_t phase;         /* MSQ_PHASE_*; default SOLID */
-  double direction[3];   /* of all segments, of any length but 0; 0, 0, 0 (default): each point has its
-                            own, uniform over the sphere, a function of its index and the seed */
-  const double *lengths; /* length_count lengths, finite, not negative, in any order */
-  uint64_t length_count; /* 1 to 4096 */
-  double step;           /* of msq_lineal_path, in model units; 0 (default): a 256th of the finest resolved cell
-                            size, or of the longest length where that is less */
+  /** An msq_phase. Default MSQ_PHASE_SOLID. */
+  int32_t phase;
+  /** Direction of all segments, of any length. 0 (default): each point has its own, uniform on the
+   * sphere, a function of its index and the seed. */
+  double direction[3];
+  /** length_count lengths, finite, not negative, in any order. */
+  const double* lengths;
+  /** 1 to 4096. */
+  uint64_t length_count;
+  /** Step of msq_lineal_path in model units. 0 (default): 1/256 of the smallest characteristic
+   * length that is resolved (msq_model_scale_length), or of the longest length if that is smaller.
+   */
+  double step;
 } msq_segments_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_segments_def_init(msq_segments_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_segments_def_init(msq_segments_def* def, size_t size);
 
-/* Two-point correlation S2: estimates[i] becomes the probability that both ends of a segment of length
- * i are in the phase; of length 0 it is the volume fraction. estimate_count must be length_count.
- * query, job NULL: defaults, no job. On failure nothing is written. Cost: msq_set_membership of the
- * sample, and for each length of those of its points that are in the phase.
- * Errors: ARGUMENT, CANCELLED, MEMORY.
- * Source: Torquato, "Random Heterogeneous Materials", 2002, section 2.2. */
-MSQ_API msq_status msq_two_point_correlation(const msq_model *model, const msq_points_def *sample,
-                                             const msq_query_def *query,
-                                             const msq_segments_def *def, msq_estimate *estimates,
-                                             uint64_t estimate_count, msq_job *job);
+/** Estimates the two-point correlation S2: estimates[i] receives the probability that both ends of
+ * a segment of length i are in the phase. At length 0 this is the volume fraction. estimate_count
+ * must be length_count. query NULL: defaults. job NULL: no job. Cost: msq_set_membership of the
+ * sample, and again per length of those points that are in the phase. Errors: ARGUMENT, CANCELLED,
+ * MEMORY. Source: Torquato, "Random Heterogeneous Materials", 2002, section 2.2. */
+MSQ_API msq_status msq_two_point_correlation(const msq_model* model, const msq_points_def* sample,
+                                             const msq_query_def* query,
+                                             const msq_segments_def* def, msq_estimate* estimates,
+                                             uint64_t estimate_count, msq_job* job);
 
-/* Lineal-path function L: estimates[i] becomes the probability that a segment of length i lies wholly in the
- * phase. Segments are followed by steps as long as msq_point_distance allows, which pass no
- * boundary, and near boundaries by def's step: gaps shorter than that may be missed, longer ones never are;
- * ends are found within a thousandth of it. Other arguments, failure and errors as in
- * msq_two_point_correlation, and LIMIT (a length above 10^6 steps). Cost: tens of distances a point,
- * as many as steps where the distance is 0. Source: Torquato 2002, section 2.4; Lu and Torquato 1992. */
-MSQ_API msq_status msq_lineal_path(const msq_model *model, const msq_points_def *sample,
-                                   const msq_query_def *query, const msq_segments_def *def,
-                                   msq_estimate *estimates, uint64_t estimate_count, msq_job *job);
+/** Estimates the lineal-path function L: estimates[i] receives the probability that a segment of
+ * length i lies entirely in the phase. Arguments as in msq_two_point_correlation.
+ *
+ * msq follows a segment by the steps that msq_point_distance allows, which cross no boundary, and
+ * near boundaries by the step of def. Gaps shorter than that step may be missed; longer ones never
+ * are. Ends are found within a thousandth of the step. Cost: tens of distances per point, and one
+ * per step where the distance is 0. Errors: ARGUMENT, CANCELLED, LIMIT (a length above 10^6 steps),
+ * MEMORY. Source: Torquato 2002, section 2.4; Lu and Torquato 1992. */
+MSQ_API msq_status msq_lineal_path(const msq_model* model, const msq_points_def* sample,
+                                   const msq_query_def* query, const msq_segments_def* def,
+                                   msq_estimate* estimates, uint64_t estimate_count, msq_job* job);
 
+/** Result of a calibration. */
 typedef struct msq_calibration_report {
   uint32_t struct_size;
-  uint32_t reserved;     /* 0 */
-  uint64_t samples;      /* points asked */
-  double parameter;      /* the least that holds at least the target share of the points */
-  msq_estimate fraction; /* volume fraction at that parameter */
-  double most_fraction;  /* at the greatest parameter that the structure's kind allows */
+  uint32_t reserved;
+  /** Points that were evaluated. */
+  uint64_t samples;
+  /** Smallest parameter that holds at least the target fraction of the points. */
+  double parameter;
+  /** Volume fraction at that parameter. */
+  msq_estimate fraction;
+  /** Volume fraction at the greatest parameter that the kind of structure allows. */
+  double max_fraction;
 } msq_calibration_report;
 
-/* Finds the parameter (radius of struts, level of a function), everywhere the same, at which a structure
- * has a target volume fraction, 0 to 1, and the curve between the two: pair i says that parameters[i], in model
- * units, has the fraction fractions[i] = i / (pair_count - 1) * most_fraction; both ascend. They make
- * a field of radius from one of density (msq_field_map). The parameter that the structure was built
- * with plays no part. parameters, fractions: pair_count numbers (2 to 2^20), or NULL with pair_count 0. report NULL: not wanted.
- * sample: where to measure; NULL: 2 points in each of 64^3 parts of one cell (lattices, functional structures)
- * or of 16^3 cells (foams) from the grid's origin. job NULL: none. On failure nothing is written.
- * Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16
- * bytes a point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (a kind without onset: mixed lattices, host structures),
- * CANCELLED, LIMIT (a target above most_fraction, memory), MEMORY. */
-MSQ_API msq_status msq_structure_calibrate(msq_context *context, const msq_structure *structure,
-                                           const msq_points_def *sample, double target,
-                                           double *parameters, double *fractions,
-                                           uint64_t pair_count, msq_calibration_report *report,
-                                           msq_job *job);
+/** Finds the constant parameter (radius of struts, level of a function) at which a structure has a
+ * target volume fraction, and the curve between the two. The parameter of the structure itself is
+ * ignored.
+ *
+ * target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20), parameters[i], in
+ * model units, has fraction fractions[i] = i / (pair_count - 1) * max_fraction. The fractions
+ * ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of
+ * radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2
+ * points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells
+ * (foams), from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices
+ * 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context.
+ * Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host
+ * structures and functions, beams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.
+ */
+MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_structure* structure,
+                                           const msq_points_def* sample, double target,
+                                           double* parameters, double* fractions,
+                                           uint64_t pair_count, msq_calibration_report* report,
+                                           msq_job* job);
 
-/* ---- slicing ------------------------------------------------------------------------- */
+/* ---- Slicing --------------------------------------------------------------------------------- */
 
-typedef struct msq_slicer msq_slicer; /* a model and a plan of layers */
+/** A model and a plan of layers. */
+typedef struct msq_slicer msq_slicer;
 
-enum { /* what a layer holds: one sample a pixel, at its centre */
-  MSQ_LAYER_BITS = 1, /* 1 bit a pixel, leftmost pixel in the high bit, as in PNG and PBM */
-  MSQ_LAYER_BYTES = 2 /* 1 byte a pixel: 255 inside, 0 outside */
+/** What a layer holds. Rows are padded with zeros to a multiple of 8 bytes. */
+enum msq_layer_output {
+  /** 1 bit per pixel, sampled at its centre. The leftmost pixel is the high bit, as in PNG and
+   * PBM. */
+  MSQ_LAYER_BITS = 1,
+  /** 1 byte per pixel, sampled at its centre: 255 inside, 0 outside. */
+  MSQ_LAYER_BYTES = 2,
+  /** 1 byte per pixel: its coverage, from 0 to 255, by k x k samples with k = grey_samples. Sample
+   * (a, b), 0 <= a, b < k, lies at the centre of the pixel + ((a, b) + 1/2) / k * pitch - pitch /
+   * 2, the centre of its part of the pixel. With n samples inside the value is floor(255 * (n /
+   * k^2)^grey_gamma + 1/2), or 0 if that is below grey_threshold. */
+  MSQ_LAYER_GREY = 3,
+  /** 1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it,
+   * rounded to the nearest float32. Rows have the byte order of the machine. */
+  MSQ_LAYER_DISTANCE = 4,
+  /** 1 uint32 per pixel: the id of the material at its centre, as msq_set_material returns it. A
+   * resolved scale must have a material. */
+  MSQ_LAYER_MATERIAL = 5
 };
 
+/** How layers are turned before the host receives them, as the panels of printers need it. A sum.
+ * Let the layer have W x H pixels, after exchanging the sides of the plan if TRANSPOSE is set. Its
+ * pixel (i, j) is pixel (i', j') of the plan, where i' = W - 1 - i with MIRROR_X and i otherwise,
+ * j' = H - 1 - j with MIRROR_Y and j otherwise, and TRANSPOSE exchanges i' and j' at the end. */
+enum msq_layer_orientation {
+  MSQ_LAYER_MIRROR_X = 1,
+  MSQ_LAYER_MIRROR_Y = 2,
+  MSQ_LAYER_TRANSPOSE = 4
+};
+
+/** Definition of a slicer. */
 typedef struct msq_slicer_def {
   uint32_t struct_size;
-  int32_t output;       /* MSQ_LAYER_*; default BITS */
-  double pitch[2];      /* pixel size in x and y; 0 (default): from region and resolution */
-  uint32_t resolution[2]; /* pixels in x and y; 0 (default): from region and pitch, rounded up */
-  double layer_height;  /* > 0, unless layer_z lists them */
-  uint64_t layer_count; /* 0 (default): from region and layer_height, rounded up */
-  int32_t has_region;   /* 0 (default): the region is the model's bounding box, centred in the
-                           pixels, and region_min and region_max must be 0; 1: the region below */
-  uint32_t slab_layers; /* layers computed at once; 0 (default): as many whole cells of the finest
-                           scale as make about 64 layers, at least one, and no more than 32 MiB; for
-                           structures that gain nothing by so many, than 2 MiB a thread. Same
-                           results at any number */
-  double region_min[3]; /* corner of pixel (0, 0) and underside of layer 0 */
-  double region_max[3]; /* needed where a count follows from it */
-  const double *layer_z;  /* z of each layer, ascending; NULL (default): the middle of each layer,
-                             region_min[2] + (index + 1/2) * layer_height */
-  uint64_t layer_z_count;  /* then the number of layers */
-  double length_scale;  /* as in msq_query_def */
+  /** An msq_layer_output. Default MSQ_LAYER_BITS. */
+  int32_t output;
+  /** Pixel size in x and y. 0 (default): from region and resolution. */
+  double pitch[2];
+  /** Pixels in x and y. 0 (default): from region and pitch, rounded up. */
+  uint32_t resolution[2];
+  /** Positive, unless layer_z is given. */
+  double layer_height;
+  /** 0 (default): from region and layer_height, rounded up. */
+  uint64_t layer_count;
+  /** 0 (default): the region is the bounding box of the model, centred in the pixels; region_min
+   * and region_max must be 0. 1: the region below. A model of all space needs 1. */
+  int32_t has_region;
+  /** Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at
+   * most 32 MiB, or 2 MiB per thread for structures that do not gain by more. Does not change
+   * results. */
+  uint32_t slab_layers;
+  /** Corner of pixel (0, 0) and bottom of layer 0. */
+  double region_min[3];
+  /** Needed where a count follows from it. */
+  double region_max[3];
+  /** z of each layer, strictly ascending. NULL (default): the middle of each layer, region_min[2] +
+   * (index + 1/2) * layer_height. */
+  const double* layer_z;
+  /** Number of layers in layer_z: 1 to 2^31 - 1. */
+  uint64_t layer_z_count;
+  /** As in msq_query_def. */
+  double length_scale;
+  /** Pixels and layers that are computed, as an index window of the plan that the fields above
+   * make. The slicer then has window.count[2] layers of window.count[0] x window.count[1] pixels,
+   * with their own indices from 0. All zeros (default): the whole plan. */
+  msq_window window;
+  /** GREY: samples along each side of a pixel: 2, 4 (default), 8 or 16. */
+  uint32_t grey_samples;
+  /** GREY: smaller values become 0 (minimum exposure). 0 (default) to 255. */
+  uint32_t grey_threshold;
+  /** GREY: 0.1 to 10. Default 1. */
+  double grey_gamma;
+  /** A sum of msq_layer_orientation. Default 0. */
+  uint32_t orientation;
+  /** Must be 0. */
+  uint32_t reserved;
 } msq_slicer_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_slicer_def_init(msq_slicer_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_slicer_def_init(msq_slicer_def* def, size_t size);
 
-/* Plans the layers of a model, normal to z. def may not be NULL. Nothing is computed yet. Errors: ARGUMENT, LIMIT (more
- * than 2^31 - 1 pixels along a side or layers), MEMORY. */
-MSQ_API msq_status msq_slicer_create(const msq_model *model, const msq_slicer_def *def,
-                                     msq_slicer **slicer);
-MSQ_API void msq_slicer_retain(msq_slicer *slicer);
-MSQ_API void msq_slicer_release(msq_slicer *slicer);
+/** Plans the layers of a model, normal to z. Computes nothing yet. def must not be NULL.
+ * Errors: ARGUMENT (also pixels or layers that rounding makes coincide, and a window outside the
+ * plan), LIMIT (more than 2^31 - 1 layers, or pixels along a side, or 2^63 pixels in total or in
+ * the window), MEMORY. */
+MSQ_API msq_status msq_slicer_create(const msq_model* model, const msq_slicer_def* def,
+                                     msq_slicer** slicer);
+/** Adds a reference. */
+MSQ_API void msq_slicer_retain(msq_slicer* slicer);
+/** Drops a reference. */
+MSQ_API void msq_slicer_release(msq_slicer* slicer);
 
+/** The plan of a slicer. */
 typedef struct msq_slicer_report {
   uint32_t struct_size;
-  uint32_t slab_layers; /* layers computed at once */
-  uint32_t width;       /* pixels in x */
-  uint32_t height;      /* pixels in y */
+  /** Layers computed at once. */
+  uint32_t slab_layers;
+  /** Pixels in x and y of the layers that the host receives: exchanged with TRANSPOSE. */
+  uint32_t width, height;
   uint64_t layer_count;
-  uint64_t stride;      /* bytes from one row to the next, a multiple of 8 */
-  uint64_t layer_bytes; /* stride * height */
-  double origin[2];     /* x, y of the centre of pixel (0, 0) */
-  double pitch[2];      /* pixel (i, j) is sampled at origin + (i, j) * pitch, as in a point grid */
+  /** Bytes from one row to the next, a multiple of 8. */
+  uint64_t stride;
+  /** stride * height. */
+  uint64_t layer_bytes;
+  /** x, y of the centre of pixel (0, 0) of the whole plan. */
+  double origin[2];
+  /** Pixel (i, j) is sampled at origin + (i, j) * pitch, as in a grid of points. With a window:
+   * at origin + (window.first + (i, j)) * pitch. */
+  double pitch[2];
+  /** The window. Without one: the whole plan. */
+  msq_window window;
+  /** Pixels in x and y, and layers, of the whole plan. */
+  uint64_t whole[3];
 } msq_slicer_report;
 
-/* The plan as it came out. Errors: ARGUMENT. */
-MSQ_API msq_status msq_slicer_info(const msq_slicer *slicer, msq_slicer_report *report);
+/** Reports the plan. Errors: ARGUMENT. */
+MSQ_API msq_status msq_slicer_info(const msq_slicer* slicer, msq_slicer_report* report);
 
-/* z of a layer's samples. Errors: ARGUMENT (index out of range). */
-MSQ_API msq_status msq_slicer_layer_z(const msq_slicer *slicer, uint64_t index, double *z);
+/** Returns z of the samples of a layer. Errors: ARGUMENT (index out of range). */
+MSQ_API msq_status msq_slicer_layer_z(const msq_slicer* slicer, uint64_t index, double* z);
 
-/* One layer as the callback sees it: valid until the callback returns. */
+/** One layer. Valid until the callback returns. */
 typedef struct msq_layer {
-  uint32_t struct_size; /* out: sizeof(msq_layer) of the library */
-  int32_t output;       /* MSQ_LAYER_* */
-  uint64_t index;       /* in the plan */
+  /** Out: sizeof(msq_layer) of the library. */
+  uint32_t struct_size;
+  /** An msq_layer_output. */
+  int32_t output;
+  /** Number of the layer, from 0; with a window, from its first layer. */
+  uint64_t index;
   double z;
-  const uint8_t *data;  /* height rows, row 0 at the smallest y; bits past the width are 0 */
-  uint64_t stride;      /* bytes from one row to the next */
+  /** height rows, row 0 at the smallest y. Bits past the width are 0. */
+  const uint8_t* data;
+  /** Bytes from one row to the next. */
+  uint64_t stride;
   uint32_t width, height;
-  uint64_t inside_count; /* pixels inside */
+  /** Number of pixels inside. GREY: number of samples inside. */
+  uint64_t inside_count;
 } msq_layer;
 
-/* Takes a layer. Return 0 to go on, a code of the host's own, best negative, to stop. Exceptions of the
- * host's language must not leave it: keep them, return a code, and raise them after the call. */
-typedef int32_t (*msq_layer_fn)(void *user, const msq_layer *layer);
+/** Receives a layer. Return 0 to continue, or the host's code, preferably negative, to stop.
+ * Exceptions of the host's language must not leave it. */
+typedef int32_t (*msq_layer_fn)(void* user, const msq_layer* layer);
 
-/* Computes layers first .. first + count - 1 and hands each to the callback, in ascending order, on
- * the calling thread; workers compute the next slab meanwhile, and wait for the callback. count
- * UINT64_MAX: to the last. job NULL: none. However the plan is split into calls or processes, the
- * layers are the same bytes. Memory: two slabs, a layer, and a few tiles for each thread, whatever the
- * height of the stack; foams keep cells in the cache besides. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY.
- * Source: paper, section "Slicing". */
-MSQ_API msq_status msq_slicer_run(const msq_slicer *slicer, uint64_t first, uint64_t count,
-                                  msq_layer_fn fn, void *user, msq_job *job);
+/** Computes layers first to first + count - 1 and passes each to the callback, in ascending order,
+ * on the calling thread. Workers compute the next slab meanwhile and wait for the callback. count
+ * UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the
+ * plan is split into calls or processes. Memory: two slabs, one layer and a few tiles per thread,
+ * for any height of the stack; foams keep cells in the cache in addition. Errors: ARGUMENT,
+ * CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Slicing". */
+MSQ_API msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t count,
+                                  msq_layer_fn fn, void* user, msq_job* job);
 
-/* Computes one layer, the same bytes as msq_slicer_run gives, into the host's buffer of
- * buffer_bytes >= layer_bytes. On failure the buffer is untouched. Cost: for many layers one after the
- * other, two to three times that of msq_slicer_run, which computes a slab at once.
- * Errors: ARGUMENT, CANCELLED, LIMIT, MEMORY. */
-MSQ_API msq_status msq_slice_layer(const msq_slicer *slicer, uint64_t index, uint8_t *buffer,
-                                   uint64_t buffer_bytes, msq_job *job);
+/** Computes one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A
+ * call that fails leaves the buffer untouched. Cost: for many consecutive layers two to three times
+ * that of msq_slicer_run. Errors: ARGUMENT, CANCELLED, LIMIT, MEMORY. */
+MSQ_API msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* buffer,
+                                   uint64_t buffer_bytes, msq_job* job);
 
-/* ---- rays ---------------------------------------------------------------------------- */
+/* ---- Contours -------------------------------------------------------------------------------- */
 
+/** Rings of points: the section of a model with a plane. Immutable; any thread may read it. */
+typedef struct msq_contours msq_contours;
+
+/** Definition of contours. The plane is normal to an axis. Its coordinates u, v are the other two
+ * axes in their order: x, y for axis z; x, z for axis y; y, z for axis x. */
+typedef struct msq_contours_def {
+  uint32_t struct_size;
+  /** Of the coordinates: MSQ_INT32, MSQ_INT64 or MSQ_FLOAT64 (default). */
+  int32_t type;
+  /** Normal of the plane: 0 (x), 1 (y) or 2 (z, default). */
+  int32_t axis;
+  /** 0 (default): the bounding box of the model; window_min and window_max must be 0. 1: the window
+   * below. */
+  int32_t has_window;
+  /** Corners in u and v, in model units. Rings close along the edges of the window. Windows that
+   * have a whole edge in common, and the other values of this struct, have the same points on it,
+   * bit for bit. */
+  double window_min[2];
+  double window_max[2];
+  /** Greatest distance between boundary and rings, in model units, where features are wider than
+   * the pitch. Positive; there is no default. */
+  double tolerance;
+  /** Distance of the nodes at which the model is sampled. Rounded down to three binary digits.
+   * Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost;
+   * narrower ones may be. 0 (default): the tolerance. */
+  double pitch;
+  /** Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest.
+   * Then a pitch must have at least 64 units, and a tolerance 4. */
+  double units;
+  /** As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0. */
+  double length_scale;
+} msq_contours_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_contours_def_init(msq_contours_def* def, size_t size);
+
+/** Computes the contours of the section of a model at a height along the axis.
+ *
+ * Rings are closed and simple, and no two of them meet. The inside is on the left: outer rings are
+ * counter-clockwise in (u, v), holes clockwise. Corners are points of the rings. Points that the
+ * tolerance does not need are left out. Rings come in the order of their lowest v, so a ring's
+ * parent has a smaller index. The same arguments yield the same bytes, on any thread.
+ *
+ * contours: a new handle. job NULL: no job. Any number of threads may call it at once. Memory: in
+ * proportion to the window's nodes and crossings, accounted to the context while the call lasts.
+ * The result is not accounted. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (2^31 nodes along an axis;
+ * 2^32 crossings; coordinates beyond the type, for int64 beyond 2^53; memory), MEMORY. Source:
+ * marching squares; Imai and Iri 1986. */
+MSQ_API msq_status msq_layer_contours(const msq_model* model, double height,
+                                      const msq_contours_def* def, msq_contours** contours,
+                                      msq_job* job);
+
+/** The same for a layer of a slicer: at the layer's z, with the slicer's length_scale. axis must be
+ * 2. has_window 0: the rectangle of the slicer's pixels. Errors: as msq_layer_contours; ARGUMENT
+ * also for an index out of range. */
+MSQ_API msq_status msq_slicer_contours(const msq_slicer* slicer, uint64_t index,
+                                       const msq_contours_def* def, msq_contours** contours,
+                                       msq_job* job);
+/** Adds a reference. */
+MSQ_API void msq_contours_retain(msq_contours* contours);
+/** Drops a reference. */
+MSQ_API void msq_contours_release(msq_contours* contours);
+
+/** What contours hold. Pointers are valid as long as the contours are. */
+typedef struct msq_contours_report {
+  uint32_t struct_size;
+  /** As in the definition. */
+  int32_t type;
+  uint64_t ring_count;
+  /** Of all rings together. A ring does not repeat its first point. */
+  uint64_t point_count;
+  /** Pairs u, v of the type. */
+  const void* points;
+  /** ring_count + 1 numbers: points starts[i] to starts[i + 1] - 1 are those of ring i. */
+  const uint64_t* starts;
+  /** The ring just around ring i. -1: none. The parent of a hole is an outer ring; that of an outer
+   * ring is a hole. */
+  const int64_t* parents;
+  /** 1: a hole. 0: an outer ring. */
+  const uint8_t* holes;
+  /** Places where the rings may be wrong at the scale of the pitch: where one sample decided which
+   * parts are connected, or where the boundary does not come within the tolerance. Features
+   * narrower than the pitch that no node or crossing meets are not counted. */
+  uint64_t unresolved_count;
+  /** Distance of the nodes, as rounded. */
+  double pitch;
+} msq_contours_report;
+
+/** Reports what contours hold. Errors: ARGUMENT. */
+MSQ_API msq_status msq_contours_info(const msq_contours* contours, msq_contours_report* report);
+
+/* ---- Fill lines ------------------------------------------------------------------------------ */
+
+/** Lines that fill a polygon: paths for a nozzle that prints thin walls as single lines. */
+typedef struct msq_fill msq_fill;
+
+/** A ring of a polygon. */
+typedef struct msq_ring {
+  /** count pairs x, y of the definition's coordinate_type. The last point is joined to the first.
+   * No alignment is needed. */
+  const void* points;
+  /** At least 3. */
+  uint64_t count;
+} msq_ring;
+
+/** A polygon with holes at a height, and how it is filled. */
+typedef struct msq_fill_def {
+  uint32_t struct_size;
+  /** Of the rings and of the result: MSQ_INT32 or MSQ_INT64 (default). */
+  int32_t coordinate_type;
+  /** ring_count rings, outlines and holes in any order and direction. Points enclosed by an odd
+   * number of rings are filled. */
+  const msq_ring* rings;
+  uint64_t ring_count;
+  /** Bytes from one point of a ring to the next. 0 (default): tightly packed. */
+  uint64_t point_stride;
+  /** Model units per unit of the coordinates, for example 1e-6 for nanometres in a model in
+   * millimetres. No default. */
+  double scale;
+  /** x, y in the model of the coordinates 0, 0. Default 0. */
+  double origin[2];
+  /** In model units. Slicers take the middle of the layer. Default 0. */
+  double z;
+  /** Greatest distance between the lines and the walls' middle, in model units, before rounding to
+   * the coordinates; at least half of a unit of these. 0 (default): 1/200 of the smallest cell
+   * size. */
+  double tolerance;
+  /** Shorter paths are dropped, in model units. Default 0. */
+  double min_length;
+} msq_fill_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
+
+/** Computes the middle lines of a structure's thin walls at a height, within a polygon.
+ *
+ * Foams: the faces of the Voronoi diagram, cut by the plane. Sheets: where the function is 0.
+ * Networks, which have no walls: where the function is the level, the boundary of the solid.
+ * Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it.
+ * Strut lattices, beams and structures of the host have no such lines; use contours for them.
+ *
+ * Each line is in one path. A path goes on where walls meet: of three lines two are joined, those
+ * that are most nearly straight, and one ends. Paths are in the order in which they are best
+ * printed: each begins near the end of the one before; none is printed twice.
+ *
+ * Ends at the polygon's border are rounded to whole coordinates, all else is decided exactly. Lines
+ * on the border itself count as inside on one side of the polygon. The lines do not depend on the
+ * polygon: where polygons of a layer touch, lines go on from one to the other. Functions are
+ * followed on a grid of 1/32 of the smallest cell size: lines closer together than that may be
+ * joined, and smaller closed lines lost.
+ *
+ * def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells
+ * from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box.
+ * Cost: on the calling thread; many threads may call at once. About 10 us per cell of a foam in the
+ * plane; about 1 us per square that a line of a function crosses and 20 ns per other square.
+ * Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are on one
+ * line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power
+ * diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987. */
+MSQ_API msq_status msq_fill_lines(msq_context* context, const msq_structure* structure,
+                                  const msq_fill_def* def, msq_fill** fill, msq_job* job);
+/** Adds a reference. */
+MSQ_API void msq_fill_retain(msq_fill* fill);
+/** Drops a reference. */
+MSQ_API void msq_fill_release(msq_fill* fill);
+
+/** The paths of a fill. The arrays belong to the fill and live as long as it does. */
+typedef struct msq_fill_report {
+  uint32_t struct_size;
+  /** As in the definition. */
+  int32_t coordinate_type;
+  /** point_count pairs x, y of int32_t or int64_t. */
+  const void* points;
+  uint64_t point_count;
+  /** path_count + 1 numbers: path i has the points path_starts[i] to path_starts[i + 1] - 1. */
+  const uint64_t* path_starts;
+  /** path_count bytes. 1: the last point is joined to the first; 0: it is not. */
+  const uint8_t* closed;
+  uint64_t path_count;
+  /** Length of all paths in model units. */
+  double length;
+  /** Length of the straight ways from each path to the next, in model units. */
+  double travel;
+} msq_fill_report;
+
+/** Reports the paths. Errors: ARGUMENT. */
+MSQ_API msq_status msq_fill_info(const msq_fill* fill, msq_fill_report* report);
+
+/** Finds the cell sizes at which a structure's fill lines cover a share of the area.
+ *
+ * The density of lines is their length per area times their width, on average over all heights. It
+ * is inversely proportional to the cell size. cell_size receives those of the structure's grid, all
+ * times the same factor: create the structure anew with them, and the same rotation. density: more
+ * than 0, at most 1. job NULL: no job. Single layers differ, of a gyroid by a tenth. The length is
+ * measured on the structure as it is: one cell at 64 heights; 8 x 8 if the grid is turned; 32 x 32
+ * cells of a foam at 32 heights, accurate to about 0.5 %. A foam with a field of density: calibrate
+ * it without the field; d seeds per cell volume then multiply the density of lines by about the
+ * cube root of d. Cost: up to 0.5 s for a foam. Errors: ARGUMENT, UNSUPPORTED (no thin walls; a
+ * field of density, or of the level of a network), LIMIT (no lines), CANCELLED, HOST, MEMORY. */
+MSQ_API msq_status msq_fill_calibrate(msq_context* context, const msq_structure* structure,
+                                      double line_width, double density, double cell_size[3],
+                                      msq_job* job);
+
+/* ---- Rays ------------------------------------------------------------------------------------ */
+
+/** An array of rays: origin + t * direction. */
 typedef struct msq_rays_def {
   uint32_t struct_size;
-  int32_t coordinate_type;   /* of origins and directions: MSQ_FLOAT32 or MSQ_FLOAT64 (default) */
+  /** Of origins and directions: MSQ_FLOAT32 or MSQ_FLOAT64 (default). */
+  int32_t coordinate_type;
   uint64_t count;
-  const void *origins;       /* count triples x, y, z */
-  const void *directions;    /* count triples, of any length but 0 */
-  uint64_t origin_stride;    /* bytes from one to the next; 0 (default): tightly packed */
+  /** count triples x, y, z. */
+  const void* origins;
+  /** count triples, of any length except 0. */
+  const void* directions;
+  /** Bytes from one origin to the next. 0 (default): tightly packed. */
+  uint64_t origin_stride;
+  /** Bytes from one direction to the next. 0 (default): tightly packed. */
   uint64_t direction_stride;
-  const double *t_min;       /* count numbers; NULL (default): 0 */
-  const double *t_max;       /* count numbers, infinity allowed; NULL (default): infinity */
+  /** count numbers. NULL (default): 0. */
+  const double* t_min;
+  /** count numbers, may be infinity. NULL (default): infinity. A model of all space needs finite
+   * ones. */
+  const double* t_max;
 } msq_rays_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_rays_def_init(msq_rays_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_rays_def_init(msq_rays_def* def, size_t size);
 
+/** Where a ray first meets the solid. */
 typedef struct msq_ray_hit {
-  double t;             /* the point is origin + t * direction; infinity where nothing is hit */
-  double normal[3];     /* outward, of length 1; against the ray where it starts inside; 0 in a miss */
-  int32_t scale;        /* whose surface was hit, 0 the coarse shape's; -1: nothing was hit */
-  int32_t starts_inside; /* 1: the ray is inside at t_min, and t is t_min; scale is the finest */
-  int32_t cell[3];      /* of the finest resolved structure, at the point */
-  uint32_t material;    /* id as msq_point_material has it just inside; MSQ_MATERIAL_VOID in a miss and
-                           where no resolved scale has a material */
+  /** The point is origin + t * direction. Infinity: no hit. */
+  double t;
+  /** Outward, of length 1. Against the ray if it starts inside. 0 without a hit. */
+  double normal[3];
+  /** Scale whose surface was hit; 0: the coarse shape; -1: no hit. */
+  int32_t scale;
+  /** 1: the ray is inside at t_min; t is t_min and scale is the finest one. */
+  int32_t starts_inside;
+  /** Cell of the finest resolved structure at the point; 0 for beams, which have no cells. */
+  int32_t cell[3];
+  /** Material id just inside. MSQ_MATERIAL_VOID without a hit, or if no resolved scale has a
+   * material. */
+  uint32_t material;
 } msq_ray_hit;
 
-/* Where each ray first is in the solid at t_min <= t <= t_max: hits[i] is of ray i. hit_count: length
- * of that array, which must be the number of rays. query, job NULL: defaults, no job.
+/** Finds where each ray first meets the solid at t_min <= t <= t_max. hits[i] belongs to ray i.
+ * hit_count must be the number of rays. query NULL: defaults. job NULL: no job. What begins at
+ * t_max is hit if the rounded point there is inside.
  *
- * Membership (msq_point_membership) differs just before and just behind t, within 2^-36, about 1.5e-11, of
- * the characteristic length of the scale hit (of the shape: of its size and its coordinates), or within the
- * rounding of coordinates where that is more, some 1e5 cells from the origin, and changes nowhere before it
- * save for parts of the ray shorter than that, also where rays graze surfaces. Thinner parts than these may
- * be lost: 1/64 of the cell, in lattices and foams whose radius is a field without a Lipschitz constant
- * (expressions have one where they are smooth), in host structures without a distance and host functions
- * without a slope (lipschitz); 2^-10 of the cell, where an expression is no number along more of a ray than
- * about a tolerance, or may be unbounded there, or the level is a field whose ranges over small boxes stay
- * wide; 2^-24 of the cell, where a ray grazes a strut whose radius is a field that is not linear; 1/1024 of
- * its size, of a host's shape without a distance. Skins, hosts' shapes, along the faces of their cells voxel
- * images, and foams by rays far apart are followed by steps that their distance allows; where 64 of them lead
- * no farther than 1/64 of the cell (of the shape: of its size and its coordinates), as beside a surface that
- * the ray all but touches for long, the next are at least twice as long as before, and may lose thinner
- * parts.
- * Scale by scale: finer scales are asked only within the parts of the ray that lie in the coarser ones.
- * Of hosts' shapes, structures and functions a callback is asked for up to a thousand rays at once.
+ * Membership (msq_point_membership) changes within 2^-36 of the characteristic length of the scale
+ * hit, or within 2^-50 of the largest coordinate of the ray in the shape's box, seen from the
+ * origin and from that of the grid, if that is more. Before t it does not change, except over parts
+ * of the ray shorter than that. Exceptions: shapes and structures that are known by callbacks,
+ * images or rough fields; docs/accuracy.md lists the tolerance of position and normal for each
+ * kind. A ray is known to 2^-53 of the way from its origin. Every ray ends. t is finite in each
+ * hit. Results do not depend on the order of the rays.
  *
- * Normals are exact, to rounding, on boxes, balls, cylinders, meshes, lattices and foams, on functional
- * structures to about 1e-8. Where the radius or level is a field that is not linear, and on host
- * functions that are smooth, they are known to about 1e-5. At the border of a cell over which
- * a function jumps the normal is that of the border. Elsewhere (voxel images, the inner faces of skins,
- * hosts' structures and shapes), and where rounding hides which strut was met, they are estimates, off
- * by 0.1 or so: the mean direction of those of 48 points close around that are outside.
- *
- * On ARGUMENT and LIMIT nothing is written; on CANCELLED and MEMORY hits may be partly written. Cost:
- * in parallel; rays that lie close together share their work. Where those that follow each other do not, up to
- * 2^20 at once are sorted first by where they come in and where they go, in 16 bytes each, at most 1/16 of the
- * context's memory_limit, and none where that has no room. Hits do not depend on it, but for rounding where
- * struts of a foam without jitter fall together or so far from the origin. A mesh builds its tree
- * first, as for msq_point_distance. Errors: ARGUMENT (also rays that are not finite, by index, and directions of
- * length 0), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting". */
-MSQ_API msq_status msq_ray_cast(const msq_model *model, const msq_rays_def *rays,
-                                const msq_query_def *query, msq_ray_hit *hits, uint64_t hit_count,
-                                msq_job *job);
+ * Finer scales are evaluated only where the ray is inside the coarser ones. ARGUMENT and LIMIT
+ * write nothing; CANCELLED and MEMORY may leave hits partly written. Cost: parallel. Rays that are
+ * close together share work; rays in random order are sorted first, up to 2^20 at once, with 16
+ * bytes each and at most 1/16 of the memory limit. A mesh builds its tree first, as for
+ * msq_point_distance. Errors: ARGUMENT (also rays that are not finite and directions of length 0,
+ * with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set Queries for
+ * Ray-Casting". */
+MSQ_API msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
+                                const msq_query_def* query, msq_ray_hit* hits, uint64_t hit_count,
+                                msq_job* job);
 
-/* ---- cameras and pictures ------------------------------------------------------------ */
+/* ---- Cameras and pictures -------------------------------------------------------------------- */
 
-enum { MSQ_CAMERA_ORTHOGRAPHIC = 0, MSQ_CAMERA_PERSPECTIVE = 1 };
+/** How the rays of a camera run: parallel, or from the eye. */
+enum msq_projection { MSQ_CAMERA_ORTHOGRAPHIC = 0, MSQ_CAMERA_PERSPECTIVE = 1 };
 
-/* From where a model is seen. The view is the line from eye to target, in the middle of the picture. Depth is
- * the distance from the plane through eye that is normal to the view. docs/concepts.md has the formulas. */
+/** A camera. It looks from eye to target, which is the middle of the picture. Depth is the distance
+ * from the plane through eye normal to that direction. docs/concepts.md has the formulas. */
 typedef struct msq_camera {
   uint32_t struct_size;
-  int32_t projection;    /* MSQ_CAMERA_*; default ORTHOGRAPHIC */
-  double eye[3];         /* PERSPECTIVE: where all rays start; ORTHOGRAPHIC: a point of the plane where they do */
-  double target[3];      /* not eye: both must be set */
-  double up[3];          /* upwards in the picture, not along the view (default 0, 0, 1) */
-  double height;         /* ORTHOGRAPHIC: model units from the picture's lower to its upper edge; must be set */
-  double field_of_view;  /* PERSPECTIVE: angle between those edges in degrees, 0.001 to 179 (default 40) */
-  double clip_near, clip_far; /* depths between which the model is seen, the rest being cut away;
-                            0 <= near < far, defaults 0 and infinity */
+  /** An msq_projection. Default MSQ_CAMERA_ORTHOGRAPHIC. */
+  int32_t projection;
+  /** PERSPECTIVE: origin of all rays. ORTHOGRAPHIC: a point of the plane of their origins. No
+   * default. */
+  double eye[3];
+  /** Different from eye. No default. */
+  double target[3];
+  /** Upwards in the picture. Not parallel to the view. Default 0, 0, 1. */
+  double up[3];
+  /** ORTHOGRAPHIC: height of the picture in model units. No default. */
+  double height;
+  /** PERSPECTIVE: vertical angle of view in degrees, 0.001 to 179. Default 40. */
+  double field_of_view;
+  /** Depths between which the model is visible; the rest is cut away. 0 <= near < far. Defaults 0
+   * and infinity. */
+  double clip_near, clip_far;
 } msq_camera;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_camera_init(msq_camera *camera, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_camera_init(msq_camera* camera, size_t size);
 
-/* Sets eye, target, up and height so that the model's bounding box just fits a picture of width x height pixels
- * (1 to 16384 each), seen along `direction`, of any length but 0, from eye to target. The other fields stay and
- * must be set, as msq_camera_init does; in perspective field_of_view counts. up NULL: z, or y where z is
- * within 2.6 degrees of the view. On failure *camera stays as it was. Errors: ARGUMENT. */
-MSQ_API msq_status msq_camera_fit(const msq_model *model, const double direction[3],
+/** Sets eye, target, up and height so that the bounding box of the model fits a picture of width x
+ * height pixels (1 to 16384 each). direction: from eye to target, of any length except 0. up NULL:
+ * z, or y if z is within 2.6 degrees of the view. Other fields keep their values; a perspective
+ * camera uses field_of_view. Errors: ARGUMENT. */
+MSQ_API msq_status msq_camera_fit(const msq_model* model, const double direction[3],
                                   const double up[3], uint32_t width, uint32_t height,
-                                  msq_camera *camera);
+                                  msq_camera* camera);
 
-/* The ray of a position in a picture of width x height pixels: position[0] pixels right and position[1] down
- * from its upper left corner; the middle of pixel (i, j) is (i + 0.5, j + 0.5). direction has such a length
- * that t of msq_ray_cast is the depth; from t_min = clip_near to t_max = clip_far the ray meets what
- * msq_render writes, to the last bit. For picking, and for pictures of the host's own. Errors: ARGUMENT. */
-MSQ_API msq_status msq_camera_ray(const msq_camera *camera, uint32_t width, uint32_t height,
-                                  const double position[2], double origin[3],
-                                  double direction[3]);
+/** Returns the ray of a position in a picture of width x height pixels. position: pixels to the
+ * right of and below the upper left corner; the centre of pixel (i, j) is (i + 0.5, j + 0.5). With
+ * the returned direction the t of msq_ray_cast is the depth, and a ray from t_min = clip_near to
+ * t_max = clip_far hits exactly what msq_render draws. For picking and for pictures of the host's
+ * own. Errors: ARGUMENT. */
+MSQ_API msq_status msq_camera_ray(const msq_camera* camera, uint32_t width, uint32_t height,
+                                  const double position[2], double origin[3], double direction[3]);
 
-/* What gives a surface its colour, before light falls on it. */
-enum {
-  MSQ_COLOUR_PLAIN = 0,    /* colours[0] */
-  MSQ_COLOUR_SCALE = 1,    /* colours[scale % colour_count], as in msq_ray_hit */
-  MSQ_COLOUR_MATERIAL = 2, /* colours[material id % colour_count] */
-  MSQ_COLOUR_NORMAL = 3    /* red, green, blue = (1 + normal) / 2 */
+/** Base colour of a surface. */
+enum msq_colour_by {
+  /** colours[0] */
+  MSQ_COLOUR_PLAIN = 0,
+  /** colours[scale % colour_count] */
+  MSQ_COLOUR_SCALE = 1,
+  /** colours[material id % colour_count] */
+  MSQ_COLOUR_MATERIAL = 2,
+  /** red, green, blue = (1 + normal) / 2 */
+  MSQ_COLOUR_NORMAL = 3
 };
 
+/** How a picture is rendered. */
 typedef struct msq_render_def {
   uint32_t struct_size;
-  uint32_t width, height;    /* pixels of the whole picture, 1 to 16384; must be set */
-  uint32_t tile_x, tile_y;   /* the part to render: pixels from the upper left corner, */
-  uint32_t tile_width, tile_height; /* and its size; all 0 (default): the whole. Tiles have the pixels of the
-                                whole picture, to the last bit */
-  uint32_t samples;          /* of rgba, along each side of a pixel, 1 (default) to 16: their mean */
-  uint32_t first_step;       /* with a callback: 2, 4 .. 64: the first pass has one ray for each block of so
-                                many pixels a side, then half as many; 1 (default): one for each pixel */
-  int32_t colour_by;         /* MSQ_COLOUR_* */
-  const double *colours;     /* colour_count triples red, green, blue, linear, 0 to 1; NULL (default): 8
-                                colours of msq */
-  uint64_t colour_count;     /* 1 to 65536 */
-  double background[4];      /* red, green, blue, linear, and opacity, where nothing is hit; default 0 */
-  double light[3];           /* direction to the light, of any length but 0, in the camera's frame: to the
-                                right, upwards, towards the eye (default -0.4, 0.6, 1) */
-  double ambient;            /* part of the light that comes from all around, 0 to 1 (default 0.3) */
-  int32_t shadows;           /* 1: of the light, a ray for each sample in it; default 0 */
-  uint32_t occlusion_rays;   /* for each sample, 0 (default) to 256: ambient light is what part of them, spread
-                                by the cosine with the normal, meets nothing */
-  double occlusion_distance; /* how far those reach, in model units; 0 (default): a tenth of the diagonal of
-                                the model's bounding box */
+  /** Size of the whole picture in pixels, 1 to 16384. No default. */
+  uint32_t width, height;
+  /** Upper left corner of the tile to render. */
+  uint32_t tile_x, tile_y;
+  /** Size of the tile. All four 0 (default): the whole picture. A tile has exactly the pixels of
+   * the whole picture. */
+  uint32_t tile_width, tile_height;
+  /** rgba: samples along each side of a pixel, 1 (default) to 16. */
+  uint32_t samples;
+  /** With a callback: 2, 4, ... 64: the first pass casts one ray per block of so many pixels a
+   * side, each further pass halves the block. 1 (default): one pass. */
+  uint32_t first_step;
+  /** An msq_colour_by. */
+  int32_t colour_by;
+  /** colour_count triples red, green, blue, linear, 0 to 1. NULL (default): 8 colours of msq. */
+  const double* colours;
+  /** 1 to 65536. */
+  uint64_t colour_count;
+  /** Red, green, blue (linear) and opacity where nothing is hit. Default 0. */
+  double background[4];
+  /** Direction to the light in the frame of the camera: right, up, towards the eye. Any length
+   * except 0. Default -0.4, 0.6, 1. */
+  double light[3];
+  /** Share of ambient light, 0 to 1. Default 0.3. */
+  double ambient;
+  /** 1: a shadow ray per lit sample. Default 0. */
+  int32_t shadows;
+  /** Ambient occlusion rays per sample, 0 (default) to 256, distributed by the cosine with the
+   * normal. */
+  uint32_t occlusion_rays;
+  /** Length of occlusion rays in model units. 0 (default): a tenth of the diagonal of the bounding
+   * box. */
+  double occlusion_distance;
 } msq_render_def;
 
-/* Sets defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_render_def_init(msq_render_def *def, size_t size);
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_render_def_init(msq_render_def* def, size_t size);
 
-/* Where pixels go: pixel (i, j) of the tile, j from the top down, to index j * row_pixels + i of each
- * array that is not NULL. All but rgba is of the ray through the pixel's middle. */
+/** Arrays that receive pixels. Pixel (i, j) of the tile, j downwards, has index j * row_pixels + i.
+ * Arrays that are NULL are skipped. All arrays except rgba hold the ray through the centre of the
+ * pixel. */
 typedef struct msq_frame {
   uint32_t struct_size;
-  uint32_t row_pixels; /* from one row to the next; 0 (default): the tile's width */
-  float *depth;        /* infinity in a miss */
-  float *normal;       /* 3 a pixel, as in msq_ray_hit, model frame; 0 in a miss */
-  int32_t *scale;      /* as in msq_ray_hit; -1 in a miss */
-  uint32_t *material;  /* as in msq_ray_hit */
-  uint8_t *rgba;       /* 4 a pixel: red, green, blue in sRGB, and opacity, which they are not multiplied by */
+  /** Pixels from one row to the next. 0 (default): the width of the tile. */
+  uint32_t row_pixels;
+  /** Infinity without a hit. */
+  float* depth;
+  /** 3 per pixel, as in msq_ray_hit, in model coordinates. 0 without a hit. */
+  float* normal;
+  /** As in msq_ray_hit. -1 without a hit. */
+  int32_t* scale;
+  /** As in msq_ray_hit. */
+  uint32_t* material;
+  /** 4 per pixel: red, green, blue in sRGB, and opacity. Not premultiplied. */
+  uint8_t* rgba;
 } msq_frame;
 
-/* Sets defaults: no arrays. Errors: ARGUMENT. */
-MSQ_API msq_status msq_frame_init(msq_frame *frame, size_t size);
+/** Sets the defaults: no arrays. Errors: ARGUMENT. */
+MSQ_API msq_status msq_frame_init(msq_frame* frame, size_t size);
 
-/* How far a picture has come. */
+/** A pass of a rendering. */
 typedef struct msq_render_pass {
-  uint32_t struct_size; /* out: sizeof(msq_render_pass) of the library */
-  uint32_t step;        /* pixels along a side of the blocks that are of one ray yet; 1: each has its own */
-  uint32_t samples;     /* of rgba, along a side of a pixel */
-  int32_t is_last;      /* 1: the picture is done */
+  /** Out: sizeof(msq_render_pass) of the library. */
+  uint32_t struct_size;
+  /** Pixels a side of the blocks that share one ray. 1: each pixel has its own. */
+  uint32_t step;
+  /** rgba: samples along a side of a pixel. */
+  uint32_t samples;
+  /** 1: the picture is complete. */
+  int32_t is_last;
 } msq_render_pass;
 
-/* Takes a pass: the frame holds a whole picture, to be shown or copied, not to be changed before the last.
- * Return 0 to go on, a code of the host's own, best negative, to stop. Exceptions of the host's language must
- * not leave it. */
-typedef int32_t (*msq_render_fn)(void *user, const msq_render_pass *pass);
+/** Receives a pass. The frame holds a whole picture, to show or copy; the host must not change it
+ * before the last pass. Return 0 to continue, or the host's code, preferably negative, to stop.
+ * Exceptions of the host's language must not leave it. */
+typedef int32_t (*msq_render_fn)(void* user, const msq_render_pass* pass);
 
-/* Renders a model as a camera sees it. Depth, normal, scale and material of a pixel are what msq_ray_cast says
- * of the ray of its middle; its colour is the mean of its samples, each, in linear light, the background or
+/** Renders a model as a camera sees it.
+ *
+ * Depth, normal, scale and material of a pixel are those of msq_ray_cast for the ray through its
+ * centre. Its colour is the mean, in linear light, of its samples: the background, or
  *
  *   base * (ambient * open + (1 - ambient) * max(0, normal . light) * lit)
  *
- * where base is by colour_by, open the part of the occlusion rays that meet nothing, lit 0 in a shadow, and both
- * 1 where not asked for. What clip planes cut away is in no light's way. A pixel is the same, to the last bit,
- * whatever the tile, the passes and the threads; the directions of occlusion rays follow from a hash of pixel
- * and sample.
+ * with the colour base from colour_by, the share open of occlusion rays that hit nothing, and lit 0
+ * in shadow; open and lit are 1 if not requested. What the clip planes cut away casts no shadow. A
+ * pixel has the same bits for any tile, passes and threads.
  *
- * fn NULL: not called. Otherwise it is called on the calling thread after each pass: of steps from first_step,
- * halved each time, to 1, of which each casts the rays that are new; then, where rgba wants more samples than
- * one, with all of them. query, job NULL: defaults, no job. On ARGUMENT nothing is written; on other errors the
- * frame may be partly written.
+ * fn NULL: no callback. Otherwise fn is called on the calling thread after each pass: steps from
+ * first_step, halved each time, down to 1; then one with all samples if rgba has more than one per
+ * pixel. query NULL: defaults. job NULL: no job. ARGUMENT writes nothing; other errors may leave
+ * the frame partly written.
  *
- * Cost: a ray for each pixel, and samples^2 where those are more than one, to each of which shadows and
- * occlusion_rays add theirs; in parallel, by tiles of 32 x 32 rays. A mesh builds its tree first, as
- * for msq_point_distance. Memory: about 1 MB for each thread, kept for its next call.
- * Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting". */
-MSQ_API msq_status msq_render(const msq_model *model, const msq_camera *camera,
-                              const msq_render_def *def, const msq_query_def *query,
-                              const msq_frame *frame, msq_render_fn fn, void *user, msq_job *job);
+ * Cost: one ray per pixel and samples^2 more if samples > 1, each with its shadow and occlusion
+ * rays; in parallel, in tiles of 32 x 32 rays. A mesh builds its tree first, as for
+ * msq_point_distance. Memory: about 1 MB per thread, kept for the next call. Errors: ARGUMENT,
+ * CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting". */
+MSQ_API msq_status msq_render(const msq_model* model, const msq_camera* camera,
+                              const msq_render_def* def, const msq_query_def* query,
+                              const msq_frame* frame, msq_render_fn fn, void* user, msq_job* job);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Solid fraction and two-point correlation of structures that the host defines (grains.c), measured
- * by msq and compared with their closed forms. */
+ *
+ * Measures the solid fraction and the two-point correlation of structures that the host computes
+ * (grains.c), and compares them with their closed forms. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

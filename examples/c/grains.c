@@ -12,7 +12,7 @@ typedef struct germs { /* those whose balls reach a cell: what msq keeps of it *
   germ germs[];
 } germs;
 
-enum { most_in_cell = 64 };
+enum { max_in_cell = 64 };
 
 /* Random numbers by counters: a cell's germs are the same whoever asks, and kept nowhere. Source:
  * Steele, Lea and Flood 2014 (SplitMix64). */
@@ -31,7 +31,7 @@ static size_t strew(const grains* g, const int32_t cell[3], const int shift[3], 
   size_t count = 0;
   for (int axis = 0; axis < 3; ++axis) key = mix(key + (uint32_t)(cell[axis] + shift[axis]));
   for (double left = grains_uniform(key, n++), p = exp(-g->mean);
-       left >= p && count < most_in_cell;) {
+       left >= p && count < max_in_cell;) {
     left -= p;
     p *= g->mean / (double)++count;
   }
@@ -49,7 +49,7 @@ static double squared(const double a[3], const double b[3]) {
 
 static int32_t build_cell(void* user, const int32_t cell[3], void** data, uint64_t* bytes) {
   const grains* g = user;
-  germ around[27 * most_in_cell];
+  germ around[27 * max_in_cell];
   size_t count = 0;
   for (int s = 0; s < 27; ++s) {
     const int shift[3] = {s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1};

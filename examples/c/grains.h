@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A structure of the host's own: balls about germs strewn at random, without end. Overlapping: the
- * Boolean model. Apart: Matern's second hard-core process, where a germ stays if none within two
- * radii has a lower mark. Sources: Torquato, "Random Heterogeneous Materials", 2002, chapter 5;
- * Matern, "Spatial Variation", 1960. */
+ *
+ * A structure that the host computes: balls around random germs, without end. If they may overlap
+ * it is the Boolean model. If not, it is Matern's second hard-core process: a germ stays if no germ
+ * within two radii has a lower mark. Sources: Torquato, "Random Heterogeneous Materials", 2002,
+ * chapter 5; Matern, "Spatial Variation", 1960. */
 #ifndef MSQ_EXAMPLE_GRAINS_H
 #define MSQ_EXAMPLE_GRAINS_H
 

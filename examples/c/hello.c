@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The smallest msq program: a box filled with a strut lattice, one layer of it printed as text. */
+ *
+ * The smallest msq program: fills a box with a strut lattice and prints one layer as text. */
 #include <msq.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Every function that can fail returns a status, and the message says what was wrong. */
+/* Every function that can fail returns a status. The message tells what was wrong. */
 static void check(msq_status status) {
   if (status == MSQ_OK) return;
   fprintf(stderr, "hello: %s: %s\n", msq_status_name(status), msq_error_message());
@@ -12,7 +13,7 @@ static void check(msq_status status) {
 }
 
 int main(void) {
-  msq_context* context; /* what objects share: threads, cache, memory limit; NULL: defaults */
+  msq_context* context; /* threads, cache and memory limit of all objects; NULL: defaults */
   check(msq_context_create(NULL, &context));
 
   const double min[3] = {0, 0, 0}, max[3] = {36, 18, 9}; /* the coarse shape, in mm */
@@ -27,7 +28,7 @@ int main(void) {
   msq_structure* lattice;
   check(msq_structure_lattice(context, &lattice_def, &lattice));
 
-  /* The model is what all its scales have in common, coarsest first. */
+  /* The model is the intersection of its scales, coarsest first. */
   const msq_scale_def scales[2] = {{.shape = box}, {.structure = lattice}};
   msq_model_def model_def;
   check(msq_model_def_init(&model_def, sizeof model_def));
@@ -37,7 +38,7 @@ int main(void) {
   msq_model* model;
   check(msq_model_create(context, &model_def, &model));
 
-  msq_slicer_def slicer_def; /* 72 x 18 pixels: twice as high as wide, as characters are */
+  msq_slicer_def slicer_def; /* 72 x 18 pixels, twice as high as wide, like characters */
   check(msq_slicer_def_init(&slicer_def, sizeof slicer_def));
   slicer_def.output = MSQ_LAYER_BYTES;
   slicer_def.resolution[0] = 72;
@@ -50,7 +51,7 @@ int main(void) {
   for (int y = 17; y >= 0; --y, putchar('\n'))
     for (int x = 0; x < 72; ++x) putchar(pixels[y][x] ? '#' : '.');
 
-  msq_slicer_release(slicer); /* in any order: each keeps alive what it was built from */
+  msq_slicer_release(slicer); /* in any order: each retains what it was built from */
   msq_model_release(model);
   msq_structure_release(lattice);
   msq_shape_release(box);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
- * A structure of the host's own, by example: a periodic block of voxels is continued without end
- * and without repetition. Each corner of a cell shows the block from a random place; in between,
- * the eight are blended by weights that keep the variance, so that the solid stays as dense as the
- * block's. Source: Heitz and Neyret, "High-performance by-example noise using a
+ *
+ * A structure that the host computes from an example: a periodic block of voxels, continued without
+ * end and without repetition. Each corner of a cell shows the block from a random place. Between
+ * the corners the eight are blended by weights that keep the variance, so the solid is as dense as
+ * the block. Source: Heitz and Neyret, "High-performance by-example noise using a
  * histogram-preserving blending operator", 2018. */
 #ifndef MSQ_EXAMPLE_PATCHES_H
 #define MSQ_EXAMPLE_PATCHES_H

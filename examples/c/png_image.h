@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Writing pictures as PNG files, through libpng. */
+ * Writes pictures as PNG files with libpng. */
 #ifndef MSQ_EXAMPLE_PNG_IMAGE_H
 #define MSQ_EXAMPLE_PNG_IMAGE_H
 

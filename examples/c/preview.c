@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Each inside sample that shows itself to the camera or the light becomes a small disc in a depth
- * buffer. Its normal is the gradient of the solid's share in a window of 9 x 9 x 9 samples, which
- * is why nine layers are held. */
+ * Each solid sample that the camera or the light sees becomes a small disc in a depth buffer. Its
+ * normal is the gradient of the solid's share in a window of 9 x 9 x 9 samples, so nine layers are
+ * held. */
 #include "preview.h"
 
 #include <errno.h>

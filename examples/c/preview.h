@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A shaded picture of the part, seen obliquely from above, made of the layers as they go by, in
- * a hull of glass that is the coarse shape. Nine layers are held at a time, whatever the height of
- * the stack. */
+ * Draws a shaded picture of the part from the layers as they arrive, seen obliquely from above, in
+ * a glass hull that is the coarse shape. Nine layers are held at a time, for any height of the
+ * stack. */
 #ifndef MSQ_EXAMPLE_PREVIEW_H
 #define MSQ_EXAMPLE_PREVIEW_H
 

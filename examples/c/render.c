@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Renders a part filled with a foam, a lattice or a minimal surface into a PNG. Try:
+ * Renders a part that is filled with a foam, a lattice or a minimal surface, as a PNG. Try:
  * render examples/parts/bracket.stl --fill foam:4:0.2-0.5 -o bracket.png */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * One layer of a part at each length scale: an octet lattice and gyroids within its struts; and the
- * same with a finer lattice between the two. Try: scales examples/parts/bracket.stl scales.png
+ * Draws one layer of a part at each length scale: an octet lattice with gyroids in its struts, and
+ * the same with a finer lattice between the two. Try: scales examples/parts/bracket.stl scales.png
  */
 #include <msq.h>
 #include <stdio.h>
@@ -74,7 +74,7 @@ static msq_status run(msq_context* context, const char* file) {
   msq_structure *octet, *bcc, *coarse_gyroid, *gyroid;
   msq_model *three, *four;
   msq_model_def def;
-  TRY(msq_shape_from_file(context, file, NULL, &part));
+  TRY(msq_shape_from_file(context, file, NULL, &part, NULL));
   TRY(make_lattice(context, MSQ_UNIT_CELL_OCTET, 12, 1.8, &octet));
   TRY(make_lattice(context, MSQ_UNIT_CELL_BCC, 3, 0.6, &bcc));
   TRY(make_gyroid(context, 1.2, &coarse_gyroid));

@@ -57,7 +57,7 @@ int scene_open(scene* s, const char* part, double threshold) {
   } else if (dot && (strcmp(dot, ".nrrd") == 0 || strcmp(dot, ".nhdr") == 0)) {
     if (open_voxels(s, part) != 0) return -1;
   } else {
-    TRY(msq_shape_from_file(s->context, part, NULL, &s->part));
+    TRY(msq_shape_from_file(s->context, part, NULL, &s->part, NULL));
   }
   msq_shape_report report = {.struct_size = sizeof report};
   TRY(msq_shape_info(s->part, &report));

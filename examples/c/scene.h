@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A part and what fills it, from a few words: what render and viewer show. */
+ * Makes a part and its filling from a few words, for render and viewer. */
 #ifndef MSQ_EXAMPLE_SCENE_H
 #define MSQ_EXAMPLE_SCENE_H
 

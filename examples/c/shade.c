@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What lies deep is darkened by comparing the depth buffer with itself blurred: Luft, Colditz and
- * Deussen, "Image enhancement by unsharp masking the depth buffer", 2006.
+ * Darkens what lies deep, by comparing the depth buffer with itself blurred. Source: Luft, Colditz
+ * and Deussen, "Image enhancement by unsharp masking the depth buffer", 2006.
  */
 #include "shade.h"
 

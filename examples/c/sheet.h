@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A contact sheet: some of a stack's layers, evenly spaced, each with its height under it. */
+ * Draws a contact sheet: some layers of a stack, evenly spaced, each with its height below it. */
 #ifndef MSQ_EXAMPLE_SHEET_H
 #define MSQ_EXAMPLE_SHEET_H
 

@@ -23,9 +23,10 @@ static const char usage[] =
     "  --cell MM          its cell size (default 4)\n"
     "  --tpms NAME        minimal surface instead: gyroid, p, d, iwp, neovius, frd, lidinoid or\n"
     "                     splitp, in cells of --cell; the space on one side of it\n"
-    "  --wall MM          its sheet instead, with walls of this mean thickness\n"
+    "  --wall MM          its sheet instead, with walls of this mean thickness; of a foam, walls\n"
+    "                     of this thickness that close its cells\n"
     "  --solid            the part alone, unfilled by any structure\n"
-    "  --radius MM        radius of the struts (default 0.4)\n"
+    "  --radius MM        radius of the struts (default 0.4; with the walls of a foam, none)\n"
     "  --radius-top MM    radius at the top of the part, from --radius at its bottom\n"
     "  --skin MM          solid skin under the surface (default: none)\n"
     "  --density N        foam graded along x, from one seed in a cell's volume to N\n"
@@ -113,7 +114,6 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
   const slice_options defaults = {.out = "out",
                                   .foam = 4,
                                   .cell = 4,
-                                  .radius = 0.4,
                                   .density = 1,
                                   .layer = 0.1,
                                   .pitch = 0.1,
@@ -125,7 +125,7 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
     double* value;
   } lengths[] = {{'f', &o->foam},  {'c', &o->cell},  {'r', &o->radius}, {'R', &o->radius_top},
                  {'z', &o->layer}, {'p', &o->pitch}, {'u', &o->unit},   {'d', &o->density},
-                 {'b', &o->block}, {'k', &o->skin}, {'w', &o->wall}};
+                 {'b', &o->block}, {'k', &o->skin},  {'w', &o->wall}};
   for (int option; (option = getopt_long(argc, argv, "o:h", longs, NULL)) != -1;) {
     int bad = 0;
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; ++i) {
@@ -144,6 +144,7 @@ int slice_options_read(slice_options* o, int argc, char** argv) {
     if (option == 't') bad = read_count(optarg, UINT32_MAX, &o->threads);
     if (bad) return refuse(optarg, ": not a value for this option");
   }
+  if (o->radius == 0 && (o->wall == 0 || o->graded || o->unit_cell_count)) o->radius = 0.4;
   if (o->block > 0) return optind == argc ? 0 : refuse(argv[optind], ": a file besides --block");
   if (optind == argc) return refuse("no file to slice", "");
   if (optind < argc - 1) return refuse(argv[optind + 1], ": one file at a time, please");

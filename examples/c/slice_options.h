@@ -17,7 +17,7 @@ typedef struct slice_options {
   int32_t unit_cells[8];    /* of the lattice, MSQ_UNIT_CELL_*, from the least x to the greatest */
   uint32_t unit_cell_count; /* 0: a foam */
   int32_t tpms;             /* MSQ_FUNCTION_*, 0: none */
-  double wall;              /* thickness of its sheets, 0: a network */
+  double wall;              /* thickness of its sheets, or of the foam's walls; 0: none */
   int solid;                /* 1: the part alone */
   int graded;               /* 1: radius_top counts */
   uint64_t seed, every, threads;

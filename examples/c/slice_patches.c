@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Slices a structure that the host defines by example (patches.c).
- * usage: slice_patches picture.png [block.raw: 32 x 32 x 32 grey values, x first] */
+ *
+ * Slices a structure that the host computes: a block of voxels, continued without end (patches.c).
+ * Try: slice_patches picture.png */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +12,10 @@
 
 enum { pixels = 512 };
 
+static const char usage[] =
+    "usage: slice_patches PICTURE.png [BLOCK.raw]\n"
+    "Writes one layer as a picture. BLOCK.raw: 32 x 32 x 32 bytes, grey values, x first\n";
+
 static void check(msq_status status) {
   if (status == MSQ_OK) return;
   fprintf(stderr, "slice_patches: %s: %s\n", msq_status_name(status), msq_error_message());
@@ -19,9 +24,17 @@ static void check(msq_status status) {
 
 int main(int argc, char** argv) {
   static block example;
-  if (argc < 2 || block_read(argc > 2 ? argv[2] : NULL, &example) != 0) {
-    fprintf(stderr, "usage: slice_patches picture.png [block.raw]\n");
+  if (argc > 1 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
+    fputs(usage, stdout);
+    return 0;
+  }
+  if (argc < 2 || argc > 3 || argv[1][0] == '-') {
+    fputs(usage, stderr);
     return 2;
+  }
+  if (block_read(argc > 2 ? argv[2] : NULL, &example) != 0) {
+    fprintf(stderr, "slice_patches: %s: cannot read 32 x 32 x 32 bytes\n", argv[2]);
+    return 1;
   }
   msq_context* context;
   check(msq_context_create(NULL, &context));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Slices a mesh file, or a cube, filled with a foam or a lattice into one PNG a layer, with a
- * contact sheet and a shaded preview. Try: slice_stl examples/parts/bracket.stl -o out
+ * Fills a mesh file, or a cube, with a foam, a lattice or a minimal surface, and writes one PNG per
+ * layer, a contact sheet and a shaded preview. Try: slice_stl examples/parts/bracket.stl -o out
  */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
@@ -64,7 +64,7 @@ static msq_status read_part(scene* s, const slice_options* o, msq_shape_report* 
   msq_file_def file;
   TRY(msq_file_def_init(&file, sizeof file));
   file.unit_mm = o->unit;
-  TRY(msq_shape_from_file(s->context, o->file, &file, &s->part));
+  TRY(msq_shape_from_file(s->context, o->file, &file, &s->part, NULL));
   return msq_shape_info(s->part, part);
 }
 
@@ -111,6 +111,7 @@ static msq_status make_filling(scene* s, const slice_options* o, const msq_shape
   TRY(msq_foam_def_init(&foam, sizeof foam));
   foam.radius = radius;
   foam.seed = o->seed;
+  foam.wall_thickness.value = o->wall;
   if (o->density != 1) {
     const double left[3] = {part->min[0], 0, 0}, right[3] = {part->max[0], 0, 0};
     TRY(msq_field_gradient(s->context, left, 1, right, o->density, &s->density));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Slices a voxel image, such as a CT scan of a bone, filled with a foam or a lattice whose struts
- * are thicker where the image is brighter. Try: python3 examples/parts/make_bone.py bone.nrrd &&
+ * Slices a voxel image, for example a CT scan of a bone. A foam or a lattice fills it, with thicker
+ * struts where the image is brighter. Try: python3 examples/parts/make_bone.py bone.nrrd &&
  * slice_voxels bone.nrrd 250 -r 0.35 -R 1.4 -o out */
 #define _POSIX_C_SOURCE 200809L
 #include <float.h>

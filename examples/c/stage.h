@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What stands about a part in a picture: a light ground with its shadow, and the outline of the
- * coarse part as if of glass. */
+ * Draws what surrounds a part in a picture: a light ground with its shadow, and the outline of the
+ * coarse part as glass. */
 #ifndef MSQ_EXAMPLE_STAGE_H
 #define MSQ_EXAMPLE_STAGE_H
 

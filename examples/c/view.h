@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * An orthographic view with a depth buffer, into which small discs are drawn. */
+ * An orthographic view with a depth buffer, for drawing small discs. */
 #ifndef MSQ_EXAMPLE_VIEW_H
 #define MSQ_EXAMPLE_VIEW_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Reading voxel images: NRRD (teem's format, http://teem.sourceforge.net/nrrd/format.html),
- * attached or detached, of raw encoding, and raw files whose layout the caller knows. */
+ * Reads voxel images: NRRD (the format of teem, http://teem.sourceforge.net/nrrd/format.html),
+ * attached or detached, in raw encoding; and raw files whose layout the caller knows. */
 #ifndef MSQ_EXAMPLE_VOXEL_FILE_H
 #define MSQ_EXAMPLE_VOXEL_FILE_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a slicer's plug-in would hold msq: handles in RAII wrappers, statuses as exceptions, and a
-// class that takes the slicer's mesh and hands back each layer as spans of rows.
+// A plug-in of a slicer. RAII wrappers hold the handles, and statuses become exceptions. A class
+// takes the slicer's mesh and returns each layer as spans of rows.
 #include <msq.h>
 
 #include <array>

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""msq from Python's standard library alone: slices a box of foam by callback and layer by layer.
+"""Slices a box of foam with Python's standard library alone, by callback and layer by layer.
 
     python3 examples/python/slice_ctypes.py [path of libmsq.so.0]
 
-A binding would declare every struct of msq.h; this declares those it uses, field by field.
+A binding declares every struct of msq.h. This example declares those that it uses, field by field.
 """
+import argparse
 import sys
 from ctypes import (CDLL, CFUNCTYPE, POINTER, Structure, byref, c_char_p, c_double, c_int32,
                     c_size_t, c_uint32, c_uint64, c_void_p, create_string_buffer, sizeof,
@@ -91,7 +92,10 @@ def load(path):
 
 
 def main():
-    lib = load(sys.argv[1] if len(sys.argv) > 1 else "libmsq.so.0")
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("library", nargs="?", default="libmsq.so.0",
+                        help="path of the shared library (default: libmsq.so.0, from the system)")
+    lib = load(parser.parse_args().library)
 
     def check(status):
         if status != 0:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Slices a part filled with a graded foam into PNGs, with the Python package, NumPy and zlib alone.
+"""Fills a part with a graded foam and writes its layers as PNGs, with the package, NumPy and zlib.
 
     python3 examples/python/slice_numpy.py examples/parts/bracket.stl -o out
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Text over the picture, in a font of its own. */
+ * Draws text over the picture, in a font of its own. */
 #ifndef MSQ_EXAMPLE_OVERLAY_H
 #define MSQ_EXAMPLE_OVERLAY_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * A thread that renders: small pictures while the view moves, as small as keeps it smooth; once it
- * stands still, the whole one, finer and finer, until it is asked for another. */
+ * A thread that renders. While the view moves, pictures are small enough to keep it smooth. When
+ * the view stands still, the whole picture becomes finer and finer, until another is requested. */
 #ifndef MSQ_EXAMPLE_PAINTER_H
 #define MSQ_EXAMPLE_PAINTER_H
 

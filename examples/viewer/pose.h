@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Where the viewer looks from, and how dragging and the wheel move that. */
+ * The position of the viewer, and how dragging and the wheel change it. */
 #ifndef MSQ_EXAMPLE_POSE_H
 #define MSQ_EXAMPLE_POSE_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What a user would do, from a text: for tests and for pictures of the viewer. */
+ * Actions of a user, read from a text, for tests and for pictures of the viewer. */
 #ifndef MSQ_EXAMPLE_SCRIPT_H
 #define MSQ_EXAMPLE_SCRIPT_H
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Shows a part filled with foams, lattices and minimal surfaces in a window: drag to turn it, wheel
- * to zoom, keys 1 to 7 for what fills it. Try: viewer examples/parts/bracket.stl */
+ * Shows a part filled with foams, lattices and minimal surfaces in a window. Drag to turn it, use
+ * the wheel to zoom, and keys 1 to 7 to select the filling. Try: viewer examples/parts/bracket.stl
+ */
 #include <SDL.h>
 #include <math.h>
 #include <stdio.h>

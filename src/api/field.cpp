@@ -14,9 +14,9 @@ using namespace msq::api;
 
 namespace {
 
-constexpr uint64_t most_knots = 65536;
+constexpr uint64_t max_knots = 65536;
 /// Maps within each other: calls through them go as deep.
-constexpr unsigned most_maps = 64;
+constexpr unsigned max_maps = 64;
 
 msq_radial_field_def radial_defaults() {
   msq_radial_field_def def{};
@@ -37,9 +37,9 @@ double require_difference(double from, double to, const char* name) {
 }
 
 Curve read_curve(const double* curve, uint64_t count) {
-  if (count < 1 || count > most_knots)
+  if (count < 1 || count > max_knots)
     fail(Status::argument, "curve_count is %llu; it must be from 1 to %llu",
-         static_cast<unsigned long long>(count), static_cast<unsigned long long>(most_knots));
+         static_cast<unsigned long long>(count), static_cast<unsigned long long>(max_knots));
   require(curve, "curve");
   std::vector<Curve::Knot> knots(count);
   for (uint64_t i = 0; i < count; ++i) {
@@ -74,12 +74,12 @@ msq_status msq_field_gradient(msq_context* context, const double from[3], double
     require_finite(to_value, "to_value");
     require(field, "field");
     // Less squares to what has no 53 bits.
-    constexpr double least_length = 1e-140;
+    constexpr double min_length = 1e-140;
     const double length_squared = dot(b - a, b - a);
-    if (!(length_squared >= least_length * least_length) || !std::isfinite(length_squared))
+    if (!(length_squared >= min_length * min_length) || !std::isfinite(length_squared))
       fail(Status::argument,
            "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ, by %g at least",
-           a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared), least_length);
+           a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared), min_length);
     require_difference(from_value, to_value, "values");
     *field = new_handle<msq_field>(Ref<Field>(make_ref<GradientField>(a, from_value, b, to_value)));
   });
@@ -140,24 +140,29 @@ msq_status msq_shape_distance_field_def_init(msq_shape_distance_field_def* def, 
 }
 
 msq_status msq_field_shape_distance(msq_context* context, const msq_shape_distance_field_def* def,
-                                    msq_field** field) {
+                                    msq_field** field, msq_job* job) {
   return guard([&] {
     const Context& owner = object(context, "context");
     require(field, "field");
     const msq_shape_distance_field_def known = read_def(def, msq_shape_distance_field_def{}, "def");
     require_reserved(known.reserved, "reserved");
     const Ref<const Shape> shape(&object(known.shape, "shape"));
+    if (!shape->is_bounded())
+      fail(Status::unsupported, "the shape is all space; it has no distance to a boundary");
     Curve curve = read_curve(known.curve, known.curve_count);
     if (!(known.step >= 0) || !std::isfinite(known.step))
       fail(Status::argument, "step is %g; it must be finite and not negative", known.step);
+    Job* work = job ? &object(job, "job") : nullptr;
+    JobScope scope(work);
     Ref<const Field> distance;
     if (known.step > 0)
       distance = make_ref<GridField>(sample_distance(
-          *shape, known.step, owner.executor_for(shape->is_concurrent()), owner.budget));
+          *shape, known.step, owner.executor_for(shape->is_concurrent()), owner.budget, work));
     else
       distance = make_ref<ShapeDistanceField>(shape);
     *field = new_handle<msq_field>(
         Ref<Field>(make_ref<MapField>(std::move(distance), std::move(curve))));
+    scope.done();
   });
 }
 
@@ -189,9 +194,9 @@ msq_status msq_field_map(msq_context* context, const msq_field* argument, const 
     const Field& known = object(argument, "argument");
     Curve read = read_curve(curve, curve_count);
     require(field, "field");
-    if (known.depth() >= most_maps)
+    if (known.depth() >= max_maps)
       fail(Status::limit, "%u maps would be within each other; the limit is %u", known.depth() + 1,
-           most_maps);
+           max_maps);
     *field = new_handle<msq_field>(
         Ref<Field>(make_ref<MapField>(Ref<const Field>(&known), std::move(read))));
   });

@@ -77,9 +77,9 @@ msq_status msq_structure_functional(msq_context* context, const msq_functional_d
     const Neighbourhood grid = read_neighbourhood(known.grid);
     const FunctionalKind kind = static_cast<FunctionalKind>(
         require_range(known.kind, MSQ_FUNCTIONAL_NETWORK, MSQ_FUNCTIONAL_SHEET, "kind"));
-    if (known.clusters > uint32_t{most_clusters})
+    if (known.clusters > uint32_t{max_clusters})
       fail(Status::argument, "clusters is %u; it must be from 0 to %d", known.clusters,
-           most_clusters);
+           max_clusters);
     const Tape function = read_function(known);
     Parameter level = is_given(known.thickness)
                           ? read_thickness(known, kind, function, grid.cell_size)

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <new>
 
+#include "base/call.h"
 #include "base/checked.h"
 #include "base/job.h"
 #include "base/ref.h"
@@ -15,23 +16,32 @@
 #include "base/vec.h"
 #include "cell/context.h"
 #include "field/field.h"
+#include "fill/fill.h"
 #include "model/model.h"
 #include "msq.h"
 #include "query/point_array.h"
 #include "shape/shape.h"
+#include "slice/contours.h"
 #include "slice/slicer.h"
 #include "structure/structure.h"
 
 namespace msq::api {
 
-/// Records a failure of this thread and returns its status. Never throws or allocates.
+/// Records a failure of this thread and returns its status (last_error.cpp).
 msq_status record(Status status, const char* message, int32_t host_code) noexcept;
 
-/// Runs an entry's body. All failures come as exceptions.
+/// Calls a function where the compiler moves no arithmetic out of it.
+template <class Body>
+[[gnu::noinline]] void call_apart(Body& body) {
+  body();
+}
+
+/// Runs an entry's body, in msq's floating-point environment. All failures come as exceptions.
 template <class Body>
 msq_status guard(Body&& body) noexcept {
+  const CallScope scope;
   try {
-    body();
+    call_apart(body);
     return MSQ_OK;
   } catch (const Error& error) {
     return record(error.status, error.what(), error.host_code);
@@ -117,14 +127,18 @@ template <>
 inline constexpr size_t first_size<msq_query_def> = offsetof(msq_query_def, critical_count);
 template <>
 inline constexpr size_t first_size<msq_points_def> = offsetof(msq_points_def, seed);
+template <>
+inline constexpr size_t first_size<msq_slicer_def> = offsetof(msq_slicer_def, window);
+template <>
+inline constexpr size_t first_size<msq_slicer_report> = offsetof(msq_slicer_report, window);
 /// More is a struct_size that was never set.
-constexpr size_t most_size = 4096;
+constexpr size_t max_size = 4096;
 
 template <class T>
 void check_struct_size(size_t size, const char* name) {
-  if (size < first_size<T> || size > most_size)
+  if (size < first_size<T> || size > max_size)
     fail(Status::argument, "the struct_size of %s is %zu; it must be its sizeof, %zu to %zu", name,
-         size, first_size<T>, most_size);
+         size, first_size<T>, max_size);
 }
 
 /// Fills in a host's definition: defaults in what it has room for, 0 in what this version does not
@@ -196,7 +210,9 @@ void retain(Handle* handle) {
 
 template <class Handle>
 void release(Handle* handle) {
-  if (handle) reinterpret_cast<typename ObjectOf<Handle>::type*>(handle)->release();
+  if (!handle) return;
+  const CallScope scope;
+  reinterpret_cast<typename ObjectOf<Handle>::type*>(handle)->release();
 }
 
 template <>
@@ -228,8 +244,16 @@ struct ObjectOf<msq_model> {
   using type = Model;
 };
 template <>
+struct ObjectOf<msq_fill> {
+  using type = Fill;
+};
+template <>
 struct ObjectOf<msq_slicer> {
   using type = Slicer;
+};
+template <>
+struct ObjectOf<msq_contours> {
+  using type = Contours;
 };
 
 }  // namespace msq::api

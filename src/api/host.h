@@ -25,7 +25,7 @@ inline std::function<void(const Vec3*, size_t, double*)> values_call(msq_values_
   return [=](const Vec3* points, size_t count, double* values) {
     // What the host does not write is no number, and found out.
     std::fill_n(values, count, std::numeric_limits<double>::quiet_NaN());
-    check_code(fn(user, coordinates(points), count, values), callback);
+    check_code(call_host(fn, user, coordinates(points), count, values), callback);
   };
 }
 
@@ -33,7 +33,7 @@ inline std::function<void(const Vec3*, size_t, uint8_t*)> inside_call(msq_inside
                                                                       const char* callback) {
   return [=](const Vec3* points, size_t count, uint8_t* inside) {
     std::fill_n(inside, count, uint8_t{0});
-    check_code(fn(user, coordinates(points), count, inside), callback);
+    check_code(call_host(fn, user, coordinates(points), count, inside), callback);
   };
 }
 
@@ -44,7 +44,7 @@ inline std::function<Interval(const Box3&)> range_call(msq_range_fn fn, void* us
   return [=](const Box3& box) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     Interval range{none, none};
-    check_code(fn(user, &box.min.x, &box.max.x, &range.low, &range.high), callback);
+    check_code(call_host(fn, user, &box.min.x, &box.max.x, &range.low, &range.high), callback);
     return range;
   };
 }

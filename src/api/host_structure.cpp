@@ -35,14 +35,14 @@ msq_host_points view_of(const HostPoints& points) {
   return view;
 }
 
-Coverage coverage_of(int32_t answer) {
+BoxClass classify_box(int32_t answer) {
   switch (answer) {
     case MSQ_BOX_MIXED:
-      return Coverage::mixed;
+      return BoxClass::mixed;
     case MSQ_BOX_OUTSIDE:
-      return Coverage::outside;
+      return BoxClass::outside;
     case MSQ_BOX_INSIDE:
-      return Coverage::inside;
+      return BoxClass::inside;
     default:
       fail(Status::host, "the callback box answered %d; it must be from %d to %d", answer,
            MSQ_BOX_MIXED, MSQ_BOX_INSIDE);
@@ -56,33 +56,34 @@ HostStructureCalls calls_of(const msq_host_structure_def& def) {
     calls.inside = [user, fn = def.inside](const HostPoints& points, uint8_t* inside) {
       const msq_host_points view = view_of(points);
       std::fill_n(inside, points.count, uint8_t{0});
-      check_code(fn(user, &view, inside), "inside");
+      check_code(call_host(fn, user, &view, inside), "inside");
     };
   if (def.build_cell) {
     calls.build_cell = [user, fn = def.build_cell](CellIndex cell, uint64_t& bytes) {
       void* data = nullptr;
-      check_code(fn(user, &cell.x, &data, &bytes), "build_cell");
+      check_code(call_host(fn, user, &cell.x, &data, &bytes), "build_cell");
       return data;
     };
     calls.evaluate_cell = [user, fn = def.evaluate_cell](const void* data, const HostPoints& points,
                                                          uint8_t* inside) {
       const msq_host_points view = view_of(points);
       std::fill_n(inside, points.count, uint8_t{0});
-      check_code(fn(user, data, &view, inside), "evaluate_cell");
+      check_code(call_host(fn, user, data, &view, inside), "evaluate_cell");
     };
   }
-  if (def.free_cell) calls.free_cell = [user, fn = def.free_cell](void* data) { fn(user, data); };
+  if (def.free_cell)
+    calls.free_cell = [user, fn = def.free_cell](void* data) { call_host(fn, user, data); };
   if (def.box)
-    calls.coverage = [user, fn = def.box](const Box3& box) {
+    calls.classify = [user, fn = def.box](const Box3& box) {
       int32_t answer = MSQ_BOX_MIXED;
-      check_code(fn(user, &box.min.x, &box.max.x, &answer), "box");
-      return coverage_of(answer);
+      check_code(call_host(fn, user, &box.min.x, &box.max.x, &answer), "box");
+      return classify_box(answer);
     };
   if (def.distance)
     calls.distance = [user, fn = def.distance](const HostPoints& points, double* bounds) {
       const msq_host_points view = view_of(points);
       std::fill_n(bounds, points.count, std::numeric_limits<double>::quiet_NaN());
-      check_code(fn(user, &view, bounds), "distance");
+      check_code(call_host(fn, user, &view, bounds), "distance");
     };
   return calls;
 }
@@ -129,7 +130,7 @@ msq_status msq_structure_host_function(msq_context* context, const msq_host_func
     const bool is_concurrent = require_range(known.concurrent, 0, 1, "concurrent") != 0;
     const Neighbourhood grid = read_neighbourhood(known.grid);
     require_range(known.kind, MSQ_FUNCTIONAL_NETWORK, MSQ_FUNCTIONAL_SHEET, "kind");
-    constexpr uint32_t most = HostFunction::most_clusters;
+    constexpr uint32_t most = HostFunction::max_clusters;
     if (known.clusters > most)
       fail(Status::argument, "clusters is %u; it must be from 0 to %u", known.clusters, most);
     if (!known.evaluate) fail(Status::argument, "evaluate is NULL");

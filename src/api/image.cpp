@@ -44,7 +44,7 @@ msq_image image_defaults() {
   return image;
 }
 
-Image read_image(const msq_image& image, uint64_t least_size,
+Image read_image(const msq_image& image, uint64_t min_size,
                  const std::shared_ptr<MemoryBudget>& budget) {
   require_reserved(image.reserved, "image.reserved");
   Image::Source source;
@@ -53,11 +53,11 @@ Image read_image(const msq_image& image, uint64_t least_size,
   source.values = image.values;
   for (int axis = 0; axis < 3; ++axis) {
     source.size[axis] = image.size[axis];
-    if (image.size[axis] < least_size || image.size[axis] > Image::most_size)
+    if (image.size[axis] < min_size || image.size[axis] > Image::max_size)
       fail(Status::argument, "image.size[%d] is %llu; it must be from %llu to %llu", axis,
            static_cast<unsigned long long>(image.size[axis]),
-           static_cast<unsigned long long>(least_size),
-           static_cast<unsigned long long>(Image::most_size));
+           static_cast<unsigned long long>(min_size),
+           static_cast<unsigned long long>(Image::max_size));
   }
   source.row_stride = read_stride(image.row_stride, source.size[0] * Image::bytes_of(source.type),
                                   "image.row_stride");

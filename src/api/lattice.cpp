@@ -6,7 +6,7 @@
 #include "api/neighbourhood.h"
 #include "api/strut_radius.h"
 #include "api/unit_cell.h"
-#include "structure/lattice/mixed_lattice.h"
+#include "structure/lattice/mixed/mixed_lattice.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -14,9 +14,9 @@ using namespace msq::api;
 namespace {
 
 /// Radius of the thickest struts, in units of the smallest cell size.
-constexpr double most_radius = 4;
+constexpr double max_radius = 4;
 /// Cells that msq_lattice_faces looks at.
-constexpr double most_cells = 0x1p30;
+constexpr double max_cells = 0x1p30;
 
 msq_lattice_def lattice_defaults() {
   msq_lattice_def def{};
@@ -39,9 +39,9 @@ std::vector<UnitCell> read_library(const msq_lattice_def& def) {
     own.strut_factors = def.strut_factors;
     return {read_unit_cell(own)};
   }
-  if (def.cell_count < 1 || def.cell_count > MixedLattice::most_types)
+  if (def.cell_count < 1 || def.cell_count > MixedLattice::max_types)
     fail(Status::argument, "cell_count is %u; it must be from 1 to %zu", def.cell_count,
-         MixedLattice::most_types);
+         MixedLattice::max_types);
   if (def.nodes || def.struts || def.strut_factors)
     fail(Status::argument, "cells are given: nodes, struts and strut_factors must be NULL");
   std::vector<UnitCell> library;
@@ -62,10 +62,10 @@ std::vector<UnitCell> read_library(const msq_lattice_def& def) {
     nodes += library.back().nodes.size();
     struts += library.back().struts.size();
   }
-  if (std::max(nodes, struts) > most_custom)
+  if (std::max(nodes, struts) > max_custom)
     fail(Status::limit, "the unit cells have %llu nodes and %llu struts; the limit is %llu",
          static_cast<unsigned long long>(nodes), static_cast<unsigned long long>(struts),
-         static_cast<unsigned long long>(most_custom));
+         static_cast<unsigned long long>(max_custom));
   return library;
 }
 
@@ -86,17 +86,17 @@ msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* de
     object(context, "context");
     require(structure, "structure");
     const msq_lattice_def known = read_def(def, lattice_defaults(), "def");
-    if (known.clusters > uint32_t{StrutClusters::most_side})
+    if (known.clusters > uint32_t{StrutClusters::max_side})
       fail(Status::argument, "clusters is %u; it must be from 0 to %d", known.clusters,
-           StrutClusters::most_side);
+           StrutClusters::max_side);
     const Neighbourhood grid = read_neighbourhood(known.grid);
     std::vector<UnitCell> library = read_library(known);
-    double most_factor = 0;
+    double max_factor = 0;
     for (const UnitCell& cell : library)
       for (size_t s = 0; s < cell.struts.size(); ++s)
-        most_factor = std::max(most_factor, cell.factor(s));
+        max_factor = std::max(max_factor, cell.factor(s));
     const Parameter choice = read_choice(known.cell_choice);
-    Parameter radius = read_radius(known.radius, grid, most_radius, most_factor);
+    Parameter radius = read_radius(known.radius, grid, max_radius, max_factor);
     if (library.size() == 1)
       *structure = new_handle<msq_structure>(Ref<Structure>(make_ref<Lattice>(
           grid, library[0], std::move(radius), static_cast<int>(known.clusters))));
@@ -125,8 +125,8 @@ msq_status msq_lattice_faces(const msq_structure* lattice, const double min[3], 
       if (!(std::max(std::abs(range.first[axis]), std::abs(range.last[axis])) < max_cell_index))
         fail(Status::limit, "the box reaches cells %g to %g along axis %d; the limit is %g",
              range.first[axis], range.last[axis], axis, max_cell_index);
-    if (range.count() > most_cells)
-      fail(Status::limit, "the box meets %g cells; the limit is %g", range.count(), most_cells);
+    if (range.count() > max_cells)
+      fail(Status::limit, "the box meets %g cells; the limit is %g", range.count(), max_cells);
     check_struct_size<msq_lattice_faces_report>(require(report, "report").struct_size, "report");
 
     msq_lattice_faces_report known{};

@@ -9,10 +9,10 @@ using namespace msq::api;
 
 namespace {
 
-constexpr uint64_t most_channels = 256;
-constexpr size_t most_name = 255;
-constexpr unsigned most_blends = 64;
-constexpr uint64_t most_terms = 4096;
+constexpr uint64_t max_channels = 256;
+constexpr size_t max_name = 255;
+constexpr unsigned max_blends = 64;
+constexpr uint64_t max_terms = 4096;
 
 msq_material_def material_defaults() {
   return {};
@@ -26,10 +26,10 @@ uint32_t require_id(uint32_t id) {
 std::string_view require_name(const char* name, const char* what, uint64_t index) {
   if (!name)
     fail(Status::argument, "%s %llu is NULL", what, static_cast<unsigned long long>(index));
-  const size_t size = strnlen(name, most_name + 1);
-  if (size < 1 || size > most_name)
+  const size_t size = strnlen(name, max_name + 1);
+  if (size < 1 || size > max_name)
     fail(Status::argument, "%s %llu has %s; it must have 1 to %zu bytes", what,
-         static_cast<unsigned long long>(index), size ? "more" : "none", most_name);
+         static_cast<unsigned long long>(index), size ? "more" : "none", max_name);
   return {name, size};
 }
 
@@ -38,9 +38,9 @@ std::vector<std::string_view> read_channels(const Model& model, const Scales& re
                                             const char* const* channels, uint64_t count) {
   if (!model.has_material(resolved))
     fail(Status::argument, "no scale that the query resolves has a material");
-  if (count > most_channels)
+  if (count > max_channels)
     fail(Status::argument, "channel_count is %llu; it must be at most %llu",
-         static_cast<unsigned long long>(count), static_cast<unsigned long long>(most_channels));
+         static_cast<unsigned long long>(count), static_cast<unsigned long long>(max_channels));
   if (count > 0) require(channels, "channels");
   std::vector<std::string_view> names;
   for (uint64_t c = 0; c < count; ++c) {
@@ -67,10 +67,10 @@ msq_status msq_material_create(msq_context* context, const msq_material_def* def
     const msq_material_def known = read_def(def, material_defaults(), "def");
     require(material, "material");
     require_id(known.id);
-    if (known.channel_count > most_channels)
+    if (known.channel_count > max_channels)
       fail(Status::argument, "channel_count is %llu; it must be at most %llu",
            static_cast<unsigned long long>(known.channel_count),
-           static_cast<unsigned long long>(most_channels));
+           static_cast<unsigned long long>(max_channels));
     if (known.channel_count > 0) require(known.channels, "channels");
     std::vector<std::string> names;
     std::vector<Parameter> parameters;
@@ -111,15 +111,15 @@ msq_status msq_material_blend(msq_context* context, uint32_t id, const msq_mater
         if (!other->find(channel))
           fail(Status::argument, "only one of the materials has a channel called %s",
                channel.c_str());
-    if (std::max(first->depth(), second->depth()) >= most_blends)
+    if (std::max(first->depth(), second->depth()) >= max_blends)
       fail(Status::limit, "%u blends would be within each other; the limit is %u",
-           std::max(first->depth(), second->depth()) + 1, most_blends);
-    if (const uint64_t terms = first->terms() + second->terms(); terms > most_terms)
+           std::max(first->depth(), second->depth()) + 1, max_blends);
+    if (const uint64_t terms = first->terms() + second->terms(); terms > max_terms)
       fail(
           Status::limit,
           "each value would be made of those of %llu materials, the same counted as often as it is "
           "asked; the limit is %llu",
-          static_cast<unsigned long long>(terms), static_cast<unsigned long long>(most_terms));
+          static_cast<unsigned long long>(terms), static_cast<unsigned long long>(max_terms));
     *material = new_handle<msq_material>(make_ref<MaterialBlend>(id, first, second, part));
   });
 }
@@ -142,6 +142,7 @@ msq_status msq_point_material(const msq_model* model, const double point[3],
     const auto names = read_channels(known, resolved, channels, channel_count);
     require(id, "id");
     if (!names.empty()) require(values, "values");
+    require_point(known, resolved, p);
     std::vector<double> found(names.size());
     uint32_t part = 0;
     const Material* material =

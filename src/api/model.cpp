@@ -6,11 +6,11 @@ using namespace msq::api;
 
 namespace {
 
-constexpr uint32_t most_scales = 64;
+constexpr uint32_t max_scales = 64;
 
 /// Sizes of msq_scale_def: in version 0.1, which never changes, and before it had a skin.
 constexpr uint32_t default_scale_size = sizeof(msq_scale_def);
-constexpr uint32_t least_scale_size = offsetof(msq_scale_def, skin);
+constexpr uint32_t min_scale_size = offsetof(msq_scale_def, skin);
 
 msq_model_def model_defaults() {
   return {};
@@ -56,13 +56,15 @@ msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_
     msq_model_def known = read_def(def, model_defaults(), "def");
     if (known.scale_size == 0) known.scale_size = default_scale_size;
     require_reserved(known.reserved, "reserved");
-    if (known.scale_count < 1 || known.scale_count > most_scales)
+    if (known.scale_count < 1 || known.scale_count > max_scales)
       fail(Status::argument, "scale_count is %u; it must be from 1 to %u", known.scale_count,
-           most_scales);
+           max_scales);
     require(known.scales, "scales");
-    if (known.scale_size < least_scale_size || known.scale_size > 4096)
-      fail(Status::argument, "scale_size is %u; it must be sizeof(msq_scale_def)",
-           known.scale_size);
+    if (known.scale_size < min_scale_size || known.scale_size > 4096 ||
+        known.scale_size % alignof(msq_scale_def) != 0)
+      fail(Status::argument,
+           "scale_size is %u; it must be sizeof(msq_scale_def), a multiple of %zu from %u to 4096",
+           known.scale_size, alignof(msq_scale_def), min_scale_size);
     Ref<const Shape> shape;
     Ref<const Material> coarse;
     std::vector<Model::ScaleParts> scales;
@@ -87,6 +89,29 @@ msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_
     }
     *model = new_handle<msq_model>(make_ref<Model>(Ref<Context>(&owner), std::move(shape),
                                                    std::move(scales), std::move(coarse)));
+  });
+}
+
+msq_status msq_model_regions(msq_context* context, const msq_model* const* regions, uint64_t count,
+                             msq_model** model) {
+  return guard([&] {
+    Context& owner = object(context, "context");
+    if (count < 1 || count > Model::max_regions)
+      fail(Status::argument, "count is %llu; it must be from 1 to %zu",
+           static_cast<unsigned long long>(count), Model::max_regions);
+    require(regions, "regions");
+    require(model, "model");
+    std::vector<Ref<const Model>> known;
+    for (uint64_t r = 0; r < count; ++r) {
+      if (!regions[r])
+        fail(Status::argument, "regions[%llu] is NULL", static_cast<unsigned long long>(r));
+      known.emplace_back(&object(regions[r], "regions"));
+      if (!known.back()->shape().is_bounded())
+        fail(Status::unsupported,
+             "regions[%llu] has no coarse shape; a region needs one with bounds",
+             static_cast<unsigned long long>(r));
+    }
+    *model = new_handle<msq_model>(make_ref<Model>(Ref<Context>(&owner), known));
   });
 }
 

@@ -2,6 +2,7 @@
 #include "api/neighbourhood.h"
 
 #include "api/guard.h"
+#include "shape/placement.h"
 
 namespace msq::api {
 
@@ -62,8 +63,9 @@ Neighbourhood read_neighbourhood(const msq_neighbourhood& grid) {
   read.origin = require_vector(grid.origin, "grid.origin");
   for (int i = 0; i < 3; ++i) {
     require_positive(grid.cell_size[i], "grid.cell_size");
-    if (grid.cell_size[i] < 1e-100 || grid.cell_size[i] > 1e100)
-      fail(Status::argument, "grid.cell_size[%d] is %g; it must be from 1e-100 to 1e100", i,
+    // Fourth powers of lengths neither overflow nor vanish.
+    if (grid.cell_size[i] < 1e-75 || grid.cell_size[i] > 1e75)
+      fail(Status::argument, "grid.cell_size[%d] is %g; it must be from 1e-75 to 1e75", i,
            grid.cell_size[i]);
   }
   read.cell_size = {grid.cell_size[0], grid.cell_size[1], grid.cell_size[2]};
@@ -72,3 +74,46 @@ Neighbourhood read_neighbourhood(const msq_neighbourhood& grid) {
 }
 
 }  // namespace msq::api
+
+using namespace msq;
+using namespace msq::api;
+
+msq_status msq_neighbourhood_placed(const msq_neighbourhood* grid, const double matrix[12],
+                                    msq_neighbourhood* placed) {
+  return guard([&] {
+    const Neighbourhood known = read_neighbourhood(require(grid, "grid"));
+    if (!matrix) fail(Status::argument, "matrix is NULL");
+    require(placed, "placed");
+    std::array<double, 12> numbers;
+    std::copy_n(matrix, numbers.size(), numbers.begin());
+    const Placement placement(numbers);
+    constexpr double max_deviation = 1e-9;
+    if (!(placement.deviation() <= max_deviation))
+      fail(Status::argument,
+           "the matrix stretches lengths in some directions more than in others, by %g; the limit "
+           "for a grid is %g",
+           placement.deviation(), max_deviation);
+    if (placement.determinant() < 0)
+      fail(Status::argument,
+           "the matrix mirrors: its determinant is %g; that of a grid's must be "
+           "positive",
+           placement.determinant());
+    msq_neighbourhood result;
+    const Vec3 origin = placement.to_placed(known.origin);
+    double rotation[9];
+    for (size_t i = 0; i < 3; ++i)
+      for (size_t j = 0; j < 3; ++j) {
+        double sum = 0;
+        for (size_t k = 0; k < 3; ++k) sum += matrix[4 * i + k] * known.rotation.m[3 * k + j];
+        rotation[3 * i + j] = sum / placement.scale();
+      }
+    const Rotation turned = read_rotation(rotation, "matrix");
+    for (int axis = 0; axis < 3; ++axis) {
+      result.origin[axis] = origin[axis];
+      result.cell_size[axis] = known.cell_size[axis] * placement.scale();
+    }
+    std::copy(turned.m.begin(), turned.m.end(), result.rotation);
+    read_neighbourhood(result);
+    *placed = result;
+  });
+}

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/points.h"
 
-#include <atomic>
-
 #include "api/neighbourhood.h"
+#include "api/window.h"
 #include "query/array_points.h"
+#include "query/first_point.h"
 #include "query/grid_points.h"
 
 namespace msq::api {
@@ -33,8 +33,14 @@ SampleGrid read_grid(const msq_points_def& def) {
   grid.nx = def.counts[0];
   grid.ny = def.counts[1];
   grid.nz = def.counts[2];
+  grid = window_of(grid, read_window(def.window));
   checked_product(checked_product(grid.nx, grid.ny, "points"), grid.nz, "points");
   return grid;
+}
+
+void refuse_window(const msq_points_def& def, const char* kind) {
+  if (!read_window(def.window).is_whole())
+    fail(Status::argument, "a window is given; %s have none", kind);
 }
 
 }  // namespace
@@ -54,6 +60,7 @@ msq_query_def query_defaults() {
 
 Strata read_strata(const msq_points_def& known) {
   Strata strata;
+  refuse_window(known, "stratified samples");
   strata.origin = require_vector(known.origin, "origin");
   double far = max_magnitude(strata.origin);
   uint64_t points = known.per_cell;
@@ -82,6 +89,7 @@ std::unique_ptr<PointSet> read_points(const msq_points_def* points) {
     case MSQ_POINTS_STRATIFIED:
       return std::make_unique<StratifiedPoints>(read_strata(known));
     default:
+      refuse_window(known, "arrays of points");
       return std::make_unique<ArrayPoints>(point_array(known.coordinates, known.count, known.stride,
                                                        known.coordinate_type, "coordinates"));
   }
@@ -89,29 +97,12 @@ std::unique_ptr<PointSet> read_points(const msq_points_def* points) {
 
 void require_finite_points(const PointSet& points, const Executor& executor) {
   if (!points.is_given()) return;
-  constexpr uint64_t run = 65536, read_at_once = 256;
-  const uint64_t count = points.count();
-  std::atomic<uint64_t> first{count};
-  executor.for_each((count + run - 1) / run, [&](uint64_t r) {
-    const uint64_t end = std::min(count, (r + 1) * run);
-    Vec3 positions[read_at_once];
-    for (uint64_t i = r * run; i < end; i += read_at_once) {
-      const uint64_t size = std::min(read_at_once, end - i);
-      points.read(i, size, positions);
-      for (uint64_t p = 0; p < size; ++p) {
-        if (is_finite(positions[p])) continue;
-        uint64_t known = first.load();
-        while (i + p < known && !first.compare_exchange_weak(known, i + p)) {
-        }
-        return;
-      }
-    }
-  });
-  if (first == count) return;
+  const uint64_t first = find_first_point(points, executor, [](Vec3 p) { return !is_finite(p); });
+  if (first == points.count()) return;
   Vec3 p;
   points.read(first, 1, &p);
   fail(Status::argument, "point %llu is (%g, %g, %g); it must be finite",
-       static_cast<unsigned long long>(first.load()), p.x, p.y, p.z);
+       static_cast<unsigned long long>(first), p.x, p.y, p.z);
 }
 
 Query read_query(const msq_query_def* query) {
@@ -123,10 +114,10 @@ Query read_query(const msq_query_def* query) {
   read.plan.method = static_cast<QueryMethod>(
       require_range(known.method, MSQ_QUERY_AUTO, MSQ_QUERY_SET, "method"));
   read.plan.critical_count = known.critical_count;
-  constexpr uint32_t most_parts = 64;
-  if (known.group_parts > most_parts)
+  constexpr uint32_t max_parts = 64;
+  if (known.group_parts > max_parts)
     fail(Status::argument, "group_parts is %u; it must be at most %u", known.group_parts,
-         most_parts);
+         max_parts);
   read.plan.group_parts = known.group_parts;
   require_reserved(known.reserved, "reserved");
   return read;

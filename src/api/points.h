@@ -7,6 +7,7 @@
 
 #include "api/guard.h"
 #include "query/ask_group.h"
+#include "query/reach.h"
 #include "query/stratified_points.h"
 
 namespace msq::api {
@@ -30,6 +31,11 @@ struct Query {
 /// query NULL: defaults.
 Query read_query(const msq_query_def* query);
 
+/// Throws Error(limit) where a model of all space cannot be asked about the point.
+inline void require_point(const Model& model, const Scales& resolved, Vec3 p) {
+  require_reach(model, resolved, Box3{p, p}, "the point");
+}
+
 /// Throws Error(argument) unless an array that is called `name` has the wanted length.
 void require_count(uint64_t count, const char* name, uint64_t wanted);
 
@@ -47,6 +53,7 @@ void ask_set(const msq_model* model, const msq_points_def* points, const msq_que
   require_count(count, count_name, set->count());
   if (set->count() > 0) require(values, name);
   require_finite_points(*set, known.context().executor);
+  require_reach(known, resolved, *set);
   JobScope scope(work);
   ask(known, resolved, *set, options.plan, values, work);
   scope.done();

@@ -43,7 +43,9 @@ msq_status msq_point_membership(const msq_model* model, const double point[3],
     const Ref<const Model> keep(&known);
     const Vec3 p = require_vector(point, "point");
     require(inside, "inside");
-    *inside = known.inside(p, known.resolved(read_query(query).length_scale));
+    const Scales resolved = known.resolved(read_query(query).length_scale);
+    require_point(known, resolved, p);
+    *inside = known.inside(p, resolved);
   });
 }
 
@@ -56,6 +58,26 @@ msq_status msq_set_membership(const msq_model* model, const msq_points_def* poin
   });
 }
 
+msq_status msq_point_region(const msq_model* model, const double point[3], int32_t* region) {
+  return guard([&] {
+    const Model& known = object(model, "model");
+    const Ref<const Model> keep(&known);
+    const Vec3 p = require_vector(point, "point");
+    require(region, "region");
+    const size_t found = known.region_at(p);
+    *region = found == Model::no_region ? -1 : static_cast<int32_t>(found);
+  });
+}
+
+msq_status msq_set_region(const msq_model* model, const msq_points_def* points, int32_t* regions,
+                          uint64_t region_count, msq_job* job) {
+  return guard([&] {
+    ask_set(model, points, nullptr, regions, "regions", region_count, "region_count", job,
+            [](const Model& known, const Scales&, const PointSet& set, const QueryPlan&,
+               int32_t* values, Job* work) { set_regions(known, set, values, work); });
+  });
+}
+
 msq_status msq_point_distance(const msq_model* model, const double point[3],
                               const msq_query_def* query, double* distance) {
   return guard([&] {
@@ -63,7 +85,9 @@ msq_status msq_point_distance(const msq_model* model, const double point[3],
     const Ref<const Model> keep(&known);
     const Vec3 p = require_vector(point, "point");
     require(distance, "distance");
-    *distance = known.distance(p, known.resolved(read_query(query).length_scale));
+    const Scales resolved = known.resolved(read_query(query).length_scale);
+    require_point(known, resolved, p);
+    *distance = known.distance(p, resolved);
   });
 }
 

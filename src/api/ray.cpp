@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
+#include <string>
 
 #include "api/guard.h"
 #include "api/points.h"
@@ -61,6 +62,20 @@ void check_ray(const RayArray& rays, uint64_t i) {
          rays.to(i));
 }
 
+void check_ray_in_all_space(const Model& model, const Scales& resolved, const RayArray& rays,
+                            uint64_t i) {
+  const auto number = static_cast<unsigned long long>(i);
+  if (!std::isfinite(rays.to(i)))
+    fail(Status::argument, "t_max of ray %llu is %g; in a model of all space it must be finite",
+         number, rays.to(i));
+  if (!(rays.from(i) <= rays.to(i))) return;
+  const std::string name = "ray " + std::to_string(number);
+  for (const double t : {rays.from(i), rays.to(i)}) {
+    const Vec3 end = rays.origins.at(i) + rays.direction(i) * t;
+    require_reach(model, resolved, Box3{end, end}, name.c_str());
+  }
+}
+
 void set_search(const RayArray& rays, uint64_t i, RaySearch& search) {
   const Vec3 direction = rays.direction(i);
   search_along(rays.origins.at(i), direction, size_of(direction), rays.from(i), rays.to(i), search);
@@ -103,7 +118,12 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
       fail(Status::argument, "hit_count is %llu; there are %llu rays",
            static_cast<unsigned long long>(hit_count), static_cast<unsigned long long>(def.count));
     if (def.count > 0) require(hits, "hits");
-    for (uint64_t i = 0; i < def.count; ++i) check_ray(array, i);
+    JobPoll poll(work);
+    for (uint64_t i = 0; i < def.count; ++i) {
+      check_ray(array, i);
+      if (!known.shape().is_bounded()) check_ray_in_all_space(known, resolved, array, i);
+      poll();
+    }
     JobScope scope(work);
     cast_rays(
         known, resolved, def.count,

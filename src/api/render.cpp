@@ -9,9 +9,9 @@ using namespace msq::api;
 
 namespace {
 
-constexpr uint32_t most_pixels = 16384, most_step = 64, most_occlusion_rays = 256;
-constexpr uint64_t most_colours = 65536;
-constexpr double least_angle = 0.001, most_angle = 179;
+constexpr uint32_t max_pixels = 16384, max_step = 64, max_occlusion_rays = 256;
+constexpr uint64_t max_colours = 65536;
+constexpr double min_angle = 0.001, max_angle = 179;
 
 void write_vector(Vec3 v, double* out) {
   for (int axis = 0; axis < 3; ++axis) out[axis] = v[axis];
@@ -57,9 +57,9 @@ Camera read_lens(const msq_camera& known) {
                     "projection") == MSQ_CAMERA_PERSPECTIVE;
   camera.field_of_view = known.field_of_view;
   if (camera.is_perspective &&
-      !(known.field_of_view >= least_angle && known.field_of_view <= most_angle))
+      !(known.field_of_view >= min_angle && known.field_of_view <= max_angle))
     fail(Status::argument, "field_of_view is %g; it must be from %g to %g", known.field_of_view,
-         least_angle, most_angle);
+         min_angle, max_angle);
   camera.clip_near = known.clip_near;
   camera.clip_far = known.clip_far;
   if (!(known.clip_near >= 0) || !std::isfinite(known.clip_near))
@@ -77,8 +77,8 @@ View read_view(const msq_camera* given, uint32_t width, uint32_t height) {
   camera.target = require_vector(known.target, "target");
   camera.up = require_vector(known.up, "up");
   camera.height = camera.is_perspective ? known.height : require_positive(known.height, "height");
-  return View(camera, require_count(width, 1, most_pixels, "width"),
-              require_count(height, 1, most_pixels, "height"));
+  return View(camera, require_count(width, 1, max_pixels, "width"),
+              require_count(height, 1, max_pixels, "height"));
 }
 
 std::vector<Vec3> read_colours(const msq_render_def& known) {
@@ -88,10 +88,10 @@ std::vector<Vec3> read_colours(const msq_render_def& known) {
            static_cast<unsigned long long>(known.colour_count));
     return palette();
   }
-  if (known.colour_count < 1 || known.colour_count > most_colours)
+  if (known.colour_count < 1 || known.colour_count > max_colours)
     fail(Status::argument, "colour_count is %llu; it must be from 1 to %llu",
          static_cast<unsigned long long>(known.colour_count),
-         static_cast<unsigned long long>(most_colours));
+         static_cast<unsigned long long>(max_colours));
   std::vector<Vec3> colours(known.colour_count);
   for (size_t i = 0; i < colours.size(); ++i)
     for (int part = 0; part < 3; ++part)
@@ -119,7 +119,7 @@ Shading read_shading(const msq_render_def& known) {
   shading.ambient = require_part(known.ambient, "ambient");
   shading.has_shadows = require_range(known.shadows, 0, 1, "shadows") != 0;
   shading.occlusion_rays =
-      require_count(known.occlusion_rays, 0, most_occlusion_rays, "occlusion_rays");
+      require_count(known.occlusion_rays, 0, max_occlusion_rays, "occlusion_rays");
   shading.occlusion_distance = known.occlusion_distance;
   if (!(known.occlusion_distance >= 0) || !std::isfinite(known.occlusion_distance))
     fail(Status::argument, "occlusion_distance is %g; it must be finite and not negative",
@@ -145,14 +145,35 @@ RenderPlan read_plan(const msq_render_def& known) {
   }
   read_tile_side("x", plan.tile_x, plan.tile_width, known.width);
   read_tile_side("y", plan.tile_y, plan.tile_height, known.height);
-  plan.samples = require_count(known.samples, 1, most_render_samples, "samples");
+  plan.samples = require_count(known.samples, 1, max_render_samples, "samples");
   plan.first_step = known.first_step;
-  if (plan.first_step < 1 || plan.first_step > most_step ||
+  if (plan.first_step < 1 || plan.first_step > max_step ||
       (plan.first_step & (plan.first_step - 1)) != 0)
     fail(Status::argument, "first_step is %u; it must be a power of two from 1 to %u",
-         known.first_step, most_step);
+         known.first_step, max_step);
   plan.shading = read_shading(known);
   return plan;
+}
+
+/// All rays of a picture, and those around what they hit, are in the hull of the picture's corners
+/// at both ends of the depth.
+void check_view_of_all_space(const Model& model, const Scales& resolved, const View& view,
+                             const Shading& shading) {
+  if (!std::isfinite(view.camera().clip_far))
+    fail(Status::argument, "clip_far is %g; in a model of all space it must be finite",
+         view.camera().clip_far);
+  if (shading.has_shadows)
+    fail(Status::argument, "shadows is 1; in a model of all space it must be 0");
+  if (shading.occlusion_rays > 0 && !(shading.occlusion_distance > 0))
+    fail(Status::argument, "occlusion_distance is %g; in a model of all space it must be positive",
+         shading.occlusion_distance);
+  const double around = shading.occlusion_rays > 0 ? shading.occlusion_distance : 0;
+  for (const double x : {0.0, static_cast<double>(view.width())})
+    for (const double y : {0.0, static_cast<double>(view.height())})
+      for (const double depth : {view.camera().clip_near, view.camera().clip_far}) {
+        const Vec3 corner = view.origin(x, y) + view.direction(x, y) * depth;
+        require_reach(model, resolved, Box3{corner, corner}.grown(around), "the picture");
+      }
 }
 
 Frame read_frame(const msq_frame* given, const RenderPlan& plan) {
@@ -181,9 +202,11 @@ msq_status msq_camera_fit(const msq_model* model, const double direction[3], con
   return guard([&] {
     const Model& known = object(model, "model");
     const Vec3 along = require_vector(direction, "direction");
-    require_count(width, 1, most_pixels, "width");
-    require_count(height, 1, most_pixels, "height");
+    require_count(width, 1, max_pixels, "width");
+    require_count(height, 1, max_pixels, "height");
     const Camera lens = read_lens(read_def(camera, camera_defaults(), "camera"));
+    if (!known.shape().is_bounded())
+      fail(Status::argument, "a model of all space has no bounds that a camera could fit");
     const Vec3 upwards = up ? require_vector(up, "up") : default_up(along);
     const Camera camera_that_fits = fitted(lens, known.bounds(), along, upwards, width, height);
     write_vector(camera_that_fits.eye, camera->eye);
@@ -227,6 +250,7 @@ msq_status msq_render(const msq_model* model, const msq_camera* camera, const ms
     const RenderPlan plan = read_plan(definition);
     const Frame pixels = read_frame(frame, plan);
     const Scales resolved = known->resolved(read_query(query).length_scale);
+    if (!known->shape().is_bounded()) check_view_of_all_space(*known, resolved, view, plan.shading);
     std::function<void(const RenderPass&)> on_pass;
     if (fn)
       on_pass = [&](const RenderPass& done) {
@@ -235,7 +259,7 @@ msq_status msq_render(const msq_model* model, const msq_camera* camera, const ms
         pass.step = done.step;
         pass.samples = done.samples;
         pass.is_last = done.is_last;
-        const int32_t code = fn(user, &pass);
+        const int32_t code = call_host(fn, user, &pass);
         if (code != 0)
           throw Error(Status::host,
                       "the callback of msq_render returned " + std::to_string(code) +

@@ -3,6 +3,7 @@
 #include "api/image.h"
 #include "api/shape_size.h"
 #include "io/mesh_file.h"
+#include "shape/all_space.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
 #include "shape/voxels.h"
@@ -15,6 +16,7 @@ namespace {
 msq_file_def file_defaults() {
   const MeshFileOptions options;
   msq_file_def def{};
+  def.winding_rule = MSQ_WINDING_AUTO;
   def.unit_mm = options.unit_mm;
   def.max_bytes = options.max_bytes;
   def.max_triangles = options.max_triangles;
@@ -24,6 +26,7 @@ msq_file_def file_defaults() {
 msq_mesh_def mesh_defaults() {
   msq_mesh_def def{};
   def.coordinate_type = MSQ_FLOAT64;
+  def.winding_rule = MSQ_WINDING_AUTO;
   return def;
 }
 
@@ -35,7 +38,7 @@ msq_voxels_def voxels_defaults() {
 
 WindingRule winding_rule(int32_t rule) {
   return static_cast<WindingRule>(
-      require_range(rule, MSQ_WINDING_NONZERO, MSQ_WINDING_POSITIVE, "winding_rule"));
+      require_range(rule, MSQ_WINDING_NONZERO, MSQ_WINDING_AUTO, "winding_rule"));
 }
 
 struct FileRequest {
@@ -59,6 +62,19 @@ FileRequest file_request(const msq_file_def* def, const Context& owner) {
   return request;
 }
 
+/// The mesh of what read(options) returns.
+template <class Read>
+msq_shape* make_mesh(FileRequest request, msq_job* job, Read&& read) {
+  Job* work = job ? &object(job, "job") : nullptr;
+  JobScope scope(work);
+  constexpr double reading = 0.4;  // of the call
+  request.options.part = {work, 0, reading};
+  Ref<Shape> mesh = make_ref<Mesh>(read(request.options), request.rule, request.options.budget,
+                                   JobPart{work, reading, 1});
+  scope.done();
+  return new_handle<msq_shape>(std::move(mesh));
+}
+
 }  // namespace
 
 msq_status msq_file_def_init(msq_file_def* def, size_t size) {
@@ -66,26 +82,28 @@ msq_status msq_file_def_init(msq_file_def* def, size_t size) {
 }
 
 msq_status msq_shape_from_file(msq_context* context, const char* path, const msq_file_def* def,
-                               msq_shape** shape) {
+                               msq_shape** shape, msq_job* job) {
   return guard([&] {
     Context& owner = object(context, "context");
     require(path, "path");
     require(shape, "shape");
     const FileRequest request = file_request(def, owner);
-    *shape = new_handle<msq_shape>(Ref<Shape>(
-        make_ref<Mesh>(read_mesh_file(path, request.options), request.rule, owner.budget)));
+    *shape = make_mesh(request, job, [&](const MeshFileOptions& options) {
+      return read_mesh_file(path, options);
+    });
   });
 }
 
 msq_status msq_shape_from_memory(msq_context* context, const void* data, uint64_t bytes,
-                                 const msq_file_def* def, msq_shape** shape) {
+                                 const msq_file_def* def, msq_shape** shape, msq_job* job) {
   return guard([&] {
     Context& owner = object(context, "context");
     if (!data) fail(Status::argument, "data is NULL");
     require(shape, "shape");
     const FileRequest request = file_request(def, owner);
-    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<Mesh>(
-        read_mesh_memory(data, bytes, request.options), request.rule, owner.budget)));
+    *shape = make_mesh(request, job, [&](const MeshFileOptions& options) {
+      return read_mesh_memory(data, bytes, options);
+    });
   });
 }
 
@@ -155,6 +173,14 @@ msq_status msq_shape_from_cylinder(msq_context* context, const double from[3], c
     if (!(dot(b - a, b - a) > 0))
       fail(Status::argument, "from and to are both (%g, %g, %g); they must differ", a.x, a.y, a.z);
     *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<CylinderShape>(a, b, radius)));
+  });
+}
+
+msq_status msq_shape_all_space(msq_context* context, msq_shape** shape) {
+  return guard([&] {
+    object(context, "context");
+    require(shape, "shape");
+    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<AllSpace>()));
   });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/guard.h"
+#include "api/window.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -9,7 +10,28 @@ namespace {
 msq_slicer_def slicer_defaults() {
   msq_slicer_def def{};
   def.output = MSQ_LAYER_BITS;
+  def.grey_samples = 4;
+  def.grey_gamma = 1;
   return def;
+}
+
+GreyScale read_grey(const msq_slicer_def& def) {
+  if (def.grey_samples != 2 && def.grey_samples != 4 && def.grey_samples != 8 &&
+      def.grey_samples != 16)
+    fail(Status::argument, "grey_samples is %u; it must be 2, 4, 8 or 16", def.grey_samples);
+  if (!(def.grey_gamma >= 0.1 && def.grey_gamma <= 10))
+    fail(Status::argument, "grey_gamma is %g; it must be from 0.1 to 10", def.grey_gamma);
+  if (def.grey_threshold > 255)
+    fail(Status::argument, "grey_threshold is %u; it must be at most 255", def.grey_threshold);
+  return {def.grey_samples, def.grey_gamma, def.grey_threshold};
+}
+
+Orientation read_orientation(uint32_t flags) {
+  constexpr uint32_t all = MSQ_LAYER_MIRROR_X | MSQ_LAYER_MIRROR_Y | MSQ_LAYER_TRANSPOSE;
+  if (flags & ~all)
+    fail(Status::argument, "orientation is %u; it must be a sum of msq_layer_orientation", flags);
+  return {(flags & MSQ_LAYER_MIRROR_X) != 0, (flags & MSQ_LAYER_MIRROR_Y) != 0,
+          (flags & MSQ_LAYER_TRANSPOSE) != 0};
 }
 
 double require_not_negative(double value, const char* name) {
@@ -21,7 +43,7 @@ double require_not_negative(double value, const char* name) {
 SlicePlan read_plan(const msq_slicer_def& def) {
   SlicePlan plan;
   plan.format = static_cast<LayerFormat>(
-      require_range(def.output, MSQ_LAYER_BITS, MSQ_LAYER_BYTES, "output"));
+      require_range(def.output, MSQ_LAYER_BITS, MSQ_LAYER_MATERIAL, "output"));
   for (int axis = 0; axis < 2; ++axis) {
     plan.pitch[axis] = require_not_negative(def.pitch[axis], "pitch");
     plan.resolution[axis] = def.resolution[axis];
@@ -31,6 +53,10 @@ SlicePlan read_plan(const msq_slicer_def& def) {
   if (!(def.length_scale >= 0))
     fail(Status::argument, "length_scale is %g; it must not be negative", def.length_scale);
   plan.length_scale = def.length_scale;
+  plan.window = read_window(def.window);
+  plan.grey = read_grey(def);
+  plan.orientation = read_orientation(def.orientation);
+  require_reserved(def.reserved, "reserved");
   plan.has_region = require_range(def.has_region, 0, 1, "has_region") != 0;
   for (int axis = 0; axis < 3; ++axis)
     if (!plan.has_region && (def.region_min[axis] != 0 || def.region_max[axis] != 0))
@@ -98,14 +124,20 @@ msq_status msq_slicer_info(const msq_slicer* slicer, msq_slicer_report* report) 
     const SampleGrid& grid = known.grid();
     msq_slicer_report written{};
     written.slab_layers = static_cast<uint32_t>(known.slab_layers());
-    written.width = static_cast<uint32_t>(grid.nx);
-    written.height = static_cast<uint32_t>(grid.ny);
+    written.width = static_cast<uint32_t>(known.width());
+    written.height = static_cast<uint32_t>(known.height());
     written.layer_count = grid.nz;
     written.stride = known.stride();
     written.layer_bytes = known.layer_bytes();
     for (int axis = 0; axis < 2; ++axis) {
       written.origin[axis] = grid.origin[axis];
       written.pitch[axis] = grid.spacing[axis];
+    }
+    const uint64_t counts[3] = {grid.nx, grid.ny, grid.nz};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      written.window.first[axis] = grid.first[axis];
+      written.window.count[axis] = counts[axis];
+      written.whole[axis] = known.whole()[axis];
     }
     write_report(report, written, "report");
   });
@@ -141,10 +173,10 @@ msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t cou
       view.z = layer.z;
       view.data = layer.data;
       view.stride = known.stride();
-      view.width = static_cast<uint32_t>(grid.nx);
-      view.height = static_cast<uint32_t>(grid.ny);
+      view.width = static_cast<uint32_t>(known.width());
+      view.height = static_cast<uint32_t>(known.height());
       view.inside_count = layer.inside_count;
-      const int32_t code = fn(user, &view);
+      const int32_t code = call_host(fn, user, &view);
       if (code != 0)
         throw Error(Status::host,
                     "the layer callback returned " + std::to_string(code) + " at layer " +

@@ -10,7 +10,7 @@ using namespace msq::api;
 
 namespace {
 
-constexpr uint64_t most_pairs = 1 << 20, most_lengths = 4096;
+constexpr uint64_t max_pairs = 1 << 20, max_lengths = 4096;
 
 /// A stratified sample whose strata give standard errors.
 StratifiedPoints read_sample(const msq_points_def* sample) {
@@ -20,9 +20,9 @@ StratifiedPoints read_sample(const msq_points_def* sample) {
          MSQ_POINTS_STRATIFIED);
   require_reserved(known.reserved, "reserved");
   require_reserved(known.reserved2, "reserved2");
-  if (known.per_cell < 2 || known.per_cell > PointSet::most_in_part)
+  if (known.per_cell < 2 || known.per_cell > PointSet::max_in_part)
     fail(Status::argument, "per_cell is %u; for standard errors it must be from 2 to %llu",
-         known.per_cell, static_cast<unsigned long long>(PointSet::most_in_part));
+         known.per_cell, static_cast<unsigned long long>(PointSet::max_in_part));
   return StratifiedPoints(read_strata(known));
 }
 
@@ -64,6 +64,10 @@ class Asked {
   }
 
   const Scales& resolved() const { return resolved_; }
+  /// Throws Error(limit) where a model of all space cannot be asked so far around the sample.
+  void require_reach(double around) const {
+    msq::require_reach(model_, resolved_, sample_, around);
+  }
   StatisticsOf of() const { return {model_, resolved_, query_.plan, sample_, of_void_}; }
 
  private:
@@ -86,10 +90,10 @@ Segments read_segments(const msq_segments_def& def) {
       fail(Status::argument, "direction is (%g, %g, %g); it is too short to be one",
            def.direction[0], def.direction[1], def.direction[2]);
   }
-  if (def.length_count < 1 || def.length_count > most_lengths)
+  if (def.length_count < 1 || def.length_count > max_lengths)
     fail(Status::argument, "length_count is %llu; it must be from 1 to %llu",
          static_cast<unsigned long long>(def.length_count),
-         static_cast<unsigned long long>(most_lengths));
+         static_cast<unsigned long long>(max_lengths));
   require(def.lengths, "lengths");
   for (uint64_t i = 0; i < def.length_count; ++i) {
     const double length = def.lengths[i];
@@ -104,7 +108,7 @@ Segments read_segments(const msq_segments_def& def) {
 /// The step of a lineal path. Throws Error(limit) where segments would have more of them than make
 /// sense.
 double read_step(const msq_segments_def& def, const Segments& segments, const Asked& asked) {
-  constexpr double most_steps = 1e6, usual_steps = 256;
+  constexpr double max_steps = 1e6, usual_steps = 256;
   const double longest = *std::max_element(segments.lengths.begin(), segments.lengths.end());
   double step = def.step;
   if (!(step >= 0) || !std::isfinite(step))
@@ -112,12 +116,12 @@ double read_step(const msq_segments_def& def, const Segments& segments, const As
   if (step == 0) {
     step = longest;
     for (const Scale* scale : asked.resolved())
-      step = std::min(step, scale->structure->characteristic_length());
+      step = std::min(step, scale->structure->cell_length());
     step /= usual_steps;
   }
-  if (longest > step * most_steps)
+  if (longest > step * max_steps)
     fail(Status::limit, "a length is %g, and step %g; the limit is %g steps", longest, step,
-         most_steps);
+         max_steps);
   return step;
 }
 
@@ -132,6 +136,7 @@ void ask_segments(const msq_model* model, const msq_points_def* sample, const ms
     fail(Status::argument, "estimate_count is %llu; there are %zu lengths",
          static_cast<unsigned long long>(estimate_count), segments.lengths.size());
   require(estimates, "estimates");
+  asked.require_reach(*std::max_element(segments.lengths.begin(), segments.lengths.end()));
   Job* work = job ? &object(job, "job") : nullptr;
   JobScope scope(work);
   const std::vector<Estimate> found = ask(asked, known, segments, work);
@@ -154,13 +159,15 @@ msq_status msq_structure_calibrate(msq_context* context, const msq_structure* st
     const StratifiedPoints points = sample ? read_sample(sample) : usual_sample(known);
     if (!(target >= 0 && target <= 1))
       fail(Status::argument, "target is %g; it must be from 0 to 1", target);
-    if (pair_count == 1 || pair_count > most_pairs)
+    if (pair_count == 1 || pair_count > max_pairs)
       fail(Status::argument, "pair_count is %llu; it must be 0, or from 2 to %llu",
-           static_cast<unsigned long long>(pair_count),
-           static_cast<unsigned long long>(most_pairs));
+           static_cast<unsigned long long>(pair_count), static_cast<unsigned long long>(max_pairs));
     if (pair_count > 0) {
       require(parameters, "parameters");
       require(fractions, "fractions");
+    } else if (parameters || fractions) {
+      fail(Status::argument, "pair_count is 0; %s must be NULL then",
+           parameters ? "parameters" : "fractions");
     }
     msq_calibration_report found{};
     if (report) {
@@ -171,20 +178,20 @@ msq_status msq_structure_calibrate(msq_context* context, const msq_structure* st
     JobScope scope(work);
     const Executor& executor = owner.executor_for(known.is_concurrent());
     const Calibration curve(known, points, executor, owner.budget, work);
-    if (target > curve.most_fraction())
+    if (target > curve.max_fraction())
       fail(Status::limit, "target is %g; the greatest parameter, %g, has a fraction of %g", target,
-           known.onset_limit(), curve.most_fraction());
-    if (curve.most_fraction() == 0)
+           known.onset_limit(), curve.max_fraction());
+    if (curve.max_fraction() == 0)
       fail(Status::limit, "no parameter up to %g makes any of %llu points solid",
            known.onset_limit(), static_cast<unsigned long long>(curve.count()));
     found.samples = curve.count();
-    found.most_fraction = curve.most_fraction();
+    found.max_fraction = curve.max_fraction();
     found.parameter = curve.parameter(target);
     const Estimate at = curve.fraction(found.parameter);
     found.fraction = given(at);
     for (uint64_t i = 0; i < pair_count; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(pair_count - 1);
-      fractions[i] = part * curve.most_fraction();
+      fractions[i] = part * curve.max_fraction();
       parameters[i] = curve.parameter(fractions[i]);
     }
     if (report) write_report(report, found, "report");
@@ -198,6 +205,7 @@ msq_status msq_volume_fraction(const msq_model* model, const msq_points_def* sam
   return guard([&] {
     const Asked asked(model, sample, query, phase);
     require(estimate, "estimate");
+    asked.require_reach(0);
     Job* work = job ? &object(job, "job") : nullptr;
     JobScope scope(work);
     *estimate = given(volume_fraction(asked.of(), work));

@@ -5,8 +5,8 @@
 
 namespace msq::api {
 
-Parameter read_radius(const msq_param& radius, const Neighbourhood& grid, double most_cells,
-                      double most_factor) {
+Parameter read_radius(const msq_param& radius, const Neighbourhood& grid, double max_cells,
+                      double max_factor) {
   Parameter read;
   if (radius.field) {
     read = Parameter(Ref<const Field>(&object(radius.field, "radius.field")));
@@ -18,11 +18,11 @@ Parameter read_radius(const msq_param& radius, const Neighbourhood& grid, double
   } else {
     read = Parameter(require_positive(radius.value, "radius"));
   }
-  const double most = most_cells * min_component(grid.cell_size);
-  const double reached = most_factor * read.range().high;
+  const double most = max_cells * min_component(grid.cell_size);
+  const double reached = max_factor * read.range().high;
   if (reached > most)
     fail(Status::limit, "radius%s reaches %g; the limit is %g (%g times the smallest cell size)",
-         most_factor == 1 ? "" : " times the greatest strut factor", reached, most, most_cells);
+         max_factor == 1 ? "" : " times the greatest strut factor", reached, most, max_cells);
   return read;
 }
 

@@ -8,9 +8,9 @@
 
 namespace msq::api {
 
-/// Throws Error where it makes no sense, and where it reaches more than `most_cells` of the
+/// Throws Error where it makes no sense, and where it reaches more than `max_cells` of the
 /// smallest cell size for a strut of the greatest factor.
-Parameter read_radius(const msq_param& radius, const Neighbourhood& grid, double most_cells,
-                      double most_factor = 1);
+Parameter read_radius(const msq_param& radius, const Neighbourhood& grid, double max_cells,
+                      double max_factor = 1);
 
 }  // namespace msq::api

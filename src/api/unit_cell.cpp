@@ -5,14 +5,14 @@
 #include <set>
 
 #include "api/guard.h"
-#include "structure/lattice/unit_cell_faces.h"
+#include "structure/lattice/cell/unit_cell_faces.h"
 
 using namespace msq;
 using namespace msq::api;
 
 namespace {
 
-constexpr double least_factor = 1e-3, most_factor = 1e3;
+constexpr double min_factor = 1e-3, max_factor = 1e3;
 
 unsigned long long number(uint64_t n) {
   return static_cast<unsigned long long>(n);
@@ -20,9 +20,9 @@ unsigned long long number(uint64_t n) {
 
 UnitCell read_custom(const msq_unit_cell_def& def) {
   const auto check_count = [](uint64_t count, const char* name) {
-    if (count < 1 || count > most_custom)
+    if (count < 1 || count > max_custom)
       fail(Status::argument, "%s is %llu; it must be from 1 to %llu", name, number(count),
-           number(most_custom));
+           number(max_custom));
   };
   check_count(def.node_count, "node_count");
   check_count(def.strut_count, "strut_count");
@@ -94,9 +94,9 @@ UnitCell read_unit_cell(const msq_unit_cell_def& def) {
          number(def.strut_count), number(cell.struts.size()));
   for (uint64_t i = 0; i < def.strut_count; ++i) {
     const double factor = def.strut_factors[i];
-    if (!(factor >= least_factor && factor <= most_factor))
+    if (!(factor >= min_factor && factor <= max_factor))
       fail(Status::argument, "the factor of strut %llu is %g; it must be from %g to %g", number(i),
-           factor, least_factor, most_factor);
+           factor, min_factor, max_factor);
     cell.factors.push_back(factor);
   }
   return cell;

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "msq.h"
-#include "structure/lattice/unit_cell.h"
+#include "structure/lattice/cell/unit_cell.h"
 
 namespace msq::api {
 
 /// Nodes, and struts, of all unit cells of a lattice.
-constexpr uint64_t most_custom = 4096;
+constexpr uint64_t max_custom = 4096;
 
 msq_unit_cell_def unit_cell_defaults();
 

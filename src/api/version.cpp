@@ -2,7 +2,7 @@
 #include "api/guard.h"
 #include "base/simd.h"
 #include "io/mesh_file.h"
-#include "structure/foam/delaunay.h"
+#include "structure/foam/paper/delaunay.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -15,7 +15,7 @@ msq_status msq_build_info(msq_build_report* report) {
   return guard([&] {
     msq_build_report known{};
     known.version = MSQ_VERSION;
-    known.with_assimp = can_read_mesh_files();
+    known.with_assimp = can_read_all_mesh_files();
     known.with_cgal = can_triangulate();
     // Assimp, pugixml, minizip, oneTBB and Highway are under licences that ask for no more than
     // Apache-2.0 does; CGAL's triangulations are under the GPL.

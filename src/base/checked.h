@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Products of sizes that cannot overflow unseen.
+// Products of sizes that report overflow.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lanes of a mask moved to the front of vectors. Included once for each instruction set.
+// Moves the lanes of a mask to the front of vectors. Included once for each instruction set.
 #if defined(MSQ_BASE_COMPRESS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_BASE_COMPRESS_INL_H
 #undef MSQ_BASE_COMPRESS_INL_H
@@ -17,7 +17,7 @@
 #include <cstdint>
 namespace msq {
 
-/// For each mask of eight lanes, those lanes, then any.
+/// For each mask of eight lanes: the indices of its lanes, then arbitrary ones.
 inline constexpr auto compress_8_lanes = [] {
   std::array<std::array<uint8_t, 8>, 256> table{};
   for (size_t mask = 0; mask < 256; ++mask)
@@ -33,8 +33,8 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 
-/// hwy::Compress for several vectors of 32-bit lanes and one mask. The results are stored by the
-/// caller: a compressing store to memory is microcode on some processors.
+/// hwy::Compress for several vectors of 32-bit lanes and one mask. The caller stores the results: a
+/// compressing store to memory is microcode on some processors.
 template <class D>
 class Compression {
  public:

@@ -4,18 +4,34 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 #include "base/ray.h"
 
 namespace msq {
 
-/// Calls visit(index, from, to) for the cells of a grid that a ray, in the grid's frame, crosses in
-/// [from, to], and for where it does: until that answers false. `start`: the ray's point at `from`.
-/// Source: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", 1987; each
-/// crossing from its plane, so that nothing adds up.
+/// Cells farther from the origin than this along an axis are not distinguished.
+constexpr double max_walked_index = 0x1p52;
+
+/// The index of the cell that contains a coordinate; an arbitrary index for NaN.
+inline int64_t walked_index(double coordinate, double size) {
+  const double index = std::floor(coordinate / size);
+  if (!(index > -max_walked_index)) return -static_cast<int64_t>(max_walked_index);
+  return static_cast<int64_t>(std::min(index, max_walked_index));
+}
+
+/// Calls visit(index, from, to) for each grid cell that a ray crosses in [from, to], with the part
+/// of the ray in that cell, until visit returns false. The ray is in the grid's frame. `start` and
+/// `end` are its points at `from` and `to`. Stops early, by Error(cancelled), with the job.
+/// Source: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", 1987. Each
+/// crossing is computed from its plane, so that errors do not add up.
+///
+/// Rounding may put a crossing and the cells of start and end on different sides of a plane. So the
+/// steps along each axis are at most two more than the difference of the two cells' indices.
 template <class Visit>
-void walk_grid(const Ray& ray, Vec3 start, Vec3 size, double from, double to, Visit&& visit) {
+void walk_grid(const Ray& ray, Vec3 start, Vec3 end, Vec3 size, double from, double to,
+               const Job* job, Visit&& visit) {
   const Vec3 along = ray.direction;
   int64_t index[3];
   double next[3];
@@ -24,16 +40,20 @@ void walk_grid(const Ray& ray, Vec3 start, Vec3 size, double from, double to, Vi
     return along[axis] == 0 ? std::numeric_limits<double>::infinity()
                             : (plane - ray.origin[axis]) / along[axis];
   };
+  int64_t steps = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    index[axis] = static_cast<int64_t>(std::floor(start[axis] / size[axis]));
+    index[axis] = walked_index(start[axis], size[axis]);
+    steps += std::abs(walked_index(end[axis], size[axis]) - index[axis]) + 2;
     next[axis] = crossing(axis);
   }
-  while (true) {
+  JobPoll poll(job);
+  for (; steps >= 0; --steps) {
+    poll();
     const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-    const double end = std::max(from, std::min(next[axis], to));
+    const double until = std::max(from, std::min(next[axis], to));
     const int64_t(&cell)[3] = index;
-    if (!visit(cell, from, end) || next[axis] >= to) return;
-    from = end;
+    if (!visit(cell, from, until) || next[axis] >= to) return;
+    from = until;
     index[axis] += along[axis] > 0 ? 1 : -1;
     next[axis] = crossing(axis);
   }

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// What objects that the host defines have in common. Their callbacks come as functions made in
-// src/api, which throw Error(host) where the host's code asks to stop.
+// What all objects that the host defines share. Their callbacks are functions made in src/api,
+// which throw Error(host) if the host's return code stops the work.
 #pragma once
 
+#include "base/call.h"
 #include "base/status.h"
 #include "base/vec.h"
 
 namespace msq {
 
-// Points go to the host as they are.
+// Points are passed to the host without conversion.
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
-/// The host's own pointer, for as long as the callbacks may be called with it.
+/// The host's own pointer. It lives as long as the callbacks may be called with it.
 class HostUser {
  public:
   HostUser() = default;
   HostUser(const HostUser&) = delete;
   HostUser& operator=(const HostUser&) = delete;
   ~HostUser() {
-    if (release_) release_(user_);
+    if (release_) call_host(release_, user_);
   }
 
-  /// From now on the host's function, which may be null, is called with the pointer at the end.
+  /// Takes ownership: at the end, calls `release`, which may be null, with the pointer.
   void own(void* user, void (*release)(void* user)) {
     user_ = user;
     release_ = release;
@@ -32,7 +33,7 @@ class HostUser {
   void (*release_)(void* user) = nullptr;
 };
 
-/// Most points that a callback is given at once.
+/// Maximum number of points per callback.
 constexpr size_t host_batch = 4096;
 
 }  // namespace msq

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 
-/// Bit i is that of lane i; a vector has at most 64 lanes.
+/// Bit i is lane i; a vector has at most 64 lanes.
 template <class D>
 HWY_INLINE uint64_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
   uint8_t bytes[8];
@@ -33,11 +33,11 @@ HWY_INLINE uint64_t bits_of(D d, hwy::HWY_NAMESPACE::Mask<D> mask) {
   return bits;
 }
 
-/// The lanes that the lowest bits tell.
+/// The mask whose lanes are the lowest bits.
 template <class D>
 HWY_INLINE hwy::HWY_NAMESPACE::Mask<D> lanes_of(D d, uint64_t bits) {
   uint8_t bytes[8];
-  std::memcpy(bytes, &bits, sizeof bytes);  // as LoadMaskBits has it: the first lanes first
+  std::memcpy(bytes, &bits, sizeof bytes);  // the order of LoadMaskBits: the first lanes first
   return hwy::HWY_NAMESPACE::LoadMaskBits(d, bytes);
 }
 

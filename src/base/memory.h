@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Accounting of the large allocations of a context against its memory limit.
+// Counts the large allocations of a context against its memory limit.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,12 @@ class MemoryBudget {
  public:
   explicit MemoryBudget(uint64_t limit) : limit_(limit) {}
 
-  /// Where take() may get bytes back: called with no lock held, answers whether it gave any back.
+  /// Sets the function that gives bytes back when take() needs them. It is called with no lock
+  /// held, and returns whether it gave any back.
   void set_reserve(std::function<bool()> give_way) { give_way_ = std::move(give_way); }
 
-  /// Throws Error(limit), which names `what`, if the bytes would pass the limit even when the
-  /// reserve has given way.
+  /// Throws Error(limit), which names `what`, if the bytes exceed the limit even after the reserve
+  /// gave bytes back.
   void take(uint64_t bytes, const char* what) {
     while (!try_take(bytes))
       if (!give_way_ || !give_way_())
@@ -31,7 +32,7 @@ class MemoryBudget {
             what, static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(held()),
             static_cast<unsigned long long>(limit_));
   }
-  /// Answers false if the bytes would pass the limit.
+  /// Returns false if the bytes exceed the limit.
   bool try_take(uint64_t bytes) {
     std::lock_guard lock(mutex_);
     if (limit_ && (bytes > limit_ || held_ > limit_ - bytes)) return false;

@@ -9,18 +9,43 @@
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
+#include <new>
 #include <optional>
-#include <thread>
+#include <utility>
+
+#include "base/call.h"
+#include "base/work_shares.h"
 
 namespace msq {
 
-struct Executor::Arena {
-  Arena(int slots, bool beyond_cores) : arena(slots) {
+class Executor::Arena {
+ public:
+  Arena(int slots, bool beyond_cores) : slots_(slots), arena_(slots) {
     if (beyond_cores)
-      allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(slots));
+      allowed_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(slots));
   }
-  std::optional<tbb::global_control> allowed;
-  tbb::task_arena arena;
+
+  /// Runs body(), which does not throw, as a thread of the arena, or lets one of its threads run
+  /// it.
+  template <class Body>
+  void execute(const Body& body) {
+    start();
+    arena_.execute(body);
+  }
+
+ private:
+  // Starts the arena explicitly. If the start at the first use fails, the second use never ends.
+  void start() {
+    if (arena_.is_active()) return;
+    std::lock_guard lock(starting_);
+    if (!arena_.is_active()) arena_.initialize(slots_);
+  }
+
+  const int slots_;
+  std::mutex starting_;
+  std::optional<tbb::global_control> allowed_;
+  tbb::task_arena arena_;
 };
 
 Executor::Executor(unsigned threads, bool beyond_cores) : threads_(threads) {
@@ -37,25 +62,51 @@ void Executor::for_each(uint64_t count, const std::function<void(uint64_t)>& bod
     for (uint64_t i = 0; i < count; ++i) body(i);
     return;
   }
-  arena_->arena.execute([&] {
-    // Isolated: a thread that waits here may not take up other work of the arena. It could be a
-    // wait for the very task that this loop is part of (Task::wait, handed over by a caller who
-    // found the arena full), which would then never end.
-    tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(tbb::blocked_range<uint64_t>(0, count, 1),
-                        [&](const tbb::blocked_range<uint64_t>& range) {
-                          for (uint64_t i = range.begin(); i != range.end(); ++i) body(i);
-                        });
+  const CallState call;
+  WorkShares shares(count, threads_, body);
+  const auto share_out = [&] {
+    tbb::parallel_for(
+        tbb::blocked_range<size_t>(0, shares.shares(), 1),
+        [&](const tbb::blocked_range<size_t>& range) {
+          const TaskScope scope(call);
+          for (size_t s = range.begin(); s != range.end(); ++s) shares.work(s);
+        },
+        tbb::simple_partitioner());
+  };
+  // An exception of the thread library itself, for example if a thread cannot be started, leaves
+  // the work to the existing threads.
+  try {
+    arena_->execute([&] {
+      // Isolated: a thread that waits here must not take other work of the arena. That work could
+      // wait for the very task that this loop is part of (Task::wait, which a caller passes to the
+      // arena when the arena is full), and would then never end.
+      try {
+        tbb::this_task_arena::isolate(share_out);
+      } catch (...) {
+      }
     });
-  });
+  } catch (...) {
+  }
+  shares.work(0);
+  shares.rethrow();
 }
 
+/// The first to come does the work: a thread of the library, or the thread that waits for it.
 struct Executor::Task::State {
   const Executor* executor = nullptr;
   std::function<void()> body;
-  tbb::task_group group;
+  std::atomic<bool> is_taken{false};
   std::exception_ptr error;
-  bool done = false;
+  tbb::task_group group;
+
+  void work() noexcept {
+    if (is_taken.exchange(true)) return;
+    try {
+      body();
+    } catch (...) {
+      error = std::current_exception();
+    }
+  }
 };
 
 Executor::Task::Task(const Executor& executor, std::function<void()> body)
@@ -64,31 +115,40 @@ Executor::Task::Task(const Executor& executor, std::function<void()> body)
   state->executor = &executor;
   state->body = std::move(body);
   if (!executor.arena_) return;
-  // The exception is carried by hand: a task group that rethrows would also cancel its siblings.
-  executor.arena_->arena.execute([state] {
-    state->group.run([state] {
-      try {
-        state->body();
-      } catch (...) {
-        state->error = std::current_exception();
-      }
-    });
+  bool is_left = false;
+  executor.arena_->execute([state, &is_left, call = CallState()] {
+    try {
+      state->group.run([state, call] {
+        const TaskScope scope(call);
+        state->work();
+      });
+    } catch (const std::bad_alloc&) {
+      is_left = true;
+    } catch (...) {
+      // A thread cannot be started: the existing ones do the work.
+    }
   });
+  if (!is_left) return;
+  // The group would wait forever for the allocation that failed: it is left as it is.
+  state_.release();
+  throw std::bad_alloc();
 }
 
 Executor::Task::~Task() {
-  if (!state_->done && state_->executor->arena_)
-    state_->executor->arena_->arena.execute([this] { state_->group.wait(); });
+  if (is_finished_) return;
+  state_->is_taken = true;  // work that has not begun never will
+  finish();
 }
 
 void Executor::Task::wait() {
-  state_->done = true;
-  if (!state_->executor->arena_) {
-    state_->body();
-    return;
-  }
-  state_->executor->arena_->arena.execute([this] { state_->group.wait(); });
-  if (state_->error) std::rethrow_exception(state_->error);
+  state_->work();
+  finish();
+  is_finished_ = true;
+  if (state_->error) std::rethrow_exception(std::exchange(state_->error, nullptr));
+}
+
+void Executor::Task::finish() {
+  if (state_->executor->arena_) state_->executor->arena_->execute([this] { state_->group.wait(); });
 }
 
 }  // namespace msq

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The normal of a solid of which nothing but membership is known.
+// The normal of a solid from its membership alone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
+#include "base/borrowed.h"
 #include "base/ray.h"
 
 namespace msq {
@@ -27,18 +30,26 @@ inline const DirectionsAllAround& directions_all_around() {
   return directions;
 }
 
-/// For each search the mean direction of the points outside, among points all around at `distance`
-/// from where the ray is at t; the direction back along the ray where they say nothing. Searches
-/// that are not wanted(search) are left alone. keep(points, inside, count) sets inside[i], which is
-/// 1, to 0 where a point is outside.
+/// Points around rays, and whether they are inside.
+struct PointsAllAround {
+  std::vector<Vec3> points;
+  std::vector<uint8_t> inside;
+};
+
+/// Computes a normal for each search: the mean direction of the points outside, among points all
+/// around at `distance` from the ray's point at t. If they give no direction, the normal points
+/// back along the ray. Searches for which wanted(search) is false are left unchanged. keep(points,
+/// inside, count) sets inside[i], which is 1, to 0 if point i is outside.
 template <class Keep, class Wanted>
 void normals_by_membership(Keep&& keep, RaySearch* searches, size_t count, double distance,
                            Wanted&& wanted) {
   const auto& directions = directions_all_around();
   constexpr size_t around = std::tuple_size_v<DirectionsAllAround>;
   constexpr size_t at_once = 64;  // rays
-  Vec3 points[at_once * around];
-  uint8_t inside[at_once * around];
+  const Borrowed<PointsAllAround> borrowed;
+  auto& [points, inside] = *borrowed;
+  points.resize(std::min(count, at_once) * around);
+  inside.resize(points.size());
   RaySearch* asked[at_once];
   size_t size = 0;
   for (size_t i = 0; i < count; ++i) {
@@ -51,14 +62,14 @@ void normals_by_membership(Keep&& keep, RaySearch* searches, size_t count, doubl
       asked[size++] = &searches[i];
     }
     if (size < (i + 1 < count ? at_once : 1)) continue;
-    keep(points, inside, size * around);
+    keep(points.data(), inside.data(), size * around);
     for (size_t n = 0; n < size; ++n) {
       Vec3 sum;
       for (size_t k = 0; k < around; ++k)
         if (!inside[n * around + k]) sum = sum + directions[k];
       const Vec3 along = asked[n]->ray.direction;
       const double length_of_sum = length(sum);
-      // Against the ray, as it enters.
+      // Against the ray's direction, because the ray enters.
       asked[n]->normal =
           length_of_sum > 0.5 && dot(sum, along) < 0 ? sum * (1 / length_of_sum) : along * -1.0;
     }
@@ -66,7 +77,7 @@ void normals_by_membership(Keep&& keep, RaySearch* searches, size_t count, doubl
   }
 }
 
-/// Of one ray.
+/// The same for one ray.
 template <class Keep>
 Vec3 normal_by_membership_of_all(Keep&& keep, const Ray& ray, double t, double distance) {
   RaySearch search{ray, t, t, true, t};

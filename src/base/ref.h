@@ -30,7 +30,7 @@ template <class T>
 class Ref {
  public:
   Ref() = default;
-  /// Shares ownership of an object that someone else holds.
+  /// Shares ownership of an object that already has an owner.
   explicit Ref(T* object) : object_(object) {
     if (object_) object_->retain();
   }
@@ -47,13 +47,13 @@ class Ref {
     if (object_) object_->release();
   }
 
-  /// Takes over the reference that a new object is born with.
+  /// Takes over the first reference of a new object.
   static Ref adopt(T* object) {
     Ref ref;
     ref.object_ = object;
     return ref;
   }
-  /// Gives the reference away, to a handle of the C ABI.
+  /// Releases the reference to a handle of the C ABI.
   T* detach() { return std::exchange(object_, nullptr); }
 
   T* get() const { return object_; }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a long call: in parallel, until the job is cancelled, and the progress that they
-// are.
+// The parts of a long call, in parallel, with cancellation and progress.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +12,12 @@
 
 namespace msq {
 
-/// Calls work(i) for i in [0, count), in parallel and in any order. The progress of the job, which
-/// may be null, goes from low to high of `progress` meanwhile.
+/// Calls work(i) for i in [0, count), in parallel and in any order. Meanwhile the progress of the
+/// job, which may be null, runs from low to high of `progress`.
 template <class Work>
 void run_parts(const Executor& executor, uint64_t count, Job* job, Interval progress, Work&& work) {
-  constexpr uint64_t most_reports = 1024;
-  const uint64_t between = std::max<uint64_t>(1, count / most_reports);
+  constexpr uint64_t max_reports = 1024;
+  const uint64_t between = std::max<uint64_t>(1, count / max_reports);
   std::atomic<uint64_t> done{0};
   if (job) job->raise_progress(progress.low);
   executor.for_each(count, [&](uint64_t i) {

@@ -2,6 +2,9 @@
 // A regular grid of sample points, and blocks of its rows as bits.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,29 +12,87 @@
 
 namespace msq {
 
+/// Index of the first of `count` ascending samples origin + (first + i) * spacing that is >= value
+/// (> value if `beyond`); count if there is none.
+template <bool beyond = false>
+uint64_t first_sample_from(double origin, double spacing, uint64_t first, uint64_t count,
+                           double value) {
+  const auto reached = [&](uint64_t i) {
+    const double x = origin + static_cast<double>(first + i) * spacing;
+    return beyond ? x > value : x >= value;
+  };
+  const double guess = std::ceil((value - origin) / spacing) - static_cast<double>(first);
+  uint64_t i = guess <= 0                            ? 0
+               : guess >= static_cast<double>(count) ? count
+                                                     : static_cast<uint64_t>(guess);
+  while (i > 0 && reached(i - 1)) --i;
+  while (i < count && !reached(i)) ++i;
+  return i;
+}
+
 /// Samples (i, j, k) at (x(i), y(j), z(k)). These three expressions are the sample positions, to
-/// the last bit, on every path. Layers are evenly spaced or listed.
+/// the last bit, on every path. Layers are evenly spaced or listed. The samples may be a window of
+/// a larger grid: positions are those of the larger one.
 struct SampleGrid {
   Vec3 origin;
   Vec3 spacing{1, 1, 1};
   uint64_t nx = 0, ny = 0, nz = 0;
-  const double* heights = nullptr;  ///< nz ascending z, in place of origin.z + k * spacing.z
+  /// Ascending z of the layers of the whole grid, in place of origin.z + k * spacing.z.
+  const double* heights = nullptr;
+  std::array<uint64_t, 3> first{};  ///< sample (0, 0, 0) in the whole grid
 
-  double x(uint64_t i) const { return origin.x + static_cast<double>(i) * spacing.x; }
-  double y(uint64_t j) const { return origin.y + static_cast<double>(j) * spacing.y; }
+  double x(uint64_t i) const { return origin.x + static_cast<double>(first[0] + i) * spacing.x; }
+  double y(uint64_t j) const { return origin.y + static_cast<double>(first[1] + j) * spacing.y; }
   double z(uint64_t k) const {
+    k += first[2];
     return heights ? heights[k] : origin.z + static_cast<double>(k) * spacing.z;
   }
   Vec3 at(uint64_t i, uint64_t j, uint64_t k) const { return {x(i), y(j), z(k)}; }
+
+  /// Index of the first sample along an axis that is >= value (> value if `beyond`); the number of
+  /// samples if there is none.
+  template <bool beyond = false>
+  uint64_t first_x_from(double value) const {
+    return first_sample_from<beyond>(origin.x, spacing.x, first[0], nx, value);
+  }
+  template <bool beyond = false>
+  uint64_t first_y_from(double value) const {
+    return first_sample_from<beyond>(origin.y, spacing.y, first[1], ny, value);
+  }
+
+  /// The largest number that positions are computed from.
+  double magnitude() const {
+    const Vec3 last{static_cast<double>(first[0] + nx), static_cast<double>(first[1] + ny),
+                    static_cast<double>(first[2] + nz)};
+    double largest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      largest = std::max(largest, std::abs(origin[axis]) + last[axis] * spacing[axis]);
+    return largest;
+  }
+  /// Exceeds the difference of x(i) and x(j) + (i - j) * spacing.x, and likewise along y and z.
+  /// Each of the two products and the two sums is rounded, by at most 2^-53 of magnitude().
+  double rounding() const { return 0x1p-50 * magnitude(); }
 };
+
+/// A part of a grid, by the indices of its samples. All zeros: the whole.
+struct SampleWindow {
+  std::array<uint64_t, 3> first{}, count{};
+
+  bool is_whole() const { return *this == SampleWindow{}; }
+  friend bool operator==(const SampleWindow&, const SampleWindow&) = default;
+};
+
+/// A window of a whole grid; the grid itself if the window is all zeros. Throws Error(argument) if
+/// the window is empty or reaches beyond the grid.
+SampleGrid window_of(const SampleGrid& whole, const SampleWindow& window);
 
 constexpr size_t bits_per_word = 64;
 inline size_t words_for(uint64_t bits) {
   return (bits + bits_per_word - 1) / bits_per_word;
 }
 
-/// Rows j in [y0, y1) of layers k in [z0, z1) of a grid, all x, one bit a sample: sample i is bit
-/// i % 64 of word i / 64; bits past nx are 0. A view: the words belong to someone else.
+/// Rows j in [y0, y1) of layers k in [z0, z1) of a grid, all x, one bit per sample. Sample i is bit
+/// i % 64 of word i / 64; bits past nx are 0. This is a view: it does not own the words.
 struct RowBlock {
   const SampleGrid* grid = nullptr;
   uint64_t y0 = 0, y1 = 0, z0 = 0, z1 = 0;
@@ -59,23 +120,6 @@ inline void set_bits(uint64_t* row, uint64_t first, uint64_t last) {
   row[a] |= head;
   for (uint64_t w = a + 1; w < b; ++w) row[w] = ~uint64_t{0};
   row[b] |= tail;
-}
-
-/// Index of the first of `count` ascending samples origin + i * spacing that is >= value (or
-/// > value, where `beyond`); count if none is.
-template <bool beyond = false>
-uint64_t first_sample_from(double origin, double spacing, uint64_t count, double value) {
-  const auto reached = [&](uint64_t i) {
-    const double x = origin + static_cast<double>(i) * spacing;
-    return beyond ? x > value : x >= value;
-  };
-  const double guess = std::ceil((value - origin) / spacing);
-  uint64_t i = guess <= 0                            ? 0
-               : guess >= static_cast<double>(count) ? count
-                                                     : static_cast<uint64_t>(guess);
-  while (i > 0 && reached(i - 1)) --i;
-  while (i < count && !reached(i)) ++i;
-  return i;
 }
 
 }  // namespace msq

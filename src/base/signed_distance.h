@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How membership and the distance to a boundary make a signed distance.
+// Combines membership and the distance to a boundary into a signed distance.
 #pragma once
 
 #include <algorithm>
@@ -7,11 +7,13 @@
 
 namespace msq {
 
-/// Negative or 0 inside, positive outside, whatever the clearance: a lower bound of the distance to
-/// the boundary that is not negative. Where the bound is 0 outside, the least normal number stands
-/// for it: membership has the last word, and a host that flushes smaller numbers sees the sign too.
-inline double signed_distance(bool inside, double clearance) {
-  return inside ? 0.0 - clearance : std::max(clearance, std::numeric_limits<double>::min());
+/// Negative or 0 inside, positive outside, for any distance bound. distance bound is a non-negative
+/// lower bound on the distance to the boundary. If it is 0 outside, the smallest normal number
+/// replaces it. So the sign always agrees with membership, also in a host that flushes smaller
+/// numbers.
+inline double signed_distance(bool inside, double distance_bound) {
+  return inside ? 0.0 - distance_bound
+                : std::max(distance_bound, std::numeric_limits<double>::min());
 }
 
 }  // namespace msq

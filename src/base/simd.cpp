@@ -8,7 +8,7 @@
 namespace msq {
 
 const char* simd_target_name() {
-  // Targets are bits, the best supported one the lowest.
+  // Targets are bits; the best supported one is the lowest.
   const int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
   return hwy::TargetName(supported & -supported);
 }

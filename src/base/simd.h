@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which vector instructions Highway's runtime dispatch uses. A file with kernels includes
+// Selects the vector instructions for Highway's runtime dispatch. A file with kernels includes
 // hwy/foreach_target.h and hwy/highway.h itself, since both are read once for each target.
 #pragma once
 
@@ -10,11 +10,12 @@
 
 namespace msq {
 
-/// No vector of any instruction set holds more doubles (Scalable Vector Extension: 2048 bits).
-/// Highway's own HWY_MAX_BYTES is that of the target being compiled, not of the one dispatched to.
-constexpr size_t most_simd_doubles = 32;
+/// Upper bound on the doubles in a vector of any instruction set (Scalable Vector Extension: 2048
+/// bits). Highway's own HWY_MAX_BYTES is for the target being compiled, not for the one dispatched
+/// to.
+constexpr size_t max_simd_doubles = 32;
 
-/// Aligned to vectors; not set.
+/// Aligned to vectors; uninitialised.
 using AlignedFloats = hwy::AlignedFreeUniquePtr<float[]>;
 inline AlignedFloats allocate_aligned(size_t floats) {
   AlignedFloats made = hwy::AllocateAligned<float>(floats);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles as they come from a file or a host, before anything is known of them.
+// Triangles as read from a file or passed by a host, before any check.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t entry_overhead = 256;
 }  // namespace
 
-/// What a builder has set aside. Others may take it back until the cell is kept.
+/// The reservation of a builder. Others may take it back until the cell is kept.
 class CellCache::Room {
  public:
   Room(CellCache& cache, const Key& key, uint64_t expected_bytes) : cache_(cache) {
@@ -33,7 +33,7 @@ class CellCache::Room {
   Room(const Room&) = delete;
   Room& operator=(const Room&) = delete;
 
-  // With the cache's mutex held:
+  // Called with the cache's mutex held:
 
   uint64_t bytes() const { return bytes_; }
   void give_back() {
@@ -41,7 +41,7 @@ class CellCache::Room {
     cache_.give_back(bytes_);
     bytes_ = 0;
   }
-  /// Makes it so large; on failure it is as it was.
+  /// Sets the size of the reservation; on failure it is unchanged.
   bool resize(uint64_t bytes) {
     if (bytes > bytes_) {
       if (!cache_.make_room(bytes - bytes_)) return false;
@@ -52,7 +52,7 @@ class CellCache::Room {
     bytes_ = bytes;
     return true;
   }
-  /// Its bytes are those of a kept cell from now on.
+  /// From now on its bytes belong to a kept cell.
   void become_kept() {
     cache_.counters_.building_bytes -= bytes_;
     bytes_ = 0;
@@ -79,7 +79,7 @@ CellCache::Data CellCache::find(const Key& key) {
   }
   part.hits.fetch_add(1, std::memory_order_relaxed);
   Entry& entry = found->second;
-  // Stored once: a line that is only read stays in all cores' caches.
+  // Stored only once: a cache line that is only read stays in the caches of all cores.
   if (!entry.is_fetched_again.load(std::memory_order_relaxed))
     entry.is_fetched_again.store(true, std::memory_order_relaxed);
   if (observer_) observer_(key.structure, key.cell, entry.bytes);
@@ -125,15 +125,15 @@ CellCache::Data CellCache::keep(const Key& key, Data data, uint64_t bytes, Room&
   return data;
 }
 
-/// Up at once, down by and by: rooms are nearly always large enough, and one huge cell does not
-/// make the others of its structure push out many for good.
+/// Raises the expected size at once and lowers it slowly. So nearly all reservations are large
+/// enough, and one huge cell does not make the other cells of its structure evict many for long.
 void CellCache::learn(uint64_t structure, uint64_t bytes) {
   uint64_t& expected = structures_[structure].cell_bytes;
   expected = bytes >= expected ? bytes : expected - (expected - bytes) / 16;
 }
 
-/// Counts so many bytes more, as being built, once others are out of the way. Where even an empty
-/// cache would have no room nothing is evicted: the cells at hand are worth more.
+/// Adds the bytes to those being built, after evicting other cells. Evicts nothing if even an empty
+/// cache has no room: then the present cells are worth more.
 bool CellCache::make_room(uint64_t bytes) {
   Counters& c = counters_;
   if (bytes == 0) return true;
@@ -156,8 +156,8 @@ bool CellCache::evict() {
          evict_of(newcomers_first ? queue_ : newcomers_);
 }
 
-/// Evicts the first in the queue whose turn it is. Those that are in use or spared go to its end,
-/// so that they are not looked at time and again.
+/// Evicts the first cell of the queue that may go. Cells that are in use or spared move to the end,
+/// so that they are not examined again and again.
 bool CellCache::evict_of(Queue& queue) {
   for (size_t looks = 2 * queue.size(); looks > 0 && !queue.empty(); --looks) {
     const auto first = queue.begin();
@@ -186,8 +186,10 @@ bool CellCache::evict_of(Queue& queue) {
 }
 
 bool CellCache::remove(Queue::iterator place, bool even_in_use) {
-  const auto& [key, entry] = **place;
-  // Others may let go of the cell at any time; another use begins only in find(), under the lock.
+  const Key& key = (*place)->first;
+  const Entry& entry = (*place)->second;
+  // Other threads may release the cell at any time. A new use begins only in find(), under the
+  // lock.
   const auto is_in_use = [&] { return !even_in_use && entry.data.use_count() > 1; };
   if (is_in_use()) return false;
   const uint64_t bytes = entry.bytes, structure = key.structure;

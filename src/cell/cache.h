@@ -3,21 +3,22 @@
 // Sources: paper, section "Set Queries for Ray-Casting" (first in, first out); Yang, Zhang, Qiu,
 // Yue and Rashmi, "FIFO queues are all you need for cache eviction", SOSP 2023 (segmented).
 //
-// What the limit covers: at every moment the cells that are kept and the room that builders of
-// cells have set aside take no more bytes than it. A builder sets room aside before it begins, as
-// much as cells of its structure lately took; others go for that. A cell that turns out larger than
-// its room is counted in full from when it is built. Cells in use are not evicted, as that would
-// free nothing, so that the limit covers them too. Beyond it are only cells that no room was found
-// for: they are built all the same, for one caller, and are gone when that lets go of them.
+// The limit bounds, at every moment, the sum of two things: the bytes of the kept cells, and the
+// bytes that builders of cells have reserved. A builder reserves bytes before it begins, as many as
+// recent cells of its structure took. Other cells are evicted for that. A cell that turns out
+// larger than its reservation is counted in full once it is built. Cells in use are not evicted,
+// since that would free no memory, and so the limit covers them too. Only cells for which no bytes
+// could be reserved are beyond the limit. They are built anyway, for one caller, and are deleted
+// when that caller releases them.
 //
-// Who waits for whom: hits share a lock of their part of the table with each other, and it is held
-// alone only to enter or remove one cell, never while one is built or destroyed. Misses meet at
-// the queue, a mutex that is held for the bookkeeping and the destruction of evicted cells.
+// Locks: hits share the lock of their part of the table. That lock is exclusive only to enter or
+// remove one cell, never while one is built or destroyed. Misses meet at the queue, whose mutex is
+// held for the bookkeeping and the destruction of evicted cells.
 //
-// Two threads that miss the same cell both build it, and the first to finish is kept. To wait for
-// the other would win little (half a build on average, and rarely: docs/decisions/017) and could
-// wait for ever: builders may be callbacks of the host that call msq again, and a thread that waits
-// for its own loops takes up other work, which may ask for the very cell that it is building.
+// If two threads miss the same cell, both build it, and the first to finish is kept. Waiting for
+// the other thread would save little (half a build on average, and rarely: docs/decisions/017) and
+// could wait forever: builders may be callbacks of the host that call msq again, and a thread that
+// waits for its own loops takes other work, which may need the very cell that it is building.
 #pragma once
 
 #include <array>
@@ -38,14 +39,14 @@
 
 namespace msq {
 
-/// Its destructor may run under the cache's mutex and must not ask the cache.
+/// The destructor may run under the cache's mutex and must not use the cache.
 class CellData {
  public:
   virtual ~CellData() = default;
   virtual uint64_t bytes() const = 0;
 };
 
-/// Which cells make room. Those in use are passed over by either.
+/// Which cells are evicted. Both policies skip cells in use.
 enum class CachePolicy {
   fifo,      ///< the oldest
   segmented  ///< of newcomers, which have a tenth of the limit, the oldest that was fetched once
@@ -56,10 +57,10 @@ class CellCache {
   struct Counters {
     uint64_t hits = 0, misses = 0, evictions = 0;
     uint64_t bytes = 0, peak_bytes = 0;
-    uint64_t building_bytes = 0;  ///< of `bytes`, what is set aside for cells being built
+    uint64_t building_bytes = 0;  ///< of `bytes`, those reserved for cells being built
     uint64_t cells = 0;           ///< kept now
-    uint64_t duplicates = 0;      ///< built, when another thread had built the cell meanwhile
-    uint64_t unkept = 0;          ///< built, when no room was found
+    uint64_t duplicates = 0;      ///< built while another thread had built the cell
+    uint64_t unkept = 0;          ///< built, but no bytes could be reserved
   };
   using Data = std::shared_ptr<const CellData>;
 
@@ -67,8 +68,9 @@ class CellCache {
             CachePolicy policy = CachePolicy::fifo);
   ~CellCache() { clear(); }
 
-  /// The data of a cell of the structure with this id; on a miss build() makes it, with no lock
-  /// held. `expected_bytes`: of the first cells, until the cache has seen how large they are.
+  /// Returns the data of a cell of the structure with this id. On a miss build() makes it, with no
+  /// lock held. `expected_bytes` is the size of the first cells, until the cache has seen actual
+  /// sizes.
   template <class Build>
   Data fetch(uint64_t structure, CellIndex cell, Build&& build, uint64_t expected_bytes = 0) {
     const Key key(structure, cell);
@@ -77,16 +79,16 @@ class CellCache {
   }
 
   void clear();
-  /// Drops the cells of a structure; looks through those of others until it has them all.
+  /// Drops the cells of a structure. Searches the cells of other structures until all are found.
   void drop(uint64_t structure);
-  /// Gives way: drops a cell, in use or not, or takes back what is set aside for one. False if
-  /// there is nothing left.
+  /// Frees memory: drops a cell, in use or not, or takes back a reservation. Returns false if there
+  /// is nothing left.
   bool drop_oldest();
   Counters counters() const;
   uint64_t limit() const { return limit_; }
 
-  /// For measurements: what is called at the end of each fetch, on its thread, with the bytes that
-  /// the cell takes in the cache. To be set while nothing is fetched.
+  /// For measurements: called at the end of each fetch, on its thread, with the bytes that the cell
+  /// takes in the cache. Set it only while nothing is fetched.
   using Observer = std::function<void(uint64_t structure, CellIndex cell, uint64_t bytes)>;
   void observe(Observer observer) { observer_ = std::move(observer); }
 
@@ -107,14 +109,14 @@ class CellCache {
     Entry(Data what, uint64_t size) : data(std::move(what)), bytes(size) {}
     const Data data;
     const uint64_t bytes;
-    std::atomic<bool> is_fetched_again{false};  // since it came, or was last spared
+    std::atomic<bool> is_fetched_again{false};  // since it was entered or last spared
     bool is_newcomer = false;
   };
   using Table = std::unordered_map<Key, Entry, KeyHash>;
-  /// Of nodes of the tables, the next to go first.
+  /// Nodes of the tables; the first is the next candidate for eviction.
   using Queue = std::list<Table::pointer>;
-  /// A part of the table. Entries are added and removed by whoever holds both mutex_ and the part's
-  /// alone, so that either is enough to read.
+  /// A part of the table. To add or remove an entry, a thread holds both mutex_ and this part's
+  /// lock exclusively. So either lock is enough to read.
   struct alignas(64) Part {
     mutable std::shared_mutex mutex;
     Table table;
@@ -138,22 +140,22 @@ class CellCache {
   const CachePolicy policy_;
   Observer observer_;
   std::array<Part, 64> parts_;
-  /// Of all below.
+  /// Guards all members below.
   mutable std::mutex mutex_;
-  /// Segmented: newcomers that are fetched again, or come back soon, join the queue, where being
-  /// fetched again spares a cell once.
+  /// Segmented policy: newcomers that are fetched again, or come back soon, move to the queue.
+  /// There a repeated fetch spares a cell once.
   Queue queue_, newcomers_;
   uint64_t newcomer_bytes_ = 0;
-  /// Keys, by hash, of the last newcomers that went, half as many as there are cells.
+  /// Keys, by hash, of the last evicted newcomers, half as many as there are cells.
   std::unordered_set<size_t> gone_;
   std::deque<size_t> gone_queue_;
   std::vector<Room*> rooms_;
   struct OfStructure {
-    uint64_t cell_bytes = 0;  // to expect of its next cell
+    uint64_t cell_bytes = 0;  // expected size of its next cell
     uint64_t cells = 0;       // kept now
   };
   std::unordered_map<uint64_t, OfStructure> structures_;
-  Counters counters_;  // but hits and misses
+  Counters counters_;  // except hits and misses
 };
 
 }  // namespace msq

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hashes of cells, for tables of what is known of them.
+// Hashes of cells, for tables of per-cell data.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace msq {
 
-/// `key`: whose cell it is, where a table holds those of several.
+/// `key` identifies the owner of the cell, in tables for several owners.
 inline uint64_t hash_of(CellIndex cell, uint64_t key = 0) {
   const uint64_t yz =
       static_cast<uint32_t>(cell.y) | static_cast<uint64_t>(static_cast<uint32_t>(cell.z)) << 32;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the objects of one host share: threads, memory limit and the cache of cell data.
+// State that the objects of one host share: threads, memory limit and the cache of cell data.
 #pragma once
 
 #include <atomic>
 #include <memory>
 
+#include "base/borrowed.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/ref.h"
@@ -19,18 +20,19 @@ class Context : public RefCounted {
       : executor(threads, beyond_cores),
         budget(std::make_shared<MemoryBudget>(memory_limit)),
         cache(cache_bytes, budget, policy) {
-    // Cached cells make room for what a call must have, so that what a call can do does not depend
-    // on the calls before it.
+    // Cached cells make room for memory that a call requires. So the success of a call does not
+    // depend on earlier calls.
     budget->set_reserve([this] { return cache.drop_oldest(); });
   }
   ~Context() override { budget->set_reserve(nullptr); }
 
-  /// The threads that may ask an object.
+  /// The threads that may evaluate an object.
   const Executor& executor_for(bool is_concurrent) const {
     return is_concurrent ? executor : serial;
   }
 
-  /// A number that no other structure of this context has: its name in the cache.
+  /// A number that no other structure of this context has. It identifies the structure in the
+  /// cache.
   uint64_t new_structure_id() { return next_id_.fetch_add(1, std::memory_order_relaxed); }
 
   const Executor executor;
@@ -40,6 +42,7 @@ class Context : public RefCounted {
   CellCache cache;
 
  private:
+  const KeepsMemory keeps_memory_;
   std::atomic<uint64_t> next_id_{1};
 };
 

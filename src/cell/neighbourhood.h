@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The neighbourhood grid of a structure, and the canonical map from a point to (cell, position
-// in the cell). Every path goes through locate(), so all start from the same bits.
+// The neighbourhood grid of a structure, and the canonical map from a point to (cell, position in
+// the cell). Every path uses locate(), so all start from the same bits.
 // Source: paper, section "Multiscale Shape-Material Modeling API".
 #pragma once
 
@@ -20,7 +20,7 @@ struct CellIndex {
   }
 };
 
-/// Cell indices stay below this in magnitude; Model checks it once for the coarse shape's box.
+/// Bound on the magnitude of cell indices. Model checks it once for the coarse shape's box.
 constexpr double max_cell_index = 1 << 24;
 
 struct Neighbourhood {
@@ -46,10 +46,10 @@ struct Neighbourhood {
     return located;
   }
 
-  /// For each axis of the grid the axis of the samples that it runs along; all -1 where the grid is
-  /// turned by other than quarter turns. Those permute the axes: each coordinate in the grid is
-  /// then, to the last bit, a function of one coordinate of the sample, as the products with 0 add
-  /// nothing.
+  /// For each axis of the grid, the axis of the samples that is parallel to it. All are -1 if the
+  /// grid is turned by other than quarter turns. Quarter turns permute the axes: then each
+  /// coordinate in the grid is, to the last bit, a function of one coordinate of the sample, as
+  /// products with 0 add nothing.
   std::array<int, 3> sample_axes() const {
     std::array<int, 3> axes{-1, -1, -1};
     for (size_t i = 0; i < 9; ++i) {
@@ -62,7 +62,7 @@ struct Neighbourhood {
     return axes;
   }
 
-  /// Bounding box, in grid coordinates, of a box in model coordinates.
+  /// Bounding box in grid coordinates of a box in model coordinates.
   Box3 to_grid(const Box3& box) const {
     const Vec3 centre = (box.min + box.max) * 0.5;
     const Vec3 half = box.extent() * 0.5;
@@ -74,7 +74,7 @@ struct Neighbourhood {
     return {c - h, c + h};
   }
 
-  /// Bounding box, in model coordinates, of a box in grid coordinates.
+  /// Bounding box in model coordinates of a box in grid coordinates.
   Box3 from_grid(const Box3& box) const {
     const Vec3 centre = from_grid((box.min + box.max) * 0.5);
     const Vec3 half = box.extent() * 0.5;
@@ -82,7 +82,8 @@ struct Neighbourhood {
     const Vec3 h{std::abs(m[0]) * half.x + std::abs(m[1]) * half.y + std::abs(m[2]) * half.z,
                  std::abs(m[3]) * half.x + std::abs(m[4]) * half.y + std::abs(m[5]) * half.z,
                  std::abs(m[6]) * half.x + std::abs(m[7]) * half.y + std::abs(m[8]) * half.z};
-    // Positions carry a few units of 2^-53 of the largest magnitude; this is thousands of them.
+    // The error of positions is a few units of 2^-53 of the largest magnitude; this is thousands of
+    // them.
     const double slack =
         0x1p-40 * (max_magnitude(centre) + max_magnitude(h) + max_magnitude(origin));
     return Box3{centre - h, centre + h}.grown(slack);

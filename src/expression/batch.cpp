@@ -12,6 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+namespace {
 
 template <Op op, bool a_uniform, bool b_uniform, class T>
 HWY_INLINE void all_lanes(const T* a, const T* b, T* to, size_t count) {
@@ -30,7 +31,7 @@ HWY_INLINE void run(const Program& program, const ValuesOf<T>* registers, T* con
     with_op(instruction.op, [&](auto which) HWY_ATTR {
       constexpr Op op = decltype(which)::value;
       if constexpr (!std::is_same_v<T, double> && !is_rational(op)) {
-        return;  // not in such programs
+        return;  // does not occur in such programs
       } else if constexpr (has_one_operand(op)) {
         if (a.is_uniform)
           all_lanes<op, true, true>(a.data, a.data, out, count);
@@ -59,6 +60,7 @@ void run_singles(const Program& program, const ValuesOf<float>* registers, float
   run(program, registers, to, count);
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
 HWY_AFTER_NAMESPACE();

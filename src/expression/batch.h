@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs evaluated for batches of points, in vectors: the bits of the scalar evaluator.
+// Evaluates programs for batches of points, in vectors, with the bits of the scalar evaluator.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@
 
 namespace msq {
 
-/// Points of a batch: the temporaries of usual tapes stay in a core's first cache.
+/// Points per batch: the temporaries of usual tapes fit a core's first-level cache.
 constexpr size_t batch_points = 256;
 constexpr size_t single_points = 512;
 /// Arrays of values are readable this far beyond their points.
-constexpr size_t batch_padding = 2 * most_simd_doubles;
+constexpr size_t batch_padding = 2 * max_simd_doubles;
 
-/// A value for each point, or one for all.
+/// One value per point, or one for all points.
 template <class T>
 struct ValuesOf {
   const T* data = nullptr;
@@ -36,9 +36,9 @@ class BatchOf {
  public:
   explicit BatchOf(const Program& program);
 
-  /// The values of an input for all batches from now on; must stay alive.
+  /// Sets the values of an input for all following batches. They must stay alive.
   void set_input(size_t input, ValuesOf<T> values) { registers_[input] = values; }
-  /// Evaluates up to batch_points points, in single precision single_points.
+  /// Evaluates up to batch_points points; up to single_points in single precision.
   void run(size_t count);
   /// Valid until the next run.
   ValuesOf<T> output(size_t output) const { return registers_[program_.outputs[output]]; }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sine, cosine, exponential and logarithm of IEEE additions, products, quotients and comparisons
-// alone, written once for scalars and for vectors: the same bits on every instruction set, where
-// the C library's depend on its version and on the machine. Included once for each instruction set.
+// Sine, cosine, exponential and logarithm from IEEE additions, products, quotients and comparisons
+// alone. They are written once for scalars and for vectors. Their bits are the same on every
+// instruction set; those of the C library depend on its version and on the machine. Included once
+// for each instruction set.
 //
-// Source: Cody and Waite, "Software Manual for the Elementary Functions", 1980: arguments are
+// Source: Cody and Waite, "Software Manual for the Elementary Functions", 1980. Arguments are
 // reduced by multiples of pi/2 and ln 2 in parts whose products are exact. The polynomials are
 // Taylor series, whose remainders on the reduced arguments are below 2^-54 of the result. Errors of
-// the results are below 2^-50, absolute for sines and cosines of arguments up to 2^19 and
+// the results are below 2^-50: absolute for sines and cosines of arguments up to 2^19 and for
 // logarithms about 0, relative for the others (tests/unit/test_expression_elementary.cpp).
 #if defined(MSQ_EXPRESSION_ELEMENTARY_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_EXPRESSION_ELEMENTARY_INL_H
@@ -40,6 +41,8 @@ struct Single {
   V floor(V a) const { return std::floor(a); }
   V absolute(V a) const { return std::fabs(a); }
   V negate(V a) const { return -a; }
+  /// The bitwise or of both.
+  V either(V a, V b) const { return number_of(bits_of(a) | bits_of(b)); }
   bool less(V a, V b) const { return a < b; }
   bool equal(V a, V b) const { return a == b; }
   V choose(bool c, V yes, V no) const { return c ? yes : no; }
@@ -70,7 +73,7 @@ struct Single {
   }
 };
 
-/// Arithmetic of the lanes of a vector of doubles; of floats as far as it makes sense.
+/// Arithmetic of the lanes of a vector of doubles; for floats, only the operations that make sense.
 template <class D>
 struct Lanes {
   using V = hwy::HWY_NAMESPACE::Vec<D>;
@@ -86,6 +89,7 @@ struct Lanes {
   HWY_INLINE V floor(V a) const { return hwy::HWY_NAMESPACE::Floor(a); }
   HWY_INLINE V absolute(V a) const { return hwy::HWY_NAMESPACE::Abs(a); }
   HWY_INLINE V negate(V a) const { return hwy::HWY_NAMESPACE::Neg(a); }
+  HWY_INLINE V either(V a, V b) const { return hwy::HWY_NAMESPACE::Or(a, b); }
   HWY_INLINE M less(V a, V b) const { return hwy::HWY_NAMESPACE::Lt(a, b); }
   HWY_INLINE M equal(V a, V b) const { return hwy::HWY_NAMESPACE::Eq(a, b); }
   HWY_INLINE V choose(M c, V yes, V no) const { return hwy::HWY_NAMESPACE::IfThenElse(c, yes, no); }
@@ -116,8 +120,8 @@ HWY_INLINE typename A::V polynomial(const A& a, typename A::V z, const double (&
   return sum;
 }
 
-/// The sine of x + quarters pi / 2. Never above 1 + 2^-50 in magnitude, also where the reduction of
-/// huge arguments has no accuracy left.
+/// The sine of x + quarters pi / 2. Its magnitude is at most 1 + 2^-50, also for huge arguments,
+/// whose reduction has no accuracy left.
 template <class A>
 HWY_INLINE typename A::V sine(const A& a, typename A::V x, double quarters) {
   // pi / 2 in three parts, the first two of 33 bits: their products with q < 2^19 are exact.
@@ -197,20 +201,28 @@ HWY_INLINE typename A::V logarithm(const A& a, typename A::V x) {
   const auto tail = a.multiply(s, a.multiply(z, polynomial(a, z, terms)));
   const auto low = a.add(tail, a.multiply(k, a.set(0x1.a39ef35793c76p-33)));
   const auto sum = a.add(a.multiply(k, a.set(0x1.62e42feep-1)), a.add(a.add(s, s), low));
-  auto v = a.choose(a.less(x, a.set(infinity)), sum, x);  // infinite or no number: as it is
+  auto v = a.choose(a.less(x, a.set(infinity)), sum, x);  // infinity and NaN: unchanged
   v = a.choose(a.equal(x, a.set(0)), a.set(-infinity), v);
   return a.choose(a.less(x, a.set(0)), a.set(std::numeric_limits<double>::quiet_NaN()), v);
 }
 
-/// What an operation of a tape gives.
+/// The smaller of two numbers. Either order of the operands is a valid minimum. If the operands are
+/// equal, or one is NaN, the two orders return different operands. The bitwise or of both is then
+/// -0 if one is -0, and NaN if one is NaN.
+template <class A>
+HWY_INLINE typename A::V minimum(const A& a, typename A::V p, typename A::V q) {
+  return a.either(a.choose(a.less(p, q), p, q), a.choose(a.less(q, p), q, p));
+}
+
+/// The result of an operation of a tape.
 template <Op op, class A>
 HWY_INLINE typename A::V result(const A& a, typename A::V p, typename A::V q) {
   if constexpr (op == Op::add) return a.add(p, q);
   if constexpr (op == Op::subtract) return a.subtract(p, q);
   if constexpr (op == Op::multiply) return a.multiply(p, q);
   if constexpr (op == Op::divide) return a.divide(p, q);
-  if constexpr (op == Op::minimum) return a.choose(a.less(p, q), p, q);
-  if constexpr (op == Op::maximum) return a.choose(a.less(q, p), p, q);
+  if constexpr (op == Op::minimum) return minimum(a, p, q);
+  if constexpr (op == Op::maximum) return a.negate(minimum(a, a.negate(p), a.negate(q)));
   if constexpr (op == Op::negate) return a.negate(p);
   if constexpr (op == Op::absolute) return a.absolute(p);
   if constexpr (op == Op::square_root) return a.root(p);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rounding is monotone, so the ends of a sum, a difference, a product, a quotient or a root,
+// Rounding is monotone. So the ends of a sum, a difference, a product, a quotient or a root,
 // rounded as the evaluator rounds them, enclose its results without any slack. Sines, cosines,
 // exponentials and logarithms are not known to be monotone in the last bits: their ends move out by
-// `slack`, above twice their error (elementary-inl.h).
+// `slack`, which is more than twice their error (elementary-inl.h).
 #include "expression/enclosure.h"
 
 #include <algorithm>
@@ -14,15 +14,15 @@ namespace msq {
 namespace {
 
 constexpr double slack = 0x1p-48;
-constexpr double most_angle = 0x1p19;
+constexpr double max_angle = 0x1p19;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Enclosure unbounded{-infinity, infinity};
 
 /// The sine of x + quarters pi / 2.
 Enclosure sine(const Enclosure& x, double quarters) {
   Enclosure e{-1, 1};
-  if (x.low >= -most_angle && x.high <= most_angle) {
-    // Whether a crest, or a trough, lies between the ends, erring towards yes.
+  if (x.low >= -max_angle && x.high <= max_angle) {
+    // Whether a maximum, or a minimum, of the sine lies between the ends; if in doubt, true.
     const auto holds = [&](double at) {
       const double first = std::ceil(x.low / two_pi + (quarters - at) / 4 - 1e-9);
       const double last = std::floor(x.high / two_pi + (quarters - at) / 4 + 1e-9);
@@ -138,11 +138,11 @@ Tape shortened(const Tape& tape, const std::vector<Enclosure>& nodes) {
     const bool is_known = is_bounded(p) && is_bounded(q);
     if (is_known && node.op == Op::minimum && p.high < q.low)
       number[i] = a;
-    else if (is_known && node.op == Op::minimum && q.high <= p.low)
+    else if (is_known && node.op == Op::minimum && q.high < p.low)
       number[i] = b;
     else if (is_known && node.op == Op::maximum && p.low > q.high)
       number[i] = a;
-    else if (is_known && node.op == Op::maximum && p.high <= q.low)
+    else if (is_known && node.op == Op::maximum && p.high < q.low)
       number[i] = b;
     else if (is_known && node.op == Op::absolute && p.low > 0)
       number[i] = a;

@@ -16,7 +16,7 @@ double apply(Op op, double a, double b) {
 }
 
 double evaluate(const Tape& tape, Vec3 position) {
-  double values[most_tape_nodes];
+  double values[max_tape_nodes];
   const size_t count = tape.nodes.size();
   for (size_t i = 0; i < count; ++i) {
     const Node& node = tape.nodes[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors of values of which there may be one for all. Included once for each instruction set.
+// Loads vectors of values that may be uniform. Included once for each instruction set.
 #if defined(MSQ_EXPRESSION_LOAD_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_EXPRESSION_LOAD_INL_H
 #undef MSQ_EXPRESSION_LOAD_INL_H
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 
-/// One value in all lanes, or those from i on.
+/// One value in all lanes, or the values from i on.
 template <bool is_uniform, class D>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> load(D d, const hwy::HWY_NAMESPACE::TFromD<D>* data,
                                            size_t i) {

@@ -10,6 +10,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 
 #include "base/status.h"
 
@@ -29,7 +31,7 @@ constexpr Function functions[] = {
     {"cos", Op::cosine, 1},   {"exp", Op::exponential, 1},  {"log", Op::logarithm, 1},
 };
 
-constexpr double most_whole_exponent = 65536;
+constexpr double max_whole_exponent = 65536;
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -66,13 +68,16 @@ class Parser {
   }
 
  private:
-  template <class... Arguments>
-  [[noreturn]] void refuse(size_t at, const char* format, Arguments... arguments) const {
+  [[noreturn]] void refuse(size_t at, const char* format, ...) const
+      __attribute__((format(printf, 3, 4))) {
     char reason[200];
-    std::snprintf(reason, sizeof reason, format, arguments...);
+    std::va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(reason, sizeof reason, format, arguments);
+    va_end(arguments);
     fail(Status::argument, "expression, character %zu: %s", at + 1, reason);
   }
-  /// What stands at the current place, for messages.
+  /// The text at the current position, for messages.
   std::string found() const {
     if (at_ >= text_.size()) return "the end";
     const char c = text_[at_];
@@ -82,7 +87,7 @@ class Parser {
     return name;
   }
 
-  /// The next character that is no space; 0 at the end.
+  /// The next character that is not a space; 0 at the end.
   char peek() {
     while (at_ < text_.size() &&
            (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
@@ -100,9 +105,9 @@ class Parser {
 
   uint32_t apply(Op op, uint32_t a, uint32_t b = 0) {
     const uint32_t node = builder_.apply(op, a, b);
-    if (builder_.size() > most_tape_nodes)
+    if (builder_.size() > max_tape_nodes)
       fail(Status::limit, "expression, character %zu: more than %u operations", at_ + 1,
-           most_tape_nodes);
+           max_tape_nodes);
     return node;
   }
 
@@ -130,11 +135,11 @@ class Parser {
     }
   }
 
-  /// Every way to nest leads through here.
+  /// All nesting passes through this function.
   uint32_t with_sign() {
-    if (++depth_ > most_expression_depth)
+    if (++depth_ > max_expression_depth)
       fail(Status::limit, "expression, character %zu: nested deeper than %d", at_ + 1,
-           most_expression_depth);
+           max_expression_depth);
     uint32_t node;
     if (take('-'))
       node = apply(Op::negate, with_sign());
@@ -151,11 +156,11 @@ class Parser {
     return take('^') ? power_of(base, with_sign()) : base;
   }
 
-  /// Whole constant exponents are products, by squaring; others exp(b log(a)).
+  /// Integer constant exponents are products, by squaring; others are exp(b log(a)).
   uint32_t power_of(uint32_t base, uint32_t exponent) {
     const Node e = builder_[exponent];
     const double n = std::abs(e.value);
-    if (e.op != Op::constant || std::floor(n) != n || n > most_whole_exponent)
+    if (e.op != Op::constant || std::floor(n) != n || n > max_whole_exponent)
       return apply(Op::exponential, apply(Op::multiply, exponent, apply(Op::logarithm, base)));
     uint32_t result = builder_.constant(1), square = base;
     bool has_result = false;
@@ -225,9 +230,9 @@ class Parser {
 }  // namespace
 
 Tape parse_expression(std::string_view text, const std::vector<NamedValue>& parameters) {
-  if (text.size() > most_expression_bytes)
+  if (text.size() > max_expression_bytes)
     fail(Status::limit, "expression has %zu characters; the limit is %zu", text.size(),
-         most_expression_bytes);
+         max_expression_bytes);
   for (size_t i = 0; i < parameters.size(); ++i) {
     const std::string& name = parameters[i].name;
     if (!is_name(name))

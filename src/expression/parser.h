@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tapes from text.
+// Parses text into tapes.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ struct NamedValue {
   double value;
 };
 
-constexpr size_t most_expression_bytes = 4096;
-constexpr int most_expression_depth = 100;  // of brackets, signs and exponents within each other
+constexpr size_t max_expression_bytes = 4096;
+constexpr int max_expression_depth = 100;  // maximum nesting of brackets, signs and exponents
 
-/// Numbers, pi, names with a value, x, y, z, + - * / ^, brackets, and the functions pow, min, max,
-/// abs, sqrt, sin, cos, exp and log. Throws Error(argument), with the position and the reason, for
-/// text that is no expression or for parameters that are no names, and Error(limit) for one that is
-/// too long, nests too deep or has too many operations.
+/// Accepts numbers, pi, names with a value, x, y, z, + - * / ^, brackets, and the functions pow,
+/// min, max, abs, sqrt, sin, cos, exp and log. Throws Error(argument), with the position and the
+/// reason, if the text is not an expression or a parameter is not a name. Throws Error(limit) if
+/// the text is too long, nests too deep or has too many operations.
 Tape parse_expression(std::string_view text, const std::vector<NamedValue>& parameters);
 
 }  // namespace msq

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each node grows by, in units of 2 pi, when a coordinate does by 2 pi: 1 for the coordinate,
-// a multiple of it for sums and for products with constants, and 0 for sines and cosines of what
-// grows by a whole number and for whatever is made of nodes that do not grow.
+// The growth of a node, in units of 2 pi, when a coordinate grows by 2 pi: 1 for the coordinate, a
+// multiple of it for sums and for products with constants. It is 0 for sines and cosines of an
+// operand that grows by a whole number, and for all nodes whose operands do not grow.
 #include "expression/period.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// a + b and a b where they are exact.
+/// a + b and a b if they are exact.
 double exact_sum(double a, double b) {
   const double s = a + b;
   return s - a == b && s - b == a ? s : unknown;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions that repeat by themselves.
+// Detects functions that are periodic in a coordinate.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace msq {
 
-/// For each coordinate whether the function that a tape stands for, in exact arithmetic, repeats
-/// after 2 pi along it; erring towards no.
+/// For each coordinate, whether the function of a tape, in exact arithmetic, has the period 2 pi
+/// along it. If that is unknown, false.
 std::array<bool, 3> repeats(const Tape& tape);
 
-/// What each node of a tape that repeats along an axis grows by when that coordinate grows by 2 pi,
-/// in units of 2 pi; no number where that is not known.
+/// For a tape with period 2 pi along an axis: the growth of each node when that coordinate grows by
+/// 2 pi, in units of 2 pi. NaN if unknown.
 std::vector<double> growths(const Tape& tape, int axis);
 
 }  // namespace msq

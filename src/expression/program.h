@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Part of a tape, made ready to be evaluated for many points at once.
+// Part of a tape, prepared for evaluation at many points.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace msq {
 
-/// Operations on registers: first the inputs, then the constants, then temporaries, which are used
-/// again once their values are no longer needed.
+/// Operations on registers: first the inputs, then the constants, then the temporaries. A
+/// temporary's register is reused once its value is no longer needed.
 struct Program {
   struct Instruction {
     Op op;
@@ -25,8 +25,8 @@ struct Program {
   size_t registers() const { return inputs + constants.size() + temporaries; }
 };
 
-/// The program that computes the nodes `outputs` from the nodes `inputs`, which stand for
-/// themselves whatever they are made of. Nothing is made of coordinates that are not inputs.
+/// The program that computes the nodes `outputs` from the nodes `inputs`. An input's own operands
+/// are ignored. The outputs must not depend on coordinates that are not inputs.
 Program compile(const std::vector<Node>& nodes, const std::vector<uint32_t>& inputs,
                 const std::vector<uint32_t>& outputs);
 

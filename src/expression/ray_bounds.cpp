@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// With x(s) = D s + R s^2 + E for what an operand moves by, |D| <= steep, |R| <= bend, |E| <= error
-// and S the span: |x - E| <= X s with X = steep + bend S, and |x| <= X S + error, its reach.
+// Let x(s) = D s + R s^2 + E be the change of an operand, |D| <= steep, |R| <= bend, |E| <= error
+// and S the span. Then |x - E| <= X s with X = steep + bend S, and |x| <= X S + error, its reach.
 //
-// A smooth operation f gives f(v) + f'(v) x + f''(.) x^2 / 2; with q a bound of |f''| / 2 over the
-// reach, and x^2 <= X^2 s^2 + 2 X S error + error^2, this is the same form again. Of a product,
-// x y <= X Y s^2 + X S error_y + Y S error_x + error_x error_y. A maximum is at least the operand
-// that begins as the larger, and at most the other one where that begins lower by a gap:
-// v - gap + D s <= v + (D - gap / S) s, as s <= S.
+// A smooth operation f gives f(v) + f'(v) x + f''(.) x^2 / 2. With q a bound of |f''| / 2 over the
+// reach, and x^2 <= X^2 s^2 + 2 X S error + error^2, this is the same form again. For a product, x
+// y <= X Y s^2 + X S error_y + Y S error_x + error_x error_y. A maximum is at least the operand
+// that begins as the larger one. It is at most the other operand, v - gap + D s, where that begins
+// lower by a gap: v - gap + D s <= v + (D - gap / S) s, as s <= S.
 //
-// Errors take up the rounding of the evaluator, 2^-53 of a result's magnitude and 2^-50 for
-// functions, and that of these bounds, which are less than 2^-50 of the magnitude of what they are
-// made of. Coordinates may run on into the next cells, where the evaluator's begin anew: nodes that
-// repeat are the same there but for rounding, and those that grow round as their largest values.
+// Errors include two roundings. That of the evaluator is 2^-53 of a result's magnitude, and 2^-50
+// for functions. That of these bounds is less than 2^-50 of the magnitude of their terms.
+// Coordinates may run on into the next cells, where the evaluator's coordinates begin anew. There,
+// nodes that repeat have the same values up to rounding, and nodes that grow round as their largest
+// values do.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "expression/ray_bounds.cpp"
 #include <hwy/foreach_target.h>
@@ -24,6 +25,7 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+namespace {
 
 /// Arrays of a register.
 enum : size_t { value_array, low_array, high_array, bend_array, error_array, arrays };
@@ -98,7 +100,7 @@ class Kernel {
   static HWY_INLINE V steep(const Part& p) {
     return is_smooth ? hn::Abs(p.low) : hn::Max(hn::Abs(p.low), hn::Abs(p.high));
   }
-  /// X of above.
+  /// The X defined above.
   static HWY_INLINE V spread(const Part& p, V span) {
     return hn::Add(steep(p), hn::Mul(p.bend, span));
   }
@@ -128,14 +130,15 @@ class Kernel {
     // The second derivative is minus the wave itself.
     const V most = hn::Min(set(1), hn::Add(hn::Abs(v), reach));
     const V rounding = hn::Mul(set(0x1p-48), hn::Add(set(1), reach));
-    // Beyond, sines have no accuracy.
+    // Larger sines have no accuracy.
     const auto is_known = hn::Lt(hn::Add(hn::Abs(p.v), reach), set(0x1p19));
     const V half = hn::IfThenElse(is_known, hn::Mul(set(0.5 * (1 + 0x1p-45)), most),
                                   set(std::numeric_limits<double>::infinity()));
     return smooth(p, span, v, slope, half, rounding);
   }
 
-  /// Less than that the operand is nowhere on the piece; not positive: nothing is known.
+  /// Returns `half` if `least`, a lower bound of the operand on the piece, is positive; otherwise
+  /// infinity: nothing is known.
   static HWY_INLINE V unless_positive(V least, V half) {
     return hn::IfThenElse(hn::Gt(least, hn::Zero(d)), half,
                           set(std::numeric_limits<double>::infinity()));
@@ -170,11 +173,13 @@ class Kernel {
       both.high = hn::Max(w.high, hn::Sub(l.high, fall));
     else
       both.low = hn::Min(w.low, hn::Add(l.low, fall));
-    both.bend = hn::Add(hn::Max(w.bend, l.bend), hn::Mul(hn::Zero(d), hn::Add(gap, l.bend)));
+    // NaN if either is NaN, or if nothing is known of it.
+    const V unknown = hn::Mul(hn::Zero(d), hn::Add(gap, hn::Add(w.bend, l.bend)));
+    both.bend = hn::Add(hn::Max(w.bend, l.bend), unknown);
     both.error =
         hn::Add(hn::Max(w.error, l.error), hn::Mul(set(0x1p-48), hn::Add(hn::Abs(w.v), reaches)));
     const auto is_decided = hn::Gt(gap, reaches);
-    return {w.v, hn::IfThenElse(is_decided, w.low, both.low),
+    return {result<op>(lanes, p.v, q.v), hn::IfThenElse(is_decided, w.low, both.low),
             hn::IfThenElse(is_decided, w.high, both.high),
             hn::IfThenElse(is_decided, w.bend, both.bend),
             hn::IfThenElse(is_decided, w.error, both.error)};
@@ -248,11 +253,10 @@ class Kernel {
     const V x = spread(p, span), y = spread(q, span);
     const V v = hn::Abs(p.v), w = hn::Abs(q.v);
     out.bend = hn::Add(hn::Add(hn::Mul(v, q.bend), hn::Mul(w, p.bend)), hn::Mul(x, y));
-    const V most_p = hn::Add(v, hn::Mul(x, span)), most_q = hn::Add(w, hn::Mul(y, span));
-    const V of_errors =
-        hn::Add(hn::Mul(most_p, q.error), hn::Mul(hn::Add(most_q, q.error), p.error));
-    out.error = hn::Add(hn::Mul(set(1 + 0x1p-40), of_errors),
-                        hn::Mul(set(0x1p-49), hn::Mul(most_p, most_q)));
+    const V max_p = hn::Add(v, hn::Mul(x, span)), max_q = hn::Add(w, hn::Mul(y, span));
+    const V of_errors = hn::Add(hn::Mul(max_p, q.error), hn::Mul(hn::Add(max_q, q.error), p.error));
+    out.error =
+        hn::Add(hn::Mul(set(1 + 0x1p-40), of_errors), hn::Mul(set(0x1p-49), hn::Mul(max_p, max_q)));
     return out;
   }
 
@@ -272,6 +276,7 @@ void run_ray_program(const RayProgram& program, const double* span, double* regi
   }
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
 HWY_AFTER_NAMESPACE();
@@ -297,7 +302,7 @@ void fill(double (&lanes)[RayBatch::lanes], double v) {
 }  // namespace
 
 RayProgram::RayProgram(const Tape& tape) : program_(compile(tape)) {
-  std::vector<double> largest(tape.nodes.size());  // of what grows from cell to cell
+  std::vector<double> largest(tape.nodes.size());  // of nodes that grow from cell to cell
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<double> growth = growths(tape, axis);
     for (size_t i = 0; i < growth.size(); ++i)

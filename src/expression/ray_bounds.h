@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the value of a tape can be along pieces of rays: proven bounds, for many rays at once.
+// Bounds of the value of a tape along pieces of rays: proven bounds, for many rays at once.
 //
-// Where coordinates change in proportion to s, from 0 to the piece's span, each node is enclosed by
+// Coordinates change in proportion to s, which runs from 0 to the piece's span. Each node is
+// enclosed by
 //   value + [low, high] s  +-  bend s^2  +-  error:
-// its value at the beginning, its slope there (an interval only about kinks), what it may bend away
-// from that, and what rounding makes of it. Near a simple zero the slope alone rules, so that steps
-// to where these bounds allow one converge as Newton's do, but never pass any.
+// its value at the start, its slope there (an interval only near kinks), its maximum deviation from
+// that line, and its rounding error. Near a simple zero the slope dominates. So steps up to the
+// nearest zero that these bounds allow converge as Newton's do, but never pass a zero.
 // Source: Moore, "Interval Analysis", 1966 (mean value forms); Berz and Hoffstaetter, "Computation
 // and application of Taylor polynomials with interval remainder bounds", 1998, of degree 1.
 #pragma once
@@ -18,7 +19,7 @@
 
 namespace msq {
 
-/// A tape, made ready for that.
+/// A tape, prepared for these bounds.
 class RayProgram {
  public:
   explicit RayProgram(const Tape& tape);
@@ -26,14 +27,14 @@ class RayProgram {
   struct Instruction {
     Op op;
     uint16_t to, a, b;
-    uint16_t waves = 0;     ///< of sines and cosines: where those of the operand are kept
-    bool is_first = false;  ///< to ask for them
+    uint16_t waves = 0;     ///< of sines and cosines: the index where those of the operand are kept
+    bool is_first = false;  ///< whether this operation is the first that needs them
     double rounding = 0;    ///< of the node where another cell's coordinates are larger
   };
   const Program& program() const { return program_; }
   const std::vector<Instruction>& code() const { return code_; }
   size_t waves() const { return waves_; }
-  /// No minima, maxima or magnitudes: slopes are numbers.
+  /// True if there are no minima, maxima or magnitudes: then slopes are numbers.
   bool is_smooth() const { return is_smooth_; }
 
  private:
@@ -50,14 +51,14 @@ class RayBatch {
 
   explicit RayBatch(const RayProgram& program);
 
-  /// By piece: the coordinates at its beginning, by how much each changes with s, by how much they
-  /// may be wrong anywhere on it, and its span, which is positive. What lies beyond the pieces in
-  /// number is read, too, and must be finite.
+  /// For each piece: the coordinates at its start, their rates of change with s, their maximum
+  /// error anywhere on it, and its span, which is positive. Lanes beyond the number of pieces are
+  /// read, too, and must be finite.
   struct alignas(64) Pieces {
     double coordinates[3][lanes] = {}, rates[3][lanes] = {}, error[lanes] = {}, span[lanes] = {};
   };
-  /// By piece. `value` is evaluate()'s, to the last bit. Where nothing is known, `bend` is infinite
-  /// or no number.
+  /// For each piece. `value` equals evaluate() to the last bit. If nothing is known, `bend` is
+  /// infinite or NaN.
   struct Bounds {
     const double *value, *low, *high, *bend, *error;
   };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Beside the enclosure of a node's computed values (enclosure.cpp) go enclosures of the derivatives
-// of its true value, and a bound of the difference of the two values. u = 2^-53 of a result is what
-// an IEEE operation loses; sines, cosines, exponentials and logarithms lose up to 2^-50
-// (elementary-inl.h). Every interval of true values is widened by 2^-50 of its ends, above the
-// rounding of the few operations that it took.
+// Each node has three bounds: the enclosure of its computed values (enclosure.cpp), enclosures of
+// the derivatives of its true value, and a bound of the difference of the two values. An IEEE
+// operation loses u = 2^-53 of its result. Sines, cosines, exponentials and logarithms lose up to
+// 2^-50 (elementary-inl.h). Every interval of true values is widened by 2^-50 of its ends, which
+// exceeds the rounding of the few operations that compute it.
 #include "expression/slope.h"
 
 #include <algorithm>
@@ -11,6 +11,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/borrowed.h"
+#include "base/job.h"
 #include "expression/enclosure.h"
 
 namespace msq {
@@ -19,12 +21,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double u = 0x1p-53, of_function = 0x1p-50, least = 0x1p-1000;
-constexpr double most_angle = 0x1p19;
+constexpr double max_angle = 0x1p19;
 
 double magnitude(Interval v) {
   return std::max(std::abs(v.low), std::abs(v.high));
 }
-/// The least magnitude of the numbers of an interval.
+/// The minimum magnitude of the numbers of an interval.
 double distance_from_zero(Interval v) {
   return std::max({0.0, v.low, -v.high});
 }
@@ -32,7 +34,7 @@ Interval widened(Interval v, double by = 0) {
   return {v.low - by - 0x1p-50 * std::abs(v.low) - least,
           v.high + by + 0x1p-50 * std::abs(v.high) + least};
 }
-/// Most derivatives are those along other axes.
+/// Most derivatives of nodes are zero: those along other axes.
 bool is_zero(Interval v) {
   return v.low == 0 && v.high == 0;
 }
@@ -50,7 +52,7 @@ Interval product(Interval a, Interval b) {
   return widened(
       {std::min(std::min(p, q), std::min(r, t)), std::max(std::max(p, q), std::max(r, t))});
 }
-/// 1 / a, of an interval without 0.
+/// 1 / a for an interval without 0.
 Interval inverse(Interval a) {
   return widened({1 / a.high, 1 / a.low});
 }
@@ -67,7 +69,7 @@ struct Part {
 
 class Differentiation {
  public:
-  /// The root's part; null where something is unbounded.
+  /// The root's part; null if something is unbounded.
   const Part* over(const Tape& tape, const Interval (&box)[3], double coordinate_error) {
     Interval wider[3];
     for (int i = 0; i < 3; ++i) wider[i] = widened(box[i], coordinate_error);
@@ -153,7 +155,7 @@ class Differentiation {
       }
       case Op::sine:
       case Op::cosine: {
-        if (magnitude(a.value) > most_angle) return false;
+        if (magnitude(a.value) > max_angle) return false;
         const Interval cosines = enclose_result(Op::cosine, a.value, a.value, false);
         const Interval sines = enclose_result(Op::sine, a.value, a.value, false);
         for (int k = 0; k < 3; ++k)
@@ -189,11 +191,11 @@ class Differentiation {
   std::vector<Part> parts_;
 };
 
-/// Part of the box, and its slopes.
+/// A part of the box, and its slopes.
 struct Piece {
   Interval box[3];
   double least = 0, most = infinity, error = infinity;
-  uint32_t number = 0;  // so that no two are equal
+  uint32_t number = 0;  // makes all pieces distinct in the order
 };
 
 bool is_flatter(const Piece& a, const Piece& b) {
@@ -221,7 +223,8 @@ void find_slopes(Differentiation& differentiation, const Tape& tape, Vec3 scale,
 }  // namespace
 
 Slope bound_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale, double coordinate_error) {
-  // Some ten milliseconds of work; halved so often, what is unbounded will stay so.
+  // About ten milliseconds of work. Parts that are unbounded after so many bisections stay
+  // unbounded.
   const size_t pieces = std::clamp<size_t>((1 << 18) / tape.nodes.size(), 256, 8192);
   constexpr double narrow = 0x1p-8, near = 1 + 0x1p-6;
 
@@ -229,6 +232,7 @@ Slope bound_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale, double
   std::vector<Piece> heap;  // the steepest first
   uint32_t count = 0;
   const auto add = [&](Piece piece) {
+    check_cancelled();
     piece.number = ++count;
     find_slopes(differentiation, tape, scale, coordinate_error, piece);
     heap.push_back(piece);
@@ -261,9 +265,9 @@ Slope bound_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale, double
 
 Slope enclose_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale,
                     double coordinate_error) {
-  thread_local Differentiation differentiation;
+  const Borrowed<Differentiation> differentiation;
   Piece piece{{box[0], box[1], box[2]}};
-  find_slopes(differentiation, tape, scale, coordinate_error, piece);
+  find_slopes(*differentiation, tape, scale, coordinate_error, piece);
   return {piece.most, piece.error};
 }
 

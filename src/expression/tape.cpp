@@ -23,8 +23,7 @@ uint32_t TapeBuilder::apply(Op op, uint32_t a, uint32_t b) {
   const bool is_constant =
       nodes_[a].op == Op::constant && (has_one_operand(op) || nodes_[b].op == Op::constant);
   if (is_constant) return constant(msq::apply(op, nodes_[a].value, nodes_[b].value));
-  // Sums and products are the same bits either way round.
-  if ((op == Op::add || op == Op::multiply) && b < a) std::swap(a, b);
+  if (is_symmetric(op) && b < a) std::swap(a, b);
   return node(op, a, has_one_operand(op) ? 0 : b);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A function of three coordinates, as a list of operations: what an expression means.
+// A function of three coordinates as a list of operations. This file defines the meaning of
+// expressions.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +18,13 @@ enum class Op : uint8_t {
   x,  // the coordinates
   y,
   z,
-  add,  // from here on of two operands
+  add,  // from here on with two operands
   subtract,
   multiply,
   divide,
-  minimum,  // a where a < b, else b
-  maximum,  // a where a > b, else b
-  negate,   // from here on of one
+  minimum,  // of IEEE 754-2019: NaN if either operand is NaN; -0 is below 0
+  maximum,  // likewise
+  negate,   // from here on with one operand
   absolute,
   square_root,
   sine,
@@ -38,6 +39,10 @@ constexpr bool has_one_operand(Op op) {
 constexpr bool has_two_operands(Op op) {
   return op >= Op::add && op < Op::negate;
 }
+/// Whether the operation gives the same bits with its operands swapped, if they are not NaN.
+constexpr bool is_symmetric(Op op) {
+  return op == Op::add || op == Op::multiply || op == Op::minimum || op == Op::maximum;
+}
 
 struct Node {
   Op op = Op::constant;
@@ -45,23 +50,23 @@ struct Node {
   double value = 0;       ///< of a constant
 };
 
-/// The last node is the value. Equal operations of equal operands are one node.
+/// The last node is the value. Equal operations on equal operands are one node.
 struct Tape {
   std::vector<Node> nodes;
 };
 
-constexpr uint32_t most_tape_nodes = 1024;
+constexpr uint32_t max_tape_nodes = 1024;
 
 class TapeBuilder {
  public:
   uint32_t constant(double value);
   uint32_t coordinate(int axis) { return node(static_cast<Op>(int(Op::x) + axis), 0, 0); }
-  /// An operation; of constants it is computed at once. One operand: b is 0.
+  /// Adds an operation; an operation on constants is computed at once. With one operand, b is 0.
   uint32_t apply(Op op, uint32_t a, uint32_t b = 0);
 
   const Node& operator[](uint32_t i) const { return nodes_[i]; }
   size_t size() const { return nodes_.size(); }
-  /// The tape of a node, without what it does not need.
+  /// The tape of a node, without the nodes that it does not need.
   Tape finish(uint32_t root) const;
 
  private:
@@ -71,13 +76,12 @@ class TapeBuilder {
   std::map<std::tuple<Op, uint32_t, uint32_t, uint64_t>, uint32_t> known_;
 };
 
-/// What an operation gives: IEEE additions, products, quotients, roots and comparisons in double
-/// precision, and sines, cosines, exponentials and logarithms made of those, so the same bits on
-/// every machine (elementary-inl.h).
+/// The result of an operation: IEEE additions, products, quotients, roots and comparisons in double
+/// precision, and sines, cosines, exponentials and logarithms built from those. So the bits are the
+/// same on every machine (elementary-inl.h).
 double apply(Op op, double a, double b);
 
-/// The value at a position. This is the definition that all other evaluators agree with bit for
-/// bit.
+/// The value at a position. This is the definition. All other evaluators agree with it bit for bit.
 double evaluate(const Tape& tape, Vec3 position);
 
 constexpr double two_pi = 6.283185307179586;

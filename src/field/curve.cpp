@@ -35,7 +35,7 @@ double Curve::operator()(double v) const {
   if (n == 0) return knots_.front().value;
   if (n == knots_.size()) return knots_.back().value;
   const Knot &a = knots_[n - 1], &b = knots_[n];
-  // Each operation rounds monotonously, so this runs one way; the clamp keeps it short of b.
+  // Each operation rounds monotonically, so the result is monotone; the clamp limits it to b.
   const double value = a.value + (v - a.at) / (b.at - a.at) * (b.value - a.value);
   return std::clamp(value, std::min(a.value, b.value), std::max(a.value, b.value));
 }

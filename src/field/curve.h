@@ -17,18 +17,18 @@ class Curve {
   /// At least one knot, `at` ascending; no difference of neighbours overflows.
   explicit Curve(std::vector<Knot> knots);
 
-  /// As computed, it runs one way between neighbouring knots and passes through them.
+  /// Computed values are monotone between neighbouring knots and pass through the knots.
   double operator()(double v) const;
-  /// Exactly the least and the greatest value over an interval, which may be infinite.
+  /// The exact minimum and maximum over an interval, which may be infinite.
   Interval range(Interval over) const;
-  /// No two values differ by more than this times the difference of where they are taken, but for
-  /// rounding.
+  /// Lipschitz constant: two values differ by at most this times the difference of their arguments,
+  /// plus rounding.
   double lipschitz() const { return lipschitz_; }
-  /// The same of values in an interval.
+  /// The same for arguments in an interval.
   double lipschitz(Interval over) const;
 
  private:
-  /// Of the piece that ends at knot i.
+  /// The slope of the piece that ends at knot i.
   double slope_to(size_t i) const;
   /// Number of knots at or below v.
   size_t knots_to(double v) const;

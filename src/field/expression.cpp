@@ -6,33 +6,35 @@
 #include <limits>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "expression/enclosure.h"
 #include "expression/slope.h"
 
 namespace msq {
 
 bool ExpressionField::is_linear(const Box3& box, Vec3& gradient) const {
-  // Only where it is constant.
+  // True only where it is constant.
   const Interval over = range(box);
   gradient = {};
   return over.low == over.high;
 }
 
 Interval ExpressionField::range(const Box3& box) const {
-  thread_local std::vector<Enclosure> nodes;
+  const Borrowed<std::vector<Enclosure>> borrowed;
+  std::vector<Enclosure>& nodes = *borrowed;
   enclose(tape_, {{box.min.x, box.max.x}, {box.min.y, box.max.y}, {box.min.z, box.max.z}}, nodes);
-  // Infinite where a value may be no number, which counts as the least.
+  // An end is infinite if a value may be NaN, which counts as the minimum.
   return {cut(nodes.back().low), cut(nodes.back().high)};
 }
 
 double ExpressionField::lipschitz(const Box3& box) const {
-  // Where more is lost in rounding, what is known of the function tells nothing of the values.
-  constexpr double most_error = 0x1p-44;
+  // With a larger rounding error, the slope of the function does not bound the values.
+  constexpr double max_error = 0x1p-44;
   const Slope slope =
       enclose_slope(tape_, {{box.min.x, box.max.x}, {box.min.y, box.max.y}, {box.min.z, box.max.z}},
                     {1, 1, 1}, 0);
   const double size = std::max(std::abs(range_.low), std::abs(range_.high));
-  return slope.error <= most_error * size ? slope.most : std::numeric_limits<double>::infinity();
+  return slope.error <= max_error * size ? slope.most : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace msq

@@ -11,7 +11,7 @@ namespace msq {
 
 class ExpressionField final : public Field {
  public:
-  /// Where the expression is no number, the field is range.low.
+  /// Where the expression is NaN, the field is range.low.
   ExpressionField(Tape tape, Interval range) : tape_(std::move(tape)), range_(range) {}
 
   double at(Vec3 p) const override { return cut(evaluate(tape_, p)); }

@@ -15,12 +15,13 @@ namespace msq {
 class Field : public RefCounted {
  public:
   virtual double at(Vec3 p) const = 0;
-  /// values[i] becomes at(points[i]), to the last bit.
+  /// Sets values[i] to at(points[i]), to the last bit.
   virtual void values(const Vec3* points, size_t count, double* values) const {
     for (size_t i = 0; i < count; ++i) values[i] = at(points[i]);
   }
-  /// Whether any thread may ask it for values and ranges of boxes, several at once; otherwise only
-  /// the thread that made the host's call. A field over other fields asks them.
+  /// Whether any thread may evaluate values and ranges of boxes, several threads at once. Otherwise
+  /// only the thread that made the host's call may. A field over other fields is concurrent if
+  /// those are.
   virtual bool is_concurrent() const { return true; }
   /// Whether at(p) is linear in p for all p of a box, up to 2^-40 of its range; if so, its
   /// gradient.
@@ -32,16 +33,17 @@ class Field : public RefCounted {
   /// Encloses at(p) for all p, and for all p of a box: proven, rounding included.
   virtual Interval range() const = 0;
   virtual Interval range(const Box3& box) const = 0;
-  /// No two points' values differ by more than this times their distance, but for the rounding that
-  /// range(box) of the points alone covers. Infinite where nothing is known, which is always right.
+  /// Lipschitz constant: the values of two points differ by at most this times their distance, plus
+  /// the rounding that range(box) of the points alone covers. Infinity is always valid and means
+  /// that nothing is known.
   virtual double lipschitz() const { return std::numeric_limits<double>::infinity(); }
-  /// The same of two points of a box, for small ones; but for rounding, of each value up to 2^-44
+  /// The same for two points of a box, for small boxes. The rounding of each value is up to 2^-44
   /// of the largest magnitude of range().
   virtual double lipschitz(const Box3& box) const {
     (void)box;
     return lipschitz();
   }
-  /// How many fields over other fields are within each other.
+  /// Nesting depth of fields over other fields.
   virtual unsigned depth() const { return 0; }
 };
 
@@ -69,7 +71,8 @@ class Parameter {
   }
   double lipschitz() const { return field_ ? field_->lipschitz() : 0; }
   double lipschitz(const Box3& box) const { return field_ ? field_->lipschitz(box) : 0; }
-  /// About p; where it is not linear by differences over `step` on either side.
+  /// The gradient at p; if the field is not linear there, by differences over `step` on either
+  /// side.
   Vec3 gradient(Vec3 p, double step) const {
     Vec3 gradient;
     if (!field_ || field_->is_linear(Box3{p, p}.grown(step), gradient)) return gradient;

@@ -18,7 +18,7 @@ class GradientField final : public Field {
 
  private:
   double parameter(Vec3 p) const { return dot(p - from_, axis_) / axis_squared_; }
-  /// The parameters of a box: middle, and how far they are from it on either side.
+  /// The ramp parameter over a box: its middle, and the half width of its interval.
   struct Parameters {
     double middle, reach;
   };

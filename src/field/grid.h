@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples on a regular grid, linear between them, those of the border beyond it.
+// Samples on a regular grid, with linear interpolation; constant beyond the border.
 #pragma once
 
 #include <utility>
@@ -14,7 +14,7 @@ class GridField final : public Field {
   explicit GridField(Image image) : image_(std::move(image)) {}
 
   double at(Vec3 p) const override { return image_.at(p); }
-  /// Where it is constant.
+  /// True only where it is constant.
   bool is_linear(const Box3& box, Vec3& gradient) const override {
     gradient = {};
     return image_.is_constant(box);

@@ -39,12 +39,12 @@ Interval HostField::range(const Box3& box) const {
   }
   if (std::isfinite(lipschitz_)) {
     const double middle = at((box.min + box.max) * 0.5);
-    // The products and the middle are rounded by far less.
+    // The products and the middle have a far smaller rounding error.
     const double reach = lipschitz_ * (0.5 * length(box.extent()) * (1 + 0x1p-40) +
                                        0x1p-40 * (max_magnitude(box.min) + max_magnitude(box.max)));
     const double slack = reach + 0x1p-40 * std::abs(middle);
     range = {std::max(range.low, middle - slack), std::min(range.high, middle + slack)};
-    // Of a host that promises too much the two may contradict each other.
+    // The two contradict each other if the host's claims are wrong.
     if (range.low > range.high) std::swap(range.low, range.high);
   }
   return range;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field that the host computes. Its range is what the host says, and values beyond it are errors:
-// what is built with a field has room for its range, not for more.
+// A field that the host computes. The host gives its range, and values beyond the range are errors:
+// a structure with the field has room only for that range.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 namespace msq {
 
 struct HostFieldCalls {
-  /// The values of points: the same for the same point, whatever the others.
+  /// The values of points. The value of a point does not depend on the other points.
   std::function<void(const Vec3* points, size_t count, double* values)> evaluate;
   /// Encloses the values of a box; may be empty.
   std::function<Interval(const Box3& box)> range;
@@ -19,7 +19,7 @@ struct HostFieldCalls {
 
 class HostField final : public Field {
  public:
-  /// `lipschitz`: infinite where unknown.
+  /// `lipschitz`: infinite if unknown.
   HostField(HostFieldCalls calls, Interval range, double lipschitz, bool is_concurrent);
 
   double at(Vec3 p) const override;

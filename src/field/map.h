@@ -20,14 +20,14 @@ class MapField final : public Field {
     for (size_t i = 0; i < count; ++i) values[i] = curve_(values[i]);
   }
   bool is_concurrent() const override { return argument_->is_concurrent(); }
-  /// Where the curve is constant over the box.
+  /// True only where the curve is constant over the box.
   bool is_linear(const Box3& box, Vec3& gradient) const override {
     const Interval over = range(box);
     gradient = {};
     return over.low == over.high;
   }
-  // The curve's own values are those of at(), and it runs one way between its knots: what encloses
-  // the argument encloses the field.
+  // The curve's own values are those of at(), and it is monotone between its knots. So an enclosure
+  // of the argument gives an enclosure of the field.
   Interval range() const override { return curve_.range(argument_->range()); }
   Interval range(const Box3& box) const override { return curve_.range(argument_->range(box)); }
   double lipschitz() const override {
@@ -40,7 +40,7 @@ class MapField final : public Field {
 
  private:
   static double product_of(double of_curve, double of_argument) {
-    // Where one of them is constant, so is the field, however steep the other.
+    // If one of them is constant, so is the field, even if the other is steep.
     return of_curve > 0 && of_argument > 0 ? of_curve * of_argument * (1 + 0x1p-50) : 0;
   }
 

@@ -29,7 +29,7 @@ double RadialField::value(double distance) const {
 }
 
 bool RadialField::is_linear(const Box3& box, Vec3& gradient) const {
-  // Only where it is constant.
+  // True only where it is constant.
   const Interval over = range(box);
   gradient = {};
   return over.low == over.high;
@@ -40,8 +40,8 @@ Interval RadialField::range() const {
 }
 
 Interval RadialField::range(const Box3& box) const {
-  // Distances run one way with each coordinate's magnitude from the centre; from a line, they
-  // change by no more than the way from the box's middle.
+  // Distances are monotone in each coordinate's magnitude from the centre. Distances from a line
+  // change by at most the distance from the box's middle.
   double least, most;
   const Vec3 far = max(box.max - centre_, centre_ - box.min);
   if (max_magnitude(axis_) == 0) {
@@ -50,7 +50,7 @@ Interval RadialField::range(const Box3& box) const {
   } else {
     const double middle = distance((box.min + box.max) * 0.5);
     const Vec3 half = box.extent() * 0.5;
-    // Only what of the half diagonals stands normal to the line counts.
+    // Only the component of the half diagonals normal to the line counts.
     double reach = 0;
     for (int corner = 0; corner < 4; ++corner) {
       const Vec3 h{half.x, corner & 1 ? -half.y : half.y, corner & 2 ? -half.z : half.z};
@@ -61,7 +61,7 @@ Interval RadialField::range(const Box3& box) const {
   }
   // Distances lose a few tens of units of 2^-53 of the coordinates, here and in at().
   const double slack = 0x1p-46 * (max_magnitude(far) + max_magnitude(centre_));
-  // value() runs one way.
+  // value() is monotone.
   const double a = value(least - slack), b = value(most + slack);
   return {std::min(a, b), std::max(a, b)};
 }

@@ -11,8 +11,8 @@ class RadialField final : public Field {
   struct Ramp {
     double from_radius, from_value, to_radius, to_value;  ///< 0 <= from_radius < to_radius
   };
-  /// Distances from the centre, or, where the axis is not 0, from the line along it through the
-  /// centre.
+  /// Uses the distance from the centre or, if the axis is not 0, from the line along the axis
+  /// through the centre.
   RadialField(Vec3 centre, Vec3 axis, const Ramp& ramp);
 
   double at(Vec3 p) const override { return value(distance(p)); }

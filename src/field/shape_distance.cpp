@@ -2,15 +2,15 @@
 #include "field/shape_distance.h"
 
 #include <limits>
-#include <vector>
 
 #include "base/checked.h"
+#include "base/run_parts.h"
 #include "base/status.h"
 
 namespace msq {
 
 Interval ShapeDistanceField::range() const {
-  // No point of a box is farther from what is outside it than half its least side.
+  // The distance of a point of a box from the outside is at most half the box's shortest side.
   const double deepest = min_component(shape_->bounds().extent()) * (0.5 + 0x1p-40);
   return {-deepest, std::numeric_limits<double>::max()};
 }
@@ -32,38 +32,37 @@ double ShapeDistanceField::lipschitz() const {
 }
 
 Image sample_distance(const Shape& shape, double step, const Executor& executor,
-                      const std::shared_ptr<MemoryBudget>& budget) {
+                      const std::shared_ptr<MemoryBudget>& budget, Job* job) {
   const Box3& box = shape.bounds();
   Image::Source source{nullptr, Image::Type::float32, {}, 0, 0};
   for (int axis = 0; axis < 3; ++axis) {
     const double samples = std::ceil(box.extent()[axis] / step) + 3;
-    if (!(samples <= static_cast<double>(Image::most_size)))
+    if (!(samples <= static_cast<double>(Image::max_size)))
       fail(Status::argument, "a step of %g makes %g samples along axis %d; the limit is %llu", step,
-           samples, axis, static_cast<unsigned long long>(Image::most_size));
+           samples, axis, static_cast<unsigned long long>(Image::max_size));
     source.size[axis] = static_cast<uint64_t>(samples);
   }
   const uint64_t layer = source.size[0] * source.size[1];
   const uint64_t count = checked_product(layer, source.size[2], "samples of a distance");
   const Reservation staging(budget, checked_product(count, sizeof(float), "samples of a distance"),
                             "samples of a distance");
-  std::vector<float> values(count);
-  shape.prepare_distance();
+  const auto values = std::make_unique_for_overwrite<float[]>(count);
+  shape.prepare_distance(job);
   const ImageFrame frame{box.min - Vec3{step, step, step}, {step, step, step}, {}};
   const auto fill = [&](uint64_t k) {
     for (uint64_t at = 0; at < layer; ++at) {
+      check_cancelled(job);  // distances computed by the host may take long
       const Vec3 index{static_cast<double>(at % source.size[0]),
                        static_cast<double>(at / source.size[0]), static_cast<double>(k)};
       values[k * layer + at] = static_cast<float>(shape.distance(frame.origin + index * step));
     }
   };
-  if (shape.is_concurrent())
-    executor.for_each(source.size[2], fill);
-  else
-    for (uint64_t k = 0; k < source.size[2]; ++k) fill(k);
-  source.values = values.data();
+  const Executor serial(1);
+  run_parts(shape.is_concurrent() ? executor : serial, source.size[2], job, {0, 0.95}, fill);
+  source.values = values.get();
   source.row_stride = source.size[0] * sizeof(float);
   source.layer_stride = layer * sizeof(float);
-  return Image(source, frame, budget);
+  return Image(source, frame, budget, job);
 }
 
 }  // namespace msq

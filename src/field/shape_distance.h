@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The signed distance to a shape, a tree search a point; and samples of it, which cost little.
+// The signed distance to a shape, one tree search per point; and samples of it, which are cheap to
+// evaluate.
 #pragma once
 
 #include <memory>
@@ -12,7 +13,7 @@
 
 namespace msq {
 
-/// For curves over it: the range is not that of a parameter.
+/// For curves over it: its range is not the range of a parameter.
 class ShapeDistanceField final : public Field {
  public:
   explicit ShapeDistanceField(Ref<const Shape> shape) : shape_(std::move(shape)) {}
@@ -27,10 +28,10 @@ class ShapeDistanceField final : public Field {
   Ref<const Shape> shape_;
 };
 
-/// Its distances at points `step` apart over bounds() and a step around them. Throws
-/// Error(argument) for more samples along an axis than images have, Error(limit) where the budget
-/// has no room.
+/// Its distances at points `step` apart, over bounds() and one step around them. Throws
+/// Error(argument) if an axis needs more samples than images may have, Error(limit) if the budget
+/// is exceeded, Error(cancelled) if the job, which may be null, is cancelled.
 Image sample_distance(const Shape& shape, double step, const Executor& executor,
-                      const std::shared_ptr<MemoryBudget>& budget);
+                      const std::shared_ptr<MemoryBudget>& budget, Job* job = nullptr);
 
 }  // namespace msq

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // AMF files (ISO/ASTM 52915), plain or zipped: objects and constellations. Curved triangles are
-// read as flat ones. Read here and not by Assimp 5.2.5, which ignores the unit and takes indices
-// unchecked.
+// read as flat ones. msq reads them itself because Assimp 5.2.5 ignores the unit and does not check
+// indices.
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -32,7 +32,7 @@ double unit_of(const pugi::xml_node& amf) {
   fail(Status::io, "AMF: \"%s\" is not a unit", Quoted(name).text);
 }
 
-/// The one word inside an element.
+/// The only word inside an element.
 std::string_view word_in(const pugi::xml_node& node) {
   return TextCursor(node.child_value()).word();
 }
@@ -95,7 +95,7 @@ class Reader {
     }
     // All are counted, since constellations that contain one another are all in use.
     for (auto& [id, entry] : entries_) count_triangles(entry.assembly);
-    // What no instance names stands where it is.
+    // Entries that no instance refers to stand where they are.
     uint64_t total = 0;
     for (const Entry* entry : order_)
       if (!entry->is_used) total = saturating_sum(total, entry->assembly.triangles);
@@ -120,8 +120,10 @@ class Reader {
   }
 
   void read_mesh(const pugi::xml_node& object, TriangleSoup& mesh) const {
+    CancelPoll poll(soup_.job());
     const pugi::xml_node node = object.child("mesh");
     for (const pugi::xml_node& vertex : node.child("vertices").children("vertex")) {
+      poll();
       const pugi::xml_node coordinates = vertex.child("coordinates");
       const auto coordinate = [&](const char* axis) {
         return parse_real(word_in(coordinates.child(axis)), "AMF: vertex");
@@ -131,6 +133,7 @@ class Reader {
     }
     for (const pugi::xml_node& volume : node.children("volume"))
       for (const pugi::xml_node& child : volume.children("triangle")) {
+        poll();
         Triangle triangle;
         constexpr const char* names[] = {"v1", "v2", "v3"};
         for (size_t k = 0; k < 3; ++k) {
@@ -158,7 +161,7 @@ class Reader {
 double read_amf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup) {
   std::string content;
   if (ZipPackage::is_zip(file)) {
-    ZipPackage zip(file, max_bytes);
+    ZipPackage zip(file, max_bytes, soup.job());
     const std::string name = zip.find_by_ending(".amf");
     std::optional<std::string> entry = zip.read(name);
     if (!entry) fail(Status::io, "AMF: the archive has no file in it");

@@ -33,7 +33,7 @@ uint64_t count_triangles(Assembly& assembly, int depth) {
       assembly.height = std::max(assembly.height, instance.assembly->height + 1);
       return triangles == 0;
     });
-    // The way here may have been short, as parts of it were counted before.
+    // The path to here may have been short, as parts of it were counted before.
     if (assembly.height > max_height) fail_for_depth();
     assembly.state = Assembly::State::done;
   }

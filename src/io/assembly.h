@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes that hold instances of one another, as the objects of 3MF and AMF do.
+// Meshes that contain instances of one another, like the objects of 3MF and AMF.
 #pragma once
 
 #include <cstdint>
@@ -25,15 +25,15 @@ struct Assembly {
   enum class State { unseen, open, done } state = State::unseen;
 };
 
-/// Counts the triangles of an assembly with all instances in it, each assembly once, and drops
-/// instances without triangles, so that placing costs no more than the triangles that come of it.
-/// Throws Error(io) if an assembly contains itself, Error(limit) on nesting over 100 deep.
+/// Counts the triangles of an assembly with all its instances, each assembly once. Drops instances
+/// without triangles, so that placing costs no more than the resulting triangles. Throws Error(io)
+/// if an assembly contains itself, Error(limit) if assemblies nest over 100 deep.
 uint64_t count_triangles(Assembly& assembly, int depth = 0);
 
-/// Sum that stays at 2^63.
+/// A sum that is clamped to 2^63.
 uint64_t saturating_sum(uint64_t a, uint64_t b);
 
-/// Adds a counted assembly and all that is in it.
+/// Adds a counted assembly and all that it contains.
 void place(const Assembly& assembly, const Placement& placement, SoupBuilder& soup);
 
 }  // namespace msq

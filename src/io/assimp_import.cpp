@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Assimp 5.2.5 trusts its input: its readers step out of their buffers and leak on malformed files.
-// Hence callers hand over only what they have checked and written out anew, one importer alone is
-// registered, and MemoryIoSystem keeps it off the disk.
+// Assimp 5.2.5 trusts its input: its readers access memory outside their buffers and leak on
+// malformed files. Hence callers pass only data that they have checked and written anew, only one
+// importer is registered, and MemoryIoSystem keeps it off the disk.
 #include "io/assimp_import.h"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <new>
@@ -16,11 +17,12 @@
 
 #include "base/status.h"
 #include "io/memory_io_system.h"
+#include "io/mesh_file.h"
 
 namespace msq {
 namespace {
 
-/// Whether a list of extensions that spaces separate has this one.
+/// Whether a list of extensions, separated by spaces, contains this one.
 bool lists_extension(std::string_view list, std::string_view extension) {
   while (!list.empty()) {
     const size_t n = std::min(list.find(' '), list.size());
@@ -30,7 +32,8 @@ bool lists_extension(std::string_view list, std::string_view extension) {
   return false;
 }
 
-/// Leaves no importer but one, so that there is none to fall back to by a file's first bytes.
+/// Removes all importers except one, so that Assimp cannot choose another one by a file's first
+/// bytes.
 void keep_only(Assimp::Importer& importer, std::string_view extension) {
   std::vector<Assimp::BaseImporter*> others;
   for (size_t i = 0; i < importer.GetImporterCount(); ++i)
@@ -38,11 +41,20 @@ void keep_only(Assimp::Importer& importer, std::string_view extension) {
       others.push_back(importer.GetImporter(i));
   for (Assimp::BaseImporter* other : others) {
     importer.UnregisterLoader(other);
-    delete other;  // it is ours once unregistered
+    delete other;  // once unregistered, it belongs to the caller
   }
   if (importer.GetImporterCount() != 1)
     fail(Status::unsupported, "this build of Assimp has %zu readers of %s files, not one",
          importer.GetImporterCount(), std::string(extension).c_str());
+}
+
+/// Throws if there is not enough memory for Assimp to read a file. If an allocation fails within
+/// Assimp 5.2.5, it frees uninitialised pointers, ends the process, or leaks memory.
+void require_room(size_t file_bytes) {
+  const size_t bytes = (size_t{2} << 20) + 6 * file_bytes;
+  void* volatile room = std::malloc(bytes);  // volatile, otherwise compilers remove both calls
+  if (!room) throw std::bad_alloc();
+  std::free(room);
 }
 
 Placement placement_of(const aiMatrix4x4& m) {
@@ -77,7 +89,12 @@ void add_node(const aiScene& scene, const aiNode& node, const Placement& parent,
 
 }  // namespace
 
+bool can_read_all_mesh_files() {
+  return true;
+}
+
 void import_with_assimp(std::string_view file, const char* extension, SoupBuilder& soup) {
+  require_room(file.size());
   const std::string name = std::string("mesh.") + extension;
   Assimp::Importer importer;
   keep_only(importer, extension);

@@ -7,8 +7,8 @@
 
 namespace msq {
 
-/// Has Assimp's importer of that one extension read a file that is known to be well-formed, and
-/// adds every instance in it. Throws Error(io) with Assimp's message if it refuses.
+/// Reads a file, known to be well-formed, with Assimp's importer for one extension, and adds every
+/// instance in it. Throws Error(io) with Assimp's message if the importer fails.
 void import_with_assimp(std::string_view file, const char* extension, SoupBuilder& soup);
 
 }  // namespace msq

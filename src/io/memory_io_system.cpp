@@ -16,7 +16,7 @@ class MemoryStream final : public Assimp::IOStream {
     if (!size) return 0;
     const size_t items = std::min(count, (content_.size() - position_) / size);
     if (items) std::memcpy(buffer, content_.data() + position_, items * size);
-    // Like fread, but whole items only: Assimp reads bytes, or a block that may be cut short.
+    // Like fread, but only whole items: Assimp reads bytes, or a block that may be truncated.
     position_ += items * size;
     return items;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The world as Assimp sees it: one file, in memory. Every other path does not exist, so no file can
-// make Assimp open another one.
+// The file system that Assimp sees: one file, in memory. No other path exists, so no file can make
+// Assimp open another one.
 #pragma once
 
 #include <assimp/IOSystem.hpp>
@@ -21,7 +21,7 @@ class MemoryIoSystem final : public Assimp::IOSystem {
   void Close(Assimp::IOStream* stream) override;
   bool ComparePaths(const char* one, const char* second) const override;
 
-  // Those of the base class reach the disk.
+  // The base class's versions access the disk.
   bool CreateDirectory(const std::string&) override { return false; }
   bool ChangeDirectory(const std::string&) override { return false; }
   bool DeleteFile(const std::string&) override { return false; }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangle meshes from files and memory. The only door to Assimp.
+// Triangle meshes from files and memory.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <string>
 
+#include "base/job.h"
 #include "base/memory.h"
 #include "base/triangle_soup.h"
 
@@ -23,20 +24,22 @@ enum class MeshFormat : int32_t {
 
 struct MeshFileOptions {
   MeshFormat format = MeshFormat::automatic;
-  double unit_mm = 1;  ///< for formats that name no unit
+  double unit_mm = 1;  ///< for formats without a unit
   uint64_t max_bytes = uint64_t{4} << 30;
   uint64_t max_triangles = 200000000;
-  std::shared_ptr<MemoryBudget> budget;  ///< that reading counts against; null: none
+  std::shared_ptr<MemoryBudget> budget;  ///< to which reading is charged; null: none
+  JobPart part;                          ///< of the call; throws Error(cancelled) if its job is
+                                         ///< cancelled
 };
 
-/// Whether this build reads files; if not, the functions below throw Error(unsupported).
-bool can_read_mesh_files();
+/// Whether this build reads binary STL, 3MF and AMF; if not, it throws Error(unsupported) for them.
+bool can_read_all_mesh_files();
 
-/// All triangles of a file in millimetres, instances placed, mirrored ones turned outside out
-/// again, not yet welded. Opens no file but this one.
+/// All triangles of a file in millimetres. Instances are placed, and mirrored ones are reversed so
+/// that their normals point outwards. Vertices are not welded. Opens no file except this one.
 TriangleSoup read_mesh_file(const std::string& path, const MeshFileOptions& options);
 
-/// The same from bytes; options.format must be named.
+/// The same from bytes; requires options.format.
 TriangleSoup read_mesh_memory(const void* data, uint64_t bytes, const MeshFileOptions& options);
 
 }  // namespace msq

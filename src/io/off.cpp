@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// OFF files (Geomview), ASCII. Read here and not by Assimp 5.2.5, which drops polygons of more than
-// nine vertices, clamps indices out of range and allocates what the header claims.
+// OFF files (Geomview), ASCII. msq reads them itself because Assimp 5.2.5 drops polygons of more
+// than nine vertices, clamps indices out of range and allocates the sizes that the header gives.
 #include <vector>
 
 #include "base/status.h"
 #include "io/readers.h"
 #include "io/text_cursor.h"
+#include "io/text_lines.h"
 
 namespace msq {
 namespace {
 
 using Count = unsigned long long;
 
-/// Next word that is not in a comment.
+/// Next word outside of comments.
 std::string_view next_word(TextCursor& text, const char* what) {
   for (;;) {
     const std::string_view word = text.word();
@@ -22,7 +23,7 @@ std::string_view next_word(TextCursor& text, const char* what) {
   }
 }
 
-/// Passes the keyword [ST][C][N][4][n]OFF, which may be missing. Returns whether vertices have a
+/// Skips the keyword [ST][C][N][4][n]OFF, which may be missing. Returns whether vertices have a
 /// fourth, homogeneous coordinate.
 bool read_keyword(TextCursor& text) {
   TextCursor ahead = text;
@@ -39,7 +40,7 @@ bool read_keyword(TextCursor& text) {
          Quoted(word).text);
   if (!letters.starts_with("OFF"))
     fail(Status::io, "OFF: the file begins with \"%s\", not with OFF", Quoted(word).text);
-  // Some files have the first count right behind the keyword.
+  // Some files have the first count directly after the keyword.
   const size_t after = static_cast<size_t>(letters.data() + 3 - text.rest().data());
   text.skip(after);
   TextCursor rest = text;
@@ -51,6 +52,7 @@ bool read_keyword(TextCursor& text) {
 }  // namespace
 
 void read_off(std::string_view file, SoupBuilder& soup) {
+  refuse_wide_text(file, "OFF");
   TextCursor text(without_byte_order_mark(file));
   const bool homogeneous = read_keyword(text);
   const uint64_t vertices = parse_count(next_word(text, "header"), "OFF: vertex count");
@@ -66,8 +68,9 @@ void read_off(std::string_view file, SoupBuilder& soup) {
   soup.expect_vertices(vertices);
   soup.reserve_vertices(vertices);
 
-  // Colours and the like may follow on the line of a vertex or a face.
+  // Colours and other data may follow on the line of a vertex or a face.
   for (uint64_t i = 0; i < vertices; ++i) {
+    soup.report(text.remaining());
     double p[4] = {0, 0, 0, 1};
     for (int axis = 0; axis < (homogeneous ? 4 : 3); ++axis)
       p[axis] = parse_real(next_word(text, "vertices"), "OFF: vertex");
@@ -78,8 +81,10 @@ void read_off(std::string_view file, SoupBuilder& soup) {
   for (uint64_t i = 0; i < faces; ++i) {
     const uint64_t n = parse_count(next_word(text, "faces"), "OFF: vertices of a face");
     polygon.clear();
-    for (uint64_t k = 0; k < n; ++k)
+    for (uint64_t k = 0; k < n; ++k) {
+      soup.report(text.remaining());
       polygon.push_back(parse_integer(next_word(text, "faces"), "OFF: vertex index"));
+    }
     text.line();
     soup.add_polygon(polygon);
   }

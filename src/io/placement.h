@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an instance stands: an affine map.
+// The placement of an instance: an affine map.
 #pragma once
 
 #include "base/vec.h"

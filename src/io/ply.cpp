@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLY files (Turk, "The PLY polygon file format", 1994), ASCII and binary. Read here and not by
-// Assimp 5.2.5, which writes out of bounds on bad indices, loses the first byte of binary data that
-// begins with a line feed, and rounds doubles to floats; a scan that guards it is a reader already.
+// PLY files (Turk, "The PLY polygon file format", 1994), ASCII and binary. msq reads them itself
+// because Assimp 5.2.5 writes out of bounds on bad indices, loses the first byte of binary data
+// that begins with a line feed, and rounds doubles to floats. A scan to guard it would already be a
+// reader.
 #include <bit>
 #include <cstring>
 #include <string>
@@ -10,6 +11,7 @@
 #include "base/status.h"
 #include "io/readers.h"
 #include "io/text_cursor.h"
+#include "io/text_lines.h"
 
 namespace msq {
 namespace {
@@ -77,8 +79,8 @@ Property parse_property(TextCursor& line) {
   return property;
 }
 
-/// One line of the header. Its end is what ends the first line, since binary data that begins with
-/// a line feed may follow a carriage return or a line feed.
+/// One line of the header. All lines end like the first one, since binary data that begins with a
+/// line feed may follow a carriage return or a line feed.
 std::string_view header_line(std::string_view& rest, std::string_view line_end) {
   const size_t n = rest.find(line_end);
   if (n == std::string_view::npos) fail(Status::io, "PLY: the file ends in its header");
@@ -87,7 +89,7 @@ std::string_view header_line(std::string_view& rest, std::string_view line_end) 
   return line;
 }
 
-/// Reads the header and leaves `rest` at the data.
+/// Reads the header and moves `rest` to the data.
 Header read_header(std::string_view& rest) {
   const size_t first = rest.find_first_of("\r\n");
   if (first == std::string_view::npos || TextCursor(rest.substr(0, first)).word() != "ply")
@@ -131,14 +133,14 @@ Header read_header(std::string_view& rest) {
   return header;
 }
 
-/// The data behind the header, one value after another.
+/// The data after the header, one value after another.
 class Values {
  public:
   Values(std::string_view data, Encoding encoding) : data_(data), encoding_(encoding) {}
 
   uint64_t remaining() const { return data_.remaining(); }
-  /// Fewest bytes that a value of the type takes: in ASCII a digit, and a space before the next.
-  uint64_t least_bytes(Type type) const { return encoding_ == Encoding::ascii ? 2 : size_of(type); }
+  /// Minimum number of bytes of a value of the type: in ASCII a digit, and a space before the next.
+  uint64_t min_bytes(Type type) const { return encoding_ == Encoding::ascii ? 2 : size_of(type); }
 
   double real(Type type) {
     if (encoding_ == Encoding::ascii) return parse_real(word(), "PLY: value");
@@ -194,7 +196,7 @@ void check_counts(const Header& header, const Values& values) {
   for (const Element& element : header.elements) {
     uint64_t least = 0;
     for (const Property& property : element.properties)
-      least += values.least_bytes(property.is_list ? property.count_type : property.type);
+      least += values.min_bytes(property.is_list ? property.count_type : property.type);
     if (!least && element.count)
       fail(Status::io, "PLY: the element \"%s\" has no properties", Quoted(element.name).text);
     if (least && element.count > room / least)
@@ -210,7 +212,7 @@ uint64_t list_count(Values& values, const Property& property) {
   if (count < 0)
     fail(Status::io, "PLY: a list of \"%s\" has %lld entries", Quoted(property.name).text,
          static_cast<long long>(count));
-  if (static_cast<uint64_t>(count) > (values.remaining() + 1) / values.least_bytes(property.type))
+  if (static_cast<uint64_t>(count) > (values.remaining() + 1) / values.min_bytes(property.type))
     fail(Status::io, "PLY: a list of \"%s\" has %lld entries; only %llu bytes are left",
          Quoted(property.name).text, static_cast<long long>(count),
          static_cast<Count>(values.remaining()));
@@ -235,6 +237,7 @@ void read_vertices(const Element& element, Values& values, SoupBuilder& soup) {
   soup.expect_vertices(element.count);
   soup.reserve_vertices(element.count);
   for (uint64_t i = 0; i < element.count; ++i) {
+    soup.report(values.remaining());
     Vec3 position;
     for (size_t k = 0; k < axes.size(); ++k) {
       if (axes[k] < 0)
@@ -261,6 +264,7 @@ void read_faces(const Element& element, Values& values, SoupBuilder& soup) {
   std::vector<int64_t> polygon;
   for (uint64_t i = 0; i < element.count; ++i)
     for (const Property& property : element.properties) {
+      soup.report(values.remaining());
       if (!is_index_list(property)) {
         skip(values, property);
         continue;
@@ -275,6 +279,7 @@ void read_faces(const Element& element, Values& values, SoupBuilder& soup) {
 }  // namespace
 
 void read_ply(std::string_view file, SoupBuilder& soup) {
+  refuse_wide_text(file, "PLY");
   std::string_view rest = file;
   const Header header = read_header(rest);
   Values values(rest, header.encoding);
@@ -291,7 +296,10 @@ void read_ply(std::string_view file, SoupBuilder& soup) {
       fail(Status::unsupported, "PLY: triangle strips are not read");
     } else {
       for (uint64_t i = 0; i < element.count; ++i)
-        for (const Property& property : element.properties) skip(values, property);
+        for (const Property& property : element.properties) {
+          soup.report(values.remaining());
+          skip(values, property);
+        }
     }
   }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Source: Meisters, "Polygons have ears", American Mathematical Monthly 82 (1975): every simple
-// polygon has a vertex whose triangle with its neighbours can be cut off. Convex polygons, which is
-// nearly all, are cut as fans in linear time; ears cost quadratic time, hence the limit.
+// polygon has a vertex whose triangle with its neighbours can be cut off. Convex polygons, which
+// are nearly all, are cut as fans in linear time. Ears take quadratic time, hence the limit.
 //
 // A polygon that is not simple or not flat still gives a surface with the same border, so closed
-// meshes stay closed whatever happens here.
+// meshes stay closed in any case.
 #include "io/polygon.h"
 
 #include <cstddef>
@@ -25,7 +25,7 @@ double area(Point a, Point b, Point c) {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-/// The polygon along the axis that its normal (Newell) is closest to, counter-clockwise.
+/// The polygon projected along the axis closest to its normal (Newell), counter-clockwise.
 std::vector<Point> flatten(const std::vector<Vec3>& vertices, std::span<const uint32_t> polygon) {
   Vec3 normal;
   const Vec3 base = vertices[polygon[0]];
@@ -68,7 +68,7 @@ bool is_ear(const std::vector<Point>& points, const std::vector<uint32_t>& ring,
 }  // namespace
 
 void triangulate_polygon(const std::vector<Vec3>& vertices, std::span<const uint32_t> polygon,
-                         std::vector<Triangle>& triangles) {
+                         std::vector<Triangle>& triangles, const Job* job) {
   const auto fan = [&](const std::vector<uint32_t>& ring) {
     for (size_t i = 1; i + 1 < ring.size(); ++i)
       triangles.push_back({polygon[ring[0]], polygon[ring[i]], polygon[ring[i + 1]]});
@@ -86,6 +86,7 @@ void triangulate_polygon(const std::vector<Vec3>& vertices, std::span<const uint
          max_concave);
   size_t tries = 0;
   for (size_t b = 1; ring.size() > 3 && tries < ring.size();) {
+    check_cancelled(job);
     const size_t n = ring.size();
     b %= n;
     const size_t a = (b + n - 1) % n, c = (b + 1) % n;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The readers of the formats. Each adds the triangles of a whole file, in the file's unit, and
-// throws Error on files that are truncated or malformed, before it allocates what their headers
-// claim.
+// The readers of the formats. Each adds the triangles of a whole file, in the file's unit. It
+// throws Error if the file is truncated or malformed, before it allocates the sizes that the header
+// gives.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ void read_stl(std::string_view file, SoupBuilder& soup);
 void read_obj(std::string_view file, SoupBuilder& soup);
 void read_ply(std::string_view file, SoupBuilder& soup);
 void read_off(std::string_view file, SoupBuilder& soup);
-/// These two return the millimetres of the file's unit, and unpack no more than max_bytes.
+/// These two return the file's unit in millimetres, and unpack at most max_bytes.
 double read_threemf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup);
 double read_amf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup);
 

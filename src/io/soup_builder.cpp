@@ -13,6 +13,11 @@ using Count = unsigned long long;  // as printf wants it
 
 }  // namespace
 
+void SoupBuilder::report_now(uint64_t bytes_left) const {
+  check_cancelled(part_.job);
+  if (bytes_) part_.set_progress(1 - static_cast<double>(bytes_left) / static_cast<double>(bytes_));
+}
+
 void SoupBuilder::expect_triangles(uint64_t more) const {
   const uint64_t held = soup_.triangles.size();
   if (held > max_triangles_ || more > max_triangles_ - held)
@@ -40,16 +45,29 @@ void SoupBuilder::add_polygon(std::span<const int64_t> indices) {
   ++faces_;
   if (polygon_.size() < 3) return;
   expect_triangles(polygon_.size() - 2);
-  triangulate_polygon(soup_.vertices, polygon_, soup_.triangles);
+  triangulate_polygon(soup_.vertices, polygon_, soup_.triangles, part_.job);
+}
+
+void SoupBuilder::add_triangle(const Vec3 (&corners)[3]) {
+  expect_triangles(1);
+  expect_vertices(3);
+  const auto first = static_cast<uint32_t>(soup_.vertices.size());
+  soup_.vertices.insert(soup_.vertices.end(), corners, corners + 3);
+  soup_.triangles.push_back({first, first + 1, first + 2});
 }
 
 void SoupBuilder::add_instance(const TriangleSoup& mesh, const Placement& placement) {
   expect_triangles(mesh.triangles.size());
   expect_vertices(mesh.vertices.size());
   const auto first = static_cast<uint32_t>(soup_.vertices.size());
-  for (const Vec3& vertex : mesh.vertices) soup_.vertices.push_back(placement.apply(vertex));
+  CancelPoll poll(part_.job);
+  for (const Vec3& vertex : mesh.vertices) {
+    poll();
+    soup_.vertices.push_back(placement.apply(vertex));
+  }
   const bool mirrored = placement.determinant() < 0;
   for (Triangle triangle : mesh.triangles) {
+    poll();
     if (mirrored) std::swap(triangle[1], triangle[2]);
     soup_.triangles.push_back({first + triangle[0], first + triangle[1], first + triangle[2]});
   }
@@ -57,7 +75,9 @@ void SoupBuilder::add_instance(const TriangleSoup& mesh, const Placement& placem
 
 TriangleSoup SoupBuilder::finish(double scale) {
   if (soup_.triangles.empty()) fail(Status::mesh, "the file has no triangles");
+  CancelPoll poll(part_.job);
   for (Vec3& vertex : soup_.vertices) {
+    poll();
     vertex = vertex * scale;
     if (!is_finite(vertex))
       fail(Status::mesh, "vertex %llu is not finite: %g %g %g",

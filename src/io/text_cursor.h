@@ -2,7 +2,9 @@
 // Words and numbers of text files, independent of the process's locale.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <system_error>
@@ -21,17 +23,43 @@ struct Quoted {
   char text[61] = {};
 };
 
-/// A whole word as a number. "nan" and "inf" are numbers here: vertices are checked when all are
-/// in.
+/// For a number out of double's range: whether it is too small, not too large.
+inline bool is_too_small(std::string_view digits) {
+  const size_t e = std::min(digits.find_first_of("eE"), digits.size());
+  std::string_view exponent = digits.substr(std::min(e + 1, digits.size()));
+  if (exponent.starts_with('+')) exponent.remove_prefix(1);
+  int64_t power = 0;
+  const auto parsed = std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
+  if (parsed.ec == std::errc::result_out_of_range) return exponent[0] == '-';
+  // A double overflows from 10^309 on, and underflows below 10^-323.
+  const std::string_view mantissa = digits.substr(0, e);
+  const auto first = static_cast<int64_t>(mantissa.find_first_of("123456789"));
+  const auto point = static_cast<int64_t>(std::min(mantissa.find('.'), mantissa.size()));
+  return power < first - point;
+}
+
+/// Converts a whole word to the nearest double; 0 if it is too small. Accepts "nan" and "inf":
+/// vertices are checked when all are read.
 inline double parse_real(std::string_view word, const char* what) {
   std::string_view digits = word;
   if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::result_out_of_range)
+  const bool is_whole = end == digits.data() + digits.size();
+  if (error == std::errc::result_out_of_range && is_whole) {
+    if (is_too_small(digits)) return digits.starts_with('-') ? -0.0 : 0.0;
     fail(Status::mesh, "%s: \"%s\" is out of the range of a double", what, Quoted(word).text);
-  if (error != std::errc() || end != digits.data() + digits.size())
+  }
+  if (error != std::errc() || !is_whole)
     fail(Status::io, "%s: \"%s\" is not a number", what, Quoted(word).text);
+  return value;
+}
+
+/// The same for a number that must be finite.
+inline double parse_finite(std::string_view word, const char* what) {
+  const double value = parse_real(word, what);
+  if (!std::isfinite(value))
+    fail(Status::mesh, "%s: \"%s\" is not finite", what, Quoted(word).text);
   return value;
 }
 
@@ -74,12 +102,17 @@ class TextCursor {
     while (!rest_.empty() && is_blank(rest_[0])) rest_.remove_prefix(1);
     return take_word();
   }
-  /// Everything up to the end of this line, which is passed over.
-  std::string_view line() {
+  /// Everything up to the end of this line.
+  std::string_view rest_of_line() {
     size_t n = 0;
     while (n < rest_.size() && !is_line_end(rest_[n])) ++n;
     const std::string_view result = rest_.substr(0, n);
     rest_.remove_prefix(n);
+    return result;
+  }
+  /// The same, and moves past the end.
+  std::string_view line() {
+    const std::string_view result = rest_of_line();
     if (rest_.size() > 1 && rest_[0] == '\r' && rest_[1] == '\n')
       rest_.remove_prefix(2);
     else if (!rest_.empty())
@@ -99,7 +132,7 @@ class TextCursor {
   std::string_view rest_;
 };
 
-/// Without the byte order mark that some writers put before UTF-8.
+/// Removes the byte order mark that some writers put before UTF-8.
 inline std::string_view without_byte_order_mark(std::string_view text) {
   return text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // 3MF packages: the core specification, version 1.3, and objects in other parts of the package
-// (production extension). Read here and not by Assimp 5.2.5, which ignores the unit, the parts of
-// the production extension and required extensions, takes indices unchecked, follows components
-// that contain themselves without end, and reads past the end of short transforms.
+// (production extension). msq reads them itself because Assimp 5.2.5 ignores the unit, the parts of
+// the production extension and required extensions, does not check indices, follows components that
+// contain themselves without end, and reads past the end of short transforms.
 #include <map>
 #include <optional>
 #include <string>
@@ -34,7 +34,7 @@ double unit_of(const pugi::xml_node& model) {
   fail(Status::io, "3MF: \"%s\" is not a unit", Quoted(name).text);
 }
 
-/// Extensions that leave the triangles as they are, or are read here.
+/// Extensions that do not change the triangles, or are read here.
 constexpr const char* known_extensions[] = {
     "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
     "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
@@ -70,7 +70,7 @@ Placement parse_transform(const char* text) {
   return {{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}, {m[9], m[10], m[11]}};
 }
 
-/// Of an object: the part that holds it, and its number there.
+/// Id of an object: the part that contains it, and its number there.
 using Id = std::pair<std::string, uint64_t>;
 
 /// A component of an object, or an item of the build.
@@ -83,12 +83,12 @@ struct Reference {
 class Package {
  public:
   Package(std::string_view file, uint64_t max_bytes, SoupBuilder& soup)
-      : zip_(file, max_bytes), soup_(soup) {}
+      : zip_(file, max_bytes, soup.job()), soup_(soup) {}
 
   double read() {
     const std::string root = root_part();
     read_part(root);
-    // Parts that references name join the queue as they are met.
+    // Parts that references name are added to the queue when they are found.
     while (!waiting_.empty()) {
       const std::string part = waiting_.back();
       waiting_.pop_back();
@@ -119,7 +119,7 @@ class Package {
     return "3D/3dmodel.model";
   }
 
-  /// Names in the package begin with a slash, those in the archive do not.
+  /// Names in the package begin with a slash; names in the archive do not.
   static std::string part_name(std::string_view path) {
     while (path.starts_with('/')) path.remove_prefix(1);
     return std::string(path);
@@ -137,7 +137,7 @@ class Package {
     const double unit = unit_of(model);
     if (!parts_.empty() && unit != parts_.begin()->second)
       fail(Status::unsupported, "3MF: the part \"%s\" has a unit of its own", Quoted(part).text);
-    // Elements of extensions may have the same names behind another prefix.
+    // Elements of extensions may have the same names with another prefix.
     const std::string_view name = model.name();
     prefix_ = name.substr(0, name.size() - local_name(name).size());
     const bool is_root = parts_.empty();
@@ -162,8 +162,10 @@ class Package {
   }
 
   void read_mesh(const pugi::xml_node& node, TriangleSoup& mesh) const {
+    CancelPoll poll(soup_.job());
     const std::string vertex_tag = tag("vertex"), triangle_tag = tag("triangle");
     for (const pugi::xml_node& vertex : node.child(tag("vertices").c_str()).children()) {
+      poll();
       if (vertex.name() != vertex_tag) continue;
       const auto coordinate = [&](const char* axis) {
         return parse_real(vertex.attribute(axis).value(), "3MF: vertex");
@@ -171,12 +173,14 @@ class Package {
       soup_.expect_vertices(mesh.vertices.size() + 1);
       mesh.vertices.push_back({coordinate("x"), coordinate("y"), coordinate("z")});
     }
-    for (const pugi::xml_node& node : node.child(tag("triangles").c_str()).children()) {
-      if (node.name() != triangle_tag) continue;
+    for (const pugi::xml_node& corners : node.child(tag("triangles").c_str()).children()) {
+      poll();
+      if (corners.name() != triangle_tag) continue;
       Triangle triangle;
       constexpr const char* names[] = {"v1", "v2", "v3"};
       for (size_t k = 0; k < 3; ++k) {
-        const int64_t index = parse_integer(node.attribute(names[k]).value(), "3MF: vertex index");
+        const int64_t index =
+            parse_integer(corners.attribute(names[k]).value(), "3MF: vertex index");
         if (index < 0 || static_cast<uint64_t>(index) >= mesh.vertices.size())
           fail(Status::mesh, "3MF: triangle %zu has vertex index %lld; there are %zu vertices",
                mesh.triangles.size(), static_cast<long long>(index), mesh.vertices.size());

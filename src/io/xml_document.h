@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// XML as 3MF and AMF use it: elements, attributes and plain text. Entities are not expanded, and no
-// other file is read.
+// The part of XML that 3MF and AMF use: elements, attributes and plain text. Entities are not
+// expanded, and no other file is read.
 #pragma once
 
 #include <new>

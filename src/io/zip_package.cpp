@@ -5,16 +5,18 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 
 #include "base/status.h"
 #include "io/text_cursor.h"
+#include "io/zip_directory.h"
 
 namespace msq {
 namespace {
 
 using Count = unsigned long long;
 
-/// What minizip takes for a file.
+/// The file as minizip sees it.
 struct Source {
   std::string_view content;
   uint64_t position = 0;
@@ -62,6 +64,12 @@ int source_error(voidpf, voidpf) {
   return 0;
 }
 
+/// Throws if memory failed: minizip has no code of its own for that, and uses this one for nothing
+/// else.
+void check_memory(int result) {
+  if (result == UNZ_INTERNALERROR || result == Z_MEM_ERROR) throw std::bad_alloc();
+}
+
 }  // namespace
 
 struct ZipPackage::Archive {
@@ -78,9 +86,15 @@ struct ZipPackage::Archive {
   unzFile handle;
 };
 
-ZipPackage::ZipPackage(std::string_view file, uint64_t max_bytes)
-    : archive_(std::make_unique<Archive>(file)), bytes_left_(max_bytes), max_bytes_(max_bytes) {
-  if (!archive_->handle) fail(Status::io, "the file is not a zip archive, or is truncated");
+ZipPackage::ZipPackage(std::string_view file, uint64_t max_bytes, const Job* job)
+    : archive_(std::make_unique<Archive>(file)),
+      bytes_left_(max_bytes),
+      max_bytes_(max_bytes),
+      job_(job) {
+  if (archive_->handle) return;
+  // minizip gives no reason.
+  if (has_zip_directory(file)) throw std::bad_alloc();
+  fail(Status::io, "the file is not a zip archive, or is truncated");
 }
 
 ZipPackage::~ZipPackage() = default;
@@ -98,13 +112,17 @@ std::optional<std::string> ZipPackage::read(const std::string& name) {
     fail(Status::limit, "the zip entry \"%s\" unpacks to %llu bytes; max_bytes is %llu",
          Quoted(name).text, static_cast<Count>(info.uncompressed_size),
          static_cast<Count>(max_bytes_));
-  if (unzOpenCurrentFile(handle) != UNZ_OK)
+  const int opened = unzOpenCurrentFile(handle);
+  check_memory(opened);
+  if (opened != UNZ_OK)
     fail(Status::io, "the zip entry \"%s\" cannot be opened", Quoted(name).text);
 
-  // Piece by piece, so that memory follows what is there and not what the entry claims.
+  // Piece by piece, so that memory follows the actual content and not the size that the entry
+  // gives.
   std::string content;
   int got = 0;
   do {
+    check_cancelled(job_);
     constexpr uint64_t piece = 1 << 18;
     const size_t size = content.size();
     const uint64_t wanted = std::min<uint64_t>(piece, info.uncompressed_size - size);
@@ -114,6 +132,7 @@ std::optional<std::string> ZipPackage::read(const std::string& name) {
     content.resize(size + static_cast<size_t>(std::max(got, 0)));
   } while (got > 0);
   const int closed = unzCloseCurrentFile(handle);  // compares the checksum
+  check_memory(got);
   if (got < 0 || closed != UNZ_OK || content.size() != info.uncompressed_size)
     fail(Status::io, "the zip entry \"%s\" is damaged: %zu of %llu bytes unpacked",
          Quoted(name).text, content.size(), static_cast<Count>(info.uncompressed_size));

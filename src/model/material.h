@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials: an id and named channels, each a number or a field; and blends of two.
+// Materials: an id and named channels, each a number or a field; and blends of two materials.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,16 @@ namespace msq {
 class Material : public RefCounted {
  public:
   uint32_t id() const { return id_; }
-  /// Which channel has the name, if any.
+  /// The channel with the name, if there is one.
   std::optional<size_t> find(std::string_view name) const;
   const std::vector<std::string>& channels() const { return channels_; }
-  /// values[i] becomes the channel's value at points[i].
+  /// Sets values[i] to the channel's value at points[i].
   virtual void values(size_t channel, const Vec3* points, size_t count, double* values) const = 0;
   virtual bool is_concurrent() const = 0;
-  /// How many blends are within each other.
+  /// Nesting depth of blends.
   virtual unsigned depth() const { return 0; }
-  /// How many materials a value is made of, each counted as often as it is asked.
+  /// The number of materials that a value is computed from, each counted as often as it is
+  /// evaluated.
   virtual uint64_t terms() const { return 1; }
 
  protected:
@@ -36,7 +37,7 @@ class Material : public RefCounted {
 
 class PlainMaterial final : public Material {
  public:
-  /// As many parameters as channels.
+  /// There is one parameter per channel.
   PlainMaterial(uint32_t id, std::vector<std::string> channels, std::vector<Parameter> parameters)
       : Material(id, std::move(channels)), parameters_(std::move(parameters)) {}
 
@@ -56,7 +57,7 @@ class MaterialBlend final : public Material {
   MaterialBlend(uint32_t id, Ref<const Material> a, Ref<const Material> b, Parameter fraction);
 
   void values(size_t channel, const Vec3* points, size_t count, double* values) const override;
-  // Known once and for all: a material may be in a blend of blends very many times.
+  // Stored: a material may occur many times in a blend of blends.
   bool is_concurrent() const override { return is_concurrent_; }
   unsigned depth() const override { return depth_; }
   uint64_t terms() const override { return terms_; }

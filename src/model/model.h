@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A coarse shape and the structures that fill it, scale by scale; the solid is the shape cut with
-// each structure, save for the skin that a scale may leave.
+// each structure, save for the skin that a scale may leave. Or several such models, the regions: a
+// point belongs to the first whose shape holds it, and is inside where that region is.
 // Source: paper, section "Multiscale Shape-Material Modeling API".
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -28,7 +30,8 @@ class Model final : public RefCounted {
     Parameter skin;  ///< its thickness
     Ref<const Material> material, skin_material;
   };
-  /// Throws Error(limit) if a structure has more than max_cell_index cells across the shape,
+  /// Throws Error(limit) if a structure has more than max_cell_index cells across the shape where
+  /// that has bounds (otherwise query/reach.h checks each query),
   /// Error(unsupported) if a skin is asked for whose depth the shape does not know.
   Model(Ref<Context> context, Ref<const Shape> shape, std::vector<ScaleParts> scales,
         Ref<const Material> material = {});
@@ -38,19 +41,32 @@ class Model final : public RefCounted {
       : Model(std::move(context), std::move(shape),
               std::vector<ScaleParts>(structures.begin(), structures.end())) {}
 
+  /// A model of regions, the first of which goes before the others. Regions that are models of
+  /// regions are replaced by these. At least one, at most max_regions: Error(limit).
+  Model(Ref<Context> context, const std::vector<Ref<const Model>>& regions);
+  static constexpr size_t max_regions = 4096;
+
   Context& context() const { return *context_; }
   /// Who computes the answers of this model: the context's threads, or the calling thread alone
   /// where an object that the host defines wants no other.
-  const Executor& executor() const {
-    return context_->executor_for(is_concurrent_);
-  }
+  const Executor& executor() const { return context_->executor_for(is_concurrent_); }
+  /// Of regions: the union of theirs.
   const Shape& shape() const { return *shape_; }
   const Box3& bounds() const { return shape_->bounds(); }
-  size_t scale_count() const { return 1 + scales_.size(); }
-  /// Of scale 0: infinite.
-  double scale_length(size_t scale) const {
-    return scale == 0 ? std::numeric_limits<double>::infinity()
-                      : scales_[scale - 1].structure->characteristic_length();
+  /// Models of one region each; none where this is one itself.
+  const std::vector<Ref<const Model>>& regions() const { return regions_; }
+  static constexpr size_t no_region = SIZE_MAX;
+  /// The region that a finite point belongs to, 0 of a model that is one; or no_region.
+  size_t region_at(Vec3 p) const;
+
+  /// Of regions: the most of any.
+  size_t scale_count() const;
+  /// Of scale 0: infinite. Of regions: the largest of those that have the scale.
+  double scale_length(size_t scale) const;
+
+  /// Which one a scale of resolved() is; the coarsest is 0.
+  size_t number(const Scale& scale) const {
+    return 1 + static_cast<size_t>(&scale - scales_.data());
   }
 
   /// The scales but the coarsest that a query at a length scale resolves.
@@ -70,10 +86,15 @@ class Model final : public RefCounted {
   std::vector<const Material*> materials(const Scales& resolved) const;
   /// Builds what answers of these scales need of the shape's depth, if anything. What else they ask
   /// would find out on a worker, with answers written already.
-  void prepare_skins(const Scales& resolved) const;
+  void prepare_skins(const Scales& resolved, const Job* job) const;
 
  private:
+  /// Membership of a point of the shape.
+  bool scales_hold(Vec3 p, const Scales& resolved) const;
+  double distance_of_regions(Vec3 p, const Scales& resolved) const;
+
   Ref<Context> context_;
+  std::vector<Ref<const Model>> regions_;
   Ref<const Shape> shape_;
   Ref<const Material> material_;
   std::vector<Scale> scales_;

@@ -6,11 +6,11 @@
 namespace msq {
 
 // Inside both, the ball that fits in either lies in their union, as far as it lies in the shape.
-// Outside both, neither is nearer than the nearer one.
+// Outside both, the smaller of the two distances is a lower bound.
 double Scale::distance(Vec3 p, double depth) const {
   const double of_structure = structure->distance(p);
   if (skin.is_none()) return of_structure;
-  const double of_skin = signed_distance(skin.holds(p, depth), skin.clearance(p, depth));
+  const double of_skin = signed_distance(skin.holds(p, depth), skin.distance_bound(p, depth));
   return std::min(of_structure, of_skin);
 }
 
@@ -32,7 +32,7 @@ void Scale::keep_rows(const RowBlock& block, const Job* job) const {
   skin_rows.row_stride = words;
   skin_rows.layer_stride = words * block.rows();
   skin.mark_rows(block, skin_rows, job);
-  // The structure need not be asked within the skin.
+  // The structure need not be evaluated within the skin.
   const auto for_words = [&](auto&& change) {
     for (uint64_t k = block.z0; k < block.z1; ++k)
       for (uint64_t j = block.y0; j < block.y1; ++j) {
@@ -46,16 +46,16 @@ void Scale::keep_rows(const RowBlock& block, const Job* job) const {
   for_words([](uint64_t kept, uint64_t in_skin) { return kept | in_skin; });
 }
 
-void Scale::enter(RaySearch* searches, size_t count) const {
-  if (skin.is_none()) return structure->enter(searches, count);
-  // The skin first: it ends what the structure is asked about.
+void Scale::enter(RaySearch* searches, size_t count, const Job* job) const {
+  if (skin.is_none()) return structure->enter(searches, count, job);
+  // The skin comes first: it shortens the search of the structure.
   std::vector<RaySearch> within(searches, searches + count);
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];
-    s.found = skin.enter(s.ray, s.from, s.to, s.t);
+    s.found = skin.enter(s.ray, s.from, s.to, structure->ray_tolerance(s.ray, s.to), s.t, job);
     if (s.found) within[i].to = s.t;
   }
-  structure->enter(within.data(), count);
+  structure->enter(within.data(), count, job);
   for (size_t i = 0; i < count; ++i)
     if (within[i].found) {
       searches[i].found = true;
@@ -64,15 +64,16 @@ void Scale::enter(RaySearch* searches, size_t count) const {
     }
 }
 
-double Scale::leave(const Ray& ray, double from, double to) const {
-  if (skin.is_none() || structure->inside(ray.at(from))) return structure->leave(ray, from, to);
-  return skin.leave(ray, from, to);
+double Scale::leave(const Ray& ray, double from, double to, const Job* job) const {
+  if (skin.is_none() || structure->inside(ray.at(from)))
+    return structure->leave(ray, from, to, job);
+  return skin.leave(ray, from, to, structure->ray_tolerance(ray, to), job);
 }
 
 Vec3 Scale::normal(const Ray& ray, double t) const {
   if (skin.is_none() || structure->inside(ray.at(t))) return structure->normal(ray, t);
   return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t,
-                              1e-4 * structure->characteristic_length());
+                              1e-4 * structure->cell_length());
 }
 
 }  // namespace msq

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "model/skin_cells.h"
-#include "structure/strut_clearance.h"
+#include "structure/common/strut_distance_bound.h"
 
 namespace msq {
 
@@ -41,38 +41,42 @@ bool Skin::find(Vec3 p, uint32_t& part) const {
   return range == BoundarySearch::Range::between ? holds(p) : range == BoundarySearch::Range::below;
 }
 
-double Skin::clearance(Vec3 p, double depth) const {
-  return strut_clearance(depth, shape_->depth_error(), thickness_, p);
+double Skin::distance_bound(Vec3 p, double depth) const {
+  return strut_distance_bound(depth, shape_->depth_error(), thickness_, p);
 }
 
-bool Skin::enter(const Ray& ray, double from, double to, double& t) const {
-  return march(true, ray, from, to, t);
+bool Skin::enter(const Ray& ray, double from, double to, double tolerance, double& t,
+                 const Job* job) const {
+  return march(true, ray, from, to, tolerance, t, job);
 }
 
-double Skin::leave(const Ray& ray, double from, double to) const {
+double Skin::leave(const Ray& ray, double from, double to, double tolerance, const Job* job) const {
   double t;
-  return march(false, ray, from, to, t) ? t : to;
+  return march(false, ray, from, to, tolerance, t, job) ? t : to;
 }
 
-bool Skin::march(bool wanted, const Ray& ray, double from, double to, double& t) const {
-  // Where nothing is known of how fast the thickness varies, there is no bound.
+// Steps are as the shape's, since its depth is known no better. A change that they find is bisected
+// to within the scale's tolerance.
+bool Skin::march(bool wanted, const Ray& ray, double from, double to, double tolerance, double& t,
+                 const Job* job) const {
+  // If the Lipschitz constant of the thickness is unknown, there is no bound.
   const bool is_bounded = thickness_.lipschitz() < std::numeric_limits<double>::infinity();
-  const RayMarch steps{is_bounded ? shape_->ray_tolerance() : shape_->least_ray_step(),
-                       shape_->ray_tolerance()};
+  const RayMarch steps{is_bounded ? shape_->ray_tolerance() : shape_->min_ray_step(),
+                       shape_->ray_tolerance(), tolerance};
   return steps.find(
       wanted, ray, from, to, [this](Vec3 p) { return holds(p); },
-      [this](Vec3 p) { return clearance(p, shape_->depth(p)); }, t);
+      [this](Vec3 p) { return distance_bound(p, shape_->depth(p)); }, t, job);
 }
 
-// From a sample on, all those of the row that are no farther than its clearance are answered with
-// it.
+// A sample decides all following samples of the row within its distance bound.
 void Skin::step_along_rows(const RowBlock& alive, const RowBlock& skin, const Job* job) const {
   const SampleGrid& grid = *alive.grid;
   const Interval thickness = thickness_.range();
   const double error = shape_->depth_error();
-  // Positions of samples are rounded; what that moves them by is far below 2^-40 of a coordinate.
+  // Positions of samples are rounded, by far less than 2^-40 of a coordinate.
   const double rounding =
-      0x1p-40 * (max_magnitude(grid.at(0, alive.y0, alive.z0)) + std::abs(grid.x(grid.nx - 1)));
+      0x1p-40 * (max_magnitude(grid.at(0, alive.y0, alive.z0)) + std::abs(grid.x(grid.nx - 1))) +
+      grid.rounding();
   for (uint64_t k = alive.z0; k < alive.z1; ++k)
     for (uint64_t j = alive.y0; j < alive.y1; ++j) {
       if (j % 16 == 0) check_cancelled(job);
@@ -80,9 +84,9 @@ void Skin::step_along_rows(const RowBlock& alive, const RowBlock& skin, const Jo
       for (uint64_t i = next_bit(row, 0, grid.nx); i < grid.nx;) {
         const Vec3 p = grid.at(i, j, k);
         const double depth = shape_->depth(p);
-        // Where nothing is known of how fast the thickness varies, its range still is.
+        // If the Lipschitz constant of the thickness is unknown, its range is still known.
         const double reach =
-            std::max(clearance(p, depth),
+            std::max(distance_bound(p, depth),
                      std::max(depth - thickness.high, thickness.low - depth) - error) -
             rounding;
         const double steps = std::clamp(std::floor(reach / grid.spacing.x), 0.0,

@@ -10,8 +10,8 @@ namespace {
 /// Samples of a brick along an axis: in x, those of a word.
 constexpr uint64_t side = bits_per_word;
 /// Samples of a cell along an axis.
-constexpr double most_step = 16;
-/// Of a square: what the few operations that bound it may lose, many times over.
+constexpr double max_step = 16;
+/// Bound on the rounding of a square, many times over.
 constexpr double rounding = 0x1p-40;
 
 /// Bits [begin, end) of a word.
@@ -42,9 +42,9 @@ SkinCells::SkinCells(const Skin& skin, const BoundarySearch& search, const RowBl
   choose_steps();
 }
 
-// Halving the width h of cells asks for four times as many corners about a level surface, and
-// leaves a quarter of the samples undecided, whose share is about h^2 / (3 t) in units of samples.
-// Both cost the same where h^4 is about 7 t.
+// Halving the width h of cells needs four times as many corners about a level surface, and leaves a
+// quarter of the samples undecided; their share is about h^2 / (3 t) in units of samples. Both cost
+// the same where h^4 is about 7 t.
 void SkinCells::choose_steps() {
   const SampleGrid& grid = *alive_.grid;
   const double extent = max_component(skin_.shape().bounds().extent());
@@ -67,7 +67,7 @@ void SkinCells::choose_steps() {
   const double width = unit * std::pow(7 * thickness / unit, 0.25);
   for (int axis = 0; axis < 3; ++axis)
     axes_[axis].step =
-        static_cast<uint32_t>(std::clamp(std::floor(width / spacing[axis] + 0.5), 1.0, most_step));
+        static_cast<uint32_t>(std::clamp(std::floor(width / spacing[axis] + 0.5), 1.0, max_step));
 }
 
 void SkinCells::mark(const Job* job) {
@@ -103,7 +103,7 @@ bool SkinCells::any_alive(const Cells& cells) const {
   return false;
 }
 
-/// Of the samples that may be alive.
+/// The box of the samples that may be alive.
 Box3 SkinCells::samples_box(const Cells& cells) const {
   Box3 box;
   for (int a = 0; a < 3; ++a) {
@@ -122,6 +122,7 @@ BoundarySearch::Range SkinCells::ask_box(const Box3& box) {
 }
 
 void SkinCells::divide(const Cells& cells) {
+  check_cancelled();
   if (!any_alive(cells)) return;
   bool is_cell = true, is_sample = true;
   for (int a = 0; a < 3; ++a) {
@@ -193,7 +194,7 @@ void SkinCells::fill_cell(const Cells& cell) {
     origin[a] = axis.at[axis.begin(cell.low[a])];
     width[a] = axis.at[axis.sample(axis.upper_corner(cell.low[a]))] - origin[a];
   }
-  double greatest = 0;  // of what enters the lower bound
+  double greatest = 0;  // of the values in the lower bound
   const bool is_sample = axes_[0].step == 1 && axes_[1].step == 1 && axes_[2].step == 1;
   if (!is_sample) {
     for (int n = 0; n < 8; ++n) {
@@ -201,7 +202,7 @@ void SkinCells::fill_cell(const Cells& cell) {
       for (int a = 0; a < 3; ++a)
         at[a] = n >> a & 1 ? axes_[a].upper_corner(cell.low[a]) : cell.low[a];
       corners[n] = corner(at);
-      greatest = std::max(greatest, corners[n].least_squared);
+      greatest = std::max(greatest, corners[n].min_squared);
     }
     for (double w : width) greatest += w * w;
   }
@@ -217,7 +218,7 @@ void SkinCells::fill_cell(const Cells& cell) {
       const double of_y = width[1] > 0 ? y / width[1] : 0, of_z = width[2] > 0 ? z / width[2] : 0;
       double ends[2];
       for (int n = 0; n < 2; ++n) {
-        const auto at = [&](int m) { return corners[m + n].least_squared; };
+        const auto at = [&](int m) { return corners[m + n].min_squared; };
         const double low = at(0) + of_y * (at(2) - at(0)), high = at(4) + of_y * (at(6) - at(4));
         ends[n] = low + of_z * (high - low);
       }

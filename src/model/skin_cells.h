@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rows of a skin under a mesh, without a search of its triangles at every sample.
 //
-// Whole boxes of samples are skin or are not, by the depth of their centre and their half diagonal,
-// since depths differ by no more than points do. What is left is taken in cells of a few samples
-// along each axis: at their corners the distance D to the boundary and its foot are found, and
-// between them
+// Whole boxes of samples are decided by the depth of their centre and their half diagonal, since
+// depths differ by no more than points do. The rest is divided into cells of a few samples along
+// each axis. At their corners the distance D to the boundary and its foot are computed. Between the
+// corners
 // - D is at most the distance to any corner's foot;
-// - D^2 is at least what the corners' D^2 interpolate to, less what a square differs from its own
-//   interpolation: the sum over the axes of x (h - x), at the offset x in a cell of width h. For
-//   D(p)^2 - |p|^2, the least of |f|^2 - 2 p f over the points f of the boundary, is concave, as
-//   the least of linear functions is.
-// Both bounds are off by about h^2 / D only. Samples that they do not decide are searched; those
-// that are as deep as the skin is thick, within the error of depths, are asked of the definition.
+// - D^2 is at least the interpolation of the corners' D^2 minus the difference of a square from its
+//   own interpolation: the sum over the axes of x (h - x), at the offset x in a cell of width h.
+//   For D(p)^2 - |p|^2, the minimum of |f|^2 - 2 p f over the points f of the boundary, is concave,
+//   as the minimum of linear functions is.
+// The error of both bounds is only about h^2 / D. Samples that they do not decide are searched. If
+// the depth of a sample equals the skin's thickness, within the error of depths, the definition
+// decides.
 #pragma once
 
 #include <cstdint>
@@ -30,13 +31,13 @@ class SkinCells {
   SkinCells(const Skin& skin, const BoundarySearch& search, const RowBlock& alive,
             const RowBlock& rows);
 
-  /// Sets the bits of the alive samples in the skin, and of some that are not alive.
+  /// Sets the bits of the alive samples in the skin, and of some samples that are not alive.
   void mark(const Job* job);
 
  private:
-  /// Samples along an axis of a brick, and the cells that they are cut into. Where `step` is 1 a
-  /// cell is a sample alone. Otherwise it has the samples from a corner up to the next, which the
-  /// last one includes.
+  /// Samples along an axis of a brick, and the cells that they are divided into. If `step` is 1, a
+  /// cell is a single sample. Otherwise it has the samples from a corner to the next one, which the
+  /// last cell includes.
   struct Axis {
     uint64_t first = 0;
     uint32_t count = 0, step = 1, cells = 0;
@@ -52,7 +53,7 @@ class SkinCells {
     uint32_t low[3], high[3];  // [low, high) along each axis
   };
   struct Corner {
-    double least_squared;  // of D^2
+    double min_squared;  // of D^2
     Vec3 foot;
   };
   using Range = BoundarySearch::Range;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's array as a set of points: its parts are runs of it.
+// The host's array as a set of points; its parts are consecutive runs.
 #pragma once
 
 #include "query/point_array.h"

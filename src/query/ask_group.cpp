@@ -23,8 +23,10 @@ void ask_group(const Scale& scale, const QueryPlan& plan, const Vec3* points, ui
     if (job) job->counts().add_group(living);
     return;
   }
-  for (size_t i = 0; i < count; ++i)
+  for (size_t i = 0; i < count; ++i) {
+    if (i % 16 == 0) check_cancelled(job);
     if (alive[i]) alive[i] = scale.inside(points[i]);
+  }
   if (job) job->counts().by_point += living;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a group of points is asked of a scale: one by one, or as a set.
+// Evaluates a group of points with a scale: one by one, or as a set.
 // Source: paper, section "Structured and Unstructured Set Queries" (critical number of points).
 #pragma once
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A box of equal cells divided into bricks of cells, so that what lies in a brick lies close
-// together.
+// A box of equal cells divided into bricks of cells, so that points of a brick lie close together.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +14,7 @@ class Bricks {
  public:
   using Counts = std::array<uint64_t, 3>;
 
-  /// Bricks of at most `most` cells (at least one), about as long along each axis as the cells'
+  /// Bricks of at most `most` cells (at least one), with sides as equal in length as the cells'
   /// size allows.
   Bricks(const Counts& counts, Vec3 cell_size, uint64_t most) : counts_(counts) {
     while (2 * brick_[0] * brick_[1] * brick_[2] <= most) {

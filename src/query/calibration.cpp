@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
+
+#include "base/polled_sort.h"
 
 namespace msq {
 
@@ -17,7 +20,7 @@ Calibration::Calibration(const Structure& structure, const StratifiedPoints& sam
     PointSet::Part part;
     sample.read_part(index, part);
     for (size_t i = 0; i < part.numbers.size(); ++i) {
-      if (i % 1024 == 0) check_cancelled(job);
+      if (i % 16 == 0) check_cancelled(job);
       onsets_[part.numbers[i]] = structure.onset(part.positions[i]);
     }
     const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
@@ -26,7 +29,7 @@ Calibration::Calibration(const Structure& structure, const StratifiedPoints& sam
     job->raise_progress(0.9 * static_cast<double>(now) / static_cast<double>(parts));
   });
   sorted_ = onsets_;
-  std::sort(sorted_.begin(), sorted_.end());
+  polled_sort(sorted_.begin(), sorted_.end(), std::less<>());
   const double most = std::min(structure.onset_limit(), std::numeric_limits<double>::max());
   reached_ = static_cast<uint64_t>(std::upper_bound(sorted_.begin(), sorted_.end(), most) -
                                    sorted_.begin());
@@ -34,7 +37,7 @@ Calibration::Calibration(const Structure& structure, const StratifiedPoints& sam
 
 double Calibration::parameter(double fraction) const {
   const double wanted = std::ceil(fraction * static_cast<double>(count()));
-  // Rounding of the product must not ask for a point more than there is.
+  // Rounding of the product must not lead beyond the last point.
   const uint64_t points = std::min(static_cast<uint64_t>(std::max(1.0, wanted)), reached_);
   return sorted_[points - 1];
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve between a structure's parameter and its volume fraction, from one sample of onsets: a
-// point is inside where its onset is at most the parameter, so the fraction at a parameter is the
-// share of onsets up to it, and sorted onsets are the curve.
+// The curve between a structure's parameter and its volume fraction, from one sample of onsets. A
+// point is inside where its onset is at most the parameter. So the fraction at a parameter is the
+// share of onsets up to it, and the sorted onsets are the curve.
 #pragma once
 
 #include <vector>
@@ -17,15 +17,15 @@ namespace msq {
 
 class Calibration {
  public:
-  /// Asks the onset of every point of the sample. Takes 16 bytes a point. The structure must have
-  /// onsets, and a cell at least 2 points.
+  /// Evaluates the onset of every point of the sample. Takes 16 bytes per point. The structure must
+  /// have onsets, and a cell at least 2 points.
   Calibration(const Structure& structure, const StratifiedPoints& sample, const Executor& executor,
               std::shared_ptr<MemoryBudget> budget, Job* job);
 
-  /// The share of points that the greatest parameter holds.
-  double most_fraction() const { return fraction_of(reached_); }
-  /// The least parameter that holds at least that share of the points, which must be at most
-  /// most_fraction(); with 0, the least onset.
+  /// The volume fraction at the maximum parameter.
+  double max_fraction() const { return fraction_of(reached_); }
+  /// The minimum parameter with at least this fraction, which must be at most max_fraction(). For
+  /// 0, the minimum onset.
   double parameter(double fraction) const;
   /// The fraction at a parameter.
   Estimate fraction(double parameter) const;

@@ -7,14 +7,13 @@ namespace msq {
 
 void set_distance(const Model& model, const Scales& resolved, const PointSet& points,
                   double* distance, Job* job) {
-  // Here, and not on a worker while the others wait.
-  if (points.count() > 0) model.shape().prepare_distance();
+  // Here, so that no worker prepares while the others wait.
+  if (points.count() > 0) model.shape().prepare_distance(job);
   run_parts(model.executor(), points.parts(), job, {0, 1}, [&](uint64_t index) {
     PointSet::Part part;
     points.read_part(index, part);
     for (size_t i = 0; i < part.numbers.size(); ++i) {
-      // Few at a time, milliseconds of work, so that a cancelled job ends soon.
-      if (i % 1024 == 0) check_cancelled(job);
+      if (i % 16 == 0) check_cancelled(job);
       distance[part.numbers[i]] = model.distance(part.positions[i], resolved);
     }
     if (!job) return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Set queries of signed distance. Each point's answer is Model::distance(), in parallel by parts.
+// Set queries of signed distance. Each point's distance is Model::distance(). Parts run in
+// parallel.
 #pragma once
 
 #include <vector>
@@ -10,7 +11,7 @@
 
 namespace msq {
 
-/// distance[i] is that of point i. All points must be finite.
+/// Sets distance[i] to that of point i. All points must be finite.
 void set_distance(const Model& model, const Scales& resolved, const PointSet& points,
                   double* distance, Job* job);
 

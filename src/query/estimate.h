@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fractions estimated from a stratified sample.
 //
-// With c hits among the n points of a stratum, c (n - c) / (n^2 (n - 1)) estimates the variance of
-// its fraction without bias, and the fractions of H equal strata are independent: their mean has
-// the sum of those variances over H^2. Sums of c and of c (n - c) are whole numbers, so estimates
-// do not depend on threads. Source: Cochran, "Sampling Techniques", 1977, sections 5.3 to 5.5.
+// With c hits among the n points of a stratum, c (n - c) / (n^2 (n - 1)) is an unbiased estimate of
+// the variance of its fraction. The fractions of H equal strata are independent: the variance of
+// their mean is the sum of those variances over H^2. Sums of c and of c (n - c) are integers, so
+// estimates do not depend on threads. Source: Cochran, "Sampling Techniques", 1977, sections 5.3 to
+// 5.5.
 //
-// The interval is Wilson's score interval (Wilson 1927) for as many independent points as give that
-// standard error, so it stays within 0 and 1 and is no point where all strata are wholly in or out.
+// The interval is Wilson's score interval (Wilson 1927) for the number of independent points that
+// gives the same standard error. So it stays within 0 and 1, and has a positive length if all
+// strata are wholly in or out.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +22,7 @@ namespace msq {
 
 struct Estimate {
   double value = 0, standard_error = 0;
-  Interval interval;  ///< holds the true value with a probability of 95 %
+  Interval interval;  ///< contains the true value with a probability of 95 %
 };
 
 /// Hits in strata of n points each.
@@ -37,7 +39,7 @@ class StrataTally {
     spread_ += other.spread_;
   }
 
-  /// Of all strata together; n at least 2.
+  /// The estimate from all strata; n at least 2.
   Estimate estimate(uint64_t strata, uint64_t n) const {
     const double h = static_cast<double>(strata), per = static_cast<double>(n), all = h * per;
     Estimate e;

@@ -4,7 +4,7 @@
 namespace msq {
 
 GridPoints::GridPoints(const SampleGrid& grid)
-    : grid_(grid), bricks_({grid.nx, grid.ny, grid.nz}, grid.spacing, most_in_part) {}
+    : grid_(grid), bricks_({grid.nx, grid.ny, grid.nz}, grid.spacing, max_in_part) {}
 
 void GridPoints::read(uint64_t first, uint64_t count, Vec3* out) const {
   for (uint64_t i = 0; i < count; ++i) out[i] = at(first + i);

@@ -10,7 +10,7 @@ namespace msq {
 
 class GridPoints final : public PointSet {
  public:
-  /// Of evenly spaced layers.
+  /// Requires evenly spaced layers.
   explicit GridPoints(const SampleGrid& grid);
 
   uint64_t count() const override { return grid_.nx * grid_.ny * grid_.nz; }
@@ -19,6 +19,10 @@ class GridPoints final : public PointSet {
   uint64_t parts() const override { return bricks_.count(); }
   void read_part(uint64_t index, Part& part) const override;
   bool is_compact() const override { return true; }
+  bool find_bounds(Box3& box) const override {
+    box = {grid_.at(0, 0, 0), grid_.at(grid_.nx - 1, grid_.ny - 1, grid_.nz - 1)};
+    return true;
+  }
   const SampleGrid* as_grid() const override { return &grid_; }
 
  private:

@@ -10,8 +10,8 @@
 
 namespace msq {
 
-/// ids[i] becomes the id of point i's material, 0 outside; values[i * channels + c] that of
-/// channel c, 0 where the material has no such channel. Every point has a material: see
+/// Sets ids[i] to the id of point i's material, 0 outside, and values[i * channels + c] to that of
+/// channel c, 0 if the material has no such channel. Every point must have a material: see
 /// Model::has_material().
 void set_material(const Model& model, const Scales& resolved, const PointSet& points,
                   const QueryPlan& plan, const std::vector<std::string_view>& channels,

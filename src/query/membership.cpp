@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstring>
+#include <vector>
 
 #include "base/memory.h"
 
@@ -10,19 +11,19 @@ namespace msq {
 
 namespace {
 
-/// Rows are restricted in tiles of about this many words: so few that the span raster's working
-/// rows stay in a core's own cache, so many that few struts reach into several tiles.
-constexpr uint64_t tile_words = uint64_t{1} << 17, tile_layers = 64, least_tile_rows = 16;
+/// Rows are restricted in tiles of about this many words: small enough that the span raster's
+/// working rows stay in a core's own cache, large enough that few struts reach into several tiles.
+constexpr uint64_t tile_words = uint64_t{1} << 17, tile_layers = 64, min_tile_rows = 16;
 
 uint64_t tile_rows(const SampleGrid& grid, uint64_t layers, unsigned threads) {
   const uint64_t deep = std::max<uint64_t>(1, std::min(layers, tile_layers));
   const uint64_t fit = tile_words / (words_for(grid.nx) * deep);
   const uint64_t balanced = grid.ny / (4 * threads);  // several tiles for each thread
-  return std::clamp<uint64_t>(std::min(fit, balanced), least_tile_rows,
-                              std::max(least_tile_rows, grid.ny));
+  return std::clamp<uint64_t>(std::min(fit, balanced), min_tile_rows,
+                              std::max(min_tile_rows, grid.ny));
 }
 
-/// Bits that are set.
+/// The number of set bits.
 uint64_t samples_of(const RowBlock& block) {
   uint64_t samples = 0;
   for (uint64_t k = block.z0; k < block.z1; ++k)
@@ -36,6 +37,13 @@ uint64_t samples_of(const RowBlock& block) {
 
 uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, const SampleGrid& grid,
                                  uint64_t layers) {
+  if (!model.regions().empty()) {
+    uint64_t most = 0;
+    for (size_t r = 0; r < model.regions().size(); ++r)
+      most = std::max(
+          most, fill_slab_scratch_words(*model.regions()[r], resolved.regions[r], grid, layers));
+    return most + 2 * words_for(grid.nx) * grid.ny * layers;
+  }
   if (resolved.empty()) return 0;
   const unsigned threads = model.executor().threads();
   const uint64_t rows = std::min(grid.ny, tile_rows(grid, layers, threads));
@@ -45,9 +53,10 @@ uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, con
   return tiles * threads * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
 }
 
-void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
-               uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts) {
-  const size_t row_words = words_for(grid.nx);
+namespace {
+
+/// All rows of a slab of layers, tightly packed.
+RowBlock slab_of(const SampleGrid& grid, uint64_t z0, uint64_t z1, uint64_t* words) {
   RowBlock slab;
   slab.grid = &grid;
   slab.y0 = 0;
@@ -55,11 +64,118 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
   slab.z0 = z0;
   slab.z1 = z1;
   slab.words = words;
-  slab.row_stride = row_words;
-  slab.layer_stride = row_words * grid.ny;
+  slab.row_stride = words_for(grid.nx);
+  slab.layer_stride = slab.row_stride * grid.ny;
+  return slab;
+}
+
+/// The rows and layers of a slab that meet a box; false if there are none.
+bool clip_to_box(const RowBlock& slab, const Box3& box, RowBlock& part) {
+  const SampleGrid& grid = *slab.grid;
+  part = slab;
+  part.y0 = std::max(slab.y0, grid.first_y_from(box.min.y));
+  part.y1 = std::min(slab.y1, grid.first_y_from<true>(box.max.y));
+  while (part.z0 < part.z1 && grid.z(part.z0) < box.min.z) ++part.z0;
+  while (part.z0 < part.z1 && grid.z(part.z1 - 1) > box.max.z) --part.z1;
+  if (part.y0 >= part.y1 || part.z0 >= part.z1) return false;
+  part.words = slab.row(part.y0, part.z0);
+  return grid.first_x_from(box.min.x) < grid.first_x_from<true>(box.max.x);
+}
+
+bool has_samples(const RowBlock& block) {
+  for (uint64_t k = block.z0; k < block.z1; ++k)
+    for (uint64_t j = block.y0; j < block.y1; ++j)
+      for (size_t w = 0; w < block.row_words(); ++w)
+        if (block.row(j, k)[w]) return true;
+  return false;
+}
+
+/// Tiles of the rows of a block, one after the other in the order of a slab's.
+template <class Visit>
+void for_each_tile(const Executor& executor, const RowBlock& block, const Job* job, Visit&& visit) {
+  const uint64_t rows = tile_rows(*block.grid, block.layers(), executor.threads());
+  const uint64_t across = (block.rows() + rows - 1) / rows;
+  const uint64_t deep = (block.layers() + tile_layers - 1) / tile_layers;
+  executor.for_each(across * deep, [&](uint64_t n) {
+    check_cancelled(job);
+    RowBlock tile = block;
+    tile.y0 = block.y0 + n % across * rows;
+    tile.y1 = std::min(block.y1, tile.y0 + rows);
+    tile.z0 = block.z0 + n / across * tile_layers;
+    tile.z1 = std::min(block.z1, tile.z0 + tile_layers);
+    tile.words = block.row(tile.y0, tile.z0);
+    visit(tile);
+  });
+}
+
+/// The samples of each region that no region before it has are filled by themselves, in the rows
+/// that meet its box.
+void fill_regions(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
+                  uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts) {
+  const uint64_t size = words_for(grid.nx) * grid.ny * (z1 - z0);
+  const Executor& executor = model.executor();
+  std::vector<uint64_t> taken_words(size), own_words(size);
+  std::fill_n(words, size, 0);
+  const RowBlock slab = slab_of(grid, z0, z1, words);
+  const RowBlock taken = slab_of(grid, z0, z1, taken_words.data());
+  const RowBlock own = slab_of(grid, z0, z1, own_words.data());
+  if (counts) {
+    const uint64_t points = grid.nx * grid.ny * (z1 - z0);
+    counts->points += points;
+    counts->by_shape += points;
+  }
+  for (size_t r = 0; r < model.regions().size(); ++r) {
+    const Model& region = *model.regions()[r];
+    const Scales& scales = resolved.regions[r];
+    RowBlock rows;
+    if (!clip_to_box(own, region.bounds(), rows)) continue;
+    executor.for_each(rows.layers(), [&](uint64_t layer) {
+      check_cancelled(job);
+      RowBlock block = rows;
+      block.z0 = rows.z0 + layer;
+      block.z1 = block.z0 + 1;
+      block.words = rows.row(rows.y0, block.z0);
+      std::fill_n(block.words, block.rows() * block.row_stride, 0);
+      region.shape().fill_rows(block);
+      for (uint64_t j = block.y0; j < block.y1; ++j) {
+        uint64_t* found = block.row(j, block.z0);
+        uint64_t* before = taken.row(j, block.z0);
+        for (size_t w = 0; w < block.row_stride; ++w) {
+          const uint64_t in_shape = found[w];
+          found[w] &= ~before[w];
+          before[w] |= in_shape;
+        }
+      }
+    });
+    for_each_tile(executor, rows, job, [&](const RowBlock& tile) {
+      if (!has_samples(tile)) return;
+      if (counts && !scales.empty()) counts->by_shape -= samples_of(tile);
+      for (const Scale* scale : scales) {
+        if (const uint64_t living = counts ? samples_of(tile) : 0) counts->add_group(living);
+        scale->keep_rows(tile, job);
+      }
+      for (uint64_t k = tile.z0; k < tile.z1; ++k)
+        for (uint64_t j = tile.y0; j < tile.y1; ++j) {
+          uint64_t* row = slab.row(j, k);
+          const uint64_t* kept = tile.row(j, k);
+          for (size_t w = 0; w < tile.row_stride; ++w) row[w] |= kept[w];
+        }
+    });
+  }
+}
+
+}  // namespace
+
+void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
+               uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts) {
+  if (!model.regions().empty()) {
+    model.prepare_skins(resolved, job);
+    return fill_regions(model, resolved, grid, z0, z1, words, job, counts);
+  }
+  const RowBlock slab = slab_of(grid, z0, z1, words);
   const Executor& executor = model.executor();
 
-  model.prepare_skins(resolved);
+  model.prepare_skins(resolved, job);
   executor.for_each(z1 - z0, [&](uint64_t layer) {
     check_cancelled(job);
     RowBlock block = slab;
@@ -76,19 +192,9 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
   });
   if (resolved.empty()) return;
 
-  const uint64_t rows = tile_rows(grid, z1 - z0, executor.threads());
-  const uint64_t across = (grid.ny + rows - 1) / rows;
-  const uint64_t deep = (z1 - z0 + tile_layers - 1) / tile_layers;
   // In the same order in each slab: what two slabs share is then found again after as many cells as
   // one slab is high, which the cache must hold at least (docs/benchmarks.md).
-  executor.for_each(across * deep, [&](uint64_t tile) {
-    check_cancelled(job);
-    RowBlock block = slab;
-    block.y0 = tile % across * rows;
-    block.y1 = std::min(grid.ny, block.y0 + rows);
-    block.z0 = z0 + tile / across * tile_layers;
-    block.z1 = std::min(z1, block.z0 + tile_layers);
-    block.words = slab.row(block.y0, block.z0);
+  for_each_tile(executor, slab, job, [&](const RowBlock& block) {
     for (const Scale* scale : resolved) {
       if (const uint64_t living = counts ? samples_of(block) : 0) counts->add_group(living);
       scale->keep_rows(block, job);

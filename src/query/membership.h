@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Set queries of membership. Source: paper, section "Set-based queries": scale by scale from the
-// coarsest; what a scale answers is not asked of finer ones.
+// coarsest. Finer scales evaluate only the points that coarser ones do not decide.
 #pragma once
 
 #include <vector>
@@ -13,22 +13,27 @@
 
 namespace msq {
 
-/// Bits of layers [z0, z1) of a grid, rows tightly packed in words_for(nx) words; `words` is
-/// overwritten. The whole of a layer at a time, in parallel.
+/// Computes the bits of layers [z0, z1) of a grid, rows tightly packed in words_for(nx) words.
+/// Overwrites `words`. Processes whole layers, in parallel.
 void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
                uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts = nullptr);
 
-/// Words of working memory that fill_slab takes beyond its output, for slabs of so many layers.
+/// Words of working memory that fill_slab takes in addition to its output, for slabs of this many
+/// layers.
 uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, const SampleGrid& grid,
                                  uint64_t layers);
 
-/// inside[i] becomes 0 or 1. All points must be finite.
+/// Sets inside[i] to 0 or 1. All points must be finite.
 void set_membership(const Model& model, const Scales& resolved, const PointSet& points,
                     const QueryPlan& plan, uint8_t* inside, Job* job);
 
 /// The same for some points on the calling thread; `inside` is overwritten.
 void ask_points(const Model& model, const Scales& resolved, const QueryPlan& plan,
                 const Vec3* points, uint8_t* inside, size_t count, Job* job);
+
+/// regions[i] becomes the region that point i belongs to, 0 in a model that is one; -1 where it is
+/// in the shape of none. All points must be finite.
+void set_regions(const Model& model, const PointSet& points, int32_t* regions, Job* job);
 
 /// Of all points of a grid, by rows.
 void grid_membership(const Model& model, const Scales& resolved, const SampleGrid& grid,

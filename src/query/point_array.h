@@ -26,7 +26,7 @@ struct PointArray {
     std::memcpy(v, p, sizeof v);
     return {v[0], v[1], v[2]};
   }
-  /// Calls for a point's bytes that at() will ask for soon.
+  /// Prefetches a point's bytes, which at() will read soon.
   void prefetch([[maybe_unused]] uint64_t i) const {
 #if defined(__GNUC__)
     const unsigned char* p = data + i * stride;

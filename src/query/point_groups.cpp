@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A counting sort in one pass over at most 4096 boxes, so that the places written to at a time stay
-// in a core's own cache and page table: the side of the boxes, in cells or parts of a cell, is the
-// least power of two for which the points' bounding box has no more of them than that, nor than
-// leaves each 512 points on average. Points that sit in few of the boxes still make groups that are
-// right, only less compact. The sort is stable and its slices are fixed, so groups do not depend on
-// threads.
+// A counting sort in one pass over at most 4096 boxes, so that the positions being written stay in
+// a core's own cache and page table. The side of the boxes, in cells or parts of a cell, is the
+// smallest power of two for which the points' bounding box has at most that many boxes, and each
+// box has at least 512 points on average. If the points lie in few of the boxes, groups are still
+// correct, but less compact. The sort is stable and its slices are fixed, so groups do not depend
+// on threads.
 #include "query/point_groups.h"
 
 #include <algorithm>
@@ -14,15 +14,15 @@ namespace msq {
 
 namespace {
 
-constexpr uint64_t slice = 32768, most_boxes = 4096, usual_in_box = 512;
+constexpr uint64_t slice = 32768, max_boxes = 4096, usual_in_box = 512;
 constexpr uint16_t no_box = UINT16_MAX;
 
 uint64_t slices_of(uint64_t count) {
   return (count + slice - 1) / slice;
 }
 
-/// Numbers boxes of cells. Rounding may put a point at a face into the next box; it is only slower
-/// there.
+/// Numbers boxes of cells. Rounding may put a point on a face into the next box; that only costs
+/// time.
 class Boxes {
  public:
   /// For points in the box `extent` of grid coordinates.
@@ -60,14 +60,14 @@ class Boxes {
 }  // namespace
 
 PointGroups::PointGroups(uint64_t most)
-    : box_(most), order_(most), counts_(slices_of(most) * most_boxes) {
-  groups_.reserve(most_boxes + most / most_in_group);
+    : box_(most), order_(most), counts_(slices_of(most) * max_boxes) {
+  groups_.reserve(max_boxes + most / max_in_group);
 }
 
 uint64_t PointGroups::bytes(uint64_t most) {
   return most * (sizeof(uint16_t) + sizeof(uint32_t)) +
-         slices_of(most) * most_boxes * sizeof(uint32_t) +
-         (most_boxes + most / most_in_group) * sizeof(Group);
+         slices_of(most) * max_boxes * sizeof(uint32_t) +
+         (max_boxes + most / max_in_group) * sizeof(Group);
 }
 
 void PointGroups::group(const Executor& executor, const Neighbourhood& grid, const PointSet& points,
@@ -82,7 +82,7 @@ void PointGroups::group(const Executor& executor, const Neighbourhood& grid, con
     });
   };
 
-  // Calls visit(i, position) for the points alive of a slice.
+  // Calls visit(i, position) for the points of a slice that are alive.
   const auto for_each_alive = [&](uint64_t begin, uint64_t end, auto&& visit) {
     constexpr uint64_t read_at_once = 256;
     Vec3 positions[read_at_once];
@@ -116,11 +116,11 @@ void PointGroups::group(const Executor& executor, const Neighbourhood& grid, con
     all.points += extent.points;
   }
   if (all.points == 0) return;
-  const Boxes boxes(grid, all.box, std::clamp<uint64_t>(all.points / usual_in_box, 1, most_boxes),
+  const Boxes boxes(grid, all.box, std::clamp<uint64_t>(all.points / usual_in_box, 1, max_boxes),
                     parts);
 
   for_each_slice([&](uint64_t s, uint64_t begin, uint64_t end) {
-    uint32_t* counts = counts_.data() + s * most_boxes;
+    uint32_t* counts = counts_.data() + s * max_boxes;
     std::fill(counts, counts + boxes.count(), 0);
     std::fill(box_.begin() + static_cast<ptrdiff_t>(begin),
               box_.begin() + static_cast<ptrdiff_t>(end), no_box);
@@ -134,13 +134,13 @@ void PointGroups::group(const Executor& executor, const Neighbourhood& grid, con
   for (uint32_t box = 0; box < boxes.count(); ++box) {
     uint32_t group = start;
     for (uint64_t s = 0; s < slices; ++s)
-      start += std::exchange(counts_[s * most_boxes + box], start);
-    for (; group < start; group += std::min(most_in_group, start - group))
-      groups_.push_back({group, std::min(most_in_group, start - group)});
+      start += std::exchange(counts_[s * max_boxes + box], start);
+    for (; group < start; group += std::min(max_in_group, start - group))
+      groups_.push_back({group, std::min(max_in_group, start - group)});
   }
 
   for_each_slice([&](uint64_t s, uint64_t begin, uint64_t end) {
-    uint32_t* next = counts_.data() + s * most_boxes;
+    uint32_t* next = counts_.data() + s * max_boxes;
     for (uint64_t i = begin; i < end; ++i)
       if (box_[i] != no_box) order_[next[box_[i]]++] = static_cast<uint32_t>(i);
   });

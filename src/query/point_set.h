@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points of a set query: an array of the host, a regular grid, a stratified sample. Workers
-// take them in parts; only arrays are stored anywhere.
+// The points of a set query: an array of the host, a regular grid, or a stratified sample. Workers
+// take them in parts; only arrays are stored.
 // Source: paper, section "Structured and Unstructured Set Queries".
 #pragma once
 
@@ -23,21 +23,25 @@ class PointSet {
   /// Points first + numbers[i].
   virtual void gather(uint64_t first, std::span<const uint32_t> numbers, Vec3* out) const = 0;
 
-  /// Numbers and positions of points: a part of the set.
+  /// A part of the set: numbers and positions of its points.
   struct Part {
     std::vector<uint64_t> numbers;
     std::vector<Vec3> positions;
   };
-  static constexpr uint64_t most_in_part = 4096;
-  /// How many parts there are, and one of them: at most most_in_part points. Each point is in one.
+  static constexpr uint64_t max_in_part = 4096;
+  /// The number of parts, and one part: at most max_in_part points. Each point is in exactly one
+  /// part.
   virtual uint64_t parts() const = 0;
   virtual void read_part(uint64_t index, Part& part) const = 0;
-  /// Whether the points of a part lie as close together as so many points of the set can;
-  /// otherwise grouping by cell brings together what is near.
+  /// Whether the points of a part lie as close together as that many points of the set can. If not,
+  /// grouping by cell brings neighbours together.
   virtual bool is_compact() const = 0;
-  /// Whether the positions are the host's, which may be anything; generated ones are finite.
+  /// Whether the positions are the host's, with arbitrary values. Generated positions are finite.
   virtual bool is_given() const { return false; }
-  /// The grid that the set is, if it is one.
+  /// A box that contains all points, with rounding. Returns false if the points would have to be
+  /// read.
+  virtual bool find_bounds(Box3&) const { return false; }
+  /// The set as a grid, if it is one.
   virtual const SampleGrid* as_grid() const { return nullptr; }
 };
 

@@ -12,7 +12,7 @@ namespace msq {
 namespace {
 
 /// A unit vector for each number, uniform over the sphere: Marsaglia, "Choosing a point from the
-/// surface of a sphere", 1972. Roots and products alone, so the same on every machine.
+/// surface of a sphere", 1972. It uses only roots and products, so it is the same on every machine.
 Vec3 random_direction(uint64_t key, uint64_t number) {
   const uint64_t stream = splitmix_finalise(key ^ splitmix_finalise(number));
   for (uint64_t n = 0;; n += 2) {
@@ -26,7 +26,7 @@ Vec3 random_direction(uint64_t key, uint64_t number) {
   }
 }
 
-/// Another stream than that of the points.
+/// Differs from the stream of the points.
 uint64_t direction_key(uint64_t seed) {
   return splitmix_finalise(splitmix_finalise(seed + 1) ^ 0x646972656374ULL);
 }
@@ -36,12 +36,12 @@ Vec3 direction_of(const Segments& segments, uint64_t key, uint64_t number) {
   return is_fixed ? segments.direction : random_direction(key, number);
 }
 
-/// A part of the sample and which of its points are in the phase.
+/// A part of the sample, and which of its points are in the phase.
 struct AskedPart : PointSet::Part {
   std::vector<uint8_t> in_phase;
 };
 
-/// 1 for the points that are in the phase.
+/// Sets 1 for the points that are in the phase.
 void ask_phase(const StatisticsOf& of, const std::vector<Vec3>& points,
                std::vector<uint8_t>& in_phase, Job* job) {
   in_phase.resize(points.size());
@@ -63,7 +63,7 @@ void tally_strata(const std::vector<uint8_t>& hits, uint64_t per_cell, StrataTal
 template <class TallyPart>
 std::vector<Estimate> estimate(const StatisticsOf& of, size_t count, Job* job,
                                TallyPart&& tally_part) {
-  of.model.prepare_skins(of.resolved);
+  of.model.prepare_skins(of.resolved, job);
   std::vector<StrataTally> total(count);
   std::mutex mutex;
   run_parts(of.model.executor(), of.sample.parts(), job, {0, 1}, [&](uint64_t index) {
@@ -95,7 +95,7 @@ std::vector<Estimate> two_point_correlation(const StatisticsOf& of, const Segmen
   const uint64_t key = direction_key(of.sample.strata().seed);
   return estimate(of, segments.lengths.size(), job,
                   [&](const AskedPart& part, std::vector<StrataTally>& tallies) {
-                    // Segments that begin outside the phase need no other end.
+                    // For segments that begin outside the phase, the other end does not matter.
                     std::vector<size_t> begun;
                     std::vector<Vec3> directions;
                     for (size_t i = 0; i < part.numbers.size(); ++i) {
@@ -119,12 +119,16 @@ std::vector<Estimate> two_point_correlation(const StatisticsOf& of, const Segmen
 
 namespace {
 
-/// How far a segment that begins in the phase goes on in it, up to `most`: infinity where it does
-/// not leave it. Where it is left is found within 2^-10 of a step.
-double path_length(const StatisticsOf& of, Vec3 from, Vec3 direction, double most, double step) {
+/// The length over which a segment that begins in the phase stays in it, up to `most`; infinity if
+/// it does not leave. The error of the end is at most 2^-10 of a step.
+double path_length(const StatisticsOf& of, Vec3 from, Vec3 direction, double most, double step,
+                   const Job* job) {
   const auto is_in = [&](double distance) { return (distance <= 0) != of.of_void; };
   double within = 0;
+  JobPoll poll(job);
+  // At most as many rounds as steps, which callers limit.
   for (double at = 0; within < most;) {
+    poll();
     const double distance = of.model.distance(from + direction * at, of.resolved);
     if (!is_in(distance)) {
       for (int i = 0; i < 10; ++i) {
@@ -145,7 +149,7 @@ double path_length(const StatisticsOf& of, Vec3 from, Vec3 direction, double mos
 std::vector<Estimate> lineal_path(const StatisticsOf& of, const Segments& segments, double step,
                                   Job* job) {
   const uint64_t key = direction_key(of.sample.strata().seed);
-  of.model.shape().prepare_distance();
+  of.model.shape().prepare_distance(job);
   const double most = *std::max_element(segments.lengths.begin(), segments.lengths.end());
   return estimate(of, segments.lengths.size(), job,
                   [&](const AskedPart& part, std::vector<StrataTally>& tallies) {
@@ -154,7 +158,7 @@ std::vector<Estimate> lineal_path(const StatisticsOf& of, const Segments& segmen
                       if (i % 64 == 0) check_cancelled(job);
                       if (!part.in_phase[i]) continue;
                       const Vec3 direction = direction_of(segments, key, part.numbers[i]);
-                      paths[i] = path_length(of, part.positions[i], direction, most, step);
+                      paths[i] = path_length(of, part.positions[i], direction, most, step, job);
                     }
                     std::vector<uint8_t> hits(paths.size());
                     for (size_t l = 0; l < tallies.size(); ++l) {

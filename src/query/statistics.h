@@ -14,13 +14,13 @@
 
 namespace msq {
 
-/// What is asked, of which points. A cell of the sample has 2 to most_in_part points.
+/// The phase to measure and the points to use. A cell of the sample has 2 to max_in_part points.
 struct StatisticsOf {
   const Model& model;
   const Scales& resolved;
   QueryPlan plan;
   const StratifiedPoints& sample;
-  bool of_void = false;  ///< phase: what is outside of the model
+  bool of_void = false;  ///< phase: outside of the model
 };
 
 /// Segments that begin at the sample's points.
@@ -37,8 +37,8 @@ std::vector<Estimate> two_point_correlation(const StatisticsOf& of, const Segmen
                                             Job* job);
 
 /// For each length, the share of segments that are wholly in the phase. A segment is followed in
-/// steps that the distance allows, safely, and in steps of `step` where it allows less: so it is
-/// never left unnoticed but for gaps shorter than that.
+/// safe steps of the lower bound on the distance, or of `step` if that bound is smaller. So it can
+/// only miss gaps shorter than `step`.
 std::vector<Estimate> lineal_path(const StatisticsOf& of, const Segments& segments, double step,
                                   Job* job);
 

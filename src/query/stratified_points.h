@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stratified random sample: so many points in each cell of a box, uniform in the cell. Each point
-// is a pure function of the seed and of its number (base/random.h), so none is stored. Point s of
-// cell (i, j, k) has number s + n (i + nx (j + ny k)), n being the points of a cell.
+// A stratified random sample: a fixed number of points in each cell of a box, uniform in the cell.
+// Each point is a pure function of the seed and of its number (base/random.h), so none is stored.
+// Point s of cell (i, j, k) has number s + n (i + nx (j + ny k)), n being the points per cell.
 // Source: paper, section "Structured and Unstructured Set Queries"; Cochran, "Sampling Techniques",
-// 1977, chapter 5, for the estimates that such samples give.
+// 1977, chapter 5, for the estimates from such samples.
 #pragma once
 
 #include "base/random.h"
@@ -32,11 +32,12 @@ class StratifiedPoints final : public PointSet {
   uint64_t count() const override { return strata_.cells() * strata_.per_cell; }
   void read(uint64_t first, uint64_t count, Vec3* out) const override;
   void gather(uint64_t first, std::span<const uint32_t> numbers, Vec3* out) const override;
-  /// Bricks of whole cells where a cell has no more than most_in_part points, otherwise pieces of a
-  /// cell. Points of a cell follow each other.
+  /// Bricks of whole cells if a cell has at most max_in_part points, otherwise pieces of a cell.
+  /// Points of a cell are consecutive.
   uint64_t parts() const override { return bricks_.count() * pieces_; }
   void read_part(uint64_t index, Part& part) const override;
   bool is_compact() const override { return pieces_ == 1; }
+  bool find_bounds(Box3& box) const override;
 
  private:
   Vec3 at(uint64_t i, uint64_t j, uint64_t k, uint64_t number) const {
@@ -45,9 +46,7 @@ class StratifiedPoints final : public PointSet {
     return strata_.origin + strata_.rotation.apply((cell + within) * strata_.cell_size);
   }
   /// In [0, 1).
-  double fraction(uint64_t n) const {
-    return random_fraction(splitmix_output(key_, n));
-  }
+  double fraction(uint64_t n) const { return random_fraction(splitmix_output(key_, n)); }
 
   Strata strata_;
   uint64_t key_;

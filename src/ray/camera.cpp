@@ -9,8 +9,8 @@ namespace msq {
 
 namespace {
 
-/// Of the angle between the view and upwards.
-constexpr double least_sine = 1e-6;
+/// Minimum sine of the angle between the view and the upward direction.
+constexpr double min_sine = 1e-6;
 
 struct Frame {
   Vec3 forward, right, up;
@@ -29,11 +29,11 @@ Frame frame_of(Vec3 view, Vec3 up, const char* view_name) {
   frame.forward = unit(view, view_name);
   frame.right = cross(frame.forward, unit(up, "up"));
   const double sine = length(frame.right);
-  if (!(sine >= least_sine))
+  if (!(sine >= min_sine))
     fail(Status::argument,
          "up is (%g, %g, %g), along the view: the sine of the angle between them is %g; it must be "
          "at least %g",
-         up.x, up.y, up.z, sine, least_sine);
+         up.x, up.y, up.z, sine, min_sine);
   frame.right = frame.right * (1 / sine);
   frame.up = cross(frame.right, frame.forward);
   return frame;
@@ -85,7 +85,7 @@ Camera fitted(Camera camera, const Box3& box, Vec3 direction, Vec3 up, uint32_t 
     across = std::max(across, 2 * reach);
     distance = std::max(distance, reach / slope - dot(from_middle, frame.forward));
   }
-  // Where there is nothing to fit, anything does.
+  // If there is nothing to fit, any height is valid.
   if (!(across > 0)) across = radius > 0 ? 2 * radius : 1;
   if (!camera.is_perspective) distance = 2 * radius;
   if (!(distance > 0)) distance = across;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras: the ray of each position of a picture.
 //
-// Directions of rays are left at the length that makes their component along the view 1, so that t
-// of a ray is the depth: the distance from the eye along the view.
+// Directions of rays are not normalised: their component along the view is 1. So t of a ray is the
+// depth, the distance from the eye along the view.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,11 @@ struct Camera {
   double clip_near = 0, clip_far = std::numeric_limits<double>::infinity();
 };
 
-/// A picture of so many pixels as a camera sees it. Positions are in pixels, from the upper left
-/// corner of the picture to the right and down.
+/// A picture of width x height pixels as a camera sees it. Positions are in pixels, from the upper
+/// left corner of the picture to the right and down.
 class View {
  public:
-  /// Throws Error(argument) where the camera has no frame or its numbers overflow.
+  /// Throws Error(argument) if the camera has no frame or its numbers overflow.
   View(const Camera& camera, uint32_t width, uint32_t height);
 
   const Camera& camera() const { return camera_; }
@@ -43,7 +43,7 @@ class View {
   }
 
  private:
-  /// From the middle of the picture, in the eye's plane or, in perspective, at depth 1.
+  /// Offset from the middle of the picture, in the eye's plane or, in perspective, at depth 1.
   Vec3 offset(double x, double y) const {
     return right_ * ((x - middle_x_) * pixel_) + up_ * ((middle_y_ - y) * pixel_);
   }
@@ -51,14 +51,14 @@ class View {
   Camera camera_;
   uint32_t width_, height_;
   double middle_x_, middle_y_;
-  double pixel_;  ///< side of a pixel where offset() measures
+  double pixel_;  ///< side of a pixel at the depth of offset()
   Vec3 forward_, right_, up_;
 };
 
-/// Upwards where the host does not say: z, or y where z is almost along the view.
+/// The upward direction if the host gives none: z, or y if z is almost along the view.
 Vec3 default_up(Vec3 direction);
 
-/// The camera with eye, target, up and height so that a box just fits a picture, seen along a
+/// The camera with eye, target, up and height set so that a box just fits the picture, seen along a
 /// direction.
 Camera fitted(Camera camera, const Box3& box, Vec3 direction, Vec3 up, uint32_t width,
               uint32_t height);

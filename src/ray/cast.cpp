@@ -2,24 +2,28 @@
 #include "ray/cast.h"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 
 #include "base/borrowed.h"
 #include "base/run_parts.h"
+#include "ray/cast_regions.h"
 
 namespace msq {
 
 namespace {
 
 struct Begin {
-  double from;    // of the search
-  double offset;  // of the origin along the ray
+  double from, to;  // of the search
+  Vec3 end;         // the ray's point at `to`
+  double offset;    // of the origin along the ray
 };
 
-/// Of a batch; kept for the next one of the thread.
+/// Memory of a batch, kept for the thread's next one.
 struct CastMemory {
   std::vector<RaySearch> batch;
-  std::vector<double> ends;  // ray by ray
+  std::vector<double> ends;      // ray by ray
+  std::vector<PartSteps> steps;  // likewise
   std::vector<Begin> begins;
   std::vector<std::vector<uint32_t>> waiting;  // by level
   std::vector<uint32_t> rays, without_normal;
@@ -30,16 +34,17 @@ struct CastMemory {
       begins.resize(count);
     }
     if (ends.size() < count * levels) ends.resize(count * levels);
+    steps.assign(count * levels, {});
     if (waiting.size() < levels) waiting.resize(levels);
     for (std::vector<uint32_t>& level : waiting) level.clear();
     without_normal.clear();
   }
 };
 
-/// A batch of rays on their way. Within a scale, `end` is where a ray may leave it.
+/// A batch of rays in progress. Within a scale, `end` is where a ray may leave it.
 class Caster {
  public:
-  /// hits[i] will be what searches[i], which are used up, meet.
+  /// Will set hits[i] to the hit of searches[i]; overwrites the searches.
   Caster(const Model& model, const Scales& resolved, HitDetail detail, const Job* job,
          CastMemory& memory, RaySearch* searches, RayHit* hits)
       : model_(model),
@@ -48,9 +53,13 @@ class Caster {
         job_(job),
         levels_(1 + resolved.size()),
         bounds_(model.bounds().grown(model.shape().ray_tolerance())),
+        near_(bounds_.grown(model.shape().ray_tolerance())),
+        is_bounded_(model.shape().is_bounded()),
+        beyond_(detail == HitDetail::all && is_bounded_ ? way_past_end(model, resolved) : 0),
         searches_(searches),
         hits_(hits),
         ends_(memory.ends.data()),
+        steps_(memory.steps.data()),
         begins_(memory.begins.data()),
         batch_(memory.batch.data()),
         waiting_(memory.waiting),
@@ -76,18 +85,24 @@ class Caster {
   }
 
  private:
+  double beyond_end(const RaySearch& s) const {
+    if (detail_ != HitDetail::all || is_bounded_) return beyond_;
+    return way_past_end(model_, resolved_, s.ray, s.to);
+  }
+
   /// Rays begin where they come near the shape, so that none of their numbers is larger than the
   /// shape's.
   void start(uint32_t i) {
     RaySearch& s = searches_[i];
-    static constexpr RayHit nothing{};  // in memory: what is put together would be waited for
+    static constexpr RayHit nothing{};  // static: a new one would stall on its stores
     hits_[i] = nothing;
-    double low = s.from, high = s.to;
+    if (!(s.from <= s.to)) return;
+    const double beyond = beyond_end(s);
+    double low = s.from, high = s.to + beyond;
     if (!clip_to_box(s.ray, bounds_, low, high)) return;
-    begins_[i] = {s.from, low};
-    s.ray.origin = s.ray.at(low);
+    begins_[i] = {s.from, s.to, s.ray.at(s.to), low};
+    if (!move_to_box(bounds_, near_, low, high, beyond, s, begins_[i].offset, end(i, 0))) return;
     s.from = 0;
-    end(i, 0) = high - low;
     hits_[i].scale = 0;
     waiting_[0].push_back(i);
   }
@@ -100,7 +115,7 @@ class Caster {
     for (const uint32_t i : rays_) {
       const RaySearch& s = searches_[i];
       double t;
-      if (shape.enter(s.ray, s.from, end(i, 0), t))
+      if (shape.enter(s.ray, s.from, end(i, 0), t, job_))
         entered(i, 0, t, {});
       else
         leave(i, 0);
@@ -110,7 +125,7 @@ class Caster {
   void enter_shape_together() {
     const Shape& shape = model_.shape();
     fill_batch(0);
-    shape.enter_all(batch_, rays_.size());
+    shape.enter_all(batch_, rays_.size(), job_);
     size_t kept = 0;
     for (size_t n = 0; n < rays_.size(); ++n) {
       const uint32_t i = rays_[n];
@@ -122,7 +137,7 @@ class Caster {
     if (levels_ == 1) return;
     rays_.resize(kept);
     fill_batch(0);
-    shape.leave_all(batch_, kept);
+    shape.leave_all(batch_, kept, job_);
     for (size_t n = 0; n < kept; ++n) go_deeper(rays_[n], 0, batch_[n].t);
   }
 
@@ -138,7 +153,7 @@ class Caster {
 
   void enter_scale(size_t level) {
     fill_batch(level);
-    resolved_[level - 1]->enter(batch_, rays_.size());
+    resolved_[level - 1]->enter(batch_, rays_.size(), job_);
     for (size_t n = 0; n < rays_.size(); ++n) {
       if (batch_[n].found)
         entered(rays_[n], level, batch_[n].t, batch_[n].normal);
@@ -152,9 +167,9 @@ class Caster {
       go_deeper(i, level, leave_of(level, searches_[i].ray, t, end(i, level)));
   }
 
-  /// Whether it did; a hit where this is the finest level.
+  /// Returns whether the ray enters; that is a hit if this is the finest level.
   bool come_in(uint32_t i, size_t level, double t, Vec3 normal) {
-    // What is settled within a tolerance past an entry may lie past the end.
+    // An entry is settled within a tolerance past it, which may lie past the end.
     if (t > end(i, level)) {
       leave(i, level);
       return false;
@@ -168,30 +183,42 @@ class Caster {
     return true;
   }
 
-  /// On to the next level, up to where this one ends.
+  /// Continues on the next level, up to the end of this one.
   void go_deeper(uint32_t i, size_t level, double to) {
     end(i, level + 1) = to;
     waiting_[level + 1].push_back(i);
   }
 
   double leave_of(size_t level, const Ray& ray, double from, double to) const {
-    return level == 0 ? model_.shape().leave(ray, from, to)
-                      : resolved_[level - 1]->leave(ray, from, to);
+    return level == 0 ? model_.shape().leave(ray, from, to, job_)
+                      : resolved_[level - 1]->leave(ray, from, to, job_);
   }
 
-  double tolerance_of(size_t level) const {
+  double tolerance_of(uint32_t i, size_t level) {
     return level == 0 ? model_.shape().ray_tolerance()
-                      : resolved_[level - 1]->structure->ray_tolerance();
+                      : resolved_[level - 1]->structure->ray_tolerance(searches_[i].ray, end(i, 0));
+  }
+
+  /// 64 parts within so much of a ray are noise: 2^-18 of the shape, and no more than a quarter of
+  /// a cell.
+  double slow_of(uint32_t i, size_t level) {
+    const double slow = 0x1p18 * tolerance_of(i, level);
+    return level == 0 ? slow
+                      : std::min(slow, 0.25 * resolved_[level - 1]->structure->cell_length());
   }
 
   /// Nothing at this level up to where the level above ends: on behind that.
   void leave(uint32_t i, size_t level) {
-    if (level == 0) {
+    // Nothing begins behind the end of all space.
+    if (level == 0 || (level == 1 && !is_bounded_)) {
       hits_[i].scale = -1;
       return;
     }
     // Past the end by the tolerance, so that the level above is left even where rounding has not.
-    searches_[i].from = std::max(end(i, level), searches_[i].from) + tolerance_of(level - 1);
+    const double end_above = std::max(end(i, level), searches_[i].from);
+    searches_[i].from =
+        end_above + steps_[i * levels_ + level].behind(end_above, tolerance_of(i, level - 1),
+                                                       slow_of(i, level - 1));
     hits_[i].scale = static_cast<int32_t>(level);  // that comes in next, if none above it does
     hits_[i].normal = {};
     if (searches_[i].from > end(i, level - 1)) {
@@ -203,11 +230,20 @@ class Caster {
 
   void hit(uint32_t i) {
     RayHit& hit = hits_[i];
+    const Begin& begin = begins_[i];
     const Ray& ray = searches_[i].ray;
     const double t = searches_[i].from;
-    hit.t = std::min(begins_[i].offset + t, searches_[i].to);
+    hit.t = begin.offset + t;
+    if (hit.t > begin.to) {
+      // Found past the end, at which the ray may be inside already.
+      if (detail_ == HitDetail::all && !model_.inside(begin.end, resolved_)) {
+        hit = {};
+        return;
+      }
+      hit.t = begin.to;
+    }
     hit.point = ray.at(t);
-    hit.starts_inside = hit.t == begins_[i].from;
+    hit.starts_inside = hit.t == begin.from;
     if (detail_ == HitDetail::place) return;
     if (hit.starts_inside)
       hit.normal = ray.direction * -1.0;
@@ -219,7 +255,7 @@ class Caster {
     if (hit.starts_inside) hit.scale = static_cast<int32_t>(levels_) - 1;
   }
 
-  /// Of the shape, at all hits on it.
+  /// Computes the shape's normals at all hits on it.
   void find_normals() {
     for (size_t n = 0; n < without_normal_.size(); ++n) {
       const RaySearch& s = searches_[without_normal_[n]];
@@ -236,10 +272,13 @@ class Caster {
   const HitDetail detail_;
   const Job* const job_;
   const size_t levels_;
-  const Box3 bounds_;
+  const Box3 bounds_, near_;
+  const bool is_bounded_;
+  const double beyond_;
   RaySearch* const searches_;
   RayHit* const hits_;
   double* const ends_;
+  PartSteps* const steps_;
   Begin* const begins_;
   RaySearch* const batch_;
   std::vector<std::vector<uint32_t>>& waiting_;
@@ -249,25 +288,71 @@ class Caster {
 
 }  // namespace
 
-CellIndex cell_of(const Scales& resolved, const RayHit& hit) {
-  if (hit.scale < 0 || resolved.empty()) return {};
-  return resolved.back()->structure->neighbourhood().locate(hit.point).cell;
+double way_past_end(const Model& model, const Scales& resolved, const Ray& ray, double to) {
+  double sum = model.shape().ray_tolerance();
+  for (const Scale* scale : resolved) sum += scale->structure->ray_tolerance(ray, to);
+  return 2 * sum;
+}
+
+double way_past_end(const Model& model, const Scales& resolved) {
+  return way_past_end(model, resolved, {model.bounds().min, model.bounds().extent()}, 1);
+}
+
+// From so far away that rounding moves points out of the box: points that far are known to 2^-53 of
+// their coordinates, so the ray is clipped again from the point that it came to, which is as much
+// nearer.
+bool move_to_box(const Box3& box, const Box3& near, double low, double high, double past,
+                 RaySearch& s, double& offset, double& end) {
+  offset = low;
+  if (const Vec3 place = s.ray.at(low); near.contains(place)) {
+    s.ray.origin = place;
+    end = high - low;
+    return true;
+  }
+  constexpr int max_rounds = 48;  // 2^52 each, from the largest numbers to the smallest
+  for (int round = 0; round < max_rounds; ++round) {
+    s.ray.origin = s.ray.exactly_at(low);
+    if (round > 0) offset += low;
+    if (near.contains(s.ray.origin)) {
+      double first = 0;
+      end = s.to + past - offset;
+      return clip_to_box(s.ray, box, first, end);
+    }
+    low = s.from - offset;
+    high = s.to + past - offset;
+    if (!clip_to_box(s.ray, box, low, high)) return false;
+  }
+  return false;
+}
+
+CellIndex cell_of(const Scales& all, const RayHit& hit) {
+  if (hit.scale < 0) return {};
+  const Scales& resolved = all.regions.empty() ? all : all.regions[hit.region];
+  if (resolved.empty()) return {};
+  const Structure& finest = *resolved.back()->structure;
+  return finest.is_on_grid() ? finest.neighbourhood().locate(hit.point).cell : CellIndex{};
 }
 
 uint32_t material_id(const Model& model, const Scales& resolved, const RayHit& hit,
                      uint32_t& part) {
   if (hit.scale < 0) return 0;
-  const Material* material = model.material(hit.point, resolved, part);
+  uint32_t own_part = 0;  // parts are of one region
+  const Material* material = model.regions().empty()
+                                 ? model.material(hit.point, resolved, part)
+                                 : model.regions()[hit.region]->material(
+                                       hit.point, resolved.regions[hit.region], own_part);
   return material ? material->id() : 0;
 }
 
-void prepare_rays(const Model& model, const Scales& resolved) {
-  model.shape().prepare_distance();
-  model.prepare_skins(resolved);
+void prepare_rays(const Model& model, const Scales& resolved, const Job* job) {
+  model.shape().prepare_distance(job);
+  model.prepare_skins(resolved, job);
 }
 
 void cast_batch(const Model& model, const Scales& resolved, std::vector<RaySearch>& searches,
                 std::vector<RayHit>& hits, HitDetail detail, const Job* job) {
+  if (!model.regions().empty())
+    return cast_through_regions(model, resolved, searches, hits, detail, job);
   const size_t count = searches.size();
   hits.resize(count);
   // The model may be of the host's, whose callbacks may cast rays.
@@ -278,7 +363,7 @@ void cast_batch(const Model& model, const Scales& resolved, std::vector<RaySearc
 
 namespace {
 
-/// Casts rays [first, first + count), in that order where `order` is null.
+/// Casts rays [first, first + count), in this order if `order` is null.
 void cast_part(const Model& model, const Scales& resolved, uint64_t first, uint64_t count,
                const RayOrder* order, const FillRays& fill, const TakeHits& take, Job* job,
                Interval progress) {
@@ -305,7 +390,7 @@ void cast_part(const Model& model, const Scales& resolved, uint64_t first, uint6
   });
 }
 
-/// How many rays may be sorted at once, so that it takes no more than a part of the memory.
+/// Maximum number of rays sorted at once, so that they take only a part of the memory.
 uint64_t sorted_at_once(const MemoryBudget& budget) {
   constexpr uint64_t part = 16;
   if (budget.limit() == 0) return RayOrder::most;
@@ -317,7 +402,7 @@ uint64_t sorted_at_once(const MemoryBudget& budget) {
 void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const FillRays& fill,
                const TakeHits& take, Job* job) {
   if (count == 0) return;
-  prepare_rays(model, resolved);
+  prepare_rays(model, resolved, job);
   if (resolved.empty()) {
     cast_part(model, resolved, 0, count, nullptr, fill, take, job, {0, 1});
     return;
@@ -332,15 +417,16 @@ void cast_rays(const Model& model, const Scales& resolved, uint64_t count, const
     cast_part(model, resolved, 0, count, nullptr, fill, take, job, {0, 1});
     return;
   }
-  RayOrder order(model.bounds(), resolved.front()->structure->characteristic_length());
+  const auto order =
+      std::make_unique<RayOrder>(model.bounds(), resolved.front()->structure->cell_length());
   const auto part_of = [&](uint64_t n) {
     return static_cast<double>(n) / static_cast<double>(count);
   };
   for (uint64_t first = 0; first < count; first += at_once) {
     const uint64_t size = std::min(count - first, at_once);
     check_cancelled(job);
-    const bool is_sorted = order.sort(model.executor(), first, size, fill);
-    cast_part(model, resolved, first, size, is_sorted ? &order : nullptr, fill, take, job,
+    const bool is_sorted = order->sort(model.executor(), first, size, fill, job);
+    cast_part(model, resolved, first, size, is_sorted ? order.get() : nullptr, fill, take, job,
               {part_of(first), part_of(first + size)});
   }
 }

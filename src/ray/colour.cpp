@@ -11,14 +11,14 @@ double linear_of(double srgb) {
   return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
 }
 
-/// sRGB rises by no more than 12.92 * 255 = 3295 bytes a unit, so that no step has two borders
+/// sRGB rises by at most 12.92 * 255 = 3295 bytes per unit, so that no step contains two borders
 /// between bytes.
 constexpr int steps = 4096;
 
 struct SrgbTable {
-  /// Where byte b + 1 begins.
+  /// The start of byte b + 1.
   std::array<float, 256> next;
-  /// The byte at the beginning of each step.
+  /// The byte at the start of each step.
   std::array<uint8_t, steps + 1> first;
 
   SrgbTable() {

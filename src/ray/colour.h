@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours: linear, as light adds up, and as bytes of sRGB.
+// Colours: linear, for the addition of light, and as bytes in sRGB.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace msq {
 
-/// Linear, each part multiplied by the opacity.
+/// Linear; each component is multiplied by the opacity.
 struct Colour {
   float r = 0, g = 0, b = 0, opacity = 0;
 };
@@ -26,13 +26,14 @@ inline Colour colour_of(Vec3 rgb) {
   return {static_cast<float>(rgb.x), static_cast<float>(rgb.y), static_cast<float>(rgb.z), 1};
 }
 
-/// The byte nearest to a linear part, cut to 0 and 1, in sRGB (IEC 61966-2-1).
+/// The byte nearest to a linear component, clamped to [0, 1], in sRGB (IEC 61966-2-1).
 uint8_t srgb_byte(float linear);
 
-/// Red, green, blue in sRGB and the opacity, none of them multiplied by it.
+/// Writes red, green and blue in sRGB and the opacity. The colours are not multiplied by the
+/// opacity.
 void write_rgba(Colour colour, uint8_t* rgba);
 
-/// What things are coloured by where the host gives no colours.
+/// The colours used if the host gives none.
 const std::vector<Vec3>& palette();
 
 }  // namespace msq

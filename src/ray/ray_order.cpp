@@ -5,17 +5,19 @@
 #include <cmath>
 #include <limits>
 
+#include "base/borrowed.h"
+
 namespace msq {
 
 namespace {
 
-/// The direction counts as far as this many cells: rays mostly end before.
+/// The length of the direction, in cells: most rays end before.
 constexpr double far_in_cells = 8;
-constexpr unsigned key_bits = 64 - RayOrder::most_bits;
+constexpr unsigned key_bits = 64 - RayOrder::max_bits;
 constexpr uint64_t no_key = (uint64_t{1} << key_bits) - 1;  // of rays that miss the box
 
 constexpr size_t at_once = 1024;
-/// Rays that keys are made for, and keys that are sorted, by one thread at a time.
+/// Rays whose keys are made, and keys that are sorted, by one thread at a time.
 constexpr uint64_t block = uint64_t{1} << 14;
 constexpr unsigned bucket_bits = 10;
 constexpr size_t buckets = size_t{1} << bucket_bits;
@@ -23,26 +25,34 @@ constexpr size_t bucket_of(uint64_t key) {
   return key >> (64 - bucket_bits);
 }
 
-/// Rays looked at in advance: runs of rays that follow each other.
-constexpr uint64_t run_length = 16, most_runs = 64;
+/// The rays whose keys are made at once.
+struct Batch {
+  std::array<uint64_t, at_once> numbers;
+  std::array<RaySearch, at_once> searches;
+};
+
+/// Rays examined in advance: runs of consecutive rays.
+constexpr uint64_t run_length = 16, max_runs = 64;
 
 }  // namespace
 
 bool RayOrder::place(const RaySearch& search, Place& place) const {
   double from = search.from, to = search.to;
   if (!clip_to_box(search.ray, bounds_, from, to)) return false;
-  const Vec3 p = search.ray.at(from), d = search.ray.direction * (far_in_cells * cell_size_);
+  // Rounding may move rays from far away.
+  const Vec3 p = max(bounds_.min, min(bounds_.max, search.ray.at(from)));
+  const Vec3 d = search.ray.direction * (far_in_cells * cell_size_);
   place = {p.x, p.y, p.z, d.x, d.y, d.z};
   return true;
 }
 
-/// Also finds out where the rays are.
+/// Also measures the range of the rays' places.
 bool RayOrder::looks_ordered(uint64_t first, uint64_t count, const FillRays& fill) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Place low, high;
   low.fill(infinity);
   high.fill(-infinity);
-  const uint64_t runs = std::min(count / run_length, most_runs);
+  const uint64_t runs = std::min(count / run_length, max_runs);
   uint64_t together = 0;
   for (uint64_t r = 0; r < runs; ++r) {
     uint64_t numbers[run_length];
@@ -68,14 +78,14 @@ bool RayOrder::looks_ordered(uint64_t first, uint64_t count, const FillRays& fil
   return 4 * together >= 3 * runs;
 }
 
-/// The shorter the range of a coordinate, the fewer bits it has: a step is as long along all axes.
+/// A coordinate with a shorter range has fewer bits: steps are equally long along all axes.
 void RayOrder::spread_bits(const Place& low, const Place& high) {
   double range = std::numeric_limits<double>::min();
   for (size_t axis = 0; axis < axes; ++axis) range = std::max(range, high[axis] - low[axis]);
   std::array<unsigned, axes> bits{};
-  unsigned most_axis_bits = 16;
-  for (;; --most_axis_bits) {
-    per_step_ = std::ldexp(1 / range, static_cast<int>(most_axis_bits));
+  unsigned max_axis_bits = 16;
+  for (;; --max_axis_bits) {
+    per_step_ = std::ldexp(1 / range, static_cast<int>(max_axis_bits));
     unsigned sum = 0;
     for (size_t axis = 0; axis < axes; ++axis) {
       const double steps = (high[axis] - low[axis]) * per_step_;
@@ -87,7 +97,7 @@ void RayOrder::spread_bits(const Place& low, const Place& high) {
   low_ = low;
   spread_ = {};
   unsigned to = 0;
-  for (unsigned level = 0; level < most_axis_bits; ++level)
+  for (unsigned level = 0; level < max_axis_bits; ++level)
     for (size_t axis = 0; axis < axes; ++axis) {
       if (level >= bits[axis]) continue;
       for (size_t n = 0; n < 256; ++n)
@@ -108,19 +118,20 @@ uint64_t RayOrder::key_of(const Place& place) const {
   return key;
 }
 
-bool RayOrder::sort(const Executor& executor, uint64_t first, uint64_t count,
-                    const FillRays& fill) {
+bool RayOrder::sort(const Executor& executor, uint64_t first, uint64_t count, const FillRays& fill,
+                    const Job* job) {
   if (count < run_length || looks_ordered(first, count, fill)) return false;
   first_ = first;
   keys_.resize(count);
   by_block_.resize(count);
   const uint64_t blocks = (count + block - 1) / block;
-  std::vector<std::array<uint64_t, buckets>> places(blocks);  // first counts, of keys by bucket
+  std::vector<std::array<uint64_t, buckets>> places(blocks);  // counts first, of keys by bucket
   executor.for_each(blocks, [&](uint64_t b) {
+    check_cancelled(job);
     std::array<uint64_t, buckets>& counts = places[b];
     counts.fill(0);
-    std::array<uint64_t, at_once> numbers;
-    std::array<RaySearch, at_once> searches;
+    const Borrowed<Batch> batch;
+    auto& [numbers, searches] = *batch;
     const uint64_t end = std::min(count, (b + 1) * block);
     for (uint64_t begin = b * block; begin < end; begin += at_once) {
       const size_t size = std::min<uint64_t>(at_once, end - begin);
@@ -129,12 +140,12 @@ bool RayOrder::sort(const Executor& executor, uint64_t first, uint64_t count,
       for (size_t i = 0; i < size; ++i) {
         Place p;
         const uint64_t key = place(searches[i], p) ? key_of(p) : no_key;
-        by_block_[begin + i] = key << most_bits | (begin + i);
+        by_block_[begin + i] = key << max_bits | (begin + i);
         ++counts[bucket_of(by_block_[begin + i])];
       }
     }
   });
-  std::array<uint64_t, buckets + 1> begins;
+  std::vector<uint64_t> begins(buckets + 1);
   uint64_t sum = 0;
   for (size_t bucket = 0; bucket < buckets; ++bucket) {
     begins[bucket] = sum;
@@ -146,10 +157,12 @@ bool RayOrder::sort(const Executor& executor, uint64_t first, uint64_t count,
   }
   begins[buckets] = sum;
   executor.for_each(blocks, [&](uint64_t b) {
+    check_cancelled(job);
     for (uint64_t i = b * block, end = std::min(count, i + block); i < end; ++i)
       keys_[places[b][bucket_of(by_block_[i])]++] = by_block_[i];
   });
   executor.for_each(buckets, [&](uint64_t bucket) {
+    check_cancelled(job);
     std::sort(keys_.begin() + static_cast<std::ptrdiff_t>(begins[bucket]),
               keys_.begin() + static_cast<std::ptrdiff_t>(begins[bucket + 1]));
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An order of rays in which those that follow each other lie close together: sorted by where they
-// come into the model and where they go from there, bit by bit of both in turn (Morton's order in
-// six dimensions).
+// An order of rays in which neighbours lie close together. Rays are sorted by the position where
+// they enter the model and by their direction from there, with the bits of both interleaved
+// (Morton's order in six dimensions).
 // Sources: Aila and Karras, "Architecture considerations for tracing incoherent rays", 2010;
 // Meister, Boksansky, Guthe and Bittner, "On ray reordering techniques for faster GPU ray tracing",
 // 2020.
@@ -18,23 +18,24 @@
 
 namespace msq {
 
-/// Writes rays, by their numbers, to searches[0, rays.size()): their ray, from and to. One with
-/// from > to meets nothing. Called by several threads at once.
+/// Writes the rays with the given numbers to searches[0, rays.size()): ray, from and to. A ray with
+/// from > to meets nothing. Several threads call this at once.
 using FillRays = std::function<void(std::span<const uint64_t> rays, RaySearch* searches)>;
 
 class RayOrder {
  public:
-  /// Most rays that are sorted at once, and the memory that one of them takes.
-  static constexpr unsigned most_bits = 20;
-  static constexpr uint64_t most = uint64_t{1} << most_bits, bytes_of_ray = 16;
+  /// Maximum number of rays sorted at once, and the memory per ray.
+  static constexpr unsigned max_bits = 20;
+  static constexpr uint64_t most = uint64_t{1} << max_bits, bytes_of_ray = 16;
 
-  /// Rays through a box that is filled with cells of such a size.
+  /// For rays through a box filled with cells of the given size.
   RayOrder(const Box3& bounds, double cell_size) : bounds_(bounds), cell_size_(cell_size) {}
 
-  /// Sorts the rays [first, first + count), at most `most`. False, with nothing done, where most
-  /// lie within a cell of those that they follow.
-  bool sort(const Executor& executor, uint64_t first, uint64_t count, const FillRays& fill);
-  /// Of the sorted rays, those in places [begin, begin + numbers.size()).
+  /// Sorts the rays [first, first + count), at most `most`. Returns false and does nothing if most
+  /// rays lie within a cell of their predecessors. Stops early, by Error(cancelled), with the job.
+  bool sort(const Executor& executor, uint64_t first, uint64_t count, const FillRays& fill,
+            const Job* job);
+  /// The numbers of the sorted rays at positions [begin, begin + numbers.size()).
   void take(uint64_t begin, std::span<uint64_t> numbers) const {
     for (size_t i = 0; i < numbers.size(); ++i)
       numbers[i] = first_ + (keys_[begin + i] & (most - 1));
@@ -42,7 +43,7 @@ class RayOrder {
 
  private:
   static constexpr size_t axes = 6;
-  /// Where a ray comes in, and its direction, as long as the way for which it counts.
+  /// Where a ray enters, and its direction times the length that counts.
   using Place = std::array<double, axes>;
 
   bool place(const RaySearch& search, Place& place) const;
@@ -56,9 +57,9 @@ class RayOrder {
   Place low_{};  // of most rays' places
   double per_step_ = 0;
   std::array<double, axes> top_{};  // number of the last step along each axis
-  /// Where the bits of the number of a step go, by axis and byte.
+  /// The positions of the bits of a step's number, by axis and byte.
   std::array<std::array<std::array<uint64_t, 256>, 2>, axes> spread_{};
-  /// The key of a ray above, its number less `first` below.
+  /// The key of a ray in the high bits, its number minus `first` in the low bits.
   std::vector<uint64_t> keys_, by_block_;
 };
 

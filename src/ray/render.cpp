@@ -12,7 +12,7 @@ namespace msq {
 
 namespace {
 
-/// Points of a tile, those of rays that follow each other close together.
+/// Points of a tile, ordered so that consecutive rays are close together.
 constexpr auto tile_order = [] {
   std::array<TilePixel, ray_batch> order{};
   for (uint32_t n = 0; n < ray_batch; ++n) order[n] = tile_pixel(n);
@@ -26,8 +26,8 @@ uint32_t square_side(uint32_t samples) {
   return side;
 }
 
-/// One pass over the tile: pixels (step * i, step * j) of it, of which those that an earlier pass
-/// had are left out, each with samples x samples rays.
+/// One pass over the tile: its pixels (step * i, step * j), except those of an earlier pass, each
+/// with samples x samples rays.
 struct Pass : RenderPass {
   bool leaves_out = false;  ///< those where i and j are even
   bool has_data = true, has_colour = true;
@@ -40,7 +40,7 @@ struct Sample {
   double size;     // of the ray's direction
 };
 
-/// What a thread works with, from batch to batch.
+/// Memory of a thread, reused from batch to batch.
 struct Batch {
   std::vector<Sample> samples;
   std::vector<RaySearch> searches;
@@ -70,7 +70,7 @@ class Renderer {
   void run(const std::function<void(const RenderPass&)>& on_pass) {
     const std::vector<Pass> passes = passes_of(static_cast<bool>(on_pass));
     for (const Pass& pass : passes) all_rays_ += rays_of(pass);
-    prepare_rays(model_, resolved_);
+    prepare_rays(model_, resolved_, job_);
     for (const Pass& pass : passes) {
       run(pass);
       if (on_pass) on_pass(pass);
@@ -131,7 +131,7 @@ class Renderer {
     });
   }
 
-  /// Rays of the square of points that begins at point (x0, y0).
+  /// Fills in the rays of the square of points that begins at point (x0, y0).
   void fill(const Pass& pass, uint32_t x0, uint32_t y0, Batch& batch) const {
     const uint32_t n = pass.samples, side = square_side(n) * n;
     struct Place {
@@ -141,7 +141,7 @@ class Renderer {
     std::array<Place, tile_side> places;
     for (uint32_t i = 0; i < side; ++i) places[i] = {i / n, i % n, (i % n + 0.5) / n};
     const Camera& camera = view_.camera();
-    double size = size_of(view_.direction(0, 0));  // orthographic: of all
+    double size = size_of(view_.direction(0, 0));  // for orthographic: of all rays
     for (const TilePixel& at : tile_order) {
       if (at.x >= side || at.y >= side) continue;
       const Place& right = places[at.x];
@@ -157,7 +157,7 @@ class Renderer {
                    camera.clip_far, batch.searches.emplace_back());
       const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
       const uint64_t key =
-          (pixel * most_render_samples + down.sample) * most_render_samples + right.sample;
+          (pixel * max_render_samples + down.sample) * max_render_samples + right.sample;
       batch.samples.push_back({x, y, at.y * side + at.x, size});
       batch.seen.push_back({key, 0, 0});
     }
@@ -176,7 +176,7 @@ class Renderer {
     }
   }
 
-  /// Calls write(index) for the pixels of the block that has its ray in pixel (x, y) of the tile.
+  /// Calls write(index) for the pixels of the block whose ray is in pixel (x, y) of the tile.
   template <class Write>
   void for_block(const Pass& pass, const Sample& sample, Write&& write) const {
     const uint64_t x1 = std::min(plan_.tile_width, sample.x + pass.step);
@@ -222,7 +222,7 @@ class Renderer {
     const uint32_t y1 = std::min(plan_.tile_height, y0 + pixels);
     for (uint32_t y = y0; y < y1; ++y)
       for (uint32_t x = x0; x < x1; ++x) {
-        // In the order of the samples in their pixel, wherever the tile lies.
+        // In the order of the samples in their pixel, for any position of the tile.
         Colour sum;
         for (uint32_t v = 0; v < n; ++v)
           for (uint32_t u = 0; u < n; ++u)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays as hosts and cameras have them, along directions of any length, and as the caster does.
+// Converts between rays of hosts and cameras, with directions of any length, and those of the
+// caster.
 #pragma once
 
 #include <cmath>
@@ -9,13 +10,13 @@
 
 namespace msq {
 
-/// Length of a direction, also where its square overflows or vanishes.
+/// Length of a direction, also if its square overflows or underflows.
 inline double size_of(Vec3 d) {
   return std::hypot(d.x, d.y, d.z);
 }
 
-/// Makes a new search that at from <= t <= to along origin + t * direction, a direction of this
-/// size. In place: a copy of numbers just written waits for them.
+/// Sets up a search for from <= t <= to along origin + t * direction; `size` is the length of the
+/// direction. It is built in place: a copy would wait for the numbers just written.
 inline void search_along(Vec3 origin, Vec3 direction, double size, double from, double to,
                          RaySearch& search) {
   search.ray.origin = origin;
@@ -24,11 +25,12 @@ inline void search_along(Vec3 origin, Vec3 direction, double size, double from, 
   search.to = to * size;
 }
 
-/// t of what it found, infinity where that is nothing.
+/// t of the hit; infinity if and only if there is no hit.
 inline double parameter_of(const RayHit& hit, double size, double from, double to) {
-  return hit.scale < 0       ? std::numeric_limits<double>::infinity()
-         : hit.starts_inside ? from
-                             : std::min(hit.t / size, to);
+  return hit.scale < 0 ? std::numeric_limits<double>::infinity()
+         : hit.starts_inside
+             ? from
+             : std::min(hit.t / size, std::min(to, std::numeric_limits<double>::max()));
 }
 
 }  // namespace msq

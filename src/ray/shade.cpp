@@ -10,7 +10,7 @@ namespace msq {
 
 namespace {
 
-/// Rays from a surface begin so many tolerances above it.
+/// Distance of the start of rays above a surface, in tolerances.
 constexpr double lift = 4096;
 constexpr size_t rays_at_once = 1024;
 
@@ -18,9 +18,10 @@ double wrapped(double x) {
   return x - std::floor(x);
 }
 
-/// Directions about a normal, as dense as their cosine with it: point `index` of `count` of a
-/// lattice of rank 1 (its second number by the golden ratio), moved as a whole by the key's random
-/// numbers (Cranley and Patterson 1976) and projected from the disc upwards (Malley's method).
+/// Directions around a normal, with a density proportional to their cosine with it. They are point
+/// `index` of `count` of a lattice of rank 1 (its second number by the golden ratio), shifted as a
+/// whole by the key's random numbers (Cranley and Patterson 1976) and projected from the disc
+/// upwards (Malley's method).
 struct Directions {
   Directions(Vec3 normal, uint64_t key, uint32_t count)
       : normal(normal),
@@ -51,7 +52,24 @@ Shader::Shader(const Model& model, const Scales& resolved, const View& view, con
   reach_ = shading.occlusion_distance > 0 ? shading.occlusion_distance
                                           : 0.1 * length(model.bounds().extent());
   offsets_.push_back(lift * model.shape().ray_tolerance());
-  for (const Scale* scale : resolved) offsets_.push_back(lift * scale->structure->ray_tolerance());
+  const Box3& bounds = model.bounds();
+  const Ray across{bounds.min, bounds.extent()};
+  // By level; of regions the most of any.
+  const auto add = [&](const Scales& scales) {
+    for (size_t i = 0; i < scales.size(); ++i) {
+      if (offsets_.size() < i + 2) offsets_.push_back(0);
+      offsets_[i + 1] =
+          std::max(offsets_[i + 1], lift * scales[i]->structure->ray_tolerance(across, 1));
+    }
+  };
+  if (resolved.regions.empty()) add(resolved);
+  for (const Scales& scales : resolved.regions) add(scales);
+}
+
+double Shader::offset_of(const RayHit& hit) const {
+  const auto scale = static_cast<size_t>(hit.scale);
+  if (model_.shape().is_bounded() || scale == 0) return offsets_[scale];
+  return lift * resolved_[scale - 1]->structure->ray_tolerance({hit.point, {}}, 0);
 }
 
 Vec3 Shader::base_colour(const RayHit& hit, uint32_t material) const {
@@ -68,11 +86,11 @@ Vec3 Shader::base_colour(const RayHit& hit, uint32_t material) const {
   }
 }
 
-// What the camera's planes cut away is not in the way of light either.
+// Parts cut off by the camera's planes do not block light either.
 RaySearch Shader::search_from(const Seen& seen, const RayHit& hit, Vec3 direction,
                               double reach) const {
   const Camera& camera = view_.camera();
-  const double offset = offsets_[static_cast<size_t>(hit.scale)];
+  const double offset = offset_of(hit);
   RaySearch search;
   search.ray = {hit.point + hit.normal * offset, direction};
   search.to = reach;

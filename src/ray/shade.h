@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What colour a ray of a camera sees.
+// The colour that a ray of a camera sees.
 #pragma once
 
 #include <vector>
@@ -25,7 +25,7 @@ struct Shading {
 
 /// One ray of a camera and what it met.
 struct Seen {
-  uint64_t key;  ///< that no other ray of the picture has
+  uint64_t key;  ///< unique among the rays of the picture
   double depth;
   uint32_t material;
 };
@@ -34,18 +34,20 @@ class Shader {
  public:
   Shader(const Model& model, const Scales& resolved, const View& view, const Shading& shading);
 
-  /// colours[i] becomes that of hits[i]. Casts rays towards the light and all around where the
-  /// shading wants them, on the calling thread.
+  /// Sets colours[i] to the colour of hits[i]. Casts rays towards the light and all around if the
+  /// shading needs them, on the calling thread.
   void shade(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
              std::vector<Colour>& colours, const Job* job) const;
 
  private:
+  /// How far above a hit rays begin.
+  double offset_of(const RayHit& hit) const;
   Vec3 base_colour(const RayHit& hit, uint32_t material) const;
   RaySearch search_from(const Seen& seen, const RayHit& hit, Vec3 direction, double reach) const;
-  /// lit[i]: whether nothing is between hits[i] and the light.
+  /// Sets lit[i] to whether nothing is between hits[i] and the light.
   void find_lit(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
                 std::vector<uint8_t>& lit, const Job* job) const;
-  /// open[i]: the part of what is around hits[i] that nothing is in front of.
+  /// Sets open[i] to the fraction of the directions around hits[i] that nothing blocks.
   void find_open(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
                  std::vector<float>& open, const Job* job) const;
 
@@ -53,9 +55,9 @@ class Shader {
   const Scales& resolved_;
   const View& view_;
   const Shading& shading_;
-  Vec3 light_;    ///< unit, in the model's frame
-  double reach_;  ///< of occlusion rays
-  std::vector<double> offsets_;
+  Vec3 light_;                   ///< unit, in the model's frame
+  double reach_;                 ///< of occlusion rays
+  std::vector<double> offsets_;  ///< by scale, where the model has bounds
 };
 
 }  // namespace msq

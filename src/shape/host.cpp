@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "base/march_together.h"
 #include "base/ray_normal.h"
 
@@ -12,7 +13,15 @@ namespace msq {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-}
+
+/// Memory of a callback.
+struct Batch {
+  Vec3 points[host_batch];
+  size_t index[host_batch];
+  uint8_t answers[host_batch];
+};
+
+}  // namespace
 
 HostShape::HostShape(HostShapeCalls calls, const Box3& bounds, bool is_concurrent)
     : calls_(std::move(calls)), is_concurrent_(is_concurrent) {
@@ -28,20 +37,18 @@ bool HostShape::inside(Vec3 p) const {
 }
 
 void HostShape::find_inside(const Vec3* points, size_t count, uint8_t* inside) const {
-  Vec3 asked[host_batch];
-  size_t index[host_batch];
-  uint8_t answers[host_batch];
+  const Borrowed<Batch> batch;
   for (size_t next = 0; next < count;) {
     size_t size = 0;
     for (; next < count && size < host_batch; ++next) {
       inside[next] = 0;
       if (!bounds().contains(points[next])) continue;
-      asked[size] = points[next];
-      index[size++] = next;
+      batch->points[size] = points[next];
+      batch->index[size++] = next;
     }
     if (size == 0) continue;
-    calls_.inside(asked, size, answers);
-    for (size_t i = 0; i < size; ++i) inside[index[i]] = answers[i] != 0;
+    calls_.inside(batch->points, size, batch->answers);
+    for (size_t i = 0; i < size; ++i) inside[batch->index[i]] = batch->answers[i] != 0;
   }
 }
 
@@ -74,13 +81,13 @@ void HostShape::fill_rows(const RowBlock& block) const {
   ask();
 }
 
-double HostShape::clearance(Vec3 p) const {
+double HostShape::distance_bound(Vec3 p) const {
   double bound;
-  find_clearances(&p, 1, &bound);
+  find_distance_bounds(&p, 1, &bound);
   return bound;
 }
 
-void HostShape::find_clearances(const Vec3* points, size_t count, double* bounds) const {
+void HostShape::find_distance_bounds(const Vec3* points, size_t count, double* bounds) const {
   if (calls_.distance)
     for (size_t first = 0; first < count; first += host_batch)
       calls_.distance(points + first, std::min(host_batch, count - first), bounds + first);
@@ -92,38 +99,38 @@ void HostShape::find_clearances(const Vec3* points, size_t count, double* bounds
       fail(Status::host, "the host's shape has the distance %g at (%g, %g, %g); it must be finite",
            bounds[i], p.x, p.y, p.z);
     const Vec3 gap = max(max(this->bounds().min - p, p - this->bounds().max), Vec3{});
-    // Less the rounding of the differences and of the length.
+    // Minus the rounding of the differences and of the length.
     bounds[i] = std::max(length(gap) * (1 - 0x1p-50), std::abs(bounds[i]));
   }
 }
 
-void HostShape::march_all(bool wanted, RaySearch* searches, size_t count) const {
+void HostShape::march_all(bool wanted, RaySearch* searches, size_t count, const Job* job) const {
   march_by_bounds(
-      searches, count, least_ray_step(), ray_tolerance(),
+      searches, count, min_ray_step(), [this](const RaySearch&) { return ray_tolerance(); }, job,
       [&](const Vec3* points, uint8_t* there, size_t n) {
         find_inside(points, n, there);
         for (size_t i = 0; i < n; ++i) there[i] = there[i] == static_cast<uint8_t>(wanted);
       },
       [&](const std::vector<MarchPoint>& asked, const Vec3* points, double* bounds) {
-        find_clearances(points, asked.size(), bounds);
+        find_distance_bounds(points, asked.size(), bounds);
       });
 }
 
-void HostShape::enter_all(RaySearch* searches, size_t count) const {
+void HostShape::enter_all(RaySearch* searches, size_t count, const Job* job) const {
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];
     if (!clip_to_box(s.ray, bounds(), s.from, s.to)) s.to = -infinity;
   }
-  march_all(true, searches, count);
+  march_all(true, searches, count, job);
 }
 
-void HostShape::leave_all(RaySearch* searches, size_t count) const {
+void HostShape::leave_all(RaySearch* searches, size_t count, const Job* job) const {
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];
     s.t = s.from;
     if (!clip_to_box(s.ray, bounds(), s.from, s.to)) s.to = -infinity;
   }
-  march_all(false, searches, count);
+  march_all(false, searches, count, job);
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];
     if (!s.found && s.to > -infinity) s.t = s.to;

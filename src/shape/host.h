@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shape that the host computes: membership of points in a box, and a bound of the distance if it
-// has one.
+// A shape that the host computes: membership of points in a box, and optionally a bound of the
+// distance.
 #pragma once
 
 #include <functional>
@@ -11,9 +11,9 @@
 namespace msq {
 
 struct HostShapeCalls {
-  /// inside[i] becomes other than 0 where points[i] is inside.
+  /// Sets inside[i] to nonzero if points[i] is inside.
   std::function<void(const Vec3* points, size_t count, uint8_t* inside)> inside;
-  /// Lower bounds of the distance to the boundary, of either sign; may be empty.
+  /// Lower bounds on the distance to the boundary, of either sign; may be empty.
   std::function<void(const Vec3* points, size_t count, double* bounds)> distance;
 };
 
@@ -25,10 +25,10 @@ class HostShape final : public Shape {
   void find_inside(const Vec3* points, size_t count, uint8_t* inside) const override;
   bool is_concurrent() const override { return is_concurrent_; }
   void fill_rows(const RowBlock& block) const override;
-  /// Rays march together, so that the host is asked for many points at once.
+  /// Rays march together, so that the host evaluates many points per callback.
   bool gains_by_rays() const override { return true; }
-  void enter_all(RaySearch* searches, size_t count) const override;
-  void leave_all(RaySearch* searches, size_t count) const override;
+  void enter_all(RaySearch* searches, size_t count, const Job* job) const override;
+  void leave_all(RaySearch* searches, size_t count, const Job* job) const override;
   void find_normals(RaySearch* searches, size_t count) const override;
   /// The host's bounds may jump.
   bool has_steady_distance() const override { return !calls_.distance; }
@@ -36,13 +36,13 @@ class HostShape final : public Shape {
   HostUser& user() { return user_; }
 
  protected:
-  double clearance(Vec3 p) const override;
+  double distance_bound(Vec3 p) const override;
 
  private:
-  /// bounds[i] becomes clearance(points[i]).
-  void find_clearances(const Vec3* points, size_t count, double* bounds) const;
+  /// Sets bounds[i] to distance_bound(points[i]).
+  void find_distance_bounds(const Vec3* points, size_t count, double* bounds) const;
   /// As RayMarch::find() for each search.
-  void march_all(bool wanted, RaySearch* searches, size_t count) const;
+  void march_all(bool wanted, RaySearch* searches, size_t count, const Job* job) const;
 
   HostUser user_;
   HostShapeCalls calls_;

@@ -10,28 +10,44 @@ namespace msq {
 
 namespace {
 
-/// Throws for the first value that is not one.
+/// Throws for the first invalid value.
 template <class T>
-void check_values(const T* values, const uint64_t (&size)[3]) {
+void check_values(const T* values, const uint64_t (&size)[3], const Job* job) {
   if constexpr (std::is_floating_point_v<T>) {
     const uint64_t count = size[0] * size[1] * size[2];
-    for (uint64_t i = 0; i < count; ++i)
-      if (!(std::abs(static_cast<double>(values[i])) <= Image::most_value))
+    for (uint64_t i = 0; i < count; ++i) {
+      if (i % 65536 == 0) check_cancelled(job);
+      if (!(std::abs(static_cast<double>(values[i])) <= Image::max_value))
         fail(Status::argument,
              "value (%llu, %llu, %llu) of the image is %g; it must be finite, at most %g in "
              "magnitude",
              static_cast<unsigned long long>(i % size[0]),
              static_cast<unsigned long long>(i / size[0] % size[1]),
              static_cast<unsigned long long>(i / size[0] / size[1]), double(values[i]),
-             Image::most_value);
+             Image::max_value);
+    }
   }
 }
 
-/// Differences of neighbours that cannot overflow, and are exact for whole numbers.
+/// The first minimum sample and the last maximum one.
+template <class T>
+Interval range_of(const T* v, const uint64_t (&size)[3], const Job* job) {
+  T low = v[0], high = v[0];
+  for (uint64_t row = 0, rows = size[1] * size[2]; row < rows; ++row) {
+    check_cancelled(job);
+    const T* at = v + row * size[0];
+    const auto [least, greatest] = std::minmax_element(at, at + size[0]);
+    if (*least < low) low = *least;
+    if (!(*greatest < high)) high = *greatest;
+  }
+  return {static_cast<double>(low), static_cast<double>(high)};
+}
+
+/// Differences of neighbours; they cannot overflow, and are exact for integers.
 template <class T>
 using Wide = std::conditional_t<std::is_floating_point_v<T>, double, int32_t>;
 
-/// Greatest magnitude of the differences of samples that are `step` apart.
+/// Maximum magnitude of the differences of samples that are `step` apart.
 template <class T>
 double steepest(const T* a, uint64_t count, uint64_t step) {
   Wide<T> most = 0;
@@ -42,11 +58,12 @@ double steepest(const T* a, uint64_t count, uint64_t step) {
   return static_cast<double>(most);
 }
 
-/// Along each axis, of all cells.
+/// Along each axis, over all cells.
 template <class T>
-Vec3 steepest(const T* v, const uint64_t (&size)[3]) {
+Vec3 steepest(const T* v, const uint64_t (&size)[3], const Job* job) {
   Vec3 most;
   for (uint64_t row = 0, rows = size[1] * size[2]; row < rows; ++row) {
+    check_cancelled(job);
     const T* at = v + row * size[0];
     most.x = std::max(most.x, steepest(at, size[0] - 1, 1));
     if ((row + 1) % size[1] != 0) most.y = std::max(most.y, steepest(at, size[0], size[0]));
@@ -62,7 +79,8 @@ uint64_t Image::bytes_of(Type type) {
   return bytes[static_cast<int>(type)];
 }
 
-Image::Image(const Source& source, const ImageFrame& frame, std::shared_ptr<MemoryBudget> budget)
+Image::Image(const Source& source, const ImageFrame& frame, std::shared_ptr<MemoryBudget> budget,
+             const Job* job)
     : type_(source.type),
       size_{source.size[0], source.size[1], source.size[2]},
       frame_(frame),
@@ -75,18 +93,20 @@ Image::Image(const Source& source, const ImageFrame& frame, std::shared_ptr<Memo
   const auto* from = static_cast<const unsigned char*>(source.values);
   const uint64_t row = size_[0] * bytes_of(type_);
   for (uint64_t k = 0; k < size_[2]; ++k)
-    for (uint64_t j = 0; j < size_[1]; ++j)
+    for (uint64_t j = 0; j < size_[1]; ++j) {
+      check_cancelled(job);
       std::memcpy(bytes_.get() + (k * size_[1] + j) * row,
                   from + k * source.layer_stride + j * source.row_stride, row);
+    }
   visit([&](const auto* values) {
-    check_values(values, size_);
-    bounds_ = ImageBounds(values, size_);
-    const auto [low, high] = std::minmax_element(values, values + count);
-    range_ = {static_cast<double>(*low), static_cast<double>(*high)};
-    // Within a cell the slope along an axis is a mean of those of its edges.
-    lipschitz_ = lipschitz_of(steepest(values, size_));
+    check_values(values, size_, job);
+    bounds_ = ImageBounds(values, size_, job);
+    range_ = range_of(values, size_, job);
+    // Within a cell, the slope along an axis is a mean of those of its edges.
+    lipschitz_ = lipschitz_of(steepest(values, size_, job));
   });
-  // Each of seven joins loses at most five units of 2^-53 of the greatest sample, three in a row.
+  // Each of seven interpolations loses at most five units of 2^-53 of the largest sample, three in
+  // a row.
   value_slack_ = 0x1p-48 * std::max(std::abs(range_.low), std::abs(range_.high));
 }
 
@@ -119,7 +139,7 @@ VoxelRange Image::cells_in(const Box3& voxels) const {
   VoxelRange range;
   for (int axis = 0; axis < 3; ++axis) {
     range.low[axis] = locate(voxels.min[axis], axis).cell;
-    // Not a number: all of them.
+    // NaN: all cells.
     range.high[axis] = voxels.max[axis] < static_cast<double>(size_[axis])
                            ? locate(voxels.max[axis], axis).cell
                            : cells(axis) - 1;
@@ -154,11 +174,11 @@ bool Image::is_constant(const Box3& box) const {
 }
 
 bool Image::are_few(const VoxelRange& cells) const {
-  constexpr uint64_t most_samples = 64;
+  constexpr uint64_t max_samples = 64;
   uint64_t samples = 1;
-  for (int axis = 0; axis < 3 && samples <= most_samples; ++axis)
+  for (int axis = 0; axis < 3 && samples <= max_samples; ++axis)
     samples *= cells.high[axis] - cells.low[axis] + 2;
-  return samples <= most_samples;
+  return samples <= max_samples;
 }
 
 double Image::lipschitz_of(Vec3 slope) const {
@@ -183,8 +203,8 @@ Interval Image::range(const Box3& box) const {
     return {std::max(bound.low, range_.low), std::min(bound.high, range_.high)};
   }
   const Spread spread = visit([&](const auto* values) { return spread_of(values, cells); });
-  // From the middle to any point of the box the function changes by no more than the steepest edge
-  // along each axis lets it; beyond the image, by nothing.
+  // From the middle to any point of the box, the steepest edge along each axis bounds the change of
+  // the function. Beyond the image the function does not change.
   const Vec3 half = voxels.extent() * 0.5;
   const double middle = value((voxels.min + voxels.max) * 0.5);
   const double reach = dot(spread.slope, half) * (1 + 0x1p-40) + 2 * value_slack_;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples on a regular grid in a frame of its own, linear between them along each axis.
+// Samples on a regular grid in its own frame, with linear interpolation along each axis.
 //
-// One scalar definition, value(): the cell's samples are joined along z, then y, then x, each time
-// as a + f (b - a), kept between a and b. So no value leaves the range of its cell's samples, and
-// on a row along the image's own x all of it but the last step depends on the sample's column
-// alone.
+// There is one scalar definition, value(). It interpolates the cell's samples along z, then y, then
+// x, each time as a + f (b - a), clamped between a and b. So no value leaves the range of its
+// cell's samples. On a row along the image's own x, everything except the last step depends on the
+// sample's column alone.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <utility>
 
+#include "base/job.h"
 #include "base/memory.h"
 #include "base/vec.h"
 #include "shape/image_bounds.h"
@@ -28,8 +29,8 @@ struct ImageFrame {
 class Image {
  public:
   enum class Type { uint8, int16, uint16, float32, float64 };
-  static constexpr uint64_t most_size = 1 << 20;  ///< samples along an axis
-  static constexpr double most_value = 1e100;     ///< in magnitude
+  static constexpr uint64_t max_size = 1 << 20;  ///< samples along an axis
+  static constexpr double max_value = 1e100;     ///< in magnitude
 
   /// A host's samples, x fastest; strides in bytes.
   struct Source {
@@ -38,44 +39,45 @@ class Image {
     uint64_t size[3];
     uint64_t row_stride, layer_stride;
   };
-  /// Copies them. Throws Error(argument) for values that are not finite or too large, Error(limit)
-  /// where the budget has no room.
-  Image(const Source& source, const ImageFrame& frame, std::shared_ptr<MemoryBudget> budget);
+  /// Copies the samples. Throws Error(argument) if a value is not finite or too large, Error(limit)
+  /// if the budget is exceeded, Error(cancelled) if the job, which may be null, is cancelled.
+  Image(const Source& source, const ImageFrame& frame, std::shared_ptr<MemoryBudget> budget,
+        const Job* job = nullptr);
 
   const ImageFrame& frame() const { return frame_; }
   uint64_t size(int axis) const { return size_[axis]; }
   uint64_t cells(int axis) const { return size_[axis] > 1 ? size_[axis] - 1 : 1; }
   const ImageBounds& bounds() const { return bounds_; }
-  /// Least and greatest sample.
+  /// Minimum and maximum sample.
   Interval range() const { return range_; }
-  /// Bound of what value() is off from the function without rounding, at the same coordinates.
+  /// Bound of the rounding error of value(), at the same coordinates.
   double value_slack() const { return value_slack_; }
-  /// In model units; of the function without rounding.
+  /// Lipschitz constant in model units, of the function without rounding.
   double lipschitz() const { return lipschitz_; }
-  /// The same of the function in a box.
+  /// The same for the function in a box.
   double lipschitz(const Box3& box) const;
 
   /// Sample (i, j, k) is at (i, j, k).
   Vec3 to_voxels(Vec3 p) const { return frame_.rotation.apply_inverse(p - frame_.origin) * scale_; }
-  /// Holds to_voxels() of the points of a box, as computed and without rounding.
+  /// Contains to_voxels() of the points of a box, as computed and without rounding.
   Box3 to_voxels(const Box3& box) const;
-  /// Those that hold points of the box, in voxel coordinates, or are nearest to them.
+  /// The cells that contain points of the box, in voxel coordinates, or are nearest to them.
   VoxelRange cells_in(const Box3& voxels) const;
-  /// Bound of the rounding of to_voxels(p), in model units, for points up to such a magnitude.
+  /// Bound of the rounding of to_voxels(p), in model units, for points up to that magnitude.
   double position_slack(double magnitude) const {
     return 0x1p-47 * (magnitude + max_magnitude(frame_.origin));
   }
-  /// 1 / spacing as to_voxels() has it.
+  /// 1 / spacing as in to_voxels().
   Vec3 scale() const { return scale_; }
 
-  /// The cell that holds a coordinate, and how far in it that is: within the image.
+  /// The cell of a coordinate, and the position in the cell, clamped to the image.
   struct Located {
     uint64_t cell;
     double fraction;
   };
   Located locate(double u, int axis) const {
     const double top = static_cast<double>(size_[axis] - 1);
-    const double within = u > 0 ? (u < top ? u : top) : 0;  // not a number: 0
+    const double within = u > 0 ? (u < top ? u : top) : 0;  // NaN: 0
     const uint64_t cell = std::min(static_cast<uint64_t>(within), cells(axis) - 1);
     return {cell, within - static_cast<double>(cell)};
   }
@@ -83,8 +85,8 @@ class Image {
     return std::clamp(a + f * (b - a), std::min(a, b), std::max(a, b));
   }
 
-  /// The samples of one row of cells along x, joined along z and y: value() of a point of the row
-  /// is join(at(i), at(i + 1), fraction).
+  /// The samples of one row of cells along x, interpolated along z and y. value() of a point of the
+  /// row is join(at(i), at(i + 1), fraction).
   template <class T>
   struct Row {
     const T *v00, *v01, *v10, *v11;  ///< first bit y, second z
@@ -99,14 +101,14 @@ class Image {
     const T* v = values + (z.cell * size_[1] + y.cell) * size_[0];
     return {v, v + dz, v + dy, v + dy + dz, y.fraction, z.fraction};
   }
-  /// At voxel coordinates; beyond the image, that of its border.
+  /// At voxel coordinates; beyond the image, the value of its border.
   double value(Vec3 u) const;
   double at(Vec3 p) const { return value(to_voxels(p)); }
   /// Encloses at(p) for all p of a box.
   Interval range(const Box3& box) const;
-  /// Least and greatest sample of cells, looked at one by one.
+  /// Minimum and maximum sample of cells, examined one by one.
   Interval samples_of(const VoxelRange& cells) const;
-  /// Whether at(p) is the same for all p of a box, to the last bit.
+  /// Whether at(p) is constant in a box, to the last bit.
   bool is_constant(const Box3& box) const;
 
   /// Calls body(first sample) with a pointer of the samples' type.
@@ -139,7 +141,7 @@ class Image {
   static uint64_t bytes_of(Type type);
 
  private:
-  /// Of the samples of some cells: their range, and along each axis the greatest difference of
+  /// For the samples of some cells: their range, and along each axis the maximum difference of
   /// neighbours.
   struct Spread {
     Interval range;
@@ -147,7 +149,7 @@ class Image {
   };
   template <class T>
   Spread spread_of(const T* values, const VoxelRange& cells) const;
-  /// Whether they have so few samples that all may be looked at.
+  /// Whether they have so few samples that all may be examined.
   bool are_few(const VoxelRange& cells) const;
   double lipschitz_of(Vec3 slope) const;
 

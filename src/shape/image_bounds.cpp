@@ -43,7 +43,7 @@ void widen(ImageBounds::Level::Bound& bound, const ImageBounds::Level::Bound& by
 }  // namespace
 
 template <class T>
-ImageBounds::ImageBounds(const T* values, const uint64_t (&size)[3]) {
+ImageBounds::ImageBounds(const T* values, const uint64_t (&size)[3], const Job* job) {
   constexpr uint64_t side = 1 << leaf_bits;
   Level leaf;
   for (int axis = 0; axis < 3; ++axis) leaf.size[axis] = leaves(size[axis]);
@@ -58,6 +58,7 @@ ImageBounds::ImageBounds(const T* values, const uint64_t (&size)[3]) {
   std::vector<Level::Bound> row(leaf.size[0]);
   for (uint64_t k = 0; k < size[2]; ++k)
     for (uint64_t j = 0; j < size[1]; ++j) {
+      check_cancelled(job);
       const T* v = values + (k * size[1] + j) * size[0];
       for (uint64_t b = 0; b < row.size(); ++b) {
         T low = v[b * side], high = low;
@@ -140,10 +141,10 @@ uint64_t ImageBounds::bytes_for(const uint64_t (&size)[3]) {
   }
 }
 
-template ImageBounds::ImageBounds(const uint8_t*, const uint64_t (&)[3]);
-template ImageBounds::ImageBounds(const int16_t*, const uint64_t (&)[3]);
-template ImageBounds::ImageBounds(const uint16_t*, const uint64_t (&)[3]);
-template ImageBounds::ImageBounds(const float*, const uint64_t (&)[3]);
-template ImageBounds::ImageBounds(const double*, const uint64_t (&)[3]);
+template ImageBounds::ImageBounds(const uint8_t*, const uint64_t (&)[3], const Job*);
+template ImageBounds::ImageBounds(const int16_t*, const uint64_t (&)[3], const Job*);
+template ImageBounds::ImageBounds(const uint16_t*, const uint64_t (&)[3], const Job*);
+template ImageBounds::ImageBounds(const float*, const uint64_t (&)[3], const Job*);
+template ImageBounds::ImageBounds(const double*, const uint64_t (&)[3], const Job*);
 
 }  // namespace msq

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least and the greatest sample of the parts of an image, in a pyramid.
+// The minimum and maximum sample of the parts of an image, in a pyramid.
 //
-// A cell is what eight neighbouring samples bound; blocks of 4x4x4 cells, samples on their faces
-// included, are the leaves, and 2x2x2 blocks make one of the next level. Bounds are kept in single
+// A cell lies between eight neighbouring samples. Leaves are blocks of 4x4x4 cells, including
+// samples on their faces, and 2x2x2 blocks make one of the next level. Bounds are stored in single
 // precision, rounded outwards: 8 bytes for 64 samples.
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/interval.h"
+#include "base/job.h"
 
 namespace msq {
 
@@ -36,11 +37,12 @@ class ImageBounds {
   };
 
   ImageBounds() = default;
-  /// Of size[0] * size[1] * size[2] samples without gaps, x fastest.
+  /// Takes size[0] * size[1] * size[2] contiguous samples, x fastest. Throws Error(cancelled) if
+  /// the job, which may be null, is cancelled.
   template <class T>
-  ImageBounds(const T* values, const uint64_t (&size)[3]);
+  ImageBounds(const T* values, const uint64_t (&size)[3], const Job* job);
 
-  /// Encloses the samples of the cells; at most twice too wide a part of them is looked at.
+  /// Encloses the samples of the cells; may examine a part up to twice as wide.
   Interval over(const VoxelRange& cells) const;
   /// Finest first; the last has one block.
   const std::vector<Level>& levels() const { return levels_; }

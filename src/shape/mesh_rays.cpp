@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays through a mesh. Between two crossings of the boundary's triangles membership stays the same,
-// so a point between them tells it; what the tree takes for a crossing and is none does no harm.
+// Rays through a mesh. Between two crossings of the boundary's triangles membership does not
+// change, so one point between them decides it. False crossings from the tree do no harm.
 #include "base/ray_normal.h"
 #include "shape/mesh.h"
 
 namespace msq {
 
-bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, double& t) const {
+bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, double& t,
+                      const Job* job) const {
+  if (open_) return find_along_open(ray, from, to, wanted, t, job);
   const auto is_wanted = [&](double at) { return inside(ray.at(at)) == wanted; };
   if (is_wanted(from)) {
     t = from;
@@ -16,8 +18,14 @@ bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, doubl
   double known = from;  // not wanted here
   double crossing;
   Vec3 normal;
-  bool crosses = boundary().first_crossing(ray, from, to, tolerance, crossing, normal);
+  // What is crossed at `from` may be found a little before it.
+  bool crosses = boundary().first_crossing(ray, from - tolerance, to, tolerance, crossing, normal);
+  if (crosses) crossing = std::max(crossing, from);
+  // A triangle is crossed at one t, and each search begins behind the last crossing: there are no
+  // more rounds than triangles.
+  JobPoll poll(job);
   while (crosses) {
+    poll();
     double next;
     // Crossings closer than the tolerance are one.
     crosses = crossing + tolerance <= to &&
@@ -33,7 +41,7 @@ bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, doubl
         t = std::min(crossing + tolerance, beyond);
         return true;
       }
-      // The crossing is known badly: along a triangle's plane, or by a needle.
+      // The error of the crossing is large: along a triangle's plane, or at a needle.
       t = bisect(known, beyond, tolerance, is_wanted);
       return true;
     }
@@ -43,15 +51,15 @@ bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, doubl
   return false;
 }
 
-bool Mesh::enter(const Ray& ray, double from, double to, double& t) const {
+bool Mesh::enter(const Ray& ray, double from, double to, double& t, const Job* job) const {
   if (!clip_to_box(ray, bounds(), from, to)) return false;
-  return find_along(ray, from, to, true, t);
+  return find_along(ray, from, to, true, t, job);
 }
 
-double Mesh::leave(const Ray& ray, double from, double to) const {
+double Mesh::leave(const Ray& ray, double from, double to, const Job* job) const {
   if (!clip_to_box(ray, bounds(), from, to)) return from;
   double t;
-  return find_along(ray, from, to, false, t) ? t : to;
+  return find_along(ray, from, to, false, t, job) ? t : to;
 }
 
 Vec3 Mesh::normal(const Ray& ray, double t) const {
@@ -61,6 +69,10 @@ Vec3 Mesh::normal(const Ray& ray, double t) const {
   if (boundary().first_crossing(ray, t - room, t + room, room, at, normal)) {
     const double size = length(normal);
     if (size > 0) return normal * ((dot(normal, ray.direction) > 0 ? -1 : 1) / size);
+  }
+  if (open_) {
+    const Vec3 level = open_->normal(ray.at(t));
+    if (!(level == Vec3{})) return dot(level, ray.direction) > 0 ? level * -1.0 : level;
   }
   return Shape::normal(ray, t);
 }

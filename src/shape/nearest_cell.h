@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The distance from a point to the nearest cell of an image whose samples are wanted: branch and
-// bound over the image's pyramid, the nearest octant first.
+// The distance from a point to the nearest wanted cell of an image. Branch and bound over the
+// image's pyramid, the nearest octant first.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ class NearestCell {
   /// `g`: in model units along the image's axes, from its first sample.
   NearestCell(const Image& image, Vec3 g, Wanted& wanted) : image_(image), g_(g), wanted_(wanted) {}
 
-  /// Infinite where no cell is wanted.
+  /// Infinite if no cell is wanted.
   double distance() {
     const auto& levels = image_.bounds().levels();
     const uint64_t root[3] = {0, 0, 0};
@@ -92,7 +92,7 @@ class NearestCell {
         for (size_t a = 0; a < x.count; ++a) {
           const uint64_t i = x.cell[a], j = y.cell[b], k = z.cell[c];
           const double squared = distance_squared({i, j, k}, {i + 1, j + 1, k + 1});
-          if (!(squared < best_)) break;  // nor are those that follow in the row nearer
+          if (!(squared < best_)) break;  // the following cells of the row are not nearer either
           if (wanted_(image_.samples_of({{i, j, k}, {i, j, k}}))) best_ = squared;
         }
   }

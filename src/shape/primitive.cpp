@@ -9,8 +9,8 @@ namespace msq {
 namespace {
 constexpr double pi = 3.14159265358979323846;
 
-/// Distance from a point that lies beyond (positive) or within (negative) two walls at right angles
-/// to the edge or wall next to it.
+/// Distance to the nearest edge or wall of two walls at right angles, from a point that lies beyond
+/// (positive) or within (negative) each of them.
 double corner_distance(double beyond_one, double beyond_other) {
   if (beyond_one <= 0 && beyond_other <= 0) return std::min(-beyond_one, -beyond_other);
   return std::hypot(std::max(beyond_one, 0.0), std::max(beyond_other, 0.0));
@@ -31,53 +31,56 @@ bool clip_to_quadratic(double a, double b, double c, double& from, double& to) {
 }
 }  // namespace
 
-bool Primitive::enter(const Ray& ray, double from, double to, double& t) const {
+bool Primitive::enter(const Ray& ray, double from, double to, double& t, const Job*) const {
+  const auto is_in = [this](Vec3 p) { return inside(p); };
   double low = from, high = to;
   if (!section(ray, 0, low, high)) return false;
   t = low;
-  return settle_entry(
-      ray, from, ray_tolerance(), [this](Vec3 p) { return inside(p); }, t);
+  if (settle_entry(ray, from, ray_tolerance(), is_in, t)) return true;
+  // A graze: rounding moves the ends of a section much more than its middle.
+  const double middle = 0.5 * (low + high);
+  if (!(middle > low) || !is_in(ray.at(middle))) return false;
+  t = bisect(low, middle, ray_tolerance(), [&](double at) { return is_in(ray.at(at)); });
+  return true;
 }
 
-double Primitive::leave(const Ray& ray, double from, double to) const {
+double Primitive::leave(const Ray& ray, double from, double to, const Job*) const {
   double low = from, high = to;
   return section(ray, 0, low, high) ? high : from;
 }
 
-// The tolerance is far above what rounding moves sections and inside() by: samples in the section
-// of the shape that is smaller by it are inside, samples beyond that of the larger one outside.
-// Where a row grazes the shape rounding moves a section's ends farther, but not past those of the
-// other two: squares of radii differ by far more than squares are rounded.
+// The tolerance is far above the effect of rounding on sections and inside(). Samples in the
+// section of the shape reduced by it are inside; samples beyond that of the enlarged shape are
+// outside. If a row grazes the shape, rounding moves a section's ends farther, but not past those
+// of the other two: squares of radii differ by far more than the rounding of squares.
 void Primitive::fill_rows(const RowBlock& block) const {
   const SampleGrid& grid = *block.grid;
   const double tolerance = ray_tolerance(), size = bounds().extent().x;
-  for_each_row_in_bounds(
-      block, [&](double y, double z, uint64_t* row, uint64_t first, uint64_t end) {
-        const Ray ray{{bounds().min.x, y, z}, {1, 0, 0}};
-        const auto range = [&](double grow, uint64_t& low, uint64_t& high) {
-          double from = -size, to = 2 * size;
-          low = high = end;
-          if (!section(ray, grow, from, to)) return;
-          const auto sample = [&](double t) {
-            return std::clamp(
-                first_sample_from(grid.origin.x, grid.spacing.x, grid.nx, bounds().min.x + t),
-                first, end);
-          };
-          low = sample(from);
-          high = std::max(low, sample(to));
-        };
-        uint64_t low, high, inner_low, inner_high;
-        range(tolerance, low, high);
-        range(-tolerance, inner_low, inner_high);
-        if (inner_low >= inner_high) inner_low = inner_high = high;
-        const auto ask = [&](uint64_t from, uint64_t to) {
-          for (uint64_t i = from; i < to; ++i)
-            if (inside({grid.x(i), y, z})) set_bits(row, i, i);
-        };
-        ask(low, std::min(inner_low, high));
-        if (inner_low < inner_high) set_bits(row, inner_low, inner_high - 1);
-        ask(inner_high, high);
-      });
+  for_each_row_in_bounds(block,
+                         [&](double y, double z, uint64_t* row, uint64_t first, uint64_t end) {
+                           const Ray ray{{bounds().min.x, y, z}, {1, 0, 0}};
+                           const auto range = [&](double grow, uint64_t& low, uint64_t& high) {
+                             double from = -size, to = 2 * size;
+                             low = high = end;
+                             if (!section(ray, grow, from, to)) return;
+                             const auto sample = [&](double t) {
+                               return std::clamp(grid.first_x_from(bounds().min.x + t), first, end);
+                             };
+                             low = sample(from);
+                             high = std::max(low, sample(to));
+                           };
+                           uint64_t low, high, inner_low, inner_high;
+                           range(tolerance, low, high);
+                           range(-tolerance, inner_low, inner_high);
+                           if (inner_low >= inner_high) inner_low = inner_high = high;
+                           const auto ask = [&](uint64_t from, uint64_t to) {
+                             for (uint64_t i = from; i < to; ++i)
+                               if (inside({grid.x(i), y, z})) set_bits(row, i, i);
+                           };
+                           ask(low, std::min(inner_low, high));
+                           if (inner_low < inner_high) set_bits(row, inner_low, inner_high - 1);
+                           ask(inner_high, high);
+                         });
 }
 
 BoxShape::BoxShape(const Box3& box) {
@@ -93,7 +96,7 @@ void BoxShape::fill_rows(const RowBlock& block) const {
   });
 }
 
-/// Takes off what a difference and a root, each within a few units of 2^-53, may add.
+/// Subtracts the possible error of a difference and a root, each within a few units of 2^-53.
 constexpr double box_rounding = 1 - 0x1p-50;
 
 Vec3 BoxShape::normal(const Ray& ray, double t) const {
@@ -112,7 +115,7 @@ Vec3 BoxShape::normal(const Ray& ray, double t) const {
   return normal;
 }
 
-double BoxShape::clearance(Vec3 p) const {
+double BoxShape::distance_bound(Vec3 p) const {
   const Vec3 beyond = max(bounds().min - p, p - bounds().max);
   const Vec3 gap = max(beyond, Vec3{});
   const double distance =
@@ -120,8 +123,8 @@ double BoxShape::clearance(Vec3 p) const {
   return distance * box_rounding;
 }
 
-// The depth is the least of one number for each axis, so a sample is shallow by its x, its y or its
-// z alone.
+// The depth is the minimum of one number per axis, so a sample is shallow by its x, its y or its z
+// alone.
 bool BoxShape::fill_shallow_rows(double depth, const RowBlock& block) const {
   const SampleGrid& grid = *block.grid;
   const auto is_shallow = [&](int axis, double at) {
@@ -163,11 +166,11 @@ Vec3 SphereShape::normal(const Ray& ray, double t) const {
   return d * (1 / length(d));
 }
 
-double SphereShape::clearance(Vec3 p) const {
+double SphereShape::distance_bound(Vec3 p) const {
   const Vec3 d = p - centre_;
   const double from_centre = std::hypot(d.x, d.y, d.z);
-  // Here and in inside(), d and its length lose a few units of 2^-53 of themselves; the bounds, of
-  // which inside() asks too, those of the centre's coordinates.
+  // Here and in inside(), d and its length lose a few units of 2^-53 of themselves. The bounds,
+  // which inside() also tests, lose those of the centre's coordinates.
   const double slack = 0x1p-48 * (from_centre + radius_ + max_magnitude(centre_));
   return std::max(0.0, std::abs(from_centre - radius_) - slack);
 }
@@ -180,10 +183,11 @@ CylinderShape::CylinderShape(Vec3 from, Vec3 to, double radius)
       unit_axis_(axis_ * (1 / height_)),
       radius_(radius),
       radius_squared_(radius * radius) {
-  // A disc normal to the unit vector u reaches radius * sqrt(1 - u_i^2) along axis i.
+  // A disc normal to the unit vector u extends radius * sqrt(1 - u_i^2) along axis i.
   Vec3 reach;
   for (int i = 0; i < 3; ++i) {
-    // 1 - u_i^2 from the other two, which leaves something of axes next to axis i.
+    // 1 - u_i^2 from the other two components, which keeps precision for directions close to axis
+    // i.
     const double u = axis_[(i + 1) % 3] / height_, v = axis_[(i + 2) % 3] / height_;
     reach[i] = radius * std::sqrt(u * u + v * v) * (1 + 1e-12);
   }
@@ -216,8 +220,8 @@ bool CylinderShape::section(const Ray& ray, double grow, double& from, double& t
   const Vec3 across = w - unit_axis_ * along, drift = ray.direction - unit_axis_ * rate;
   const double drift_squared = dot(drift, drift);
   const double c = drift_squared > 0x1p-90 ? drift_squared : 0;
-  // About the point nearest to the axis: squares of the way there would round by more than those
-  // of the radius of a slender cylinder.
+  // About the point nearest to the axis: squares of the way to it would have larger rounding errors
+  // than those of the radius of a slender cylinder.
   const double nearest = c > 0 ? -dot(across, drift) / c : 0;
   const Vec3 least = across + drift * nearest;
   double low = -std::numeric_limits<double>::infinity(), high = -low;
@@ -238,13 +242,13 @@ Vec3 CylinderShape::normal(const Ray& ray, double t) const {
   return 2 * along < height_ ? unit_axis_ * -1.0 : unit_axis_;
 }
 
-double CylinderShape::clearance(Vec3 p) const {
+double CylinderShape::distance_bound(Vec3 p) const {
   const Vec3 w = p - from_;
   const double along = dot(w, unit_axis_);
   const double across = length(cross(w, unit_axis_));
   const double distance = corner_distance(across - radius_, std::max(-along, along - height_));
-  // Each of w, the axis and the products loses a few units of 2^-53 of what it is made of, here and
-  // in inside().
+  // Each of w, the axis and the products loses a few units of 2^-53 of its terms, here and in
+  // inside().
   const double slack =
       0x1p-47 * (length(w) + height_ + radius_ + max_magnitude(from_) + max_magnitude(p));
   return std::max(0.0, distance - slack);

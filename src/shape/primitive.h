@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Box, sphere and cylinder as coarse shapes. Their distances are exact but for rounding.
+// Box, sphere and cylinder as coarse shapes. Their distances are exact except for rounding.
 #pragma once
 
 #include "shape/shape.h"
 
 namespace msq {
 
-/// What primitives have in common: rays cut them in one section.
+/// The common part of primitives: rays cut them in one section.
 class Primitive : public Shape {
  public:
+  bool is_exact_outside() const override { return true; }
+  bool is_exact_inside() const override { return true; }
   bool knows_depth() const override { return true; }
-  /// Distances are exact but for rounding and what is subtracted for it, each less than 2^-44 of
-  /// the bounds' coordinates.
+  /// Distances are exact except for rounding and the slack subtracted for it, each less than 2^-44
+  /// of the bounds' coordinates.
   double depth_error() const override {
     return 0x1p-43 * (max_magnitude(bounds().min) + max_magnitude(bounds().max));
   }
-  bool enter(const Ray& ray, double from, double to, double& t) const override;
-  double leave(const Ray& ray, double from, double to) const override;
-  /// By the sections of rows.
+  bool enter(const Ray& ray, double from, double to, double& t, const Job* job) const override;
+  double leave(const Ray& ray, double from, double to, const Job* job) const override;
+  /// Uses the sections of rows.
   void fill_rows(const RowBlock& block) const override;
 
  protected:
-  /// Narrows [from, to] to the section of the shape with its surface moved outwards by `grow`, but
-  /// for rounding; false if there is none.
+  /// Narrows [from, to] to the section of the shape with its surface moved outwards by `grow`,
+  /// except for rounding. Returns false if there is none.
   virtual bool section(const Ray& ray, double grow, double& from, double& to) const = 0;
 };
 
@@ -38,7 +40,7 @@ class BoxShape final : public Primitive {
   bool section(const Ray& ray, double grow, double& from, double& to) const override {
     return clip_to_box(ray, bounds().grown(grow), from, to);
   }
-  double clearance(Vec3 p) const override;
+  double distance_bound(Vec3 p) const override;
 };
 
 class SphereShape final : public Primitive {
@@ -49,7 +51,7 @@ class SphereShape final : public Primitive {
 
  protected:
   bool section(const Ray& ray, double grow, double& from, double& to) const override;
-  double clearance(Vec3 p) const override;
+  double distance_bound(Vec3 p) const override;
 
  private:
   Vec3 centre_;
@@ -65,10 +67,10 @@ class CylinderShape final : public Primitive {
 
  protected:
   bool section(const Ray& ray, double grow, double& from, double& to) const override;
-  double clearance(Vec3 p) const override;
+  double distance_bound(Vec3 p) const override;
 
  private:
-  Vec3 from_, axis_;  // axis_ from one end to the other
+  Vec3 from_, axis_;  // axis_ leads from one end to the other
   double axis_squared_, height_;
   Vec3 unit_axis_;
   double radius_, radius_squared_;

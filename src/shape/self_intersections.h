@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a mesh meets itself.
+// Intersections of a mesh with itself.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace msq {
 
-/// Number of pairs of triangles that meet other than in vertices or an edge that they share by
-/// index; two triangles of the same three vertices are a pair. Exact in its decisions. Triangles
+/// The number of pairs of triangles that meet outside the vertices or the edge that they share by
+/// index; two triangles of the same three vertices are a pair. Uses exact predicates. Triangles
 /// without area are in no pair. Throws Error(cancelled), and Error(unsupported) in builds without
 /// CGAL.
 uint64_t count_self_intersections(const Mesh& mesh, const Job* job);

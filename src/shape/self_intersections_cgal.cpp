@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Self-intersections by CGAL: the pairs of triangles whose boxes meet, by a streamed segment tree,
-// then exact predicates on each pair. The criterion is that of CGAL::Polygon_mesh_processing::
-// self_intersections; that function itself wants a manifold, consistently oriented mesh, which a
-// mesh to diagnose need not be.
+// Self-intersections by CGAL. A streamed segment tree finds the pairs of triangles whose boxes
+// meet; exact predicates test each pair. The criterion is that of
+// CGAL::Polygon_mesh_processing::self_intersections. That function itself requires a manifold,
+// consistently oriented mesh, which a mesh to diagnose may not be.
 // Source: Zomorodian and Edelsbrunner, "Fast software for box intersections", 2002.
 //
-// CGAL's box intersection is under the GPL: a build with this file is too.
+// CGAL's box intersection is under the GPL. So a build with this file is, too.
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
@@ -93,7 +93,7 @@ uint64_t count_self_intersections(const Mesh& mesh, const Job* job) {
     if (test.has_area(t))
       boxes.emplace_back(bounds_of(vertices[t[0]], vertices[t[1]], vertices[t[2]]), i);
   }
-  // CGAL moves what it is given about: pointers are cheaper, and keep the identity of the boxes.
+  // CGAL moves its arguments around: pointers are cheaper, and keep the identity of the boxes.
   std::vector<const Box*> handles;
   handles.reserve(boxes.size());
   for (const Box& box : boxes) handles.push_back(&box);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for the search for self-intersections in builds without CGAL.
+// Replaces the search for self-intersections in builds without CGAL.
 #include "base/status.h"
 #include "shape/self_intersections.h"
 

@@ -11,42 +11,46 @@ namespace msq {
 double Shape::distance(Vec3 p) const {
   const Box3& box = bounds();
   const Vec3 gap = max(max(box.min - p, p - box.max), Vec3{});
-  // From so far away the box is as near as what it holds, to the last bits, and squares might
-  // overflow.
+  // From this far away, the distances to the box and to its contents are equal to the last bits,
+  // and squares might overflow.
   if (max_component(gap) > 0x1p60 * max_component(box.extent())) {
     const double far = std::hypot(gap.x, gap.y, gap.z) * (1 - 0x1p-50);
     return std::min(far, std::numeric_limits<double>::max());
   }
-  return signed_distance(inside(p), clearance(p));
+  return signed_distance(inside(p), distance_bound(p));
 }
 
-bool Shape::march(bool wanted, const Ray& ray, double from, double to, double& t) const {
-  const RayMarch steps{least_ray_step(), ray_tolerance()};
+bool Shape::march(bool wanted, const Ray& ray, double from, double to, double& t,
+                  const Job* job) const {
+  const RayMarch steps{min_ray_step(), ray_tolerance()};
   return steps.find(
       wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
-      [this](Vec3 p) { return clearance(p); }, t);
+      [this](Vec3 p) { return distance_bound(p); }, t, job);
 }
 
-bool Shape::enter(const Ray& ray, double from, double to, double& t) const {
-  return clip_to_box(ray, bounds(), from, to) && march(true, ray, from, to, t);
+bool Shape::enter(const Ray& ray, double from, double to, double& t, const Job* job) const {
+  return clip_to_box(ray, bounds(), from, to) && march(true, ray, from, to, t, job);
 }
 
-double Shape::leave(const Ray& ray, double from, double to) const {
+double Shape::leave(const Ray& ray, double from, double to, const Job* job) const {
   if (!clip_to_box(ray, bounds(), from, to)) return from;
   double t;
-  return march(false, ray, from, to, t) ? t : to;
+  return march(false, ray, from, to, t, job) ? t : to;
 }
 
-void Shape::enter_all(RaySearch* searches, size_t count) const {
+void Shape::enter_all(RaySearch* searches, size_t count, const Job* job) const {
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];
-    s.found = enter(s.ray, s.from, s.to, s.t);
+    check_cancelled(job);
+    s.found = enter(s.ray, s.from, s.to, s.t, job);
   }
 }
 
-void Shape::leave_all(RaySearch* searches, size_t count) const {
-  for (size_t i = 0; i < count; ++i)
-    searches[i].t = leave(searches[i].ray, searches[i].from, searches[i].to);
+void Shape::leave_all(RaySearch* searches, size_t count, const Job* job) const {
+  for (size_t i = 0; i < count; ++i) {
+    check_cancelled(job);
+    searches[i].t = leave(searches[i].ray, searches[i].from, searches[i].to, job);
+  }
 }
 
 Vec3 Shape::normal(const Ray& ray, double t) const {

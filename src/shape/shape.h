@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contract of coarse shapes (scale 0). inside() is the definition; fill_rows() must agree with
+// The interface of coarse shapes (scale 0). inside() is the definition; fill_rows() must agree with
 // it bit for bit.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,7 @@ namespace msq {
 /// What is known of a shape; the counts are those of meshes. Meanings: msq_shape_report in msq.h.
 struct ShapeFacts {
   bool is_mesh = false;
+  bool is_bounded = true;
   Box3 bounds;
   double volume = 0, area = 0;
   uint64_t vertices = 0, triangles = 0;
@@ -32,6 +34,8 @@ class Shape : public RefCounted {
  public:
   /// No point outside this box is inside the shape.
   const Box3& bounds() const { return facts_.bounds; }
+  /// If not, the box is infinite.
+  bool is_bounded() const { return facts_.is_bounded; }
   const ShapeFacts& facts() const { return facts_; }
 
   /// Membership of a finite point; the boundary is inside.
@@ -50,12 +54,21 @@ class Shape : public RefCounted {
   /// Whether that of two points differs by no more than the way between them, but for 2^-21 of the
   /// diagonal of bounds() and 2^-41 of the points' coordinates and distances.
   virtual bool has_steady_distance() const { return true; }
+  /// Whether distance() of points on that side is exact, but for rounding: within depth_error() in
+  /// bounds(), and beyond them within as much more as distances are longer.
+  virtual bool is_exact_outside() const { return false; }
+  virtual bool is_exact_inside() const { return false; }
+  /// How many shapes made of other shapes are within each other.
+  virtual unsigned nesting() const { return 0; }
   /// Builds what distance() needs, if anything; otherwise its first call does, or throws what this
-  /// throws.
-  virtual void prepare_distance() const {}
+  /// throws. Throws Error(cancelled) where the job, which may be null, is cancelled.
+  virtual void prepare_distance(const Job*) const {}
 
-  /// How deep a point of the shape lies under the boundary: -distance(p) where inside(p).
-  double depth(Vec3 p) const { return clearance(p); }
+  /// How deep a point of the shape lies under the boundary, or under the part of it that skins
+  /// follow: no less than -distance(p). Default: that.
+  virtual double depth(Vec3 p) const { return distance_bound(p); }
+  /// The same, where the distance is known.
+  virtual double depth(Vec3, double distance) const { return -distance; }
   /// Whether that is, within depth_error() for points in bounds(), the distance to some closed set.
   virtual bool knows_depth() const { return false; }
   virtual double depth_error() const { return std::numeric_limits<double>::infinity(); }
@@ -65,17 +78,18 @@ class Shape : public RefCounted {
   /// that are not in the shape. False, with nothing done, where asking depth() is as fast.
   virtual bool fill_shallow_rows(double, const RowBlock&) const { return false; }
   /// The first t in [from, to] at which the ray is inside, within ray_tolerance() past it; false if
-  /// there is none. Parts shorter than that may be overlooked. Default: marches by the distance.
-  virtual bool enter(const Ray& ray, double from, double to, double& t) const;
+  /// there is none. Parts shorter than that may be overlooked. Stops early, by Error(cancelled),
+  /// with the job, within some milliseconds. Default: marches by the distance.
+  virtual bool enter(const Ray& ray, double from, double to, double& t, const Job* job) const;
   /// A t up to which a ray that is inside at `from` stays inside: as far as is known at once, at
   /// most `to`. Default: marches by the distance.
-  virtual double leave(const Ray& ray, double from, double to) const;
+  virtual double leave(const Ray& ray, double from, double to, const Job* job) const;
   /// Whether rays are best asked about together, by the functions that take several.
   virtual bool gains_by_rays() const { return false; }
   /// As enter() for each search: found and t, where it was.
-  virtual void enter_all(RaySearch* searches, size_t count) const;
+  virtual void enter_all(RaySearch* searches, size_t count, const Job* job) const;
   /// As leave() for each search: t.
-  virtual void leave_all(RaySearch* searches, size_t count) const;
+  virtual void leave_all(RaySearch* searches, size_t count, const Job* job) const;
   /// The outward normal, of length 1, where the ray enters at t; the direction back where there is
   /// none. Default: from membership around the point.
   virtual Vec3 normal(const Ray& ray, double t) const;
@@ -83,10 +97,12 @@ class Shape : public RefCounted {
   virtual void find_normals(RaySearch* searches, size_t count) const;
   /// Rays that march go on by no less than this, whatever distance() says. Less only where that is
   /// 0 nowhere but at the boundary.
-  virtual double least_ray_step() const { return max_component(bounds().extent()) / 1024; }
+  virtual double min_ray_step() const { return max_component(bounds().extent()) / 1024; }
   double ray_tolerance() const {
-    return 0x1p-36 * (max_component(bounds().extent()) + max_magnitude(bounds().min) +
-                      max_magnitude(bounds().max));
+    if (!is_bounded()) return 0;
+    return std::max(min_tolerance_,
+                    0x1p-36 * (max_component(bounds().extent()) + max_magnitude(bounds().min) +
+                               max_magnitude(bounds().max)));
   }
 
   /// Number of pairs of triangles that meet where they should not; none where there are no
@@ -101,10 +117,11 @@ class Shape : public RefCounted {
   /// A lower bound of the distance from a point to the boundary of the solid, on either side of it;
   /// finite, not negative, with the rounding of this function and of inside() subtracted. The point
   /// lies no farther from bounds() than 2^60 times their size.
-  virtual double clearance(Vec3 p) const = 0;
+  virtual double distance_bound(Vec3 p) const = 0;
 
-  /// The first t in [from, to] where membership is `wanted`, by clearance() and least_ray_step().
-  bool march(bool wanted, const Ray& ray, double from, double to, double& t) const;
+  /// The first t in [from, to] where membership is `wanted`, by distance_bound() and
+  /// min_ray_step().
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const;
   /// At which membership is asked for a normal.
   double normal_distance() const { return 1e-4 * max_component(bounds().extent()); }
 
@@ -114,14 +131,15 @@ class Shape : public RefCounted {
   void for_each_row_in_bounds(const RowBlock& block, Visit&& visit) const;
 
   ShapeFacts facts_;
+  double min_tolerance_ = 0;  // of rays
 };
 
 template <class Visit>
 void Shape::for_each_row_in_bounds(const RowBlock& block, Visit&& visit) const {
   const SampleGrid& grid = *block.grid;
   const Box3& box = bounds();
-  const uint64_t first = first_sample_from(grid.origin.x, grid.spacing.x, grid.nx, box.min.x);
-  const uint64_t end = first_sample_from<true>(grid.origin.x, grid.spacing.x, grid.nx, box.max.x);
+  const uint64_t first = grid.first_x_from(box.min.x);
+  const uint64_t end = grid.first_x_from<true>(box.max.x);
   if (first >= end) return;
   for (uint64_t k = block.z0; k < block.z1; ++k) {
     const double z = grid.z(k);

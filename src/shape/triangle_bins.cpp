@@ -17,11 +17,13 @@ void TriangleBins::set_counts(const Box3& bounds, uint32_t ny, uint32_t nz) {
 }
 
 TriangleBins::TriangleBins(const TriangleSoup& soup, const Box3& bounds, uint32_t max_y,
-                           uint32_t max_z) {
+                           uint32_t max_z, const Job* job) {
+  CancelPoll poll(job);
   struct Bins {
     uint32_t y0, y1, z0, z1;
   };
   const auto bins_of = [&](const Triangle& t) {
+    poll();
     const Vec3 &a = soup.vertices[t[0]], &b = soup.vertices[t[1]], &c = soup.vertices[t[2]];
     const Vec3 low = min(min(a, b), c), high = max(max(a, b), c);
     return Bins{bin_y(low.y), bin_y(high.y), bin_z(low.z), bin_z(high.z)};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/job.h"
 #include "base/triangle_soup.h"
 
 namespace msq {
@@ -12,16 +13,18 @@ namespace msq {
 class TriangleBins {
  public:
   TriangleBins() = default;
-  /// At most max_y by max_z bins, fewer where long triangles would fill too many of them: the total
-  /// stays below about 8 entries a triangle.
-  TriangleBins(const TriangleSoup& soup, const Box3& bounds, uint32_t max_y, uint32_t max_z);
+  /// At most max_y by max_z bins, fewer if long triangles would fill too many of them: the total
+  /// stays below about 8 entries per triangle. Throws Error(cancelled) if the job, which may be
+  /// null, is cancelled.
+  TriangleBins(const TriangleSoup& soup, const Box3& bounds, uint32_t max_y, uint32_t max_z,
+               const Job* job);
 
   struct Range {
     const uint32_t *first, *last;
     const uint32_t* begin() const { return first; }
     const uint32_t* end() const { return last; }
   };
-  /// The triangles whose y, z box may hold a point within the bounds, each once.
+  /// The triangles whose y, z box may contain a point within the bounds, each once.
   Range at(double y, double z) const {
     const size_t bin = static_cast<size_t>(bin_z(z)) * ny_ + bin_y(y);
     return {entries_.data() + starts_[bin], entries_.data() + starts_[bin + 1]};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/job.h"
 #include "strut/segment.h"
 
 namespace msq {
@@ -11,15 +12,16 @@ namespace msq {
 namespace {
 
 constexpr uint32_t leaf_triangles = 8;
-/// Of balanced trees of up to 2^32 triangles, with room.
-constexpr size_t most_depth = 64;
+/// For balanced trees of up to 2^32 triangles, with a reserve.
+constexpr size_t max_depth = 64;
 
 double longest_squared(const TreeTriangle& t) {
   const Vec3 w = t.v - t.u;
   return std::max({dot(t.u, t.u), dot(t.v, t.v), dot(w, w)});
 }
 
-/// Whether a triangle is so low that its normal means little: below 2^-24 of its longest edge.
+/// Whether a triangle is so flat that its normal is meaningless: its height is below 2^-24 of its
+/// longest edge.
 bool is_sliver(double normal_squared, double longest_squared) {
   return normal_squared <= 0x1p-48 * longest_squared * longest_squared;
 }
@@ -36,9 +38,9 @@ double edge_distance_squared(const TreeTriangle& t, Vec3 p, bool u, bool v, bool
   return least;
 }
 
-/// Squared distance to a point of the triangle that is the nearest but for rounding: the foot of
-/// the perpendicular where it lies within, otherwise on one of the edges that it lies beyond. Where
-/// the triangle's plane is farther than sqrt(best), any number above best.
+/// Squared distance to the nearest point of the triangle, except for rounding: the foot of the
+/// perpendicular if it lies within, otherwise a point on one of the edges that the foot lies
+/// beyond. If the triangle's plane is farther than sqrt(best), any number above best.
 double distance_squared(const TreeTriangle& t, Vec3 p, double best) {
   const Vec3 normal = cross(t.u, t.v);
   const double normal_squared = dot(normal, normal);
@@ -58,7 +60,7 @@ double distance_squared(const TreeTriangle& t, Vec3 p, double best) {
   return dot(d, d);
 }
 
-/// The point of the triangle whose distance that is.
+/// The point of the triangle at that distance.
 Vec3 foot(const TreeTriangle& t, Vec3 p) {
   const Vec3 normal = cross(t.u, t.v), w = p - t.a;
   const double normal_squared = dot(normal, normal);
@@ -81,12 +83,12 @@ Vec3 foot(const TreeTriangle& t, Vec3 p) {
   return nearest;
 }
 
-/// By how much the distance above may be too large. Of a sliver only edges are asked, which every
-/// point of it is nearer to than its height. Otherwise the foot's coordinates in u and v are within
+/// Bound of the positive error of the distance above. Of a sliver only edges are tested; all its
+/// points are within its height of an edge. Otherwise the foot's coordinates in u and v are within
 /// 12 units of 2^-53 of |w| |u| |v| / |normal| over |u| and |v|, and the distance to the plane
 /// within as many. Up to the longest edge L from the triangle, |w| is at most 2 L: that makes 2^-46
 /// L^3 / |normal|. Farther away, an error of the foot is of second order and stays below 2^-47 of
-/// the distance, and that of the plane is below the 2^-20 that it must be too far by.
+/// the distance, and that of the plane is below the 2^-20 by which the plane must be too far.
 double excess_of(const TreeTriangle& t) {
   const Vec3 normal = cross(t.u, t.v);
   const double squared = longest_squared(t), longest = std::sqrt(squared);
@@ -98,19 +100,21 @@ double excess_of(const TreeTriangle& t) {
 }  // namespace
 
 uint64_t TriangleTree::bytes_to_build(uint64_t triangles) {
-  // The triangles as they came and leaf by leaf, their order, and leaves of four or more.
+  // The triangles in input order and leaf by leaf, their order, and leaves of four or more.
   return triangles * (2 * sizeof(TreeTriangle) + sizeof(uint32_t) + sizeof(Node) / 4) +
          sizeof(Node);
 }
 
-TriangleTree::TriangleTree(std::vector<TreeTriangle> triangles) {
+TriangleTree::TriangleTree(std::vector<TreeTriangle> triangles, const Job* job) {
+  CancelPoll poll(job);
   const uint32_t count = static_cast<uint32_t>(triangles.size());
   std::vector<uint32_t> order(count);
   for (uint32_t i = 0; i < count; ++i) order[i] = i;
   nodes_.reserve(count / 4 + 1);
-  build(order, triangles, {0, count});
+  build(order, triangles, {0, count}, poll);
   triangles_.reserve(count);
   for (const uint32_t i : order) {
+    poll();
     triangles_.push_back(triangles[i]);
     excess_ = std::max(excess_, excess_of(triangles[i]));
   }
@@ -135,11 +139,13 @@ inline double TriangleTree::Bound::distance_squared(Vec3 p, double best) const {
 }
 
 TriangleTree::Bound TriangleTree::bound_of(const std::vector<uint32_t>& order,
-                                           const std::vector<TreeTriangle>& triangles, Run range) {
+                                           const std::vector<TreeTriangle>& triangles, Run range,
+                                           CancelPoll& poll) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Bound bound{{{far, far, far}, {-far, -far, -far}}, {}, {}, 0, 0};  // of no triangles
   const auto for_corners = [&](auto&& use) {
     for (uint32_t k = range.begin; k < range.end; ++k) {
+      poll();
       const TreeTriangle& t = triangles[order[k]];
       for (const Vec3 corner : {t.a, t.a + t.u, t.a + t.v}) use(corner);
     }
@@ -173,7 +179,8 @@ TriangleTree::Bound TriangleTree::bound_of(const std::vector<uint32_t>& order,
 }
 
 uint32_t TriangleTree::build(std::vector<uint32_t>& order,
-                             const std::vector<TreeTriangle>& triangles, Run range) {
+                             const std::vector<TreeTriangle>& triangles, Run range,
+                             CancelPoll& poll) {
   const uint32_t index = static_cast<uint32_t>(nodes_.size());
   nodes_.emplace_back();
   // Three times the centre.
@@ -182,6 +189,7 @@ uint32_t TriangleTree::build(std::vector<uint32_t>& order,
   };
   Box3 centres{centre(order[range.begin]), centre(order[range.begin])};
   for (uint32_t k = range.begin; k < range.end; ++k) {
+    poll();
     const Vec3 c = centre(order[k]);
     centres = {min(centres.min, c), max(centres.max, c)};
   }
@@ -190,6 +198,7 @@ uint32_t TriangleTree::build(std::vector<uint32_t>& order,
   const uint32_t middle = range.begin + (range.end - range.begin) / 2;
   std::nth_element(order.begin() + range.begin, order.begin() + middle, order.begin() + range.end,
                    [&](uint32_t i, uint32_t j) {
+                     poll();
                      const double a = centre(i)[axis], b = centre(j)[axis];
                      return a < b || (a == b && i < j);
                    });
@@ -198,8 +207,8 @@ uint32_t TriangleTree::build(std::vector<uint32_t>& order,
     const Run half = halves[side];
     const uint32_t size = half.end - half.begin;
     const bool is_leaf = size <= leaf_triangles;
-    nodes_[index].bound[side] = bound_of(order, triangles, half);
-    const uint32_t child = is_leaf ? half.begin : build(order, triangles, half);
+    nodes_[index].bound[side] = bound_of(order, triangles, half, poll);
+    const uint32_t child = is_leaf ? half.begin : build(order, triangles, half, poll);
     nodes_[index].child[side] = child;
     nodes_[index].count[side] = is_leaf ? size : 0;
   }
@@ -212,7 +221,7 @@ void TriangleTree::search(Vec3 p, double best, Found&& found) const {
     uint32_t node;
     double distance_squared;
   };
-  Waiting stack[most_depth];
+  Waiting stack[max_depth];
   size_t depth = 0;
   stack[depth++] = {0, 0};
   while (depth > 0) {
@@ -263,7 +272,7 @@ TriangleTree::Nearest TriangleTree::nearest(Vec3 p, uint32_t start) const {
 TriangleTree::Range TriangleTree::compare(Vec3 p, double low, double high, uint32_t& start) const {
   const double low_squared = low > 0 ? low * low : 0, high_squared = high > 0 ? high * high : 0;
   Range range = Range::beyond;
-  // What to look for after a triangle is found that near.
+  // The limit for the search after a triangle is found at that distance.
   const auto found = [&](uint32_t i, double squared) {
     start = i;
     range = squared < low_squared ? Range::below : Range::between;
@@ -282,7 +291,7 @@ bool TriangleTree::first_crossing(const Ray& ray, double from, double to, double
   const auto cross_triangle = [&](const TreeTriangle& t) {
     const Vec3 normal = cross(t.u, t.v), away = cross(ray.direction, t.v);
     const double across = dot(away, t.u), size = length(normal);
-    // Nearly along the plane, t is known no better than margin over the slope.
+    // Nearly along the plane, the error of t is margin over the slope.
     if (!(std::abs(across) > 0x1p-40 * size)) return;
     const double inverse = 1 / across;
     const Vec3 w = ray.origin - t.a, q = cross(w, t.u);
@@ -300,7 +309,7 @@ bool TriangleTree::first_crossing(const Ray& ray, double from, double to, double
     uint32_t node;
     double from;
   };
-  Waiting stack[most_depth];
+  Waiting stack[max_depth];
   size_t depth = 0;
   stack[depth++] = {0, from};
   while (depth > 0) {

@@ -17,7 +17,7 @@ Voxels::Voxels(Image image, double threshold, Solid solid)
   measure();
 }
 
-/// The bounds of the cells with a solid sample, and the volume by counting samples: each stands for
+/// The bounds of the cells with a solid sample, and the volume by counting samples: each represents
 /// the part of its voxel that lies in the image.
 void Voxels::measure() {
   const uint64_t nx = image_.size(0), ny = image_.size(1), nz = image_.size(2);
@@ -78,13 +78,13 @@ bool Voxels::inside(Vec3 p) const {
   return in_image(u) && solid(image_.value(u));
 }
 
-/// Values are within the range of their cell's samples, so nothing is lost to rounding here.
+/// Values are within the range of their cell's samples, so rounding has no effect here.
 Voxels::Side Voxels::side(Interval samples) const {
   const bool low = solid(samples.low), high = solid(samples.high);
   return low != high ? Side::both : low ? Side::inside : Side::outside;
 }
 
-double Voxels::clearance(Vec3 p) const {
+double Voxels::distance_bound(Vec3 p) const {
   // In model units along the image's axes, from its first sample.
   const ImageFrame& frame = image_.frame();
   const Vec3 g = frame.rotation.apply_inverse(p - frame.origin);
@@ -92,17 +92,17 @@ double Voxels::clearance(Vec3 p) const {
                                            static_cast<double>(image_.cells(1)),
                                            static_cast<double>(image_.cells(2))};
   const bool is_inside = inside(p);
-  // The function, which beyond the image is that of its border, must reach the threshold.
+  // At the boundary the function reaches the threshold; beyond the image it is that of the border.
   const double value = image_.value(image_.to_voxels(p));
   double distance = 0;
   if (solid(value) == is_inside && image_.lipschitz() > 0)
     distance = (std::abs(value - threshold_) - 4 * image_.value_slack()) / image_.lipschitz();
-  // So must a cell be that is not all on this side.
+  // The boundary also lies in a cell that is not entirely on this side.
   const Side here = is_inside ? Side::inside : Side::outside;
   distance = std::max(
       distance, nearest_cell(image_, g, [&](Interval samples) { return side(samples) != here; }));
   if (is_inside) distance = std::min(distance, min_component(min(g, extent - g)));
-  // Positions are off here and in inside(), and the border has a width.
+  // Positions have errors here and in inside(), and the border has a width.
   const double slack = 4 * image_.position_slack(max_magnitude(p) + max_component(extent)) +
                        4 * border * max_component(frame.spacing) + 0x1p-47 * distance;
   return std::max(0.0, distance - slack);
@@ -119,8 +119,8 @@ void Voxels::fill_rows(const RowBlock& block) const {
   const ImageFrame& frame = image_.frame();
   if (frame.is_turned() || grid.spacing.x > frame.spacing.x) {
     const Box3& box = bounds();
-    const uint64_t first = first_sample_from(grid.origin.x, grid.spacing.x, grid.nx, box.min.x);
-    const uint64_t end = first_sample_from<true>(grid.origin.x, grid.spacing.x, grid.nx, box.max.x);
+    const uint64_t first = grid.first_x_from(box.min.x);
+    const uint64_t end = grid.first_x_from<true>(box.max.x);
     if (first < end) fill_part(block, {{first, block.y0, block.z0}, {end, block.y1, block.z1}});
     return;
   }
@@ -142,7 +142,7 @@ void Voxels::fill_row(const T* values, const SampleGrid& grid, double y, double 
   const ImageBounds::Level& leaves = image_.bounds().levels().front();
   constexpr unsigned bits = ImageBounds::leaf_bits;
 
-  // Without a rotation to_voxels() adds nothing but zeros to this, which grows with the column.
+  // Without a rotation to_voxels() adds only zeros to this, which grows with the column.
   const auto column = [&](uint64_t i) { return (grid.x(i) - origin) * image_.scale().x; };
   const auto cell = [&](uint64_t i) { return image_.locate(column(i), 0).cell; };
   const uint64_t first_cell = cell(first), last_cell = cell(end - 1);
@@ -150,7 +150,7 @@ void Voxels::fill_row(const T* values, const SampleGrid& grid, double y, double 
   const auto sample_from = [&](uint64_t c) {
     if (c <= first_cell) return first;
     if (c > last_cell) return end;
-    const double at = (origin + static_cast<double>(c) * spacing - grid.origin.x) / grid.spacing.x;
+    const double at = (origin + static_cast<double>(c) * spacing - grid.x(0)) / grid.spacing.x;
     uint64_t i = at > static_cast<double>(first) ? static_cast<uint64_t>(at) : first;
     i = std::min(i, end);
     while (i > first && cell(i - 1) >= c) --i;

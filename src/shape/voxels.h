@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A voxel image as a coarse shape: where its trilinear function is on one side of a threshold.
+// A voxel image as a coarse shape: the solid is where its trilinear function is on one side of a
+// threshold.
 //
-// Beyond the box that the outermost samples span, everything is outside. Rows along the image's own
-// x ask only cells that the threshold crosses: the pyramid of bounds decides most blocks, the
-// function at the cells' ends, between which it is linear on a row, the rest. On turned images and
-// on grids much coarser than the image, boxes of samples are halved until the pyramid decides them
-// or few are left.
+// Everything beyond the box of the outermost samples is outside. Rows along the image's own x
+// evaluate only cells that the threshold crosses. The pyramid of bounds decides most blocks. The
+// function at the cells' ends decides the others, since it is linear between them on a row. On
+// turned images and on grids much coarser than the image, boxes of samples are bisected until the
+// pyramid decides them or few samples are left.
 #pragma once
 
 #include "shape/image.h"
@@ -17,25 +18,25 @@ class Voxels final : public Shape {
  public:
   enum class Solid { above, below };  ///< the threshold itself is solid on either side
 
-  /// Throws Error(argument) where no sample is solid. At least two samples along each axis.
+  /// Throws Error(argument) if no sample is solid. Requires at least two samples along each axis.
   Voxels(Image image, double threshold, Solid solid);
 
   bool inside(Vec3 p) const override;
   void fill_rows(const RowBlock& block) const override;
-  /// Both follow the function cell by cell, past blocks that the pyramid decides: no part longer
-  /// than the tolerance is lost.
-  bool enter(const Ray& ray, double from, double to, double& t) const override;
-  double leave(const Ray& ray, double from, double to) const override;
+  /// Both follow the function cell by cell, and skip blocks that the pyramid decides: no part
+  /// longer than the tolerance is missed.
+  bool enter(const Ray& ray, double from, double to, double& t, const Job* job) const override;
+  double leave(const Ray& ray, double from, double to, const Job* job) const override;
 
  protected:
-  double clearance(Vec3 p) const override;
+  double distance_bound(Vec3 p) const override;
 
  private:
-  /// Points this far beyond the outermost samples, in voxels, are still in the image: rounding does
-  /// not open its border.
+  /// Points this far beyond the outermost samples, in voxels, still belong to the image: rounding
+  /// does not open its border.
   static constexpr double border = 1e-9;
 
-  /// What is known of the samples of cells.
+  /// Where the samples of cells are.
   enum class Side { outside, inside, both };
   Side side(Interval samples) const;
   bool solid(double value) const {
@@ -44,10 +45,12 @@ class Voxels final : public Shape {
   bool in_image(Vec3 voxels) const;
   void measure();
   class RayWalk;
-  /// The first t in [from, to], in bounds(), where membership is `wanted`, settled by it.
-  bool find(bool wanted, const Ray& ray, double from, double to, double& t) const;
+  /// Finds the first t in [from, to], in bounds(), where membership is `wanted`; membership
+  /// corrects it.
+  bool find(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const;
 
-  /// Samples [first, end) of a row of an image that is not turned; u_first is where the first is.
+  /// Samples [first, end) of a row of an image that is not turned; u_first is the position of the
+  /// first.
   template <class T>
   void fill_row(const T* values, const SampleGrid& grid, double y, double z, uint64_t* row,
                 uint64_t first, uint64_t end) const;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays through a voxel image. Within a cell the function along a ray is a cubic, whose coefficients
-// in Bernstein's form enclose it: halves are looked at, the first first, until it has no root in
-// one or just one. Membership settles what is found. Sources: Parker, Shirley, Livnat, Hansen and
-// Sloan, "Interactive ray tracing for isosurface rendering", 1998 (cells and their cubics, blocks
-// by least and greatest value); Lane and Riesenfeld, "Bounds on a polynomial", 1981 (halving).
+// Rays through a voxel image. Within a cell the function along a ray is a cubic, and its
+// coefficients in Bernstein's form enclose it. The interval is bisected, the first half first,
+// until a half has no root or just one. Membership corrects the result. Sources: Parker, Shirley,
+// Livnat, Hansen and Sloan, "Interactive ray tracing for isosurface rendering", 1998 (cells and
+// their cubics, blocks by minimum and maximum value); Lane and Riesenfeld, "Bounds on a
+// polynomial", 1981 (bisection).
 #include <array>
 #include <cmath>
 #include <limits>
@@ -14,11 +15,12 @@ namespace msq {
 
 class Voxels::RayWalk {
  public:
-  RayWalk(const Voxels& voxels, bool wanted, const Ray& ray)
+  RayWalk(const Voxels& voxels, bool wanted, const Ray& ray, const Job* job)
       : voxels_(voxels),
         image_(voxels.image_),
         wanted_(wanted),
         ray_(ray),
+        poll_(job),
         tolerance_(voxels.ray_tolerance()),
         origin_(image_.to_voxels(ray.origin)),
         along_(image_.frame().rotation.apply_inverse(ray.direction) * image_.scale()) {
@@ -28,8 +30,8 @@ class Voxels::RayWalk {
     sign_ = (voxels.solid_ == Solid::above) == wanted ? 1 : -1;
   }
 
-  /// Whether the ray runs along the faces of cells, closer than rounding can tell, for longer than
-  /// the tolerance: then neither of two cells alone says what is there.
+  /// Whether the ray runs along the faces of cells, closer than rounding can resolve, for longer
+  /// than the tolerance. Then neither of the two cells alone decides.
   bool hugs_faces(double from, double to) const {
     for (int axis = 0; axis < 3; ++axis) {
       const double off = 2 * position_slack_ * image_.scale()[axis];
@@ -59,7 +61,10 @@ class Voxels::RayWalk {
     uint64_t cell[3];
     for (int axis = 0; axis < 3; ++axis)
       cell[axis] = image_.locate(origin_[axis] + along_[axis] * from, axis).cell;
+    // Each round leaves a block along one axis, and never goes back. So there are at most as many
+    // rounds as cells along the three axes.
     for (double at = from; at < to;) {
+      poll_();
       uint64_t low[3], high[3];
       const bool may_change = block_about(cell, low, high);
       double end = std::numeric_limits<double>::infinity();
@@ -77,7 +82,9 @@ class Voxels::RayWalk {
       for (int axis = 0; axis < 3; ++axis) {
         if (axis == out) continue;
         const double u = origin_[axis] + along_[axis] * end;
-        cell[axis] = std::clamp(image_.locate(u, axis).cell, low[axis], high[axis] - 1);
+        const uint64_t first = along_[axis] > 0 ? cell[axis] : low[axis];
+        const uint64_t last = along_[axis] < 0 ? cell[axis] : high[axis] - 1;
+        cell[axis] = std::clamp(image_.locate(u, axis).cell, first, last);
       }
       if (along_[out] > 0 ? high[out] >= image_.cells(out) : low[out] == 0) return false;
       cell[out] = along_[out] > 0 ? high[out] : low[out] - 1;
@@ -95,8 +102,8 @@ class Voxels::RayWalk {
     return clip_to_box({origin_, along_}, box, from, to);
   }
 
-  /// Whether there may be a change in the block [low, high) of cells about one: either that cell,
-  /// or more where nothing is wanted.
+  /// Whether there may be a change in the block [low, high) of cells around a cell. The block is
+  /// that cell, or larger if it contains no change.
   bool block_about(const uint64_t (&cell)[3], uint64_t (&low)[3], uint64_t (&high)[3]) const {
     const auto& levels = image_.bounds().levels();
     const Side none = wanted_ ? Side::outside : Side::inside;
@@ -116,7 +123,7 @@ class Voxels::RayWalk {
     return blocks == 0;
   }
 
-  /// Of a cubic over [0, 1]: how far it is on the side that is wanted.
+  /// A cubic over [0, 1]: how far the function is on the wanted side.
   using Cubic = std::array<double, 4>;
 
   bool find_in_cell(const uint64_t (&cell)[3], double from, double to, double& t) {
@@ -129,8 +136,8 @@ class Voxels::RayWalk {
       may_be = may_be || value >= -slack_;
     }
     if (!may_be) return false;
-    // The trilinear function is affine along each axis: at the corners of the box about the ray's
-    // part it says what the cubic's coefficients are (its blossom).
+    // The trilinear function is affine along each axis. Its values at the corners of the box around
+    // the ray's part give the cubic's coefficients (its blossom).
     double f[3], g[3];
     for (int axis = 0; axis < 3; ++axis) {
       const double corner = static_cast<double>(cell[axis]);
@@ -149,7 +156,7 @@ class Voxels::RayWalk {
     return find_in(cubic, from, to, t);
   }
 
-  /// The first part of [from, to] that is wanted; where it begins.
+  /// Finds the start of the first part of [from, to] that is wanted.
   bool find_in(const Cubic& c, double from, double to, double& t) {
     const double most = std::max(std::max(c[0], c[1]), std::max(c[2], c[3]));
     if (most < -slack_) return false;
@@ -159,7 +166,7 @@ class Voxels::RayWalk {
       const int all = changes + ((c[1] < 0) != (c[2] < 0)) + ((c[2] < 0) != (c[3] < 0));
       if (all == 1) return settle(from, to, root_of(c), t) || settle_by_steps(from, to, t);
     }
-    // Too short to tell, or as good as 0 all along.
+    // Too short to resolve, or nearly 0 everywhere.
     if (to - from <= tolerance_ || (most <= slack_ && least >= -slack_))
       return settle_by_steps(from, to, t);
     if (c[0] > slack_)
@@ -173,7 +180,7 @@ class Voxels::RayWalk {
            find_in({all, bcd, cd, c[3]}, middle, to, t);
   }
 
-  /// The one in (0, 1), of a cubic from below 0 to above.
+  /// The root in (0, 1) of a cubic that goes from below 0 to above.
   static double root_of(const Cubic& c) {
     double low = 0, high = 1, s = -c[0] / (c[3] - c[0]);
     for (int i = 0; i < 40 && high - low > 0x1p-50; ++i) {
@@ -190,7 +197,7 @@ class Voxels::RayWalk {
     return s;
   }
 
-  /// Where the change about a part of [from, to] is, by membership; false where it is none of it.
+  /// Finds the change about a part of [from, to] by membership. Returns false if there is none.
   bool settle(double from, double to, double part, double& t) const {
     const double middle = from + part * (to - from);
     double before = std::max(from, middle - 0.5 * tolerance_);
@@ -224,6 +231,7 @@ class Voxels::RayWalk {
   const Image& image_;
   const bool wanted_;
   const Ray ray_;
+  JobPoll poll_;
   const double tolerance_;
   const Vec3 origin_, along_;  // in voxels
   double position_slack_ = 0;  // in model units
@@ -231,20 +239,21 @@ class Voxels::RayWalk {
   double sign_ = 1;
 };
 
-bool Voxels::find(bool wanted, const Ray& ray, double from, double to, double& t) const {
-  RayWalk walk(*this, wanted, ray);
+bool Voxels::find(bool wanted, const Ray& ray, double from, double to, double& t,
+                  const Job* job) const {
+  RayWalk walk(*this, wanted, ray, job);
   if (!walk.hugs_faces(from, to)) return walk.find(from, to, t);
-  return march(wanted, ray, from, to, t);
+  return march(wanted, ray, from, to, t, job);
 }
 
-bool Voxels::enter(const Ray& ray, double from, double to, double& t) const {
-  return clip_to_box(ray, bounds(), from, to) && find(true, ray, from, to, t);
+bool Voxels::enter(const Ray& ray, double from, double to, double& t, const Job* job) const {
+  return clip_to_box(ray, bounds(), from, to) && find(true, ray, from, to, t, job);
 }
 
-double Voxels::leave(const Ray& ray, double from, double to) const {
+double Voxels::leave(const Ray& ray, double from, double to, const Job* job) const {
   if (!clip_to_box(ray, bounds(), from, to)) return from;
   double t;
-  return find(false, ray, from, to, t) ? t : to;
+  return find(false, ray, from, to, t, job) ? t : to;
 }
 
 }  // namespace msq

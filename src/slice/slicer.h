@@ -8,7 +8,8 @@
 #include "base/job.h"
 #include "base/sample_grid.h"
 #include "model/model.h"
-#include "slice/layer_format.h"
+#include "slice/layer_output.h"
+#include "slice/orientation.h"
 
 namespace msq {
 
@@ -24,6 +25,9 @@ struct SlicePlan {
   uint32_t slab_layers = 0;
   std::vector<double> heights;
   double length_scale = 0;
+  SampleWindow window;
+  GreyScale grey;
+  Orientation orientation;
 };
 
 struct Layer {
@@ -37,11 +41,19 @@ class Slicer final : public RefCounted {
  public:
   Slicer(Ref<const Model> model, SlicePlan plan);
 
+  const Model& model() const { return *model_; }
+  double length_scale() const { return plan_.length_scale; }
+  /// Of the window. Layers are counted in it.
   const SampleGrid& grid() const { return grid_; }
+  /// Pixels along x and y, and layers, of the whole plan.
+  const std::array<uint64_t, 3>& whole() const { return whole_; }
   LayerFormat format() const { return plan_.format; }
+  /// Pixels of a layer that is written: those of the grid, exchanged if the plan transposes.
+  uint64_t width() const { return plan_.orientation.transpose ? grid_.ny : grid_.nx; }
+  uint64_t height() const { return plan_.orientation.transpose ? grid_.nx : grid_.ny; }
   uint64_t slab_layers() const { return slab_layers_; }
-  uint64_t stride() const { return layer_stride(plan_.format, grid_.nx); }
-  uint64_t layer_bytes() const { return stride() * grid_.ny; }
+  uint64_t stride() const { return layer_stride(output_->pixel_bytes(), width()); }
+  uint64_t layer_bytes() const { return stride() * height(); }
 
   /// Calls take(layer) for layers [first, last) in order, on this thread, while workers compute the
   /// next slab. What take() throws ends the run and is passed on.
@@ -54,12 +66,25 @@ class Slicer final : public RefCounted {
  private:
   void plan_axis(int axis);
   void plan_layers();
+  void plan_samples();
   void plan_slabs();
+  /// Bytes of a layer as the output writes it, before it is turned; 0 where it is not.
+  uint64_t plain_bytes() const;
+  /// Writes one layer from its bits, where the output has samples. `plain`: plain_bytes().
+  uint64_t write(uint64_t index, const uint64_t* words, uint8_t* plain, uint8_t* out,
+                 Job* job) const;
+  void run_by_layers(uint64_t first, uint64_t last, const std::function<void(const Layer&)>& take,
+                     Job* job) const;
 
   Ref<const Model> model_;
   SlicePlan plan_;
   Scales resolved_;
+  const std::unique_ptr<const LayerOutput> output_;
   SampleGrid grid_;
+  /// What the bits are of: the pixels, or a finer grid of the same layers. Empty for outputs that
+  /// have no samples.
+  SampleGrid samples_;
+  std::array<uint64_t, 3> whole_;
   uint64_t slab_layers_ = 1;
 };
 

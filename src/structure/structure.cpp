@@ -1,43 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/structure.h"
 
-#include "structure/sampled_rows.h"
+#include "structure/common/sampled_rows.h"
 
 #include "base/ray_normal.h"
 
 namespace msq {
 
 void Structure::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
-  for (size_t i = 0; i < count; ++i)
+  for (size_t i = 0; i < count; ++i) {
+    if (i % 16 == 0) check_cancelled();
     if (alive[i] && !inside(points[i])) alive[i] = 0;
+  }
 }
 
 void Structure::keep_rows(const RowBlock& block, const Job* job) const {
   SampledRows(*this, block, job).keep();
 }
 
-bool Structure::march(bool wanted, const Ray& ray, double from, double to,
-                      double& t) const {
-  const RayMarch steps{least_ray_step(), ray_tolerance()};
-  return steps.find(wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
-                    [this](Vec3 p) { return clearance(p); }, t);
+bool Structure::march(bool wanted, const Ray& ray, double from, double to, double& t,
+                      const Job* job) const {
+  const double tolerance = ray_tolerance(ray, to);
+  const RayMarch steps{std::max(min_ray_step(), tolerance), tolerance};
+  return steps.find(
+      wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
+      [this](Vec3 p) { return distance_bound(p); }, t, job);
 }
 
-void Structure::enter(RaySearch* searches, size_t count) const {
+void Structure::enter(RaySearch* searches, size_t count, const Job* job) const {
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];
-    s.found = march(true, s.ray, s.from, s.to, s.t);
+    s.found = march(true, s.ray, s.from, s.to, s.t, job);
   }
 }
 
-double Structure::leave(const Ray& ray, double from, double to) const {
+double Structure::leave(const Ray& ray, double from, double to, const Job* job) const {
   double t;
-  return march(false, ray, from, to, t) ? t : to;
+  return march(false, ray, from, to, t, job) ? t : to;
 }
 
 Vec3 Structure::normal(const Ray& ray, double t) const {
-  return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t,
-                              normal_distance());
+  return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t, normal_distance());
+}
+
+LineGraph Structure::wall_lines(const WallSection&) const {
+  fail(Status::unsupported,
+       "the structure has no thin walls whose middle lines are known; use its contours");
 }
 
 }  // namespace msq

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contract of fine-scale structures (scales 1 and finer). inside() is the definition:
-// everything else must agree with it bit for bit, and has a default that asks it. A new kind is a
-// new folder beside this file that implements inside(), plus its constructor in src/api.
+// The interface of fine-scale structures (scales 1 and finer). inside() is the definition. All
+// other functions agree with it bit for bit, and have defaults that call it. A new kind is a new
+// folder beside this file that implements inside(), plus its constructor in src/api.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include "base/job.h"
@@ -15,93 +17,138 @@
 #include "base/signed_distance.h"
 #include "base/vec.h"
 #include "cell/neighbourhood.h"
+#include "structure/common/line_graph.h"
 
 namespace msq {
 
-enum class Coverage { mixed, outside, inside };
+enum class BoxClass { mixed, outside, inside };
 
 class Structure : public RefCounted {
  public:
-  explicit Structure(const Neighbourhood& neighbourhood) : neighbourhood_(neighbourhood) {}
+  explicit Structure(const Neighbourhood& neighbourhood)
+      : neighbourhood_(neighbourhood), characteristic_length_(cell_length()) {}
 
+  /// The grid. For kinds without a grid, cubes by which points are grouped.
   const Neighbourhood& neighbourhood() const { return neighbourhood_; }
-  double characteristic_length() const { return max_component(neighbourhood_.cell_size); }
+  /// If false, cells have no meaning: their indices are not limited, and hits name no cell.
+  bool is_on_grid() const { return is_on_grid_; }
+  /// The largest cell size: the unit of tolerances and steps.
+  double cell_length() const { return max_component(neighbourhood_.cell_size); }
+  /// The largest cell size; for kinds without a grid, the length given at construction.
+  double characteristic_length() const { return characteristic_length_; }
 
-  /// Membership of a point whose cell index is below max_cell_index; the boundary is inside.
+  /// Membership of a point. The boundary is inside. Kinds on a grid take points whose cell index is
+  /// below max_cell_index, other kinds any point.
   virtual bool inside(Vec3 p) const = 0;
 
-  /// Whether any thread may ask it, several at once; otherwise only the thread that made the host's
-  /// call. A structure with parameters asks them: their fields may be the host's.
+  /// Whether several threads at once may evaluate the structure. Otherwise only the thread that
+  /// made the host's call may. A structure with parameters is concurrent if those are: their fields
+  /// may be the host's.
   virtual bool is_concurrent() const { return true; }
 
-  /// Signed distance of the same points: at most 0 where inside(p), positive elsewhere, and never
-  /// larger in magnitude than the distance from p to the boundary of the solid.
-  double distance(Vec3 p) const { return signed_distance(inside(p), clearance(p)); }
+  /// Signed distance of the same points: at most 0 if inside(p), otherwise positive. Its magnitude
+  /// is at most the distance from p to the boundary of the solid.
+  double distance(Vec3 p) const { return signed_distance(inside(p), distance_bound(p)); }
 
-  /// A lower bound of the distance from a point to the boundary of the solid, on either side of it:
-  /// finite, not negative, and with the rounding of this function and of inside() subtracted. But
-  /// for that rounding it differs between two points by no more than their distance. A kind says
-  /// where its bound is exact. With no bound the answer is 0, which is always right.
-  virtual double clearance(Vec3) const { return 0; }
+  /// A lower bound on the distance from a point to the boundary of the solid, on either side of it.
+  /// It is finite and not negative, and the rounding of this function and of inside() is
+  /// subtracted. Apart from that rounding, its values at two points differ by at most the points'
+  /// distance, unless a parameter has a Lipschitz constant in boxes only. Each kind documents where
+  /// its bound is exact. The default, 0, is always valid.
+  virtual double distance_bound(Vec3) const { return 0; }
 
-  /// Whether onset() is known.
+  /// Whether onset() is implemented.
   virtual bool has_onset() const { return false; }
-  /// The least value of the parameter, radius or level, at which p is inside, were it the same
-  /// everywhere; infinity where there is none, or where it is above onset_limit(). The comparison
-  /// with the parameter is inside(p) but for rounding, 1e-9 of a cell at most.
+  /// The minimum value of the parameter, radius or level, at which p is inside, for a parameter
+  /// that is constant in space. Infinity if there is none, or if it is above onset_limit(). The
+  /// comparison with the parameter equals inside(p), except for rounding of at most 1e-9 of a cell.
   virtual double onset(Vec3) const { return std::numeric_limits<double>::infinity(); }
-  /// The greatest value that the parameter may have.
+  /// The parameter at p, for kinds that have an onset.
+  virtual double parameter(Vec3) const { return 0; }
+  /// The maximum value that the parameter may have.
   virtual double onset_limit() const { return std::numeric_limits<double>::infinity(); }
-  /// Whether every cell is like every other, but for what fields do.
+  /// Whether all cells are equal, apart from the effect of fields.
   virtual bool is_periodic() const { return false; }
 
-  /// Sets alive[i] to 0 where points[i] is outside; looks only at points with alive[i] != 0, which
-  /// are 1. Fewer than 2^32 points, in any order.
+  /// Sets alive[i] to 0 where points[i] is outside. Evaluates only points with alive[i] != 0, which
+  /// are 1. Takes fewer than 2^32 points, in any order.
   virtual void keep_points(const Vec3* points, uint8_t* alive, size_t count) const;
-  /// Whether keep_points is faster for points that share cells: then large sets come in groups, each
-  /// from a box of few cells.
+  /// Whether keep_points is faster for points that share cells. Then large sets come in groups,
+  /// each from a box of few cells.
   virtual bool gains_by_groups() const { return false; }
-  /// Into how many parts along each axis a cell is best divided for that; groups are from parts of
-  /// cells only where these hold hundreds of points.
+  /// The best number of parts along each axis of a cell for such groups. Groups are from parts of
+  /// cells only if these contain hundreds of points.
   virtual uint32_t group_parts() const { return 1; }
-  /// Points of a group from which on keep_points is faster than asking each: as measured
-  /// (docs/benchmarks.md).
+  /// The minimum number of points in a group for which keep_points is faster than single points, as
+  /// measured (docs/benchmarks.md).
   virtual uint64_t critical_count() const { return 1; }
 
-  /// What is known of all points of a box together; `mixed` is always right. Asked of kinds that
-  /// know_boxes() before their points are.
-  virtual Coverage coverage(const Box3&) const { return Coverage::mixed; }
+  /// The coverage of a box, valid for all its points; `mixed` is always valid. For kinds with
+  /// knows_boxes(), boxes are evaluated before their points.
+  virtual BoxClass classify(const Box3&) const { return BoxClass::mixed; }
   virtual bool knows_boxes() const { return false; }
 
-  /// For each search the first t in [from, to] at which the ray is inside, within ray_tolerance()
-  /// past it; parts shorter than that may be overlooked. Points of the parts have a cell index below
-  /// max_cell_index. Default: marches by clearance() and by least_ray_step().
-  virtual void enter(RaySearch* searches, size_t count) const;
-  /// A t up to which a ray that is inside at `from` stays inside: as far as is known at once, at
-  /// most `to`. Default: as enter().
-  virtual double leave(const Ray& ray, double from, double to) const;
-  /// The outward normal, of length 1, where the ray enters at t; the direction back where there is
-  /// none. Default: from membership around the point.
+  /// For each search, finds the first t in [from, to] at which the ray is inside, at most
+  /// ray_tolerance(ray, to) past it. It may miss parts shorter than that, or no deeper than the
+  /// rounding of coordinates. Points of the parts have a cell index below max_cell_index. Stops
+  /// early, by Error(cancelled), with the job, within some milliseconds. Default: marches by
+  /// distance_bound() and by min_ray_step().
+  virtual void enter(RaySearch* searches, size_t count, const Job* job) const;
+  /// A t, at most `to`, up to which a ray that is inside at `from` stays inside; as far as one step
+  /// can tell. Default: as enter().
+  virtual double leave(const Ray& ray, double from, double to, const Job* job) const;
+  /// The outward normal, of length 1, where the ray enters at t. If there is none, the direction
+  /// back along the ray. Default: from membership around the point.
   virtual Vec3 normal(const Ray& ray, double t) const;
-  /// Around a point, for normals by membership.
+  /// The distance from a point at which normals by membership sample.
   double normal_distance() const { return 0x1p-12 * min_component(neighbourhood().cell_size); }
-  double ray_tolerance() const { return 0x1p-36 * characteristic_length(); }
-  /// Rays that march go on by no less than this, whatever clearance() says. Less only where
-  /// clearance() is 0 nowhere but at the boundary.
-  virtual double least_ray_step() const { return min_component(neighbourhood().cell_size) / 64; }
+  double ray_tolerance() const { return 0x1p-36 * cell_length(); }
+  /// The same for a ray up to `to`: larger if the coordinates are so large that their rounding is.
+  /// Membership rounds them in the model's frame, and then relative to the grid's origin.
+  double ray_tolerance(const Ray& ray, double to) const {
+    const double max =
+        std::max(max_coordinate(ray, to), max_coordinate(ray, to, neighbourhood_.origin));
+    return std::max(ray_tolerance(), coordinate_rounding(max));
+  }
+  /// The minimum step of rays that march, for any value of distance_bound(). Steps are smaller only
+  /// if distance_bound() is 0 only on the boundary.
+  virtual double min_ray_step() const { return min_component(neighbourhood().cell_size) / 64; }
 
-  /// Whether rows cost less in blocks of many layers, since what is found of a cell serves all of its
+  /// Whether wall_lines() finds anything.
+  virtual ThinWalls thin_walls() const { return ThinWalls::none; }
+  /// The middle lines of thin walls in a plane, at least all in the window. Where they are does not
+  /// depend on the window. Stops early, by Error(cancelled), with the thread's job. Default: throws
+  /// Error(unsupported).
+  virtual LineGraph wall_lines(const WallSection& section) const;
+
+  /// Whether the solid is a union of capsules, each of one radius.
+  virtual bool has_struts() const { return false; }
+  using TakeStrut = std::function<void(Vec3 a, Vec3 b, double radius)>;
+  /// Calls take() for all struts that may touch a box, at least once each, with the same numbers in
+  /// every call. Their error is at most that of samples in doubt (keep_rows()).
+  virtual void for_each_strut(const Box3&, const TakeStrut&, const Job*) const {}
+
+  /// Whether rows cost less in blocks of many layers, because the work per cell serves all of its
   /// samples in a block.
   virtual bool gains_by_layers() const { return false; }
   /// Clears the bits of samples that are outside. Stops early, by Error(cancelled), with the job.
   virtual void keep_rows(const RowBlock& block, const Job* job) const;
 
  protected:
-  /// The first t in [from, to] at which membership is `wanted`, by clearance() and least_ray_step().
-  bool march(bool wanted, const Ray& ray, double from, double to, double& t) const;
+  /// A kind without a grid. The cubes have a side about as long as the kind's parts.
+  Structure(Vec3 origin, double side, double characteristic_length)
+      : neighbourhood_{origin, {side, side, side}, {}},
+        characteristic_length_(characteristic_length),
+        is_on_grid_(false) {}
+
+  /// The first t in [from, to] at which membership is `wanted`, by distance_bound() and
+  /// min_ray_step().
+  bool march(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const;
 
  private:
   Neighbourhood neighbourhood_;
+  double characteristic_length_;
+  bool is_on_grid_ = true;
 };
 
 }  // namespace msq

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A capsule is the union of the balls about the points of its axis. With lengths z along the ray
-// and places in the plane across it, from the ray's line on, the axis is z0 + s dz, p + s q for s
-// in [0, 1], and the ray enters the ball about s at
+// A capsule is the union of the balls about the points of its axis. Take coordinates relative to
+// the ray's line: z along it, and the position in the plane normal to it. The axis is then z0 + s
+// dz, p + s q for s in [0, 1], and the ray enters the ball about s at
 //   f(s) = z0 + s dz - sqrt(R^2 - |p + s q|^2),
-// which is convex. Its least value lies at s0 - dz sqrt(H / |q|^2) / |ab|, where s0 is the point
-// next to the ray's line and H = R^2 - |p + s0 q|^2, or at the end next to that; it is the entry.
-// The exit is found likewise. Where |q| is tiny the balls lie within |q| / 2 of the middle one
-// across the ray, and a bound by that is used.
+// which is convex. Its minimum lies at s0 - dz sqrt(H / |q|^2) / |ab|, where s0 is the point
+// nearest to the ray's line and H = R^2 - |p + s0 q|^2, or at the end nearest to that. The minimum
+// is the entry. The exit is found in the same way. If |q| is tiny, the balls lie within |q| / 2 of
+// the middle one across the ray, and a bound by that is used.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "strut/capsule_list.cpp"
 #include <hwy/foreach_target.h>
@@ -14,6 +14,7 @@
 
 #include <bit>
 
+#include "base/lanes3-inl.h"
 #include "base/mask_bits-inl.h"
 #include "base/simd.h"
 #include "strut/capsule_list.h"
@@ -22,49 +23,32 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+namespace {
 
 using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 
-struct Vector {
-  V x, y, z;
-};
-HWY_INLINE V dot(const Vector& a, const Vector& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Vector set(Vec3 v) {
-  const D d;
-  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
-/// a + b s
-HWY_INLINE Vector add_scaled(const Vector& a, const Vector& b, V s) {
-  return {hn::Add(a.x, hn::Mul(b.x, s)), hn::Add(a.y, hn::Mul(b.y, s)),
-          hn::Add(a.z, hn::Mul(b.z, s))};
-}
-HWY_INLINE V clamp01(V s) {
-  const D d;
-  return hn::Min(hn::Max(s, hn::Zero(d)), hn::Set(d, 1));
-}
+using Vector = Lanes3<D>;
 
 size_t meet_capsules(const double* const (&arrays)[8], size_t begin, size_t end,
                      const CapsuleList::Ray& ray, CapsuleList::Met* met) {
   const D d;
   const V zero = hn::Zero(d);
-  const Vector o = set(ray.origin), u = set(ray.direction);
+  const Vector o = set_lanes(d, ray.origin), u = set_lanes(d, ray.direction);
   const V radius = hn::Set(d, ray.radius), to = hn::Set(d, ray.to);
-  constexpr double least_across = 1e-12;  // of |q|^2 / |ab|^2
+  constexpr double min_across = 1e-12;  // of |q|^2 / |ab|^2
   size_t count = 0;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const auto load = [&](size_t n) HWY_ATTR { return hn::LoadU(d, arrays[n] + i); };
     const V own = hn::Mul(load(7), radius), squared = hn::Mul(own, own), inverse_ab = load(6);
     const Vector a{load(0), load(1), load(2)}, ab{load(3), load(4), load(5)};
-    const Vector w{hn::Sub(a.x, o.x), hn::Sub(a.y, o.y), hn::Sub(a.z, o.z)};
+    const Vector w = subtract(a, o);
     const V z0 = dot(w, u), dz = dot(ab, u);
     const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
     const V qq = dot(q, q);
     // Axes of no length have an inverse of 0.
     const auto is_small =
-        hn::Or(hn::Lt(hn::Mul(qq, inverse_ab), hn::Set(d, least_across)), hn::Eq(inverse_ab, zero));
+        hn::Or(hn::Lt(hn::Mul(qq, inverse_ab), hn::Set(d, min_across)), hn::Eq(inverse_ab, zero));
     const V inverse = hn::Div(hn::Set(d, 1), hn::IfThenElse(is_small, hn::Set(d, 1), qq));
     const V s0 = hn::Neg(hn::Mul(dot(p, q), inverse));
     const Vector across = add_scaled(p, q, s0);
@@ -73,12 +57,12 @@ size_t meet_capsules(const double* const (&arrays)[8], size_t begin, size_t end,
     if (hn::AllFalse(d, is_met)) continue;
     const V shift =
         hn::Mul(dz, hn::Sqrt(hn::Mul(hn::Max(room, zero), hn::Mul(inverse, inverse_ab))));
-    const V s_in = clamp01(hn::Sub(s0, shift)), s_out = clamp01(hn::Add(s0, shift));
+    const V s_in = clamp01(d, hn::Sub(s0, shift)), s_out = clamp01(d, hn::Add(s0, shift));
     const Vector v_in = add_scaled(p, q, s_in), v_out = add_scaled(p, q, s_out);
     const V under_in = hn::Sub(squared, dot(v_in, v_in));
     const V under_out = hn::Sub(squared, dot(v_out, v_out));
-    // An end that is met at all is met by the entry's ball and by the exit's; either may be lost in
-    // rounding.
+    // If the ray meets an end at all, the ball of the entry and the ball of the exit both contain
+    // it. Rounding may lose either one.
     is_met =
         hn::And(is_met, hn::Or(hn::Or(hn::Ge(under_in, zero), hn::Ge(under_out, zero)), is_small));
     if (hn::AllFalse(d, is_met)) continue;
@@ -99,7 +83,7 @@ size_t meet_capsules(const double* const (&arrays)[8], size_t begin, size_t end,
     uint64_t bits = bits_of(d, is_met);
     if (end - i < hn::Lanes(d)) bits &= (uint64_t{1} << (end - i)) - 1;
     if (!bits) continue;
-    double enters[most_simd_doubles], leaves[most_simd_doubles];
+    double enters[max_simd_doubles], leaves[max_simd_doubles];
     hn::StoreU(enter, d, enters);
     hn::StoreU(leave, d, leaves);
     for (; bits; bits &= bits - 1) {
@@ -110,6 +94,7 @@ size_t meet_capsules(const double* const (&arrays)[8], size_t begin, size_t end,
   return count;
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
 HWY_AFTER_NAMESPACE();
@@ -129,7 +114,7 @@ void CapsuleList::add(const Segment& axis, double factor) {
 
 void CapsuleList::finish() {
   for (std::vector<double>& array : arrays_) {
-    array.resize(count_ + most_simd_doubles);
+    array.resize(count_ + max_simd_doubles);
     array.shrink_to_fit();
   }
 }

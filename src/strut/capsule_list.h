@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One ray against lists of capsules, in vectors of capsules and in double precision: for lists that
-// many rays meet one after the other, each at a place of its own.
+// One ray against lists of capsules, in vectors of capsules and in double precision. For lists that
+// many rays meet one after the other, each ray at its own place.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace msq {
 class CapsuleList {
  public:
   void add(const Segment& axis, double factor);
-  /// To be called after the last.
+  /// Call after the last capsule was added.
   void finish();
 
   size_t size() const { return count_; }
@@ -31,7 +31,7 @@ class CapsuleList {
 
   struct Ray {
     Vec3 origin, direction;  ///< of length 1, in the coordinates of the axes
-    double to;               ///< from 0 on
+    double to;               ///< begins at 0
     double radius;           ///< for a factor of 1
   };
   /// The part of the ray within capsule `capsule`.
@@ -39,9 +39,9 @@ class CapsuleList {
     uint32_t capsule;
     double enter, leave;
   };
-  /// Writes those of capsules [begin, end) that the ray meets in [0, to], at most end - begin, and
-  /// answers how many. Parts are too long, if anything, where the ray runs along an axis within
-  /// 1e-6; else they are wrong by rounding, which grows as they get short.
+  /// Writes those of capsules [begin, end) that the ray meets in [0, to] and returns their number,
+  /// at most end - begin. If the ray runs along an axis within 1e-6, the parts may be too long, but
+  /// not too short. Otherwise their error is rounding, which grows as parts get shorter.
   size_t meet(size_t begin, size_t end, const Ray& ray, Met* met) const;
 
  private:

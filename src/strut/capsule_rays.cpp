@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A capsule is the union of the balls about the points of its axis. With lengths z along the ray
-// and places in the plane across it, from the ray on, the axis is z0 + s dz, p + s q for s in [0,
-// 1], and the ray enters the ball about s at
+// A capsule is the union of the balls about the points of its axis. Take coordinates relative to
+// the ray: z along it, and the position in the plane normal to it. The axis is then z0 + s dz, p +
+// s q for s in [0, 1], and the ray enters the ball about s at
 //   f(s) = z0 + s dz - sqrt(R^2 - |p + s q|^2),
-// which is convex. Its least value lies at s0 - dz sqrt(H / |q|^2) / |ab|, where s0 is the point
-// next to the ray's line, H = R^2 - |p + s0 q|^2, or at the end next to that; it is the entry. The
-// exit is found likewise.
+// which is convex. Its minimum lies at s0 - dz sqrt(H / |q|^2) / |ab|, where s0 is the point
+// nearest to the ray's line, H = R^2 - |p + s0 q|^2, or at the end nearest to that. The minimum is
+// the entry. The exit is found in the same way.
 //
-// Rounding. p, q, z0 and dz are those of a capsule moved by less than 3e-6, with coordinates up
-// to 8. For the capsule that is met, of a radius less by the slack, H is at least 2 r slack, and
-// what is left is the error of s, to the second order of which f(s) is too large. It goes with the
-// inverse cube of |q|. Where |q| is below 1e-2, axes of no length included, the balls lie within
-// |q| / 2 of the middle one across the ray, and a bound by that is used, which is too low by no
-// more than about |q| or the axis' length along the ray.
+// Rounding. p, q, z0 and dz are those of a capsule moved by less than 3e-6, with coordinates up to
+// 8. For a capsule that the ray meets, with its radius reduced by the slack, H is at least 2 r
+// slack. The remaining error is that of s, and f(s) is too large by its second order. It grows with
+// the inverse cube of |q|. If |q| is below 1e-2, which includes axes of length 0, the balls lie
+// within |q| / 2 of the middle one across the ray. Then a bound by that is used, which is too low
+// by at most about |q| or the axis' length along the ray.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "strut/capsule_rays.cpp"
 #include <hwy/foreach_target.h>
@@ -25,6 +25,7 @@
 
 #include "base/basis.h"
 #include "base/compress-inl.h"
+#include "base/lanes3-inl.h"
 #include "base/mask_bits-inl.h"
 #include "strut/capsule_rays.h"
 
@@ -32,23 +33,13 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+namespace {
 
 using D = hn::CappedTag<float, RayPacket::most>;
 using V = hn::Vec<D>;
 
-struct Vector {
-  V x, y, z;
-};
-HWY_INLINE V dot(const Vector& a, const Vector& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-HWY_INLINE Vector sub(const Vector& a, const Vector& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-/// a + b s
-HWY_INLINE Vector add_scaled(const Vector& a, const Vector& b, V s) {
-  return {hn::MulAdd(b.x, s, a.x), hn::MulAdd(b.y, s, a.y), hn::MulAdd(b.z, s, a.z)};
-}
+using Vector = Lanes3<D>;
+
 HWY_INLINE Vector load(const float* const (&v)[3], size_t i) {
   const D d;
   return {hn::LoadU(d, v[0] + i), hn::LoadU(d, v[1] + i), hn::LoadU(d, v[2] + i)};
@@ -57,15 +48,8 @@ HWY_INLINE Vector set(float x, float y, float z) {
   const D d;
   return {hn::Set(d, x), hn::Set(d, y), hn::Set(d, z)};
 }
-HWY_INLINE Vector set(Vec3 v) {
-  return set(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
-}
-HWY_INLINE V clamp01(V s) {
-  const D d;
-  return hn::Min(hn::Max(s, hn::Zero(d)), hn::Set(d, 1.0f));
-}
 
-/// Of the ids that the bits tell, those that were not seen.
+/// The ids given by the bits, without those already seen.
 HWY_INLINE uint64_t new_ones(const uint32_t* ids, uint64_t bits, SeenIds* seen) {
   if (!seen) return bits;
   for (uint64_t rest = bits; rest; rest &= rest - 1)
@@ -73,21 +57,22 @@ HWY_INLINE uint64_t new_ones(const uint32_t* ids, uint64_t bits, SeenIds* seen) 
   return bits;
 }
 
-/// Whether axes from w on come within the root of `most` of the line through 0 along u, and between
-/// the planes across it at `low` and `high`.
+/// Whether axes from w on come within the square root of `most` of the line through 0 along u,
+/// between the planes across it at `low` and `high`.
 HWY_INLINE hn::Mask<D> come_near(const Vector& w, const Vector& ab, const Vector& u, V most, V low,
                                  V high) {
-  const V z0 = dot(w, u), dz = dot(ab, u);
-  const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
-  const V s = clamp01(hn::Div(hn::Neg(dot(p, q)), hn::Max(dot(q, q), hn::Set(D(), 1e-30f))));
-  const Vector v = add_scaled(p, q, s);
+  const V z0 = fast_dot(w, u), dz = fast_dot(ab, u);
+  const Vector p = fast_add_scaled(w, u, hn::Neg(z0)), q = fast_add_scaled(ab, u, hn::Neg(dz));
+  const V s =
+      clamp01(D(), hn::Div(hn::Neg(fast_dot(p, q)), hn::Max(fast_dot(q, q), hn::Set(D(), 1e-30f))));
+  const Vector v = fast_add_scaled(p, q, s);
   const V z1 = hn::Add(z0, dz);
   const auto is_there = hn::And(hn::Ge(hn::Max(z0, z1), low), hn::Le(hn::Min(z0, z1), high));
-  return hn::And(is_there, hn::Le(dot(v, v), most));
+  return hn::And(is_there, hn::Le(fast_dot(v, v), most));
 }
 
-/// Writes the numbers of those of a chunk whose axes come within `reach` of the packet's line, and
-/// the planes across it between `near` and `far`.
+/// Writes the numbers of the capsules of a chunk whose axes come within `reach` of the packet's
+/// line, between the planes across it at `near` and `far`.
 HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t end, float radius,
                             const float (&corner)[3], const RayPacket& rays, SeenIds* seen,
                             uint32_t* found) {
@@ -100,7 +85,7 @@ HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t en
   const V most = hn::Set(d, reach * reach);
   size_t count = 0;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const Vector w = sub(load(capsules.a, i), centre);
+    const Vector w = subtract(load(capsules.a, i), centre);
     uint64_t bits = bits_of(d, come_near(w, load(capsules.ab, i), u, most, low, high));
     if (end - i < hn::Lanes(d)) bits &= (uint64_t{1} << (end - i)) - 1;
     bits = new_ones(capsules.ids + i, bits, seen);
@@ -110,7 +95,7 @@ HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t en
   return count;
 }
 
-/// What a group of rays met so far.
+/// The hits so far of a group of rays.
 struct LaneHits {
   HWY_INLINE LaneHits(const PacketHits& hits, size_t lane)
       : first(hn::Load(D(), hits.first + lane)),
@@ -141,8 +126,8 @@ struct LaneHits {
   hn::Vec<DU> id;
 };
 
-/// Of |q|^2 / |ab|^2, and of |ab|^2.
-constexpr float least_across = 1.0f / 1600, least_squared = 1e-10f;
+/// Lower limits of |q|^2 / |ab|^2 and of |ab|^2.
+constexpr float min_across = 1.0f / 1600, min_squared = 1e-10f;
 
 template <bool kStarts>
 HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t chosen_count,
@@ -164,33 +149,33 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
       const size_t i = chosen[n];
       const Vector a = set(capsules.a[0][i], capsules.a[1][i], capsules.a[2][i]);
       const Vector ab = set(capsules.ab[0][i], capsules.ab[1][i], capsules.ab[2][i]);
-      const Vector w = sub(a, o);
-      const V z0 = dot(w, u), dz = dot(ab, u);
-      const Vector p = add_scaled(w, u, hn::Neg(z0)), q = add_scaled(ab, u, hn::Neg(dz));
-      const V qq = dot(q, q), ll = hn::Max(dot(ab, ab), hn::Set(d, least_squared));
+      const Vector w = subtract(a, o);
+      const V z0 = fast_dot(w, u), dz = fast_dot(ab, u);
+      const Vector p = fast_add_scaled(w, u, hn::Neg(z0)), q = fast_add_scaled(ab, u, hn::Neg(dz));
+      const V qq = fast_dot(q, q), ll = hn::Max(fast_dot(ab, ab), hn::Set(d, min_squared));
       const V inverse = hn::Div(one, hn::Max(qq, hn::Set(d, 1e-12f)));
-      const V s0 = hn::Mul(hn::Neg(dot(p, q)), inverse);
-      const Vector across = add_scaled(p, q, s0);
-      const V room = hn::Sub(r2, dot(across, across));
-      const auto is_small = hn::Lt(qq, hn::Mul(ll, hn::Set(d, least_across)));
+      const V s0 = hn::Mul(hn::Neg(fast_dot(p, q)), inverse);
+      const Vector across = fast_add_scaled(p, q, s0);
+      const V room = hn::Sub(r2, fast_dot(across, across));
+      const auto is_small = hn::Lt(qq, hn::Mul(ll, hn::Set(d, min_across)));
       auto met = hn::Or(hn::Ge(room, zero), is_small);
       if (hn::AllFalse(d, met)) continue;
       const V shift = hn::Mul(dz, hn::Sqrt(hn::Mul(hn::Max(room, zero), hn::Div(inverse, ll))));
-      const V s = clamp01(hn::Sub(s0, shift));
-      const Vector v = add_scaled(p, q, s);
-      const V under = hn::Sub(r2, dot(v, v));
+      const V s = clamp01(D(), hn::Sub(s0, shift));
+      const Vector v = fast_add_scaled(p, q, s);
+      const V under = hn::Sub(r2, fast_dot(v, v));
       met = hn::And(met, hn::Or(hn::Ge(under, zero), is_small));
       V t = hn::Sub(hn::MulAdd(s, dz, z0), hn::Sqrt(hn::Max(under, zero)));
       V exit = none;
       if constexpr (kStarts) {
-        const V s_out = clamp01(hn::Add(s0, shift));
-        const Vector v_out = add_scaled(p, q, s_out);
+        const V s_out = clamp01(D(), hn::Add(s0, shift));
+        const Vector v_out = fast_add_scaled(p, q, s_out);
         exit = hn::Add(hn::MulAdd(s_out, dz, z0),
-                       hn::Sqrt(hn::Max(hn::Sub(r2, dot(v_out, v_out)), zero)));
+                       hn::Sqrt(hn::Max(hn::Sub(r2, fast_dot(v_out, v_out)), zero)));
       }
       if (!hn::AllFalse(d, is_small)) {
-        const Vector middle = add_scaled(p, q, hn::Set(d, 0.5f));
-        const V nearest = hn::Max(zero, hn::Sub(hn::Sqrt(dot(middle, middle)),
+        const Vector middle = fast_add_scaled(p, q, hn::Set(d, 0.5f));
+        const V nearest = hn::Max(zero, hn::Sub(hn::Sqrt(fast_dot(middle, middle)),
                                                 hn::Mul(hn::Sqrt(qq), hn::Set(d, 0.501f))));
         const V ball = hn::Sub(r2, hn::Mul(nearest, nearest));
         const V half = hn::Sqrt(hn::Max(ball, zero));
@@ -218,7 +203,7 @@ size_t on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray, 
   const V low = hn::Set(d, -wide), high = hn::Set(d, ray.to + wide);
   size_t count = 0;
   for (size_t i = 0; i < capsules.count; i += hn::Lanes(d)) {
-    const Vector w = sub(load(capsules.a, i), o);
+    const Vector w = subtract(load(capsules.a, i), o);
     const auto is_near = hn::And(come_near(w, load(capsules.ab, i), u, most, low, high),
                                  hn::FirstN(d, capsules.count - i));
     const auto order = Compression<D>(is_near);
@@ -228,12 +213,11 @@ size_t on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray, 
   return count;
 }
 
-/// What rays of one direction meet, in the plane across it: capsules of a chunk, as seen from
-/// there.
+/// Capsules of a chunk, projected to the plane normal to the common direction of the rays.
 struct SeenCapsules {
   static constexpr size_t most = 64;
-  /// An end's place and the way to the other, along two axes of the plane and along the rays; of
-  /// |q|^2, its inverse; and what s0 - s is over sqrt(H).
+  /// The position of an end and the vector to the other end, along two axes of the plane and along
+  /// the rays; the inverse of |q|^2; and (s0 - s) / sqrt(H).
   alignas(64) float px[most], py[most], pz[most], qx[most], qy[most], qz[most], inverse[most],
       shift[most];
 };
@@ -248,7 +232,7 @@ HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const u
     const Vector o = {hn::Sub(hn::Load(d, rays.origin[0] + lane), hn::Set(d, rays.centre[0])),
                       hn::Sub(hn::Load(d, rays.origin[1] + lane), hn::Set(d, rays.centre[1])),
                       hn::Sub(hn::Load(d, rays.origin[2] + lane), hn::Set(d, rays.centre[2]))};
-    const V x = dot(o, axes[0]), y = dot(o, axes[1]), z = dot(o, axes[2]);
+    const V x = fast_dot(o, axes[0]), y = fast_dot(o, axes[1]), z = fast_dot(o, axes[2]);
     const V from = hn::Load(d, rays.from + lane), to = hn::Load(d, rays.to + lane);
     LaneHits found(hits, lane);
     for (size_t n = 0; n < chosen_count; ++n) {
@@ -262,13 +246,13 @@ HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const u
       if (hn::AllTrue(d, hn::Lt(room, zero))) continue;
       const V shift = hn::Mul(hn::Set(d, seen.shift[i]), hn::Sqrt(hn::Max(room, zero)));
       const V pz = hn::Sub(hn::Set(d, seen.pz[i]), z), qz = hn::Set(d, seen.qz[i]);
-      const V s = clamp01(hn::Sub(s0, shift));
+      const V s = clamp01(D(), hn::Sub(s0, shift));
       const V vx = hn::MulAdd(qx, s, px), vy = hn::MulAdd(qy, s, py);
       const V under = hn::NegMulAdd(vx, vx, hn::NegMulAdd(vy, vy, r2));
       V t = hn::Sub(hn::MulAdd(s, qz, pz), hn::Sqrt(hn::Max(under, zero)));
       auto met = hn::And(hn::Ge(under, zero), hn::Ge(room, zero));
       if constexpr (kStarts) {
-        const V s_out = clamp01(hn::Add(s0, shift));
+        const V s_out = clamp01(D(), hn::Add(s0, shift));
         const V ox = hn::MulAdd(qx, s_out, px), oy = hn::MulAdd(qy, s_out, py);
         const V left = hn::NegMulAdd(ox, ox, hn::NegMulAdd(oy, oy, r2));
         const V exit = hn::Add(hn::MulAdd(s_out, qz, pz), hn::Sqrt(hn::Max(left, zero)));
@@ -282,7 +266,7 @@ HWY_INLINE void meet_seen(const SeenCapsules& seen, const uint32_t* ids, const u
   }
 }
 
-/// Rays of one direction: what of a capsule does not depend on the ray is found once.
+/// Rays of one direction: quantities of a capsule that do not depend on the ray are computed once.
 HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const float (&corner)[3],
                               const RayPacket& rays, SeenIds* ids, PacketHits& hits) {
   const D d;
@@ -291,7 +275,7 @@ HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const flo
   const Vec3 along_rays{rays.along[0], rays.along[1], rays.along[2]};
   Vec3 e, f;
   complete_basis(along_rays, e, f);
-  const Vector axes[3] = {set(e), set(f), set(along_rays)};
+  const Vector axes[3] = {set_lanes(d, e), set_lanes(d, f), set_lanes(d, along_rays)};
   const Vector centre =
       set(rays.centre[0] - corner[0], rays.centre[1] - corner[1], rays.centre[2] - corner[2]);
   const float reach = wide + rays.spread;
@@ -301,12 +285,12 @@ HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const flo
     const size_t end = std::min(capsules.count, begin + SeenCapsules::most);
     size_t chosen_count = 0, along_count = 0;
     for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-      const Vector w = sub(load(capsules.a, i), centre), ab = load(capsules.ab, i);
-      const V px = dot(w, axes[0]), py = dot(w, axes[1]), pz = dot(w, axes[2]);
-      const V qx = dot(ab, axes[0]), qy = dot(ab, axes[1]), qz = dot(ab, axes[2]);
+      const Vector w = subtract(load(capsules.a, i), centre), ab = load(capsules.ab, i);
+      const V px = fast_dot(w, axes[0]), py = fast_dot(w, axes[1]), pz = fast_dot(w, axes[2]);
+      const V qx = fast_dot(ab, axes[0]), qy = fast_dot(ab, axes[1]), qz = fast_dot(ab, axes[2]);
       const V qq = hn::MulAdd(qx, qx, hn::Mul(qy, qy));
       const V inverse = hn::Div(one, hn::Max(qq, tiny));
-      const V s = clamp01(hn::Mul(hn::NegMulAdd(px, qx, hn::Neg(hn::Mul(py, qy))), inverse));
+      const V s = clamp01(D(), hn::Mul(hn::NegMulAdd(px, qx, hn::Neg(hn::Mul(py, qy))), inverse));
       const V vx = hn::MulAdd(qx, s, px), vy = hn::MulAdd(qy, s, py), z1 = hn::Add(pz, qz);
       const auto is_near =
           hn::And(hn::Le(hn::MulAdd(vx, vx, hn::Mul(vy, vy)), most),
@@ -315,8 +299,8 @@ HWY_INLINE void meet_parallel(const CapsuleView& capsules, float wide, const flo
       if (end - i < hn::Lanes(d)) bits &= (uint64_t{1} << (end - i)) - 1;
       bits = new_ones(capsules.ids + i, bits, ids);
       if (!bits) continue;
-      const V ll = hn::Max(hn::MulAdd(qz, qz, qq), hn::Set(d, least_squared));
-      const uint64_t small = bits_of(d, hn::Lt(qq, hn::Mul(ll, hn::Set(d, least_across))));
+      const V ll = hn::Max(hn::MulAdd(qz, qz, qq), hn::Set(d, min_squared));
+      const uint64_t small = bits_of(d, hn::Lt(qq, hn::Mul(ll, hn::Set(d, min_across))));
       const size_t at = i - begin;
       hn::Store(px, d, seen.px + at);
       hn::Store(py, d, seen.py + at);
@@ -357,6 +341,7 @@ void meet_list(const CapsuleView& capsules, float radius, const float (&corner)[
   }
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
 HWY_AFTER_NAMESPACE();

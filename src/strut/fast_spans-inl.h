@@ -2,34 +2,35 @@
 // Spans of capsules in single precision: the raster's common case. Included once for each
 // instruction set.
 //
-// A row cuts the capsule's cylinder or one of its end spheres at either end: centre -+ sqrt(D) with
-// a discriminant D of its own. Where the cylinder is met at the distance t along the axis, 0 <= t
-// <= length, it makes the end; at t < 0 the sphere about a does, at t > length that about b. Signed
-// squares tell which, without a root. Spans that hold for certain are gathered first and drawn
-// later in one tight loop; samples that single precision does not decide become doubtful spans.
+// Each end of a row's span lies on the capsule's cylinder or on one of its end spheres: centre -+
+// sqrt(D), each with its own discriminant D. Let t be the position along the axis where the row
+// meets the cylinder. If 0 <= t <= length the cylinder gives the end; if t < 0 the sphere about a,
+// if t > length the sphere about b. Signed squares decide that without a root. Certain spans are
+// gathered first and drawn later in one tight loop. Samples that single precision does not decide
+// become doubtful spans.
 //
 // Bounds. Lengths are in columns; u = 2^-24, R the radius, U = length + R, A = uy^2 + uz^2, d the
-// margin, by which the radius is uncertain. Offsets v, w of a row err by 6 u U at most, so their
-// products with the axis, k and m, by 12 u U.
-// - The cylinder's D = R^2 / A - (k / A)^2 errs by F = (32 u U R + (14 u U + d)^2) / A^2 + 2 R d /
-// A
-//   at most where the row may meet it (|k| <= sqrt(A) R), and so do the spheres', R^2 - v^2 - w^2.
+// margin, which is the uncertainty of the radius. The error of offsets v, w of a row is at most 6 u
+// U, so that of their products with the axis, k and m, at most 12 u U.
+// - The cylinder's D = R^2 / A - (k / A)^2 has an error of at most
+//   F = (32 u U R + (14 u U + d)^2) / A^2 + 2 R d / A
+//   where the row may meet it (|k| <= sqrt(A) R), and so do the spheres', R^2 - v^2 - w^2.
 // - The choice compares g |g|, g = m / A, with ux |ux| D. Where they are nearly the same, |g| <=
-//   |ux| R / sqrt(A), so their difference errs by C = F (0.95 |ux| + 1.05 ux^2) at most. A wrong
-//   choice has therefore t^2 <= 2 C (|p - q|^2 <= 2 |p |p| - q |q||). There the cylinder's end is
+//   |ux| R / sqrt(A), so the error of their difference is at most C = F (0.95 |ux| + 1.05 ux^2). A
+//   wrong choice thus has t^2 <= 2 C (|p - q|^2 <= 2 |p |p| - q |q||). There the cylinder's end is
 //   at R^2 + t^2 from the sphere's centre, squared: the wrong choice is an error of t^2 in D. Of
 //   two choices both can be wrong only if length <= 2 |t|, where length^2 <= 16 F.
-// Together D errs by E = F + 2 C at most, or F + 4 C. So where it is below -E for either end, or
-// for the cylinder, the row misses the capsule; from E on at both ends it meets it. The root q errs
-// by E / q where D >= E, by sqrt(2 E) below: by E / (max(q, sqrt(E)) - 0.3 sqrt(E)) everywhere. The
-// centre (g ux for the cylinder) and the sums err by 32 u (U / A + 1), and column numbers by the
-// target's slack.
-// Where the radius varies between bounds, the outer ends are those of the greatest and the inner
-// ones those of the least, each within these bounds.
-// Where it is linear, each row has bounds of its own. A row's span reaches R / sqrt(A) at most from
-// the cylinder's centre, or from the nearest of the columns between a and b if that is beyond them:
-// so the radius differs by |gx| R / sqrt(A) at most from that there. Computing it errs by 8 u U at
-// most: D by half of what it does anyway.
+// Together the error of D is at most E = F + 2 C, or F + 4 C. So if D is below -E for either end,
+// or for the cylinder, the row misses the capsule; if D >= E at both ends, the row meets it. The
+// error of the root q is E / q where D >= E and sqrt(2 E) below: at most E / (max(q, sqrt(E)) - 0.3
+// sqrt(E)) everywhere. The error of the centre (g ux for the cylinder) and of the sums is at most
+// 32 u (U / A + 1), and that of column numbers at most the target's slack. If the radius varies
+// between bounds, the outer ends are those of the maximum and the inner ends those of the minimum,
+// each within these bounds. If the radius is linear, each row has its own bounds. A row's span
+// reaches at most R / sqrt(A) from the cylinder's centre, or from the nearest of the columns
+// between a and b if the centre is beyond them. So the radius differs from its value there by at
+// most |gx| R / sqrt(A). The error of computing it is at most 8 u U, which adds to D half of the
+// error that it has anyway.
 #if defined(MSQ_STRUT_FAST_SPANS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_STRUT_FAST_SPANS_INL_H
 #undef MSQ_STRUT_FAST_SPANS_INL_H
@@ -50,14 +51,31 @@ namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// How the lanes of a vector lie on rows and layers: `wide` rows of each of several layers.
+/// The layout of a vector's lanes on rows and layers: `wide` rows of each of several layers.
 struct LaneShape {
   size_t wide, deep;
-  HWY_ALIGN float row[2 * most_simd_doubles], layer[2 * most_simd_doubles];
-  HWY_ALIGN int32_t bit[2 * most_simd_doubles];  // from that of lane 0
+  HWY_ALIGN float row[2 * max_simd_doubles], layer[2 * max_simd_doubles];
+  HWY_ALIGN int32_t bit[2 * max_simd_doubles];  // relative to lane 0
 };
 
-/// Of one strut: all the same, between a least and a greatest, or linear in the position.
+template <class D>
+void make_shapes(D d, const RasterTarget& target, LaneShape* out) {
+  const size_t lanes = hn::Lanes(d);
+  for (size_t s = 0; s < shapes(d, target); ++s) {
+    LaneShape& shape = out[s];
+    shape.wide = lanes >> s;
+    shape.deep = size_t{1} << s;
+    for (size_t l = 0; l < lanes; ++l) {
+      const size_t row = l % shape.wide, layer = l / shape.wide;
+      shape.row[l] = static_cast<float>(row);
+      shape.layer[l] = static_cast<float>(layer);
+      shape.bit[l] = static_cast<int32_t>((layer * target.layer_words + row * target.row_words) *
+                                          bits_per_word);
+    }
+  }
+}
+
+/// The radii of one strut: constant, between a minimum and a maximum, or linear in the position.
 enum class Radii { constant, bounded, linear };
 
 template <Radii radii>
@@ -72,8 +90,8 @@ class FastSpans {
         buffer_(target.certain),
         row_step_(static_cast<float>(target.dy * target.inverse_dx)),
         layer_step_(static_cast<float>(target.dz * target.inverse_dx)) {
-    make_shapes(FullLanes(), full_);
-    make_shapes(FewLanes(), few_);
+    make_shapes(FullLanes(), target, full_);
+    make_shapes(FewLanes(), target, few_);
   }
 
   /// Adds a strut of the batch, of kernel `fast`.
@@ -81,14 +99,14 @@ class FastSpans {
     add_vectors(FullLanes(), full_[setups_.shape[strut]], strut, 0,
                 static_cast<size_t>(setups_.vectors[strut]));
   }
-  /// Adds one of kernel `few`: gathered, for a loop that does not branch on how many vectors.
+  /// Adds one of kernel `few`: gathered, for a loop without a branch on the number of vectors.
   HWY_INLINE void add_few(size_t strut) {
-    for (uint32_t v = 0; v < StrutSetups::most_few; ++v)
+    for (uint32_t v = 0; v < StrutSetups::max_few; ++v)
       waiting_[waiting_count_ + v] = {static_cast<uint32_t>(strut), v};
     waiting_count_ += static_cast<size_t>(setups_.vectors[strut]);
   }
 
-  /// Draws all that was added.
+  /// Draws all added struts.
   HWY_INLINE void draw() {
     for (size_t i = 0; i < waiting_count_; ++i) {
       const RowVector& w = waiting_[i];
@@ -105,23 +123,6 @@ class FastSpans {
   };
 
   template <class D>
-  void make_shapes(D d, LaneShape* out) {
-    const size_t lanes = hn::Lanes(d);
-    for (size_t s = 0; s < shapes(d, target_); ++s) {
-      LaneShape& shape = out[s];
-      shape.wide = lanes >> s;
-      shape.deep = size_t{1} << s;
-      for (size_t l = 0; l < lanes; ++l) {
-        const size_t row = l % shape.wide, layer = l / shape.wide;
-        shape.row[l] = static_cast<float>(row);
-        shape.layer[l] = static_cast<float>(layer);
-        shape.bit[l] = static_cast<int32_t>(
-            (layer * target_.layer_words + row * target_.row_words) * bits_per_word);
-      }
-    }
-  }
-
-  template <class D>
   HWY_INLINE void add_vectors(D d, const LaneShape& shape, size_t strut, size_t begin, size_t end);
   template <class D, class V = hn::Vec<D>>
   HWY_INLINE void add_doubts(D d, const LaneShape& shape, size_t strut, size_t j, size_t k,
@@ -133,9 +134,9 @@ class FastSpans {
   DoubtfulSpans& doubts_;
   SpanBuffer buffer_;
   const float row_step_, layer_step_;
-  LaneShape full_[most_shapes], few_[most_shapes];
+  LaneShape full_[max_shapes], few_[max_shapes];
   size_t waiting_count_ = 0;
-  RowVector waiting_[StrutSetups::most_few * (StrutBatch::capacity + 1)];
+  RowVector waiting_[StrutSetups::max_few * (StrutBatch::capacity + 1)];
 };
 
 /// Vectors `begin` to `end` of the strut's.
@@ -194,7 +195,7 @@ HWY_INLINE void FastSpans<radii>::add_vectors(D d, const LaneShape& shape, size_
     const V body_centre = hn::MulAdd(g, ux, a_column);
     const V rho2_a = hn::MulAdd(v, v, hn::Mul(w, w)), rho2_b = hn::MulAdd(vb, vb, hn::Mul(wb, wb));
 
-    // Ends for a squared radius, with their errors; returns the least of the discriminants.
+    // Ends for a squared radius, with their errors; returns the minimum of the discriminants.
     const auto ends = [&](V r2, V& low, V& high, V& low_error, V& high_error) HWY_ATTR {
       const V body = hn::MulSub(r2, inverse, cross2);
       const V at_a = hn::Sub(r2, rho2_a), at_b = hn::Sub(r2, rho2_b);
@@ -237,7 +238,7 @@ HWY_INLINE void FastSpans<radii>::add_vectors(D d, const LaneShape& shape, size_
     V least = ends(high2, low, high, low_error, high_error);
     const M met = hn::And(in, hn::Gt(least, none));
     if (hn::AllFalse(d, met)) continue;
-    // Columns [x0, x1] may be inside, those of [i0, i1] are.
+    // Columns [x0, x1] may be inside; columns [i0, i1] are certainly inside.
     V x0 = hn::Ceil(hn::Sub(low, low_error)), x1 = hn::Floor(hn::Add(high, high_error));
     if constexpr (radii != Radii::constant) least = ends(low2, low, high, low_error, high_error);
     V i0 = hn::Ceil(hn::Add(low, low_error)), i1 = hn::Floor(hn::Sub(high, high_error));
@@ -251,7 +252,7 @@ HWY_INLINE void FastSpans<radii>::add_vectors(D d, const LaneShape& shape, size_
     const M some = hn::And(met, hn::Le(x0, x1));
     const M sure = hn::And(hn::And(some, hn::Gt(least, error)), hn::Le(i0, i1));
 
-    // A whole number below 2^22 plus 1.5 * 2^23 has it in its last bits.
+    // The last bits of a whole number below 2^22 plus 1.5 * 2^23 are that number.
     const V whole = hn::Set(d, 0x1.8p23f);
     const VI from = hn::BitCast(di, hn::Add(i0, whole)), to = hn::BitCast(di, hn::Add(i1, whole));
     const size_t at = (k0 + k) * target_.layer_words + (j0 + j) * target_.row_words;
@@ -276,7 +277,7 @@ template <class D, class V>
 HWY_INLINE void FastSpans<radii>::add_doubts(D d, const LaneShape& shape, size_t strut, size_t j,
                                              size_t k, hn::Mask<D> doubtful, V x0, V i0, V i1,
                                              V x1) {
-  HWY_ALIGN float columns[4][2 * most_simd_doubles];
+  HWY_ALIGN float columns[4][2 * max_simd_doubles];
   hn::Store(x0, d, columns[0]);
   hn::Store(i0, d, columns[1]);
   hn::Store(i1, d, columns[2]);

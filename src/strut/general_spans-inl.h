@@ -28,9 +28,9 @@ struct Spans {
   V low, high;  // empty where low > high
 };
 
-/// Where rows at (v, w) from a, in y and z, meet the capsule: the hull of what they meet of the two
-/// end spheres and of the cylinder between the end planes. k = v uz - w uy, m = v uy + w uz,
-/// rho2 = v^2 + w^2.
+/// The spans in which rows at offsets (v, w) from a, in y and z, meet the capsule. A span is the
+/// hull of the intersections with the two end spheres and with the cylinder between the end planes.
+/// k = v uz - w uy, m = v uy + w uz, rho2 = v^2 + w^2.
 HWY_INLINE Spans capsule_spans(const CapsuleAxis& axis, double r, V v, V w, V k, V m, V rho2) {
   const D d;
   const V zero = hn::Zero(d), inf = hn::Set(d, 1e300), r2 = hn::Set(d, r * r);
@@ -54,7 +54,7 @@ HWY_INLINE Spans capsule_spans(const CapsuleAxis& axis, double r, V v, V w, V k,
   // discriminant is across r^2 - k^2.
   V body_low, body_high;
   hn::Mask<D> has_body;
-  if (axis.along_x) {  // the row runs within it for ever, or never meets it
+  if (axis.along_x) {  // the row runs within it forever, or never meets it
     has_body = has_a;
     body_low = hn::Neg(inf);
     body_high = inf;
@@ -63,7 +63,7 @@ HWY_INLINE Spans capsule_spans(const CapsuleAxis& axis, double r, V v, V w, V k,
     const V under = hn::Sub(hn::Mul(across, r2), hn::Mul(k, k));
     has_body = hn::Ge(under, zero);
     const V root = hn::Sqrt(hn::Max(under, zero));
-    // Roots by the form that does not cancel where the strut is nearly along x.
+    // Roots by the form without cancellation when the strut is nearly along x.
     const V mid = hn::Mul(m, ux);
     const V c = hn::Sub(hn::Add(hn::Mul(k, k), hn::Mul(hn::Mul(ux, ux), rho2)), r2);
     const V q = hn::Add(mid, hn::CopySign(root, mid));
@@ -90,7 +90,8 @@ HWY_INLINE Spans capsule_spans(const CapsuleAxis& axis, double r, V v, V w, V k,
 }
 
 /// Draws the span of strut `index`, thinned by the margin, into rows [range.j0, range.j1) of each
-/// layer of the range; what the span of the strut thickened by it holds beyond that is doubtful.
+/// layer of the range. The additional samples in the span of the strut thickened by the margin are
+/// doubtful.
 HWY_INLINE void write_rows(const RasterTarget& target, const StrutBatch& batch, size_t index,
                            const RowRange& range, DoubtfulSpans& doubts) {
   const D d;
@@ -103,8 +104,8 @@ HWY_INLINE void write_rows(const RasterTarget& target, const StrutBatch& batch, 
   const V slack = hn::Set(d, target.slack), last = hn::Set(d, target.last);
   const V minus_one = hn::Set(d, -1.0), beyond = hn::Set(d, target.last + 1);
   const V uy = hn::Set(d, axis.uy), uz = hn::Set(d, axis.uz), ay = hn::Set(d, a.y);
-  HWY_ALIGN double column[4][most_simd_doubles];
-  // First and last column; clamped so that empty spans stay empty and all fit an integer.
+  HWY_ALIGN double column[4][max_simd_doubles];
+  // First and last column, clamped so that empty spans stay empty and all fit an integer.
   const auto first_column = [&](V x, V inwards) {
     const V c = hn::Ceil(hn::Add(hn::Mul(hn::Add(x, shift), scale), inwards));
     return hn::Min(hn::Max(c, hn::Zero(d)), beyond);
@@ -116,7 +117,7 @@ HWY_INLINE void write_rows(const RasterTarget& target, const StrutBatch& batch, 
   for (size_t k = range.k0; k < range.k1; ++k) {
     const V w = hn::Set(d, target.z[k] - a.z);
     for (size_t j = range.j0; j < range.j1; j += lanes) {
-      // Lanes past j1 are computed and not used.
+      // Lanes past j1 are computed but not used.
       const V v = hn::Sub(hn::LoadU(d, target.y + j), ay);
       const V cross = hn::Sub(hn::Mul(v, uz), hn::Mul(w, uy));
       const V along = hn::Add(hn::Mul(v, uy), hn::Mul(w, uz));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the raster kernels read and write.
+// The inputs and outputs of the raster kernels.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,19 @@ namespace msq {
 struct RasterTarget {
   const double *y, *z;  ///< rows and layers; y is padded by a vector
   size_t rows, layers;
-  size_t row_words, layer_words;  ///< from one row, or layer, to the next
+  size_t row_words, layer_words;  ///< stride of rows and of layers
   uint64_t* certain;              ///< padded by a word
   double x0, inverse_dx;          ///< column i is at x0 + i / inverse_dx
-  double dy, dz;                  ///< from one row, or layer, to the next; dz 0: not evenly spaced
+  double dy, dz;                  ///< step of rows and of layers; dz 0: not evenly spaced
   double last;                    ///< last column
-  double slack;                   ///< in columns: the rounding of a column number, with room
+  double slack;                   ///< in columns: bounds the rounding of a column number,
+                                  ///< generously
   double margin;                  ///< of radii, in model units
 
   uint64_t* row(size_t j, size_t k) const { return certain + k * layer_words + j * row_words; }
 };
 
-/// Columns [first, first + count) of a row that a strut of the batch may hold or not.
+/// Columns [first, first + count) of a row for which one strut of the batch is undecided.
 struct DoubtfulSpan {
   uint32_t strut, j, k, first, count;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The axis of a strut. A strut is the capsule of the points within a radius of it.
+// The axis of a strut. A strut is the capsule of all points within a radius of its axis.
 #pragma once
 
 #include "base/vec.h"
@@ -17,7 +17,7 @@ struct Segment {
     inverse_length_squared = l2 > 0 ? 1 / l2 : 0;
   }
 
-  /// The way to a point from that of the segment that is next to it.
+  /// The vector to a point from the nearest point of the segment.
   Vec3 way_to(Vec3 p) const {
     const Vec3 w = p - a;
     const double t = std::clamp(dot(w, ab) * inverse_length_squared, 0.0, 1.0);

@@ -15,9 +15,10 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+namespace {
 
-/// Writes the components of those that meet the box [low, high] to `out`; returns how many. The
-/// segments' ends are numbers of nodes.
+/// Writes the components of the segments that meet the box [low, high] to `out`; returns their
+/// number. The segments' ends are numbers of nodes.
 template <class Number>
 size_t select(const SegmentSet& set, const Number* a, const Number* b, const float* low,
               const float* high, float* const* out) {
@@ -69,7 +70,7 @@ size_t select_segments(const SegmentSet& set, const float* low, const float* hig
                        : select(set, set.narrow_ends(0), set.narrow_ends(1), low, high, out);
 }
 
-/// a and b of `count` segments from components of them.
+/// Computes a and b of `count` segments from their components.
 void place_segments(const SegmentFrame& frame, const float* const* components, size_t count,
                     StrutBatch& batch) {
   using D = hn::ScalableTag<double>;
@@ -93,6 +94,7 @@ void place_segments(const SegmentFrame& frame, const float* const* components, s
     }
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
 HWY_AFTER_NAMESPACE();
@@ -105,7 +107,7 @@ namespace {
 HWY_EXPORT(select_segments);
 HWY_EXPORT(place_segments);
 
-/// The nearest of single precision that is not greater.
+/// The nearest number in single precision that is not greater.
 float rounded_down(double x) {
   const float f = static_cast<float>(x);
   return f > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
@@ -114,7 +116,7 @@ float rounded_down(double x) {
 }  // namespace
 
 void SegmentSelection::select(const SegmentSet& set, const Box3& box) {
-  constexpr size_t vector = 2 * most_simd_doubles;
+  constexpr size_t vector = 2 * max_simd_doubles;
   float low[3], high[3];
   float* out[6];
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The segments of a set that may touch a box, moved into model space batch by batch.
+// Selects the segments of a set that may touch a box, and moves them into model space batch by
+// batch.
 #pragma once
 
 #include <array>
@@ -19,11 +20,12 @@ struct SegmentFrame {
 
 class SegmentSelection {
  public:
-  /// Selects, instead of those selected before, the segments whose bounding box meets `box` (the
-  /// set's coordinates).
+  /// Selects the segments whose bounding box meets `box` (the set's coordinates). Replaces the
+  /// earlier selection.
   void select(const SegmentSet& set, const Box3& box);
   size_t count() const { return count_; }
-  /// Fills a batch with the segments from number `first` on, as many as it holds; leaves its radii.
+  /// Fills a batch with the segments from number `first` on, as many as fit; does not set its
+  /// radii.
   void place(const SegmentFrame& frame, size_t first, StrutBatch& batch) const;
 
  private:

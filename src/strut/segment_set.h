@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Segments that are stored for long and drawn often: in single precision, relative to an origin
-// near by, each end once however many segments share it, and in runs of neighbours with a box each.
+// Segments that are stored for long and drawn often. Coordinates are in single precision, relative
+// to a nearby origin. Each node is stored once, even if many segments share it. Segments form runs
+// of neighbours, each with a box.
 #pragma once
 
 #include <array>
@@ -22,10 +23,10 @@ class SegmentSet {
 
   SegmentSet() = default;
   /// Segment i joins nodes[ends[i][0]] and nodes[ends[i][1]]. Run i holds the segments from
-  /// starts[i] to starts[i + 1], the last one those from its start to the end.
+  /// starts[i] to starts[i + 1]; the last run holds those from its start to the end.
   SegmentSet(const std::vector<Node>& nodes, const std::vector<std::array<uint32_t, 2>>& ends,
              const std::vector<uint32_t>& starts);
-  /// The same of segments that share no nodes.
+  /// The same for segments that share no nodes.
   SegmentSet(const std::vector<FloatSegment>& segments, const std::vector<uint32_t>& starts);
 
   size_t count() const { return count_; }
@@ -35,8 +36,8 @@ class SegmentSet {
   const float* nodes(int axis) const {
     return nodes_.data() + static_cast<size_t>(axis) * node_count_;
   }
-  /// First or second ends of all segments, as numbers of nodes, of 16 or 32 bits; a vector may be
-  /// read at any of them.
+  /// First or second ends of all segments, as numbers of nodes, of 16 or 32 bits. A full vector may
+  /// be read at any of them.
   bool is_wide() const { return node_count_ > 0x10000; }
   const uint16_t* narrow_ends(size_t end) const { return narrow_.data() + end * count_; }
   const uint32_t* wide_ends(size_t end) const { return wide_.data() + end * count_; }
@@ -44,7 +45,7 @@ class SegmentSet {
   size_t runs() const { return starts_.empty() ? 0 : starts_.size() - 1; }
   size_t run_start(size_t run) const { return starts_[run]; }
   size_t run_end(size_t run) const { return starts_[run + 1]; }
-  /// Bound 0 to 5 (least x, y, z, greatest x, y, z) of all runs.
+  /// Bound 0 to 5 (minimum x, y, z, maximum x, y, z) of all runs.
   const float* bound(int b) const { return bounds_.data() + static_cast<size_t>(b) * runs(); }
 
   uint64_t bytes() const {
@@ -54,7 +55,7 @@ class SegmentSet {
   }
 
  private:
-  static constexpr size_t padding = 2 * most_simd_doubles;  // lanes of the widest vector of floats
+  static constexpr size_t padding = 2 * max_simd_doubles;  // lanes of the widest vector of floats
 
   template <class Number>
   void set_bounds(const std::vector<Number>& ends);
@@ -63,7 +64,7 @@ class SegmentSet {
   std::vector<float> nodes_, bounds_;  // one array after the other
   std::vector<uint16_t> narrow_;       // likewise, then the padding
   std::vector<uint32_t> wide_;
-  std::vector<uint32_t> starts_;  // and the end of the last run
+  std::vector<uint32_t> starts_;  // with the end of the last run
 };
 
 }  // namespace msq

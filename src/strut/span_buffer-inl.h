@@ -21,7 +21,7 @@ namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Spans waiting to be drawn.
+/// Spans that are not drawn yet.
 class SpanBuffer {
  public:
   explicit SpanBuffer(uint64_t* words) : words_(words) {}
@@ -44,7 +44,7 @@ class SpanBuffer {
         set_bits(words_, bit, uint64_t{bit} + more);
         continue;
       }
-      // One unaligned word, whichever bit the span starts at.
+      // One unaligned word, for any start bit of the span.
       const uint64_t mask = (~uint64_t{0} >> (63 - more)) << (bit & 7);
       uint64_t word;
       std::memcpy(&word, bytes + (bit >> 3), sizeof word);
@@ -59,7 +59,7 @@ class SpanBuffer {
 
   uint64_t* const words_;
   size_t count_ = 0;
-  int32_t bits_[capacity + 2 * most_simd_doubles], more_[capacity + 2 * most_simd_doubles];
+  int32_t bits_[capacity + 2 * max_simd_doubles], more_[capacity + 2 * max_simd_doubles];
 };
 
 }  // namespace HWY_NAMESPACE

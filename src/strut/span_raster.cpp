@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "base/borrowed.h"
 #include "base/simd.h"
 #include "strut/fast_spans-inl.h"
 #include "strut/general_spans-inl.h"
@@ -14,10 +15,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
+namespace {
 
 template <Radii radii>
-HWY_INLINE void draw_struts(const RasterTarget& target, const StrutBatch& batch,
-                            const StrutSetups& setups, DoubtfulSpans& doubts) {
+HWY_NOINLINE void draw_struts(const RasterTarget& target, const StrutBatch& batch,
+                              const StrutSetups& setups, DoubtfulSpans& doubts) {
   FastSpans<radii> spans(target, batch, setups, doubts);
   for (size_t i = 0; i < batch.count; ++i) {
     const auto index = [&](const int32_t* values) { return static_cast<size_t>(values[i]); };
@@ -40,7 +42,8 @@ HWY_INLINE void draw_struts(const RasterTarget& target, const StrutBatch& batch,
 
 void raster_struts(const RasterTarget& target, const StrutBatch& batch, bool varying,
                    DoubtfulSpans& doubts) {
-  StrutSetups setups;
+  const Borrowed<StrutSetups> borrowed;
+  StrutSetups& setups = *borrowed;
   set_up_struts(target, batch, setups);
   if (!varying)
     draw_struts<Radii::constant>(target, batch, setups, doubts);
@@ -50,6 +53,7 @@ void raster_struts(const RasterTarget& target, const StrutBatch& batch, bool var
     draw_struts<Radii::bounded>(target, batch, setups, doubts);
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
 HWY_AFTER_NAMESPACE();
@@ -91,13 +95,13 @@ SpanRaster::SpanRaster(const RowBlock& alive) : alive_(alive) {
 
   for (uint64_t j = alive.y0; j < alive.y1; ++j) y_.push_back(grid.y(j));
   for (uint64_t k = alive.z0; k < alive.z1; ++k) z_.push_back(grid.z(k));
-  y_.resize(y_.size() + most_simd_doubles, y_.back());
-  // A line of the cache more to a layer: neighbouring layers then use different sets of it.
+  y_.resize(y_.size() + max_simd_doubles, y_.back());
+  // One more cache line per layer: neighbouring layers then use different cache sets.
   layer_words_ = alive.rows() * words + 8;
   certain_.assign(alive.layers() * layer_words_ + 1, 0);  // a word of room for unaligned writes
 }
 
-void SpanRaster::draw(const StrutBatch& struts, double margin) {
+RasterTarget SpanRaster::target(double margin) {
   const SampleGrid& grid = *alive_.grid;
   RasterTarget target;
   target.y = y_.data();
@@ -107,25 +111,28 @@ void SpanRaster::draw(const StrutBatch& struts, double margin) {
   target.row_words = alive_.row_words();
   target.layer_words = layer_words_;
   target.certain = certain_.data();
-  target.x0 = grid.origin.x;
+  target.x0 = grid.x(0);
   target.inverse_dx = 1 / grid.spacing.x;
   target.dy = grid.spacing.y;
   target.dz = grid.heights ? 0 : grid.spacing.z;
   target.last = static_cast<double>(grid.nx - 1);
-  target.slack = 1e-9 + 0x1p-50 * static_cast<double>(grid.nx);
+  target.slack = 1e-9 + 0x1p-50 * static_cast<double>(grid.first[0] + grid.nx);
   target.margin = margin;
-  doubtful_.clear();
+  return target;
+}
+
+void SpanRaster::draw(const RasterTarget& target, const StrutBatch& struts, DoubtfulSpans& doubts) {
   bool varying = false;
   for (size_t i = 0; i < struts.count; ++i) varying |= struts.low[i] != struts.high[i];
-  HWY_DYNAMIC_DISPATCH(raster_struts)(target, struts, varying, doubtful_);
+  HWY_DYNAMIC_DISPATCH(raster_struts)(target, struts, varying, doubts);
 }
 
 void SpanRaster::leave(Sample sample) {
-  // Struts that share a surface leave the same samples.
-  if (left_.size() == most_left_) {
+  // Struts that share a surface leave the same samples undecided.
+  if (left_.size() == max_left_) {
     std::sort(left_.begin(), left_.end());
     left_.erase(std::unique(left_.begin(), left_.end()), left_.end());
-    most_left_ = std::max(most_left_, 2 * left_.size());
+    max_left_ = std::max(max_left_, 2 * left_.size());
   }
   left_.push_back(sample);
 }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Struts written into bit rows as x-spans, instead of points asked one by one.
+// Writes struts into bit rows as x-spans, instead of evaluating points one by one.
 //
-// A row cuts a capsule, which is convex, in one interval. The raster draws the interval's samples
-// that are certainly inside a capsule thinner by a margin than any radius in its reach. Samples
-// that it does not rule out of one thicker by the margin either are first compared with that one
-// strut, in double precision and with the radius at the sample; only those within the margin of the
-// strut's surface are left to the caller's scalar predicate. The margin exceeds, many times over,
-// the rounding of the span's ends, of the sample positions and of the predicate. The result is the
-// predicate's answer at every sample, bit for bit, for constant and varying radii, on every
-// instruction set.
+// A row cuts a capsule, which is convex, in one interval. The raster uses two shells: a capsule
+// thinner by a margin than the minimum radius in its reach, and one thicker by the margin than the
+// maximum. Samples inside the thin one are certainly inside, and the raster draws them. Samples
+// outside the thick one are ruled out. The other samples are first compared with that one strut, in
+// double precision and with the radius at the sample. Only those within the margin of the strut's
+// surface go to the caller's scalar predicate. The margin exceeds, many times over, the rounding of
+// the span's ends, of the sample positions and of the predicate. So the result equals the predicate
+// at every sample, bit for bit, for constant and varying radii, on every instruction set.
 //
-// Why a shell in r rather than in x: errors of a squared distance are equivalent to a tiny change
-// of r everywhere, also on grazing rows, where the same errors move the span's end without bound.
+// Why a shell in r rather than in x: an error of a squared distance equals a tiny change of r
+// everywhere, also on grazing rows, where the same error moves the span's end without bound.
 #pragma once
 
 #include <bit>
@@ -30,18 +30,32 @@ class SpanRaster {
   /// `alive`: the rows to restrict.
   explicit SpanRaster(const RowBlock& alive);
 
-  /// Bounding box of the samples that are alive. Struts out of its reach may be left out.
+  /// Bounding box of the samples that are alive. Struts that do not reach it may be left out.
   const Box3& box() const { return box_; }
   bool empty() const { return empty_; }
   /// Samples in the box.
   double samples() const { return samples_; }
 
-  /// `margin`: at least the error of positions, struts and predicate, in model units.
-  /// radius_at(p): the radius at a sample, between the bounds of the strut that reaches it.
+  /// `margin`: at least the error of positions, struts and predicate, in model units. radius_at(p)
+  /// is the radius at a sample, between the bounds of the strut that reaches it.
   template <class RadiusAt>
   void add(const StrutBatch& struts, double margin, RadiusAt&& radius_at);
 
-  /// Clears what is outside; inside(p) decides the samples in doubt.
+  /// The same for solids that draw(target, doubts) draws: it sets certain samples and adds
+  /// undecided ones to `doubts`. holds(solid, p) then decides one solid at a point; `solid` is a
+  /// number that came with the doubt. The predicate of the whole is the union of such solids.
+  template <class Draw, class Holds>
+  void add_solids(double margin, Draw&& draw, Holds&& holds);
+  /// The same for struts, each of one radius.
+  template <class Holds>
+  void add_solids(const StrutBatch& struts, double margin, Holds&& holds) {
+    add_solids(
+        margin,
+        [&](const RasterTarget& target, DoubtfulSpans& doubts) { draw(target, struts, doubts); },
+        holds);
+  }
+
+  /// Clears the samples outside. inside(p) decides the doubtful samples.
   template <class Inside>
   void finish(const Job* job, Inside&& inside);
 
@@ -51,11 +65,12 @@ class SpanRaster {
     friend auto operator<=>(const Sample&, const Sample&) = default;
   };
 
-  void draw(const StrutBatch& struts, double margin);
+  RasterTarget target(double margin);
+  static void draw(const RasterTarget& target, const StrutBatch& struts, DoubtfulSpans& doubts);
   uint64_t* certain_row(size_t j, size_t k) {
     return certain_.data() + k * layer_words_ + j * alive_.row_words();
   }
-  /// The predicate will decide it.
+  /// Leaves the sample to the predicate.
   void leave(Sample sample);
 
   RowBlock alive_;
@@ -65,14 +80,15 @@ class SpanRaster {
   std::vector<double> y_, z_;  // of rows and layers
   size_t layer_words_ = 0;
   std::vector<uint64_t> certain_;  // rows of the block
-  DoubtfulSpans doubtful_;         // of the batch at hand
+  DoubtfulSpans doubtful_;         // of the current batch
   std::vector<Sample> left_;
-  size_t most_left_ = size_t{1} << 20;
+  size_t max_left_ = size_t{1} << 20;
 };
 
 template <class RadiusAt>
 void SpanRaster::add(const StrutBatch& struts, double margin, RadiusAt&& radius_at) {
-  draw(struts, margin);
+  doubtful_.clear();
+  draw(target(margin), struts, doubtful_);
   const SampleGrid& grid = *alive_.grid;
   uint32_t strut = UINT32_MAX;
   Vec3 a, ab;
@@ -101,6 +117,22 @@ void SpanRaster::add(const StrutBatch& struts, double margin, RadiusAt&& radius_
         certain[i / bits_per_word] |= bit;
       else
         leave({i, span.j, span.k});
+    }
+  }
+}
+
+template <class Draw, class Holds>
+void SpanRaster::add_solids(double margin, Draw&& draw, Holds&& holds) {
+  doubtful_.clear();
+  draw(target(margin), doubtful_);
+  for (const DoubtfulSpan& span : doubtful_) {
+    uint64_t* const certain = certain_row(span.j, span.k);
+    const uint64_t* const alive = alive_.row(alive_.y0 + span.j, alive_.z0 + span.k);
+    for (uint32_t i = span.first; i < span.first + span.count; ++i) {
+      const uint64_t bit = uint64_t{1} << (i % bits_per_word);
+      if (!(alive[i / bits_per_word] & ~certain[i / bits_per_word] & bit)) continue;
+      if (holds(span.strut, Vec3{alive_.grid->x(i), y_[span.j], z_[span.k]}))
+        certain[i / bits_per_word] |= bit;
     }
   }
 }

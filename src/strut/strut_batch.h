@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Struts as the raster takes them: component by component, so that several are set up at once.
+// Struts as input of the raster: component by component, so that several are set up at once.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,16 @@
 
 namespace msq {
 
-/// Struts in model units, each with the least and greatest radius, margins not included, at points
-/// in its reach. Kernels read and write whole vectors: up to `padding` entries past the count.
+/// Struts in model units, each with the minimum and maximum radius, without margins, at points in
+/// its reach. Kernels read and write whole vectors: up to `padding` entries past the count.
 struct StrutBatch {
-  static constexpr size_t capacity = 64, padding = most_simd_doubles;
+  static constexpr size_t capacity = 64, padding = max_simd_doubles;
 
   size_t count = 0;
   double a[3][capacity + padding], b[3][capacity + padding];
   double low[capacity + padding], high[capacity + padding];
-  /// Where `linear`: the radius at p is, within the margin, at_a + dot(gradient, p - a).
-  static constexpr double most_gradient = 0.5;  // of each component
+  /// If `linear`: the radius at p is, within the margin, at_a + dot(gradient, p - a).
+  static constexpr double max_gradient = 0.5;  // of each component
   bool linear = false;
   Vec3 gradient;
   double at_a[capacity + padding];

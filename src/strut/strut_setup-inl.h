@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fast kernel needs of each strut of a batch, computed for a vector of struts at a time in
-// double precision and kept in single. Included once for each instruction set.
+// The input of the fast kernel for each strut of a batch. It is computed for a vector of struts at
+// a time in double precision and stored in single precision. Included once for each instruction
+// set.
 //
-// Lengths are in columns, so that ends of spans come out as column numbers.
+// Lengths are in columns, so that ends of spans are column numbers.
 #if defined(MSQ_STRUT_STRUT_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_STRUT_STRUT_SETUP_INL_H
 #undef MSQ_STRUT_STRUT_SETUP_INL_H
@@ -26,26 +27,26 @@ namespace hn = hwy::HWY_NAMESPACE;
 using FullLanes = hn::ScalableTag<float>;
 using FewLanes = hn::CappedTag<float, 8>;
 
-/// Rows and layers of a strut by vectors: shape s puts lanes / 2^s of the lanes of a vector on
-/// rows, and as many layers as fill it.
-constexpr size_t most_shapes = 3;
+/// How vectors cover the rows and layers of a strut: shape s puts lanes / 2^s of the lanes of a
+/// vector on rows, and fills it with layers.
+constexpr size_t max_shapes = 3;
 template <class D>
 HWY_INLINE size_t shapes(D d, const RasterTarget& target) {
   const size_t lanes = hn::Lanes(d);
   if (!(target.dz > 0) || lanes < 4) return 1;  // layers one by one
-  return std::min<size_t>(most_shapes, static_cast<size_t>(std::countr_zero(lanes)));
+  return std::min<size_t>(max_shapes, static_cast<size_t>(std::countr_zero(lanes)));
 }
 
 struct StrutSetups {
   enum Kernel : int32_t { none = 0, general = 1, few = 2, fast = 3 };
-  /// Vectors of FewLanes up to which a strut is of kernel `few`.
-  static constexpr size_t most_few = 4;
+  /// Maximum number of vectors of FewLanes of a strut of kernel `few`.
+  static constexpr size_t max_few = 4;
   static constexpr size_t room = StrutBatch::capacity + StrutBatch::padding;
 
   int32_t kernel[room];  // none: meets no row of the target
   int32_t j0[room], j1[room], k0[room], k1[room];
   int32_t shape[room], row_vectors[room], vectors[room];  // for all rows; for all rows and layers
-  int32_t column[room];                  // a whole one near the end a: columns count from it
+  int32_t column[room];                  // an integer near the end a: the origin of column numbers
   int32_t clipped[room];                 // by the first or the last column
   float first[room], last[room];         // columns of the target
   float a_column[room], b_column[room];  // of the ends
@@ -59,7 +60,7 @@ struct StrutSetups {
   float error[room], root_error[room], end_error[room];  // E, sqrt(E); see fast_spans-inl.h
 };
 
-/// Rows of evenly spaced values, [first, end), that may lie in [low, high]. One too many does no
+/// Rows of evenly spaced values, [first, end), that may lie in [low, high]. One extra row does no
 /// harm.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void index_range(D d, double start, double step, size_t count, V low, V high, V& first,
@@ -76,7 +77,7 @@ HWY_INLINE void index_range(D d, double start, double step, size_t count, V low,
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void index_range(D d, const double* values, size_t count, V low, V high, V& first,
                             V& end) {
-  HWY_ALIGN double bounds[2][most_simd_doubles];
+  HWY_ALIGN double bounds[2][max_simd_doubles];
   hn::Store(low, d, bounds[0]);
   hn::Store(high, d, bounds[1]);
   for (size_t l = 0; l < hn::Lanes(d); ++l) {
@@ -89,7 +90,7 @@ HWY_INLINE void index_range(D d, const double* values, size_t count, V low, V hi
   end = hn::Load(d, bounds[1]);
 }
 
-/// The shape that needs the fewest vectors for so many rows and layers.
+/// The shape that needs the fewest vectors for that many rows and layers.
 template <class D, class V = hn::Vec<D>>
 struct ChosenLayout {
   V shape, row_vectors, vectors;
@@ -142,7 +143,7 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
       z_first = hn::Add(hn::Set(d, target.z[0]), hn::Mul(k0, hn::Set(d, target.dz)));
     } else {
       index_range(d, target.z, target.layers, z_low, z_high, k0, k1);
-      z_first = zero;  // the kernel looks it up
+      z_first = zero;  // the kernel reads it from a table
     }
     const V y_first = hn::Add(hn::Set(d, target.y[0]), hn::Mul(j0, hn::Set(d, target.dy)));
 
@@ -171,20 +172,20 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
                                       hn::Set(d, 2.0), hn::Set(d, 4.0));
     const V choice = hn::MulAdd(hn::Mul(choices, along),
                                 hn::MulAdd(along, hn::Set(d, 1.05), hn::Set(d, 0.95)), one);
-    // The radius at a sample is computed, too, where it is linear.
+    // If the radius is linear, its value at a sample has an error, too.
     const V room = hn::Mul(choice, hn::Set(d, batch.linear ? 1.5 : 1.0));
     const V error = hn::Mul(squared_error, room);
     const V end_error = hn::MulAdd(hn::Set(d, 32 * u), hn::MulAdd(whole, inverse_across, one),
                                    hn::Set(d, target.slack));
 
     const V reach = hn::Add(hn::Add(r, shift), one);
-    // Also where overflow leaves no number.
+    // Also if overflow leads to NaN.
     const auto before = hn::Lt(hn::Add(hn::Max(a_column, hn::Add(a_column, dx)), reach), zero);
     const auto beyond =
         hn::Gt(hn::Sub(hn::Min(a_column, hn::Add(a_column, dx)), reach), hn::Set(d, target.last));
     const auto meets = hn::AndNot(hn::Or(before, beyond), hn::And(hn::Lt(j0, j1), hn::Lt(k0, k1)));
-    // Not nearly along x, not points, not needles; and grids that are neither so fine nor so coarse
-    // that single precision overflows.
+    // Not nearly along x, not points, not needles; and grids neither so fine nor so coarse that
+    // single precision overflows.
     auto serves = hn::Lt(inverse_across, hn::Set(d, 20.0));
     serves = hn::And(serves, hn::Gt(length, hn::Mul(whole, hn::Set(d, 1e-9))));
     serves = hn::And(serves, hn::Gt(r, hn::Mul(whole, hn::Set(d, 1e-4))));
@@ -195,7 +196,7 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     serves = hn::And(serves, hn::Lt(hn::Abs(column), hn::Set(d, 0x1p30)));
     const auto few = layout(d, FewLanes(), target, hn::Sub(j1, j0), hn::Sub(k1, k0));
     auto chosen = few;
-    const auto is_few = hn::Le(few.vectors, hn::Set(d, static_cast<double>(StrutSetups::most_few)));
+    const auto is_few = hn::Le(few.vectors, hn::Set(d, static_cast<double>(StrutSetups::max_few)));
     if (hn::Lanes(FullLanes()) > hn::Lanes(FewLanes())) {
       const auto full = layout(d, FullLanes(), target, hn::Sub(j1, j0), hn::Sub(k1, k0));
       chosen.shape = hn::IfThenElse(is_few, few.shape, full.shape);

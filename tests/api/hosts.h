@@ -16,7 +16,7 @@ typedef struct host_log {
   pthread_t thread;  /* that makes the calls to msq */
   const char* wrong; /* the first thing that was */
   uint64_t calls, points, released;
-  int rests; /* 1: the first calls take so long that other threads get to work, if any may */
+  int rests;        /* 1: the first calls take so long that other threads get to work, if any may */
   uint64_t fail_at; /* the call to fail at, from 1; 0: none */
   int32_t code;     /* to fail with */
   int bad;          /* 1: at the call to fail at, answer what cannot be instead */

@@ -33,9 +33,9 @@ static inline void assert_image_refused(msq_context* context, use_image_fn use,
   assert_refused(use(context, image), MSQ_E_ARGUMENT, text);
 }
 
-/* Every way in which an image can be wrong, for a user that takes least_size values and more along
+/* Every way in which an image can be wrong, for a user that takes min_size values and more along
  * an axis. */
-static inline void check_bad_images(use_image_fn use, uint64_t least_size) {
+static inline void check_bad_images(use_image_fn use, uint64_t min_size) {
   msq_context* context = make_context();
   const uint64_t held = memory_of(context).bytes;
   const msq_image good = small_image();
@@ -56,7 +56,7 @@ static inline void check_bad_images(use_image_fn use, uint64_t least_size) {
   assert_image_refused(context, use, &image, "reserved");
   for (int axis = 0; axis < 3; ++axis) {
     image = good;
-    image.size[axis] = least_size - 1;
+    image.size[axis] = min_size - 1;
     assert_image_refused(context, use, &image, "image.size");
     image.size[axis] = ((uint64_t)1 << 20) + 1;
     assert_image_refused(context, use, &image, "1048577");
@@ -65,6 +65,10 @@ static inline void check_bad_images(use_image_fn use, uint64_t least_size) {
     assert_image_refused(context, use, &image, "cell_size");
     image.grid.cell_size[axis] = NAN;
     assert_image_refused(context, use, &image, "cell_size");
+    image.grid.cell_size[axis] = 9.5e-76;
+    assert_image_refused(context, use, &image, "is 9.5e-76; it must be from 1e-75 to 1e75");
+    image.grid.cell_size[axis] = 1.5e75;
+    assert_image_refused(context, use, &image, "is 1.5e+75; it must be from 1e-75 to 1e75");
     image = good;
     image.grid.origin[axis] = INFINITY;
     assert_image_refused(context, use, &image, "origin");

@@ -29,6 +29,10 @@ static inline void check_grid_refusals(msq_neighbourhood* grid, use_fn create, v
     assert_refused(create(env, def), MSQ_E_ARGUMENT, "grid.cell_size is 0;");
     grid->cell_size[axis] = -2;
     assert_refused(create(env, def), MSQ_E_ARGUMENT, "grid.cell_size is -2;");
+    grid->cell_size[axis] = 9.5e-76;
+    assert_refused(create(env, def), MSQ_E_ARGUMENT, "is 9.5e-76; it must be from 1e-75 to 1e75");
+    grid->cell_size[axis] = 1.5e75;
+    assert_refused(create(env, def), MSQ_E_ARGUMENT, "is 1.5e+75; it must be from 1e-75 to 1e75");
     *grid = good;
   }
   for (int i = 0; i < 9; ++i) { /* orthonormal within 1e-9 */

@@ -119,6 +119,12 @@ static void points_must_differ(void** state) {
   const double origin[3] = {0, 0, 0}, next[3] = {0, 1e-160, 0};
   assert_makes_nothing(msq_field, msq_field_gradient(context, origin, 1, next, 2, &made),
                        MSQ_E_ARGUMENT, "1e-140");
+  const double far[3] = {0, 1e154, 0}, too_far[3] = {0, 1e155, 0};
+  msq_field* field;
+  assert_ok(msq_field_gradient(context, origin, 1, far, 2, &field));
+  msq_field_release(field);
+  assert_makes_nothing(msq_field, msq_field_gradient(context, origin, 1, too_far, 2, &made),
+                       MSQ_E_ARGUMENT, "1e+155");
   msq_context_release(context);
 }
 

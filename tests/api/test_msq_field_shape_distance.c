@@ -15,7 +15,16 @@ static msq_shape_distance_field_def distance_def(const msq_shape* shape) {
   return def;
 }
 
-DEFINE_CREATE(field, field_shape_distance, shape_distance_field_def)
+static msq_status create(void* env, void* def) {
+  msq_field* made = (msq_field*)untouched();
+  const msq_status status = msq_field_shape_distance(
+      (msq_context*)env, (const msq_shape_distance_field_def*)def, &made, NULL);
+  if (status == MSQ_OK)
+    msq_field_release(made);
+  else
+    assert_ptr_equal(made, untouched());
+  return status;
+}
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
@@ -42,7 +51,7 @@ static void field_is_the_curve_over_the_distance(void** state) {
       msq_shape_distance_field_def def = distance_def(shape);
       msq_field* field;
       if (is_sampled) def.step = 0.25;
-      assert_ok(msq_field_shape_distance(context, &def, &field));
+      assert_ok(msq_field_shape_distance(context, &def, &field, NULL));
       msq_shape_release(shape); /* the field keeps it */
       assert_near(field_at(context, field, 2, 2, 2), 10, 1e-5);
       assert_near(field_at(context, field, 0.5, 2, 2), 15, 1e-5);
@@ -60,11 +69,12 @@ static void bad_arguments_are_refused(void** state) {
   msq_shape* shape = make_box(context);
   msq_shape_distance_field_def def = distance_def(shape);
   (void)state;
-  assert_makes_nothing(msq_field, msq_field_shape_distance(NULL, &def, &made), MSQ_E_ARGUMENT,
+  assert_makes_nothing(msq_field, msq_field_shape_distance(NULL, &def, &made, NULL), MSQ_E_ARGUMENT,
                        "context is NULL");
-  assert_makes_nothing(msq_field, msq_field_shape_distance(context, NULL, &made), MSQ_E_ARGUMENT,
-                       "def is NULL");
-  assert_refused(msq_field_shape_distance(context, &def, NULL), MSQ_E_ARGUMENT, "field is NULL");
+  assert_makes_nothing(msq_field, msq_field_shape_distance(context, NULL, &made, NULL),
+                       MSQ_E_ARGUMENT, "def is NULL");
+  assert_refused(msq_field_shape_distance(context, &def, NULL, NULL), MSQ_E_ARGUMENT,
+                 "field is NULL");
   def.reserved = 3;
   assert_refused(create(context, &def), MSQ_E_ARGUMENT, "reserved is 3");
   def = distance_def(NULL);
@@ -74,6 +84,12 @@ static void bad_arguments_are_refused(void** state) {
   assert_refused(create(context, &def), MSQ_E_ARGUMENT, "curve is NULL");
   def.curve_count = 0;
   assert_refused(create(context, &def), MSQ_E_ARGUMENT, "curve_count is 0");
+  const double repeated[4] = {1, 0, 1, 2}, falling[4] = {1, 0, 0.5, 2};
+  def.curve_count = 2;
+  def.curve = repeated;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "ascend");
+  def.curve = falling;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0.5");
   for (int which = 0; which < 3; ++which) {
     def = distance_def(shape);
     def.step = not_finite(which);
@@ -94,12 +110,77 @@ static void bad_arguments_are_refused(void** state) {
   msq_context_release(context);
 }
 
+typedef struct cancelling {
+  msq_job* job;
+  int calls;
+} cancelling;
+
+static int32_t all_inside(void* user, const double* points, uint64_t count, uint8_t* inside) {
+  (void)user;
+  (void)points;
+  memset(inside, 1, (size_t)count);
+  return 0;
+}
+
+/* Cancels the job of the call that it is part of. */
+static int32_t distance_until_cancelled(void* user, const double* points, uint64_t count,
+                                        double* values) {
+  cancelling* c = (cancelling*)user;
+  (void)points;
+  memset(values, 0, (size_t)count * sizeof *values);
+  if (++c->calls == 5) assert_ok(msq_job_cancel(c->job));
+  return 0;
+}
+
+static void job_cancels_and_tells_the_progress(void** state) {
+  msq_context* context = make_context();
+  msq_shape* shape = make_cube_mesh(context);
+  msq_shape_distance_field_def def = distance_def(shape);
+  msq_host_shape_def host;
+  cancelling user = {NULL, 0};
+  msq_field* field;
+  double progress = 0;
+  (void)state;
+  for (int is_sampled = 0; is_sampled < 2; ++is_sampled) {
+    if (is_sampled) def.step = 0.25;
+    assert_ok(msq_job_create(&user.job));
+    assert_ok(msq_field_shape_distance(context, &def, &field, user.job));
+    assert_ok(msq_job_progress(user.job, &progress));
+    assert_true(progress == 1);
+    msq_field_release(field);
+    assert_ok(msq_job_cancel(user.job));
+    assert_makes_nothing(msq_field, msq_field_shape_distance(context, &def, &made, user.job),
+                         MSQ_E_CANCELLED, "cancelled");
+    msq_job_release(user.job);
+  }
+  msq_shape_release(shape);
+  assert_ok(msq_host_shape_def_init(&host, sizeof host));
+  host.inside = all_inside;
+  host.distance = distance_until_cancelled;
+  host.user = &user;
+  for (int axis = 0; axis < 3; ++axis) {
+    host.min[axis] = 0;
+    host.max[axis] = 1;
+  }
+  assert_ok(msq_shape_from_host(context, &host, &shape));
+  def.shape = shape;
+  assert_ok(msq_job_create(&user.job));
+  assert_makes_nothing(msq_field, msq_field_shape_distance(context, &def, &made, user.job),
+                       MSQ_E_CANCELLED, "cancelled");
+  assert_int_equal(user.calls, 5);
+  msq_job_release(user.job);
+  msq_shape_release(shape);
+  assert_int_equal(memory_of(context).bytes, 0);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(field_is_the_curve_over_the_distance),
       cmocka_unit_test(bad_arguments_are_refused),
+      cmocka_unit_test(job_cancels_and_tells_the_progress),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -98,7 +98,7 @@ static void release_of_null_does_nothing(void** state) {
 }
 
 /* 64 scales, the most there may be, all the same structure. */
-static void most_scales_are_64(void** state) {
+static void max_scales_are_64(void** state) {
   parts p = make_parts();
   msq_scale_def scales[65] = {{0}};
   (void)state;
@@ -238,13 +238,64 @@ static void wrong_skins_are_refused(void** state) {
   release_parts(&p);
 }
 
+static int32_t everywhere(void* user, const double* points, uint64_t count, uint8_t* inside) {
+  (void)user;
+  (void)points;
+  memset(inside, 1, count);
+  return 0;
+}
+
+/* The distance to the boundary that voxels and hosts know is a bound, and tells no depth. */
+static void shapes_without_depths_have_no_skin(void** state) {
+  static const double center[3] = {2, 2, 2}, top[3] = {2, 2, 4};
+  static const uint8_t values[8] = {0, 1, 1, 1, 1, 1, 1, 1};
+  parts p = make_parts();
+  msq_shape* shapes[6];
+  msq_voxels_def voxels;
+  msq_host_shape_def host;
+  (void)state;
+  shapes[0] = make_box(p.context);
+  assert_ok(msq_shape_from_sphere(p.context, center, 1, &shapes[1]));
+  assert_ok(msq_shape_from_cylinder(p.context, center, top, 1, &shapes[2]));
+  shapes[3] = make_cube_mesh(p.context);
+  assert_ok(msq_voxels_def_init(&voxels, sizeof voxels));
+  voxels.image.values = values;
+  voxels.image.value_type = MSQ_UINT8;
+  voxels.threshold = 0.5;
+  for (int axis = 0; axis < 3; ++axis) voxels.image.size[axis] = 2;
+  assert_ok(msq_shape_from_voxels(p.context, &voxels, &shapes[4]));
+  assert_ok(msq_host_shape_def_init(&host, sizeof host));
+  host.inside = everywhere;
+  for (int axis = 0; axis < 3; ++axis) {
+    host.min[axis] = 0;
+    host.max[axis] = 4;
+  }
+  assert_ok(msq_shape_from_host(p.context, &host, &shapes[5]));
+  for (int i = 0; i < 6; ++i) {
+    msq_scale_def scales[2] = {{.shape = shapes[i]}, {.structure = p.structure}};
+    msq_model_def def = model_def(scales, 2);
+    assert_ok(create(p.context, &def));
+    scales[1].skin.value = 0.25;
+    if (i < 4)
+      assert_ok(create(p.context, &def));
+    else
+      assert_refused(create(p.context, &def), MSQ_E_UNSUPPORTED,
+                     "scale 1 is to leave a skin in a shape whose depth is not known");
+    msq_shape_release(shapes[i]);
+  }
+  release_parts(&p);
+}
+
 static void wrong_sizes_are_refused(void** state) {
   parts p = make_parts();
   const msq_scale_def scales[1] = {{.shape = p.shape}};
-  const uint32_t refused[] = {1, 2 * sizeof(void*) - 1, UINT32_MAX};
+  /* A scale after the first would not be aligned. */
+  const uint32_t refused[] = {
+      1,   2 * sizeof(void*) - 1, UINT32_MAX, sizeof(msq_scale_def) + 1, sizeof(msq_scale_def) + 4,
+      4097};
   msq_model_def def = model_def(scales, 1);
   (void)state;
-  for (int i = 0; i < 3; ++i) {
+  for (size_t i = 0; i < sizeof refused / sizeof refused[0]; ++i) {
     def.scale_size = refused[i];
     assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale_size");
     assert_message_has_number(refused[i]);
@@ -285,7 +336,7 @@ int main(void) {
       cmocka_unit_test(model_is_the_intersection_of_its_scales),
       cmocka_unit_test(model_keeps_its_parts_alive),
       cmocka_unit_test(release_of_null_does_nothing),
-      cmocka_unit_test(most_scales_are_64),
+      cmocka_unit_test(max_scales_are_64),
       cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(scales_are_a_shape_then_structures),
       cmocka_unit_test(scales_of_a_newer_host_must_be_zero_in_the_rest),
@@ -293,6 +344,7 @@ int main(void) {
       cmocka_unit_test(scales_of_an_older_host_have_no_skin),
       cmocka_unit_test(skin_is_solid_under_the_surface),
       cmocka_unit_test(wrong_skins_are_refused),
+      cmocka_unit_test(shapes_without_depths_have_no_skin),
       cmocka_unit_test(wrong_sizes_are_refused),
       cmocka_unit_test(too_many_cells_are_refused),
   };

@@ -18,7 +18,8 @@ static msq_status ask(void* env, void* def) {
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
-  check_grown_def_init(init_query_def, offsetof(msq_query_def, critical_count), sizeof(msq_query_def));
+  check_grown_def_init(init_query_def, offsetof(msq_query_def, critical_count),
+                       sizeof(msq_query_def));
 }
 
 static void defaults_are_those_of_the_header(void** state) {

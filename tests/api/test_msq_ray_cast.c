@@ -161,6 +161,58 @@ static void hits_nothing_past_the_end(void** state) {
   msq_context_release(context);
 }
 
+/* A ray that ends on a boundary, which is inside, hits there; one that ends a number before does
+ * not; one that begins there, too, starts inside. */
+static void hits_what_begins_at_its_end(void** state) {
+  /* Box and struts: a face, the side of a strut, and again with directions of other lengths. */
+  const double origins[][3] = {{-1, 0.5, 0.5}, {0.5, 0.25, 3}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+  const double directions[][3] = {{1, 0, 0}, {0, 0, -0.5}, {-1, 0, 0}, {0, -0.25, 0}};
+  const double ends[][4] = {{1, 4, 0.375, 1.5}, {1, 4, 0, 0}};
+  const int32_t scales[] = {0, 0, 1, 1};
+  enum { rays = 4 };
+  (void)state;
+  for (int has_struts = 0; has_struts < 2; ++has_struts) {
+    msq_context* context = make_context();
+    msq_model* model = has_struts ? make_struts_model(context) : make_unit_box_model(context, NULL);
+    double t_min[rays], t_max[rays];
+    msq_rays_def def;
+    msq_ray_hit hits[rays];
+    assert_ok(msq_rays_def_init(&def, sizeof def));
+    def.count = rays;
+    def.origins = origins;
+    def.directions = directions;
+    def.t_max = t_max;
+    for (int by = -1; by <= 1; ++by) {
+      for (int i = 0; i < rays; ++i)
+        t_max[i] = by ? nextafter(ends[!has_struts][i], by * INFINITY) : ends[!has_struts][i];
+      assert_ok(msq_ray_cast(model, &def, NULL, hits, rays, NULL));
+      for (int i = 0; i < rays; ++i) {
+        /* With struts, the first two rays meet none at the face. */
+        if (has_struts && scales[i] == 0) {
+          assert_int_equal(hits[i].scale, -1);
+          continue;
+        }
+        if (!has_struts && scales[i] == 1) continue;
+        assert_int_equal(hits[i].scale, by < 0 ? -1 : scales[i]);
+        if (by == 0) assert_true(hits[i].t == t_max[i]);
+        if (by >= 0) assert_near(hits[i].t, ends[!has_struts][i], 1e-10);
+        if (by >= 0) assert_int_equal(hits[i].starts_inside, 0);
+        if (by >= 0) assert_true(hits[i].normal[i == 0 || i == 2 ? 0 : i == 1 ? 2 : 1] != 0);
+      }
+    }
+    memcpy(t_min, ends[!has_struts], sizeof t_min);
+    memcpy(t_max, ends[!has_struts], sizeof t_max);
+    def.t_min = t_min;
+    assert_ok(msq_ray_cast(model, &def, NULL, hits, rays, NULL));
+    for (int i = has_struts ? 2 : 0; i < rays; ++i) {
+      assert_int_equal(hits[i].starts_inside, 1);
+      assert_true(hits[i].t == t_min[i]);
+    }
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+}
+
 static void hits_struts_within_a_box(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_struts_model(context);
@@ -424,6 +476,7 @@ int main(void) {
       cmocka_unit_test(hits_a_box),
       cmocka_unit_test(hits_a_cylinder_along_its_axis),
       cmocka_unit_test(hits_nothing_past_the_end),
+      cmocka_unit_test(hits_what_begins_at_its_end),
       cmocka_unit_test(hits_struts_within_a_box),
       cmocka_unit_test(meets_struts_beside_others_along_the_ray),
       cmocka_unit_test(refuses_rays_that_make_no_sense),

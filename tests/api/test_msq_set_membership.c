@@ -392,6 +392,11 @@ static void wrong_grids_are_refused(void** state) {
     def.spacing[axis] = 1e308;
     def.counts[axis] = 3;
     assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "last point");
+    def = grid_points(0, 1, 2);
+    def.origin[axis] = 1e6;
+    def.spacing[axis] = 1e-11;
+    assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "would coincide");
+    assert_message_has("1e-11");
   }
   msq_model_release(model);
   msq_context_release(context);

@@ -99,6 +99,35 @@ static void box_too_large_to_measure_is_refused(void** state) {
   msq_context_release(context);
 }
 
+/* The lower corner and each side. */
+static void sizes_have_limits(void** state) {
+  const double most = 1e75, beyond = 1.0001e75;
+  msq_context* context = make_context();
+  (void)state;
+  for (int axis = 0; axis < 3; ++axis) {
+    double min[3] = {0, 0, 0}, max[3] = {1, 1, 1};
+    msq_shape* shape;
+    min[axis] = -most;
+    max[axis] = 0;
+    assert_ok(msq_shape_from_box(context, min, max, &shape));
+    msq_shape_release(shape);
+    min[axis] = most;
+    max[axis] = 2 * most;
+    assert_ok(msq_shape_from_box(context, min, max, &shape));
+    msq_shape_release(shape);
+    min[axis] = -0.5 * most;
+    max[axis] = 0.5002 * most;
+    assert_makes_nothing(msq_shape, msq_shape_from_box(context, min, max, &made), MSQ_E_ARGUMENT,
+                         "the limit is 1e+75");
+    assert_message_has("1.0002e+75");
+    min[axis] = -beyond;
+    max[axis] = -most;
+    assert_makes_nothing(msq_shape, msq_shape_from_box(context, min, max, &made), MSQ_E_ARGUMENT,
+                         "-1.0001e+75");
+  }
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(boundary_is_inside),
@@ -107,6 +136,7 @@ int main(void) {
       cmocka_unit_test(corners_that_are_not_finite_are_refused),
       cmocka_unit_test(min_must_be_less_than_max),
       cmocka_unit_test(box_too_large_to_measure_is_refused),
+      cmocka_unit_test(sizes_have_limits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

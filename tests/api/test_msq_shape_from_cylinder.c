@@ -104,12 +104,31 @@ static void wrong_arguments_are_refused(void** state) {
   msq_context_release(context);
 }
 
+/* Of coordinates, of the radius, and of the way from end to end along each axis. */
+static void sizes_have_limits(void** state) {
+  const double low[3] = {0, -0.6e75, 0}, high[3] = {0, 0.6e75, 0}, middle[3] = {0, 0.4e75, 0};
+  const double far[3] = {1e75, 0, 0}, too_far[3] = {0, 0, 1.0001e75};
+  msq_context* context = make_context();
+  msq_shape* shape;
+  (void)state;
+  assert_ok(msq_shape_from_cylinder(context, low, middle, 1e75, &shape));
+  msq_shape_release(shape);
+  assert_ok(msq_shape_from_cylinder(context, middle, far, 1, &shape));
+  msq_shape_release(shape);
+  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, low, high, 1, &made),
+                       MSQ_E_ARGUMENT, "1.2e+75");
+  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, low, middle, 1.0001e75, &made),
+                       MSQ_E_ARGUMENT, "the limit is 1e+75");
+  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, too_far, far, 1, &made),
+                       MSQ_E_ARGUMENT, "the limit is 1e+75");
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(boundary_is_inside),
-      cmocka_unit_test(slanted_cylinder_has_its_points),
-      cmocka_unit_test(report_has_its_measures),
-      cmocka_unit_test(wrong_arguments_are_refused),
+      cmocka_unit_test(boundary_is_inside),      cmocka_unit_test(slanted_cylinder_has_its_points),
+      cmocka_unit_test(report_has_its_measures), cmocka_unit_test(wrong_arguments_are_refused),
+      cmocka_unit_test(sizes_have_limits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,7 +58,7 @@ static msq_status read_file(void* env, void* def) {
   const request* r = (const request*)env;
   msq_shape* shape = (msq_shape*)untouched();
   const msq_status status =
-      msq_shape_from_file(r->context, r->path, (const msq_file_def*)def, &shape);
+      msq_shape_from_file(r->context, r->path, (const msq_file_def*)def, &shape, NULL);
   if (status == MSQ_OK)
     msq_shape_release(shape);
   else
@@ -75,7 +75,7 @@ static void defaults_are_those_of_the_header(void** state) {
   const msq_file_def def = file_def();
   (void)state;
   assert_int_equal(def.format, MSQ_FORMAT_AUTO);
-  assert_int_equal(def.winding_rule, MSQ_WINDING_NONZERO);
+  assert_int_equal(def.winding_rule, MSQ_WINDING_AUTO);
   assert_int_equal(def.reserved, 0);
   assert_true(def.unit_mm == 1);
   assert_int_equal(def.max_bytes, (uint64_t)4 << 30);
@@ -88,11 +88,11 @@ static void wrong_arguments_are_refused(void** state) {
   request r = {make_context(), "part.stl"};
   msq_file_def def = file_def();
   (void)state;
-  assert_makes_nothing(msq_shape, msq_shape_from_file(NULL, r.path, NULL, &made), MSQ_E_ARGUMENT,
-                       "context is NULL");
-  assert_makes_nothing(msq_shape, msq_shape_from_file(r.context, NULL, NULL, &made), MSQ_E_ARGUMENT,
-                       "path is NULL");
-  assert_refused(msq_shape_from_file(r.context, r.path, NULL, NULL), MSQ_E_ARGUMENT,
+  assert_makes_nothing(msq_shape, msq_shape_from_file(NULL, r.path, NULL, &made, NULL),
+                       MSQ_E_ARGUMENT, "context is NULL");
+  assert_makes_nothing(msq_shape, msq_shape_from_file(r.context, NULL, NULL, &made, NULL),
+                       MSQ_E_ARGUMENT, "path is NULL");
+  assert_refused(msq_shape_from_file(r.context, r.path, NULL, NULL, NULL), MSQ_E_ARGUMENT,
                  "shape is NULL");
   for (int i = 0; i < 2; ++i) {
     def = file_def();
@@ -100,9 +100,9 @@ static void wrong_arguments_are_refused(void** state) {
     assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, i ? "format is 7" : "format is -1");
     assert_message_has("from 0 to 6");
     def = file_def();
-    def.winding_rule = i ? 3 : -1;
+    def.winding_rule = i ? 4 : -1;
     assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, "winding_rule");
-    assert_message_has("from 0 to 2");
+    assert_message_has("from 0 to 3");
   }
   for (int i = 0; i < 4; ++i) {
     def = file_def();
@@ -113,6 +113,57 @@ static void wrong_arguments_are_refused(void** state) {
   def.reserved = 9;
   assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, "reserved is 9");
   msq_context_release(r.context);
+}
+
+/* Numbers that no float has. */
+static const char obj[] =
+    "v 300.123456789 0 0\nv 0 -1e-20 0\nv 0 0 0.1\nv 0.10000000000000001 12345678.123456789 1e10\n"
+    "f 1 2 3 4\n";
+
+static void text_keeps_every_digit(void** state) {
+  msq_context* context = make_context();
+  const char* path = write_file("part.obj", obj, sizeof obj - 1);
+  msq_shape* shape;
+  (void)state;
+  assert_ok(msq_shape_from_file(context, path, NULL, &shape, NULL));
+  unlink(path);
+  const msq_shape_report report = info_of(shape);
+  assert_true(report.max[0] == 300.123456789);
+  assert_true(report.min[1] == -1e-20);
+  assert_true(report.max[1] == 12345678.123456789);
+  assert_true(report.max[2] == 1e10);
+  msq_shape_release(shape);
+  msq_context_release(context);
+}
+
+static void error_names_path_and_line(void** state) {
+  request r = {make_context(), write_file("bad.obj", "v 1 2 3\nv 1 2 x\n", 16)};
+  (void)state;
+  assert_refused(read_file(&r, NULL), MSQ_E_IO, "bad.obj: OBJ: line 2");
+  assert_message_has("\"x\" is not a number");
+  unlink(r.path);
+  msq_context_release(r.context);
+}
+
+static void job_cancels_and_tells_the_progress(void** state) {
+  msq_context* context = make_context();
+  const char* path = write_file("part.obj", obj, sizeof obj - 1);
+  msq_shape* shape;
+  msq_job* job;
+  double progress = 0;
+  (void)state;
+  assert_ok(msq_job_create(&job));
+  assert_ok(msq_shape_from_file(context, path, NULL, &shape, job));
+  assert_ok(msq_job_progress(job, &progress));
+  assert_true(progress == 1);
+  msq_shape_release(shape);
+  assert_ok(msq_job_cancel(job));
+  assert_makes_nothing(msq_shape, msq_shape_from_file(context, path, NULL, &made, job),
+                       MSQ_E_CANCELLED, "cancelled");
+  msq_job_release(job);
+  unlink(path);
+  assert_int_equal(memory_of(context).bytes, 0);
+  msq_context_release(context);
 }
 
 #if MSQ_WITH_ASSIMP
@@ -133,7 +184,7 @@ static void stl_is_read_by_its_extension(void** state) {
   for (int i = 0; i < 3; ++i) {
     const char* path = write_stl(names[i]);
     msq_shape* shape;
-    assert_ok(msq_shape_from_file(context, path, NULL, &shape));
+    assert_ok(msq_shape_from_file(context, path, NULL, &shape, NULL));
     unlink(path); /* it was read at once */
     assert_is_cube(context, shape, 1);
     msq_shape_release(shape);
@@ -149,7 +200,7 @@ static void named_format_goes_before_the_extension(void** state) {
   msq_shape* shape;
   (void)state;
   def.format = MSQ_FORMAT_STL;
-  assert_ok(msq_shape_from_file(context, path, &def, &shape));
+  assert_ok(msq_shape_from_file(context, path, &def, &shape, NULL));
   assert_is_cube(context, shape, 1);
   msq_shape_release(shape);
   unlink(path);
@@ -163,7 +214,7 @@ static void unit_scales_the_shape(void** state) {
   msq_shape* shape;
   (void)state;
   def.unit_mm = 25.4;
-  assert_ok(msq_shape_from_file(context, path, &def, &shape));
+  assert_ok(msq_shape_from_file(context, path, &def, &shape, NULL));
   assert_is_cube(context, shape, 25.4);
   msq_shape_release(shape);
   unlink(path);
@@ -279,7 +330,7 @@ static void memory_limit_is_kept(void** state) {
 
 #else
 
-static void build_without_reader_says_so(void** state) {
+static void build_without_assimp_says_so(void** state) {
   request r = {make_context(), write_stl("cube.stl")};
   (void)state;
   assert_refused(read_file(&r, NULL), MSQ_E_UNSUPPORTED, "MSQ_WITH_ASSIMP");
@@ -294,6 +345,9 @@ int main(void) {
     cmocka_unit_test(def_init_honours_every_size),
     cmocka_unit_test(defaults_are_those_of_the_header),
     cmocka_unit_test(wrong_arguments_are_refused),
+    cmocka_unit_test(text_keeps_every_digit),
+    cmocka_unit_test(error_names_path_and_line),
+    cmocka_unit_test(job_cancels_and_tells_the_progress),
 #if MSQ_WITH_ASSIMP
     cmocka_unit_test(create_honours_every_struct_size),
     cmocka_unit_test(stl_is_read_by_its_extension),
@@ -309,7 +363,7 @@ int main(void) {
     cmocka_unit_test(limits_are_kept_to_the_byte),
     cmocka_unit_test(memory_limit_is_kept),
 #else
-    cmocka_unit_test(build_without_reader_says_so),
+    cmocka_unit_test(build_without_assimp_says_so),
 #endif
   };
   return cmocka_run_group_tests(tests, make_folder, remove_folder);

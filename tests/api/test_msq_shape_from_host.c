@@ -225,13 +225,14 @@ static void fields_of_its_distance_ask_the_calling_thread(void** state) {
   field_def.curve_count = 1;
   field_def.step = 0.1;
   log.rests = 1;
-  assert_ok(msq_field_shape_distance(context, &field_def, &field));
+  assert_ok(msq_field_shape_distance(context, &field_def, &field, NULL));
   assert_true(log.calls > 1000);
   assert_right(&log);
   log.calls = 0;
   log.fail_at = 500;
   log.code = 3;
-  assert_refused(msq_field_shape_distance(context, &field_def, &field), MSQ_E_HOST, "returned 3");
+  assert_refused(msq_field_shape_distance(context, &field_def, &field, NULL), MSQ_E_HOST,
+                 "returned 3");
   msq_field_release(field);
   msq_shape_release(shape);
   msq_context_release(context);

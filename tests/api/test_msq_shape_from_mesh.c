@@ -28,7 +28,7 @@ static void defaults_are_those_of_the_header(void** state) {
   (void)state;
   assert_ok(msq_mesh_def_init(&def, sizeof def));
   assert_int_equal(def.coordinate_type, MSQ_FLOAT64);
-  assert_int_equal(def.winding_rule, MSQ_WINDING_NONZERO);
+  assert_int_equal(def.winding_rule, MSQ_WINDING_AUTO);
   assert_int_equal(def.vertex_stride, 0);
   assert_null(def.vertices);
   assert_null(def.triangles);
@@ -140,16 +140,90 @@ static void arrays_are_copied(void** state) {
   msq_context_release(context);
 }
 
-/* Which of the rules NONZERO, EVEN_ODD, POSITIVE have the point inside, as bits 1, 2, 4. */
+/* Which of the rules NONZERO, EVEN_ODD, POSITIVE have the point inside, as bits 1, 2, 4. AUTO is
+ * NONZERO for closed meshes. */
 static int rules_at(msq_context* context, msq_mesh_def def, double x, double y, double z) {
   int rules = 0;
-  for (int32_t rule = MSQ_WINDING_NONZERO; rule <= MSQ_WINDING_POSITIVE; ++rule) {
+  for (int32_t rule = MSQ_WINDING_NONZERO; rule <= MSQ_WINDING_AUTO; ++rule) {
     def.winding_rule = rule;
     msq_model* model = make_shape_model(context, make_mesh(context, &def));
     rules |= is_inside(model, x, y, z) << rule;
     msq_model_release(model);
   }
-  return rules;
+  assert_int_equal(rules >> MSQ_WINDING_AUTO, rules & 1);
+  return rules & 7;
+}
+
+/* The cube without its side at x = 4. */
+static msq_mesh_def half_open_cube_def(uint32_t (*triangles)[3]) {
+  uint32_t count = 0;
+  for (int i = 0; i < 12; ++i) {
+    const uint32_t* t = cube_triangles()[i];
+    if (corners[t[0]][0] + corners[t[1]][0] + corners[t[2]][0] < 12)
+      memcpy(triangles[count++], t, sizeof *triangles);
+  }
+  assert_int_equal(count, 10);
+  return mesh_def((const double(*)[3])corners, 8, (const uint32_t(*)[3])triangles, count);
+}
+
+/* Seen from inside, the missing side takes less than half of all directions. */
+static void cube_without_a_side_is_the_box_by_auto(void** state) {
+  const msq_points_def points = grid_points(-0.55, 4.55, 31);
+  uint32_t triangles[12][3];
+  msq_context* context = make_context();
+  msq_mesh_def def = half_open_cube_def(triangles);
+  (void)state;
+  msq_model* cube = make_shape_model(context, make_mesh(context, &def));
+  msq_model* box = make_box_model(context);
+  assert_same_points(cube, box, &points, 31 * 31 * 31);
+  msq_model_release(cube);
+  /* By NONZERO rays to +x leave through the hole. */
+  def.winding_rule = MSQ_WINDING_NONZERO;
+  msq_model* leaking = make_shape_model(context, make_mesh(context, &def));
+  assert_int_equal(is_inside(leaking, 1, 2, 3), 0);
+  msq_model_release(leaking);
+  msq_model_release(box);
+  msq_context_release(context);
+}
+
+/* In the plane of the hole, at x = 4, the winding number is 1/2 but for rounding. Few rays
+ * meet struts of the lattice, so each part of the cube that rounding makes is left for the next
+ * one. */
+static void rays_in_the_plane_of_a_hole_end(void** state) {
+  enum { count = 64 };
+  uint32_t triangles[12][3];
+  double origins[count][3], directions[count][3];
+  msq_ray_hit hits[count];
+  msq_rays_def rays;
+  msq_context* context = make_context();
+  const msq_mesh_def def = half_open_cube_def(triangles);
+  msq_model* model = make_model(context, make_mesh(context, &def),
+                                make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 3, 0.01), NULL);
+  (void)state;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 0.09 * i;
+    directions[i][0] = 0;
+    directions[i][1] = cos(angle);
+    directions[i][2] = sin(angle);
+    origins[i][0] = 4;
+    origins[i][1] = 2 + 0.02 * i - 3 * directions[i][1];
+    origins[i][2] = 2 - 3 * directions[i][2];
+  }
+  assert_ok(msq_rays_def_init(&rays, sizeof rays));
+  rays.count = count;
+  rays.origins = origins;
+  rays.directions = directions;
+  assert_ok(msq_ray_cast(model, &rays, NULL, hits, count, NULL));
+  /* Some meet struts along x that cross the plane. */
+  int met = 0;
+  for (int i = 0; i < count; ++i)
+    if (hits[i].scale >= 0) {
+      assert_true(hits[i].t > 0 && hits[i].t < 7);
+      ++met;
+    }
+  assert_true(met < count / 4);
+  msq_model_release(model);
+  msq_context_release(context);
 }
 
 static void inside_out_cube_has_winding_minus_1(void** state) {
@@ -215,15 +289,15 @@ static void null_arguments_are_refused(void** state) {
 }
 
 static void unknown_numbers_are_refused(void** state) {
-  const int32_t rules[] = {-1, 3}, types[] = {0, 3, -1};
+  const int32_t rules[] = {-1, 4}, types[] = {0, 3, -1};
   msq_context* context = make_context();
   (void)state;
   for (size_t i = 0; i < 2; ++i) {
     msq_mesh_def def = cube_def();
     def.winding_rule = rules[i];
     assert_refused(create(context, &def), MSQ_E_ARGUMENT, "winding_rule");
-    assert_message_has(i ? "is 3;" : "is -1;");
-    assert_message_has("from 0 to 2");
+    assert_message_has(i ? "is 4;" : "is -1;");
+    assert_message_has("from 0 to 3");
   }
   for (size_t i = 0; i < 3; ++i) {
     msq_mesh_def def = cube_def();
@@ -306,6 +380,55 @@ static void index_out_of_range_is_refused(void** state) {
   msq_context_release(context);
 }
 
+static void coordinates_have_limits(void** state) {
+  msq_context* context = make_context();
+  double own[8][3];
+  (void)state;
+  memcpy(own, corners, sizeof own);
+  own[5][1] = -1e100;
+  own[7][2] = 1e100;
+  const msq_mesh_def def = mesh_def((const double(*)[3])own, 8, cube_triangles(), 12);
+  msq_shape_release(make_mesh(context, &def));
+  own[5][1] = -1.0001e100;
+  assert_makes_nothing(msq_shape, msq_shape_from_mesh(context, &def, &made), MSQ_E_MESH,
+                       "at most 1e100");
+  assert_message_has("vertex 5");
+  msq_context_release(context);
+}
+
+/* On a slanted face rounding decides; next to it the side does, and on faces along the axes, above,
+ * nothing but the rule. */
+static void slanted_faces_hold_to_rounding(void** state) {
+  const double vertices[4][3] = {{0, 0, 0}, {3, 0, 0}, {0, 5, 0}, {0, 0, 7}};
+  const uint32_t triangles[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  msq_context* context = make_context();
+  msq_mesh_def def;
+  uint64_t random = 3;
+  int inside = 0, outside = 0;
+  (void)state;
+  assert_ok(msq_mesh_def_init(&def, sizeof def));
+  def.vertices = vertices;
+  def.vertex_count = 4;
+  def.triangles = triangles[0];
+  def.triangle_count = 4;
+  msq_model* model = make_shape_model(context, make_mesh(context, &def));
+  for (int i = 0; i < 1000; ++i) {
+    const double a = random_between(&random, 0.1, 0.8);
+    const double b = random_between(&random, 0.05, 0.9 - a);
+    const double y = 5 * a, z = 7 * b, x = 3 * (1 - a - b);
+    assert_int_equal(is_inside(model, x * (1 - 1e-14), y, z), 1);
+    assert_int_equal(is_inside(model, x + 1e-14, y, z), 0);
+    if (is_inside(model, x, y, z))
+      ++inside;
+    else
+      ++outside;
+  }
+  assert_in_range(inside, 1, 999);
+  assert_in_range(outside, 1, 999);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void vertex_that_is_not_finite_is_refused(void** state) {
   msq_context* context = make_context();
   (void)state;
@@ -331,6 +454,8 @@ int main(void) {
       cmocka_unit_test(boundary_is_closed_in_x_and_half_open_in_y_and_z),
       cmocka_unit_test(vertices_have_any_type_and_stride),
       cmocka_unit_test(arrays_are_copied),
+      cmocka_unit_test(cube_without_a_side_is_the_box_by_auto),
+      cmocka_unit_test(rays_in_the_plane_of_a_hole_end),
       cmocka_unit_test(inside_out_cube_has_winding_minus_1),
       cmocka_unit_test(overlapping_cubes_have_winding_2),
       cmocka_unit_test(cubes_of_opposite_turn_cancel),
@@ -340,6 +465,8 @@ int main(void) {
       cmocka_unit_test(counts_beyond_memory_are_refused),
       cmocka_unit_test(mesh_without_triangles_is_refused),
       cmocka_unit_test(index_out_of_range_is_refused),
+      cmocka_unit_test(coordinates_have_limits),
+      cmocka_unit_test(slanted_faces_hold_to_rounding),
       cmocka_unit_test(vertex_that_is_not_finite_is_refused),
   };
   return cmocka_run_group_tests(tests, set_corners, NULL);

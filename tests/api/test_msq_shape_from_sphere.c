@@ -86,12 +86,25 @@ static void wrong_arguments_are_refused(void** state) {
   msq_context_release(context);
 }
 
+static void sizes_have_limits(void** state) {
+  const double far[3] = {0, -1e75, 1e75}, too_far[3] = {0, 0, -1.0001e75};
+  msq_context* context = make_context();
+  msq_shape* shape;
+  (void)state;
+  assert_ok(msq_shape_from_sphere(context, far, 1e75, &shape));
+  msq_shape_release(shape);
+  assert_makes_nothing(msq_shape, msq_shape_from_sphere(context, center, 1.0001e75, &made),
+                       MSQ_E_ARGUMENT, "the limit is 1e+75");
+  assert_makes_nothing(msq_shape, msq_shape_from_sphere(context, too_far, 1, &made), MSQ_E_ARGUMENT,
+                       "the limit is 1e+75");
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(boundary_is_inside),
-      cmocka_unit_test(points_of_the_ball_and_no_others),
-      cmocka_unit_test(report_has_its_measures),
-      cmocka_unit_test(wrong_arguments_are_refused),
+      cmocka_unit_test(boundary_is_inside),      cmocka_unit_test(points_of_the_ball_and_no_others),
+      cmocka_unit_test(report_has_its_measures), cmocka_unit_test(wrong_arguments_are_refused),
+      cmocka_unit_test(sizes_have_limits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

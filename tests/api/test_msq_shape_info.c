@@ -3,11 +3,11 @@
  * constructors. */
 #include "definitions.h"
 
-enum { most_vertices = 40, most_triangles = 40 };
+enum { max_vertices = 40, max_triangles = 40 };
 
 typedef struct soup {
-  double vertices[most_vertices][3];
-  uint32_t triangles[most_triangles][3];
+  double vertices[max_vertices][3];
+  uint32_t triangles[max_triangles][3];
   uint64_t vertex_count, triangle_count;
 } soup;
 

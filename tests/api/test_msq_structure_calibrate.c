@@ -35,7 +35,7 @@ static void lattices_have_their_closed_forms(void** state) {
       assert_ok(
           msq_structure_calibrate(context, structure, NULL, target, NULL, NULL, 0, &found, NULL));
       assert_int_equal(found.samples, 2 * 64 * 64 * 64);
-      assert_true(found.most_fraction == 1);
+      assert_true(found.max_fraction == 1);
       const double r = found.parameter / a, l = r * k; /* octet: struts are a / sqrt 2 long */
       const double known = cell == MSQ_UNIT_CELL_CUBIC ? 3 * pi * r * r - 8 * k * r * r * r
                            : cell == MSQ_UNIT_CELL_BCC
@@ -121,7 +121,7 @@ static void thin_foams_have_their_edges(void** state) {
     const double r = found.parameter / a, thin = pi * r * r * edges[i];
     const double least = jitters[i] < 0.5 ? 3 * pi * r * r : thin;
     check_fraction("foam", &found, target, least * (1 - 6 * r), thin * (1 + 1.6 * r));
-    assert_true(found.most_fraction > 0.99);
+    assert_true(found.max_fraction > 0.99);
     msq_structure_release(structure);
   }
   msq_context_release(context);
@@ -161,7 +161,7 @@ static void the_curve_ascends_and_threads_do_not_matter(void** state) {
   assert_memory_equal(fractions[0], fractions[1], sizeof fractions[0]);
   assert_memory_equal(&found[0], &found[1], sizeof found[0]);
   assert_int_equal(found[0].samples, 24000);
-  assert_true(fractions[0][0] == 0 && fractions[0][pairs - 1] == found[0].most_fraction);
+  assert_true(fractions[0][0] == 0 && fractions[0][pairs - 1] == found[0].max_fraction);
   for (int i = 1; i < pairs; ++i) {
     assert_true(fractions[0][i] > fractions[0][i - 1]);
     assert_true(parameters[0][i] >= parameters[0][i - 1]);
@@ -191,8 +191,8 @@ static void the_limit_of_the_radius_is_respected(void** state) {
   sample.spacing[0] *= 16;
   assert_ok(msq_structure_calibrate(context, structure, &sample, 0.4, parameters, fractions, 2,
                                     &found, NULL));
-  assert_near(found.most_fraction, 0.5, 0.01);
-  assert_true(fractions[1] == found.most_fraction && parameters[1] <= 4 && parameters[1] > 3.95);
+  assert_near(found.max_fraction, 0.5, 0.01);
+  assert_true(fractions[1] == found.max_fraction && parameters[1] <= 4 && parameters[1] > 3.95);
   const msq_calibration_report before = found;
   assert_refused(msq_structure_calibrate(context, structure, &sample, 0.6, parameters, fractions, 2,
                                          &found, NULL),
@@ -261,6 +261,16 @@ static void wrong_arguments_are_refused(void** state) {
   assert_refused(
       msq_structure_calibrate(context, call.structure, &sample, 0.5, pairs, pairs, 1, NULL, NULL),
       MSQ_E_ARGUMENT, "pair_count is 1");
+  /* A count that was forgotten. */
+  assert_refused(
+      msq_structure_calibrate(context, call.structure, &sample, 0.5, pairs, NULL, 0, NULL, NULL),
+      MSQ_E_ARGUMENT, "pair_count is 0; parameters must be NULL");
+  assert_refused(
+      msq_structure_calibrate(context, call.structure, &sample, 0.5, NULL, pairs, 0, NULL, NULL),
+      MSQ_E_ARGUMENT, "pair_count is 0; fractions must be NULL");
+  assert_refused(msq_structure_calibrate(context, call.structure, &sample, 0.5, pairs, pairs,
+                                         (1 << 20) + 1, NULL, NULL),
+                 MSQ_E_ARGUMENT, "from 2 to 1048576");
   assert_refused(
       msq_structure_calibrate(context, call.structure, &sample, 0.5, NULL, pairs, 2, NULL, NULL),
       MSQ_E_ARGUMENT, "parameters is NULL");
@@ -298,6 +308,54 @@ static void wrong_arguments_are_refused(void** state) {
   msq_context_release(context);
 }
 
+static int32_t nothing_inside(void* user, const msq_host_points* points, uint8_t* inside) {
+  (void)user;
+  memset(inside, 0, points->count);
+  return 0;
+}
+
+static int32_t no_values(void* user, const double* points, uint64_t count, double* values) {
+  (void)user;
+  (void)points;
+  memset(values, 0, count * sizeof *values);
+  return 0;
+}
+
+/* Lattices of several unit cells, and what the host computes. */
+static void kinds_without_onset_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_structure* structures[3];
+  msq_unit_cell_def cells[2];
+  msq_lattice_def lattice;
+  msq_host_structure_def host;
+  msq_host_function_def function;
+  (void)state;
+  for (int i = 0; i < 2; ++i) assert_ok(msq_unit_cell_def_init(&cells[i], sizeof cells[i]));
+  assert_ok(msq_lattice_def_init(&lattice, sizeof lattice));
+  lattice.cells = cells;
+  lattice.cell_count = 2;
+  lattice.radius.value = 0.1;
+  assert_ok(msq_structure_lattice(context, &lattice, &structures[0]));
+  assert_ok(msq_host_structure_def_init(&host, sizeof host));
+  host.inside = nothing_inside;
+  assert_ok(msq_structure_host(context, &host, &structures[1]));
+  assert_ok(msq_host_function_def_init(&function, sizeof function));
+  function.evaluate = no_values;
+  assert_ok(msq_structure_host_function(context, &function, &structures[2]));
+  for (int i = 0; i < 3; ++i) {
+    msq_calibration_report found = report_of();
+    assert_refused(
+        msq_structure_calibrate(context, structures[i], NULL, 0.5, NULL, NULL, 0, &found, NULL),
+        MSQ_E_UNSUPPORTED, "no onset");
+    msq_structure_release(structures[i]);
+  }
+  lattice.cell_count = 1; /* as the unit cell by itself */
+  assert_ok(msq_structure_lattice(context, &lattice, &structures[0]));
+  assert_ok(msq_structure_calibrate(context, structures[0], NULL, 0.1, NULL, NULL, 0, NULL, NULL));
+  msq_structure_release(structures[0]);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lattices_have_their_closed_forms),
@@ -306,6 +364,7 @@ int main(void) {
       cmocka_unit_test(the_curve_ascends_and_threads_do_not_matter),
       cmocka_unit_test(the_limit_of_the_radius_is_respected),
       cmocka_unit_test(wrong_arguments_are_refused),
+      cmocka_unit_test(kinds_without_onset_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

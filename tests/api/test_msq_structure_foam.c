@@ -33,6 +33,8 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.seed, 0);
   assert_null(def.density.field);
   assert_true(def.density.value == 1);
+  assert_null(def.wall_thickness.field);
+  assert_true(def.wall_thickness.value == 0);
 }
 
 static void create_honours_every_struct_size(void** state) {
@@ -258,6 +260,138 @@ static void other_methods_refuse_a_density(void** state) {
   msq_context_release(context);
 }
 
+static size_t count_of(const uint8_t inside[samples]) {
+  size_t count = 0;
+  for (int i = 0; i < samples; ++i) count += inside[i];
+  return count;
+}
+
+/* Seeds at the cells' centres: walls on the faces of the grid. */
+static void walls_without_jitter_are_those_of_the_grid(void** state) {
+  uint64_t random = 11;
+  msq_foam_def def = foam_def();
+  msq_context* context = make_context();
+  msq_structure* foam;
+  (void)state;
+  def.jitter = 0;
+  def.radius.value = 0;
+  def.wall_thickness.value = 0.25;
+  assert_ok(msq_structure_foam(context, &def, &foam));
+  msq_model* model = make_model(context, make_box(context), foam, NULL);
+  for (size_t i = 0; i < test_count(500); ++i) {
+    double p[3], nearest = INFINITY;
+    for (int axis = 0; axis < 3; ++axis) {
+      p[axis] = random_between(&random, 0.2, 3.8);
+      nearest = fmin(nearest, fabs(p[axis] - rint(p[axis])));
+    }
+    if (fabs(nearest - 0.125) < 1e-6) continue;
+    assert_int_equal(is_inside(model, p[0], p[1], p[2]), nearest < 0.125);
+    if (nearest < 0.125) continue;
+    double distance;
+    assert_ok(msq_point_distance(model, p, NULL, &distance));
+    assert_true(fabs(distance - (nearest - 0.125)) < 1e-9);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+/* Struts and walls together hold what either holds, and nothing else. */
+static void struts_and_walls_are_joined(void** state) {
+  uint8_t struts[samples], walls[samples], both[samples];
+  const double densities[] = {1, 6};
+  (void)state;
+  for (int k = 0; k < 2; ++k) {
+    msq_foam_def def = foam_def();
+    def.density.value = densities[k];
+    def.radius.value = 0.12;
+    sample_foam(&def, struts);
+    def.wall_thickness.value = 0.08;
+    sample_foam(&def, both);
+    def.radius.value = 0;
+    sample_foam(&def, walls);
+    for (int i = 0; i < samples; ++i) assert_int_equal(both[i], struts[i] | walls[i]);
+    assert_true(count_of(both) > count_of(struts) && count_of(both) > count_of(walls));
+    assert_true(count_of(both) < samples);
+  }
+}
+
+static void field_thickens_the_walls(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {0, 0, 4};
+  uint8_t thin[samples], graded[samples], thick[samples];
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  msq_field* field;
+  (void)state;
+  def.radius.value = 0;
+  def.wall_thickness.value = 0.1;
+  sample_foam(&def, thin);
+  def.wall_thickness.value = 0.4;
+  sample_foam(&def, thick);
+  assert_ok(msq_field_gradient(context, from, 0.1, to, 0.4, &field));
+  def.wall_thickness.field = field;
+  sample_foam(&def, graded);
+  msq_field_release(field);
+  for (int i = 0; i < samples; ++i) assert_true(thin[i] <= graded[i] && graded[i] <= thick[i]);
+  assert_true(count_of(thin) < count_of(graded) && count_of(graded) < count_of(thick));
+  msq_context_release(context);
+}
+
+static void wrong_wall_thicknesses_are_refused(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {1, 0, 0};
+  const double refused[] = {-0.25, NAN, INFINITY, -INFINITY};
+  const double low[] = {-0.25, 0, 0}, high[] = {0.25, 0, 1};
+  const char* texts[] = {"-0.25", "0 everywhere", "the limit is 0.5"};
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  def.grid.cell_size[2] = 0.5;
+  for (int k = 0; k < 2; ++k) {
+    def.radius.value = k ? 0.1 : 0;
+    for (int i = 0; i < 4; ++i) {
+      def.wall_thickness.value = refused[i];
+      assert_refused(create(context, &def), MSQ_E_ARGUMENT, "wall_thickness is ");
+    }
+    def.wall_thickness.value = 0.5;
+    assert_ok(create(context, &def));
+    def.wall_thickness.value = 0.515625;
+    assert_refused(create(context, &def), MSQ_E_LIMIT, "wall_thickness reaches 0.515625");
+    assert_message_has("the limit is 0.5");
+  }
+  for (int i = 0; i < 3; ++i) {
+    msq_field* field;
+    assert_ok(msq_field_gradient(context, from, low[i], to, high[i], &field));
+    def.wall_thickness.field = field;
+    assert_refused(create(context, &def), i < 2 ? MSQ_E_ARGUMENT : MSQ_E_LIMIT, texts[i]);
+    assert_message_has("wall_thickness");
+    msq_field_release(field);
+    def.wall_thickness.field = NULL;
+  }
+  /* Neither struts nor walls; and walls do not excuse a wrong radius. */
+  def.wall_thickness.value = 0;
+  def.radius.value = 0;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "radius is 0");
+  def.wall_thickness.value = 0.1;
+  def.radius.value = -0.5;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "radius is -0.5");
+  msq_context_release(context);
+}
+
+static void other_methods_refuse_walls(void** state) {
+  const int methods[] = {MSQ_FOAM_POINT, MSQ_FOAM_METHOD_1};
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  def.wall_thickness.value = 0.1;
+  for (int i = 0; i < 2; ++i) {
+    def.method = methods[i];
+    assert_refused(create(context, &def), MSQ_E_UNSUPPORTED, "wall_thickness reaches 0.1");
+    assert_message_has("MSQ_FOAM_DIRECT");
+  }
+  def.method = MSQ_FOAM_DIRECT;
+  assert_ok(create(context, &def));
+  msq_context_release(context);
+}
+
 static void null_arguments_are_refused(void** state) {
   msq_context* context = make_context();
   msq_foam_def def = foam_def();
@@ -350,6 +484,11 @@ int main(void) {
       cmocka_unit_test(density_adds_struts),
       cmocka_unit_test(wrong_densities_are_refused),
       cmocka_unit_test(other_methods_refuse_a_density),
+      cmocka_unit_test(walls_without_jitter_are_those_of_the_grid),
+      cmocka_unit_test(struts_and_walls_are_joined),
+      cmocka_unit_test(field_thickens_the_walls),
+      cmocka_unit_test(wrong_wall_thicknesses_are_refused),
+      cmocka_unit_test(other_methods_refuse_walls),
       cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(unknown_methods_are_refused),
       cmocka_unit_test(method_2_needs_cgal),

@@ -60,18 +60,25 @@ static double function_at(int32_t function, double x, double y, double z) {
   const double s2x = sin(2 * x), s2y = sin(2 * y), s2z = sin(2 * z);
   const double pairs = c2x * c2y + c2y * c2z + c2z * c2x;
   switch (function) {
-    case MSQ_FUNCTION_GYROID: return sx * cy + sy * cz + sz * cx;
-    case MSQ_FUNCTION_SCHWARZ_P: return cx + cy + cz;
-    case MSQ_FUNCTION_DIAMOND: return sx * sy * sz + sx * cy * cz + cx * sy * cz + cx * cy * sz;
-    case MSQ_FUNCTION_I_WP: return 2 * (cx * cy + cy * cz + cz * cx) - (c2x + c2y + c2z);
-    case MSQ_FUNCTION_NEOVIUS: return 3 * (cx + cy + cz) + 4 * cx * cy * cz;
-    case MSQ_FUNCTION_F_RD: return 4 * cx * cy * cz - pairs;
+    case MSQ_FUNCTION_GYROID:
+      return sx * cy + sy * cz + sz * cx;
+    case MSQ_FUNCTION_SCHWARZ_P:
+      return cx + cy + cz;
+    case MSQ_FUNCTION_DIAMOND:
+      return sx * sy * sz + sx * cy * cz + cx * sy * cz + cx * cy * sz;
+    case MSQ_FUNCTION_I_WP:
+      return 2 * (cx * cy + cy * cz + cz * cx) - (c2x + c2y + c2z);
+    case MSQ_FUNCTION_NEOVIUS:
+      return 3 * (cx + cy + cz) + 4 * cx * cy * cz;
+    case MSQ_FUNCTION_F_RD:
+      return 4 * cx * cy * cz - pairs;
     case MSQ_FUNCTION_LIDINOID:
       return 0.5 * (s2x * cy * sz + s2y * cz * sx + s2z * cx * sy) - 0.5 * pairs + 0.15;
     case MSQ_FUNCTION_SPLIT_P:
       return 1.1 * (s2x * sz * cy + s2y * sx * cz + s2z * sy * cx) - 0.2 * pairs -
              0.4 * (c2x + c2y + c2z);
-    default: return NAN;
+    default:
+      return NAN;
   }
 }
 
@@ -397,6 +404,35 @@ static void long_and_deep_texts_are_refused(void** state) {
   msq_context_release(context);
 }
 
+/* Numbers and variables count, equal ones once. */
+static void at_most_1024_different_operations(void** state) {
+  msq_context* context = make_context();
+  char text[4096] = "x";
+  int operations = 1;
+  msq_functional_def def = expression_def(text);
+  (void)state;
+  for (int n = 2; operations + 2 <= 1024; ++n, operations += 2)
+    snprintf(text + strlen(text), sizeof text - strlen(text), "+%d", n);
+  assert_int_equal(operations, 1023);
+  strcat(text, "+2+x"); /* two sums of known operands */
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "more than 1024 operations");
+  text[strlen(text) - 2] = 0;
+  assert_ok(create(context, &def));
+  msq_context_release(context);
+}
+
+static void cells_may_be_as_small_and_as_large_as_the_header_says(void** state) {
+  const double sizes[] = {1e-75, 1e75};
+  msq_context* context = make_context();
+  msq_functional_def def = functional_def(MSQ_FUNCTION_GYROID, 0.2);
+  (void)state;
+  for (int i = 0; i < 2; ++i) {
+    for (int axis = 0; axis < 3; ++axis) def.grid.cell_size[axis] = sizes[i];
+    assert_ok(create(context, &def));
+  }
+  msq_context_release(context);
+}
+
 static void wrong_parameters_are_refused(void** state) {
   msq_context* context = make_context();
   msq_named_value values[2] = {{"a", 1}, {"b", 2}};
@@ -448,6 +484,8 @@ int main(void) {
       cmocka_unit_test(wrong_numbers_are_refused),
       cmocka_unit_test(texts_are_refused_with_position_and_reason),
       cmocka_unit_test(long_and_deep_texts_are_refused),
+      cmocka_unit_test(at_most_1024_different_operations),
+      cmocka_unit_test(cells_may_be_as_small_and_as_large_as_the_header_says),
       cmocka_unit_test(wrong_parameters_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

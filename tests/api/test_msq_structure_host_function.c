@@ -230,6 +230,27 @@ static void what_is_refused_is_not_released(void** state) {
   msq_context_release(context);
 }
 
+/* Not even where the slope is known. */
+static void distances_are_0_within_the_shape(void** state) {
+  msq_context* context = make_context();
+  host_log log = make_log();
+  msq_host_function_def def = function_def(&log, 0.3);
+  const double points[3][3] = {{0.01, 0.02, 0.03}, {0.5, 0.5, 0.5}, {5, 2, 2}};
+  double distance;
+  (void)state;
+  def.range = range;
+  def.lipschitz = 1.7320509;
+  msq_model* model = fill_box(context, &def);
+  assert_ok(msq_point_distance(model, points[0], NULL, &distance));
+  assert_true(distance > 0 && distance < 1e-300);
+  assert_ok(msq_point_distance(model, points[1], NULL, &distance));
+  assert_true(distance == 0);
+  assert_ok(msq_point_distance(model, points[2], NULL, &distance));
+  assert_near(distance, 1, 1e-12);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(definitions_honour_every_size),
@@ -237,6 +258,7 @@ int main(void) {
       cmocka_unit_test(a_function_is_that_function),
       cmocka_unit_test(clusters_spare_points),
       cmocka_unit_test(callbacks_that_fail_stop_the_call),
+      cmocka_unit_test(distances_are_0_within_the_shape),
       cmocka_unit_test(what_is_refused_is_not_released),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

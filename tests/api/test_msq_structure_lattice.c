@@ -373,6 +373,10 @@ static void clusters_change_no_answer(void** state) {
   for (int i = 0; i < 3 * count; ++i) points[i] = (i * 2654435761u % 65536u) / 65536.0 * 3 - 1;
   assert_ok(msq_context_create(NULL, &context));
   assert_ok(msq_shape_from_box(context, low, high, &cube));
+  msq_lattice_def too_many = lattice_def(MSQ_UNIT_CELL_OCTET, 0.1);
+  too_many.clusters = 65;
+  assert_refused(create(context, &too_many), MSQ_E_ARGUMENT, "clusters is 65");
+  assert_message_has("64");
   for (size_t n = 0; n < sizeof clusters / sizeof *clusters; ++n) {
     msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_OCTET, 0.1);
     msq_structure* structure;

@@ -2,13 +2,13 @@
  * msq_structure_lattice: named cells, factors of the radius, libraries of unit cells. */
 #include "structures.h"
 
-enum { most_nodes = 32, most_struts = 48 };
+enum { max_nodes = 32, max_struts = 48 };
 
 /* A unit cell in arrays of its own. */
 typedef struct cell_arrays {
-  double nodes[most_nodes][3];
-  uint32_t struts[most_struts][2];
-  double factors[most_struts];
+  double nodes[max_nodes][3];
+  uint32_t struts[max_struts][2];
+  double factors[max_struts];
   uint64_t node_count, strut_count;
 } cell_arrays;
 
@@ -17,7 +17,7 @@ static cell_arrays arrays_of(const msq_unit_cell_def* cell) {
   msq_unit_cell_report report;
   report.struct_size = sizeof report;
   assert_ok(msq_unit_cell_info(cell, &report, NULL, 0));
-  assert_true(report.node_count <= most_nodes && report.strut_count <= most_struts);
+  assert_true(report.node_count <= max_nodes && report.strut_count <= max_struts);
   arrays.node_count = report.node_count;
   arrays.strut_count = report.strut_count;
   assert_ok(msq_unit_cell_geometry(cell, arrays.nodes[0], report.node_count, arrays.struts[0],

@@ -24,7 +24,7 @@ HostStructureCalls copying_calls(Ref<const Structure> copied, bool by_cell) {
   HostStructureCalls calls;
   calls.distance = [=](const HostPoints& points, double* bounds) {
     for (size_t i = 0; i < points.count; ++i)
-      bounds[i] = copied->clearance(points.points[i]) * (i % 2 ? 1 : -1);
+      bounds[i] = copied->distance_bound(points.points[i]) * (i % 2 ? 1 : -1);
   };
   if (!by_cell) {
     calls.inside = ask;
@@ -40,11 +40,11 @@ HostStructureCalls copying_calls(Ref<const Structure> copied, bool by_cell) {
     ask(points, inside);
   };
   calls.free_cell = [](void* data) { delete static_cast<CellIndex*>(data); };
-  calls.coverage = [=](const Box3& box) {
+  calls.classify = [=](const Box3& box) {
     const Vec3 middle = (box.min + box.max) * 0.5;
-    if (!(copied->clearance(middle) > 0.5 * length(box.extent()) * (1 + 1e-9)))
-      return Coverage::mixed;
-    return copied->inside(middle) ? Coverage::inside : Coverage::outside;
+    if (!(copied->distance_bound(middle) > 0.5 * length(box.extent()) * (1 + 1e-9)))
+      return BoxClass::mixed;
+    return copied->inside(middle) ? BoxClass::inside : BoxClass::outside;
   };
   return calls;
 }

@@ -5,7 +5,7 @@
 
 #include "cell/context.h"
 #include "field/field.h"
-#include "structure/lattice/unit_cell.h"
+#include "structure/lattice/cell/unit_cell.h"
 #include "structure/structure.h"
 
 namespace msq::test {

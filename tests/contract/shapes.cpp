@@ -7,10 +7,14 @@
 #include "images.h"
 #include "meshes.h"
 #include "random.h"
+#include "shape/boolean.h"
 #include "shape/host.h"
 #include "shape/mesh.h"
+#include "shape/offset.h"
+#include "shape/placed.h"
 #include "shape/primitive.h"
 #include "shape/voxels.h"
+#include "winding_number.h"
 
 namespace msq::test {
 
@@ -88,6 +92,129 @@ void append_voxels(std::vector<ShapeRow>& rows) {
                 {2, 3, 2}, 0.3, 0.1, 1);
 }
 
+Ref<const Shape> mesh_of(const TriangleSoup& soup) {
+  return make_ref<Mesh>(soup, WindingRule::automatic, std::make_shared<MemoryBudget>(uint64_t{0}));
+}
+
+Ref<const Shape> placed(const Ref<const Shape>& shape, const std::array<double, 12>& matrix) {
+  return make_ref<PlacedShape>(shape, Placement(matrix));
+}
+
+/// Meshes, primitives, voxels and shapes of a host in all kinds of places.
+void append_placed(std::vector<ShapeRow>& rows) {
+  const auto& m = skew_rotation().m;
+  const struct {
+    const char* name;
+    std::array<double, 12> matrix;
+  } places[] = {
+      {"moved", {1, 0, 0, 3, 0, 1, 0, -0.3, 0, 0, 1, 0.1}},
+      {"turned", {m[0], m[1], m[2], 0.7, m[3], m[4], m[5], 1, m[6], m[7], m[8], -2}},
+      {"mirrored and scaled", {0, -2.5, 0, 0, 2.5, 0, 0, 0.1, 0, 0, -2.5, 0}},
+      {"stretched", {3, 0, 0, 0, 0, 0.25, 0, 1, 0, 0, -1, 0}},
+      {"sheared", {1, 0.7, 0, 0.2, -0.1, 0.8, 0.4, 0, 0.3, 0, 1.1, 5}},
+      {"far away", {m[0], m[1], m[2], 7e4, m[3], m[4], m[5], -9e4, m[6], m[7], m[8], 3e4}}};
+  const TriangleSoup ring = torus_mesh(0.375, 0.125, 24, 12);
+  TriangleSoup far = ring;
+  for (Vec3& v : far.vertices) v = v + Vec3{-7e4, 9e4, -3e4};
+  const struct {
+    const char* name;
+    std::function<Ref<const Shape>()> make;
+  } shapes[] = {
+      {"torus", [ring] { return mesh_of(ring); }},
+      {"torus, 5 % removed", [ring] { return mesh_of(with_holes(ring, 0.05, 1)); }},
+      {"distant torus", [far] { return mesh_of(far); }},
+      {"box",
+       [] {
+         return Ref<const Shape>(make_ref<BoxShape>(Box3{{-0.5, -0.25, 0}, {0.5, 1, 0.375}}));
+       }},
+      {"cylinder",
+       [] {
+         return Ref<const Shape>(make_ref<CylinderShape>(Vec3{-1, 0.3, 0}, Vec3{1, 1, 0.8}, 0.3));
+       }},
+      {"voxels", [] {
+         const ImageSize size{25, 17, 13};
+         return Ref<const Shape>(make_ref<Voxels>(
+             make_image(sampled<uint8_t>(size, balls), size, {{-1, 0, 0}, {0.1, 0.1, 0.1}, {}}),
+             127.5, Voxels::Solid::above));
+       }}};
+  for (const auto& [name, make] : shapes)
+    for (const auto& [place, matrix] : places)
+      rows.push_back({std::string("placed: ") + name + ", " + place +
+                          (std::string(name).find("removed") == std::string::npos ? "" : ", auto"),
+                      [make = make, matrix = matrix] { return placed(make(), matrix); },
+                      place == std::string("stretched") ? 0 : 0.005, 1});
+  rows.push_back({"placed: host's ball",
+                  [matrix = places[4].matrix] {
+                    HostShapeCalls calls;
+                    calls.inside = [](const Vec3* points, size_t count, uint8_t* inside) {
+                      for (size_t i = 0; i < count; ++i) inside[i] = length(points[i]) <= 0.625;
+                    };
+                    calls.distance = [](const Vec3* points, size_t count, double* bounds) {
+                      for (size_t i = 0; i < count; ++i) bounds[i] = length(points[i]) - 0.625;
+                    };
+                    return placed(
+                        make_ref<HostShape>(calls, Box3{{-0.7, -0.7, -0.7}, {0.7, 0.7, 0.7}}, true),
+                        matrix);
+                  },
+                  0.1, 1});
+}
+
+void append_booleans(std::vector<ShapeRow>& rows) {
+  using Operation = BooleanShape::Operation;
+  const TriangleSoup ring = torus_mesh(0.375, 0.125, 24, 12);
+  const auto members = [ring] {
+    const auto& m = skew_rotation().m;
+    return std::vector<Ref<const Shape>>{
+        make_ref<BoxShape>(Box3{{-0.5, -0.5, -0.25}, {0.5, 0.5, 0.25}}),
+        make_ref<SphereShape>(Vec3{0.25, 0.125, 0}, 0.375), mesh_of(ring),
+        placed(mesh_of(ring), {m[0], m[1], m[2], 0, m[3], m[4], m[5], 0, m[6], m[7], m[8], 0})};
+  };
+  const std::pair<const char*, Operation> operations[] = {{"union", Operation::united},
+                                                          {"intersection", Operation::intersected},
+                                                          {"difference", Operation::subtracted}};
+  for (const auto& [name, operation] : operations)
+    for (size_t count : {size_t{1}, size_t{2}, size_t{4}})
+      rows.push_back({std::string("boolean: ") + name + " of " + std::to_string(count),
+                      [=, operation = operation]() -> Ref<const Shape> {
+                        auto all = members();
+                        all.resize(count);
+                        return make_ref<BooleanShape>(operation, all);
+                      },
+                      0.0005, 1});
+  rows.push_back({"boolean: equal boxes subtracted",
+                  []() -> Ref<const Shape> {
+                    const Ref<const Shape> box = make_ref<BoxShape>(Box3{{0, 0, 0}, {1, 1, 1}});
+                    return make_ref<BooleanShape>(Operation::subtracted,
+                                                  std::vector<Ref<const Shape>>{box, box});
+                  },
+                  0, 0});
+  rows.push_back({"boolean: touching boxes",
+                  []() -> Ref<const Shape> {
+                    return make_ref<BooleanShape>(
+                        Operation::united, std::vector<Ref<const Shape>>{
+                                               make_ref<BoxShape>(Box3{{0, 0, 0}, {1, 1, 1}}),
+                                               make_ref<BoxShape>(Box3{{1, 0, 0}, {2, 1, 0.5}})});
+                  },
+                  0.5, 1});
+  const auto add_offset = [&](const char* name, double by, std::function<Ref<const Shape>()> make) {
+    rows.push_back({std::string("offset: ") + name,
+                    [=]() -> Ref<const Shape> { return make_ref<OffsetShape>(make(), by); }, 0.05,
+                    1});
+  };
+  const auto box = []() -> Ref<const Shape> {
+    return make_ref<BoxShape>(Box3{{-0.5, -0.25, 0}, {0.5, 1, 0.375}});
+  };
+  add_offset("box, outwards", 0.25, box);
+  add_offset("box, inwards", -0.125, box);
+  add_offset("torus, outwards", 0.0625, [ring] { return mesh_of(ring); });
+  add_offset("torus, inwards", -0.0625, [ring] { return mesh_of(ring); });
+  add_offset("difference, inwards", -0.0625, [members, operation = Operation::subtracted] {
+    auto all = members();
+    all.resize(2);
+    return Ref<const Shape>(make_ref<BooleanShape>(operation, all));
+  });
+}
+
 }  // namespace
 
 std::vector<ShapeRow> shape_rows() {
@@ -138,6 +265,29 @@ std::vector<ShapeRow> shape_rows() {
                                               std::make_shared<MemoryBudget>(uint64_t{0}));
                       },
                       s.least, s.most});
+  // Open meshes by their generalised winding number.
+  TriangleSoup lidless = cube;
+  std::erase_if(lidless.triangles, [&](const Triangle& t) {
+    return cube.vertices[t[0]].x + cube.vertices[t[1]].x + cube.vertices[t[2]].x > 1.4;
+  });
+  const Soup open[] = {
+      {"open icosphere", drop_triangles(ball, 9), 0.4, 0.6},
+      {"open cube", drop_triangles(cube, 12), 0.7, 1},
+      {"cube without a side", lidless, 0.99, 1},
+      {"some triangles twice", some_twice, 0, 1},
+      {"sheet and ball", sheet, 0.01, 0.9},
+      {"ball, 20 % removed", with_holes(ball, 0.2, 1), 0.4, 0.6},
+      {"inside out torus, 5 % removed", inside_out(with_holes(ring, 0.05, 1)), 0.2, 0.8},
+      {"crossing pair, 5 % removed", with_holes(pair, 0.05, 1), 0.2, 0.9},
+      {"loose triangles", torn(ball, 0.005, 1), 0.4, 0.6},
+      {"many loose triangles", torn(icosphere(0.5, 4), 0.002, 1), 0.4, 0.6}};
+  for (const Soup& s : open)
+    rows.push_back({std::string(s.name) + ", auto",
+                    [soup = s.soup]() -> Ref<const Shape> {
+                      return make_ref<Mesh>(soup, WindingRule::automatic,
+                                            std::make_shared<MemoryBudget>(uint64_t{0}));
+                    },
+                    s.least, s.most});
   const auto add = [&](const char* name, std::function<Ref<const Shape>()> make) {
     rows.push_back({name, std::move(make), 0.1, 1});
   };
@@ -167,6 +317,8 @@ std::vector<ShapeRow> shape_rows() {
         make_ref<HostShape>(calls, Box3{{-0.7, -0.625, -0.75}, {0.625, 0.8, 0.625}}, true));
   });
   append_voxels(rows);
+  append_placed(rows);
+  append_booleans(rows);
   return rows;
 }
 

@@ -6,18 +6,22 @@
 #include <limits>
 #include <utility>
 
+#include "beam_lists.h"
 #include "expression/parser.h"
 #include "field/gradient.h"
 #include "field/grid.h"
 #include "field/map.h"
 #include "host_structures.h"
 #include "images.h"
-#include "structure/foam/delaunay.h"
+#include "random.h"
+#include "structure/beams/beams.h"
 #include "structure/foam/foam.h"
+#include "structure/foam/paper/delaunay.h"
+#include "structure/foam/walled_foam.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
-#include "structure/lattice/mixed_lattice.h"
+#include "structure/lattice/mixed/mixed_lattice.h"
 
 namespace msq::test {
 
@@ -52,6 +56,24 @@ Factory graded_foam_factory(double jitter) {
   };
 }
 
+/// The parameter of the suite stands for the thickness of the walls.
+Factory walls_factory(double jitter, bool has_density = false) {
+  return [=](const Neighbourhood& grid, Parameter thickness) {
+    const Parameter density = has_density ? rising_density(grid) : Parameter(1);
+    return Ref<const Structure>(make_ref<FoamWalls>(shared_context(), grid, std::move(thickness),
+                                                    jitter, uint64_t{7}, density));
+  };
+}
+
+/// It stands for the thickness of the walls and for the radius of the struts.
+Factory walled_factory(double jitter) {
+  return [=](const Neighbourhood& grid, Parameter size) {
+    return Ref<const Structure>(make_ref<WalledFoam>(
+        make_ref<Foam>(shared_context(), grid, size, jitter, uint64_t{7}, FoamMethod::direct),
+        make_ref<FoamWalls>(shared_context(), grid, size, jitter, uint64_t{7})));
+  };
+}
+
 }  // namespace
 
 Parameter rising_density(const Neighbourhood& grid) {
@@ -63,6 +85,17 @@ Parameter rising_density(const Neighbourhood& grid) {
 Ref<Context> shared_context() {
   static const Ref<Context> context = make_ref<Context>(1u, uint64_t{64} << 20, uint64_t{0});
   return context;
+}
+
+StructureRow StructureRow::moved(double cells) const {
+  StructureRow row = *this;
+  row.cells_away += cells;
+  Vec3& origin = row.variant.grid.origin;
+  origin = origin + Vec3{1, -0.9, 0.8} * (cells * unit());
+  char text[40];
+  std::snprintf(text, sizeof text, ", %g cells away", cells);
+  row.name += text;
+  return row;
 }
 
 Parameter StructureRow::parameter(Vec3 centre, double extra) const {
@@ -123,6 +156,85 @@ Factory mixed_factory() {
 }
 
 namespace {
+
+/// Ends in a cell, in cell units.
+Vec3 random_end(Random& random, Vec3 cell) {
+  return cell + random.in_box({{0, 0, 0}, {1, 1, 1}});
+}
+
+/// A beam of a cell. Its radii are for a radius of 1.
+Beam random_beam(Random& random, Vec3 cell, BeamSort sort) {
+  Beam beam{random_end(random, cell), {}, 1, 1, BeamCap::sphere, BeamCap::sphere};
+  const uint64_t form = random.below(8);
+  beam.b = random_end(random, cell + Vec3{double(random.below(2)), double(random.below(2)), 0});
+  if (form == 0) {  // along an axis
+    beam.b = beam.a;
+    beam.b[static_cast<int>(random.below(3))] += random.between(-1, 1);
+  }
+  if (form == 1) beam.b = beam.a + (beam.b - beam.a) * 0.05;  // shorter than wide
+  const auto any_cap = [&] { return static_cast<BeamCap>(random.below(3)); };
+  switch (sort) {
+    case BeamSort::capsules:
+      break;
+    case BeamSort::cones:
+      beam.radius_b = random.between(0.2, 1);
+      break;
+    case BeamSort::half_balls:
+      beam.cap_a = beam.cap_b = BeamCap::hemisphere;
+      beam.radius_b = random.between(0.2, 1);
+      break;
+    case BeamSort::flat:
+      beam.cap_a = beam.cap_b = BeamCap::butt;
+      beam.radius_b = random.below(2) ? 1 : random.between(0.2, 1);
+      break;
+    case BeamSort::all:
+      beam.cap_a = any_cap();
+      beam.cap_b = any_cap();
+      if (form == 2) beam.b = beam.a;                       // a ball, or nothing
+      if (form == 3) beam.radius_b = 0;                     // a cone
+      if (form == 4) beam.radius_a = beam.radius_b = 0.01;  // a needle
+      if (form > 4) beam.radius_b = random.between(0.3, 1.2);
+      break;
+  }
+  if (random.below(2)) std::swap(beam.a, beam.b);
+  return beam;
+}
+
+}  // namespace
+
+std::vector<Beam> random_beams(const Neighbourhood& grid, const Parameter& radius, BeamSort sort) {
+  Random random(static_cast<uint64_t>(sort) + 1);
+  std::vector<Beam> beams;
+  for (const Vec3 middle : {Vec3{0, 0, 0}, Vec3{1001, -1000, 1000}, Vec3{-1000, 1000, 1002},
+                            Vec3{1001, -999, 1001}, Vec3{-999, 1, 4}, Vec3{1001, 1, -999}}) {
+    constexpr int reach = 2;
+    for (int k = -reach; k <= reach; ++k)
+      for (int j = -reach; j <= reach; ++j)
+        for (int i = -reach; i <= reach; ++i)
+          for (int n = 0; n < 4; ++n) {
+            Beam beam = random_beam(random, middle + Vec3{double(i), double(j), double(k)}, sort);
+            beam.a = grid.from_grid(beam.a * grid.cell_size);
+            beam.b = grid.from_grid(beam.b * grid.cell_size);
+            beam.radius_a *= radius.at(beam.a);
+            beam.radius_b *= radius.at(beam.b);
+            beams.push_back(beam);
+          }
+  }
+  return beams;
+}
+
+Ref<const Beams> make_beams(const std::vector<Beam>& beams) {
+  return Ref<const Beams>(Beams::make(source_of(beams), 0, shared_context()->executor,
+                                      shared_context()->budget, nullptr));
+}
+
+namespace {
+
+Factory beams_factory(BeamSort sort) {
+  return [=](const Neighbourhood& grid, Parameter radius) {
+    return Ref<const Structure>(make_beams(random_beams(grid, radius, sort)));
+  };
+}
 
 std::vector<Kind> kinds() {
   std::vector<Kind> kinds = {
@@ -192,12 +304,28 @@ std::vector<Kind> kinds() {
       std::snprintf(name, sizeof name, "density 1 to 30, jitter %g r %g", jitter, radius);
       kinds.push_back({"foam DIRECT", name, radius, jitter, graded_foam_factory(jitter)});
     }
+  for (double jitter : {1.0, 0.01, 0.0})
+    for (double thickness : {0.02, 0.1, 0.45}) {
+      if (jitter < 1 && thickness != 0.1) continue;
+      char name[64];
+      std::snprintf(name, sizeof name, "jitter %g t %g", jitter, thickness);
+      kinds.push_back({"foam walls", name, thickness, jitter, walls_factory(jitter)});
+    }
+  kinds.push_back({"foam walls", "density 1 to 30", 0.06, 1, walls_factory(1, true)});
+  kinds.push_back({"foam walls", "and struts", 0.09, 1, walled_factory(1)});
+  kinds.push_back({"foam walls", "and struts, jitter 0", 0.09, 0, walled_factory(0)});
+  kinds.push_back({"beams", "capsules", 0.1, 1, beams_factory(BeamSort::capsules)});
+  kinds.push_back({"beams", "cones", 0.14, 1, beams_factory(BeamSort::cones)});
+  kinds.push_back({"beams", "half balls", 0.14, 1, beams_factory(BeamSort::half_balls)});
+  kinds.push_back({"beams", "flat ends", 0.12, 1, beams_factory(BeamSort::flat)});
+  kinds.push_back({"beams", "all sorts", 0.12, 1, beams_factory(BeamSort::all)});
   // Fields that are not linear.
   kinds.push_back({"BCC", "mapped radius", 0.15, 1, lattice_factory(bcc_unit_cell()), mapped});
   kinds.push_back({"functional", "gyroid, sampled level", 0.2, 1,
                    functional_factory(preset_expressions[0], network, 0), sampled_field});
   kinds.push_back({"foam DIRECT", "sampled radius 0.1", 0.1, 1, foam_factory(FoamMethod::direct, 1),
                    sampled_field});
+  kinds.push_back({"foam walls", "sampled thickness 0.1", 0.1, 1, walls_factory(1), sampled_field});
   return kinds;
 }
 
@@ -235,7 +363,8 @@ std::vector<StructureRow> structures() {
 std::vector<StructureRow> structures_by_point() {
   std::vector<StructureRow> rows;
   for (const StructureRow& row : structures())
-    if (row.is_lattice() || row.kind.family == "foam DIRECT") rows.push_back(row);
+    if (row.is_lattice() || row.kind.family == "foam DIRECT" || row.kind.family == "foam walls")
+      rows.push_back(row);
   return rows;
 }
 

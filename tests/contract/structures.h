@@ -11,9 +11,10 @@
 #include "cell/context.h"
 #include "field/field.h"
 #include "msq_test.h"
+#include "structure/beams/beams.h"
 #include "structure/foam/foam.h"
 #include "structure/functional/functional.h"
-#include "structure/lattice/unit_cell.h"
+#include "structure/lattice/cell/unit_cell.h"
 #include "structure/structure.h"
 
 namespace msq::test {
@@ -50,8 +51,16 @@ struct StructureRow {
   size_t family_rows;      ///< rows in the same family
   size_t index;            ///< among them
   double graded_from = 0;  ///< part of the radius that a varying radius begins at
+  double cells_away = 0;   ///< its grid, in largest cells along an oblique line
+
+  /// The row with its grid so far from where it was.
+  StructureRow moved(double cells) const;
+  /// In units within 8 of the grid's origin, no coordinate is larger in the model's frame or the
+  /// grid's.
+  double max_coordinate() const { return (cells_away + 8) * unit(); }
 
   bool is_lattice() const { return kind.family.find("foam") == std::string::npos; }
+  bool is_beams() const { return kind.family == "beams"; }
   bool is_method_2() const { return kind.family == "foam METHOD_2"; }
   /// Methods whose cells, or whose points, are dear.
   bool is_method_1() const { return kind.family == "foam METHOD_1"; }
@@ -88,6 +97,12 @@ UnitCell factored_unit_cell();
 /// Cubic, skew, octet and Kelvin cells, by a choice that grows along an oblique line and runs past
 /// both ends of the library.
 Factory mixed_factory();
+
+enum class BeamSort { capsules, cones, half_balls, flat, all };
+/// In and about cells by the grid's origin and at places 1000 cells away, some along the grid's
+/// axes and some shorter than they are wide. A radius that varies is taken at either end.
+std::vector<Beam> random_beams(const Neighbourhood& grid, const Parameter& radius, BeamSort sort);
+Ref<const Beams> make_beams(const std::vector<Beam>& beams);
 
 std::vector<GridVariant> grid_variants(bool is_lattice);
 std::vector<StructureRow> structures();

@@ -4,7 +4,7 @@
 // decides, but not farther than 1e-9 from the boundary. The number is printed.
 #include "bit_rows.h"
 #include "random.h"
-#include "structure/foam/delaunay.h"
+#include "structure/foam/paper/delaunay.h"
 #include "structures.h"
 #include "suite.h"
 

@@ -105,7 +105,7 @@ void check_same(const char* name, const char* what, const RaySearch& a, const Ra
 
 /// No sample before the hit is inside, and it is where membership changes.
 void check_hit(const Foam& foam, const char* name, const RaySearch& ray) {
-  const double end = ray.found ? ray.t : ray.to, part = foam.least_ray_step();
+  const double end = ray.found ? ray.t : ray.to, part = foam.min_ray_step();
   const double tolerance = foam.ray_tolerance();
   bool is_right =
       !ray.found || foam.inside(ray.ray.at(end)) || foam.inside(ray.ray.at(end + tolerance));
@@ -128,7 +128,7 @@ void test_row(void** state) {
   const Ref<const Foam> foam = foam_of(row, shared_context()), bare = foam_of(row, none);
   Random random(row.index + 11);
   // Where a march may overlook parts, it tells nothing.
-  const bool may_march = foam->least_ray_step() == foam->ray_tolerance();
+  const bool may_march = foam->min_ray_step() == foam->ray_tolerance();
   const double tolerance = foam->ray_tolerance();
   const size_t tiles = has_density(row) ? 1 : row.samples(1200);
   for (size_t n = 0; n < tiles; ++n) {
@@ -136,17 +136,17 @@ void test_row(void** state) {
     const Ref<const Foam> fresh = foam_of(row, none);
     const std::vector<RaySearch> searches = tile(row, random, 64);
     std::vector<RaySearch> found = searches, reversed = searches;
-    foam->enter(found.data(), found.size());
+    foam->enter(found.data(), found.size(), nullptr);
     std::reverse(reversed.begin(), reversed.end());
-    bare->enter(reversed.data(), reversed.size());
+    bare->enter(reversed.data(), reversed.size(), nullptr);
     for (size_t i = 0; i < found.size(); ++i) {
       const RaySearch& ray = found[i];
       check_same(name, "reversed, no cache", ray, reversed[found.size() - 1 - i]);
       if (i % 8 != n % 8) continue;
       RaySearch alone = searches[i], marched = searches[i];
-      fresh->enter(&alone, 1);
+      fresh->enter(&alone, 1, nullptr);
       check_same(name, "alone", ray, alone);
-      if (may_march) foam->Structure::enter(&marched, 1);
+      if (may_march) foam->Structure::enter(&marched, 1, nullptr);
       if (!may_march)
         check_hit(*foam, name, ray);
       else if (ray.found != marched.found ||

@@ -115,8 +115,8 @@ Outcome compare(const StructureRow& row, const GridCase& c, const SampleGrid& gr
 
 void test_row(void** state) {
   const StructureRow& row = *static_cast<const StructureRow*>(*state);
-  // Foams have many rows, each with two of the grids; lattices have few, each with all, or some where
-  // samples are few.
+  // Foams have many rows, each with two of the grids; lattices have few, each with all, or some
+  // where samples are few.
   const size_t grids = !row.is_lattice() ? 2 : test_scale() < 0.5 ? 3 : std::size(cases);
   const size_t samples = row.samples(1000000) / grids + 2;
   Random random(row.index + 1);

@@ -9,8 +9,9 @@
 #include "query/array_points.h"
 #include "query/membership.h"
 #include "random.h"
+#include "round_to_float.h"
 #include "shape/primitive.h"
-#include "structure/foam/point_set.h"
+#include "structure/foam/sets/point_set.h"
 #include "structure/lattice/lattice.h"
 #include "structures.h"
 #include "suite.h"
@@ -231,7 +232,8 @@ void strides_and_types_change_nothing(void**) {
     std::memcpy(&wide[i * stride], &points[i], sizeof(Vec3));
     const float p[3] = {float(points[i].x), float(points[i].y), float(points[i].z)};
     std::memcpy(&single[i * 12], p, sizeof p);
-    rounded.push_back({p[0], p[1], p[2]});
+    rounded.push_back(
+        {round_to_float(points[i].x), round_to_float(points[i].y), round_to_float(points[i].z)});
   }
   assert_true(model.ask({wide.data(), points.size(), stride, false}) == model.ask(points));
   assert_true(model.ask({single.data(), points.size(), 12, true}) == model.ask(rounded));

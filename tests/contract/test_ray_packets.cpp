@@ -5,7 +5,8 @@
 #include "field/radial.h"
 #include "msq_test.h"
 #include "random.h"
-#include "structure/foam/foam_rays.h"
+#include "structure/foam/foam.h"
+#include "structure/foam/rays/packets.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -65,10 +66,10 @@ void finds_the_same(void** state) {
   size_t found = 0;
   for (size_t n = 0; n < test_count(row.is_dense ? 100 : 200); ++n) {
     std::vector<RaySearch> together = tile(row, random), alone = together;
-    assert_true(walk_cells(*foam, together.data(), together.size()));
+    assert_true(walk_cells(*foam, together.data(), together.size(), nullptr));
     for (size_t i = 0; i < alone.size(); ++i) {
       const RaySearch &a = together[i], &b = alone[i];
-      walk_cells(*foam, &alone[i], 1);
+      walk_cells(*foam, &alone[i], 1, nullptr);
       found += b.found;
       if (a.found != b.found || (a.found && !(a.t == b.t && a.normal == b.normal)))
         fail_msg("ray %zu of tile %zu, from %.17g to %.17g: %d %.17g, alone %d %.17g", i, n, a.from,

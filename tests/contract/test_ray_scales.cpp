@@ -46,7 +46,7 @@ void test_row(void** state) {
       },
       nullptr);
   const double part = std::max(model->shape().ray_tolerance(),
-                               std::max(row.coarse->least_ray_step(), row.fine->least_ray_step()));
+                               std::max(row.coarse->min_ray_step(), row.fine->min_ray_step()));
   size_t by_scale[3] = {};
   for (size_t i = 0; i < count; ++i) {
     const Ray& ray = rays[i].ray;

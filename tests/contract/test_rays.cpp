@@ -28,14 +28,14 @@ void test_row(void** state) {
     const Vec3 from = grid.from_grid(a * grid.cell_size), to = grid.from_grid(b * grid.cell_size);
     const Ray ray{from, (to - from) * (1 / length(to - from))};
     // Parts that are shorter than the steps of a march may be lost.
-    const double part = std::max(structure->least_ray_step(), structure->ray_tolerance());
+    const double part = std::max(structure->min_ray_step(), structure->ray_tolerance());
     const RayWalk walk{part, row.has_dear_points() ? 20 : 200};
     entries += check_ray(
         row.name.c_str(), ray, 0, 2 * row.unit(), walk,
         [&](Vec3 p) { return structure->inside(p); },
         [&](const Ray& r, double first, double last, double& t) {
           RaySearch search{r, first, last};
-          structure->enter(&search, 1);
+          structure->enter(&search, 1, nullptr);
           t = search.t;
           if (search.found) {
             const double normal = length(structure->normal(r, t));
@@ -43,7 +43,9 @@ void test_row(void** state) {
           }
           return search.found;
         },
-        [&](const Ray& r, double first, double last) { return structure->leave(r, first, last); });
+        [&](const Ray& r, double first, double last) {
+          return structure->leave(r, first, last, nullptr);
+        });
   }
   // Foams of fat struts in flat cells leave no holes.
   if (count > 40 && row.kind.radius < 0.5) assert_true(entries > 0);

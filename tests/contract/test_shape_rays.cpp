@@ -14,21 +14,21 @@ namespace {
 /// Rays together are answered as each alone.
 void check_together(const char* name, const Shape& shape, const std::vector<RaySearch>& searches) {
   std::vector<RaySearch> together = searches, found;
-  shape.enter_all(together.data(), together.size());
+  shape.enter_all(together.data(), together.size(), nullptr);
   for (size_t i = 0; i < searches.size(); ++i) {
     const RaySearch& s = searches[i];
     double t = 0;
-    const bool is_found = shape.enter(s.ray, s.from, s.to, t);
+    const bool is_found = shape.enter(s.ray, s.from, s.to, t, nullptr);
     if (together[i].found != is_found || (is_found && together[i].t != t))
       fail_msg("%s: ray %zu enters at %.17g, with others at %.17g", name, i, t, together[i].t);
     if (is_found) found.push_back({s.ray, t, s.to, true, t});
   }
   std::vector<RaySearch> left = found;
   shape.find_normals(found.data(), found.size());
-  shape.leave_all(left.data(), left.size());
+  shape.leave_all(left.data(), left.size(), nullptr);
   for (size_t i = 0; i < found.size(); ++i) {
     assert_true(found[i].normal == shape.normal(found[i].ray, found[i].t));
-    const double t = shape.leave(found[i].ray, found[i].from, found[i].to);
+    const double t = shape.leave(found[i].ray, found[i].from, found[i].to, nullptr);
     if (left[i].t != t)
       fail_msg("%s: ray %zu leaves at %.17g, with others at %.17g", name, i, t, left[i].t);
   }
@@ -68,20 +68,19 @@ void test_row(void** state) {
     searches.push_back({ray, random.between(-0.5, 0.5), random.between(-1, reach)});
     // Parts that are shorter than the steps of a march may be lost.
     const RayWalk walk{
-        is_marched || (is_image && is_even) ? shape->least_ray_step() : shape->ray_tolerance(),
-        150};
+        is_marched || (is_image && is_even) ? shape->min_ray_step() : shape->ray_tolerance(), 150};
     entries += check_ray(
         row.name.c_str(), ray, 0, reach, walk, [&](Vec3 p) { return shape->inside(p); },
         [&](const Ray& r, double from, double to, double& t) {
-          if (!shape->enter(r, from, to, t)) return false;
+          if (!shape->enter(r, from, to, t, nullptr)) return false;
           const double normal = length(shape->normal(r, t));
           if (!(std::abs(normal - 1) < 1e-9)) fail_msg("a normal of length %.17g", normal);
           return true;
         },
-        [&](const Ray& r, double from, double to) { return shape->leave(r, from, to); });
+        [&](const Ray& r, double from, double to) { return shape->leave(r, from, to, nullptr); });
   }
-    // Some rules leave nothing of some meshes, some thresholds little of an image.
-    if (row.least > (is_image ? 0.05 : 0) && !is_marched && count >= 60)
+  // Some rules leave nothing of some meshes, some thresholds little of an image.
+  if (row.least > (is_image ? 0.05 : 0) && !is_marched && count >= 60)
     assert_true(entries > static_cast<int>(count / 20));
   check_together(row.name.c_str(), *shape, searches);
 }

@@ -84,6 +84,10 @@ void test_row(void** state) {
             differ += rows.get(i, j, k) != structure->inside(grid.at(i, j, k));
     }
   }
+  if (row.is_beams()) {  // whose radii are taken at their ends
+    assert_int_equal(differ, 0);
+    return;
+  }
   // All points at once, each with its own radius.
   const Ref<const Structure> structure = row.kind.make(n, Parameter(Ref<const Field>(radii)));
   for (bool is_below : {false, true}) {

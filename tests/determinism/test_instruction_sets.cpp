@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layers of a model are the same bytes whichever vector instructions draw them.
 #include <hwy/highway.h>
+#include <cstring>
 
 #include "base/random.h"
 #include "expression/parser.h"
@@ -8,6 +9,7 @@
 #include "shape/primitive.h"
 #include "slice/slicer.h"
 #include "structure/foam/foam.h"
+#include "structure/foam/walls/foam_walls.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
@@ -87,6 +89,15 @@ void all_instruction_sets_give_the_same_layers(void**) {
             make_ref<GradientField>(Vec3{0.2, 0, 0}, 1, Vec3{0.5, 0.1, 0}, 60);
         return make_ref<Foam>(c, Neighbourhood{}, Parameter(0.03), 1.0, uint64_t{3},
                               FoamMethod::direct, Parameter(density));
+      },
+      [](Ref<Context> c) {
+        return make_ref<FoamWalls>(c, turned(), Parameter(0.03), 1.0, uint64_t{3});
+      },
+      [](Ref<Context> c) {
+        const Ref<const Field> field =
+            make_ref<GradientField>(Vec3{0, 0, 0}, 0.0, Vec3{1, 0.5, 0.2}, 0.02);
+        return make_ref<FoamWalls>(c, Neighbourhood{{}, {0.1, 0.1, 0.07}, {}}, Parameter(field),
+                                   0.9, uint64_t{3});
       },
       [](Ref<Context>) {
         return make_ref<Functional>(turned(), parse_expression(preset_expressions[0], {}),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layers of a model are the same bytes whatever the threads, the slab height, the cache, and
-// however the plan is split; and they are what set queries and point queries answer.
+// however the plan is split, by layers or by windows; and they are what set queries and point
+// queries answer.
 #include <functional>
 
 #include "base/random.h"
@@ -8,12 +9,15 @@
 #include "field/gradient.h"
 #include "meshes.h"
 #include "query/array_points.h"
+#include "query/grid_points.h"
 #include "query/membership.h"
+#include "random.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
 #include "slice/slicer.h"
-#include "structure/foam/delaunay.h"
 #include "structure/foam/foam.h"
+#include "structure/foam/paper/delaunay.h"
+#include "structure/foam/walled_foam.h"
 #include "structure/functional/functional.h"
 #include "structure/lattice/lattice.h"
 #include "suite.h"
@@ -76,6 +80,20 @@ std::vector<ModelRow> models() {
              c, make_ref<BoxShape>(Box3{{-0.5, -0.4, -0.2}, {0.5, 0.4, 0.2}}),
              Structures{make_ref<Foam>(c, cells_of(0.4, 0.3), Parameter(0.02), 1.0, uint64_t{6},
                                        FoamMethod::direct, Parameter(density))});
+       }});
+  rows.push_back(
+      {"walls in a foam with struts and walls", 8, [](Ref<Context> c) {
+         const Ref<const Field> field =
+             make_ref<GradientField>(Vec3{-1, 0, 0}, 0.01, Vec3{1, 0.5, 0.2}, 0.09);
+         const Neighbourhood coarse = cells_of(0.8, 0.2);
+         return make_ref<Model>(
+             c, make_ref<SphereShape>(Vec3{0, 0, 0}, 1.1),
+             Structures{
+                 make_ref<WalledFoam>(
+                     make_ref<Foam>(c, coarse, Parameter(0.2), 1.0, uint64_t{6},
+                                    FoamMethod::direct),
+                     make_ref<FoamWalls>(c, coarse, Parameter(0.2), 1.0, uint64_t{6})),
+                 make_ref<FoamWalls>(c, cells_of(0.3, 0.3), Parameter(field), 1.0, uint64_t{2})});
        }});
   rows.push_back(
       {"graded expression in a gyroid", 8, [](Ref<Context> c) {
@@ -183,6 +201,75 @@ void test_split(void** state) {
   }
 }
 
+/// Layers, and a grid of points, in windows cut at random.
+void test_windows(void** state) {
+  const ModelRow& row = *static_cast<const ModelRow*>(*state);
+  SlicePlan plan = plan_of(0);
+  plan.format = LayerFormat::bytes;
+  const Ref<const Model> whole_model(row.make(make_ref<Context>(1u, uint64_t{1} << 30, 0u)).get());
+  const Slicer whole(whole_model, plan);
+  const SampleGrid& grid = whole.grid();
+  std::vector<uint8_t> wanted(grid.nz * grid.ny * grid.nx);
+  const auto copy = [&](const Slicer& slicer, const Layer& layer, uint64_t k, uint8_t* to) {
+    const SampleGrid& part = slicer.grid();
+    for (uint64_t j = 0; j < part.ny; ++j)
+      std::memcpy(to + part.first[0] + grid.nx * (part.first[1] + j + grid.ny * k),
+                  layer.data + j * slicer.stride(), part.nx);
+  };
+  whole.run(
+      0, grid.nz, [&](const Layer& layer) { copy(whole, layer, layer.index, wanted.data()); },
+      nullptr);
+  Random random(1);
+  const auto cuts = [&](uint64_t count) {
+    std::vector<uint64_t> at = {0, count};
+    for (uint64_t n = random.below(4); n > 0; --n) at.push_back(random.below(count));
+    std::sort(at.begin(), at.end());
+    at.erase(std::unique(at.begin(), at.end()), at.end());
+    return at;
+  };
+  size_t count = 0;
+  for (size_t n = test_count(4); n > 0; --n) {
+    const auto x = cuts(grid.nx), y = cuts(grid.ny), z = cuts(grid.nz);
+    const auto threads = static_cast<unsigned>(1 + random.below(3));
+    const Ref<const Model> model(
+        row.make(make_ref<Context>(threads, uint64_t{random.below(2)} << 26, 0u)).get());
+    std::vector<uint8_t> got(wanted.size(), 0x55), asked(wanted.size());
+    plan.slab_layers = static_cast<uint32_t>(random.below(5));
+    for (size_t c = 0; c + 1 < z.size(); ++c)
+      for (size_t b = 0; b + 1 < y.size(); ++b)
+        for (size_t a = 0; a + 1 < x.size(); ++a, ++count) {
+          plan.window = {{x[a], y[b], z[c]}, {x[a + 1] - x[a], y[b + 1] - y[b], z[c + 1] - z[c]}};
+          const Slicer slicer(model, plan);
+          const SampleGrid& part = slicer.grid();
+          if (random.below(3)) {
+            slicer.run(
+                0, part.nz,
+                [&](const Layer& layer) {
+                  assert_true(layer.z == grid.z(z[c] + layer.index));
+                  copy(slicer, layer, z[c] + layer.index, got.data());
+                },
+                nullptr);
+          } else {
+            std::vector<uint8_t> single(slicer.layer_bytes());
+            for (uint64_t k = 0; k < part.nz; ++k) {
+              slicer.slice_layer(k, single.data(), nullptr);
+              copy(slicer, {k, part.z(k), single.data(), 0}, z[c] + k, got.data());
+            }
+          }
+          asked.resize(part.nx * part.ny * part.nz);
+          set_membership(*model, model->resolved(0), GridPoints(part), {}, asked.data(), nullptr);
+          for (uint64_t i = 0; i < asked.size(); ++i) {
+            const uint64_t at =
+                x[a] + i % part.nx +
+                grid.nx * (y[b] + i / part.nx % part.ny + grid.ny * (z[c] + i / part.nx / part.ny));
+            if ((asked[i] != 0) != (wanted[at] != 0)) fail_msg("point %d of a window", int(i));
+          }
+        }
+    assert_memory_equal(wanted.data(), got.data(), wanted.size());
+  }
+  print_message("%zu windows, the same bytes\n", count);
+}
+
 void test_queries(void** state) {
   const ModelRow& row = *static_cast<const ModelRow*>(*state);
   const Ref<Model> model = row.make(make_ref<Context>(2u, uint64_t{1} << 30, uint64_t{0}));
@@ -227,6 +314,7 @@ int main() {
   std::vector<ModelRow> rows = models();
   int failed = run_for_each("settings", rows, test_settings);
   failed += run_for_each("split plans", rows, test_split);
+  failed += run_for_each("windows", rows, test_windows);
   failed += run_for_each("slices and queries", rows, test_queries);
   return failed;
 }

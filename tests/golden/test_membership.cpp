@@ -6,8 +6,8 @@
 
 #include "field/gradient.h"
 #include "msq_test.h"
-#include "structure/foam/delaunay.h"
 #include "structure/foam/foam.h"
+#include "structure/foam/paper/delaunay.h"
 #include "structure/lattice/lattice.h"
 
 using namespace msq;

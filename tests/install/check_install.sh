@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs a build to a prefix, moves the prefix, and builds and runs a C program against it.
-# Usage: check_install.sh cmake|pkgconfig shared|static BUILD_DIR VERSION
+# Usage: check_install.sh cmake|pkgconfig|examples shared|static BUILD_DIR VERSION
+# examples builds those of C and C++ by themselves against the prefix.
 # Environment: CC, CXX, CMAKE, PKG_CONFIG.
 set -euo pipefail
 
@@ -52,6 +53,16 @@ case $way in
       fi
       tr -s ' \n' ' ' <"$work/log" | grep -q "add CXX to the languages" || { cat "$work/log"; exit 1; }
     fi
+    ;;
+  examples)
+    for language in c cpp; do
+      { "$CMAKE" -S "$here/../../examples/$language" -B "$work/$language" -DCMAKE_PREFIX_PATH="$prefix" \
+        -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" -DCMAKE_BUILD_TYPE=Debug &&
+        "$CMAKE" --build "$work/$language" --parallel 2; } >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+    done
+    "$work/c/hello" >"$work/layer"
+    grep -q '#.*#' "$work/layer" || die "hello printed no layer"
+    "$work/cpp/infill_plugin" >"$work/log" || { cat "$work/log"; exit 1; }
     ;;
   pkgconfig)
     flags=()

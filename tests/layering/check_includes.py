@@ -12,8 +12,17 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["api", "slice", "ray", "query", "model", "structure", "cell", "field", "expression", "shape", "io",
+ROOMS = ["api", "slice", "fill", "ray", "query", "model", "structure", "cell", "field", "expression", "shape", "io",
          "strut", "base"]  # from the top down
+
+# Rooms within a kind of structure, from the top down. A file of a room includes its own room and those
+# below; the files of the kind itself, at its top, include any. A room may include of them only what
+# is named here.
+KIND_ROOMS = {
+    "foam": ["paper", "rays", "walls", "sets", "edges", "point", "section", "seeds"],
+    "lattice": ["mixed", "rows", "rays", "cell"],
+}
+KIND_BASE = {"foam": {"foam_data.h", "foam_graph.h"}, "lattice": set()}
 
 # Headers from outside src/, and the files of src/ that may include them; the first rule that fits a
 # header counts.
@@ -22,15 +31,16 @@ OUTSIDE = [
     # Files that are compiled once for each target include these themselves, between their own lines.
     (r"hwy/highway\.h", ["base/simd.cpp", "base/*-inl.h", "strut/*.cpp", "strut/*-inl.h",
                          "slice/*.cpp", "structure/*/*.cpp", "structure/*/*-inl.h",
-                         "expression/*.cpp", "expression/*-inl.h"]),
-    (r"hwy/foreach_target\.h", ["strut/*.cpp", "structure/*/*.cpp", "slice/*.cpp",
-                                "expression/*.cpp"]),
+                         "structure/*/*/*.cpp", "expression/*.cpp", "expression/*-inl.h"]),
+    (r"hwy/foreach_target\.h", ["strut/*.cpp", "structure/*/*.cpp", "structure/*/*/*.cpp",
+                                "slice/*.cpp", "expression/*.cpp"]),
     (r"hwy/.*", ["base/simd.h", "base/simd.cpp"]),
     (r"(oneapi/)?tbb/.*", ["base/parallel.cpp"]),
+    (r"pthread\.h", ["api/last_error.cpp"]),  # a key whose values are freed with their threads
     (r"execution", ["base/parallel.cpp"]),  # libstdc++ builds it upon TBB
     (r"assimp/.*|pugi(xml|config)\.hpp", ["io/*"]),
     (r"(minizip/)?(unzip|zip|ioapi|mz\w*)\.h|zlib\.h|zconf\.h", ["io/*"]),
-    (r"CGAL/.*|gmp(xx)?\.h|mpfr\.h|boost/.*", ["*/*_cgal.cpp", "*/*/*_cgal.cpp"]),
+    (r"CGAL/.*|gmp(xx)?\.h|mpfr\.h|boost/.*", ["*/*_cgal.cpp", "*/*/*_cgal.cpp", "*/*/*/*_cgal.cpp"]),
 ]
 C_HEADERS = {f"{name}.h" for name in
              "assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal "
@@ -69,11 +79,30 @@ def problem(source, path, kind, header):
         return f'"{header}": {target.parts[0]} is no room'
     if ROOMS.index(target.parts[0]) < ROOMS.index(room):
         return f'"{header}": the arrow from {room} to {target.parts[0]} runs up'
+    # structure/common/ is what kinds share, and the contract's defaults.
     if room == "structure" and target.parts[0] == "structure" and len(target.parts) > 2:
-        if len(path.parts) == 2:
+        if len(path.parts) == 2 and target.parts[1] != "common":
             return f'"{header}": the contract of structures knows none of its kinds'
-        if path.parts[1] != target.parts[1]:
+        if target.parts[1] != "common" and path.parts[1] != target.parts[1]:
             return f'"{header}": kinds of structures do not know each other'
+        return problem_of_kind(path, target)
+    return None
+
+
+def problem_of_kind(path, target):
+    """What is wrong with a file below structure/ including another of its kind, or None."""
+    kind = path.parts[1]
+    if kind not in KIND_ROOMS or target.parts[1] != kind or len(path.parts) == 3:
+        return None
+    if len(target.parts) == 3:
+        allowed = target.name in KIND_BASE[kind]
+        return None if allowed else f'"{target}": the rooms of {kind} do not know the files above them'
+    rooms = KIND_ROOMS[kind]
+    room, other = path.parts[2], target.parts[2]
+    if room not in rooms or other not in rooms:
+        return f'"{target}": {room} or {other} is no room of {kind}'
+    if rooms.index(other) < rooms.index(room):
+        return f'"{target}": the arrow from {room} to {other} runs up'
     return None
 
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "structure/foam/seeds.h"
+#include "structure/foam/seeds/seeds.h"
 
 namespace msq::test {
 

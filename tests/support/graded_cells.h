@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "structure/foam/graded_seeds.h"
+#include "structure/foam/seeds/graded_seeds.h"
 
 namespace msq::test {
 

@@ -21,42 +21,41 @@ extern "C" {
 #undef fail
 #undef skip
 #undef fail_msg
-#define fail_msg(...) \
-  do { \
-    print_error(__VA_ARGS__); \
-    print_error("\n"); \
+#define fail_msg(...)          \
+  do {                         \
+    print_error(__VA_ARGS__);  \
+    print_error("\n");         \
     _fail(__FILE__, __LINE__); \
   } while (0)
 #endif
 
 #include "msq.h"
 
-static inline void msq_test_status_(msq_status got, msq_status wanted, const char *call,
-                                    const char *file, int line) {
+static inline void msq_test_status_(msq_status got, msq_status wanted, const char* call,
+                                    const char* file, int line) {
   if (got == wanted) return;
   print_error("%s\n  is %s (%d), not %s: \"%s\"\n", call, msq_status_name(got), (int)got,
               msq_status_name(wanted), got == MSQ_OK ? "" : msq_error_message());
   _fail(file, line);
 }
 
-static inline void msq_test_message_(const char *text, const char *file, int line) {
+static inline void msq_test_message_(const char* text, const char* file, int line) {
   if (strstr(msq_error_message(), text) != NULL) return;
   print_error("the message \"%s\" says nothing of \"%s\"\n", msq_error_message(), text);
   _fail(file, line);
 }
 
 /* The call returns this status; if not, the test fails and says the call's message. */
-#define assert_status(call, status) \
-  msq_test_status_((call), (status), #call, __FILE__, __LINE__)
+#define assert_status(call, status) msq_test_status_((call), (status), #call, __FILE__, __LINE__)
 #define assert_ok(call) assert_status(call, MSQ_OK)
 
 /* The last failure's message on this thread contains the text. */
 #define assert_message_has(text) msq_test_message_((text), __FILE__, __LINE__)
 
-/* Factor on the number of samples that a test draws: environment variable MSQ_TEST_SCALE, default 1.
- * Slow builds (sanitizers) run with less. */
+/* Factor on the number of samples that a test draws: environment variable MSQ_TEST_SCALE,
+ * default 1. Slow builds (sanitizers) run with less. */
 static inline double test_scale(void) {
-  const char *text = getenv("MSQ_TEST_SCALE");
+  const char* text = getenv("MSQ_TEST_SCALE");
   if (text == NULL || *text == 0) return 1;
   const double scale = strtod(text, NULL);
   if (!(scale > 0)) {

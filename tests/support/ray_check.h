@@ -31,6 +31,7 @@ int check_ray(const char* name, const Ray& ray, double from, double to, const Ra
   };
   int entries = 0;
   double at = from;
+  PartSteps steps;
   while (at < to) {
     double t = to;
     const bool found = enter(ray, at, to, t);
@@ -49,7 +50,8 @@ int check_ray(const char* name, const Ray& ray, double from, double to, const Ra
     if (!(out >= t) || out > to + tolerance) fail_at("it leaves out of range", out);
     for (double s = std::ceil((t - from) / step) * step + from; s < out - tolerance; s += step)
       if (s > t + tolerance && holds(s, false)) fail_at("a point before it leaves is outside", s);
-    at = std::max(out, t) + tolerance;
+    at = std::max(out, t);
+    at += steps.behind(at, tolerance, 0x1p18 * tolerance);
   }
   return entries;
 }

@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#if MSQ_WITH_ASSIMP
 #include <zip.h>
+#endif
 
 #include <array>
 #include <cmath>
@@ -184,6 +186,8 @@ inline const Folder& folder() {
   return folder;
 }
 
+#if MSQ_WITH_ASSIMP
+
 struct Entry {
   std::string name, content;
 };
@@ -210,6 +214,34 @@ inline std::string zip_archive(const std::vector<Entry>& entries) {
   for (size_t n; (n = fread(block, 1, sizeof block, in)) > 0;) content.append(block, n);
   fclose(in);
   return content;
+}
+
+/// The archive with end records of Zip64, as some writers of 3MF make them of any size.
+inline std::string zip64_archive(std::string archive) {
+  constexpr size_t end_bytes = 22;
+  const size_t end = archive.size() - end_bytes;
+  const auto number = [&](size_t at, size_t bytes) {
+    uint64_t value = 0;
+    for (size_t i = 0; i < bytes; ++i)
+      value |= uint64_t{static_cast<uint8_t>(archive[end + at + i])} << (8 * i);
+    return value;
+  };
+  const uint64_t entries = number(10, 2), bytes = number(12, 4), offset = number(16, 4);
+  archive.resize(end);
+  archive += "PK\x06\x06";
+  put(archive, uint64_t{44});
+  put(archive, uint32_t{45 | 45 << 16});
+  put(archive, uint64_t{0});
+  for (const uint64_t value : {entries, entries, bytes, offset}) put(archive, value);
+  archive += "PK\x06\x07";
+  put(archive, uint32_t{0});
+  put(archive, uint64_t{end});
+  put(archive, uint32_t{1});
+  archive += "PK\x05\x06";
+  put(archive, uint32_t{0});
+  for (int i = 0; i < 3; ++i) put(archive, UINT32_MAX);
+  put(archive, uint16_t{0});
+  return archive;
 }
 
 inline std::string threemf_mesh() {
@@ -251,6 +283,8 @@ inline std::string threemf() {
                  "<item objectid=\"1\"/>"
                  "<item objectid=\"7\" transform=\"0 2 0 -2 0 0 0 0 2 0 0 1000\"/>");
 }
+
+#endif  // MSQ_WITH_ASSIMP
 
 inline std::string amf_object(const char* id) {
   std::string object = text("<object id=\"%s\"><mesh><vertices>", id);
@@ -361,16 +395,19 @@ struct Sample {
 
 inline const std::vector<Sample>& samples() {
   static const std::vector<Sample> all = {
-      {"binary.STL", MeshFormat::stl, stl_binary(), 1},
-      {"ascii.stl", MeshFormat::stl, stl_ascii(), 1},
-      {"box.obj", MeshFormat::obj, obj(), 1},
-      {"ascii.ply", MeshFormat::ply, ply(PlyKind::ascii), 1},
-      {"little.Ply", MeshFormat::ply, ply(PlyKind::little), 1},
-      {"big.ply", MeshFormat::ply, ply(PlyKind::big), 1},
-      {"box.off", MeshFormat::off, off(), 1},
-      {"three.3mf", MeshFormat::threemf, threemf(), 25.4},
-      {"box.amf", MeshFormat::amf, amf(), 25.4},
-      {"zipped.amf", MeshFormat::amf, zip_archive({{"readme", "no"}, {"x.AMF", amf()}}), 25.4},
+#if MSQ_WITH_ASSIMP
+    {"binary.STL", MeshFormat::stl, stl_binary(), 1},
+    {"three.3mf", MeshFormat::threemf, threemf(), 25.4},
+    {"zip64.3mf", MeshFormat::threemf, zip64_archive(threemf()), 25.4},
+    {"box.amf", MeshFormat::amf, amf(), 25.4},
+    {"zipped.amf", MeshFormat::amf, zip_archive({{"readme", "no"}, {"x.AMF", amf()}}), 25.4},
+#endif
+    {"ascii.stl", MeshFormat::stl, stl_ascii(), 1},
+    {"box.obj", MeshFormat::obj, obj(), 1},
+    {"ascii.ply", MeshFormat::ply, ply(PlyKind::ascii), 1},
+    {"little.Ply", MeshFormat::ply, ply(PlyKind::little), 1},
+    {"big.ply", MeshFormat::ply, ply(PlyKind::big), 1},
+    {"box.off", MeshFormat::off, off(), 1},
   };
   return all;
 }

@@ -8,7 +8,7 @@
 #include "base/vec.h"
 #include "msq_test.h"
 #include "random.h"
-#include "structure/foam/cells_near_edges.h"
+#include "structure/foam/rays/cells_near_edges.h"
 
 using namespace msq;
 using namespace msq::test;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Expressions: what texts mean, which are refused and where; enclosures hold all samples, also
-// through shortened tapes; vectors give the bits of the scalar evaluator.
+// through shortened tapes, and say where values may be no numbers; vectors give the bits of the
+// scalar evaluator.
 #include <cstring>
+#include <limits>
 
 #include "base/status.h"
 #include "expression/batch.h"
@@ -66,6 +68,7 @@ void equal_parts_are_one(void**) {
   assert_int_equal(size("(x+y)*(y+x)"), 4);
   assert_int_equal(size("x-x*0.5-0.5*x"), 5);
   assert_int_equal(size("2*3+pi"), 1);
+  assert_int_equal(size("min(x,y)*max(z,x)-max(x,z)*min(y,x)"), 3 + 2 + 1 + 1);
   assert_int_equal(size(preset_expressions[0]), 3 + 6 + 3 + 2);
 }
 
@@ -136,7 +139,7 @@ void limits_hold(void**) {
   assert_true(status_of(padded) == Status::limit);
   std::string many = "x";  // sums of different products
   for (int i = 2; i < 600; ++i) many.append("+x*").append(std::to_string(i));
-  assert_true(many.size() < most_expression_bytes && status_of(many) == Status::limit);
+  assert_true(many.size() < max_expression_bytes && status_of(many) == Status::limit);
 }
 
 void parameters_need_names(void**) {
@@ -157,8 +160,84 @@ void parameters_need_names(void**) {
   refused({{"c", 1}, {"d", 2}, {"c", 3}}, "parameters 0 and 2");
 }
 
-/// Adds a random text of everything there is.
-void add_random_text(std::string& text, Random& random, int depth) {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double odd_values[] = {no_number, -infinity, -2,   -0.0,   0.0,      5e-324, 1.5,
+                                 2,         1e300,     1e16, -1e308, infinity, 1e-200};
+
+/// By the words of IEEE 754-2019, not by the evaluator's means.
+double least(double a, double b) {
+  if (std::isnan(a) || std::isnan(b)) return no_number;
+  if (a == 0 && b == 0) return std::signbit(a) ? a : b;
+  return b < a ? b : a;
+}
+
+bool same_bits(double a, double b) {
+  return std::isnan(a) ? std::isnan(b) : std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+void minima_are_of_numbers(void**) {
+  for (const double a : odd_values)
+    for (const double b : odd_values) {
+      const double low = apply(Op::minimum, a, b), high = apply(Op::maximum, a, b);
+      if (!same_bits(low, least(a, b)) || !same_bits(high, -least(-a, -b)))
+        fail_msg("min(%g, %g) is %g, max %g", a, b, low, high);
+    }
+  assert_true(std::isnan(value("min(0/0,1)")) && std::isnan(value("min(1,0/0)")));
+  assert_true(std::isnan(value("max(0/0,x)")) && std::isnan(value("max(x,0/0)")));
+  assert_true(value("1/min(0,-0*x)") == -infinity && value("1/min(-0*x,0)") == -infinity);
+}
+
+/// No operation makes a number of what is none.
+void operations_keep_what_is_no_number(void**) {
+  for (int i = static_cast<int>(Op::add); i <= static_cast<int>(Op::logarithm); ++i) {
+    const Op op = static_cast<Op>(i);
+    for (const double other : odd_values) {
+      assert_true(std::isnan(apply(op, no_number, other)));
+      if (has_two_operands(op)) assert_true(std::isnan(apply(op, other, no_number)));
+    }
+  }
+}
+
+/// In lanes, of doubles and of floats.
+template <class T>
+void check_odd_values_in_vectors() {
+  constexpr size_t count = std::size(odd_values) * std::size(odd_values);
+  std::vector<T> a, b;
+  for (const double p : odd_values)
+    for (const double q : odd_values) {
+      a.push_back(static_cast<T>(p));
+      b.push_back(static_cast<T>(q));
+    }
+  static_assert(count <= batch_points);
+  a.resize(batch_points + batch_padding);
+  b.resize(batch_points + batch_padding);
+  for (int i = static_cast<int>(Op::add); i <= static_cast<int>(Op::logarithm); ++i) {
+    const Op op = static_cast<Op>(i);
+    if (sizeof(T) < sizeof(double) && op != Op::minimum && op != Op::maximum) continue;
+    Tape tape;
+    tape.nodes = {{Op::x}, {Op::y}, {op, 0, has_two_operands(op) ? 1u : 0u}};
+    const Program program = compile(tape);
+    BatchOf<T> batch(program);
+    batch.set_input(0, {a.data(), false});
+    batch.set_input(1, {b.data(), false});
+    batch.run(count);
+    for (size_t n = 0; n < count; ++n) {
+      const double got = batch.output(0)[n], wanted = apply(op, a[n], b[n]);
+      if (!same_bits(got, wanted))
+        fail_msg("operation %d of %g and %g is %g in vectors, not %g", i, double(a[n]),
+                 double(b[n]), got, wanted);
+    }
+  }
+}
+
+void vectors_treat_odd_values_alike(void**) {
+  check_odd_values_in_vectors<double>();
+  check_odd_values_in_vectors<float>();
+}
+
+/// Adds a random text of everything there is; `partial`: also of what is no number in places.
+void add_random_text(std::string& text, Random& random, int depth, bool partial = false) {
   static const char* const leaves[] = {"x", "y", "z", "1", "0.3", "pi", "x", "y", "z"};
   if (depth == 0 || random.below(8) == 0) {
     text += leaves[random.below(std::size(leaves))];
@@ -167,20 +246,30 @@ void add_random_text(std::string& text, Random& random, int depth) {
   static const char* const calls[][2] = {
       {"sin(", ")"},        {"cos(", ")"}, {"abs(", ")"}, {"sqrt(abs(", "))"}, {"exp(0.1*", ")"},
       {"log(1+abs(", "))"}, {"-(", ")"},   {"(", ")^2"},  {"(", ")^3"},        {"1/(2+", ")"}};
+  static const char* const partial_calls[][2] = {{"sqrt(", ")"}, {"log(", ")"},
+                                                 {"1/(", ")"},   {"exp(99*", ")"},
+                                                 {"(", ")^0.5"}, {"sin(1/(", "))"}};
+  if (partial && random.below(4) == 0) {
+    const auto& [before, after] = partial_calls[random.below(std::size(partial_calls))];
+    text += before;
+    add_random_text(text, random, depth - 1, partial);
+    text += after;
+    return;
+  }
   static const char* const pairs[][3] = {{"min(", ",", ")"}, {"max(", ",", ")"}, {"(", ")+(", ")"},
                                          {"(", ")-(", ")"},  {"(", ")*(", ")"},  {"(", ")/(", ")"}};
   if (random.below(2)) {
     const auto& [before, after] = calls[random.below(std::size(calls))];
     text += before;
-    add_random_text(text, random, depth - 1);
+    add_random_text(text, random, depth - 1, partial);
     text += after;
     return;
   }
   const auto& [before, between, after] = pairs[random.below(std::size(pairs))];
   text += before;
-  add_random_text(text, random, depth - 1);
+  add_random_text(text, random, depth - 1, partial);
   text += between;
-  add_random_text(text, random, depth - 1);
+  add_random_text(text, random, depth - 1, partial);
   text += after;
 }
 
@@ -191,10 +280,6 @@ std::vector<std::string> presets_and_random_texts(Random& random, size_t count, 
     add_random_text(texts.back(), random, depth);
   }
   return texts;
-}
-
-bool same_bits(double a, double b) {
-  return std::isnan(a) ? std::isnan(b) : std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 void enclosures_hold_all_samples(void**) {
@@ -236,9 +321,55 @@ void enclosures_hold_all_samples(void**) {
   assert_true(bounded > boxes / 2 && shorter > boxes / 20);
 }
 
+/// Where an enclosure is bounded values are numbers, and shortened tapes keep what is none.
+void enclosures_tell_what_may_be_no_number(void**) {
+  Random random(13);
+  size_t bounded = 0, partly = 0;
+  std::vector<Enclosure> nodes;
+  // One in 11 is partly no number: of a thousand enough to tell their share.
+  const size_t count = std::max<size_t>(test_count(6000), 1000);
+  for (size_t n = 0; n < count; ++n) {
+    std::string text;
+    add_random_text(text, random, 4, true);
+    const Tape tape = parse_expression(text, {});
+    Interval box[3];
+    const double size = two_pi / static_cast<double>(1 << (2 * (n % 3)));
+    for (Interval& side : box) {
+      side.low = random.between(0, two_pi - size);
+      side.high = side.low + size;
+    }
+    enclose(tape, box, nodes);
+    const Tape less = shortened(tape, nodes);
+    size_t numbers = 0;
+    constexpr size_t samples = 60;
+    for (size_t i = 0; i < samples; ++i) {
+      Vec3 p;
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] = i < 8 ? (i >> axis & 1 ? box[axis].high : box[axis].low)
+                        : random.between(box[axis].low, box[axis].high);
+      const double v = evaluate(tape, p);
+      numbers += !std::isnan(v);
+      if (is_bounded(nodes.back()) && !(v >= nodes.back().low && v <= nodes.back().high))
+        fail_msg("%s at (%.17g, %.17g, %.17g): %.17g is not from %.17g to %.17g", text.c_str(), p.x,
+                 p.y, p.z, v, nodes.back().low, nodes.back().high);
+      if (!same_bits(evaluate(less, p), v))
+        fail_msg("%s shortened: another value at (%.17g, %.17g, %.17g)", text.c_str(), p.x, p.y,
+                 p.z);
+    }
+    bounded += is_bounded(nodes.back());
+    partly += numbers > 0 && numbers < samples;
+  }
+  print_message("%zu bounded, %zu partly no numbers\n", bounded, partly);
+  assert_true(bounded > count / 5 && partly > count / 20);
+}
+
 void programs_give_the_scalar_bits(void**) {
   Random random(4);
-  const std::vector<std::string> texts = presets_and_random_texts(random, test_count(2000), 6);
+  std::vector<std::string> texts = presets_and_random_texts(random, test_count(2000), 6);
+  for (size_t n = 0; n < test_count(2000); ++n) {
+    texts.emplace_back();
+    add_random_text(texts.back(), random, 5, true);
+  }
   double angles[3][batch_points + batch_padding] = {};
   for (const std::string& text : texts) {
     const Tape tape = parse_expression(text, {});
@@ -266,7 +397,11 @@ int main() {
       cmocka_unit_test(bad_texts_are_refused_by_position),
       cmocka_unit_test(limits_hold),
       cmocka_unit_test(parameters_need_names),
+      cmocka_unit_test(minima_are_of_numbers),
+      cmocka_unit_test(operations_keep_what_is_no_number),
+      cmocka_unit_test(vectors_treat_odd_values_alike),
       cmocka_unit_test(enclosures_hold_all_samples),
+      cmocka_unit_test(enclosures_tell_what_may_be_no_number),
       cmocka_unit_test(programs_give_the_scalar_bits),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -19,6 +19,19 @@ void test_values(void**) {
   assert_true(field.range().low == -5 && field.range().high == 10);
 }
 
+/// No number is the least value, and ranges hold that, in either order.
+void test_what_is_no_number(void**) {
+  for (const char* text : {"max(sqrt(x), 1)", "max(1, sqrt(x))", "min(1, log(x))+2",
+                           "min(log(x), 1)+2", "abs(max(x^0.5, 1))"}) {
+    const ExpressionField field(parse_expression(text, {}), {-5, 10});
+    assert_true(field.at({-1, 0, 0}) == -5 && field.at({4, 0, 0}) >= 1);
+    const Interval range = field.range({{-1, 0, 0}, {1, 1, 1}});
+    assert_true(range.low == -5);
+    assert_true(field.lipschitz({{-1, 0, 0}, {1, 1, 1}}) ==
+                std::numeric_limits<double>::infinity());
+  }
+}
+
 void test_promises(void**) {
   const char* const texts[] = {"x + 2*y - z",
                                "sin(x)*cos(3*y) + exp(-z*z)",
@@ -53,7 +66,8 @@ void test_ranges_are_tight(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_values), cmocka_unit_test(test_promises),
-                              cmocka_unit_test(test_ranges_are_tight)};
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(test_values), cmocka_unit_test(test_what_is_no_number),
+      cmocka_unit_test(test_promises), cmocka_unit_test(test_ranges_are_tight)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -4,7 +4,7 @@
 #include "foam_diagram.h"
 #include "msq_test.h"
 #include "random.h"
-#include "structure/foam/edges.h"
+#include "structure/foam/edges/edge_brick.h"
 #include "structure/foam/foam.h"
 #include "structure/lattice/lattice.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The halo of a cell holds every seed that its bound calls for, and seeds_that_matter() leaves out
 // none that is nearest to a point within the radius of the cell.
-#include "structure/foam/halo.h"
+#include "structure/foam/paper/halo.h"
 
 #include <algorithm>
 

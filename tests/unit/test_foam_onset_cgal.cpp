@@ -7,7 +7,7 @@
 #include "msq_test.h"
 #include "random.h"
 #include "structure/foam/foam.h"
-#include "structure/foam/onset.h"
+#include "structure/foam/point/onset.h"
 #include "strut/segment.h"
 
 using namespace msq;

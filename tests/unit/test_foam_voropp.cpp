@@ -12,8 +12,8 @@
 
 #include "msq_test.h"
 #include "random.h"
-#include "structure/foam/edges.h"
-#include "structure/foam/voronoi_cell.h"
+#include "structure/foam/edges/edge_brick.h"
+#include "structure/foam/edges/voronoi_cell.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -139,7 +139,7 @@ void compare(const FoamSeeds& foam, CellIndex corner, Outcome& outcome) {
       for (const Vec3& seed : expected.seeds) {
         const Vec3 d = seed - own;
         if (d == Vec3{} || dot(d, d) > reach) continue;
-        assert_true(cell.count() < VoronoiCell::most_planes);
+        assert_true(cell.count() < VoronoiCell::max_planes);
         cell.add(d);
       }
       is_whole = cell.walk() && 4 * cell.radius_squared() * (1 + 1e-9) <= reach;

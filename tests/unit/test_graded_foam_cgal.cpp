@@ -8,8 +8,8 @@
 #include "foam_diagram.h"
 #include "graded_cells.h"
 #include "random.h"
+#include "structure/foam/edges/graded_edges.h"
 #include "structure/foam/foam.h"
-#include "structure/foam/graded_edges.h"
 #include "suite.h"
 
 using namespace msq;

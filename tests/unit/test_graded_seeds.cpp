@@ -8,9 +8,9 @@
 #include "graded_cells.h"
 #include "msq_test.h"
 #include "random.h"
+#include "structure/foam/edges/graded_edges.h"
 #include "structure/foam/foam.h"
-#include "structure/foam/graded_edges.h"
-#include "structure/foam/seed_trees.h"
+#include "structure/foam/seeds/seed_trees.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -51,7 +51,7 @@ void test_density_1_is_the_foam(void**) {
 
 void test_powers_of_8_are_met(void**) {
   size_t wanted = 8;
-  for (double density = 8; density <= GradedSeeds::most_density; density *= 8, wanted *= 8) {
+  for (double density = 8; density <= GradedSeeds::max_density; density *= 8, wanted *= 8) {
     const auto seeds = seeds_of(Parameter(density));
     assert_int_equal(graded_cells(*seeds, 0, 1).size(), wanted);
     if (wanted < 1000) assert_int_equal(graded_cells(*seeds, -2, 2).size(), 64 * wanted);
@@ -127,7 +127,7 @@ void test_searches(void**) {
     bool ascends = true;
     trees.visit(
         home, Box3{q, q}.grown(radius),
-        [&](const Box3& box) { return least_squared(box, q) <= radius * radius; },
+        [&](const Box3& box) { return min_squared(box, q) <= radius * radius; },
         [&](const LeafSeed& seed) {
           ascends = ascends && seed.order > order;
           order = seed.order;

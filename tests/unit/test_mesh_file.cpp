@@ -174,6 +174,29 @@ void reads_what_assimp_reads_wrong(void**) {
       24);
 }
 
+void reads_long_binary_stl(void**) {
+  // More than Assimp is shown at once, with trailing bytes.
+  constexpr uint32_t facets = 50001;
+  std::string file(80, 'C');
+  put(file, facets);
+  float next = 0.1f;
+  for (uint32_t i = 0; i < facets; ++i) {
+    for (int k = 0; k < 12; ++k) put(file, next = next * 1.0001f + (k < 3 ? 0 : 1));
+    put(file, static_cast<uint16_t>(0xffff - i));
+    if (next > 1e30f) next = -0.3f;
+  }
+  const TriangleSoup soup = read(file + "the end", options_for(MeshFormat::stl));
+  assert_int_equal(soup.triangles.size(), facets);
+  for (uint32_t i = 0; i < facets; ++i)
+    for (uint32_t corner = 0; corner < 3; ++corner)
+      for (uint32_t axis = 0; axis < 3; ++axis) {
+        float expected;
+        std::memcpy(&expected, file.data() + 84 + 50 * i + 12 * (corner + 1) + 4 * axis, 4);
+        const Vec3& p = soup.vertices[soup.triangles[i][corner]];
+        assert_true(p[static_cast<int>(axis)] == static_cast<double>(expected));
+      }
+}
+
 void opens_no_other_file(void**) {
   // Opening a pipe would block for ever.
   const std::string pipe = folder().file("pipe.mtl");
@@ -225,6 +248,7 @@ int main() {
       cmocka_unit_test(places_amf_instances),
       cmocka_unit_test(triangulates_concave_polygons),
       cmocka_unit_test(reads_what_assimp_reads_wrong),
+      cmocka_unit_test(reads_long_binary_stl),
       cmocka_unit_test(opens_no_other_file),
       cmocka_unit_test(shows_assimp_one_file_alone),
   };

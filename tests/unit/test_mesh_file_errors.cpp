@@ -276,6 +276,20 @@ void survives_mutation(void**) {
   }
 }
 
+/// Whether minizip takes what ends archives for damage or, wrongly, for memory that failed.
+void survives_damaged_ends_of_archives(void**) {
+  std::mt19937_64 random(31);
+  for (const std::string& archive : {threemf(), zip64_archive(threemf())})
+    for (int round = 0; round < 4000; ++round) {
+      std::string content = archive;
+      for (uint64_t changes = 1 + random() % 3; changes > 0; --changes)
+        content[content.size() - 1 - random() % 98] = "\x00\x01\xff\x7f\x05\x06PK"[random() % 8];
+      if (round % 4 == 0) content.resize(content.size() - random() % 100);
+      read_anything(content, MeshFormat::threemf);
+    }
+  assert_refused(threemf().substr(0, 100), MeshFormat::threemf, Status::io, {"not a zip archive"});
+}
+
 }  // namespace
 
 int main() {
@@ -291,6 +305,7 @@ int main() {
       cmocka_unit_test(refuses_archives_that_unpack_to_too_much),
       cmocka_unit_test(survives_truncation),
       cmocka_unit_test(survives_mutation),
+      cmocka_unit_test(survives_damaged_ends_of_archives),
   };
   return cmocka_run_group_tests_name("mesh_file_errors", tests, nullptr, nullptr);
 }

@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "msq_test.h"
-#include "structure/foam/seeded_edges.h"
+#include "structure/foam/rays/ray_brick.h"
 
 using namespace msq;
 
 namespace {
 
-constexpr int side = SeededEdges::side;
+constexpr int side = RayBrick::side;
 
 struct Row {
   const char* name;
@@ -36,10 +36,10 @@ void names_owners(void** state) {
   size_t named = 0, needed = 0;
   for (size_t round = 0; round < test_count(10); ++round) {
     const FoamSeeds seeds(round, row.jitter, row.scale);
-    for (const int reach : SeededEdges::reach(seeds, row.radius)) assert_true(reach <= side / 2);
+    for (const int reach : RayBrick::reach(seeds, row.radius)) assert_true(reach <= side / 2);
     const auto n = static_cast<int32_t>(round);
     const CellIndex corner{7 * n, -n, 3 * n};
-    const SeededEdges brick(seeds, corner, row.radius);
+    const RayBrick brick(seeds, corner, row.radius);
     std::vector<uint8_t> owning(side * side * side);
     for (int k = -1; k <= 1; ++k)
       for (int j = -1; j <= 1; ++j)
@@ -47,7 +47,7 @@ void names_owners(void** state) {
           const int way[3] = {i, j, k};
           const CellIndex at{corner.x + side * i, corner.y + side * j, corner.z + side * k};
           // Edges in single precision may seem to come a little nearer.
-          const SeededEdges around(seeds, at, row.radius - 1e-5);
+          const RayBrick around(seeds, at, row.radius - 1e-5);
           for (int c = 0; c < side * side * side; ++c) {
             const int cell[3] = {c % side, c / side % side, c / side / side};
             if (around.list(cell[0] - side * i, cell[1] - side * j, cell[2] - side * k).empty())
@@ -81,7 +81,7 @@ void names_owners(void** state) {
 /// Where owners may be farther away than the bricks next to a cell, all of these are named.
 void names_all_if_edges_reach_far(void**) {
   const FoamSeeds seeds(1, 1, {1, 1, 0.6});
-  const SeededEdges brick(seeds, {0, 0, 0}, 0.1);
+  const RayBrick brick(seeds, {0, 0, 0}, 0.1);
   for (int c = 0; c < side * side * side; ++c)
     assert_int_equal(brick.owning(c % side, c / side % side, c / side / side), 0xff);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // When rays through a foam are worth the edges about them.
 #include "msq_test.h"
-#include "structure/foam/ray_demand.h"
+#include "structure/foam/rays/ray_demand.h"
 
 using namespace msq;
 

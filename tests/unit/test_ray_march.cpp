@@ -20,15 +20,15 @@ struct March {
 };
 
 /// Along [0, to] of the ray, with the solid that is at x >= surface, by a bound of the distance.
-template <class Clearance>
-March march(double surface, double to, Clearance&& clearance) {
+template <class DistanceBound>
+March march(double surface, double to, DistanceBound&& distance_bound) {
   March m;
   const auto inside = [&](Vec3 p) {
     ++m.asked;
     return p.x >= surface;
   };
-  m.found =
-      RayMarch{tolerance, tolerance}.find(true, ray, 0, to, inside, clearance, m.t, &m.creeps);
+  m.found = RayMarch{tolerance, tolerance}.find(true, ray, 0, to, inside, distance_bound, m.t,
+                                                nullptr, &m.creeps);
   return m;
 }
 
@@ -52,20 +52,45 @@ void test_creeps_no_more_than_thousands_of_steps(void**) {
   assert_true(behind.found && std::abs(behind.t - 3) <= tolerance);
 }
 
+/// Parts of a solid that end `length` after they begin and lie `gap` apart, met along [0, 1].
+int count_parts(double length, double gap, double slow) {
+  PartSteps steps;
+  int parts = 0;
+  double at = 0;
+  while (at < 1) {
+    const double from = std::ceil(at / (length + gap)) * (length + gap), end = from + length;
+    at = end + steps.behind(end, tolerance, slow);
+    ++parts;
+  }
+  return parts;
+}
+
+void test_parts_that_are_noise_are_left_behind(void**) {
+  constexpr double slow = 0x1p18 * tolerance;
+  // Parts as short as rounding, and longer ones, as long as 64 of them are within `slow`.
+  for (const double length : {0x1p-52, tolerance, 8 * tolerance, 1000 * tolerance})
+    assert_in_range(count_parts(length, length, slow), 64, 64 * 37);
+  // None of those of a structure is.
+  constexpr double cell = 1.0 / 4096;
+  assert_in_range(count_parts(cell / 16, cell / 16, 0.25 * cell), 8 * 4096, 8 * 4096 + 1);
+}
+
 /// March::asked: by any of the rays.
 std::vector<March> march_together(const std::vector<double>& surfaces, double to,
-                                  double clearance) {
+                                  double distance_bound) {
   std::vector<RaySearch> searches;
   for (size_t i = 0; i < surfaces.size(); ++i) searches.push_back({ray, 0, to});
   std::vector<March> marches(surfaces.size());
-  msq::march_together(searches.data(), searches.size(), tolerance, tolerance,
-                      [&](const std::vector<MarchPoint>& points, uint8_t* there, double* steps) {
-                        for (size_t i = 0; i < points.size(); ++i) {
-                          ++marches[points[i].search].asked;
-                          there[i] = points[i].t >= surfaces[points[i].search];
-                          steps[i] = clearance;
-                        }
-                      });
+  msq::march_together(
+      searches.data(), searches.size(), tolerance, [](const RaySearch&) { return tolerance; },
+      nullptr,
+      [&](const std::vector<MarchPoint>& points, uint8_t* there, double* steps) {
+        for (size_t i = 0; i < points.size(); ++i) {
+          ++marches[points[i].search].asked;
+          there[i] = points[i].t >= surfaces[points[i].search];
+          steps[i] = distance_bound;
+        }
+      });
   for (size_t i = 0; i < searches.size(); ++i) {
     marches[i].found = searches[i].found;
     marches[i].t = searches[i].t;
@@ -74,11 +99,11 @@ std::vector<March> march_together(const std::vector<double>& surfaces, double to
 }
 
 void test_rays_together_march_as_each_alone(void**) {
-  for (const double clearance : {0.25, 1e-3, 1e-9}) {
+  for (const double distance_bound : {0.25, 1e-3, 1e-9}) {
     const std::vector<double> surfaces = {-1, 0, 0.3, 2, 3.9999, 5, 1e9};
-    const std::vector<March> together = march_together(surfaces, 4, clearance);
+    const std::vector<March> together = march_together(surfaces, 4, distance_bound);
     for (size_t i = 0; i < surfaces.size(); ++i) {
-      const March alone = march(surfaces[i], 4, [&](Vec3) { return clearance; });
+      const March alone = march(surfaces[i], 4, [&](Vec3) { return distance_bound; });
       assert_true(together[i].found == alone.found);
       assert_true(together[i].t == alone.t);
       assert_int_equal(together[i].asked, alone.asked);
@@ -102,13 +127,13 @@ void test_steep_functions_of_hosts_do_not_hang(void**) {
   // All but along the plate, beside it and in it.
   const Ray beside{{0.01, (pi + 1 + off) / (2 * pi), 0.5}, {1, 0, 0}};
   RaySearch searches[2] = {{beside, 0, 0.9}, {beside, 0, 0.7}};
-  function.enter(searches, 2);
+  function.enter(searches, 2, nullptr);
   assert_true(searches[0].found && std::abs(searches[0].t + 0.01 - 5 / (2 * pi)) < 1e-9);
   assert_false(searches[1].found);
   assert_true(asked < 60000);
   asked = 0;
   const Ray within{{0.01, (pi + 1 - off) / (2 * pi), 0.5}, {1, 0, 0}};
-  assert_true(function.leave(within, 0, 0.9) > 0);
+  assert_true(function.leave(within, 0, 0.9, nullptr) > 0);
   assert_true(asked < 60000);
 }
 
@@ -136,10 +161,10 @@ void test_functions_of_hosts_lose_no_plates(void**) {
     const double way = length(b - a);
     searches.push_back({{a, (b - a) * (1 / way)}, 0, way});
   }
-  solid.enter(searches.data(), searches.size());
+  solid.enter(searches.data(), searches.size(), nullptr);
   for (const RaySearch& s : searches) {
     assert_true(s.found && std::abs(s.ray.at(s.t).x - 0.5) < 2e-6);
-    const double until = gap.leave(s.ray, 0, s.to);
+    const double until = gap.leave(s.ray, 0, s.to, nullptr);
     assert_true(s.ray.at(until).x < 0.5);
   }
 }
@@ -150,6 +175,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(test_steps_by_the_distance),
       cmocka_unit_test(test_creeps_no_more_than_thousands_of_steps),
+      cmocka_unit_test(test_parts_that_are_noise_are_left_behind),
       cmocka_unit_test(test_rays_together_march_as_each_alone),
       cmocka_unit_test(test_steep_functions_of_hosts_do_not_hang),
       cmocka_unit_test(test_functions_of_hosts_lose_no_plates),

@@ -54,7 +54,7 @@ void test_sorts_rays_by_where_they_go(void**) {
     for (const bool are_parallel : {true, false}) {
       const std::vector<RaySearch> rays = mixed_rays(random, count, are_parallel);
       RayOrder order(unit_box, 1.0 / 128);
-      assert_true(order.sort(executor, first, count, fill_from(rays, first)));
+      assert_true(order.sort(executor, first, count, fill_from(rays, first), nullptr));
       std::vector<uint64_t> numbers(count);
       order.take(0, numbers);
       for (uint64_t& number : numbers) number -= first;
@@ -75,12 +75,14 @@ void test_leaves_rays_that_lie_together(void**) {
     rays[i].ray = {{x, y, -1}, {0, 0, 1}};
     rays[i].to = 10;
   }
-  assert_false(RayOrder(unit_box, 0.25).sort(executor, 0, rays.size(), fill_from(rays, 0)));
-  assert_true(RayOrder(unit_box, 0.05).sort(executor, 0, rays.size(), fill_from(rays, 0)));
+  assert_false(
+      RayOrder(unit_box, 0.25).sort(executor, 0, rays.size(), fill_from(rays, 0), nullptr));
+  assert_true(RayOrder(unit_box, 0.05).sort(executor, 0, rays.size(), fill_from(rays, 0), nullptr));
   // Past the box they need no order.
   for (RaySearch& s : rays) s.ray.origin.z = 2;
-  assert_false(RayOrder(unit_box, 0.05).sort(executor, 0, rays.size(), fill_from(rays, 0)));
-  assert_false(RayOrder(unit_box, 0.05).sort(executor, 0, 1, fill_from(rays, 0)));
+  assert_false(
+      RayOrder(unit_box, 0.05).sort(executor, 0, rays.size(), fill_from(rays, 0), nullptr));
+  assert_false(RayOrder(unit_box, 0.05).sort(executor, 0, 1, fill_from(rays, 0), nullptr));
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// set_bits and first_sample_from, in all small cases, against loops.
+// set_bits and first_sample_from, in all small cases, against loops; windows and their refusals.
 #include <vector>
 
 #include "base/sample_grid.h"
+#include "base/status.h"
 #include "msq_test.h"
 #include "random.h"
 
@@ -26,21 +27,25 @@ void test_set_bits(void**) {
       }
 }
 
-uint64_t first_by_loop(double origin, double spacing, uint64_t count, double value, bool beyond) {
+uint64_t first_by_loop(double origin, double spacing, uint64_t first, uint64_t count, double value,
+                       bool beyond) {
   for (uint64_t i = 0; i < count; ++i) {
-    const double x = origin + static_cast<double>(i) * spacing;
+    const double x = origin + static_cast<double>(first + i) * spacing;
     if (beyond ? x > value : x >= value) return i;
   }
   return count;
 }
 
 void check_first(double origin, double spacing, uint64_t count, double value) {
-  const uint64_t from = first_sample_from(origin, spacing, count, value);
-  const uint64_t beyond = first_sample_from<true>(origin, spacing, count, value);
-  if (from != first_by_loop(origin, spacing, count, value, false) ||
-      beyond != first_by_loop(origin, spacing, count, value, true))
-    fail_msg("origin %.17g, spacing %.17g, count %d, value %.17g: %d and %d", origin, spacing,
-             int(count), value, int(from), int(beyond));
+  for (uint64_t first : {uint64_t{0}, uint64_t{3}, uint64_t{1000000}, uint64_t{INT32_MAX} - 7}) {
+    const double start = origin - static_cast<double>(first) * spacing;
+    const uint64_t from = first_sample_from(start, spacing, first, count, value);
+    const uint64_t beyond = first_sample_from<true>(start, spacing, first, count, value);
+    if (from != first_by_loop(start, spacing, first, count, value, false) ||
+        beyond != first_by_loop(start, spacing, first, count, value, true))
+      fail_msg("origin %.17g, spacing %.17g, %d from %d on, value %.17g: %d and %d", start, spacing,
+               int(count), int(first), value, int(from), int(beyond));
+  }
 }
 
 void test_first_sample(void**) {
@@ -65,6 +70,47 @@ void test_first_sample(void**) {
   }
 }
 
+void test_windows(void**) {
+  const double heights[] = {1, 2.5, 2.75, 9};
+  SampleGrid whole;
+  whole.origin = {0.1, -7, 3};
+  whole.spacing = {0.1, 0.3, 1.0 / 3};
+  whole.nx = 1000;
+  whole.ny = 70;
+  whole.nz = 4;
+  for (bool is_listed : {false, true}) {
+    whole.heights = is_listed ? heights : nullptr;
+    const SampleGrid part = window_of(whole, {{990, 1, 2}, {10, 69, 2}});
+    assert_int_equal(part.nx, 10);
+    assert_int_equal(part.ny, 69);
+    assert_int_equal(part.nz, 2);
+    for (uint64_t i = 0; i < 10; ++i) assert_true(part.x(i) == 0.1 + double(990 + i) * 0.1);
+    for (uint64_t j = 0; j < 69; ++j) assert_true(part.y(j) == -7 + double(1 + j) * 0.3);
+    for (uint64_t k = 0; k < 2; ++k)
+      assert_true(part.z(k) == (is_listed ? heights[2 + k] : 3 + double(2 + k) * (1.0 / 3)));
+    assert_int_equal(part.first_x_from(part.x(4)), 4);
+    assert_int_equal(part.first_x_from<true>(part.x(4)), 5);
+    assert_int_equal(part.first_y_from(part.y(68)), 68);
+    assert_int_equal(part.first_y_from<true>(part.y(68)), 69);
+  }
+  assert_true(window_of(whole, {}).nx == whole.nx);
+}
+
+void test_windows_refused(void**) {
+  SampleGrid whole;
+  whole.nx = whole.ny = whole.nz = 10;
+  const SampleWindow wrong[] = {
+      {{0, 0, 0}, {10, 10, 11}}, {{0, 10, 0}, {1, 1, 1}},         {{1, 0, 0}, {10, 10, 10}},
+      {{0, 0, 0}, {1, 0, 1}},    {{0, 0, UINT64_MAX}, {1, 1, 2}}, {{0, 5, 0}, {1, UINT64_MAX, 1}},
+  };
+  for (const SampleWindow& window : wrong) try {
+      window_of(whole, window);
+      fail_msg("accepted");
+    } catch (const Error& error) {
+      assert_true(error.status == Status::argument);
+    }
+}
+
 void test_words(void**) {
   assert_int_equal(words_for(1), 1);
   assert_int_equal(words_for(64), 1);
@@ -75,6 +121,7 @@ void test_words(void**) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(test_set_bits), cmocka_unit_test(test_first_sample),
-                              cmocka_unit_test(test_words)};
+                              cmocka_unit_test(test_windows),
+                              cmocka_unit_test(test_windows_refused), cmocka_unit_test(test_words)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

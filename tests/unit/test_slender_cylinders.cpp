@@ -37,7 +37,8 @@ void test_rows_and_rays(void**) {
       // Shorter parts of a ray than its tolerance may be overlooked.
       const Ray ray{{box.min.x, middle.y, middle.z}, {1, 0, 0}};
       double t;
-      if (cylinder.ray_tolerance() < 0.1) assert_true(cylinder.enter(ray, 0, 3 * length, t));
+      if (cylinder.ray_tolerance() < 0.1)
+        assert_true(cylinder.enter(ray, 0, 3 * length, t, nullptr));
     }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Struts so thin that the single-precision ends of foam edges matter: around short edges, at a pitch of
-// a thousandth of the radius, spans give the point query's bits.
+// Struts so thin that the single-precision ends of foam edges matter: around short edges, at a
+// pitch of a thousandth of the radius, spans give the point query's bits.
 #include "bit_rows.h"
-#include "structure/foam/edges.h"
+#include "structure/foam/edges/edge_brick.h"
 #include "structure/foam/foam.h"
 #include "suite.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "msq_test.h"
-#include "structure/lattice/unit_cell.h"
+#include "structure/lattice/cell/unit_cell.h"
 
 using namespace msq;
 

@@ -10,7 +10,7 @@
 #include "bit_rows.h"
 #include "msq_test.h"
 #include "random.h"
-#include "structure/foam/edges.h"
+#include "structure/foam/edges/edge_brick.h"
 #include "structure/foam/foam.h"
 #include "structure/lattice/lattice.h"
 

@@ -6,7 +6,7 @@
 
 #include "msq_test.h"
 #include "random.h"
-#include "structure/foam/voronoi_cell.h"
+#include "structure/foam/edges/voronoi_cell.h"
 
 using namespace msq;
 using namespace msq::test;

@@ -5,7 +5,8 @@
 #include "field/gradient.h"
 #include "msq_test.h"
 #include "random.h"
-#include "structure/foam/strut_surface.h"
+#include "structure/foam/foam.h"
+#include "structure/foam/rays/march.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -50,8 +51,8 @@ void is_the_way_to_the_surface(void** state) {
     ray.direction = way_on * (1 / length(way_on));
     ray.origin = random.in_box({row.cell_size * -4, row.cell_size * 4});
     if (foam.inside(ray.origin)) continue;
-    const double around = foam.clearance(ray.origin);
-    const double way = way_to_strut(foam, ray.origin, ray.direction);
+    const double around = foam.distance_bound(ray.origin);
+    const double way = way_to_strut(foam, ray.origin, ray.direction, 0);
     constexpr int steps = 16;
     for (int i = 1; i <= steps && way > 0; ++i)
       if (foam.inside(ray.at(way * i / steps)))

@@ -11,12 +11,15 @@ Lengths are in the model's unit, millimetres with files. What the words mean exa
 docs/concepts.md of msq; msq.h says the rest. Objects are immutable, and any thread may use them;
 calls let other Python threads run. Failures are exceptions with the library's message: see Error.
 """
+from ._grid import Grid
 from ._host import HostPoints
 from .camera import Camera
 from .context import (BuildInfo, CacheInfo, Context, Job, JobInfo, MemoryInfo, build_info)
+from .contours import Contours
 from .errors import (ArgumentError, CancelledError, Error, FileError, HostError, InternalError,
                      LimitError, MeshError, OutOfMemoryError, UnsupportedError)
 from .field import Field, Param
+from .fill import Fill
 from .material import Material
 from .model import Model, Scale
 from .picture import Picture, RenderPass
@@ -24,18 +27,19 @@ from .points import PointGrid, PointSet, Stratified
 from .shape import Shape, ShapeInfo
 from .slicer import Layer, Slicer
 from .statistics import Calibration, Estimate
-from .structure import (Foam, Functional, HostFunctional, HostStructure, Lattice, LatticeFaces,
-                        Structure)
+from .structure import (Beams, Foam, Functional, HostFunctional, HostStructure, Lattice,
+                        LatticeFaces, Structure)
 from .unit_cell import UnitCell, UnitCellInfo
 
 __version__ = "0.1.0"
 
 __all__ = [
-    "ArgumentError", "BuildInfo", "CacheInfo", "Calibration", "Camera", "CancelledError", "Context",
-    "Error", "Estimate", "Field", "FileError", "Foam", "Functional", "HostError", "HostFunctional",
-    "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice", "LatticeFaces",
-    "Layer", "LimitError", "Material", "MemoryInfo", "MeshError", "Model", "OutOfMemoryError",
-    "Param", "Picture", "PointGrid", "PointSet", "RenderPass", "Scale", "Shape", "ShapeInfo",
-    "Slicer", "Stratified", "Structure", "UnitCell", "UnitCellInfo", "UnsupportedError",
-    "build_info",
+    "ArgumentError", "Beams", "BuildInfo", "CacheInfo", "Calibration", "Camera", "CancelledError",
+    "Context", "Contours", "Error", "Estimate", "Field", "FileError", "Fill", "Foam", "Functional",
+    "Grid", "HostError",
+    "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",
+    "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "MeshError", "Model",
+    "OutOfMemoryError", "Param", "Picture", "PointGrid", "PointSet", "RenderPass", "Scale", "Shape",
+    "ShapeInfo", "Slicer", "Stratified", "Structure", "UnitCell", "UnitCellInfo",
+    "UnsupportedError", "build_info",
 ]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The declarations of msq.h. Made from it by make_abi.py: change those."""
-from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, c_int32, c_size_t,
-                    c_uint32, c_uint64, c_uint8, c_void_p)
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, c_int32, c_int64,
+                    c_size_t, c_uint32, c_uint64, c_uint8, c_void_p)
 
 MSQ_VERSION_MAJOR = 0
 MSQ_VERSION_MINOR = 1
@@ -22,11 +22,14 @@ MSQ_CACHE_SEGMENTED = 1
 MSQ_WINDING_NONZERO = 0
 MSQ_WINDING_EVEN_ODD = 1
 MSQ_WINDING_POSITIVE = 2
+MSQ_WINDING_AUTO = 3
 MSQ_FLOAT32 = 1
 MSQ_FLOAT64 = 2
 MSQ_UINT8 = 3
 MSQ_INT16 = 4
 MSQ_UINT16 = 5
+MSQ_INT32 = 6
+MSQ_INT64 = 7
 MSQ_FORMAT_AUTO = 0
 MSQ_FORMAT_STL = 1
 MSQ_FORMAT_OBJ = 2
@@ -36,6 +39,9 @@ MSQ_FORMAT_3MF = 5
 MSQ_FORMAT_AMF = 6
 MSQ_SOLID_ABOVE = 0
 MSQ_SOLID_BELOW = 1
+MSQ_BOOLEAN_UNION = 1
+MSQ_BOOLEAN_INTERSECTION = 2
+MSQ_BOOLEAN_DIFFERENCE = 3
 MSQ_UNIT_CELL_CUSTOM = 0
 MSQ_UNIT_CELL_CUBIC = 1
 MSQ_UNIT_CELL_BCC = 2
@@ -61,6 +67,9 @@ MSQ_FUNCTION_LIDINOID = 7
 MSQ_FUNCTION_SPLIT_P = 8
 MSQ_FUNCTIONAL_NETWORK = 1
 MSQ_FUNCTIONAL_SHEET = 2
+MSQ_CAP_SPHERE = 0
+MSQ_CAP_HEMISPHERE = 1
+MSQ_CAP_BUTT = 2
 MSQ_BOX_MIXED = 0
 MSQ_BOX_OUTSIDE = 1
 MSQ_BOX_INSIDE = 2
@@ -71,10 +80,18 @@ MSQ_QUERY_SET = 2
 MSQ_POINTS_ARRAY = 1
 MSQ_POINTS_GRID = 2
 MSQ_POINTS_STRATIFIED = 3
+MSQ_ONSET_PLAIN = 0
+MSQ_ONSET_SIGNED = 1
 MSQ_PHASE_SOLID = 1
 MSQ_PHASE_VOID = 2
 MSQ_LAYER_BITS = 1
 MSQ_LAYER_BYTES = 2
+MSQ_LAYER_GREY = 3
+MSQ_LAYER_DISTANCE = 4
+MSQ_LAYER_MATERIAL = 5
+MSQ_LAYER_MIRROR_X = 1
+MSQ_LAYER_MIRROR_Y = 2
+MSQ_LAYER_TRANSPOSE = 4
 MSQ_CAMERA_ORTHOGRAPHIC = 0
 MSQ_CAMERA_PERSPECTIVE = 1
 MSQ_COLOUR_PLAIN = 0
@@ -115,6 +132,14 @@ class msq_slicer(Structure):
     """Opaque."""
 
 
+class msq_contours(Structure):
+    """Opaque."""
+
+
+class msq_fill(Structure):
+    """Opaque."""
+
+
 class msq_build_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("version", c_uint32), ("with_assimp", c_int32),
                 ("with_cgal", c_int32), ("licence", c_char_p), ("simd", c_char_p)]
@@ -141,6 +166,10 @@ class msq_job_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("points", c_uint64),
                 ("by_shape", c_uint64), ("by_point", c_uint64), ("by_set", c_uint64),
                 ("groups", c_uint64)]
+
+
+class msq_window(Structure):
+    _fields_ = [("first", c_uint64 * 3), ("count", c_uint64 * 3)]
 
 
 msq_release_fn = CFUNCTYPE(None, c_void_p)
@@ -265,7 +294,7 @@ class msq_lattice_faces_report(Structure):
 class msq_foam_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("method", c_int32), ("grid", msq_neighbourhood),
                 ("radius", msq_param), ("jitter", c_double), ("seed", c_uint64),
-                ("density", msq_param)]
+                ("density", msq_param), ("wall_thickness", msq_param)]
 
 
 class msq_functional_def(Structure):
@@ -273,6 +302,17 @@ class msq_functional_def(Structure):
                 ("clusters", c_uint32), ("grid", msq_neighbourhood), ("level", msq_param),
                 ("expression", c_char_p), ("parameters", POINTER(msq_named_value)),
                 ("parameter_count", c_uint64), ("thickness", msq_param)]
+
+
+class msq_beams_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("cap", c_int32), ("coordinate_type", c_int32),
+                ("reserved", c_uint32), ("nodes", c_void_p), ("node_count", c_uint64),
+                ("node_stride", c_uint64), ("beams", POINTER(c_uint32)), ("beam_count", c_uint64),
+                ("beam_stride", c_uint64), ("radii", c_void_p), ("radius_stride", c_uint64),
+                ("caps", POINTER(c_uint8)), ("cap_stride", c_uint64), ("balls", POINTER(c_uint32)),
+                ("ball_count", c_uint64), ("ball_stride", c_uint64), ("ball_radii", c_void_p),
+                ("ball_radius_stride", c_uint64), ("radius", c_double), ("ball_radius", c_double),
+                ("min_length", c_double), ("length_scale", c_double)]
 
 
 class msq_host_points(Structure):
@@ -347,7 +387,7 @@ class msq_points_def(Structure):
                 ("count", c_uint64), ("stride", c_uint64), ("coordinate_type", c_int32),
                 ("reserved", c_uint32), ("origin", c_double * 3), ("spacing", c_double * 3),
                 ("counts", c_uint64 * 3), ("seed", c_uint64), ("per_cell", c_uint32),
-                ("reserved2", c_uint32), ("rotation", c_double * 9)]
+                ("reserved2", c_uint32), ("rotation", c_double * 9), ("window", msq_window)]
 
 
 class msq_estimate(Structure):
@@ -362,7 +402,7 @@ class msq_segments_def(Structure):
 
 class msq_calibration_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("samples", c_uint64),
-                ("parameter", c_double), ("fraction", msq_estimate), ("most_fraction", c_double)]
+                ("parameter", c_double), ("fraction", msq_estimate), ("max_fraction", c_double)]
 
 
 class msq_slicer_def(Structure):
@@ -370,13 +410,16 @@ class msq_slicer_def(Structure):
                 ("resolution", c_uint32 * 2), ("layer_height", c_double), ("layer_count", c_uint64),
                 ("has_region", c_int32), ("slab_layers", c_uint32), ("region_min", c_double * 3),
                 ("region_max", c_double * 3), ("layer_z", POINTER(c_double)),
-                ("layer_z_count", c_uint64), ("length_scale", c_double)]
+                ("layer_z_count", c_uint64), ("length_scale", c_double), ("window", msq_window),
+                ("grey_samples", c_uint32), ("grey_threshold", c_uint32), ("grey_gamma", c_double),
+                ("orientation", c_uint32), ("reserved", c_uint32)]
 
 
 class msq_slicer_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("slab_layers", c_uint32), ("width", c_uint32),
                 ("height", c_uint32), ("layer_count", c_uint64), ("stride", c_uint64),
-                ("layer_bytes", c_uint64), ("origin", c_double * 2), ("pitch", c_double * 2)]
+                ("layer_bytes", c_uint64), ("origin", c_double * 2), ("pitch", c_double * 2),
+                ("window", msq_window), ("whole", c_uint64 * 3)]
 
 
 class msq_layer(Structure):
@@ -386,6 +429,38 @@ class msq_layer(Structure):
 
 
 msq_layer_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_layer))
+
+
+class msq_contours_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("type", c_int32), ("axis", c_int32),
+                ("has_window", c_int32), ("window_min", c_double * 2), ("window_max", c_double * 2),
+                ("tolerance", c_double), ("pitch", c_double), ("units", c_double),
+                ("length_scale", c_double)]
+
+
+class msq_contours_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("type", c_int32), ("ring_count", c_uint64),
+                ("point_count", c_uint64), ("points", c_void_p), ("starts", POINTER(c_uint64)),
+                ("parents", POINTER(c_int64)), ("holes", POINTER(c_uint8)),
+                ("unresolved_count", c_uint64), ("pitch", c_double)]
+
+
+class msq_ring(Structure):
+    _fields_ = [("points", c_void_p), ("count", c_uint64)]
+
+
+class msq_fill_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("coordinate_type", c_int32),
+                ("rings", POINTER(msq_ring)), ("ring_count", c_uint64), ("point_stride", c_uint64),
+                ("scale", c_double), ("origin", c_double * 2), ("z", c_double),
+                ("tolerance", c_double), ("min_length", c_double)]
+
+
+class msq_fill_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("coordinate_type", c_int32), ("points", c_void_p),
+                ("point_count", c_uint64), ("path_starts", POINTER(c_uint64)),
+                ("closed", POINTER(c_uint8)), ("path_count", c_uint64), ("length", c_double),
+                ("travel", c_double)]
 
 
 class msq_rays_def(Structure):
@@ -450,11 +525,13 @@ FUNCTIONS = {
     "msq_job_cancel": [c_int32, POINTER(msq_job)],
     "msq_job_progress": [c_int32, POINTER(msq_job), POINTER(c_double)],
     "msq_job_info": [c_int32, POINTER(msq_job), POINTER(msq_job_report)],
+    "msq_neighbourhood_placed": [c_int32, POINTER(msq_neighbourhood), POINTER(c_double),
+                                 POINTER(msq_neighbourhood)],
     "msq_file_def_init": [c_int32, POINTER(msq_file_def), c_size_t],
     "msq_shape_from_file": [c_int32, POINTER(msq_context), c_char_p, POINTER(msq_file_def),
-                            POINTER(POINTER(msq_shape))],
+                            POINTER(POINTER(msq_shape)), POINTER(msq_job)],
     "msq_shape_from_memory": [c_int32, POINTER(msq_context), c_void_p, c_uint64,
-                              POINTER(msq_file_def), POINTER(POINTER(msq_shape))],
+                              POINTER(msq_file_def), POINTER(POINTER(msq_shape)), POINTER(msq_job)],
     "msq_mesh_def_init": [c_int32, POINTER(msq_mesh_def), c_size_t],
     "msq_shape_from_mesh": [c_int32, POINTER(msq_context), POINTER(msq_mesh_def),
                             POINTER(POINTER(msq_shape))],
@@ -464,12 +541,18 @@ FUNCTIONS = {
                               POINTER(POINTER(msq_shape))],
     "msq_shape_from_cylinder": [c_int32, POINTER(msq_context), POINTER(c_double), POINTER(c_double),
                                 c_double, POINTER(POINTER(msq_shape))],
+    "msq_shape_all_space": [c_int32, POINTER(msq_context), POINTER(POINTER(msq_shape))],
     "msq_host_shape_def_init": [c_int32, POINTER(msq_host_shape_def), c_size_t],
     "msq_shape_from_host": [c_int32, POINTER(msq_context), POINTER(msq_host_shape_def),
                             POINTER(POINTER(msq_shape))],
     "msq_voxels_def_init": [c_int32, POINTER(msq_voxels_def), c_size_t],
     "msq_shape_from_voxels": [c_int32, POINTER(msq_context), POINTER(msq_voxels_def),
                               POINTER(POINTER(msq_shape))],
+    "msq_shape_placed": [c_int32, POINTER(msq_shape), POINTER(c_double),
+                         POINTER(POINTER(msq_shape))],
+    "msq_shape_boolean": [c_int32, c_int32, POINTER(POINTER(msq_shape)), c_uint64,
+                          POINTER(POINTER(msq_shape))],
+    "msq_shape_offset": [c_int32, POINTER(msq_shape), c_double, POINTER(POINTER(msq_shape))],
     "msq_shape_retain": [None, POINTER(msq_shape)],
     "msq_shape_release": [None, POINTER(msq_shape)],
     "msq_shape_info": [c_int32, POINTER(msq_shape), POINTER(msq_shape_report)],
@@ -493,8 +576,8 @@ FUNCTIONS = {
                              POINTER(POINTER(msq_field))],
     "msq_shape_distance_field_def_init": [c_int32, POINTER(msq_shape_distance_field_def), c_size_t],
     "msq_field_shape_distance": [c_int32, POINTER(msq_context),
-                                 POINTER(msq_shape_distance_field_def),
-                                 POINTER(POINTER(msq_field))],
+                                 POINTER(msq_shape_distance_field_def), POINTER(POINTER(msq_field)),
+                                 POINTER(msq_job)],
     "msq_field_retain": [None, POINTER(msq_field)],
     "msq_field_release": [None, POINTER(msq_field)],
     "msq_unit_cell_def_init": [c_int32, POINTER(msq_unit_cell_def), c_size_t],
@@ -513,6 +596,9 @@ FUNCTIONS = {
     "msq_functional_def_init": [c_int32, POINTER(msq_functional_def), c_size_t],
     "msq_structure_functional": [c_int32, POINTER(msq_context), POINTER(msq_functional_def),
                                  POINTER(POINTER(msq_structure))],
+    "msq_beams_def_init": [c_int32, POINTER(msq_beams_def), c_size_t],
+    "msq_structure_beams": [c_int32, POINTER(msq_context), POINTER(msq_beams_def),
+                            POINTER(POINTER(msq_structure)), POINTER(msq_job)],
     "msq_host_structure_def_init": [c_int32, POINTER(msq_host_structure_def), c_size_t],
     "msq_structure_host": [c_int32, POINTER(msq_context), POINTER(msq_host_structure_def),
                            POINTER(POINTER(msq_structure))],
@@ -532,6 +618,8 @@ FUNCTIONS = {
     "msq_model_def_init": [c_int32, POINTER(msq_model_def), c_size_t],
     "msq_model_create": [c_int32, POINTER(msq_context), POINTER(msq_model_def),
                          POINTER(POINTER(msq_model))],
+    "msq_model_regions": [c_int32, POINTER(msq_context), POINTER(POINTER(msq_model)), c_uint64,
+                          POINTER(POINTER(msq_model))],
     "msq_model_retain": [None, POINTER(msq_model)],
     "msq_model_release": [None, POINTER(msq_model)],
     "msq_model_bounds": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(c_double)],
@@ -544,6 +632,9 @@ FUNCTIONS = {
                              POINTER(c_int32)],
     "msq_set_membership": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
                            POINTER(msq_query_def), POINTER(c_uint8), c_uint64, POINTER(msq_job)],
+    "msq_point_region": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(c_int32)],
+    "msq_set_region": [c_int32, POINTER(msq_model), POINTER(msq_points_def), POINTER(c_int32),
+                       c_uint64, POINTER(msq_job)],
     "msq_point_material": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(msq_query_def),
                            POINTER(c_char_p), c_uint64, POINTER(c_uint32), POINTER(c_double)],
     "msq_set_material": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
@@ -553,6 +644,11 @@ FUNCTIONS = {
                            POINTER(c_double)],
     "msq_set_distance": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
                          POINTER(msq_query_def), POINTER(c_double), c_uint64, POINTER(msq_job)],
+    "msq_set_onset": [c_int32, POINTER(msq_context), POINTER(msq_structure),
+                      POINTER(msq_points_def), c_int32, POINTER(c_double), c_uint64,
+                      POINTER(c_double), c_uint64, POINTER(msq_job)],
+    "msq_field_evaluate": [c_int32, POINTER(msq_context), POINTER(msq_field),
+                           POINTER(msq_points_def), POINTER(c_double), c_uint64, POINTER(msq_job)],
     "msq_volume_fraction": [c_int32, POINTER(msq_model), POINTER(msq_points_def),
                             POINTER(msq_query_def), c_int32, POINTER(msq_estimate),
                             POINTER(msq_job)],
@@ -578,6 +674,22 @@ FUNCTIONS = {
                        POINTER(msq_job)],
     "msq_slice_layer": [c_int32, POINTER(msq_slicer), c_uint64, POINTER(c_uint8), c_uint64,
                         POINTER(msq_job)],
+    "msq_contours_def_init": [c_int32, POINTER(msq_contours_def), c_size_t],
+    "msq_layer_contours": [c_int32, POINTER(msq_model), c_double, POINTER(msq_contours_def),
+                           POINTER(POINTER(msq_contours)), POINTER(msq_job)],
+    "msq_slicer_contours": [c_int32, POINTER(msq_slicer), c_uint64, POINTER(msq_contours_def),
+                            POINTER(POINTER(msq_contours)), POINTER(msq_job)],
+    "msq_contours_retain": [None, POINTER(msq_contours)],
+    "msq_contours_release": [None, POINTER(msq_contours)],
+    "msq_contours_info": [c_int32, POINTER(msq_contours), POINTER(msq_contours_report)],
+    "msq_fill_def_init": [c_int32, POINTER(msq_fill_def), c_size_t],
+    "msq_fill_lines": [c_int32, POINTER(msq_context), POINTER(msq_structure), POINTER(msq_fill_def),
+                       POINTER(POINTER(msq_fill)), POINTER(msq_job)],
+    "msq_fill_retain": [None, POINTER(msq_fill)],
+    "msq_fill_release": [None, POINTER(msq_fill)],
+    "msq_fill_info": [c_int32, POINTER(msq_fill), POINTER(msq_fill_report)],
+    "msq_fill_calibrate": [c_int32, POINTER(msq_context), POINTER(msq_structure), c_double,
+                           c_double, POINTER(c_double), POINTER(msq_job)],
     "msq_rays_def_init": [c_int32, POINTER(msq_rays_def), c_size_t],
     "msq_ray_cast": [c_int32, POINTER(msq_model), POINTER(msq_rays_def), POINTER(msq_query_def),
                      POINTER(msq_ray_hit), c_uint64, POINTER(msq_job)],

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""NumPy arrays as msq takes them: pointer, count and stride, never a copy of an array.
+"""NumPy arrays as msq takes them: pointer, count and stride.
 
-Lists and tuples are converted. An array whose layout C cannot be told is refused, so that what is
-slow, a copy, is written where it happens.
+Arrays of points are not copied, and lists and tuples are converted. An array of points whose
+layout C cannot be told is refused, so that what is slow, a copy, is written where it happens.
+Smaller definitions (`vector`) are copied where their type or layout is another.
 """
 from __future__ import annotations
 
@@ -111,3 +112,29 @@ def vector(values: Any, dtype: Any, shape: Sequence[int], name: str) -> np.ndarr
         raise ValueError(f"{name} have shape {array.shape}; it must be {wanted_shape}"
                          .replace("'", ""))
     return array
+
+
+class Elements(NamedTuple):
+    """Elements of one or more numbers in memory. The array is kept for as long as its address is
+    used."""
+
+    array: np.ndarray
+    address: int
+    count: int
+    stride: int  # bytes
+
+
+def elements(values: Any, dtype: Any, width: int, name: str) -> Elements:
+    """`width` numbers for each element, (n, width), or (n,) where it is 1: read where they lie if
+    they are of this type and side by side, else a copy."""
+    wanted = np.dtype(dtype)
+    array = np.asarray(values)
+    packed = width * wanted.itemsize
+    if (array.dtype != wanted or array.ndim == 0 or array.strides[0] < packed
+            or (width > 1 and array.strides[-1] != wanted.itemsize)):
+        array = array.reshape((0, width)) if width > 1 and array.size == 0 else array
+        array = vector(array, wanted, (-1,) if width == 1 else (-1, width), name)
+    if array.shape[1:] != ((width,) if width > 1 else ()):
+        wanted_shape = "(n,)" if width == 1 else f"(n, {width})"
+        raise ValueError(f"{name} have shape {array.shape}; it must be {wanted_shape}")
+    return Elements(array, address_of(array), len(array), max(array.strides[0], packed))

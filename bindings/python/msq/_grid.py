@@ -2,15 +2,20 @@
 """Grids of neighbourhood cells, and images on them, as msq takes them."""
 from __future__ import annotations
 
-from typing import Any, Sequence, Union
+import ctypes
+from typing import Any, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _abi
 from ._arrays import address_of, vector
-from .context import triple
+from ._library import lib
+from .context import triple, unsigned
 
 Cell = Union[float, Sequence[float]]  #: size of a cell: one number, or one for each axis
+
+#: first (i, j, k) and counts (nx, ny, nz) of a part of a grid
+Window = Tuple[Sequence[int], Sequence[int]]
 
 _TYPES = {np.dtype(np.uint8): _abi.MSQ_UINT8, np.dtype(np.int16): _abi.MSQ_INT16,
           np.dtype(np.uint16): _abi.MSQ_UINT16, np.dtype(np.float32): _abi.MSQ_FLOAT32,
@@ -24,6 +29,51 @@ def set_grid(grid: _abi.msq_neighbourhood, cell_size: Cell, origin: Sequence[flo
     grid.origin[:] = triple(origin, "origin")
     if rotation is not None:
         grid.rotation[:] = vector(rotation, np.float64, (3, 3), "rotation").ravel().tolist()
+
+
+def set_window(definition: _abi.msq_window, window: Optional[Window]) -> None:
+    """Writes a window; None: the whole grid."""
+    if window is None:
+        return
+    first, counts = window
+    for name, to, numbers in (("first", definition.first, first),
+                              ("counts", definition.count, counts)):
+        if len(numbers) != 3:
+            raise ValueError(f"the window's {name} are {len(numbers)} numbers; they must be 3")
+        to[:] = [unsigned(number, 64, "window") for number in numbers]
+    if not any(definition.first) and not any(definition.count):
+        raise ValueError("the window's counts are 0; they must be at least 1")
+
+
+class Grid(NamedTuple):
+    """A grid of cells, as structures take it: `msq.Foam(radius=0.2, **grid._asdict())`."""
+
+    cell_size: Any
+    origin: Any = (0, 0, 0)
+    rotation: Any = None
+
+    def placed(self, matrix: Any) -> "Grid":
+        """The grid moved along with a part that Shape.placed(matrix) moves: turned, moved and
+        scaled uniformly. A structure on it is the same one at another place, if its radius is
+        scaled as lengths are."""
+        grid = _abi.msq_neighbourhood()
+        grid.rotation[:] = (1, 0, 0, 0, 1, 0, 0, 0, 1)
+        set_grid(grid, self.cell_size, self.origin, self.rotation)
+        result = _abi.msq_neighbourhood()
+        lib.msq_neighbourhood_placed(ctypes.byref(grid), affine(matrix), ctypes.byref(result))
+        return Grid(tuple(result.cell_size), tuple(result.origin),
+                    np.array(result.rotation[:]).reshape(3, 3))
+
+
+def affine(matrix: Any) -> Any:
+    """(3, 4), or (4, 4) with the last row 0, 0, 0, 1."""
+    rows = np.asarray(matrix, dtype=np.float64)
+    if rows.shape == (4, 4) and tuple(rows[3]) == (0, 0, 0, 1):
+        rows = rows[:3]
+    if rows.shape != (3, 4):
+        raise ValueError(f"matrix has shape {rows.shape}; it must be (3, 4), or (4, 4) with the last "
+                         "row 0, 0, 0, 1")
+    return (ctypes.c_double * 12)(*rows.ravel().tolist())
 
 
 def set_image(image: _abi.msq_image, values: Any, spacing: Cell, origin: Sequence[float],

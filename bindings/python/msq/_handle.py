@@ -35,7 +35,7 @@ class Reference:
         self._release = release
 
     def __del__(self) -> None:
-        if not _is_ending:
+        if not _is_ending and hasattr(self, "_release"):  # not if __init__ did not run
             self._release(self._as_parameter_)
 
 
@@ -75,6 +75,16 @@ class Handle:
     def _pointer(self) -> Any:
         """For fields of structs; whoever reads it keeps this object until the call is over."""
         return self._ref._as_parameter_
+
+    def __copy__(self: SelfT) -> SelfT:
+        """Another handle of the same object, which is immutable."""
+        made = type(self).__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        return made
+
+    def __reduce_ex__(self, _protocol: Any) -> Any:
+        raise TypeError(f"{type(self).__name__} objects can neither be pickled nor deep-copied: they "
+                        "belong to this process. Share them, or make them again from their arguments")
 
     @property
     def closed(self) -> bool:

@@ -6,11 +6,14 @@ Python runs the handlers of signals on the main thread, and never while that thr
 from __future__ import annotations
 
 import threading
-from typing import Any, Callable, List, Optional
+from typing import Any, Callable, List, Optional, TypeVar
 
 from ._library import lib
 from ._signals import held, may_call_back
 from .context import Job, job_reference
+
+
+Made = TypeVar("Made")
 
 
 def interruptible(call: Callable[[Any], Any], job: Optional[Job], is_long: bool = True) -> None:
@@ -54,6 +57,15 @@ def interruptible(call: Callable[[Any], Any], job: Optional[Job], is_long: bool 
         raise
     if raised:
         raise raised.pop()
+
+
+def build(make: Callable[[Callable[..., Any]], Made], create: Any, job: Optional[Job],
+          is_long: bool = True) -> Made:
+    """make(constructor), where the constructor is `create` of msq without its last argument, a job,
+    and an interrupt cancels it."""
+    made: List[Made] = []
+    interruptible(lambda work: made.append(make(lambda *given: create(*given, work))), job, is_long)
+    return made[0]
 
 
 # Seconds: a signal that another thread than the main one receives does not end its wait.

@@ -36,7 +36,7 @@ class BuildInfo:
     """How the loaded library was built."""
 
     version: int  #: major * 10000 + minor * 100 + patch
-    with_assimp: bool  #: mesh files can be read
+    with_assimp: bool  #: all mesh files are read; else no binary STL, 3MF and AMF
     with_cgal: bool  #: foam method 2 and Shape.self_intersections are there
     licence: str  #: effective SPDX licence of the binary
     simd: str  #: instruction set that the kernels use on this machine

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """One exception for each status of msq, with the message of the library.
 
-They derive from Error and, where Python has one that says the same, from that: a wrong argument is
-a ValueError too, a missing file an OSError.
+All derive from Error, and also from the exception of Python with the same meaning, if there is one:
+a wrong argument is a ValueError too, a missing file a FileNotFoundError.
 """
 from __future__ import annotations
+
+import errno
+import os
+from typing import Any
 
 from . import _abi
 
@@ -16,7 +20,7 @@ class Error(Exception):
 
 
 class ArgumentError(Error, ValueError):
-    """An argument is non-finite, out of range or inconsistent."""
+    """An argument is not finite, out of range, or inconsistent with another."""
 
     status = _abi.MSQ_E_ARGUMENT
 
@@ -34,38 +38,69 @@ class CancelledError(Error):
 
 
 class HostError(Error):
-    """A callback gave an answer that cannot be. (Exceptions of callbacks are raised themselves.)"""
+    """A callback returned an invalid value. (Exceptions of callbacks are raised themselves.)"""
 
     status = _abi.MSQ_E_HOST
     code: int = 0  #: what the callback returned
 
 
 class FileError(Error, OSError):
-    """A file cannot be opened or read."""
+    """A file cannot be opened or read, is truncated, or is malformed.
+
+    filename is its path. errno is None if the file was read and its content is at fault.
+    """
 
     status = _abi.MSQ_E_IO
 
+    def __str__(self) -> str:
+        return str(self.strerror) if self.strerror else super().__str__()
+
+
+class MissingFileError(FileError, FileNotFoundError):
+    """There is no such file."""
+
+
+class FileAccessError(FileError, PermissionError):
+    """The file may not be read."""
+
+
+class FolderError(FileError, IsADirectoryError):
+    """The path is that of a folder."""
+
+
+_BY_ERRNO = {errno.ENOENT: MissingFileError, errno.EACCES: FileAccessError,
+             errno.EPERM: FileAccessError, errno.EISDIR: FolderError}
+
+
+def with_path(error: FileError, path: Any) -> FileError:
+    """The error with the path, and with the errno that its message names."""
+    message = str(error)
+    for number in errno.errorcode:
+        if message.endswith(f": {os.strerror(number)}"):
+            return _BY_ERRNO.get(number, FileError)(number, message, os.fspath(path))
+    return FileError(None, message, os.fspath(path))
+
 
 class UnsupportedError(Error, NotImplementedError):
-    """Not in this build of the library, or a file format that it does not read."""
+    """This build lacks the feature, or msq does not read the file format."""
 
     status = _abi.MSQ_E_UNSUPPORTED
 
 
 class MeshError(Error, ValueError):
-    """Mesh data that cannot be made sense of."""
+    """Malformed mesh arrays."""
 
     status = _abi.MSQ_E_MESH
 
 
 class LimitError(Error):
-    """A stated limit, such as the context's memory_limit, would be passed."""
+    """A documented limit would be exceeded, for example the context's memory_limit."""
 
     status = _abi.MSQ_E_LIMIT
 
 
 class InternalError(Error):
-    """A defect in msq: please report it."""
+    """A defect in msq. Please report it."""
 
     status = _abi.MSQ_E_INTERNAL
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fields: a number at every point of space. They stand wherever a parameter is a number."""
+"""Fields: a number at every point of space. They stand where a parameter is a Param."""
 from __future__ import annotations
 
 import ctypes
@@ -9,12 +9,14 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _abi
-from ._arrays import pointer, vector
+from ._arrays import output, pointer, vector
 from ._grid import Cell, set_image
 from ._handle import Handle
 from ._host import create
+from ._interrupt import build, interruptible
 from ._library import defaults, lib
-from .context import Context, context_of, doubles, triple
+from .context import Context, Job, context_of, doubles, triple
+from .points import definition_of
 from .shape import Shape
 
 
@@ -95,24 +97,40 @@ class Field(Handle):
 
     @classmethod
     def shape_distance(cls, shape: Shape, curve: Any, *, step: float = 0.0,
-                       context: Optional[Context] = None) -> Field:
+                       context: Optional[Context] = None, job: Optional[Job] = None) -> Field:
         """A piecewise linear curve over the signed distance to a shape, negative inside: pairs
-        (n, 2) of distance, ascending, and value. step > 0: from samples of it so far apart."""
+        (n, 2) of distance, strictly ascending, and value. step > 0: from samples of it so far
+        apart, whose progress the job reports."""
         pairs = vector(curve, np.float64, (-1, 2), "curve")
         definition = defaults(_abi.msq_shape_distance_field_def)
         definition.shape = shape._pointer
         definition.curve = pointer(pairs, ctypes.c_double)
         definition.curve_count = len(pairs)
         definition.step = step
-        return cls._make(context_of(context, shape), lib.msq_field_shape_distance,
-                         ctypes.byref(definition))
+        context = context_of(context, shape)
+        kept = shape, pairs  # as long as the call goes on
+        return build(lambda new, _kept=kept: cls._make(context, new, ctypes.byref(definition)),
+                     lib.msq_field_shape_distance, job, step > 0)
 
     def map(self, curve: Any, *, context: Optional[Context] = None) -> Field:
-        """A piecewise linear curve over this field: pairs (n, 2) of this one's value, ascending,
-        and the new one's; constant beyond the ends."""
+        """A piecewise linear curve over this field: pairs (n, 2) of this one's value, strictly
+        ascending, and the new one's; constant beyond the ends."""
         pairs = vector(curve, np.float64, (-1, 2), "curve")
         return self._make(context_of(context, self), lib.msq_field_map, self._ref,
                           pointer(pairs, ctypes.c_double), len(pairs))
+
+
+    def evaluate(self, points: Any, *, out: Optional[np.ndarray] = None,
+                 job: Optional[Job] = None) -> Any:
+        """The values at an array (..., 3) or a set of points, as msq uses them there. out: float64,
+        contiguous, to write to."""
+        given = definition_of(points)
+        answers = output(out, given.shape, (np.float64,), given.array)
+        context, reference = self.context._ref, self._ref
+        interruptible(lambda work: lib.msq_field_evaluate(
+            context, reference, ctypes.byref(given.definition), pointer(answers, ctypes.c_double),
+            answers.size, work), job)
+        return answers if answers.shape or out is not None else answers.item()
 
 
 Param = Union[float, Field]  #: a number, or a field of it

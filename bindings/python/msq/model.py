@@ -16,6 +16,7 @@ from ._library import defaults, lib
 from ._signals import held
 from .camera import Camera
 from .context import Context, Job, context_of, doubles, unsigned
+from .contours import Contours, Window
 from .field import Param, set_param
 from .material import Material, encoded, pointer_of
 from .picture import Picture, RenderPass
@@ -81,6 +82,21 @@ class Model(Handle):
         self._reference = self._create(lib.msq_model_create, context._ref, ctypes.byref(definition))
         self.context = context
 
+    @classmethod
+    def regions(cls, *models: Model, context: Optional[Context] = None) -> Model:
+        """A model of regions, such as the parts of a plate and modifier volumes in them: a point
+        belongs to the first whose shape contains it, and is inside where that model is."""
+        for model in models:
+            if not isinstance(model, Model):
+                raise TypeError(f"a region is a {type(model).__name__}; it must be a Model")
+        if not models:
+            raise ValueError("a model of no regions; there must be at least one")
+        context = context_of(context, models[0])
+        pointers = (type(models[0]._pointer) * len(models))(*(m._pointer for m in models))
+        made = cls._wrap(cls._create(lib.msq_model_regions, context._ref, pointers, len(models)))
+        made.context = context
+        return made
+
     @property
     def bounds(self) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:
         """Smallest and largest corner of the coarse shape's bounding box."""
@@ -110,6 +126,17 @@ class Model(Handle):
         return self._ask(lib.msq_set_membership, points, out, (np.bool_, np.uint8), ctypes.c_uint8,
                          query_of(length_scale, method, critical_count, group_parts), job,
                          self._contains_point)
+
+    def region(self, points: Any, *, out: Optional[np.ndarray] = None,
+               job: Optional[Job] = None) -> Any:
+        """Numbers of the regions that points belong to, -1 where none has them; 0 in a model that is
+        not made of regions. points and job are as in contains; out is of int32."""
+
+        def ask(model: Any, given: Any, _query: Any, values: Any, count: int, work: Any) -> None:
+            lib.msq_set_region(model, given, values, count, work)
+
+        return self._ask(ask, points, out, (np.int32,), ctypes.c_int32, None, job,
+                         self._point_region)
 
     def distance(self, points: Any, *, out: Optional[np.ndarray] = None, length_scale: float = 0.0,
                  job: Optional[Job] = None) -> Any:
@@ -163,9 +190,10 @@ class Model(Handle):
         """Where rays, origins + t * directions, first are in the solid at t_min <= t <= t_max.
 
         origins, directions: arrays (..., 3) of one dtype, float32 or float64, read where they lie.
-        t_min, t_max: numbers or arrays of shape (...); None: 0 and infinity. Returns a record array
-        of shape (...): t (infinity in a miss), normal, scale (-1 in a miss), starts_inside, cell
-        and material (its id, 0 where there is none).
+        t_min, t_max: numbers or arrays of shape (...), copied unless they are contiguous float64 of
+        that shape; None: 0 and infinity. Returns a record array of shape (...): t (infinity in a
+        miss), normal, scale (-1 in a miss), starts_inside, cell and material (its id, 0 where there
+        is none).
         """
         starts, ways = triples(origins, "origins"), triples(directions, "directions")
         if starts.shape != ways.shape or starts.coordinate_type != ways.coordinate_type:
@@ -249,16 +277,33 @@ class Model(Handle):
     def slicer(self, *, layer_height: Optional[float] = None, pitch: Any = None,
                resolution: Any = None, layer_count: int = 0, region: Any = None,
                layer_z: Any = None, output: str = "bits", slab_layers: int = 0,
-               length_scale: float = 0.0) -> Slicer:
+               length_scale: float = 0.0, window: Any = None, grey_samples: int = 4,
+               grey_gamma: float = 1.0, grey_threshold: int = 0, mirror: str = "",
+               transpose: bool = False) -> Slicer:
         """Plans layers normal to z: see Slicer."""
         return Slicer(self, layer_height=layer_height, pitch=pitch, resolution=resolution,
                       layer_count=layer_count, region=region, layer_z=layer_z, output=output,
-                      slab_layers=slab_layers, length_scale=length_scale)
+                      slab_layers=slab_layers, length_scale=length_scale, window=window,
+                      grey_samples=grey_samples, grey_gamma=grey_gamma,
+                      grey_threshold=grey_threshold, mirror=mirror, transpose=transpose)
+
+    def contours(self, height: float, tolerance: float, *, axis: int = 2,
+                 window: Optional[Window] = None, pitch: float = 0.0, type: str = "float64",
+                 units: float = 1.0, length_scale: float = 0.0,
+                 job: Optional[Job] = None) -> Contours:
+        """The section with a plane normal to the axis, as rings: see Contours."""
+        return Contours(self, height, tolerance, axis=axis, window=window, pitch=pitch, type=type,
+                        units=units, length_scale=length_scale, job=job)
 
     def _contains_point(self, point: Any, query: Any) -> bool:
         inside = ctypes.c_int32()
         lib.msq_point_membership(self._ref, point, query, ctypes.byref(inside))
         return inside.value == 1
+
+    def _point_region(self, point: Any, _query: Any) -> int:
+        region = ctypes.c_int32()
+        lib.msq_point_region(self._ref, point, ctypes.byref(region))
+        return region.value
 
     def _point_distance(self, point: Any, query: Any) -> float:
         distance = ctypes.c_double()

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _abi
 from ._arrays import output, pointer, triples, vector
+from ._grid import Window, set_window
 from ._library import constant, defaults, lib
 from .context import triple, unsigned
 
@@ -45,19 +46,24 @@ class PointGrid(PointSet):
 
     counts: nx, ny, nz. Answers have shape (nz, ny, nx), as a stack of images with x fastest; `.T`
     gives them by [i, j, k].
+
+    window: ((i, j, k), (nx, ny, nz)), the first point and the numbers of points of a part of the
+    grid, whose answers are, to the last bit, those of the whole grid there.
     """
 
     origin: Sequence[float]
     spacing: Union[float, Sequence[float]]
     counts: Tuple[int, int, int]
+    window: Optional[Window] = None
 
     @property
     def shape(self) -> Tuple[int, ...]:
-        """Of the answers: (nz, ny, nx)."""
-        return _counts(self.counts)[::-1]
+        """Of the answers: (nz, ny, nx), of the window where there is one."""
+        return _counts(self.counts if self.window is None else self.window[1])[::-1]
 
     def _define(self, definition: _abi.msq_points_def) -> None:
         definition.kind = _abi.MSQ_POINTS_GRID
+        set_window(definition.window, self.window)
         definition.origin[:] = triple(self.origin, "origin")
         definition.spacing[:] = triple(self.spacing, "spacing")
         definition.counts[:] = _counts(self.counts)

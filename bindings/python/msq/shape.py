@@ -11,12 +11,13 @@ import numpy as np
 
 from . import _abi
 from ._arrays import pointer, triples, vector
-from ._grid import Cell, set_image
+from ._grid import Cell, affine, set_image
 from ._handle import Handle
 from ._host import create
-from ._interrupt import interruptible
+from ._interrupt import build, interruptible
 from ._library import constant, defaults, lib, report
 from .context import Context, Job, context_of, doubles, record, triple, unsigned
+from .errors import FileError, with_path
 
 
 @dataclasses.dataclass(frozen=True)
@@ -55,29 +56,36 @@ class Shape(Handle):
 
     @classmethod
     def from_file(cls, path: Union[str, "os.PathLike[str]"], *, format: str = "auto",
-                  unit_mm: float = 1.0, winding: str = "nonzero", max_bytes: int = 0,
-                  max_triangles: int = 0, context: Optional[Context] = None) -> Shape:
+                  unit_mm: float = 1.0, winding: str = "auto", max_bytes: int = 0,
+                  max_triangles: int = 0, context: Optional[Context] = None,
+                  job: Optional[Job] = None) -> Shape:
         """Reads STL, OBJ, PLY, OFF, 3MF or AMF, in millimetres.
 
-        unit_mm: length of the file's unit, for formats that name none. winding: `nonzero`,
+        unit_mm: length of the file's unit, for formats that name none. winding: `auto`, `nonzero`,
         `even_odd` or `positive`. Larger files than max_bytes and max_triangles are refused; 0:
-        4 GiB, 200 million.
+        4 GiB, 200 million. job: progress, and cancelling from another thread. A missing file is a
+        FileNotFoundError.
         """
         context = context_of(context)
         definition = cls._file(format, unit_mm, winding, max_bytes, max_triangles)
-        return cls._make(context, lib.msq_shape_from_file, os.fsencode(path),
-                         ctypes.byref(definition))
+        name = os.fsencode(path)
+        try:
+            return build(lambda new: cls._make(context, new, name, ctypes.byref(definition)),
+                         lib.msq_shape_from_file, job)
+        except FileError as error:
+            raise with_path(error, path) from None
 
     @classmethod
-    def from_memory(cls, data: Any, format: str, *, unit_mm: float = 1.0, winding: str = "nonzero",
+    def from_memory(cls, data: Any, format: str, *, unit_mm: float = 1.0, winding: str = "auto",
                     max_bytes: int = 0, max_triangles: int = 0,
-                    context: Optional[Context] = None) -> Shape:
+                    context: Optional[Context] = None, job: Optional[Job] = None) -> Shape:
         """The same from a file's bytes, or any contiguous buffer of them."""
         context = context_of(context)
         definition = cls._file(format, unit_mm, winding, max_bytes, max_triangles)
         view = np.frombuffer(data, np.uint8)  # without a copy
-        return cls._make(context, lib.msq_shape_from_memory, view.ctypes.data, view.size,
-                         ctypes.byref(definition))
+        return build(lambda new: cls._make(context, new, view.ctypes.data, view.size,
+                                              ctypes.byref(definition)),
+                     lib.msq_shape_from_memory, job)
 
     @staticmethod
     def _file(format: str, unit_mm: float, winding: str, max_bytes: int,
@@ -91,10 +99,11 @@ class Shape(Handle):
         return definition
 
     @classmethod
-    def from_mesh(cls, vertices: Any, triangles: Any, *, winding: str = "nonzero",
+    def from_mesh(cls, vertices: Any, triangles: Any, *, winding: str = "auto",
                   context: Optional[Context] = None) -> Shape:
         """A triangle mesh in arrays: vertices (n, 3), float32 or float64; triangles (m, 3), indices
-        counter-clockwise from outside. Open, self-intersecting and flipped meshes are taken."""
+        counter-clockwise from outside: contiguous uint32 is passed as it is, other whole numbers are
+        converted. Open, self-intersecting and flipped meshes are taken."""
         context = context_of(context)
         points = triples(vertices, "vertices")
         indices = vector(triangles, np.uint32, (-1, 3), "triangles")
@@ -130,6 +139,12 @@ class Shape(Handle):
                          doubles(end, "end"), radius)
 
     @classmethod
+    def all_space(cls, *, context: Optional[Context] = None) -> Shape:
+        """Every point, for models of structures alone: see msq_shape_all_space in msq.h. Slicers of
+        such models need a region, rays a finite t_max, pictures a finite clip_far."""
+        return cls._make(context_of(context), lib.msq_shape_all_space)
+
+    @classmethod
     def voxels(cls, values: Any, threshold: float, *, spacing: Cell = 1.0,
                origin: Sequence[float] = (0, 0, 0), rotation: Any = None, solid: str = "above",
                context: Optional[Context] = None) -> Shape:
@@ -161,6 +176,57 @@ class Shape(Handle):
         context = context_of(context)
         return create(lambda: cls._make(context, lib.msq_shape_from_host, ctypes.byref(definition)),
                       definition, concurrent, inside=inside, distance=distance)
+
+    def placed(self, matrix: Any) -> Shape:
+        """An instance of the shape, turned, scaled, mirrored, sheared and moved: its point q is at
+        matrix @ (q, 1). matrix: (3, 4), or (4, 4) with the last row 0, 0, 0, 1. It shares mesh and
+        trees with this one."""
+        return self._made_of(lib.msq_shape_placed, self._ref, affine(matrix))
+
+    def offset(self, distance: float) -> Shape:
+        """The shape with its surface moved by a distance, outwards or, if negative, inwards."""
+        return self._made_of(lib.msq_shape_offset, self._ref, distance)
+
+    @classmethod
+    def union(cls, *shapes: Shape) -> Shape:
+        """Points in any of the shapes."""
+        return cls._boolean("union", shapes)
+
+    @classmethod
+    def intersection(cls, *shapes: Shape) -> Shape:
+        """Points in all of the shapes."""
+        return cls._boolean("intersection", shapes)
+
+    @classmethod
+    def difference(cls, *shapes: Shape) -> Shape:
+        """Points of the first shape that are in no other."""
+        return cls._boolean("difference", shapes)
+
+    def __or__(self, other: Shape) -> Shape:
+        return Shape.union(self, other)
+
+    def __and__(self, other: Shape) -> Shape:
+        return Shape.intersection(self, other)
+
+    def __sub__(self, other: Shape) -> Shape:
+        return Shape.difference(self, other)
+
+    @classmethod
+    def _boolean(cls, operation: str, shapes: Sequence[Shape]) -> Shape:
+        for shape in shapes:
+            if not isinstance(shape, Shape):
+                raise TypeError(f"a shape is a {type(shape).__name__}; it must be a Shape")
+        if not shapes:
+            raise ValueError(f"a {operation} of no shapes; there must be at least one")
+        pointers = (type(shapes[0]._pointer) * len(shapes))(*(s._pointer for s in shapes))
+        return shapes[0]._made_of(lib.msq_shape_boolean,
+                                  constant("MSQ_BOOLEAN_", operation, "operation"), pointers,
+                                  len(shapes))
+
+    def _made_of(self, create: Any, *arguments: Any) -> Shape:
+        made = self._wrap(self._create(create, *arguments))
+        made.context = self.context
+        return made
 
     @property
     def info(self) -> ShapeInfo:

@@ -12,11 +12,13 @@ import numpy as np
 from . import _abi
 from ._arrays import output as output_array
 from ._arrays import pointer, vector
+from ._grid import Window, set_window
 from ._handle import Handle
 from ._interrupt import interruptible
 from ._library import constant, defaults, keep_exception, lib, report
 from ._signals import HeldSignals
 from .context import Job, job_reference, triple, unsigned
+from .contours import Contours, Window
 from .errors import HostError
 
 if TYPE_CHECKING:
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
 
 _STOPPED = 1  # the callback's code for "enough"; exceptions have negative ones
 _MOST_AHEAD_BYTES = 64 << 20  # of layers that an iterator holds
+
+_PIXELS = {"bytes": np.uint8, "grey": np.uint8, "distance": np.float32, "material": np.uint32}
 
 Region = Tuple[Sequence[float], Sequence[float]]
 
@@ -40,27 +44,30 @@ class Layer:
                  inside_count: int, rows: np.ndarray) -> None:
         self.index = index  #: in the plan
         self.z = z
-        self.output = output  #: `bits` or `bytes`
+        self.output = output  #: as in Slicer
         self.width = width  #: pixels in x
         self.height = height  #: pixels in y
-        self.inside_count = inside_count  #: pixels inside
+        self.inside_count = inside_count  #: pixels inside; samples inside where output is `grey`
         self.rows = rows  #: (height, stride) of uint8, with what pads the rows: 0
 
     @property
     def data(self) -> np.ndarray:
         """The rows without what pads them, as a view.
 
-        Bits: (height, (width + 7) // 8), leftmost pixel in the high bit, as PNG and PBM have them;
-        bytes: (height, width), 255 inside and 0 outside.
+        bits: uint8 (height, (width + 7) // 8), leftmost pixel in the high bit, as PNG and PBM have
+        them. bytes: uint8 (height, width), 255 inside and 0 outside. grey: uint8 (height, width),
+        coverage. distance: float32 (height, width). material: uint32 (height, width).
         """
-        return self.rows[:, :(self.width + 7) // 8 if self.output == "bits" else self.width]
+        if self.output == "bits":
+            return self.rows[:, :(self.width + 7) // 8]
+        return self.rows.view(_PIXELS[self.output])[:, :self.width]
 
     @property
     def pixels(self) -> np.ndarray:
-        """A new array of bools, (height, width)."""
+        """A new array of bools, (height, width): inside, with any coverage, or of a material."""
         if self.output == "bits":
             return np.unpackbits(self.data, axis=1, count=self.width).view(np.bool_)
-        return self.data != 0
+        return self.data <= 0 if self.output == "distance" else self.data != 0
 
     def copy(self) -> Layer:
         """A layer of its own memory, to keep beyond the callback of Slicer.run."""
@@ -80,9 +87,13 @@ class Slicer(Handle):
 
     pitch, resolution: size of a pixel and number of pixels, one or two numbers each; one of them
     follows from the other and the region. region: (min, max), else the model's bounding box.
-    layer_height, or layer_z: a list of heights. layer_count 0: as many as cover the region.
-    output: `bits` or `bytes`. slab_layers: computed at once, 0: as many as pay. length_scale: as in
-    Model.contains.
+    layer_height, or layer_z: heights, strictly ascending. layer_count 0: as many as cover the region.
+    output: `bits`, `bytes`, `grey` (coverage by grey_samples x grey_samples samples per pixel, to the
+    power of grey_gamma, and 0 below grey_threshold), `distance` or `material` (ids). mirror: `x`, `y`
+    or `xy`, and transpose: how layers are turned, for the panels of printers. slab_layers: computed
+    at once, 0: as many as pay. length_scale: as in
+    Model.contains. window: ((i, j, k), (nx, ny, nz)), the first pixel and layer and the numbers of
+    pixels and layers of a part of the plan, which then has the bytes of the whole there.
 
     Slicers are sequences: len(slicer), slicer[i] (one layer, by itself) and iteration (slab by
     slab, faster).
@@ -93,9 +104,22 @@ class Slicer(Handle):
     def __init__(self, model: Model, *, layer_height: Optional[float] = None, pitch: Any = None,
                  resolution: Any = None, layer_count: int = 0, region: Optional[Region] = None,
                  layer_z: Any = None, output: str = "bits", slab_layers: int = 0,
-                 length_scale: float = 0.0) -> None:
+                 length_scale: float = 0.0, window: Optional[Window] = None,
+                 grey_samples: int = 4, grey_gamma: float = 1.0, grey_threshold: int = 0,
+                 mirror: str = "", transpose: bool = False) -> None:
         definition = defaults(_abi.msq_slicer_def)
+        set_window(definition.window, window)
+        if output not in ("bits", *_PIXELS):
+            raise ValueError(f"output is {output!r}; it must be one of bits, {', '.join(_PIXELS)}")
         definition.output = constant("MSQ_LAYER_", output, "output")
+        definition.grey_samples = unsigned(grey_samples, 32, "grey_samples")
+        definition.grey_gamma = grey_gamma
+        definition.grey_threshold = unsigned(grey_threshold, 32, "grey_threshold")
+        if mirror not in ("", "x", "y", "xy"):
+            raise ValueError(f"mirror is {mirror!r}; it must be one of '', 'x', 'y', 'xy'")
+        definition.orientation = ((_abi.MSQ_LAYER_MIRROR_X if "x" in mirror else 0)
+                                  | (_abi.MSQ_LAYER_MIRROR_Y if "y" in mirror else 0)
+                                  | (_abi.MSQ_LAYER_TRANSPOSE if transpose else 0))
         if pitch is not None:
             definition.pitch[:] = _pair(pitch, "pitch")
         if resolution is not None:
@@ -124,13 +148,17 @@ class Slicer(Handle):
         self.slab_layers: int = plan.slab_layers  #: layers computed at once
         self.stride: int = plan.stride  #: bytes from one row to the next
         self.layer_bytes: int = plan.layer_bytes
-        self.origin: Tuple[float, float] = tuple(plan.origin)  #: centre of pixel (0, 0)
-        #: pixel (i, j) is sampled at origin + (i, j) * pitch
+        #: centre of pixel (0, 0) of the whole plan
+        self.origin: Tuple[float, float] = tuple(plan.origin)
+        #: pixel (i, j) is sampled at origin + (window[0] + (i, j)) * pitch
         self.pitch: Tuple[float, float] = tuple(plan.pitch)
+        #: first pixel and layer, and numbers of them, in the whole plan
+        self.window: Window = (tuple(plan.window.first), tuple(plan.window.count))
+        self.whole: Tuple[int, int, int] = tuple(plan.whole)  #: pixels and layers of the whole plan
 
     @property
     def output(self) -> str:
-        """`bits` or `bytes`."""
+        """As given."""
         return self._output
 
     def z(self, index: int) -> float:
@@ -156,11 +184,29 @@ class Slicer(Handle):
         """
         index = self._index(index)
         rows = output_array(out, (self.height, self.stride), (np.uint8,))
+        if self._output == "grey":  # samples inside are counted by a run
+            def copy(layer: Layer) -> None:
+                rows[:] = layer.rows
+                inside.append(layer.inside_count)
+
+            inside: List[int] = []
+            self.run(copy, index, 1, job=job)
+            return Layer(index, self.z(index), self._output, self.width, self.height, inside[0], rows)
         reference = self._ref
         interruptible(lambda work: lib.msq_slice_layer(
             reference, index, pointer(rows, ctypes.c_uint8), rows.nbytes, work), job, is_long=False)
-        inside = _count_bits(rows) if self._output == "bits" else int(np.count_nonzero(rows))
-        return Layer(index, self.z(index), self._output, self.width, self.height, inside, rows)
+        layer = Layer(index, self.z(index), self._output, self.width, self.height, 0, rows)
+        layer.inside_count = (_count_bits(rows) if self._output == "bits"
+                              else int(np.count_nonzero(layer.pixels)))
+        return layer
+
+    def contours(self, index: int, tolerance: float, *, window: Optional[Window] = None,
+                 pitch: float = 0.0, type: str = "float64", units: float = 1.0,
+                 job: Optional[Job] = None) -> Contours:
+        """The rings of one layer, in the rectangle of its pixels unless there is a window: see
+        Contours."""
+        return Contours(self, self._index(index), tolerance, axis=2, window=window, pitch=pitch,
+                        type=type, units=units, length_scale=0.0, job=job)
 
     def layers(self, first: int = 0, count: Optional[int] = None, *,
                job: Optional[Job] = None) -> Iterator[Layer]:

@@ -39,9 +39,9 @@ class Calibration:
     samples: int  #: points asked
     parameter: float  #: the least that holds at least the target share of the points
     fraction: Estimate  #: volume fraction at that parameter
-    most_fraction: float  #: at the greatest parameter that the structure's kind allows
-    parameters: np.ndarray  #: of the curve, ascending; as many as were asked for
-    fractions: np.ndarray  #: parameters[i] has the volume fraction fractions[i]
+    max_fraction: float  #: at the greatest parameter that the structure's kind allows
+    parameters: np.ndarray  #: of the curve, nowhere falling; as many as were asked for
+    fractions: np.ndarray  #: parameters[i] has the fraction fractions[i]; strictly ascending
 
 
 def volume_fraction(model: Any, sample: Stratified, phase: str, length_scale: float,
@@ -83,4 +83,4 @@ def calibrate(context: Any, structure: Any, target: float, sample: Optional[Stra
     interruptible(lambda work: lib.msq_structure_calibrate(
         context, structure, points, target, *pointers, curve, ctypes.byref(filled), work), job)
     return Calibration(filled.samples, filled.parameter, estimate(filled.fraction),
-                       filled.most_fraction, parameters, fractions)
+                       filled.max_fraction, parameters, fractions)

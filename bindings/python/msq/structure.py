@@ -5,24 +5,29 @@ from __future__ import annotations
 import ctypes
 import dataclasses
 import math
-from typing import Any, Callable, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
 
 from . import _abi, statistics
+from ._arrays import Elements, elements, output, pointer, triples
 from ._grid import Cell, set_grid
 from ._handle import Handle
 from ._host import HostPoints, create
-from ._interrupt import interruptible
+from ._interrupt import build, interruptible
 from ._library import constant, defaults, lib
 from .context import Context, Job, context_of, doubles, record, unsigned
 from .field import Param, set_param, set_parameters
-from .points import Stratified
+from .fill import Fill
+from .points import Stratified, definition_of
 from .statistics import Calibration
 from .unit_cell import UnitCellLike
 from .unit_cell import unit_cell as as_unit_cell
 
 
 class Structure(Handle):
-    """A fine-scale structure on a grid of neighbourhood cells. Made as one of the kinds.
+    """A fine-scale structure, on a grid of neighbourhood cells unless it is Beams. Made as one of the
+    kinds.
 
     Cell (i, j, k) of the grid holds the points origin + rotation @ (((i, j, k) + u) * cell_size),
     0 <= u < 1; rotation is an orthonormal 3 x 3 matrix.
@@ -48,6 +53,52 @@ class Structure(Handle):
         cell, or 16^3 cells of a foam.
         """
         return statistics.calibrate(self.context._ref, self._ref, target, sample, curve, job)
+
+    def onset(self, points: Any, *, signed: bool = False, gradient: bool = False,
+              out: Optional[np.ndarray] = None, job: Optional[Job] = None) -> Any:
+        """Of each of the points, an array (..., 3) or a set: the least radius or level at which it
+        is inside. Lattices and foams: the distance to the nearest strut axis; functional structures:
+        the function, of sheets its magnitude.
+
+        signed: less the radius or level there: at most 0 inside. gradient: returns (onsets,
+        gradients), the latter of shape (..., 3). out: float64, contiguous, for the onsets.
+        """
+        given = definition_of(points)
+        onsets = output(out, given.shape, (np.float64,), given.array)
+        slopes = np.empty((*given.shape, 3)) if gradient else None
+        value = _abi.MSQ_ONSET_SIGNED if signed else _abi.MSQ_ONSET_PLAIN
+        context, reference = self.context._ref, self._ref
+        interruptible(lambda work: lib.msq_set_onset(
+            context, reference, ctypes.byref(given.definition), value,
+            pointer(onsets, ctypes.c_double), onsets.size,
+            None if slopes is None else pointer(slopes, ctypes.c_double),
+            0 if slopes is None else slopes.size, work), job)
+        answers = onsets if onsets.shape or out is not None else onsets.item()
+        return answers if slopes is None else (answers, slopes)
+
+    def fill_lines(self, polygon: Any, z: float, *, scale: float = 1e-6,
+                   origin: Sequence[float] = (0, 0), tolerance: float = 0.0,
+                   min_length: float = 0.0, job: Optional[Job] = None) -> Fill:
+        """The middle lines of the structure's thin walls at height z, within a polygon: paths for a
+        nozzle. Foams, sheets and networks have such lines.
+
+        polygon: a ring, (n, 2) of whole numbers, or a list of rings, outlines and holes in any order
+        and direction. int32 stays int32 in the result; all else is int64. scale: model units per unit
+        of these coordinates; origin: where 0, 0 is in the model. tolerance: greatest distance from
+        curved walls; 0: 1/200 of a cell. Paths shorter than min_length are dropped.
+        """
+        return Fill._of(self.context._ref, self._ref, polygon, z, scale, origin, tolerance,
+                        min_length, job)
+
+    def fill_cell_size(self, line_width: float, density: float, *,
+                       job: Optional[Job] = None) -> Tuple[float, float, float]:
+        """The cell sizes at which the structure's fill lines, of this width, cover this share of the
+        area on average over all heights. Make the structure anew with them."""
+        found = (ctypes.c_double * 3)()
+        context, reference = self.context._ref, self._ref
+        interruptible(lambda work: lib.msq_fill_calibrate(context, reference, line_width, density,
+                                                          found, work), job)
+        return found[0], found[1], found[2]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -104,24 +155,103 @@ class Lattice(Structure):
 
 
 class Foam(Structure):
-    """Open-cell Voronoi foam: the points within radius of the edges of the Voronoi diagram of one
-    jittered seed per cell.
+    """Voronoi foam of one jittered seed per cell: the points within radius of the edges of the
+    Voronoi diagram (struts), and those within half of wall_thickness of its faces (walls).
 
-    jitter: 0, seeds at cell centres, to 1, anywhere in their cells. density: seeds in a cell's
+    radius may be 0 (no struts) where wall_thickness is not (no walls: open cells). jitter: 0, seeds at cell centres, to 1, anywhere in their cells. density: seeds in a cell's
     volume. method: how sets and slices are answered, `auto` the fastest.
     """
 
-    def __init__(self, *, radius: Param, cell_size: Cell = 1.0, jitter: float = 1.0, seed: int = 0,
-                 density: Param = 1.0, method: str = "auto", origin: Sequence[float] = (0, 0, 0),
-                 rotation: Any = None, context: Optional[Context] = None) -> None:
+    def __init__(self, *, radius: Param = 0.0, cell_size: Cell = 1.0, jitter: float = 1.0,
+                 seed: int = 0, density: Param = 1.0, method: str = "auto",
+                 origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
+                 wall_thickness: Param = 0.0, context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_foam_def)
         set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.radius, radius)
         set_param(definition.density, density)
+        set_param(definition.wall_thickness, wall_thickness)
         definition.jitter = jitter
         definition.seed = unsigned(seed, 64, "seed")
         definition.method = constant("MSQ_FOAM_", method, "method")
-        self._make(context_of(context, radius, density), lib.msq_structure_foam, definition)
+        self._make(context_of(context, radius, density, wall_thickness), lib.msq_structure_foam, definition)
+
+
+class Beams(Structure):
+    """The points in at least one beam or ball of a list, such as other software designs.
+
+    nodes (n, 3), float32 or float64; beams (m, 2) and balls (k,) of node indices. radius: a number,
+    or (m, 2), at the first and at the second node, between which it is linear. cap: `sphere`,
+    `hemisphere` or `butt`, or (m, 2) numbers of msq_cap, 0 to 2 in this order. ball_radius: a
+    number or (k,). Beams shorter than min_length are dropped. length_scale: characteristic length
+    of the scale; 0: the longest beam, or the largest diameter if that is more.
+
+    Arrays of the nodes' type, of uint32 (indices) and of uint8 (caps) are read where they lie;
+    others are copied. The structure keeps its own.
+    """
+
+    def __init__(self, nodes: Any, beams: Any = None, *, radius: Any = 0.0, cap: Any = "sphere",
+                 balls: Any = None, ball_radius: Any = 0.0, min_length: float = 0.0,
+                 length_scale: float = 0.0, context: Optional[Context] = None,
+                 job: Optional[Job] = None) -> None:
+        definition = defaults(_abi.msq_beams_def)
+        points = triples(nodes, "nodes")
+        definition.coordinate_type = points.coordinate_type
+        definition.nodes = points.address
+        definition.node_count = points.count
+        definition.node_stride = points.stride
+        pairs = elements(_or_none(beams), np.uint32, 2, "beams")
+        definition.beams = ctypes.cast(pairs.address, ctypes.POINTER(ctypes.c_uint32))
+        definition.beam_count = pairs.count
+        definition.beam_stride = pairs.stride
+        single = elements(_or_none(balls), np.uint32, 1, "balls")
+        definition.balls = ctypes.cast(single.address, ctypes.POINTER(ctypes.c_uint32))
+        definition.ball_count = single.count
+        definition.ball_stride = single.stride
+        kept: List[Any] = [points, pairs, single]  # what the call reads
+        if np.ndim(radius) == 0:
+            definition.radius = radius
+        else:
+            kept.append(_of_each(radius, points.array.dtype, 2, "radius", pairs, "beams"))
+            definition.radii, definition.radius_stride = kept[-1].address, kept[-1].stride
+        if np.ndim(ball_radius) == 0:
+            definition.ball_radius = ball_radius
+        else:
+            kept.append(_of_each(ball_radius, points.array.dtype, 1, "ball_radius", single,
+                                 "balls"))
+            definition.ball_radii, definition.ball_radius_stride = kept[-1].address, kept[-1].stride
+        if isinstance(cap, str):
+            definition.cap = constant("MSQ_CAP_", cap, "cap")
+        else:
+            kept.append(_of_each(cap, np.uint8, 2, "cap", pairs, "beams"))
+            definition.caps = ctypes.cast(kept[-1].address, ctypes.POINTER(ctypes.c_uint8))
+            definition.cap_stride = kept[-1].stride
+        definition.min_length = min_length
+        definition.length_scale = length_scale
+        context = context_of(context)
+
+        def make(create: Any) -> Any:
+            self._make(context, create, definition)
+            return kept  # to this end: a call that was interrupted may still read them
+
+        build(make, lib.msq_structure_beams, job)
+
+
+def _or_none(indices: Any) -> Any:
+    return () if indices is None else indices
+
+
+def _of_each(values: Any, dtype: Any, width: int, name: str, owners: Elements,
+             owners_name: str) -> Elements:
+    """Numbers of each beam or ball, of which C cannot see how many there are."""
+    if isinstance(values, np.ndarray) and values.dtype.kind == "f" and \
+            values.dtype.itemsize > np.dtype(dtype).itemsize:
+        raise TypeError(f"{name} are of dtype {values.dtype}; with nodes of {np.dtype(dtype)} they "
+                        "must be of that, or numbers would be rounded")
+    found = elements(values, dtype, width, name)
+    if found.count != owners.count:
+        raise ValueError(f"there are {found.count} {name} and {owners.count} {owners_name}")
+    return found
 
 
 class Functional(Structure):

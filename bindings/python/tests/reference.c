@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * What C answers, for the tests of the Python package to compare with: the memberships (a byte each)
- * and distances (8 bytes each) of the points that it reads from standard input as doubles, in the
- * model of tests/support.py. Usage: python_reference COUNT < points > answers */
+ * What C answers, for the tests of the Python package to compare with: the memberships (a byte
+ * each) and distances (8 bytes each) of the points that it reads from standard input as doubles, in
+ * the model of tests/support.py. Usage: python_reference COUNT < points > answers */
 #include <msq.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#define TRY(call)                                    \
-  do {                                               \
-    if ((call) != MSQ_OK) {                          \
-      fprintf(stderr, "%s\n", msq_error_message());  \
-      exit(1);                                       \
-    }                                                \
+#define TRY(call)                                   \
+  do {                                              \
+    if ((call) != MSQ_OK) {                         \
+      fprintf(stderr, "%s\n", msq_error_message()); \
+      exit(1);                                      \
+    }                                               \
   } while (0)
 
 int main(int argc, char** argv) {

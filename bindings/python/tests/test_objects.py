@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exceptions with the messages of C, lifetimes, threads, jobs and interrupts."""
+import copy
+import errno
 import gc
 import os
 import pathlib
@@ -11,6 +13,7 @@ import tempfile
 import threading
 import time
 import unittest
+import warnings
 from unittest import mock
 
 import numpy as np
@@ -43,6 +46,8 @@ class Exceptions(unittest.TestCase):
             (msq.LimitError, "1000", lambda: msq.Model(box, context=tight).slicer(
                 layer_height=0.01, pitch=0.01).layer(0)),
             (msq.LimitError, "radius", lambda: msq.Foam(radius=3)),
+            (msq.ArgumentError, "radius", msq.Foam),
+            (msq.LimitError, "wall_thickness reaches 3", lambda: msq.Foam(wall_thickness=3)),
         ]
         if not msq.build_info().with_assimp:
             cases = [case for case in cases if case[0] not in (msq.FileError, OSError)]
@@ -73,6 +78,41 @@ class Exceptions(unittest.TestCase):
                     msq.PointGrid((0, 0, 0), 1, (1, 1, -1))))):
             with self.assertRaisesRegex(kind, text):
                 call()
+
+    def test_fields_stand_where_the_readme_says(self):
+        field = msq.Field.gradient((0, 0, 0), 0.125, (1, 0, 0), 0.25)
+        steel = msq.Material(1, density=field)
+        for make in (lambda: msq.Lattice(radius=field), lambda: msq.Foam(radius=field, density=field),
+                     lambda: msq.Foam(wall_thickness=field),
+                     lambda: msq.Functional("gyroid", level=field),
+                     lambda: msq.Functional("gyroid", kind="sheet", thickness=field),
+                     lambda: msq.Lattice(["bcc", "cubic"], cell_choice=field, radius=0.1),
+                     lambda: msq.Scale(msq.Foam(radius=0.1), skin=field),
+                     lambda: msq.Material.blend(2, steel, steel, field)):
+            make()
+        for make in (lambda: msq.Foam(radius=0.1, jitter=field),
+                     lambda: msq.Foam(radius=0.1, cell_size=field),
+                     lambda: msq.Shape.voxels(np.ones((2, 2, 2)), field),
+                     lambda: msq.Functional(expression="x + a", parameters={"a": field}),
+                     lambda: msq.UnitCell("bcc", strut_factors=[field] * 8)):
+            with self.assertRaises(TypeError):
+                make()
+
+    def test_walls_close_the_cells_of_a_foam(self):
+        box = msq.Shape.box((0, 0, 0), (4, 4, 4))
+        points = msq.PointGrid((0.1, 0.1, 0.1), 0.2, (19, 19, 19))
+        struts, walls, both = (
+            np.asarray(msq.Model(box, [msq.Foam(**sizes)]).contains(points)).astype(bool)
+            for sizes in ({"radius": 0.12}, {"wall_thickness": 0.1},
+                          {"radius": 0.12, "wall_thickness": 0.1}))
+        self.assertTrue(np.array_equal(both, struts | walls))
+        self.assertTrue(walls.any() and (struts & ~walls).any() and not both.all())
+
+    def test_triangles_of_any_whole_type_are_one_mesh(self):
+        for dtype in (np.uint32, np.int64, np.uint8, np.float64):
+            faces = np.array(FACES, dtype=dtype)
+            self.assertEqual(msq.Shape.from_mesh(CUBE, faces).info.volume, 1)
+            self.assertEqual(msq.Shape.from_mesh(CUBE, np.asfortranarray(faces)).info.volume, 1)
 
     def test_messages_belong_to_threads(self):
         texts = {}
@@ -237,8 +277,43 @@ class Lifetimes(unittest.TestCase):
         self.assertEqual(msq.Context(cache_policy="segmented").cache.cells, 0)
         with self.assertRaisesRegex(ValueError, "cache_policy"):
             msq.Context(cache_policy="lifo")
-        with self.assertRaises(ValueError):
-            pickle.dumps(msq.Model(box))
+
+
+class Copies(unittest.TestCase):
+    def test_share_the_object_or_are_refused_in_plain_words(self):
+        box = msq.Shape.box((0, 0, 0), (1, 1, 1))
+        foam = msq.Foam(radius=0.2)
+        with warnings.catch_warnings(record=True), mock.patch.object(sys, "unraisablehook") as hook:
+            for handle in (box, foam, msq.Model(box), msq.Context(), msq.Job(),
+                           msq.Field.gradient((0, 0, 0), 0, (0, 0, 1), 1)):
+                for refused in (pickle.dumps, copy.deepcopy):
+                    with self.assertRaisesRegex(TypeError, type(handle).__name__ + " objects can"):
+                        refused(handle)
+            gc.collect()
+            hook.assert_not_called()
+        shared = copy.copy(box)
+        box.close()
+        self.assertEqual(shared.info.max, (1, 1, 1))
+        self.assertTrue(msq.Model(shared).contains((0.5, 0.5, 0.5)))
+
+
+class Files(unittest.TestCase):
+    def test_errors_are_those_of_python(self):
+        with tempfile.TemporaryDirectory() as folder:
+            bad = pathlib.Path(folder) / "bad.off"
+            bad.write_text("OFF\n3 1 0\n0 0\n")
+            missing = pathlib.Path(folder) / "missing.off"
+            for path, kind, number in ((missing, FileNotFoundError, errno.ENOENT),
+                                       (folder, IsADirectoryError, errno.EISDIR),
+                                       (bad, msq.FileError, None)):
+                with self.assertRaises(kind) as caught:
+                    msq.Shape.from_file(path, format="off")
+                error = caught.exception
+                self.assertIsInstance(error, msq.FileError)
+                self.assertEqual((error.errno, error.filename), (number, os.fspath(path)))
+                self.assertTrue(str(error).startswith(os.fspath(path)), str(error))
+                again = pickle.loads(pickle.dumps(error))
+                self.assertEqual((type(again), str(again)), (type(error), str(error)))
 
 
 class Meshes(unittest.TestCase):
@@ -263,6 +338,29 @@ class Meshes(unittest.TestCase):
             twice = msq.Shape.from_mesh(np.concatenate((CUBE, np.array(CUBE) + 0.5)),
                                         np.concatenate((FACES, np.array(FACES) + 8)))
             self.assertGreater(twice.self_intersections(), 0)
+
+    def test_jobs_of_constructors(self):
+        obj = ("".join("v %.17g %d %d\n" % (v[0] * 300.123456789, v[1], v[2]) for v in CUBE)
+               + "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in FACES)).encode()
+        job = msq.Job()
+        shape = msq.Shape.from_memory(obj, "obj", job=job)
+        self.assertEqual((shape.info.max, job.progress), ((300.123456789, 1, 1), 1))
+        curve = [(-1, 0), (1, 1)]
+        for step in (0, 0.5):
+            msq.Field.shape_distance(shape, curve, step=step * 100, job=job)
+            self.assertEqual(job.progress, 1)
+        job.cancel()
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "cube.obj")
+            path.write_bytes(obj)
+            self.assertEqual(msq.Shape.from_file(path).info, shape.info)
+            for call in (lambda: msq.Shape.from_file(path, job=job),
+                         lambda: msq.Shape.from_memory(obj, "obj", job=job),
+                         lambda: msq.Field.shape_distance(shape, curve, job=job),
+                         lambda: msq.Field.shape_distance(shape, curve, step=50, job=job)):
+                self.assertRaises(msq.CancelledError, call)
+        with self.assertRaisesRegex(OSError, "line 9"):
+            msq.Shape.from_memory(obj[:obj.index(b"f")] + b"f one", "obj")
 
     def test_from_files_and_memory(self):
         if not msq.build_info().with_assimp:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sets of points: the answers of C, out of and into the arrays of the caller."""
 import ctypes
+import dataclasses
 import os
 import subprocess
 import unittest
@@ -66,6 +67,63 @@ class Answers(unittest.TestCase):
         self.assertTrue(model.contains(grid).any())
         small = msq.PointGrid((0, 0, 0), 0.5, (3, 4, 5))
         self.assertEqual(model.contains(small).T.shape, small.counts)
+
+    def test_of_windows_are_those_of_the_grid(self):
+        model = reference_model()
+        grid = msq.PointGrid(origin=(-6.1, -5.1, 0.1), spacing=0.1, counts=(125, 101, 90))
+        whole = model.contains(grid)
+        self.assertTrue(whole.any() and not whole.all())
+        part = dataclasses.replace(grid, window=((17, 3, 41), (100, 98, 7)))
+        there = np.s_[41:48, 3:101, 17:117]
+        self.assertEqual(part.shape, (7, 98, 100))
+        self.assertTrue(np.array_equal(model.contains(part), whole[there]))
+        self.assertTrue(np.array_equal(part.coordinates().reshape(7, 98, 100, 3),
+                                       grid.coordinates().reshape(90, 101, 125, 3)[there]))
+        for window in (((17, 3, 41), (109, 1, 1)), ((0, 0, 90), (1, 1, 1)), ((0, 0, 1), (1, 1, 0))):
+            with self.assertRaisesRegex(msq.ArgumentError, "window"):
+                dataclasses.replace(grid, window=window).coordinates(0, 1)
+        for window in (((0, 0), (1, 1)), ((0, 0, 0), (0, 0, 0)), ((-1, 0, 0), (1, 1, 1))):
+            with self.assertRaises((ValueError, OverflowError)):
+                dataclasses.replace(grid, window=window).coordinates(0, 1)
+
+    def test_of_values_are_those_of_closed_forms(self):
+        points = random_points(2000).reshape(40, 50, 3)
+        rise = msq.Field.gradient((0, 0, 0), 0.1, (0, 0, 100), 0.4)
+        expected = np.clip(0.1 + 0.003 * points[..., 2], 0.1, 0.4)
+        np.testing.assert_allclose(rise.evaluate(points), expected, atol=1e-14)
+        self.assertIsInstance(rise.evaluate((1, 2, 3)), float)
+        lattice = msq.Lattice(unit_cell="cubic", cell_size=2, radius=rise)
+        offset = np.abs(points - 2 * np.round(points / 2))
+        distance = np.sqrt((offset**2).sum(axis=-1) - offset.max(axis=-1)**2)
+        onsets, slopes = lattice.onset(points, gradient=True)
+        np.testing.assert_allclose(onsets, distance, atol=1e-7)
+        self.assertEqual(slopes.shape, (40, 50, 3))
+        self.assertLess(np.linalg.norm(slopes, axis=-1).max(), 1 + 1e-6)
+        signed = lattice.onset(points, signed=True)
+        np.testing.assert_array_equal(signed, onsets - rise.evaluate(points))
+        space = msq.Model(msq.Shape.all_space(), lattice)
+        clear = np.abs(signed) > 1e-9
+        np.testing.assert_array_equal(space.contains(points)[clear], signed[clear] <= 0)
+        with self.assertRaises(msq.UnsupportedError):
+            msq.Beams([[0, 0, 0], [1, 1, 1]], [[0, 1]], radius=0.1).onset(points)
+
+    def test_of_all_space_are_those_of_the_structure(self):
+        foam = msq.Foam(cell_size=2, radius=0.3)
+        space = msq.Model(msq.Shape.all_space(), foam)
+        boxed = msq.Model(msq.Shape.box((-500,) * 3, (500,) * 3), foam)
+        points = random_points(3000)
+        self.assertTrue(np.array_equal(space.contains(points), boxed.contains(points)))
+        self.assertTrue(np.array_equal(space.distance(points), boxed.distance(points)))
+        self.assertEqual(space.bounds, ((-np.inf,) * 3, (np.inf,) * 3))
+        with self.assertRaisesRegex(msq.LimitError, "scale 1"):
+            space.contains((1e9, 0, 0))
+        with self.assertRaisesRegex(msq.ArgumentError, "region"):
+            space.slicer(layer_height=0.1, pitch=0.1)
+        self.assertEqual(len(space.slicer(layer_height=0.5, pitch=0.1,
+                                          region=((0, 0, 0), (4, 4, 4)))), 8)
+        with self.assertRaisesRegex(msq.ArgumentError, "t_max"):
+            space.cast((0, 0, 0), (1, 0, 0))
+        self.assertEqual(space.cast((0, 0, 0), (1, 2, 3), t_max=20.0).scale, 1)
 
     def test_follow_the_length_scale(self):
         model, coarse = box_model(), box_model(foam=False)

@@ -133,6 +133,25 @@ class Layers(unittest.TestCase):
         self.assertEqual(next(iter(slicer)).index, 0)
 
 
+    def test_of_windows_are_those_of_the_plan(self):
+        model = reference_model()
+        plan = {"layer_height": 0.5, "pitch": 0.1, "output": "bytes"}
+        slicer = model.slicer(**plan)
+        whole = np.array([layer.data for layer in slicer])
+        self.assertEqual(whole.shape, slicer.whole[::-1])
+        self.assertEqual(slicer.window, ((0, 0, 0), slicer.whole))
+        panel = model.slicer(**plan, window=((33, 5, 2), (70, 50, 9)))
+        layers = self.check_ways(panel)
+        self.assertEqual((panel.width, panel.height, len(panel)), (70, 50, 9))
+        self.assertEqual((panel.origin, panel.whole), (slicer.origin, slicer.whole))
+        self.assertEqual(panel.window, ((33, 5, 2), (70, 50, 9)))
+        for layer in layers:
+            self.assertEqual(layer.z, slicer.z(2 + layer.index))
+            self.assertTrue(np.array_equal(layer.data, whole[2 + layer.index, 5:55, 33:103]))
+        with self.assertRaisesRegex(msq.ArgumentError, str(slicer.width)):
+            model.slicer(**plan, window=((0, 0, 0), (slicer.width + 1, 1, 1)))
+
+
 class Callbacks(unittest.TestCase):
     def setUp(self):
         self.slicer = box_model().slicer(pitch=0.25, layer_height=0.25, slab_layers=4)
@@ -196,6 +215,50 @@ class Callbacks(unittest.TestCase):
             kept.clear()
         self.assertTrue(self.slicer.run(lambda layer: kept.append((layer.copy(), layer.pixels))))
         self.assertTrue(np.array_equal(kept[3][0].rows, self.slicer[3].rows))
+
+
+class Outputs(unittest.TestCase):
+    def setUp(self):
+        self.model = reference_model()
+
+    def slicer(self, **options):
+        return self.model.slicer(resolution=(40, 24), layer_height=0.25, **options)
+
+    def test_grey_is_the_mean_of_finer_pixels(self):
+        grey = self.slicer(output="grey", grey_samples=2)
+        fine = self.model.slicer(resolution=(80, 48), layer_height=0.25)
+        for layer, samples in zip(grey, fine):
+            count = samples.pixels.reshape(24, 2, 40, 2).sum(axis=(1, 3))
+            self.assertTrue(np.array_equal(layer.data, np.floor(255 * count / 4 + 0.5)))
+            self.assertEqual(layer.inside_count, count.sum())
+            again = grey[layer.index]
+            self.assertTrue(np.array_equal(again.rows, layer.rows))
+            self.assertEqual(again.inside_count, layer.inside_count)
+        strong = self.slicer(output="grey", grey_samples=2, grey_threshold=100)[3].data
+        self.assertEqual(set(np.unique(strong)) - {0, 128, 191, 255}, set())
+
+    def test_distances_have_the_sign_of_membership(self):
+        distance = self.slicer(output="distance")[2]
+        self.assertEqual(distance.data.dtype, np.float32)
+        self.assertTrue(np.array_equal(distance.pixels, self.slicer()[2].pixels))
+        self.assertEqual(distance.inside_count, np.count_nonzero(distance.pixels))
+
+    def test_layers_are_turned(self):
+        for output in ("bits", "bytes", "grey", "distance"):
+            plain = self.slicer(output=output)[1]
+            turned = self.slicer(output=output, mirror="x", transpose=True)
+            self.assertEqual((turned.width, turned.height), (24, 40))
+            self.assertTrue(np.array_equal(turned[1].pixels, plain.pixels.T[:, ::-1]))
+            self.assertTrue(np.array_equal(self.slicer(output=output, mirror="xy")[1].pixels,
+                                           plain.pixels[::-1, ::-1]))
+
+    def test_wrong_options_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "mirror is 'z'"):
+            self.slicer(mirror="z")
+        with self.assertRaisesRegex(ValueError, "output is 'mirror_x'"):
+            self.slicer(output="mirror_x")
+        with self.assertRaisesRegex(msq.ArgumentError, "grey_samples is 5"):
+            self.slicer(output="grey", grey_samples=5)
 
 
 if __name__ == "__main__":

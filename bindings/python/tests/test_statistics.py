@@ -86,7 +86,7 @@ class Numbers(unittest.TestCase):
             self.assertAlmostEqual(found.fraction.value, 0.3, delta=0.01)
             self.assertEqual(len(found.parameters), 65)
             self.assertTrue((np.diff(found.parameters) >= 0).all())
-            self.assertAlmostEqual(found.fractions[-1], found.most_fraction)
+            self.assertAlmostEqual(found.fractions[-1], found.max_fraction)
             self.assertAlmostEqual(np.interp(0.3, found.fractions, found.parameters),
                                    found.parameter, delta=0.02)
             self.assertEqual(len(structure.calibrate(0.3).parameters), 0)

@@ -5,15 +5,16 @@
 #include <cstring>
 #include <map>
 
+#include "base/job.h"
 #include "structure/functional/row_kernels.h"
 
 namespace msq {
 
 namespace {
 
-constexpr size_t most_tapes = 64;
+constexpr size_t max_tapes = 64;
 
-/// A tape as a key: equal only for equal tapes.
+/// A tape as a key; keys are equal only for equal tapes.
 std::vector<uint64_t> key_of(const Tape& tape) {
   std::vector<uint64_t> key;
   for (const Node& node : tape.nodes) {
@@ -48,6 +49,7 @@ Clusters::Clusters(const Tape& tape, int side, Interval levels) {
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {
+        check_cancelled();
         enclose(tape, {extent(x), extent(y), extent(z)}, nodes);
         const Enclosure onset = nodes.back();
         uint16_t number = 0;
@@ -57,7 +59,7 @@ Clusters::Clusters(const Tape& tape, int side, Interval levels) {
           const auto found = known.find(key);
           if (found != known.end()) {
             number = found->second;
-          } else if (tapes_.size() < most_tapes) {
+          } else if (tapes_.size() < max_tapes) {
             number = static_cast<uint16_t>(tapes_.size());
             known.emplace(std::move(key), number);
             tapes_.push_back(std::move(shorter));

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // r-interval preprocessing: the unit cell in n^3 clusters, each with an enclosure of the onset.
-// Clusters whose enclosure leaves no doubt are answered as blocks; for the others the tape may be
-// shorter than the whole. Source: paper, section "Preprocessing for Repeating Structures"; where it
-// samples the corners of clusters, which proves nothing, these are enclosures by interval
-// arithmetic.
+// Clusters that the enclosure decides are written as blocks; the others may use a shorter tape than
+// the whole one. Source: paper, section "Preprocessing for Repeating Structures". The paper samples
+// the corners of clusters, which proves nothing; these are enclosures by interval arithmetic.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +19,12 @@ class Clusters {
     uint16_t tape;  ///< number of the tape to evaluate here
   };
 
-  /// `levels`: the levels that will be asked about. With side 1 nothing is known.
+  /// `levels`: the levels that will be queried. With side 1 nothing is decided.
   Clusters(const Tape& tape, int side, Interval levels);
 
   int side() const { return grids_[0].side; }
-  /// The finest grid of clusters with at most so many along an axis of the cell; null if there is
-  /// none worth looking at.
+  /// The finest grid of clusters with at most that many along an axis of the cell; null if there is
+  /// no useful one.
   class Grid;
   const Grid* at_most(double side) const;
 
@@ -34,7 +33,7 @@ class Clusters {
 
   class Grid {
    public:
-    /// The number of the cluster along an axis that an angle lies in.
+    /// The number of the cluster, along an axis, that contains an angle.
     int number(double angle) const {
       const double i = angle * (side / two_pi);
       return i < side ? static_cast<int>(i) : side - 1;
@@ -51,7 +50,7 @@ class Clusters {
   /// Clusters of twice the size.
   static Grid coarser(const Grid& fine);
 
-  std::vector<Grid> grids_;  // from the finest on
+  std::vector<Grid> grids_;  // the finest first
   std::vector<Tape> tapes_;
 };
 

@@ -3,18 +3,20 @@
 
 #include <cmath>
 
+#include "base/borrowed.h"
 #include "expression/period.h"
-#include "structure/functional/axis_rows.h"
+#include "structure/common/strut_distance_bound.h"
+#include "structure/functional/functional_rows.h"
+#include "structure/functional/level_lines.h"
 #include "structure/functional/ray_search.h"
 #include "structure/functional/row_kernels.h"
 #include "structure/functional/turned_rows.h"
-#include "structure/strut_clearance.h"
 
 namespace msq {
 
 namespace {
 
-/// Along an axis of the cell: fewer for tapes whose enclosures take long.
+/// Number along an axis of the cell: fewer for tapes whose enclosures take long.
 int automatic_clusters(const Tape& tape) {
   return tape.nodes.size() > 200 ? 16 : 32;
 }
@@ -32,6 +34,15 @@ Tape onset_of(const Tape& function, FunctionalKind kind) {
   return builder.finish(builder.apply(Op::absolute, number.back()));
 }
 
+/// Points that are evaluated together.
+struct Points {
+  static constexpr size_t room = batch_points + batch_padding;
+  double coordinates[3][room] = {};
+  double angles[3][room], levels[room] = {};
+  Vec3 asked[batch_points];
+  size_t index[batch_points];
+};
+
 std::vector<RowPlan> row_plans(const Clusters& clusters, const std::array<int, 3>& sample_axis) {
   std::vector<RowPlan> plans;
   if (sample_axis[0] >= 0)
@@ -45,6 +56,8 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
                        FunctionalKind kind, Parameter level, int clusters)
     : Structure(neighbourhood),
       level_(std::move(level)),
+      kind_(kind),
+      function_(function),
       onset_(onset_of(function, kind)),
       program_(compile(onset_)),
       ray_program_(onset_),
@@ -81,7 +94,7 @@ bool Functional::inside(Vec3 p) const {
 const Slope& Functional::slope() const {
   return slope_.get([&] {
     const Neighbourhood& grid = neighbourhood();
-    // Angles are rounded, and two_pi is.
+    // Angles are rounded, and so is two_pi.
     const Interval cell{0, two_pi};
     const Vec3 angles_per_unit{two_pi / grid.cell_size.x, two_pi / grid.cell_size.y,
                                two_pi / grid.cell_size.z};
@@ -90,31 +103,31 @@ const Slope& Functional::slope() const {
   });
 }
 
-double Functional::least_ray_step() const {
+double Functional::min_ray_step() const {
   return std::isfinite(slope().most)
              ? ray_tolerance()
-             : FunctionalRays::most_blind_step * min_component(neighbourhood().cell_size);
+             : FunctionalRays::max_blind_step * min_component(neighbourhood().cell_size);
 }
 
-void Functional::enter(RaySearch* searches, size_t count) const {
-  FunctionalRays rays(*this);
+void Functional::enter(RaySearch* searches, size_t count, const Job* job) const {
+  FunctionalRays rays(*this, job);
   rays.find(true, searches, count);
   rays.find_normals(searches, count);
 }
 
-double Functional::leave(const Ray& ray, double from, double to) const {
+double Functional::leave(const Ray& ray, double from, double to, const Job* job) const {
   RaySearch search{ray, from, to};
-  FunctionalRays(*this).find(false, &search, 1);
+  FunctionalRays(*this, job).find(false, &search, 1);
   return search.found ? search.t : to;
 }
 
 Vec3 Functional::normal(const Ray& ray, double t) const {
   RaySearch search{ray, t, t, true, t};
-  FunctionalRays(*this).find_normals(&search, 1);
+  FunctionalRays(*this, nullptr).find_normals(&search, 1);
   return dot(search.normal, search.normal) > 0 ? search.normal : ray.direction * -1.0;
 }
 
-double Functional::clearance(Vec3 p) const {
+double Functional::distance_bound(Vec3 p) const {
   const Neighbourhood& grid = neighbourhood();
   const Slope& slope = this->slope();
   if (!std::isfinite(slope.most)) return 0;
@@ -122,27 +135,25 @@ double Functional::clearance(Vec3 p) const {
   const Vec3 angles{angle_of(fraction.x), angle_of(fraction.y), angle_of(fraction.z)};
   const double onset = evaluate(onset_, angles);
   const Interval level = level_.range(Box3{p, p});
-  // What the level is wrong by there, and as much at the boundary.
+  // The error of the level there, and the same at the boundary.
   const double rounding = 2 * (level.high - level.low) + 2 * slope.error;
   const double gap = std::max(onset - level.high, level.low - onset) - rounding;
-  // The grid's rotation may stretch distances in the last bits; a constant function has no
+  // The grid's rotation may stretch distances in the last bits. A constant function has no
   // boundary.
-  double clearance = std::min((1 - 0x1p-40) * gap / (slope.most + level_.lipschitz()),
-                              0x1p30 * characteristic_length());
+  double distance_bound = std::min(steady_distance((1 - 0x1p-40) * gap, slope.most, 1, level_, p),
+                                   0x1p30 * characteristic_length());
   for (int axis = 0; axis < 3; ++axis)
     if (!repeats_[static_cast<size_t>(axis)])
-      clearance =
-          std::min(clearance, std::min(fraction[axis], 1 - fraction[axis]) * grid.cell_size[axis]);
-  if (!(clearance > 0)) return 0;
-  return std::max(0.0, clearance - 2 * locating_slack(p - grid.origin, clearance));
+      distance_bound = std::min(
+          distance_bound, std::min(fraction[axis], 1 - fraction[axis]) * grid.cell_size[axis]);
+  if (!(distance_bound > 0)) return 0;
+  return std::max(0.0, distance_bound - 2 * locating_slack(p - grid.origin, distance_bound));
 }
 
 void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   Batch batch(program_);
-  double coordinates[3][batch_points + batch_padding] = {};
-  double angles[3][batch_points + batch_padding], levels[batch_points + batch_padding] = {};
-  Vec3 asked[batch_points];
-  size_t index[batch_points];
+  const Borrowed<Points> borrowed;
+  auto& [coordinates, angles, levels, asked, index] = *borrowed;
   for (size_t axis = 0; axis < 3; ++axis) batch.set_input(axis, {angles[axis], false});
   for (size_t next = 0; next < count;) {
     size_t size = 0;
@@ -164,11 +175,15 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
 
 void Functional::keep_rows(const RowBlock& block, const Job* job) const {
   if (sample_axis_[0] >= 0)
-    AxisRows(*this, block).keep(job);
+    FunctionalRows(*this, block).keep(job);
   else if (form_)
     TurnedRows(*this, block).keep(job);
   else
     keep_turned_rows(*this, block, job);
+}
+
+LineGraph Functional::wall_lines(const WallSection& section) const {
+  return LevelLines(*this, section).find();
 }
 
 }  // namespace msq

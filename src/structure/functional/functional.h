@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functional structures: triply periodic functions of the position within the cell, above all those
-// near minimal surfaces. Onset of a point: the function g (network), or its magnitude (sheet); the
-// solid is where the onset is at most the level. A point at which g is no number is outside.
+// Functional structures: triply periodic functions of the position within the cell, mostly close to
+// minimal surfaces. The onset of a point is the function g (network) or its magnitude (sheet); the
+// solid is where the onset is at most the level. A point where g is NaN is outside.
 #pragma once
 
 #include <array>
@@ -22,63 +22,73 @@ namespace msq {
 
 enum class FunctionalKind : int32_t { network = 1, sheet = 2 };
 
-constexpr int most_clusters = 64;  // along an axis of the cell
+constexpr int max_clusters = 64;  // along an axis of the cell
 
 class Functional final : public Structure {
  public:
-  /// `clusters`: along an axis of the cell; 1: none, 0: as many as pay.
+  /// `clusters`: number along an axis of the cell; 1: none, 0: the most efficient number.
   Functional(const Neighbourhood& neighbourhood, const Tape& function, FunctionalKind kind,
              Parameter level, int clusters);
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return level_.is_concurrent(); }
-  /// The difference of onset and level over the sum of their Lipschitz constants, that of the onset
-  /// being the same throughout the cell. Along axes on which the function does not repeat by itself
-  /// no more than the distance to the cell's border. 0 everywhere where the slope is not bounded.
-  double clearance(Vec3 p) const override;
-  void enter(RaySearch* searches, size_t count) const override;
-  double leave(const Ray& ray, double from, double to) const override;
+  /// The difference of onset and level over the sum of their Lipschitz constants. The onset's
+  /// constant is that of the whole cell. Along axes on which the function is not periodic by
+  /// itself, at most the distance to the cell's border. 0 everywhere if the slope is unbounded.
+  double distance_bound(Vec3 p) const override;
+  void enter(RaySearch* searches, size_t count, const Job* job) const override;
+  double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
-  double least_ray_step() const override;
+  double min_ray_step() const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
-  /// Where the level is bounded block by block.
+  /// Then the level is bounded block by block.
   bool gains_by_layers() const override { return !level_.is_constant(); }
   void keep_rows(const RowBlock& block, const Job* job) const override;
   uint64_t critical_count() const override { return 3; }
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
+  double parameter(Vec3 p) const override { return level_.at(p); }
   bool is_periodic() const override { return true; }
+  ThinWalls thin_walls() const override {
+    return is_sheet() || level_.is_constant() ? ThinWalls::uniform : ThinWalls::varying;
+  }
+  /// Of sheets the lines where the function is 0, of networks those where it is the level.
+  LineGraph wall_lines(const WallSection& section) const override;
 
+  bool is_sheet() const { return kind_ == FunctionalKind::sheet; }
+  /// That the onset is made of.
+  const Tape& function() const { return function_; }
   const Tape& onset() const { return onset_; }
   const Program& program() const { return program_; }
   const RayProgram& ray_program() const { return ray_program_; }
   const Parameter& level() const { return level_; }
-  /// Along which axes the onset repeats by itself.
+  /// For each axis, whether the onset is periodic along it by itself.
   const std::array<bool, 3>& repeats() const { return repeats_; }
-  /// Built by the first call, on whatever thread.
+  /// Built by the first call, on its thread.
   const Clusters& clusters() const { return prepared().clusters; }
-  /// For each axis of the grid the axis of the samples that it runs along; all -1 where the grid is
+  /// For each axis of the grid, the axis of the samples parallel to it; all -1 if the grid is
   /// turned.
   const std::array<int, 3>& sample_axis() const { return sample_axis_; }
-  /// One for each of the clusters' tapes; none where the grid is turned.
+  /// One for each of the clusters' tapes; empty if the grid is turned.
   const std::vector<RowPlan>& row_plans() const { return prepared().row_plans; }
 
-  /// Of the onset; none for tapes of another form, or where the grid is not turned.
+  /// The form of the onset; none for tapes of another form, or if the grid is not turned.
   const std::optional<TrigonometricForm>& form() const { return form_; }
 
  private:
   const Slope& slope() const;
-  /// What rows along the axes take.
+  /// Data for rows along the axes.
   struct Prepared {
     Clusters clusters;
     std::vector<RowPlan> row_plans;
   };
   const Prepared& prepared() const;
-  /// Of the onset's tape.
+  /// The value of the onset's tape.
   double value(Vec3 p) const;
 
   Parameter level_;
-  Tape onset_;
+  FunctionalKind kind_;
+  Tape function_, onset_;
   Program program_;
   RayProgram ray_program_;
   std::array<int, 3> sample_axis_;

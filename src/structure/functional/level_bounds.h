@@ -12,8 +12,7 @@
 
 namespace msq {
 
-/// Rows [y0, y1) of layers [z0, z1) of a grid, few enough for the level to change little among
-/// them.
+/// Rows [y0, y1) of layers [z0, z1) of a grid: so few that the level changes little among them.
 struct RowGroup {
   uint64_t y0, y1, z0, z1;
 
@@ -21,11 +20,12 @@ struct RowGroup {
   uint64_t y(size_t row) const { return y0 + row % (y1 - y0); }
   uint64_t z(size_t row) const { return z0 + row / (y1 - y0); }
 };
-constexpr uint64_t most_group_rows = 16, most_group_layers = 8;
-static_assert(most_group_rows * most_group_layers <= batch_points);
+constexpr uint64_t max_group_rows = 16, max_group_layers = 8;
+static_assert(max_group_rows * max_group_layers <= batch_points);
 
-/// A value of at most `low` is at most the level, one above `high` is not, if it is wrong by no
-/// more than `slack`: for all samples where the level is constant, else for chunks of them.
+/// Let the error of a value be at most `slack`. A value of at most `low` is then at most the level,
+/// and one above `high` is above the level. The bounds are for all samples if the level is
+/// constant, otherwise for chunks of samples.
 struct LevelBounds {
   std::vector<float> low, high;
 
@@ -33,7 +33,7 @@ struct LevelBounds {
     low = {at_most(level.low - slack)};
     high = {-at_most(-level.high - slack)};
   }
-  /// For the listed words of a group's rows.
+  /// Sets the bounds for the listed words of a group's rows.
   void set(const Parameter& level, double slack, const SampleGrid& grid, const RowGroup& group,
            const std::vector<uint32_t>& words) {
     low.resize(words_for(grid.nx) * bits_per_word / linear_chunk);

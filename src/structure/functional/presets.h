@@ -7,7 +7,7 @@
 
 namespace msq {
 
-/// Texts by the number of the preset, from 1.
+/// Expressions by the number of the preset, from 1.
 constexpr const char* preset_expressions[] = {
     // Gyroid.
     "sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)",

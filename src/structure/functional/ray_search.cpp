@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/functional/ray_search.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,23 +12,44 @@ namespace msq {
 namespace {
 
 /// In smallest cell sizes. Longer pieces prove little.
-constexpr double first_span = 0.125, most_span = 0.5, small_span = 0x1p-7;
-/// Steps of the tolerance, before they grow.
-constexpr uint32_t short_blind_steps = 16;
+constexpr double first_span = 0.125, max_span = 0.5, small_span = 0x1p-7;
+/// Number of steps of the tolerance before they double: where nothing is known, and within rounding
+/// of a surface; and the number of steps between doublings.
+constexpr uint32_t short_blind_steps = 16, short_near_steps = 1 << 14;
+constexpr uint32_t near_steps_at_once = 1 << 10;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The s up to which gap + slope s - bend s^2 stays positive, at most `most`.
+/// Rounds after which progress is checked.
+constexpr uint32_t rounds_at_once = 4096;
+/// In smallest cell sizes: a ray that advances less in these rounds creeps.
+constexpr double slow = 0x1p-12;
+
+/// The s, at most `most`, up to which gap + slope s - bend s^2 stays positive. Slope and bend are
+/// finite; bend is not negative.
 double positive_until(double gap, double slope, double bend, double most) {
   if (!(gap > 0)) return 0;
-  const double divisor = std::sqrt(slope * slope + 4 * bend * gap) - slope;
+  if ((slope >= 0 && bend == 0) || gap == infinity) return most;
+  double square = slope * slope + 4 * bend * gap;
+  // If squares are out of range, scaling by a power of two, which does not change the root, brings
+  // the largest number to 1. Numbers that then vanish are negligible, or the root is far beyond
+  // `most`.
+  if (!(square > 0x1p-900 && square < infinity)) {
+    const int exponent = std::ilogb(std::max(std::max(gap, bend), std::abs(slope)));
+    gap = std::scalbn(gap, -exponent);
+    slope = std::scalbn(slope, -exponent);
+    bend = std::scalbn(bend, -exponent);
+    square = slope * slope + 4 * bend * gap;
+  }
+  const double divisor = std::sqrt(square) - slope;
   const double root = (1 - 0x1p-40) * 2 * gap / divisor;
   return divisor > 0 && root < most ? root : most;
 }
 
 }  // namespace
 
-FunctionalRays::FunctionalRays(const Functional& solid)
+FunctionalRays::FunctionalRays(const Functional& solid, const Job* job)
     : solid_(solid),
+      job_(job),
       grid_(solid.neighbourhood()),
       level_(solid.level()),
       tolerance_(solid.ray_tolerance()),
@@ -39,12 +61,14 @@ FunctionalRays::FunctionalRays(const Functional& solid)
 void FunctionalRays::start(uint32_t number, const RaySearch& search) {
   Live live;
   live.search = number;
-  live.t = live.before = search.from;
+  live.t = live.before = live.looked_at = search.from;
+  live.least = tolerance_;
   live.span = first_span * cell_;
   const Vec3 along = grid_.rotation.apply_inverse(search.ray.direction);
   const Vec3 size = grid_.cell_size;
-  live.rates = {two_pi * along.x / size.x, two_pi * along.y / size.y, two_pi * along.z / size.z};
-  // A point of the ray is rounded, its place in the grid is, and its angles are; two_pi is.
+  live.rates = {two_pi * (along.x * (cell_ / size.x)), two_pi * (along.y * (cell_ / size.y)),
+                two_pi * (along.z * (cell_ / size.z))};
+  // Points of the ray, their positions in the grid and their angles are rounded, and so is two_pi.
   const Vec3 p = search.ray.at(search.from), q = search.ray.at(search.to);
   const double off = 0x1p-49 * (max_magnitude(p) + max_magnitude(q) + max_magnitude(grid_.origin));
   live.error = two_pi * off / cell_ + 0x1p-47;
@@ -91,11 +115,39 @@ FunctionalRays::Level FunctionalRays::level_over(const Ray& ray, double t, doubl
   return {value, 0, 0, range.high - value, value - range.low, true};
 }
 
+/// If bounds do not advance the ray, as along a surface that it touches up to rounding, the minimum
+/// step doubles each time. So there are at most rounds_at_once rounds for each `slow` of the way
+/// and for each doubling up to that.
+void FunctionalRays::count_round(Live& live) const {
+  if (++live.rounds % rounds_at_once != 0) return;
+  const bool creeps = live.t - live.looked_at < slow * cell_;
+  live.least = creeps ? 2 * live.least : std::max(tolerance_, 0.5 * live.least);
+  live.looked_at = live.t;
+}
+
+/// A step without proof.
+double FunctionalRays::step_unproven(Live& live, bool is_known, bool is_apart, bool is_vague,
+                                     double tolerance) const {
+  uint32_t doublings = 0;
+  if (is_known && is_apart) {
+    live.blind_steps = live.near_steps = 0;
+  } else if (is_known && !is_vague) {
+    live.blind_steps = 0;
+    if (++live.near_steps > short_near_steps)
+      doublings = (live.near_steps - short_near_steps) / near_steps_at_once;
+  } else if (++live.blind_steps > short_blind_steps) {
+    doublings = live.blind_steps - short_blind_steps;
+  }
+  return std::min(std::ldexp(tolerance, static_cast<int>(std::min<uint32_t>(doublings, 64))),
+                  std::max(tolerance, max_blind_step * cell_));
+}
+
 bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t lane,
                              const RayBatch::Bounds& bounds) {
   const double value = bounds.value[lane];
-  // Less is lost in rounding.
-  const double tolerance = std::max(tolerance_, 0x1p-50 * (max_magnitude(points_[lane]) + live.t));
+  const double tolerance = solid_.ray_tolerance(search.ray, search.to);
+  count_round(live);
+  const double least = std::max(tolerance, live.least);
   if ((value <= levels_[lane]) == wanted) {
     search.found = true;
     search.t = live.t;
@@ -110,42 +162,37 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
     return false;
   }
   if (live.t >= search.to) return false;
-  const double span = pieces_.span[lane];
+  const double span = pieces_.span[lane] * cell_;
   const Level level = level_over(search.ray, live.t, span, levels_[lane]);
   const double bend = bounds.bend[lane];
   double gap = value - levels_[lane], slope;
   if (wanted) {
     gap = gap - bounds.error[lane] - level.above;
-    slope = bounds.low[lane] - level.high;
+    slope = bounds.low[lane] - level.high * cell_;
   } else {
     gap = -gap - bounds.error[lane] - level.below;
-    slope = level.low - bounds.high[lane];
+    slope = level.low * cell_ - bounds.high[lane];
   }
   const bool is_clear = is_clear_[lane];
-  const bool is_bounded = std::abs(slope) < infinity && bend < infinity;
+  const bool is_bounded = std::abs(slope) < infinity && bend < infinity && !std::isnan(gap);
+  const double most = std::min(span, border_[lane]);
   const double proven =
-      is_bounded && is_clear ? positive_until(gap, slope, bend, std::min(span, border_[lane])) : 0;
+      is_bounded && is_clear ? cell_ * positive_until(gap, slope, bend, most / cell_) : 0;
   live.border = -1;
-  if (proven > tolerance) {
+  if (proven > least) {
     live.before = live.t += proven;
-    // Bounds are the nearer the shorter the piece.
+    // Bounds are tighter on shorter pieces.
     const double growth = proven < span || proven > small_span * cell_ ? 2 : 8;
-    live.span = std::min(growth * proven, most_span * cell_);
-    live.blind_steps = 0;
+    live.span = std::min(growth * proven, max_span * cell_);
+    live.blind_steps = live.near_steps = 0;
     return live.t < search.to;
   }
-  if (is_clear && span > 2 * tolerance && (!is_bounded || (gap <= 0 && level.is_vague))) {
+  if (is_clear && span > 2 * least && (!is_bounded || (gap <= 0 && level.is_vague))) {
     live.span = 0.25 * span;
     return true;
   }
-  double step = tolerance;
-  if (is_bounded && is_clear && (gap > 0 || !level.is_vague)) {
-    live.blind_steps = 0;
-  } else if (++live.blind_steps > short_blind_steps) {
-    const uint32_t doublings = std::min<uint32_t>(live.blind_steps - short_blind_steps, 64);
-    step = std::min(std::ldexp(tolerance, static_cast<int>(doublings)),
-                    std::max(tolerance, most_blind_step * cell_));
-  }
+  const double step = std::max(
+      least, step_unproven(live, is_bounded && is_clear, gap > 0, level.is_vague, tolerance));
   live.span = 8 * step;
   if (border_[lane] <= step) {
     live.border = border_axis_[lane];
@@ -153,7 +200,7 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
   }
   live.before = live.t;
   live.t = std::min(live.t + step, search.to);
-  return live.t > live.before;  // or steps vanish in rounding
+  return live.t > live.before;  // otherwise steps vanish in rounding
 }
 
 void FunctionalRays::find(bool wanted, RaySearch* searches, size_t count) {
@@ -166,6 +213,7 @@ void FunctionalRays::find(bool wanted, RaySearch* searches, size_t count) {
   while (!live_.empty()) {
     size_t kept = 0;
     for (size_t first = 0; first < live_.size(); first += lanes) {
+      check_cancelled(job_);
       const size_t size = std::min(lanes, live_.size() - first);
       Live* const live = live_.data() + first;
       locate(searches, live, size);
@@ -179,7 +227,7 @@ void FunctionalRays::find(bool wanted, RaySearch* searches, size_t count) {
 }
 
 void FunctionalRays::set_piece(const RaySearch& search, const Live& live, size_t lane) {
-  pieces_.span[lane] = std::max(std::min(live.span, search.to - live.t), tolerance_);
+  pieces_.span[lane] = std::max(std::min(live.span, search.to - live.t), tolerance_) / cell_;
   pieces_.error[lane] = live.error;
   border_[lane] = infinity;
   border_axis_[lane] = -1;
@@ -188,12 +236,12 @@ void FunctionalRays::set_piece(const RaySearch& search, const Live& live, size_t
     const double rate = live.rates[axis];
     pieces_.rates[static_cast<size_t>(axis)][lane] = rate;
     if (solid_.repeats()[static_cast<size_t>(axis)]) continue;
-    if (rate == 0 && grid_.sample_axes()[0] >= 0) continue;  // rounding is the same all along
+    if (rate == 0 && grid_.sample_axes()[0] >= 0) continue;  // then rounding is the same all along
     const double angle = pieces_.coordinates[static_cast<size_t>(axis)][lane];
     const double behind = rate > 0 ? angle : two_pi - angle;
     const double ahead = two_pi - behind - live.error;
     if (behind < live.error) is_clear_[lane] = false;  // points may still be before the border
-    const double until = std::max(0.0, ahead / std::abs(rate));
+    const double until = cell_ * std::max(0.0, ahead / std::abs(rate));
     if (ahead <= 0) is_clear_[lane] = false;
     if (!(until < border_[lane])) continue;
     border_[lane] = until;
@@ -214,7 +262,7 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
     locate(searches, live, size);
     Vec3 gradients[lanes];
     for (size_t i = 0; i < size; ++i) {
-      pieces_.span[i] = tolerance_;
+      pieces_.span[i] = tolerance_ / cell_;
       pieces_.error[i] = live[i].error;
     }
     for (int along = 0; along < 3; ++along) {

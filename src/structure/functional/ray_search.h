@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where rays enter and leave functional structures.
 //
-// Rays go on together, a piece at a time. Over each piece the onset and the level are enclosed
-// (expression/ray_bounds.h), and a ray goes as far as that proves that membership stays as it is:
-// towards a surface that it will cross, steps shrink as those of Newton's method do; past one that
-// it only grazes they are as long as the gap allows. Where they come below the tolerance the ray
-// goes on by that. So no part that is longer than the tolerance is overlooked, but where nothing is
-// known of the function (it is no number, or has a pole or an infinite slope) or of the level: a
-// ray that stays there goes on by steps that grow to `most_blind_step`.
+// Rays advance together, one piece at a time. Over each piece the onset and the level are enclosed
+// (expression/ray_bounds.h), and a ray advances as far as that proves that membership does not
+// change. Towards a surface that the ray will cross, steps shrink like those of Newton's method;
+// past a surface that it only grazes, they are as long as the gap allows. If steps get shorter than
+// the tolerance, the ray advances by the tolerance. So no part longer than the tolerance is missed.
+//
+// There are three exceptions. If nothing is known of the function (it is NaN, or has a pole or an
+// infinite slope) or of the level, a ray that stays there advances by steps that grow to
+// `max_blind_step`. So does a ray that runs along a surface, up to rounding, for about 10^4
+// tolerances. If a function is so steep that about 10^3 proven steps advance by less than 2^-12 of
+// a cell, steps grow to that length in as many steps.
 #pragma once
 
 #include <vector>
@@ -20,14 +24,16 @@ namespace msq {
 class FunctionalRays {
  public:
   /// In smallest cell sizes.
-  static constexpr double most_blind_step = 0x1p-10;
+  static constexpr double max_blind_step = 0x1p-10;
 
-  explicit FunctionalRays(const Functional& solid);
+  /// The job may be null.
+  FunctionalRays(const Functional& solid, const Job* job);
 
-  /// The first t in [from, to] of each search at which membership is `wanted`, and the normal of
-  /// the cell's border where that is what the ray goes over there; else 0.
+  /// For each search, finds the first t in [from, to] at which membership is `wanted`. If the ray
+  /// crosses the cell's border there, sets the border's normal; otherwise 0. Stops early, by
+  /// Error(cancelled), with the job.
   void find(bool wanted, RaySearch* searches, size_t count);
-  /// Fills in the other normals of searches that were found; 0 where the onset does not change.
+  /// Sets the other normals of searches that were found; 0 where the onset does not change.
   void find_normals(RaySearch* searches, size_t count);
 
  private:
@@ -35,21 +41,27 @@ class FunctionalRays {
 
   struct Live {
     uint32_t search;
-    uint32_t blind_steps = 0;  // one after the other
-    int border = -1;           // axis of the cell's border that the last step went over
+    uint32_t blind_steps = 0;  // consecutive ones
+    uint32_t near_steps = 0;   // consecutive ones within rounding of a surface
+    uint32_t rounds = 0;
+    int border = -1;  // axis of the cell's border that the last step crossed
     double t, span;
-    double before;  // membership is not known to be as it was between that and t
-    double error;   // of angles
-    Vec3 rates;     // of angles
+    double before;            // membership may have changed between that and t
+    double error;             // of angles
+    double least, looked_at;  // the minimum step, and the ray's t when that was chosen
+    Vec3 rates;               // of angles, per smallest cell size
   };
   /// The level over a piece: value + [low, high] s, + above or - below.
   struct Level {
     double value = 0, low = 0, high = 0, above = 0, below = 0;
-    bool is_vague = false;  // known by ranges; shorter pieces may have less of them
+    bool is_vague = false;  // known by ranges; shorter pieces may have narrower ones
   };
 
   void start(uint32_t number, const RaySearch& search);
-  /// Whether the search goes on.
+  void count_round(Live& live) const;
+  double step_unproven(Live& live, bool is_known, bool is_apart, bool is_vague,
+                       double tolerance) const;
+  /// Returns whether the search continues.
   bool advance(bool wanted, RaySearch& search, Live& live, size_t lane,
                const RayBatch::Bounds& bounds);
   void set_piece(const RaySearch& search, const Live& live, size_t lane);
@@ -57,6 +69,7 @@ class FunctionalRays {
   Level level_over(const Ray& ray, double t, double span, double value) const;
 
   const Functional& solid_;
+  const Job* const job_;
   const Neighbourhood& grid_;
   const Parameter& level_;
   const double tolerance_;
@@ -66,7 +79,7 @@ class FunctionalRays {
   std::vector<Live> live_;
   // By lane:
   Vec3 points_[lanes];
-  double border_[lanes];    // how far the next one is that the function does not repeat over
+  double border_[lanes];    // distance to the next border across which the function is not periodic
   int border_axis_[lanes];  // its axis
   bool is_clear_[lanes];    // of borders, rounding included
   double levels_[lanes];

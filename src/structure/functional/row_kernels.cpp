@@ -13,6 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace msq {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+namespace {
 
 template <bool values_uniform, bool levels_uniform>
 HWY_INLINE void compare_lanes(const double* values, const double* levels, size_t count,
@@ -178,6 +179,7 @@ bool linear(const LinearRow& row, const LinearWords& words, const LinearResult& 
                          : linear_terms<false, false>(row, words, to);
 }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
 HWY_AFTER_NAMESPACE();

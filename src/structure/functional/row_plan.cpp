@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error of the linear form, u = 2^-24 and v = 2^-53. Written out as a sum of products of tables
-// and row values, which both the tape and the linear form start from, let M bound the sum of their
-// magnitudes (`most`). The tape, and the coefficients in double precision, compute that sum with no
-// more roundings along any product than there are operations: each is within n v M of it, if n
-// counts them all and more. In single precision coefficient, table entry and product are rounded
-// once each, and the sum of t products and the constant t times at most, so that is within
-// (t + 3) u M of the sum of the rounded coefficients times the tables. Factors of 5/4 hold the
+// The error of the linear form, u = 2^-24 and v = 2^-53. Both the tape and the linear form start
+// from a sum of products of tables and row values. Let M bound the sum of their magnitudes
+// (`most`). The tape, and the coefficients in double precision, compute that sum with at most as
+// many roundings along any product as there are operations. So each is within n v M of it, if n
+// counts all operations and more. In single precision, coefficient, table entry and product are
+// rounded once each, and the sum of t products and the constant at most t times. So that is within
+// (t + 3) u M of the sum of the rounded coefficients times the tables. Factors of 5/4 cover the
 // squares of u and v; products that underflow are below 2^-120 together.
 #include "structure/functional/row_plan.h"
 
@@ -19,7 +19,7 @@ namespace msq {
 
 namespace {
 
-constexpr size_t most_terms = 16;
+constexpr size_t max_terms = 16;
 
 /// A sum of coefficients times tables, plus a constant; coefficients and constant are nodes that
 /// depend on the row alone.
@@ -48,7 +48,7 @@ class Splitter {
             builder_.apply(node.op, number[node.a], has_two_operands(node.op) ? number[node.b] : 0);
       }
     }
-    // A tape's nodes are unlike each other already, so they keep their numbers.
+    // A tape's nodes are distinct already, so they keep their numbers.
     for (size_t i = 0; i < builder_.size(); ++i) {
       const Node& node = builder_[static_cast<uint32_t>(i)];
       unsigned axes = 0;
@@ -111,7 +111,7 @@ class Splitter {
     return std::max(std::abs(e.low), std::abs(e.high));
   }
   static std::optional<LinearForm> checked(std::optional<LinearForm> form) {
-    if (form && form->coefficients.size() > most_terms) return std::nullopt;
+    if (form && form->coefficients.size() > max_terms) return std::nullopt;
     return form;
   }
   std::optional<LinearForm> scaled(std::optional<LinearForm> form, uint32_t factor, double most) {
@@ -154,7 +154,7 @@ RowPlan::RowPlan(const Tape& tape, const std::array<int, 3>& sample_axis) {
   }
   is_absolute = false;
 
-  // What the samples' own nodes are made of.
+  // The operands of the samples' own nodes.
   std::vector<uint32_t> bases, values;
   std::vector<bool> is_listed(root + 1);
   const auto list = [&](uint32_t i) {

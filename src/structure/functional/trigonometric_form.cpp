@@ -10,14 +10,14 @@ namespace msq {
 
 namespace {
 
-constexpr int most_frequency = 64;
+constexpr int max_frequency = 64;
 constexpr double u = 0x1p-24;  // rounding in single precision, relative
 
 bool is_coordinate(const Node& node) {
   return node.op >= Op::x && node.op <= Op::z;
 }
 
-/// The whole number of times that a node is a coordinate, and which; 0: it is something else.
+/// The integer multiple of a coordinate that a node is, and the axis; 0: none.
 int frequency_of(const Tape& tape, uint32_t i, int& axis) {
   const Node* node = &tape.nodes[i];
   double times = 1;
@@ -28,7 +28,7 @@ int frequency_of(const Tape& tape, uint32_t i, int& axis) {
     times = a->value;
     node = b;
   }
-  if (!is_coordinate(*node) || times != std::round(times) || std::abs(times) > most_frequency)
+  if (!is_coordinate(*node) || times != std::round(times) || std::abs(times) > max_frequency)
     return 0;
   axis = static_cast<int>(node->op) - static_cast<int>(Op::x);
   return static_cast<int>(times);
@@ -71,17 +71,20 @@ std::optional<TrigonometricForm> TrigonometricForm::of(const Tape& tape) {
   const Interval cell{0, two_pi};
   std::vector<Enclosure> nodes;
   enclose(tape, {cell, cell, cell}, nodes);
-  for (const Enclosure& e : nodes) form.most_.push_back(std::max(-e.low, e.high));
+  for (const Enclosure& e : nodes) {
+    if (!is_bounded(e)) return std::nullopt;  // it may be NaN
+    form.most_.push_back(std::max(-e.low, e.high));
+  }
   if (!(form.slack(0) < 1e-2)) return std::nullopt;
 
   form.values_ = compile(tape.nodes, inputs, {static_cast<uint32_t>(count - 1)});
   return form;
 }
 
-// The error of each node follows from those of its operands and its own rounding. A wave is
-// s C + c S with four factors, two products and a sum rounded, and |s C| + |c S| at most sqrt(2):
-// less than 6 u beside the angles' error. The tape's own roundings in double precision are within
-// the room that 1.01 leaves.
+// The error of each node follows from those of its operands and its own rounding. A wave is s C + c
+// S with four rounded factors, two products and a sum, and |s C| + |c S| is at most sqrt(2): less
+// than 6 u in addition to the angles' error. The tape's own roundings in double precision are
+// within the slack of the factor 1.01.
 double TrigonometricForm::slack(double angle_error) const {
   std::vector<double> error(tape_.nodes.size());
   for (size_t i = 0; i < error.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tapes that are made, by sums, products, minima, maxima and magnitudes, of sines and cosines of
-// whole multiples of the coordinates, as all presets are. Along any straight row of samples these
-// follow from their values at one sample, by the sums of angles.
+// Tapes made, by sums, products, minima, maxima and magnitudes, of sines and cosines of integer
+// multiples of the coordinates, as all presets are. Along any straight row of samples these follow
+// from their values at one sample, by the addition theorems.
 #pragma once
 
 #include <optional>
@@ -19,20 +19,20 @@ class TrigonometricForm {
     int axis;  ///< of the grid
     int frequency;
   };
-  /// None for other tapes.
+  /// Returns nothing for other tapes.
   static std::optional<TrigonometricForm> of(const Tape& tape);
 
   const std::vector<Wave>& waves() const { return waves_; }
   /// Inputs: sine and cosine of each wave. Output: the tape's value; rational operations only.
   const Program& values() const { return values_; }
-  /// Bound of the error of the value in single precision, where the angles of the samples that the
-  /// tape sees and those of the sums differ by no more than angle_error, and each sine and cosine
-  /// is a sum of two products in single precision.
+  /// Bound of the error of the value in single precision. The angles of the tape's samples and
+  /// those of the sums must differ by at most angle_error. Each sine and cosine is a sum of two
+  /// products in single precision.
   double slack(double angle_error) const;
 
  private:
   Tape tape_;
-  std::vector<int> frequency_;  // of each node that is a wave; else 0
+  std::vector<int> frequency_;  // of each node that is a wave; otherwise 0
   std::vector<double> most_;    // magnitude of each node
   std::vector<Wave> waves_;
   Program values_;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the sines and cosines of the angles at a row's first sample, and those of the angles from
-// there on, which are the same all over a block, follow those at all samples, by the sums of
-// angles; whole multiples make the wrap at a cell's border vanish. First those at the first of each
-// 64 samples, in double precision, then those at all, in single precision, with a proven bound of
-// the error (trigonometric_form.cpp); samples nearer to the level than that are asked one by one.
+// The angles from a row's first sample on are the same all over a block. Their sines and cosines,
+// with those of the angles at a row's first sample, give the sines and cosines at all samples, by
+// the addition theorems; for integer multiples, the wrap at a cell's border has no effect. First
+// the sines and cosines at the first of each 64 samples are computed in double precision, then
+// those at all samples in single precision, with a proven bound of the error
+// (trigonometric_form.cpp). Samples nearer to the level than that are evaluated one by one.
 #include "structure/functional/turned_rows.h"
 
 #include <algorithm>
@@ -35,14 +36,15 @@ TurnedRows::TurnedRows(const Functional& structure, const RowBlock& block)
 }
 
 /// A coordinate in the grid, in cells, as the definition computes it, is a sum of three products
-/// divided by the cell size: within a dozen roundings, of 2^-53 of the sum of magnitudes, of the
-/// true one. The same holds for that of a row's first sample, and the angle between the two and its
-/// sine and cosine carry a few roundings more; 2^-47 is 64 of them.
+/// divided by the cell size. So its error is within a dozen roundings, of 2^-53 of the sum of
+/// magnitudes. The same holds for that of a row's first sample. The angle between the two and its
+/// sine and cosine have a few more roundings; 2^-47 is 64 of them.
 void TurnedRows::find_angle_error() {
   const Neighbourhood& cells = structure_.neighbourhood();
   const Box3 box = block_.box();
-  const double most = 3 * (max_magnitude(box.min) + max_magnitude(box.max) +
-                           max_magnitude(cells.origin) + bits_per_word * grid_.spacing.x);
+  const double most =
+      3 * (max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(cells.origin) +
+           bits_per_word * grid_.spacing.x + grid_.magnitude());
   const double in_cells = 1 + most / min_component(cells.cell_size);
   slack_ = form_.slack(two_pi * 0x1p-47 * in_cells);
 }
@@ -50,11 +52,11 @@ void TurnedRows::find_angle_error() {
 void TurnedRows::find_steps() {
   const Neighbourhood& cells = structure_.neighbourhood();
   for (const TrigonometricForm::Wave& wave : form_.waves()) {
-    // The row's direction along the grid's axis, in cells a sample.
+    // The row's direction along the grid's axis, in cells per sample.
     const double along = cells.rotation.m[static_cast<size_t>(wave.axis)] * grid_.spacing.x /
                          cells.cell_size[wave.axis];
     const auto step = [&](Op op, size_t samples) {
-      // Whole turns are left out before precision is lost.
+      // Whole turns are removed before precision is lost.
       const double turns = along * static_cast<double>(samples) * wave.frequency;
       return apply(op, angle_of(turns - std::round(turns)), 0);
     };
@@ -69,9 +71,9 @@ void TurnedRows::find_steps() {
 void TurnedRows::keep(const Job* job) {
   for (RowGroup group{0, 0, block_.z0, 0}; group.z0 < block_.z1; group.z0 = group.z1) {
     check_cancelled(job);
-    group.z1 = std::min(block_.z1, group.z0 + most_group_layers);
+    group.z1 = std::min(block_.z1, group.z0 + max_group_layers);
     for (group.y0 = block_.y0; group.y0 < block_.y1; group.y0 = group.y1) {
-      group.y1 = std::min(block_.y1, group.y0 + most_group_rows);
+      group.y1 = std::min(block_.y1, group.y0 + max_group_rows);
       keep_group(group);
     }
   }
@@ -93,8 +95,8 @@ void TurnedRows::keep_group(const RowGroup& group) {
     bounds_.set(structure_.level(), slack_, grid_, group, words_);
   for (size_t row = 0; row < group.rows(); ++row) {
     find_starts(group.y(row), group.z(row));
-    for (size_t first = 0; first < words_.size(); first += batch_words)
-      decide(group, row, first, std::min(batch_words, words_.size() - first));
+    for (size_t batch = 0; batch < words_.size(); batch += batch_words)
+      decide(group, row, batch, std::min(batch_words, words_.size() - batch));
   }
 }
 

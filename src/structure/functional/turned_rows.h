@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of samples that run across a functional structure's grid.
+// Rows of samples that are oblique to a functional structure's grid.
 #pragma once
 
 #include <vector>
@@ -32,8 +32,8 @@ class TurnedRows {
   double slack_ = 0;
   LevelBounds bounds_;
   BatchOf<float> values_;
-  // Per wave: the cosines, then the sines, of the angles from a word's first sample to each of its
-  // samples, and from the first of the listed words to each of them.
+  // Per wave: the cosines, then the sines, of two sets of angles: from a word's first sample to
+  // each of its samples, and from the first of the listed words to each of them.
   std::vector<float> steps_;
   std::vector<double> word_steps_;
   std::vector<float> at_first_;  // per wave: sines, then cosines, at the first sample of each word

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// All from the function at 65^3 points of the cell, by IEEE operations in one order: the same bits
-// on every machine. Between neighbouring points the function is taken to be linear: along the lines
-// of points for the volume fractions, in the six tetrahedra of each cube of points for the area
-// (Doi and Koide, "An efficient method of triangulating equi-valued surfaces by using tetrahedral
-// cells", 1991), whose error falls with the square of the distance of the points, so that the area
-// from every second point takes most of it away (Richardson).
+// Everything is computed from the function at 65^3 points of the cell, by IEEE operations in one
+// order: the same bits on every machine. The function is taken to be linear between neighbouring
+// points: for the volume fractions along the lines of points, and for the area in the six
+// tetrahedra of each cube of points (Doi and Koide, "An efficient method of triangulating
+// equi-valued surfaces by using tetrahedral cells", 1991). The error of the area falls with the
+// square of the distance of the points. So the area from every second point removes most of it
+// (Richardson).
 #include "structure/functional/wall_thickness.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ struct Samples {
   std::vector<double> values;
 };
 
-/// The area within a tetrahedron of the plane where a linear function is 0.
+/// The area, within a tetrahedron, of the plane where a linear function is 0.
 double area_in(const Vec3 (&corner)[4], const double (&value)[4]) {
   size_t in[4], out[4], ins = 0, outs = 0;
   for (size_t i = 0; i < 4; ++i) (value[i] <= 0 ? in[ins++] : out[outs++]) = i;
@@ -63,9 +64,10 @@ double area_in(const Vec3 (&corner)[4], const double (&value)[4]) {
                   crossing(alone[0], others[2]));
 }
 
-/// From every `stride`th point.
+/// Uses every `stride`th point.
 double area_of(const Samples& samples, Vec3 cell_size, size_t stride) {
-  // The corners of a cube, bit a of their number for axis a, on the ways from corner 0 to corner 7.
+  // The corners of a cube, bit a of their number for axis a, on the paths from corner 0 to corner
+  // 7.
   constexpr int tetrahedra[6][4] = {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7},
                                     {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}};
   const Vec3 step = cell_size * (static_cast<double>(stride) / static_cast<double>(steps));
@@ -97,21 +99,22 @@ double area_of(const Samples& samples, Vec3 cell_size, size_t stride) {
   return area;
 }
 
-/// Parts of the cell with a magnitude of at most n / level_steps of `greatest`, for n from 0 on.
+/// Fractions of the cell with a magnitude of at most n / level_steps of `greatest`, for n from 0
+/// on.
 ///
-/// Each point stands for the middle halves of the ways to its neighbours along one axis, that of
-/// the greatest change; changes along the others are in the points beside it. A way between two
-/// values a < b spends the part min(max((v - a) / (b - a), 0), 1) of its length at values of at
-/// most v: a difference of two ramps, that from a and that from b, both of slope 1 / (b - a). The
-/// ramps that begin below v sum to v times the sum of their slopes less the sum of their slopes
-/// times their beginnings.
+/// Each point stands for the nearer halves of the segments to its neighbours along one axis, that
+/// of the largest change; changes along the others are in the points beside it. The fraction of a
+/// segment between two values a < b with values of at most v is min(max((v - a) / (b - a), 0), 1):
+/// a difference of two ramps, that from a and that from b, both of slope 1 / (b - a). The ramps
+/// that begin below v sum to v times the sum of their slopes minus the sum of their slopes times
+/// their starting values.
 std::vector<double> fractions_of(const Samples& samples, double greatest) {
   const double unit = static_cast<double>(level_steps) / greatest;
   std::vector<double> slopes(2 * level_steps + 2), moments(slopes.size()), jumps(slopes.size());
   const auto add = [&](double from, double to, double weight) {
     const double a = std::min(from, to) * unit + double(level_steps);
     const double b = std::max(from, to) * unit + double(level_steps);
-    // The first value, in units, that a ramp counts for.
+    // The first value, in units, at which a ramp counts.
     const auto after = [](double v) { return static_cast<size_t>(v) + 1; };
     if (b - a < 0x1p-10) {
       jumps[after(0.5 * (a + b))] += weight;
@@ -129,7 +132,7 @@ std::vector<double> fractions_of(const Samples& samples, double greatest) {
     const double* const at = samples.values.data() + n;
     const size_t index[3] = {n % points, n / points % points, n / points / points};
     double weight = 1, steepest = -1, before = *at, beyond = *at;
-    bool is_border = false;  // along the axis chosen: then there is one half only
+    bool is_border = false;  // along the chosen axis: then there is only one half
     for (int axis = 0; axis < 3; ++axis) {
       const bool is_first = index[axis] == 0, is_last = index[axis] == steps;
       if (is_first || is_last) weight *= 0.5;
@@ -138,7 +141,7 @@ std::vector<double> fractions_of(const Samples& samples, double greatest) {
       const double change = is_first  ? 2 * std::abs(high - *at)
                             : is_last ? 2 * std::abs(*at - low)
                                       : std::abs(*at - low) + std::abs(high - *at);
-      if (!(change > steepest)) continue;  // nor if it is no number
+      if (!(change > steepest)) continue;  // also false if it is NaN
       steepest = change;
       before = low;
       beyond = high;
@@ -181,7 +184,7 @@ WallThickness::WallThickness(const Tape& function, Vec3 cell_size) {
   if (!(area_ > 0) || !std::isfinite(area_) || !(greatest > 0))
     fail(Status::argument,
          "thickness is given, but the function is 0 nowhere in the cell, so there are no walls");
-  constexpr double least = 1e-300;  // steps of less are not told apart
+  constexpr double least = 1e-300;  // smaller steps are not distinguished
   if (greatest < least)
     fail(Status::argument,
          "thickness is given, but the function reaches no more than %g in magnitude; it must reach "

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thickness of a sheet's walls, in the units of the model, against its level.
+// The thickness of a sheet's walls, in the units of the model, as a function of its level.
 //
 // The mean thickness at a level is the volume of the walls over the area of their middle surface,
-// where the function is 0, both within a cell. Of walls of one thickness t about a minimal surface
-// of area A and Euler characteristic X, that volume is t A + pi X t^3 / 6 (Steiner's formula; Hyde
-// et al., "The Language of Shape", 1997, chapter 4, "parallel surfaces"), so for thin walls it is
-// t; volume over area has a meaning for surfaces that are not minimal, and for thick walls, as
-// well.
+// where the function is 0, both within a cell. For walls of constant thickness t around a minimal
+// surface of area A and Euler characteristic X, that volume is t A + pi X t^3 / 6 (Steiner's
+// formula; Hyde et al., "The Language of Shape", 1997, chapter 4, "parallel surfaces"). So for thin
+// walls it is t. Volume over area is also meaningful for surfaces that are not minimal, and for
+// thick walls.
 #pragma once
 
 #include "expression/tape.h"
@@ -16,16 +16,16 @@ namespace msq {
 
 class WallThickness {
  public:
-  /// Throws Error(argument) where the function is 0 nowhere in the cell.
+  /// Throws Error(argument) if the function is 0 nowhere in the cell.
   WallThickness(const Tape& function, Vec3 cell_size);
 
-  /// Of the surface within a cell.
+  /// Area of the surface within a cell.
   double area() const { return area_; }
-  /// The thickness of the walls that fill all of the cell.
+  /// The thickness at which the walls fill the whole cell.
   double most() const { return most_; }
-  /// By level, the part of the cell where the function's magnitude is at most that.
+  /// By level, the fraction of the cell where the function's magnitude is at most that.
   const Curve& volume_fractions() const { return fractions_; }
-  /// By thickness, from 0 to most(), the level.
+  /// The level by thickness, from 0 to most().
   const Curve& levels() const { return levels_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clusters of the unit cell as in the paper, section "Preprocessing for Repeating Structures": each
-// with an interval of the onset, which the host proves by an interval of its own or by a Lipschitz
+// Clusters of the unit cell as in the paper, section "Preprocessing for Repeating Structures". Each
+// has an interval of the onset, which the host proves by its own interval or by a Lipschitz
 // constant.
 #include "structure/host/host_function.h"
 
@@ -16,8 +16,8 @@ namespace {
 
 constexpr double two_pi = 6.283185307179586;
 constexpr int automatic_clusters = 32;
-/// Clusters of a box beyond which it is not worth looking at each.
-constexpr int most_in_box = 4096;
+/// For boxes with more clusters, the clusters are not examined one by one.
+constexpr int max_in_box = 4096;
 
 Vec3 angles_of(Vec3 fraction) {
   return fraction * two_pi;
@@ -60,7 +60,7 @@ int HostFunction::number(double angle) const {
 }
 
 void HostFunction::build_clusters(double lipschitz) {
-  // A little wider than the rounding of angles and of number().
+  // Slightly wider than the rounding of angles and of number().
   constexpr double margin = 1e-10;
   const double size = two_pi / side_;
   std::vector<Vec3> middles;
@@ -145,11 +145,11 @@ void HostFunction::keep_points(const Vec3* points, uint8_t* alive, size_t count)
   }
 }
 
-Coverage HostFunction::coverage(const Box3& box) const {
-  if (clusters_.empty()) return Coverage::mixed;
+BoxClass HostFunction::classify(const Box3& box) const {
+  if (clusters_.empty()) return BoxClass::mixed;
   const Neighbourhood& grid = neighbourhood();
   const Box3 in_grid = grid.to_grid(box);
-  // What locating a point and to_grid() may be off by, many times over, and that of angles.
+  // Many times the error of locating a point, of to_grid() and of angles.
   const double off =
       0x1p-46 * (max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(grid.origin));
   int first[3], count[3];
@@ -167,7 +167,7 @@ Coverage HostFunction::coverage(const Box3& box) const {
     const int last = static_cast<int>((high - start) * side_);
     count[axis] = std::min(last - first[axis] + 1, side_);
   }
-  if (count[0] * count[1] * count[2] > most_in_box) return Coverage::mixed;
+  if (count[0] * count[1] * count[2] > max_in_box) return BoxClass::mixed;
   const Interval levels = level_.range(box);
   bool may_be_inside = false, may_be_outside = false;
   for (int z = 0; z < count[2]; ++z)
@@ -177,25 +177,25 @@ Coverage HostFunction::coverage(const Box3& box) const {
             cluster((first[0] + x) % side_, (first[1] + y) % side_, (first[2] + z) % side_);
         may_be_inside |= onset.low <= levels.high;
         may_be_outside |= onset.high > levels.low;
-        if (may_be_inside && may_be_outside) return Coverage::mixed;
+        if (may_be_inside && may_be_outside) return BoxClass::mixed;
       }
-  return may_be_inside ? Coverage::inside : Coverage::outside;
+  return may_be_inside ? BoxClass::inside : BoxClass::outside;
 }
 
-double HostFunction::least_ray_step() const {
+double HostFunction::min_ray_step() const {
   return std::isfinite(lipschitz_ + level_.lipschitz()) ? ray_tolerance()
-                                                        : Structure::least_ray_step();
+                                                        : Structure::min_ray_step();
 }
 
 double HostFunction::outside_along(const Ray& ray, double t, double gap) const {
   if (std::isfinite(lipschitz_ + level_.lipschitz())) return steady_along(ray, t, gap);
   if (clusters_.empty()) return 0;
-  // As far as the clusters say.
+  // As far as the clusters show.
   const Vec3 p = ray.at(t);
   for (const double steps : {8, 2}) {
-    const double step = steps * Structure::least_ray_step();
+    const double step = steps * Structure::min_ray_step();
     const Vec3 q = ray.at(t + step);
-    if (coverage({min(p, q), max(p, q)}) == Coverage::outside) return step;
+    if (classify({min(p, q), max(p, q)}) == BoxClass::outside) return step;
   }
   return 0;
 }
@@ -206,7 +206,7 @@ double HostFunction::steady_along(const Ray& ray, double t, double gap) const {
   if (!std::isfinite(slope)) return 0;
   const Vec3 along = grid.rotation.apply_inverse(ray.direction);
   const Vec3 fraction = grid.locate(ray.at(t)).fraction;
-  // Less by what the host's rounding may be.
+  // Reduced by the host's possible rounding.
   double step = slope > 0 ? (gap - 0x1p-46 * (1 + gap)) / slope : max_component(grid.cell_size);
   for (int axis = 0; axis < 3; ++axis) {
     if (along[axis] == 0) continue;
@@ -216,8 +216,8 @@ double HostFunction::steady_along(const Ray& ray, double t, double gap) const {
   return std::max(0.0, step * (1 - 0x1p-40));
 }
 
-double HostFunction::leave(const Ray& ray, double from, double to) const {
-  const double tolerance = ray_tolerance();
+double HostFunction::leave(const Ray& ray, double from, double to, const Job* job) const {
+  const double tolerance = ray_tolerance(ray, to);
   const auto onset = [&](Vec3 p) {
     const Vec3 angles = angles_of(neighbourhood().locate(p).fraction);
     double value;
@@ -225,8 +225,9 @@ double HostFunction::leave(const Ray& ray, double from, double to) const {
     return value;
   };
   double at = from;
-  LeastStep least(least_ray_step(), tolerance, from);
+  LeastStep least(std::max(min_ray_step(), tolerance), tolerance, from);
   while (at < to) {
+    check_cancelled(job);
     const Vec3 p = ray.at(at);
     const double gap = level_.at(p) - onset(p);
     if (!(gap >= 0)) return at;
@@ -239,7 +240,7 @@ double HostFunction::leave(const Ray& ray, double from, double to) const {
   return at;
 }
 
-void HostFunction::enter(RaySearch* searches, size_t count) const {
+void HostFunction::enter(RaySearch* searches, size_t count, const Job* job) const {
   std::vector<Vec3> points, angles;
   std::vector<double> onsets, levels;
   const auto ask = [&](const std::vector<MarchPoint>& asked, uint8_t* inside, double* steps) {
@@ -259,7 +260,8 @@ void HostFunction::enter(RaySearch* searches, size_t count) const {
         steps[i] = outside_along(searches[asked[i].search].ray, asked[i].t, onsets[i] - levels[i]);
     }
   };
-  march_together(searches, count, least_ray_step(), ray_tolerance(), ask);
+  const auto tolerance_of = [this](const RaySearch& s) { return ray_tolerance(s.ray, s.to); };
+  march_together(searches, count, min_ray_step(), tolerance_of, job, ask);
   find_normals(searches, count);
 }
 
@@ -275,7 +277,7 @@ void HostFunction::find_normals(RaySearch* searches, size_t count) const {
     for (int axis = 0; axis < 3; ++axis)
       for (const double away : {-step, step}) {
         Vec3 a = at;
-        a[axis] = std::clamp(a[axis] + away, 0.0, two_pi);  // hosts know nothing beyond
+        a[axis] = std::clamp(a[axis] + away, 0.0, two_pi);  // hosts define nothing beyond
         angles.push_back(a);
       }
   }

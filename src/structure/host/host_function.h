@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A functional structure whose function the host computes: the solid is where the onset, the
-// function of the position within the cell (network) or its magnitude (sheet), is at most the
-// level.
+// A functional structure whose function the host computes. The solid is where the onset is at most
+// the level. The onset is the function of the position within the cell (network) or its magnitude
+// (sheet).
 #pragma once
 
 #include <functional>
@@ -22,24 +22,24 @@ struct HostFunctionCalls {
 
 class HostFunction final : public Structure {
  public:
-  static constexpr int most_clusters = 64;
+  static constexpr int max_clusters = 64;
 
-  /// `clusters`: along an axis of the cell, 0: as many as pay. `lipschitz`: of angles, infinite
-  /// where unknown. Asks for the ranges of the clusters at once.
+  /// `clusters`: number along an axis of the cell; 0: the most efficient number. `lipschitz`: with
+  /// respect to angles; infinite if unknown. Evaluates the ranges of the clusters at once.
   HostFunction(const Neighbourhood& neighbourhood, HostFunctionCalls calls, bool is_sheet,
                Parameter level, int clusters, double lipschitz, bool is_concurrent);
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return is_concurrent_; }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
-  Coverage coverage(const Box3& box) const override;
+  BoxClass classify(const Box3& box) const override;
   bool knows_boxes() const override { return !clusters_.empty(); }
-  /// Rays go on together. Where the slope and the level's are bounded they lose no part longer than
-  /// the tolerance.
-  void enter(RaySearch* searches, size_t count) const override;
-  double leave(const Ray& ray, double from, double to) const override;
+  /// Rays march together. If the slope and the level's slope are bounded, no part longer than the
+  /// tolerance is missed.
+  void enter(RaySearch* searches, size_t count, const Job* job) const override;
+  double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
-  double least_ray_step() const override;
+  double min_ray_step() const override;
 
   HostUser& user() { return user_; }
 
@@ -47,12 +47,13 @@ class HostFunction final : public Structure {
   /// The onsets at angles.
   void evaluate(const Vec3* angles, size_t count, double* onsets) const;
   void build_clusters(double lipschitz);
-  /// How far along a ray from t the onset, which differs from the level by `gap`, cannot come to
-  /// it. Up to the border of the cell, over which it may jump. 0 where the slope is not bounded.
+  /// A length along a ray from t within which the onset, which differs from the level by `gap`,
+  /// cannot reach the level. It ends at the border of the cell, where the onset may jump. 0 if the
+  /// slope is not bounded.
   double steady_along(const Ray& ray, double t, double gap) const;
-  /// How far along a ray from t, where it is outside, all is so.
+  /// A length along a ray from t, which is outside, within which all points are outside.
   double outside_along(const Ray& ray, double t, double gap) const;
-  /// Fills in those of searches that were found.
+  /// Sets the normals of the searches that were found.
   void find_normals(RaySearch* searches, size_t count) const;
   Interval onset_of(Interval function) const;
   int number(double angle) const;
@@ -66,7 +67,7 @@ class HostFunction final : public Structure {
   Parameter level_;
   double lipschitz_;                // of angles
   int side_;                        // of the clusters
-  std::vector<Interval> clusters_;  // the onset in each; none where nothing is known
+  std::vector<Interval> clusters_;  // the onset in each; empty if nothing is known
 };
 
 }  // namespace msq

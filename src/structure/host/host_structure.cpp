@@ -12,13 +12,13 @@ namespace msq {
 
 namespace {
 
-// Cells go to the host as they are.
+// Cells are passed to the host without conversion.
 static_assert(sizeof(CellIndex) == 3 * sizeof(int32_t));
 
 /// Points gathered for a callback.
 class Batch {
  public:
-  /// For up to `count` points, as far as a callback takes them.
+  /// For up to `count` points, limited to the size of a callback.
   Batch(const Neighbourhood& grid, size_t count)
       : cell_size_(grid.cell_size), most_(std::min(count, host_batch)) {
     points_.reserve(most_);
@@ -36,7 +36,7 @@ class Batch {
   }
   bool is_full() const { return points_.size() == most_; }
 
-  /// Calls ask(points, inside), sets alive[i] to 0 where point i is outside, and is empty again.
+  /// Calls ask(points, inside), sets alive[i] to 0 where point i is outside, and empties the batch.
   template <class Ask>
   void keep(uint8_t* alive, Ask&& ask) {
     if (points_.empty()) return;
@@ -59,7 +59,7 @@ class Batch {
   std::vector<uint8_t> inside_;
 };
 
-/// One point as the host sees it.
+/// One point in the form that the host gets.
 struct SinglePoint {
   SinglePoint(const Neighbourhood& grid, Vec3 p) : point(p) {
     const Neighbourhood::Located located = grid.locate(p);
@@ -87,7 +87,7 @@ class HostStructure::Cell final : public CellData {
   }
   const void* data() const { return cell_->data; }
   uint64_t bytes() const override {
-    constexpr uint64_t most = uint64_t{1} << 60;  // sums with it stay right
+    constexpr uint64_t most = uint64_t{1} << 60;  // sums with it do not overflow
     return std::min(bytes_, most) + sizeof *this + sizeof *cell_;
   }
 
@@ -138,14 +138,14 @@ bool HostStructure::inside(Vec3 p) const {
   return inside != 0;
 }
 
-double HostStructure::clearance(Vec3 p) const {
+double HostStructure::distance_bound(Vec3 p) const {
   if (!calls_.distance) return 0;
   double bound;
-  find_clearances(&p, 1, &bound);
+  find_distance_bounds(&p, 1, &bound);
   return bound;
 }
 
-void HostStructure::find_clearances(const Vec3* points, size_t count, double* bounds) const {
+void HostStructure::find_distance_bounds(const Vec3* points, size_t count, double* bounds) const {
   std::vector<Vec3> positions;
   std::vector<CellIndex> cells;
   for (size_t first = 0; first < count; first += host_batch) {
@@ -168,21 +168,22 @@ void HostStructure::find_clearances(const Vec3* points, size_t count, double* bo
   }
 }
 
-void HostStructure::enter(RaySearch* searches, size_t count) const {
-  const double least = least_ray_step();
+void HostStructure::enter(RaySearch* searches, size_t count, const Job* job) const {
+  const double least = min_ray_step();
   const auto keep = [this](const Vec3* points, uint8_t* inside, size_t n) {
     keep_points(points, inside, n);
   };
   const auto bound = [&](const std::vector<MarchPoint>& asked, const Vec3* points, double* bounds) {
-    if (calls_.distance) return find_clearances(points, asked.size(), bounds);
-    if (!calls_.coverage) return;
+    if (calls_.distance) return find_distance_bounds(points, asked.size(), bounds);
+    if (!calls_.classify) return;
     for (size_t i = 0; i < asked.size(); ++i) {
       const Vec3 q = searches[asked[i].search].ray.at(asked[i].t + 8 * least);
-      if (calls_.coverage({min(points[i], q), max(points[i], q)}) == Coverage::outside)
+      if (calls_.classify({min(points[i], q), max(points[i], q)}) == BoxClass::outside)
         bounds[i] = 8 * least;
     }
   };
-  march_by_bounds(searches, count, least, ray_tolerance(), keep, bound);
+  const auto tolerance_of = [this](const RaySearch& s) { return ray_tolerance(s.ray, s.to); };
+  march_by_bounds(searches, count, least, tolerance_of, job, keep, bound);
   normals_by_membership(keep, searches, count, normal_distance(),
                         [](const RaySearch& s) { return s.found && s.t != s.from; });
 }

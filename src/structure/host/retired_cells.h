@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cells of the host that the cache has let go of. The cache may do so on any thread and holds a
-// lock then, so they wait here until the host can be asked to free them.
+// Cells of the host that the cache has released. The cache may do so on any thread and holds a lock
+// then. So the cells wait here until the host can be called to free them.
 #pragma once
 
 #include <memory>

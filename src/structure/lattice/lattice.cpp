@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/lattice/lattice.h"
 
-#include "structure/lattice/axis_rows.h"
-#include "structure/lattice/may_reach.h"
-#include "structure/strut_clearance.h"
-#include "structure/strut_rows.h"
+#include "structure/common/strut_distance_bound.h"
+#include "structure/common/strut_rows.h"
+#include "structure/lattice/cell/may_reach.h"
+#include "structure/lattice/rows/lattice_rows.h"
 
 namespace msq {
 
 namespace {
 
-/// Samples a cell above which spans beat the point query. Drawing a strut costs about as much as
-/// asking one sample of all struts near it.
+/// Samples per cell above which spans are faster than the point query. Drawing a strut costs about
+/// as much as testing one sample against all struts near it.
 constexpr double critical_samples = 4;
 
-/// Along an axis of the cell.
+/// Number along an axis of the cell.
 constexpr int automatic_clusters = 24, onset_clusters = 12;
-/// Fewer points are asked of all struts near their cells: clusters take milliseconds to find.
-constexpr size_t least_clustered = 512;
+/// Fewer points are tested against all struts near their cells: finding clusters takes
+/// milliseconds.
+constexpr size_t min_clustered = 512;
 constexpr size_t batch = 256;
 
 }  // namespace
@@ -27,7 +28,7 @@ Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Param
     : Structure(neighbourhood),
       radius_(std::move(radius)),
       struts_(periodic_struts(cell)),
-      most_factor_(struts_[0].factor),
+      max_factor_(struts_[0].factor),
       side_(clusters),
       row_axes_{-1, -1, -1} {
   const std::array<int, 3> sample_axes = neighbourhood.sample_axes();
@@ -35,7 +36,7 @@ Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Param
     if (sample_axes[axis] >= 0)
       row_axes_[static_cast<size_t>(sample_axes[axis])] = static_cast<int>(axis);
   const Vec3 size = neighbourhood.cell_size;
-  const double most = most_factor_ * radius_.range().high;
+  const double most = max_factor_ * radius_.range().high;
   const Box3 corner_to_corner{{0, 0, 0}, size};
   reach_ = {struts_[0].a, struts_[0].a};
   for (const PeriodicStrut& s : struts_) {
@@ -54,8 +55,8 @@ Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Param
         for (const PeriodicStrut& s : struts_) {
           const Vec3 shift{double(i), double(j), double(k)};
           const Segment segment((s.a + shift) * size, (s.b + shift) * size);
-          const double radius = s.factor * radius_.range().high;
-          if (may_reach(segment, corner_to_corner, radius)) near_.push_back({segment, s.factor});
+          const double reach = s.factor * radius_.range().high;
+          if (may_reach(segment, corner_to_corner, reach)) near_.push_back({segment, s.factor});
         }
 }
 
@@ -67,6 +68,32 @@ bool Lattice::inside(Vec3 p) const {
   return false;
 }
 
+void Lattice::for_each_strut(const Box3& box, const TakeStrut& take, const Job* job) const {
+  const Neighbourhood& grid = neighbourhood();
+  const Vec3 size = grid.cell_size;
+  const double radius = radius_.range().high;
+  for (const PeriodicStrut& s : struts_) {
+    const double r = s.factor * radius;
+    const Box3 reach = grid.to_grid(box.grown(r + 1e-9 * max_component(size)));
+    // Copies whose box meets it.
+    int64_t first[3], last[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      first[axis] = static_cast<int64_t>(
+          std::ceil(reach.min[axis] / size[axis] - std::max(s.a[axis], s.b[axis])));
+      last[axis] = static_cast<int64_t>(
+          std::floor(reach.max[axis] / size[axis] - std::min(s.a[axis], s.b[axis])));
+    }
+    for (int64_t k = first[2]; k <= last[2]; ++k)
+      for (int64_t j = first[1]; j <= last[1]; ++j) {
+        check_cancelled(job);
+        for (int64_t i = first[0]; i <= last[0]; ++i) {
+          const Vec3 cell{double(i), double(j), double(k)};
+          take(grid.from_grid((s.a + cell) * size), grid.from_grid((s.b + cell) * size), r);
+        }
+      }
+  }
+}
+
 const StrutClusters& Lattice::clusters() const {
   return clusters_.get([&] {
     const int side = side_ > 1 ? side_ : automatic_clusters;
@@ -76,7 +103,7 @@ const StrutClusters& Lattice::clusters() const {
 }
 
 void Lattice::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
-  if (side_ == 1 || count < least_clustered) return Structure::keep_points(points, alive, count);
+  if (side_ == 1 || count < min_clustered) return Structure::keep_points(points, alive, count);
   const StrutClusters& clusters = this->clusters();
   const Neighbourhood grid = neighbourhood();
   double radii[batch];
@@ -91,7 +118,7 @@ void Lattice::keep_points(const Vec3* points, uint8_t* alive, size_t count) cons
   }
 }
 
-double Lattice::clearance(Vec3 p) const {
+double Lattice::distance_bound(Vec3 p) const {
   const Vec3 size = neighbourhood().cell_size;
   const StrutClusters& nearest = clusters();
   const Interval r = radius_.range(Box3{p, p});
@@ -101,7 +128,7 @@ double Lattice::clearance(Vec3 p) const {
   // sizes are.
   const double slack = locating_slack(p - neighbourhood().origin, nearest.reach()) +
                        0x1p-46 * (max_component(size) + nearest.reach());
-  return factored_clearance(gap, r, most_factor_, slack, radius_.lipschitz());
+  return factored_distance_bound(gap, max_factor_, slack, radius_, p);
 }
 
 const CellParts& Lattice::parts() const {
@@ -110,23 +137,23 @@ const CellParts& Lattice::parts() const {
   });
 }
 
-void Lattice::enter(RaySearch* searches, size_t count) const {
+void Lattice::enter(RaySearch* searches, size_t count, const Job* job) const {
   PartLists lists(parts());
-  StrutRays(*this, lists, radius_).enter(searches, count);
+  StrutRays(*this, lists, radius_, job).enter(searches, count);
 }
 
-double Lattice::leave(const Ray& ray, double from, double to) const {
+double Lattice::leave(const Ray& ray, double from, double to, const Job* job) const {
   PartLists lists(parts());
-  return StrutRays(*this, lists, radius_).leave(ray, from, to);
+  return StrutRays(*this, lists, radius_, job).leave(ray, from, to);
 }
 
 Vec3 Lattice::normal(const Ray& ray, double t) const {
   PartLists lists(parts());
-  return StrutRays(*this, lists, radius_).normal(ray, t);
+  return StrutRays(*this, lists, radius_, nullptr).normal(ray, t);
 }
 
 double Lattice::onset_limit() const {
-  return most_radius * min_component(neighbourhood().cell_size) / most_factor_;
+  return max_radius * min_component(neighbourhood().cell_size) / max_factor_;
 }
 
 double Lattice::onset(Vec3 p) const {
@@ -145,11 +172,11 @@ void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
     const RowStruts& struts = row_struts_.get([&] {
       return std::make_unique<RowStruts>(struts_, grid.cell_size, row_axes_, radius_.range().high);
     });
-    return AxisRows(grid, row_axes_, struts, radius_, block).keep(job, [this](Vec3 p) {
+    return LatticeRows(grid, row_axes_, struts, radius_, block).keep(job, [this](Vec3 p) {
       return inside(p);
     });
   }
-  StrutRows rows(block, grid, radius_, 1e-9 * most_factor_ * radius_.range().high, most_factor_);
+  StrutRows rows(block, grid, radius_, 1e-9 * max_factor_ * radius_.range().high, max_factor_);
   if (rows.empty()) return;
   if (!rows.pays(grid, critical_samples)) return Structure::keep_rows(block, job);
   const Box3 reach = grid.to_grid(rows.reach());
@@ -160,7 +187,7 @@ void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
     first[axis] = static_cast<int64_t>(std::floor(reach.min[axis] / size - reach_.max[axis]));
     last[axis] = static_cast<int64_t>(std::ceil(reach.max[axis] / size - reach_.min[axis]));
   }
-  // Those of one factor after each other, as rows take them best.
+  // The struts of one factor are adjacent, which is fastest for rows.
   for (auto s = struts_.begin(); s != struts_.end();) {
     const auto thinner = std::find_if(
         s, struts_.end(), [&](const PeriodicStrut& other) { return other.factor != s->factor; });

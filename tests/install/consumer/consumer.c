@@ -5,9 +5,9 @@
 
 int main(void) {
   const double min[3] = {0, 0, 0}, max[3] = {1, 1, 1}, point[3] = {0.5, 0.5, 0.5};
-  msq_context *context = NULL;
-  msq_shape *box = NULL;
-  msq_model *model = NULL;
+  msq_context* context = NULL;
+  msq_shape* box = NULL;
+  msq_model* model = NULL;
   msq_scale_def scale = {0};
   msq_model_def def;
   int32_t inside = 0;

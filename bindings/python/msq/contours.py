@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Contours of a layer as arrays."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Iterator, Optional, Sequence, Tuple
+
+import numpy as np
+
+from . import _abi
+from ._handle import Handle, Reference
+from ._interrupt import interruptible
+from ._library import defaults, lib, report
+from .context import Job
+
+Window = Tuple[Sequence[float], Sequence[float]]  #: (min, max), each u, v
+
+_TYPES = {"int32": _abi.MSQ_INT32, "int64": _abi.MSQ_INT64, "float64": _abi.MSQ_FLOAT64}
+_DTYPES = {_abi.MSQ_INT32: np.int32, _abi.MSQ_INT64: np.int64,
+           _abi.MSQ_FLOAT64: np.float64}
+
+
+class Contours(Handle):
+    """The section of a model with a plane: closed rings, the inside on their left.
+
+        for ring in model.contours(z, tolerance=0.01):
+            draw(ring)                                   # (n, 2); outer rings counter-clockwise
+
+    Made by Model.contours and Slicer.contours. tolerance: the greatest distance between boundary and
+    rings, where features are wider than the pitch. pitch 0: the tolerance. axis: the plane's normal;
+    its coordinates are the other two axes, in order. window: (min, max), else the model's bounds.
+    type: `int32`, `int64` or `float64`; coordinates are the model's times units, rounded for integers.
+
+    Contours are sequences of rings: len(contours), contours[i] and iteration. Arrays are read-only
+    views of msq's memory, which they keep.
+    """
+
+    _kind = "contours"
+
+    def __init__(self, subject: Any, place: Any, tolerance: float, *, axis: int,
+                 window: Optional[Window], pitch: float, type: str, units: float,
+                 length_scale: float, job: Optional[Job]) -> None:
+        definition = defaults(_abi.msq_contours_def)
+        if type not in _TYPES:
+            raise ValueError(f"type is {type!r}; it must be one of {', '.join(map(repr, _TYPES))}")
+        definition.type = _TYPES[type]
+        definition.axis = axis
+        if window is not None:
+            low, high = (tuple(map(float, corner)) for corner in window)
+            if len(low) != 2 or len(high) != 2:
+                raise ValueError(f"window is {window!r}; it must be two pairs of numbers")
+            definition.has_window = 1
+            definition.window_min[:] = low
+            definition.window_max[:] = high
+        definition.tolerance = tolerance
+        definition.pitch = pitch
+        definition.units = units
+        definition.length_scale = length_scale
+        function = (lib.msq_slicer_contours if subject._kind == "slicer"
+                    else lib.msq_layer_contours)
+        made = ctypes.POINTER(_abi.msq_contours)()
+        reference = subject._ref
+
+        def call(work: Any) -> None:
+            function(reference, place, ctypes.byref(definition), ctypes.byref(made), work)
+
+        interruptible(call, job)
+        self._reference = Reference(made, lib.msq_contours_release)
+        held = report(_abi.msq_contours_report, lib.msq_contours_info, self._ref)
+        count = held.ring_count
+        self.unresolved_count: int = held.unresolved_count  #: see msq_contours_report
+        self.pitch: float = held.pitch  #: distance of the nodes
+        #: (n, 2): u, v of all rings, one after the other
+        self.points = self._view(held.points, 2 * held.point_count,
+                                 _DTYPES[held.type]).reshape(-1, 2)
+        #: ring i has points starts[i] to starts[i + 1] - 1
+        self.starts = self._view(held.starts, count + 1, np.uint64)
+        self.parents = self._view(held.parents, count, np.int64)  #: the ring around it, -1: none
+        self.holes = self._view(held.holes, count, np.uint8).view(np.bool_)
+
+    def _view(self, address: Any, count: int, dtype: Any) -> np.ndarray:
+        if count == 0:
+            return np.empty(0, dtype)
+        size = count * np.dtype(dtype).itemsize
+        memory = (ctypes.c_uint8 * size).from_address(
+            ctypes.cast(address, ctypes.c_void_p).value or 0)
+        memory._owner = self._ref  # lives as long as any view
+        view = np.frombuffer(memory, dtype)
+        view.flags.writeable = False
+        return view
+
+    def __len__(self) -> int:
+        return len(self.parents)
+
+    def __getitem__(self, index: int) -> np.ndarray:
+        if index < 0:
+            index += len(self)
+        if not 0 <= index < len(self):
+            raise IndexError(f"ring {index} does not exist; there are {len(self)}")
+        return self.points[int(self.starts[index]):int(self.starts[index + 1])]
+
+    def __iter__(self) -> Iterator[np.ndarray]:
+        return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        return f"<msq.Contours: {len(self)} rings of {len(self.points)} points>"

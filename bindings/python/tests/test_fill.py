@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Fill lines: arrays, rings, calibration."""
+import gc
+import unittest
+
+import numpy as np
+
+import msq
+
+SQUARE = np.array([[0, 0], [30, 0], [30, 20], [0, 20]]) * 1_000_000
+HOLE = np.array([[10, 5], [20, 5], [20, 15], [10, 15]]) * 1_000_000
+
+
+def length_of(path, is_closed):
+    path = path.astype(float)
+    if is_closed:
+        path = np.concatenate([path, path[:1]])
+    return np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+
+
+class FillLines(unittest.TestCase):
+    def test_paths_are_arrays(self):
+        for structure in (msq.Foam(radius=0.1, cell_size=4), msq.Functional("gyroid", kind="sheet",
+                                                                            level=0.1, cell_size=6)):
+            fill = structure.fill_lines([SQUARE, HOLE], 1.3, tolerance=0.01)
+            self.assertEqual(fill.points.dtype, np.int64)
+            self.assertGreater(len(fill), 3)
+            self.assertEqual(fill.starts[-1], len(fill.points))
+            self.assertFalse(fill.points.flags.writeable)
+            self.assertTrue((fill.points.min(axis=0) >= 0).all())
+            self.assertTrue((fill.points <= (30_000_000, 20_000_000)).all())
+            in_hole = ((fill.points > HOLE[0] + 1) & (fill.points < HOLE[2] - 1)).all(axis=1)
+            self.assertFalse(in_hole.any())
+            total = sum(length_of(path, closed) for path, closed in zip(fill.paths, fill.is_closed))
+            self.assertAlmostEqual(total * 1e-6, fill.length, places=6)
+            self.assertIn("paths", repr(fill))
+
+    def test_arrays_outlive_the_fill(self):
+        foam = msq.Foam(radius=0.1, cell_size=4)
+        fill = foam.fill_lines(SQUARE, 1.3)
+        points, copy = fill.points, fill.points.copy()
+        fill.close()
+        del fill, foam
+        gc.collect()
+        self.assertTrue((points == copy).all())
+
+    def test_coordinates_of_the_host(self):
+        foam = msq.Foam(radius=0.1, cell_size=4)
+        fill = foam.fill_lines((SQUARE // 10_000).astype(np.int32), 1.3, scale=0.01)
+        self.assertEqual(fill.points.dtype, np.int32)
+        same = foam.fill_lines([[0, 0], [3000, 0], [3000, 2000], [0, 2000]], 1.3, scale=0.01)
+        self.assertEqual(same.points.dtype, np.int64)
+        self.assertTrue((same.points == fill.points).all())
+        moved = foam.fill_lines([[100, 0], [3100, 0], [3100, 2000], [100, 2000]], 1.3, scale=0.01,
+                                origin=(-1, 0))
+        self.assertAlmostEqual(moved.length, fill.length, delta=0.01 * fill.length)
+        self.assertEqual(len(foam.fill_lines(SQUARE, 1.3, min_length=1e9)), 0)
+
+    def test_density(self):
+        cell = msq.Functional("gyroid", kind="sheet", level=0.1).fill_cell_size(0.45, 0.2)
+        gyroid = msq.Functional("gyroid", kind="sheet", level=0.1, cell_size=cell)
+        heights = (np.arange(40) + 0.5) / 40 * cell[2]
+        side = 20 * cell[0]
+        square = np.round(np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) * side * 1e6).astype(np.int64)
+        total = sum(gyroid.fill_lines(square, z).length for z in heights)
+        self.assertAlmostEqual(total * 0.45 / (40 * side ** 2), 0.2, delta=0.004)
+
+    def test_refusals(self):
+        with self.assertRaisesRegex(msq.UnsupportedError, "contours"):
+            msq.Lattice("bcc", radius=0.1).fill_lines(SQUARE, 1)
+        foam = msq.Foam(radius=0.1)
+        with self.assertRaisesRegex(msq.ArgumentError, "ring 0 has 2 points"):
+            foam.fill_lines(SQUARE[:2], 1)
+        with self.assertRaisesRegex(msq.ArgumentError, "ring_count is 0"):
+            foam.fill_lines([], 1)
+        with self.assertRaises(ValueError):
+            foam.fill_lines(SQUARE + 0.5, 1)
+        with self.assertRaises(TypeError):
+            msq.Fill()
+        job = msq.Job()
+        job.cancel()
+        with self.assertRaises(msq.CancelledError):
+            foam.fill_lines(SQUARE, 1, job=job)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/foam.h"
+#include "api/guard.h"
+#include "api/neighbourhood.h"
+#include "api/strut_radius.h"
+#include "structure/foam/paper/delaunay.h"
+#include "structure/foam/walled_foam.h"
+
+using namespace msq;
+using namespace msq::api;
+
+namespace {
+
+msq_foam_def foam_defaults() {
+  msq_foam_def def{};
+  def.grid = neighbourhood_defaults();
+  def.jitter = 1;
+  def.density.value = 1;
+  return def;
+}
+
+bool is_none(const msq_param& param) {
+  return !param.field && param.value == 0;
+}
+
+Parameter read_wall_thickness(const msq_param& thickness, const Neighbourhood& grid) {
+  Parameter read;
+  if (thickness.field) {
+    read = Parameter(Ref<const Field>(&object(thickness.field, "wall_thickness.field")));
+    const Interval range = read.range();
+    if (!(range.low >= 0) || !(range.high > 0))
+      fail(Status::argument,
+           "the field of wall_thickness runs from %g to %g; it must not be negative, nor 0 "
+           "everywhere",
+           range.low, range.high);
+  } else {
+    if (!(thickness.value >= 0) || !std::isfinite(thickness.value))
+      fail(Status::argument, "wall_thickness is %g; it must be finite and not negative",
+           thickness.value);
+    read = Parameter(thickness.value);
+  }
+  const double most = min_component(grid.cell_size);
+  if (read.range().high > most)
+    fail(Status::limit, "wall_thickness reaches %g; the limit is %g (the smallest cell size)",
+         read.range().high, most);
+  return read;
+}
+
+Parameter read_density(const msq_param& density) {
+  Parameter read;
+  if (density.field) {
+    read = Parameter(Ref<const Field>(&object(density.field, "density.field")));
+    const Interval range = read.range();
+    if (!(range.low >= 0))
+      fail(Status::argument, "the field of density runs from %g to %g; it must not be negative",
+           range.low, range.high);
+  } else {
+    if (!(density.value >= 0) || !std::isfinite(density.value))
+      fail(Status::argument, "density is %g; it must be finite and not negative", density.value);
+    read = Parameter(density.value);
+  }
+  if (!(read.range().high <= GradedSeeds::max_density))
+    fail(Status::limit, "density reaches %g; the limit is %g seeds in the volume of a cell",
+         read.range().high, GradedSeeds::max_density);
+  return read;
+}
+
+}  // namespace
+
+msq_status msq_foam_def_init(msq_foam_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, foam_defaults(), "msq_foam_def"); });
+}
+
+msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
+                              msq_structure** structure) {
+  return guard([&] {
+    Context& owner = object(context, "context");
+    require(structure, "structure");
+    const msq_foam_def known = read_def(def, foam_defaults(), "def");
+    const Neighbourhood grid = read_neighbourhood(known.grid);
+    const double ratio = max_component(grid.cell_size) / min_component(grid.cell_size);
+    if (ratio > 4)
+      fail(Status::limit, "cell sizes of a foam differ by %g times; the limit is 4", ratio);
+    const FoamMethod method = static_cast<FoamMethod>(
+        require_range(known.method, MSQ_FOAM_AUTO, MSQ_FOAM_METHOD_1, "method"));
+    if (method == FoamMethod::method_2 && !can_triangulate())
+      fail(Status::unsupported, "MSQ_FOAM_METHOD_2 is not in this build (MSQ_WITH_CGAL is off)");
+    if (!(known.jitter >= 0 && known.jitter <= 1))
+      fail(Status::argument, "jitter is %g; it must be from 0 to 1", known.jitter);
+    const Parameter density = read_density(known.density);
+    if (density.range().high > 1 && method != FoamMethod::automatic && method != FoamMethod::direct)
+      fail(Status::unsupported,
+           "density reaches %g; above 1, the method of a foam must be MSQ_FOAM_AUTO or "
+           "MSQ_FOAM_DIRECT",
+           density.range().high);
+    const Parameter thickness = read_wall_thickness(known.wall_thickness, grid);
+    const bool has_walls = !is_none(known.wall_thickness);
+    if (has_walls && method != FoamMethod::automatic && method != FoamMethod::direct)
+      fail(Status::unsupported,
+           "wall_thickness reaches %g; with walls, the method of a foam must be MSQ_FOAM_AUTO or "
+           "MSQ_FOAM_DIRECT",
+           thickness.range().high);
+    const auto make_walls = [&] {
+      return make_ref<FoamWalls>(Ref<Context>(&owner), grid, thickness, known.jitter, known.seed,
+                                 density);
+    };
+    if (has_walls && is_none(known.radius)) {
+      *structure = new_handle<msq_structure>(Ref<Structure>(make_walls()));
+      return;
+    }
+    Ref<Foam> struts =
+        make_ref<Foam>(Ref<Context>(&owner), grid, read_radius(known.radius, grid, 1), known.jitter,
+                       known.seed, method, density);
+    *structure = new_handle<msq_structure>(
+        has_walls ? Ref<Structure>(make_ref<WalledFoam>(std::move(struts), make_walls()))
+                  : Ref<Structure>(std::move(struts)));
+  });
+}
+
+void msq_structure_retain(msq_structure* structure) {
+  retain(structure);
+}
+void msq_structure_release(msq_structure* structure) {
+  release(structure);
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points and boxes of a plane in double precision.
+#pragma once
+
+#include <cmath>
+
+namespace msq {
+
+struct Vec2 {
+  double x = 0, y = 0;
+};
+
+inline Vec2 operator+(Vec2 a, Vec2 b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline Vec2 operator-(Vec2 a, Vec2 b) {
+  return {a.x - b.x, a.y - b.y};
+}
+inline Vec2 operator*(Vec2 a, double s) {
+  return {a.x * s, a.y * s};
+}
+inline double dot(Vec2 a, Vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
+inline double cross(Vec2 a, Vec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline double length(Vec2 a) {
+  return std::sqrt(dot(a, a));
+}
+
+struct Box2 {
+  Vec2 min, max;
+
+  Vec2 extent() const { return max - min; }
+  Box2 grown(double by) const { return {min - Vec2{by, by}, max + Vec2{by, by}}; }
+  bool contains(Vec2 p) const {
+    return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y;
+  }
+};
+
+}  // namespace msq

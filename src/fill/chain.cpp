@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fill/chain.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/job.h"
+
+namespace msq {
+
+namespace {
+
+/// Ends of lines: 2 * line, and 2 * line + 1.
+using End = uint32_t;
+constexpr End nothing = UINT32_MAX;
+
+class Chains {
+ public:
+  explicit Chains(const LineGraph& graph)
+      : graph_(graph), partner_(2 * graph.lines.size(), nothing), is_used_(graph.lines.size()) {
+    pair_ends();
+  }
+
+  std::vector<Polyline> find() {
+    std::vector<Polyline> paths;
+    for (End end = 0; end < partner_.size(); ++end)
+      if (partner_[end] == nothing && !is_used_[end / 2]) paths.push_back(follow(end));
+    for (uint32_t line = 0; line < is_used_.size(); ++line)
+      if (!is_used_[line]) paths.push_back(follow(2 * line));
+    return paths;
+  }
+
+ private:
+  uint32_t point_of(End end) const { return graph_.lines[end / 2][end % 2]; }
+  Vec2 direction(End end) const {
+    const Vec2 way = graph_.points[point_of(end ^ 1)] - graph_.points[point_of(end)];
+    return way * (1 / length(way));
+  }
+
+  void pair_ends();
+  void pair(std::vector<End>& ends);
+  Polyline follow(End end);
+
+  const LineGraph& graph_;
+  std::vector<End> partner_;  // the end that a path goes on with at the same point
+  std::vector<bool> is_used_;
+};
+
+void Chains::pair_ends() {
+  std::vector<uint32_t> starts(graph_.points.size() + 1, 0);
+  for (End end = 0; end < partner_.size(); ++end) ++starts[point_of(end) + 1];
+  for (size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
+  std::vector<End> at(partner_.size());
+  std::vector<uint32_t> next(starts.begin(), starts.end() - 1);
+  for (End end = 0; end < partner_.size(); ++end) at[next[point_of(end)]++] = end;
+  std::vector<End> ends;
+  CancelPoll poll(current_job());
+  for (size_t i = 0; i + 1 < starts.size(); ++i) {
+    poll();
+    ends.assign(at.begin() + starts[i], at.begin() + starts[i + 1]);
+    pair(ends);
+  }
+}
+
+void Chains::pair(std::vector<End>& ends) {
+  while (ends.size() > 1) {
+    size_t best_a = 0, best_b = 1;
+    if (ends.size() > 2) {
+      double best = 2;
+      for (size_t a = 0; a < ends.size(); ++a)
+        for (size_t b = a + 1; b < ends.size(); ++b) {
+          const double along = dot(direction(ends[a]), direction(ends[b]));
+          if (along < best) {
+            best = along;
+            best_a = a;
+            best_b = b;
+          }
+        }
+    }
+    partner_[ends[best_a]] = ends[best_b];
+    partner_[ends[best_b]] = ends[best_a];
+    ends.erase(ends.begin() + static_cast<ptrdiff_t>(best_b));
+    ends.erase(ends.begin() + static_cast<ptrdiff_t>(best_a));
+  }
+}
+
+Polyline Chains::follow(End end) {
+  Polyline path;
+  const uint32_t first = end / 2;
+  path.points.push_back(graph_.points[point_of(end)]);
+  for (;;) {
+    is_used_[end / 2] = true;
+    const End last = end ^ 1;
+    const End next = partner_[last];
+    path.is_closed = next != nothing && next / 2 == first;
+    if (path.is_closed) return path;
+    path.points.push_back(graph_.points[point_of(last)]);
+    if (next == nothing) return path;
+    end = next;
+  }
+}
+
+}  // namespace
+
+std::vector<Polyline> chain(const LineGraph& graph) {
+  return Chains(graph).find();
+}
+
+void simplify(Polyline& path, double distance) {
+  std::vector<Vec2>& points = path.points;
+  if (path.is_closed) points.push_back(points[0]);
+  const size_t count = points.size();
+  std::vector<bool> stays(count, false);
+  stays[0] = stays[count - 1] = true;
+  std::vector<std::array<size_t, 2>> open = {{0, count - 1}};
+  CancelPoll poll(current_job());
+  while (!open.empty()) {
+    const auto [from, to] = open.back();
+    open.pop_back();
+    const Vec2 a = points[from], way = points[to] - a;
+    const double squared = dot(way, way);
+    double farthest = 0;
+    size_t at = from;
+    for (size_t i = from + 1; i < to; ++i) {
+      poll();
+      const Vec2 p = points[i] - a;
+      const double t = squared > 0 ? std::fmin(1, std::fmax(0, dot(p, way) / squared)) : 0;
+      const Vec2 off = p - way * t;
+      if (dot(off, off) > farthest) {
+        farthest = dot(off, off);
+        at = i;
+      }
+    }
+    if (farthest <= distance * distance) continue;
+    stays[at] = true;
+    open.push_back({from, at});
+    open.push_back({at, to});
+  }
+  size_t kept = 0;
+  for (size_t i = 0; i < count; ++i)
+    if (stays[i]) points[kept++] = points[i];
+  points.resize(path.is_closed ? kept - 1 : kept);
+}
+
+}  // namespace msq

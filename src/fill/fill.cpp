@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fill/fill.h"
+
+#include <cmath>
+#include <utility>
+
+#include "base/job.h"
+#include "fill/chain.h"
+#include "fill/order.h"
+
+namespace msq {
+
+namespace {
+
+/// Half of the tolerance is for how lines are found, half for what is dropped of them.
+constexpr double dropped = 0.5;
+
+double distance(IntPoint a, IntPoint b) {
+  const double x = static_cast<double>(b.x - a.x), y = static_cast<double>(b.y - a.y);
+  return std::sqrt(x * x + y * y);
+}
+
+double length_of(const IntPath& path) {
+  double sum = path.is_closed ? distance(path.points.back(), path.points.front()) : 0;
+  for (size_t i = 1; i < path.points.size(); ++i)
+    sum += distance(path.points[i - 1], path.points[i]);
+  return sum;
+}
+
+class Rounding {
+ public:
+  explicit Rounding(const FillPlan& plan) : plan_(plan) {}
+
+  IntPath round(const Polyline& line) const {
+    IntPath path;
+    path.is_closed = line.is_closed;
+    for (const Vec2 p : line.points) {
+      const Vec2 q = (p - plan_.origin) * (1 / plan_.scale);
+      if (!(std::abs(q.x) < 0x1p60 && std::abs(q.y) < 0x1p60))
+        fail(Status::limit,
+             "a line near the polygon reaches coordinate %g; the limit is 2^60: the cells are too "
+             "large for a scale of %g",
+             std::abs(q.x) < 0x1p60 ? q.y : q.x, plan_.scale);
+      const IntPoint r{std::llround(q.x), std::llround(q.y)};
+      if (path.points.empty() || !(path.points.back() == r)) path.points.push_back(r);
+    }
+    while (path.is_closed && path.points.size() > 1 && path.points.front() == path.points.back())
+      path.points.pop_back();
+    if (path.is_closed && path.points.size() < 3) path.is_closed = false;
+    return path;
+  }
+
+ private:
+  const FillPlan& plan_;
+};
+
+}  // namespace
+
+Fill::Fill(Context& context, const Structure& structure, const FillPlan& plan)
+    : is_int32_(plan.is_int32) {
+  const FillPolygon polygon(plan.rings);
+  const auto place = [&plan](IntPoint p) {
+    return plan.origin + Vec2{static_cast<double>(p.x), static_cast<double>(p.y)} * plan.scale;
+  };
+  // A coordinate is rounded by half a unit.
+  const Box2 window = Box2{place(polygon.min()), place(polygon.max())}.grown(plan.scale);
+  std::vector<Polyline> lines;
+  {
+    const LineGraph graph = structure.wall_lines({plan.z, window, (1 - dropped) * plan.tolerance});
+    lines = chain(graph);
+  }
+  const Rounding rounding(plan);
+  std::vector<IntPath> paths;
+  JobPoll poll(current_job());
+  for (Polyline& line : lines) {
+    poll();
+    simplify(line, dropped * plan.tolerance);
+    polygon.cut(rounding.round(line), paths);
+  }
+  std::erase_if(paths, [&](const IntPath& path) {
+    return path.points.size() < 2 || length_of(path) * plan.scale < plan.min_length;
+  });
+  size_t points = 0;
+  for (const IntPath& path : paths) points += path.points.size();
+  memory_ = Reservation(context.budget, points * (is_int32_ ? 8 : 16) + paths.size() * 9,
+                        "the lines of a fill");
+  order_paths(paths, polygon.min());
+  store(paths, plan.scale);
+}
+
+void Fill::store(const std::vector<IntPath>& paths, double scale) {
+  double length = 0, travel = 0;
+  IntPoint last;
+  for (const IntPath& path : paths) {
+    if (&path != &paths.front()) travel += distance(last, path.points.front());
+    length += length_of(path);
+    last = path.is_closed ? path.points.front() : path.points.back();
+    for (const IntPoint p : path.points) {
+      if (is_int32_) {
+        points32_.push_back(static_cast<int32_t>(p.x));
+        points32_.push_back(static_cast<int32_t>(p.y));
+      } else {
+        points64_.push_back(p.x);
+        points64_.push_back(p.y);
+      }
+    }
+    starts_.push_back(starts_.back() + path.points.size());
+    closed_.push_back(path.is_closed);
+  }
+  length_ = length * scale;
+  travel_ = travel * scale;
+}
+
+}  // namespace msq

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fill/line_density.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/job.h"
+
+namespace msq {
+
+namespace {
+
+/// The length of the part of a line within a box.
+double length_within(Vec2 a, Vec2 b, const Box2& box) {
+  double from = 0, to = 1;
+  const Vec2 way = b - a;
+  const double at[2] = {a.x, a.y}, by[2] = {way.x, way.y};
+  const double low[2] = {box.min.x, box.min.y}, high[2] = {box.max.x, box.max.y};
+  for (int axis = 0; axis < 2; ++axis) {
+    if (by[axis] == 0) {
+      // Half-open, so that a line on the border is in one of two neighbours.
+      if (at[axis] < low[axis] || at[axis] >= high[axis]) return 0;
+      continue;
+    }
+    const double t = (low[axis] - at[axis]) / by[axis], u = (high[axis] - at[axis]) / by[axis];
+    from = std::max(from, std::min(t, u));
+    to = std::min(to, std::max(t, u));
+  }
+  return to > from ? (to - from) * length(way) : 0;
+}
+
+}  // namespace
+
+double mean_line_density(const Structure& structure) {
+  if (structure.thin_walls() == ThinWalls::varying)
+    fail(Status::unsupported,
+         "the walls of the structure are denser in some places; calibrate it without the field "
+         "that does so");
+  const Neighbourhood& grid = structure.neighbourhood();
+  const std::array<int, 3> axes = grid.sample_axes();
+  const bool is_turned = axes[0] < 0, repeats = structure.is_periodic() && !is_turned;
+  const int heights = structure.is_periodic() ? 64 : 32;
+  Vec3 size = grid.cell_size;  // of the sample, in the model's frame
+  if (is_turned)
+    size = Vec3{1, 1, 1} * max_component(size);
+  else
+    for (int axis = 0; axis < 3; ++axis)
+      size[axes[static_cast<size_t>(axis)]] = grid.cell_size[axis];
+  size = size * (repeats ? 1.0 : structure.is_periodic() ? 8.0 : 32.0);
+  const Vec3 low = grid.origin;
+  const Box2 box = Box2{{low.x, low.y}, {low.x + size.x, low.y + size.y}};
+  double sum = 0;
+  for (int i = 0; i < heights; ++i) {
+    check_cancelled();
+    // Even heights through one period; through many at places within the cells that are all
+    // different, by the golden section (Weyl), so that none is favoured.
+    const double turn = 0.6180339887498949 * (i + 1);
+    const double z =
+        low.z + (i + (repeats ? 0.381966 : turn - std::floor(turn))) / heights * size.z;
+    const LineGraph graph = structure.wall_lines({z, box, 1e-3 * min_component(grid.cell_size)});
+    for (const auto& [a, b] : graph.lines)
+      sum += length_within(graph.points[a], graph.points[b], box);
+  }
+  const double density = sum / (heights * (size.x * size.y));
+  if (!(density > 0))
+    fail(Status::limit, "no wall of the structure meets any of %d planes", heights);
+  return density;
+}
+
+}  // namespace msq

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shape/caps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "shape/half_angles.h"
+
+namespace msq {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+/// In multiples of its radius: the distance from which a node is evaluated as a whole.
+constexpr double opening = 3;
+
+/// Triangles over a loop that run along its edges in the opposite direction. Chords cut off halves
+/// of the loop, and so on: with many vertices, most triangles are small and lie along the loop.
+void cap_loop(uint32_t begin, uint32_t end, std::vector<Triangle>& triangles) {
+  std::vector<std::pair<uint32_t, uint32_t>> arcs{{begin, end - 1}};
+  while (!arcs.empty()) {
+    const auto [first, last] = arcs.back();
+    arcs.pop_back();
+    if (last - first < 2) continue;
+    const uint32_t middle = first + (last - first) / 2;
+    triangles.push_back({last, middle, first});
+    arcs.push_back({first, middle});
+    arcs.push_back({middle, last});
+  }
+}
+
+uint32_t bins_for(size_t triangles, double power, uint32_t most) {
+  return static_cast<uint32_t>(
+      std::clamp(std::pow(static_cast<double>(triangles), power), 1.0, static_cast<double>(most)));
+}
+
+/// Distance from the origin to the segment from a along `along`.
+double distance_to_segment(Vec3 a, Vec3 along) {
+  const double squared = dot(along, along);
+  const double t = squared > 0 ? std::clamp(-dot(a, along) / squared, 0.0, 1.0) : 0;
+  return length(a + along * t);
+}
+
+}  // namespace
+
+int64_t Caps::View::whole() const {
+  return static_cast<int64_t>(std::floor(turns + 0.5));
+}
+
+double Caps::View::margin() const {
+  return 4 * pi * (0.5 - std::abs(turns - std::floor(turns + 0.5)) - error);
+}
+
+Caps::Caps(const TriangleSoup& soup, const Loops& loops, const Box3& bounds, double scale)
+    : scale_(scale), low_y_(bounds.min.y) {
+  soup_.vertices.reserve(loops.vertices.size());
+  for (const uint32_t v : loops.vertices) soup_.vertices.push_back(soup.vertices[v]);
+  soup_.triangles.reserve(loops.vertices.size());
+  for (size_t i = 0; i < loops.count(); ++i)
+    cap_loop(static_cast<uint32_t>(loops.starts[i]), static_cast<uint32_t>(loops.starts[i + 1]),
+             soup_.triangles);
+  const uint32_t count = static_cast<uint32_t>(soup_.triangles.size());
+  std::vector<uint32_t> order(count);
+  for (uint32_t i = 0; i < count; ++i) order[i] = i;
+  nodes_.reserve(2 * static_cast<size_t>(count));
+  build(order, {0, count});
+  nodes_.shrink_to_fit();
+  std::vector<Triangle> sorted;
+  sorted.reserve(count);
+  for (const uint32_t i : order) sorted.push_back(soup_.triangles[i]);
+  soup_.triangles = std::move(sorted);
+  columns_ = TriangleBins(soup_, bounds, bins_for(count, 0.5, 4096), bins_for(count, 0.5, 4096),
+                          current_job());
+  sheets_ = TriangleBins(soup_, bounds, 1, bins_for(count, 1.0, 16384), current_job());
+  tolerance_ =
+      0x1p-44 * (4 + scale_ * std::max(max_magnitude(bounds.min), max_magnitude(bounds.max)));
+  rounding_ = 0x1p-46 * (64 + static_cast<double>(count));
+}
+
+double Caps::Node::solid_angle(Vec3 d, double r) const {
+  const double inverse = 1 / (r * r);
+  const double along = first[0] * d.x * d.x + first[1] * d.y * d.y + first[2] * d.z * d.z +
+                       first[3] * d.x * d.y + first[4] * d.x * d.z + first[5] * d.y * d.z;
+  const double trace = first[0] + first[1] + first[2];
+  return inverse / r * (dot(normal, d) + trace - 3 * along * inverse);
+}
+
+void Caps::build(std::vector<uint32_t>& order, Run run) {
+  const size_t index = nodes_.size();
+  nodes_.push_back(node_of(order, run));
+  if (!nodes_[index].is_leaf) {
+    // Three times the centre.
+    const auto centre = [&](uint32_t i) { return corner(i, 0) + corner(i, 1) + corner(i, 2); };
+    Box3 centres{centre(order[run.begin]), centre(order[run.begin])};
+    for (uint32_t k = run.begin; k < run.end; ++k) {
+      const Vec3 c = centre(order[k]);
+      centres = {min(centres.min, c), max(centres.max, c)};
+    }
+    const Vec3 extent = centres.extent();
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
+    const uint32_t middle = run.begin + (run.end - run.begin) / 2;
+    std::nth_element(order.begin() + run.begin, order.begin() + middle, order.begin() + run.end,
+                     [&](uint32_t i, uint32_t j) {
+                       const double a = centre(i)[axis], b = centre(j)[axis];
+                       return a < b || (a == b && i < j);
+                     });
+    build(order, {run.begin, middle});
+    build(order, {middle, run.end});
+  }
+  nodes_[index].next = static_cast<uint32_t>(nodes_.size());
+}
+
+Caps::Node Caps::node_of(const std::vector<uint32_t>& order, Run run) const {
+  Node node{};
+  node.triangle = run.begin;
+  node.is_leaf = run.end - run.begin == 1;
+  const auto for_triangles = [&](auto&& use) {
+    for (uint32_t k = run.begin; k < run.end; ++k) {
+      const Vec3 a = corner(order[k], 0), b = corner(order[k], 1), c = corner(order[k], 2);
+      use(a, b, c, cross(b - a, c - a) * 0.5);
+    }
+  };
+  const Vec3 start = corner(order[run.begin], 0);
+  Box3 box{start, start};
+  Vec3 weighted;
+  for_triangles([&](Vec3 a, Vec3 b, Vec3 c, Vec3 normal) {
+    box = {min(box.min, min(a, min(b, c))), max(box.max, max(a, max(b, c)))};
+    const double area = length(normal);
+    node.area += area * (1 + 0x1p-40);
+    weighted = weighted + (a + b + c - start * 3.0) * (area / 3);
+    node.normal = node.normal + normal;
+  });
+  node.centre = node.area > 0 ? start + weighted * (1 / node.area) : (box.min + box.max) * 0.5;
+  for_triangles([&](Vec3 a, Vec3 b, Vec3 c, Vec3 normal) {
+    const Vec3 u = a - node.centre, v = b - node.centre, w = c - node.centre, sum = u + v + w;
+    for (const Vec3 corner : {u, v, w})
+      node.radius = std::max(node.radius, length(corner) * (1 + 0x1p-40));
+    node.second_moment +=
+        length(normal) * (dot(u, u) + dot(v, v) + dot(w, w) + dot(sum, sum)) / 12 * (1 + 0x1p-40);
+    const Vec3 middle = sum * (1.0 / 3);
+    const double first[6] = {middle.x * normal.x,
+                             middle.y * normal.y,
+                             middle.z * normal.z,
+                             middle.x * normal.y + middle.y * normal.x,
+                             middle.x * normal.z + middle.z * normal.x,
+                             middle.y * normal.z + middle.z * normal.y};
+    for (int i = 0; i < 6; ++i) node.first[i] += first[i];
+  });
+  return node;
+}
+
+template <class Far, class Near>
+void Caps::for_each_part(Vec3 p, double opening, double room, double radius, Far&& far,
+                         Near&& near) const {
+  for (uint32_t i = 0; i < nodes_.size();) {
+    const Node& node = nodes_[i];
+    const Vec3 d = node.centre - p;
+    const double squared = dot(d, d), r = std::sqrt(squared);
+    const bool is_far = r > opening * node.radius + room && r > 64 * tolerance_;
+    if (is_far) {
+      if (!far(node, d, r, (r - node.radius - radius) * (1 - 0x1p-40))) return;
+    } else if (node.is_leaf) {
+      if (!near(node.triangle)) return;
+    }
+    i = is_far || node.is_leaf ? node.next : i + 1;
+  }
+}
+
+struct Caps::Sum {
+  HalfAngles near;
+  double far = 0;  // solid angle
+  double error = 0;
+
+  double turns() const {
+    return static_cast<double>(near.turns()) + near.rest() / (2 * pi) + far / (4 * pi);
+  }
+
+  /// Adds a node; d is the vector from the point, r the distance.
+  void add(const Node& node, Vec3 d, double r) {
+    const double gap = (r - node.radius) * (1 - 0x1p-40), gap_squared = gap * gap;
+    far += node.solid_angle(d, r);
+    error += 3 / (4 * pi) * node.second_moment / (gap_squared * gap_squared);
+  }
+};
+
+void Caps::look_at(uint32_t triangle, Vec3 p, Sum& sum) const {
+  const Vec3 a = corner(triangle, 0) - p, b = corner(triangle, 1) - p, c = corner(triangle, 2) - p;
+  const double of_a = length(a), of_b = length(b), of_c = length(c), product = of_a * of_b * of_c;
+  const double re = product + dot(a, b) * of_c + dot(a, c) * of_b + dot(b, c) * of_a;
+  const double im = dot(a, cross(b, c));
+  sum.near.add(re, im);
+
+  // Over the product, 4 times the cosines of half the angles between corners: small near an edge.
+  const double size = std::abs(re) + std::abs(im);
+  sum.error += size > 0x1p-4 * product ? 0x1p-42 : 0x1p-46 * product / size;
+  if (!(size * std::min({of_a, of_b, of_c}) > 32 * tolerance_ * product)) sum.error = 1;
+  // The angle jumps from -2 pi to 2 pi within the triangle.
+  if (re < 0 && (std::abs(im) <= 2 * tolerance_ * length(cross(b - a, c - a)) ||
+                 std::abs(im) <= 0x1p-46 * product))
+    sum.error = 1;
+}
+
+Caps::View Caps::view(Vec3 point, double opening) const {
+  const Vec3 p = point * scale_;
+  Sum sum;
+  for_each_part(
+      p, opening, 0, 0,
+      [&](const Node& node, Vec3 d, double r, double) {
+        sum.add(node, d, r);
+        return true;
+      },
+      [&](uint32_t triangle) {
+        look_at(triangle, p, sum);
+        return true;
+      });
+  return {sum.turns(), sum.error + rounding_};
+}
+
+// Consider all points p' within b of p, and a node at the distance r from p. With gap = r - rho -
+// b, the second-order term in p' - p is at most 3 A b^2 / gap^4. The first moment adds to the
+// gradient at most 6 / gap^4 times the integral of |y - c|, hence 6 sqrt(A M) / gap^4.
+void Caps::FarView::add(const Node& node, Vec3 d, double r, double gap, double radius) {
+  const double inverse = 1 / (r * r), of_cube = inverse / r, gap_squared = gap * gap;
+  turns += node.solid_angle(d, r) * (1 / (4 * pi));
+  gradient = gradient +
+             (d * (3 * inverse * dot(node.normal, d)) - node.normal) * (of_cube * (1 / (4 * pi)));
+  const double size = std::sqrt(node.second_moment) + radius * std::sqrt(node.area);
+  error += 3 / (4 * pi) * size * size / (gap_squared * gap_squared);
+}
+
+void Caps::gather(Vec3 centre, double radius, Nearby& near) const {
+  const Vec3 p = centre * scale_;
+  radius *= scale_;
+  near.centre = p;
+  near.nodes.clear();
+  near.triangles.clear();
+  near.far = {};
+  for_each_part(
+      p, opening, radius, radius,
+      [&](const Node& node, Vec3 d, double r, double gap) {
+        if (r > 8 * (node.radius + radius))
+          near.far.add(node, d, r, gap, radius);
+        else
+          near.nodes.push_back(static_cast<uint32_t>(&node - nodes_.data()));
+        return true;
+      },
+      [&](uint32_t triangle) {
+        near.triangles.push_back(triangle);
+        return true;
+      });
+}
+
+Caps::View Caps::view(Vec3 point, const Nearby& near) const {
+  const Vec3 p = point * scale_;
+  Sum sum;
+  for (const uint32_t i : near.nodes) {
+    const Vec3 d = nodes_[i].centre - p;
+    sum.add(nodes_[i], d, length(d));
+  }
+  for (const uint32_t t : near.triangles) look_at(t, p, sum);
+  return {sum.turns() + near.far.turns + dot(near.far.gradient, p - near.centre),
+          sum.error + near.far.error + rounding_};
+}
+
+/// The gradient of the solid angle: its bound, and the minimum distance to the caps that cause it.
+struct Caps::Slope {
+  double slope = 0;
+  double nearest = std::numeric_limits<double>::infinity(), to_caps = nearest;
+
+  // Within s of the point the gradient is at most slope / (1 - s / nearest)^3.
+  double change(double s) const {
+    const double part = 1 - s / nearest;
+    return slope == 0 ? 0
+           : part > 0 ? 0.5 * slope * nearest * (1 / (part * part) - 1)
+                      : std::numeric_limits<double>::infinity();
+  }
+};
+
+void Caps::bound(uint32_t triangle, Vec3 p, Slope& slope) const {
+  const Vec3 corners[3] = {corner(triangle, 0) - p, corner(triangle, 1) - p,
+                           corner(triangle, 2) - p};
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double twice_area = length(normal);
+  double to_edges = std::numeric_limits<double>::infinity(), of_edges = 0;
+  bool is_beside = !(twice_area > 0);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 from = corners[i], along = corners[(i + 1) % 3] - from;
+    const double edge = length(along);
+    const double d = std::max(0.0, distance_to_segment(from, along) * (1 - 0x1p-40) - tolerance_);
+    to_edges = std::min(to_edges, d);
+    of_edges += std::min(edge / (d * d), 2 / d);
+    is_beside = is_beside || dot(cross(from, along), normal) < 0;
+  }
+  const double above = is_beside ? to_edges : std::abs(dot(corners[0], normal)) / twice_area;
+  const double to_triangle = std::max(0.0, std::min(to_edges, above * (1 - 0x1p-40) - tolerance_));
+  slope.to_caps = std::min(slope.to_caps, to_triangle);
+  const double of_area = twice_area / (to_triangle * to_triangle * to_triangle);
+  const bool is_far = of_area < of_edges;
+  slope.slope += is_far ? of_area : of_edges;
+  slope.nearest = std::min(slope.nearest, is_far ? to_triangle : to_edges);
+}
+
+bool Caps::is_steady_in(Vec3 centre, double radius, int64_t* whole) const {
+  const Vec3 p = centre * scale_;
+  radius *= scale_;
+  FarView far;
+  Sum sum;
+  Slope slope;
+  const double clear = radius + 64 * tolerance_;
+  bool may_be = true;
+  for_each_part(
+      p, opening, 1.5 * radius, radius,
+      [&](const Node& node, Vec3 d, double r, double gap) {
+        far.add(node, d, r, gap, radius);
+        return may_be = gap > 64 * tolerance_ && far.error < 0.5;
+      },
+      [&](uint32_t triangle) {
+        bound(triangle, p, slope);
+        if (!((whole ? slope.to_caps : slope.nearest) > clear)) return may_be = false;
+        look_at(triangle, p, sum);
+        return true;
+      });
+  if (!may_be) return false;
+  View view{sum.turns() + far.turns, sum.error + far.error + rounding_};
+  view.error += radius * length(far.gradient) + slope.change(radius) * (1 / (4 * pi));
+  if (whole) *whole = view.whole();
+  return view.margin() > 0;
+}
+
+uint64_t Caps::bytes() const {
+  return soup_.vertices.capacity() * sizeof(Vec3) + soup_.triangles.capacity() * sizeof(Triangle) +
+         columns_.bytes() + sheets_.bytes() + nodes_.capacity() * sizeof(Node);
+}
+
+}  // namespace msq

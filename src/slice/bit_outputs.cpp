@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// One sample per pixel, as bits and as bytes.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "slice/bit_outputs.cpp"
+#include <bit>
+#include <cstring>
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "base/simd.h"
+#include "slice/layer_output.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace msq {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+namespace {
+
+/// Number of bits set.
+uint64_t count_bits(const uint64_t* words, size_t count) {
+  const hn::ScalableTag<uint64_t> d;
+  const size_t lanes = hn::Lanes(d);
+  auto sum = hn::Zero(d);
+  size_t i = 0;
+  for (; i + lanes <= count; i += lanes)
+    sum = hn::Add(sum, hn::PopulationCount(hn::LoadU(d, words + i)));
+  uint64_t total = hn::GetLane(hn::SumOfLanes(d, sum));
+  for (; i < count; ++i) total += static_cast<uint64_t>(std::popcount(words[i]));
+  return total;
+}
+
+/// Copies words with the bits of each byte reversed: sample 0 moves to the high bit of byte 0.
+void reverse_bits_of_bytes(const uint64_t* words, size_t count, uint8_t* out) {
+  const hn::ScalableTag<uint64_t> d;
+  const size_t lanes = hn::Lanes(d);
+  const auto odd = hn::Set(d, 0x5555555555555555u), pairs = hn::Set(d, 0x3333333333333333u),
+             nibbles = hn::Set(d, 0x0f0f0f0f0f0f0f0fu);
+  const auto reverse = [&](auto v) {
+    v = hn::Or(hn::And(hn::ShiftRight<1>(v), odd), hn::ShiftLeft<1>(hn::And(v, odd)));
+    v = hn::Or(hn::And(hn::ShiftRight<2>(v), pairs), hn::ShiftLeft<2>(hn::And(v, pairs)));
+    return hn::Or(hn::And(hn::ShiftRight<4>(v), nibbles), hn::ShiftLeft<4>(hn::And(v, nibbles)));
+  };
+  size_t i = 0;
+  HWY_ALIGN uint64_t last[max_simd_doubles];  // words are as wide as doubles
+  for (; i + lanes <= count; i += lanes) {
+    hn::Store(reverse(hn::LoadU(d, words + i)), d, last);
+    std::memcpy(out + i * sizeof(uint64_t), last, lanes * sizeof(uint64_t));
+  }
+  for (; i < count; ++i) {
+    hn::Store(reverse(hn::Set(d, words[i])), d, last);
+    std::memcpy(out + i * sizeof(uint64_t), last, sizeof(uint64_t));
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace msq
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace msq {
+
+static_assert(std::endian::native == std::endian::little,
+              "bit rows are written as bytes in the order of a little-endian word");
+
+HWY_EXPORT(count_bits);
+HWY_EXPORT(reverse_bits_of_bytes);
+
+namespace {
+
+uint64_t count_inside(const LayerSource& source) {
+  return HWY_DYNAMIC_DISPATCH(count_bits)(source.words,
+                                          words_for(source.pixels.nx) * source.pixels.ny);
+}
+
+class BitOutput final : public LayerOutput {
+ public:
+  unsigned pixel_bytes() const override { return 0; }
+  unsigned samples_across() const override { return 1; }
+  uint64_t write(const LayerSource& source, uint8_t* out) const override {
+    const size_t count = words_for(source.pixels.nx) * source.pixels.ny;
+    HWY_DYNAMIC_DISPATCH(reverse_bits_of_bytes)(source.words, count, out);
+    return count_inside(source);
+  }
+};
+
+class ByteOutput final : public LayerOutput {
+ public:
+  unsigned pixel_bytes() const override { return 1; }
+  unsigned samples_across() const override { return 1; }
+  uint64_t write(const LayerSource& source, uint8_t* out) const override {
+    const size_t row_words = words_for(source.pixels.nx);
+    const uint64_t stride = layer_stride(1, source.pixels.nx);
+    for (uint64_t j = 0; j < source.pixels.ny; ++j) {
+      const uint64_t* row = source.words + j * row_words;
+      uint8_t* bytes = out + j * stride;
+      for (uint64_t i = 0; i < stride; ++i)  // bits past the width are 0
+        bytes[i] = (row[i / bits_per_word] >> (i % bits_per_word) & 1) ? 255 : 0;
+    }
+    return count_inside(source);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const LayerOutput> make_bit_output() {
+  return std::make_unique<BitOutput>();
+}
+
+std::unique_ptr<const LayerOutput> make_byte_output() {
+  return std::make_unique<ByteOutput>();
+}
+
+}  // namespace msq
+#endif  // HWY_ONCE

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slice/contour_details.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace msq {
+
+namespace {
+
+/// Halvings of a piece.
+constexpr int max_depth = 4;
+
+LayerPoint unit(LayerPoint d) {
+  const double size = length(d);
+  return size > 0 ? d * (1 / size) : LayerPoint{};
+}
+LayerPoint left_of(LayerPoint d) {
+  return {-d.v, d.u};
+}
+
+/// Curvature of the circle through three points, positive where they turn left.
+double curvature(LayerPoint a, LayerPoint b, LayerPoint c) {
+  const LayerPoint ab = b - a, bc = c - b, ac = c - a;
+  const double sizes = dot(ab, ab) * dot(bc, bc) * dot(ac, ac);
+  return sizes > 0 ? 2 * cross(ab, bc) / std::sqrt(sizes) : 0;
+}
+
+/// How far an arc from a to b is from its chord, to the right, where the six points lie on a curve
+/// that bends about evenly; 0 where they do not. At a corner between a and b the curvature of
+/// triples that hold both is far above that of the outer ones.
+double bend_of(LayerPoint before_p, LayerPoint p, LayerPoint a, LayerPoint b, LayerPoint q,
+               LayerPoint behind_q) {
+  constexpr double evenly = 1.6;
+  const double k0 = curvature(before_p, p, a), k1 = curvature(p, a, b), k2 = curvature(a, b, q),
+               k3 = curvature(b, q, behind_q);
+  if (!(k1 * k2 > 0 && k0 * k1 > 0 && k3 * k1 > 0)) return 0;
+  const double inner = std::max(std::abs(k1), std::abs(k2));
+  if (!(inner <= evenly * std::max(std::abs(k0), std::abs(k3)))) return 0;
+  return 0.125 * 0.5 * (k1 + k2) * dot(b - a, b - a);
+}
+
+/// Whether segments ab and cd have a point in common.
+bool do_meet(LayerPoint a, LayerPoint b, LayerPoint c, LayerPoint d) {
+  const auto side = [](LayerPoint p, LayerPoint q, LayerPoint r) {
+    const double s = cross(q - p, r - p);
+    return s > 0 ? 1 : s < 0 ? -1 : 0;
+  };
+  const auto holds = [](LayerPoint p, LayerPoint q, LayerPoint r) {  // r, on the line through p, q
+    return std::min(p.u, q.u) <= r.u && r.u <= std::max(p.u, q.u) && std::min(p.v, q.v) <= r.v &&
+           r.v <= std::max(p.v, q.v);
+  };
+  const int s1 = side(a, b, c), s2 = side(a, b, d), s3 = side(c, d, a), s4 = side(c, d, b);
+  if (s1 != s2 && s3 != s4) return true;
+  return (s1 == 0 && holds(a, b, c)) || (s2 == 0 && holds(a, b, d)) ||
+         (s3 == 0 && holds(c, d, a)) || (s4 == 0 && holds(c, d, b));
+}
+
+/// Whether a polyline touches itself.
+bool is_tangled(std::span<const LayerPoint> p) {
+  for (size_t i = 0; i + 1 < p.size(); ++i) {
+    if (p[i] == p[i + 1]) return true;
+    if (i + 2 < p.size() && cross(p[i + 1] - p[i], p[i + 2] - p[i + 1]) == 0 &&
+        dot(p[i + 1] - p[i], p[i + 2] - p[i + 1]) < 0)
+      return true;
+    for (size_t j = i + 2; j + 1 < p.size(); ++j)
+      if (do_meet(p[i], p[i + 1], p[j], p[j + 1])) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void ContourDetails::find(ContourPoints& points) {
+  unresolved_ = section_.saddles().size();
+  find_suspects(points.job());
+  while (!pieces_.empty()) {
+    keep_bent(points);
+    take_corners(points);
+    split(points);
+  }
+  std::sort(details_.begin(), details_.end(), [](const DetailPoint& a, const DetailPoint& b) {
+    return a.id != b.id ? a.id < b.id : a.order < b.order;
+  });
+  drop_tangles();
+}
+
+/// Of the piece that begins at a crossing.
+ContourDetails::Cell ContourDetails::cell_of(uint32_t id) const {
+  const ContourGrid& grid = section_.grid();
+  Crossing c = section_[id];
+  const bool is_horizontal = section_.is_horizontal(id), inside = section_.starts_inside(id);
+  if (is_horizontal && !inside) --c.row;     // it comes down
+  if (!is_horizontal && inside) --c.column;  // it comes from the right
+  return {{grid.u(c.column), grid.v(c.row)}, {grid.u(c.column + 1), grid.v(c.row + 1)}};
+}
+
+void ContourDetails::find_suspects(const Job* job) {
+  std::vector<uint32_t> before(section_.count());
+  for (uint32_t id = 0; id < section_.count(); ++id) before[section_.next(id)] = id;
+  std::vector<bool> is_saddle(section_.count());
+  for (const ContourSection::Saddle& s : section_.saddles())
+    for (const uint32_t id : s.ids) {
+      const Crossing& c = section_[id];
+      const bool comes_in = section_.is_horizontal(id)
+                                ? (c.row == s.row) == section_.starts_inside(id)
+                                : (c.column == s.column) != section_.starts_inside(id);
+      if (comes_in) is_saddle[id] = true;
+    }
+  const double close = section_.grid().pitch() / 16;
+  const auto is_in_cell = [&](uint32_t id, LayerPoint x) {
+    const Cell cell = cell_of(id);
+    const double margin = section_.margin();
+    return x.u >= cell.low.u + margin && x.u <= cell.high.u - margin &&
+           x.v >= cell.low.v + margin && x.v <= cell.high.v - margin;
+  };
+  for (uint32_t id = 0; id < section_.count(); ++id) {
+    if (id % 65536 == 0) check_cancelled(job);
+    const uint32_t next = section_.next(id);
+    if (section_.is_beyond(id) || section_.is_beyond(next) || is_saddle[id]) continue;
+    const LayerPoint a = section_.at(id), b = section_.at(next), ab = b - a;
+    if (dot(ab, ab) <= tolerance_ * tolerance_) continue;
+    uint32_t p = before[id], q = section_.next(next);
+    Piece piece{id, 0, 0, false, false, a, b, {}, 0, 1};
+    if (section_.is_beyond(p) || section_.is_beyond(q)) {
+      // The direction of the boundary at the edge of a window is not known.
+      pieces_.push_back(piece);
+      continue;
+    }
+    // A crossing that is very near tells little about the direction.
+    LayerPoint d1 = a - section_.at(p), d2 = section_.at(q) - b;
+    if (dot(d1, d1) < close * close && !section_.is_beyond(before[p])) {
+      p = before[p];
+      d1 = a - section_.at(p);
+    }
+    if (dot(d2, d2) < close * close && !section_.is_beyond(section_.next(q))) {
+      q = section_.next(q);
+      d2 = section_.at(q) - b;
+    }
+    const double turn1 = cross(d1, ab), turn2 = cross(ab, d2), turn = cross(d1, d2);
+    const double size2 = dot(ab, ab), limit2 = tolerance_ * tolerance_;
+    if (turn1 * turn2 <= 0) {  // an inflection: of an arc, less than a quarter of this
+      if (turn1 * turn1 > 4 * limit2 * dot(d1, d1) || turn2 * turn2 > 4 * limit2 * dot(d2, d2))
+        pieces_.push_back(piece);
+      continue;
+    }
+    piece.turn = turn1 > 0 ? 1 : -1;
+    if (turn * turn1 > 0) {
+      // The height of the triangle is turn1 * turn2 / (turn * size).
+      const double area = turn1 * turn2;
+      if (area * area <= limit2 * turn * turn * size2) continue;
+      piece.corner = a + d1 * (turn2 / turn);
+      piece.has_corner = is_in_cell(id, piece.corner);
+    }
+    if (const double bend = bend_of(section_.at(before[p]), section_.at(p), a, b, section_.at(q),
+                                    section_.at(section_.next(q)))) {
+      if (std::abs(bend) <= tolerance_) continue;
+      const LayerPoint middle = piece.middle() - left_of(unit(ab)) * bend;
+      if (std::abs(bend) <= 4 * tolerance_ && is_in_cell(id, middle)) {
+        details_.push_back({id, 0.5, middle});
+        continue;
+      }
+    }
+    pieces_.push_back(piece);
+  }
+}
+
+/// Drops pieces whose middle is within the tolerance of the boundary. Where the boundary turns
+/// left, it lies to the right of the middle, which is inside: the point on that side tells.
+void ContourDetails::keep_bent(ContourPoints& points) {
+  points.clear();
+  const auto aside_of = [&](const Piece& piece) {
+    return left_of(unit(piece.b - piece.a)) * tolerance_;
+  };
+  for (const Piece& piece : pieces_) {
+    const LayerPoint m = piece.middle(), aside = aside_of(piece);
+    if (piece.turn == 0) points.add(m);
+    if (piece.turn <= 0) points.add(m + aside);
+    if (piece.turn >= 0) points.add(m - aside);
+  }
+  const std::vector<uint8_t>& inside = points.find_inside();
+  size_t kept = 0, n = 0;
+  for (Piece& piece : pieces_) {
+    const LayerPoint m = piece.middle(), aside = aside_of(piece);
+    piece.is_inside = piece.turn == 0 ? inside[n++] != 0 : piece.turn > 0;
+    // Along the edges of a window, what is beyond does not count.
+    bool is_left = false, is_right = false;
+    if (piece.turn <= 0) is_left = inside[n++] != 0 || !is_in_window(m + aside);
+    if (piece.turn >= 0) is_right = inside[n++] == 0 || !is_in_window(m - aside);
+    if (piece.is_inside ? is_right : is_left) continue;
+    if (piece.depth < max_depth)
+      pieces_[kept++] = piece;
+    else
+      ++unresolved_;
+  }
+  pieces_.resize(kept);
+}
+
+bool ContourDetails::is_in_window(LayerPoint p) const {
+  const ContourGrid& grid = section_.grid();
+  return p.u >= grid.u(ContourGrid::left_edge) && p.u <= grid.u(grid.right_edge()) &&
+         p.v >= grid.v(grid.bottom_edge()) && p.v <= grid.v(grid.top_edge());
+}
+
+void ContourDetails::take_corners(ContourPoints& points) {
+  points.clear();
+  const auto both_sides = [&](LayerPoint p, LayerPoint towards_inside) {
+    points.add(p + towards_inside * tolerance_);
+    points.add(p - towards_inside * tolerance_);
+  };
+  for (const Piece& piece : pieces_) {
+    if (!piece.has_corner) continue;
+    const LayerPoint x = piece.corner;
+    both_sides((piece.a + x) * 0.5, left_of(unit(x - piece.a)));
+    both_sides((x + piece.b) * 0.5, left_of(unit(piece.b - x)));
+    const bool is_concave = cross(piece.b - piece.a, x - piece.a) > 0;
+    both_sides(x, unit(piece.middle() - x) * (is_concave ? -1.0 : 1.0));
+  }
+  const std::vector<uint8_t>& inside = points.find_inside();
+  size_t kept = 0, first = 0;
+  for (const Piece& piece : pieces_) {
+    if (piece.has_corner) {
+      bool is_corner = true;
+      for (size_t n = first; n < first + 6; n += 2)
+        is_corner = is_corner && inside[n] && !inside[n + 1];
+      first += 6;
+      if (is_corner) {
+        details_.push_back({piece.id, 0.5 * (piece.begin + piece.end), piece.corner});
+        continue;
+      }
+    }
+    pieces_[kept++] = piece;
+  }
+  pieces_.resize(kept);
+}
+
+void ContourDetails::split(ContourPoints& points) {
+  struct Search {
+    size_t piece;
+    LayerPoint same, other;  // membership as at the piece's middle, and not
+  };
+  std::vector<Search> searches;
+  points.clear();
+  for (size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& piece = pieces_[i];
+    const LayerPoint m = piece.middle();
+    const LayerPoint d = left_of(unit(piece.b - piece.a)) * (piece.is_inside ? -1.0 : 1.0);
+    // To where the normal leaves the cell.
+    const Cell cell = cell_of(piece.id);
+    double reach = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 2; ++axis) {
+      const double room = d[axis] > 0 ? cell.high[axis] - section_.margin() - m[axis]
+                                      : m[axis] - section_.margin() - cell.low[axis];
+      if (d[axis] != 0) reach = std::min(reach, std::max(0.0, room) / std::abs(d[axis]));
+    }
+    if (!std::isfinite(reach)) reach = 0;
+    searches.push_back({i, m, m + d * reach});
+    points.add(searches.back().other);
+  }
+  size_t kept = 0;
+  const std::vector<uint8_t>& ends = points.find_inside();
+  for (size_t n = 0; n < searches.size(); ++n) {
+    if ((ends[n] != 0) != pieces_[searches[n].piece].is_inside)
+      searches[kept++] = searches[n];
+    else
+      ++unresolved_;
+  }
+  searches.resize(kept);
+  // Each by itself, so that no window changes what another one finds.
+  std::vector<Search*> open;
+  for (Search& s : searches) open.push_back(&s);
+  constexpr int max_halvings = 24;
+  for (int round = 0; round < max_halvings; ++round) {
+    std::erase_if(open, [&](const Search* s) {
+      const LayerPoint d = s->other - s->same;
+      return dot(d, d) <= tolerance_ * tolerance_ / 64;
+    });
+    if (open.empty()) break;
+    points.clear();
+    for (const Search* s : open) points.add((s->same + s->other) * 0.5);
+    const std::vector<uint8_t>& inside = points.find_inside();
+    for (size_t n = 0; n < open.size(); ++n) {
+      Search& s = *open[n];
+      const bool is_same = (inside[n] != 0) == pieces_[s.piece].is_inside;
+      (is_same ? s.same : s.other) = (s.same + s.other) * 0.5;
+    }
+  }
+  std::vector<Piece> halves;
+  for (const Search& s : searches) {
+    const Piece& piece = pieces_[s.piece];
+    const LayerPoint at = (s.same + s.other) * 0.5;
+    const double order = 0.5 * (piece.begin + piece.end);
+    details_.push_back({piece.id, order, at});
+    // A half as short as that is near enough.
+    if (length(at - piece.a) > tolerance_)
+      halves.push_back(
+          {piece.id, piece.depth + 1, 0, false, false, piece.a, at, {}, piece.begin, order});
+    if (length(piece.b - at) > tolerance_)
+      halves.push_back(
+          {piece.id, piece.depth + 1, 0, false, false, at, piece.b, {}, order, piece.end});
+  }
+  pieces_ = std::move(halves);
+}
+
+LayerPoint ContourDetails::rounded(LayerPoint p) const {
+  if (units_ == 0) return p;
+  return {std::nearbyint(p.u * units_), std::nearbyint(p.v * units_)};
+}
+
+/// Drops the points of pieces that would touch themselves.
+void ContourDetails::drop_tangles() {
+  std::vector<LayerPoint> line;
+  size_t kept = 0;
+  for (size_t first = 0, end; first < details_.size(); first = end) {
+    const uint32_t id = details_[first].id;
+    line.assign(1, rounded(section_.at(id)));
+    for (end = first; end < details_.size() && details_[end].id == id; ++end)
+      line.push_back(rounded(details_[end].at));
+    line.push_back(rounded(section_.at(section_.next(id))));
+    if (is_tangled(line)) {
+      ++unresolved_;
+      continue;
+    }
+    for (size_t i = first; i < end; ++i) details_[kept++] = details_[i];
+  }
+  details_.resize(kept);
+}
+
+}  // namespace msq

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the boundary does within a cell, where the line between its two crossings is too far from
+// it: corners, and tight bends.
+//
+// Lines through the crossings before and behind a piece meet at a point X. The triangle of X and
+// the piece's crossings holds the boundary where it turns one way, so only pieces whose triangle is
+// higher than the tolerance are looked into. Where the curvature through the crossings around is
+// about even, an arc tells how far the boundary is, and its middle is taken. Elsewhere membership
+// on either side of the middle of the piece tells whether it is near enough. If not, X is a corner
+// where membership around X and around the middles of both sides says so. Otherwise the point on
+// the boundary beside the piece's middle is found by bisection, and both halves are looked into
+// likewise.
+//
+// All points found lie within the cell, away from its edges, so pieces of different cells never
+// meet.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "slice/contour_section.h"
+
+namespace msq {
+
+/// A point that follows crossing `id`, before the next crossing. `order` is between 0 and 1.
+struct DetailPoint {
+  uint32_t id;
+  double order;
+  LayerPoint at;
+};
+
+class ContourDetails {
+ public:
+  /// `units`: coordinates will be multiplied by it and rounded; 0: they will not be rounded.
+  ContourDetails(const ContourSection& section, double tolerance, double units)
+      : section_(section), tolerance_(tolerance), units_(units) {}
+
+  void find(ContourPoints& points);
+
+  /// In the order of crossings, and of points between two crossings.
+  const std::vector<DetailPoint>& points() const { return details_; }
+  /// Cells where the boundary is farther than the tolerance from what was found, or where one
+  /// sample decided what belongs together.
+  uint64_t unresolved() const { return unresolved_; }
+
+ private:
+  struct Piece {
+    uint32_t id;
+    int depth;
+    int turn;  // where known: 1: the boundary turns left between its ends, -1: right; else 0
+    bool has_corner, is_inside;
+    LayerPoint a, b, corner;
+    double begin, end;  // orders of a and b
+    LayerPoint middle() const { return (a + b) * 0.5; }
+  };
+  struct Cell {
+    LayerPoint low, high;
+  };
+
+  void find_suspects(const Job* job);
+  void keep_bent(ContourPoints& points);
+  void take_corners(ContourPoints& points);
+  void split(ContourPoints& points);
+  void drop_tangles();
+  Cell cell_of(uint32_t id) const;
+  bool is_in_window(LayerPoint p) const;
+  LayerPoint rounded(LayerPoint p) const;
+
+  const ContourSection& section_;
+  const double tolerance_, units_;
+  std::vector<Piece> pieces_;
+  std::vector<DetailPoint> details_;
+  uint64_t unresolved_ = 0;
+};
+
+}  // namespace msq

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slice/contour_grid.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/sample_grid.h"
+#include "base/status.h"
+#include "query/membership.h"
+
+namespace msq {
+
+namespace {
+
+/// Of a band of rows that are found at a time where the plane is not normal to z.
+constexpr uint64_t band_words = uint64_t{1} << 21;
+
+}  // namespace
+
+ContourAxis::ContourAxis(double low, double high, double pitch, const char* name)
+    : low_(low), high_(high), pitch_(pitch), inverse_pitch_(1 / pitch) {
+  constexpr double max_nodes = 0x1p31 - 256, max_index = 0x1p40, shift = 0.3125;
+  const double nodes = (high - low) / pitch;
+  if (!(nodes < max_nodes))
+    fail(Status::limit, "%g nodes of a pitch of %g along %s; the limit is %.0f", nodes, pitch, name,
+         max_nodes);
+  const double far = std::max(std::abs(low), std::abs(high)) / pitch;
+  if (!(far < max_index))
+    fail(Status::limit,
+         "the window reaches %g pitches of %g from the origin along %s; the limit is %g", far,
+         pitch, name, max_index);
+  // Whole numbers below 2^41 times three digits: exact.
+  const auto node = [&](double k) { return (k + shift) * pitch; };
+  double k = std::floor(low / pitch);
+  while (node(k) < low + 0.25 * pitch) ++k;
+  first_ = node(k);
+  while (node(k + static_cast<double>(inner_)) <= high - 0.25 * pitch) {
+    const double left = high - 0.25 * pitch - node(k + static_cast<double>(inner_));
+    inner_ += std::max<uint64_t>(1, static_cast<uint64_t>(left / pitch));
+  }
+}
+
+ContourGrid::ContourGrid(LayerPlane plane, const double window_min[2], const double window_max[2],
+                         double pitch)
+    : plane_(plane),
+      u_(window_min[0], window_max[0], pitch, plane.u_axis() == 0 ? "x" : "y"),
+      v_(window_min[1], window_max[1], pitch, plane.v_axis() == 1 ? "y" : "z"),
+      pitch_(pitch),
+      row_words_(words_for(uint64_t{right_edge()} + 2)) {}
+
+uint64_t ContourGrid::bytes(const Model& model, const Scales& resolved) const {
+  SampleGrid grid;
+  grid.nx = u_.inner() + 1;
+  grid.ny = v_.inner() + 1;
+  grid.nz = 1;
+  return (words() + 2 * words_for(grid.nx) * grid.ny + v_.inner() +
+          fill_slab_scratch_words(model, resolved, grid, 1)) *
+         sizeof(uint64_t);
+}
+
+void ContourGrid::find_nodes(const Model& model, const Scales& resolved, const Job* job) {
+  bits_.assign(words(), 0);
+  const uint64_t across = u_.inner(), rows = v_.inner();
+  const double u0 = u_.first(), v0 = v_.first();
+  find_part(model, resolved, {u0, v0, across, rows, first_inner, 2}, job);
+  for (const uint32_t row : {bottom_edge(), top_edge()})
+    find_part(model, resolved, {u0, v(row), across, 1, first_inner, row}, job);
+  for (const uint32_t column : {uint32_t{left_edge}, right_edge()}) {
+    find_part(model, resolved, {u(column), v0, 1, rows, column, 2}, job);
+    for (const uint32_t row : {bottom_edge(), top_edge()})
+      find_part(model, resolved, {u(column), v(row), 1, 1, column, row}, job);
+  }
+}
+
+void ContourGrid::find_part(const Model& model, const Scales& resolved, const Part& part,
+                            const Job* job) {
+  if (part.across == 0 || part.rows == 0) return;
+  if (plane_.axis == 2)
+    find_layer(model, resolved, part, job);
+  else
+    find_bands(model, resolved, part, job);
+}
+
+void ContourGrid::put_row(const uint64_t* words, const Part& part, uint32_t row) {
+  uint64_t* const out = bits_.data() + row * row_words_ + part.column / 64;
+  if (part.column % 64 == 0)
+    for (size_t w = 0; w < words_for(part.across); ++w) out[w] |= words[w];
+  else
+    *out |= words[0] << (part.column % 64);  // an edge: one node
+}
+
+void ContourGrid::find_layer(const Model& model, const Scales& resolved, const Part& part,
+                             const Job* job) {
+  SampleGrid grid;
+  grid.origin = plane_.at(part.u, part.v);
+  grid.spacing = {pitch_, pitch_, pitch_};
+  grid.nx = part.across;
+  grid.ny = part.rows;
+  grid.nz = 1;
+  const size_t row_words = words_for(grid.nx);
+  std::vector<uint64_t> words(row_words * grid.ny);
+  fill_slab(model, resolved, grid, 0, 1, words.data(), job);
+  for (uint64_t j = 0; j < part.rows; ++j)
+    put_row(words.data() + j * row_words, part, part.row + static_cast<uint32_t>(j));
+}
+
+// Rows of nodes are layers of the engine's grid: with one row of samples where the plane is normal
+// to y, with rows of one sample where it is normal to x.
+void ContourGrid::find_bands(const Model& model, const Scales& resolved, const Part& part,
+                             const Job* job) {
+  const bool is_x = plane_.axis == 0;
+  SampleGrid grid;
+  grid.origin = plane_.at(part.u, part.v);
+  grid.spacing = {pitch_, pitch_, pitch_};
+  grid.nx = is_x ? 1 : part.across;
+  grid.ny = is_x ? part.across : 1;
+  grid.nz = part.rows;
+  const size_t layer_words = words_for(grid.nx) * grid.ny;
+  const uint64_t deep = std::clamp<uint64_t>(band_words / layer_words, 1, part.rows);
+  std::vector<uint64_t> words(layer_words * deep), packed(words_for(part.across));
+  for (uint64_t k0 = 0; k0 < part.rows; k0 += deep) {
+    const uint64_t k1 = std::min(part.rows, k0 + deep);
+    fill_slab(model, resolved, grid, k0, k1, words.data(), job);
+    for (uint64_t k = k0; k < k1; ++k) {
+      const uint64_t* row = words.data() + (k - k0) * layer_words;
+      if (is_x) {
+        std::fill(packed.begin(), packed.end(), 0);
+        for (uint64_t j = 0; j < part.across; ++j) packed[j / 64] |= row[j] << (j % 64);
+        row = packed.data();
+      }
+      put_row(row, part, part.row + static_cast<uint32_t>(k));
+    }
+  }
+}
+
+}  // namespace msq

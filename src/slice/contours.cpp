@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slice/contours.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/memory.h"
+#include "base/status.h"
+#include "slice/contour_details.h"
+#include "slice/contour_line.h"
+#include "slice/contour_section.h"
+
+namespace msq {
+
+namespace {
+
+/// Units to a pitch and to a tolerance: what rounding needs.
+constexpr double min_units_of_pitch = 64, min_units_of_tolerance = 4;
+/// Of crossings: of the tolerance.
+constexpr double accuracy_of_tolerance = 0x1p-10;
+
+/// The greatest number of three binary digits that is no greater.
+double three_digits(double x) {
+  int exponent;
+  const double mantissa = std::frexp(x, &exponent);
+  return std::ldexp(std::floor(mantissa * 8), exponent - 3);
+}
+
+/// Joins the crossings of a section to rings.
+class RingBuilder {
+ public:
+  RingBuilder(const ContourSection& section, const ContourDetails& details, double tolerance,
+              double units, Contours& out)
+      : section_(section),
+        details_(details),
+        tolerance_(tolerance),
+        units_(units),
+        out_(out),
+        ring_of_(section.count(), none),
+        has_details_(section.count()) {
+    for (const DetailPoint& p : details.points()) has_details_[p.id] = true;
+  }
+
+  void build(const Job* job) {
+    JobPoll poll(job);
+    for (uint32_t id = 0; id < section_.horizontal_count(); ++id) {
+      if (ring_of_[id] != none) continue;
+      poll();
+      add_ring(id);
+    }
+  }
+
+ private:
+  static constexpr uint32_t none = UINT32_MAX;
+  struct Ring {
+    int64_t index, parent;  // of the rings that are returned; -1: none
+    bool is_hole;
+  };
+
+  /// `start` is the leftmost crossing on the ring's lowest row, so what is to its left is around
+  /// the ring. The crossing before it on the row, if any, is of a ring that borders on the same.
+  void add_ring(uint32_t start) {
+    Ring ring{-1, -1, section_.starts_inside(start)};
+    if (start > section_.row_start(section_[start].row)) {
+      const Ring& before = rings_[ring_of_[start - 1]];
+      ring.parent = before.is_hole != ring.is_hole ? before.index : before.parent;
+    }
+    const uint32_t number = static_cast<uint32_t>(rings_.size());
+    line_.clear();
+    bool is_next_fixed = false;
+    for (uint32_t id = start; ring_of_[id] == none; id = section_.next(id)) {
+      ring_of_[id] = number;
+      add_crossing(id, is_next_fixed);
+      is_next_fixed = false;
+      if (has_details_[id]) is_next_fixed = add_details(id);
+    }
+    if (is_next_fixed) line_.front().is_fixed = true;
+    simplify_ring(line_, points_);
+    for (LayerPoint& p : points_) p = p * units_;
+    const int64_t index = static_cast<int64_t>(out_.ring_count());
+    // What cannot be drawn stands for what is around it.
+    ring.index = out_.add_ring(points_, ring.parent, ring.is_hole) ? index : ring.parent;
+    rings_.push_back(ring);
+  }
+
+  void add_crossing(uint32_t id, bool is_fixed) {
+    const LayerPoint at = section_.at(id);
+    if (section_.is_beyond(id)) {
+      // Of these only the corners of the window count: once, though two crossings lie there.
+      if (section_.is_horizontal(id) && section_.is_on_seam(id))
+        line_.push_back({at, true, {}, {}});
+      return;
+    }
+    if (is_fixed || section_.is_on_seam(id)) {
+      line_.push_back({at, true, {}, {}});
+      return;
+    }
+    const double middle = section_[id].at;
+    const double low = std::max(middle - tolerance_, section_.low(id) + section_.margin());
+    const double high = std::min(middle + tolerance_, section_.high(id) - section_.margin());
+    LayerPoint first = at, second = at;
+    (section_.is_horizontal(id) ? first.u : first.v) = low;
+    (section_.is_horizontal(id) ? second.u : second.v) = high;
+    if (section_.starts_inside(id))
+      line_.push_back({at, false, first, second});
+    else
+      line_.push_back({at, false, second, first});
+  }
+
+  /// Whether the next crossing must stay.
+  bool add_details(uint32_t id) {
+    const std::vector<DetailPoint>& all = details_.points();
+    auto p = std::lower_bound(all.begin(), all.end(), id,
+                              [](const DetailPoint& d, uint32_t of) { return d.id < of; });
+    const auto first = p;
+    const size_t before = line_.size() - 1;
+    for (; p != all.end() && p->id == id; ++p) line_.push_back({p->at, true, {}, {}});
+    if (p - first < 2) return false;
+    line_[before].is_fixed = true;
+    return true;
+  }
+
+  const ContourSection& section_;
+  const ContourDetails& details_;
+  const double tolerance_, units_;
+  Contours& out_;
+  std::vector<uint32_t> ring_of_;  // by crossing
+  std::vector<bool> has_details_;
+  std::vector<Ring> rings_;
+  std::vector<LinePoint> line_;
+  std::vector<LayerPoint> points_;
+};
+
+/// The window, no larger than what is around the model. False if there is nothing in it.
+bool find_window(const Model& model, const ContourPlan& plan, double pitch, double low[2],
+                 double high[2]) {
+  const Box3& box = model.bounds();
+  const int axes[2] = {plan.plane.u_axis(), plan.plane.v_axis()};
+  bool is_empty =
+      plan.plane.height < box.min[plan.plane.axis] || plan.plane.height > box.max[plan.plane.axis];
+  for (int i = 0; i < 2; ++i) {
+    const double a = box.min[axes[i]], b = box.max[axes[i]];
+    low[i] = plan.has_window ? std::max(plan.window_min[i], a - 2 * pitch) : a;
+    high[i] = plan.has_window ? std::min(plan.window_max[i], b + 2 * pitch) : b;
+    is_empty = is_empty || !(low[i] < high[i]);
+  }
+  return !is_empty;
+}
+
+void check_units(const ContourPlan& plan, double pitch, const double low[2], const double high[2]) {
+  if (plan.format == ContourFormat::float64) return;
+  if (!(pitch * plan.units >= min_units_of_pitch))
+    fail(Status::argument, "a pitch of %g is %g units; it must be at least %g", pitch,
+         pitch * plan.units, min_units_of_pitch);
+  if (!(plan.tolerance * plan.units >= min_units_of_tolerance))
+    fail(Status::argument, "a tolerance of %g is %g units; it must be at least %g", plan.tolerance,
+         plan.tolerance * plan.units, min_units_of_tolerance);
+  // Beyond 2^53 doubles skip whole numbers.
+  const double limit = plan.format == ContourFormat::int32 ? double{INT32_MAX} : 0x1p53;
+  for (int i = 0; i < 2; ++i)
+    for (const double at : {low[i], high[i]})
+      if (!(std::abs(at * plan.units) <= limit))
+        fail(Status::limit, "coordinate %g is %.17g units; the limit is %.0f", at, at * plan.units,
+             limit);
+}
+
+}  // namespace
+
+const void* Contours::points() const {
+  switch (format_) {
+    case ContourFormat::int32:
+      return int32_.data();
+    case ContourFormat::int64:
+      return int64_.data();
+    default:
+      return float64_.data();
+  }
+}
+
+bool Contours::add_ring(const std::vector<LayerPoint>& ring, int64_t parent, bool is_hole) {
+  const auto add = [&]<class T>(std::vector<T>& out) {
+    const size_t first = out.size();
+    const auto put = [&](T u, T v) {
+      if (out.size() > first && out[out.size() - 2] == u && out.back() == v) return;
+      out.push_back(u);
+      out.push_back(v);
+    };
+    for (const LayerPoint p : ring) {
+      if constexpr (std::is_integral_v<T>)
+        put(static_cast<T>(std::nearbyint(p.u)), static_cast<T>(std::nearbyint(p.v)));
+      else
+        put(p.u, p.v);
+    }
+    while (out.size() >= first + 4 && out[first] == out[out.size() - 2] &&
+           out[first + 1] == out.back())
+      out.resize(out.size() - 2);
+    if (out.size() < first + 6) {
+      out.resize(first);
+      return false;
+    }
+    starts_.push_back(out.size() / 2);
+    return true;
+  };
+  const bool is_added = format_ == ContourFormat::int32   ? add(int32_)
+                        : format_ == ContourFormat::int64 ? add(int64_)
+                                                          : add(float64_);
+  if (!is_added) return false;
+  parents_.push_back(parent);
+  holes_.push_back(is_hole);
+  return true;
+}
+
+void Contours::close() {
+  int32_.shrink_to_fit();
+  int64_.shrink_to_fit();
+  float64_.shrink_to_fit();
+}
+
+Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* job) {
+  JobScope scope(job);
+  const double pitch = three_digits(plan.pitch > 0 ? plan.pitch : plan.tolerance);
+  const Ref<Contours> out = make_ref<Contours>(plan.format);
+  out->set_pitch(pitch);
+  double low[2], high[2];
+  const bool is_empty = !find_window(model, plan, pitch, low, high);
+  check_units(plan, pitch, low, high);
+  if (is_empty) {
+    scope.done();
+    return out;
+  }
+  const Scales resolved = model.resolved(plan.length_scale);
+  ContourGrid grid(plan.plane, low, high, pitch);
+  const std::shared_ptr<MemoryBudget>& budget = model.context().budget;
+  const Reservation nodes(budget, grid.bytes(model, resolved), "the nodes of a layer");
+  grid.find_nodes(model, resolved, job);
+  if (job) job->set_progress(0.25);
+
+  const bool is_integer = plan.format != ContourFormat::float64;
+  const double margin = std::max(0x1p-20 * pitch, is_integer ? 2 / plan.units : 0);
+  // Half of the tolerance is for what the boundary does between crossings, half for leaving points
+  // out.
+  const double part = 0.5 * plan.tolerance;
+  ContourSection section(grid, margin);
+  constexpr uint64_t bytes = ContourSection::bytes_of_crossing + 4 * sizeof(uint32_t) +
+                             sizeof(LinePoint) + 2 * sizeof(LayerPoint);
+  const Reservation crossings(budget, section.count_crossings(job) * bytes,
+                              "the crossings of a layer");
+  ContourPoints points(model, resolved, plan.plane, job);
+  section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch));
+  if (job) job->set_progress(0.75);
+  ContourDetails details(section, part, is_integer ? plan.units : 0);
+  details.find(points);
+  if (job) job->set_progress(0.9);
+  RingBuilder(section, details, part, plan.units, *out).build(job);
+  out->set_unresolved(details.unresolved());
+  out->close();
+  scope.done();
+  return out;
+}
+
+}  // namespace msq

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contours of a layer: the section of a model with a plane as rings of points.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/job.h"
+#include "base/ref.h"
+#include "model/model.h"
+#include "slice/contour_points.h"
+
+namespace msq {
+
+enum class ContourFormat : int32_t { int32 = 1, int64 = 2, float64 = 3 };
+
+/// See msq_contours_def.
+struct ContourPlan {
+  LayerPlane plane;
+  bool has_window = false;
+  double window_min[2] = {0, 0}, window_max[2] = {0, 0};
+  double tolerance = 0;
+  double pitch = 0;  ///< 0: the tolerance
+  ContourFormat format = ContourFormat::float64;
+  double units = 1;
+  double length_scale = 0;
+};
+
+class Contours final : public RefCounted {
+ public:
+  explicit Contours(ContourFormat format) : format_(format) {}
+
+  ContourFormat format() const { return format_; }
+  uint64_t point_count() const { return starts_.back(); }
+  uint64_t ring_count() const { return starts_.size() - 1; }
+  /// Two coordinates for each point, of the format.
+  const void* points() const;
+  const uint64_t* starts() const { return starts_.data(); }
+  const int64_t* parents() const { return parents_.data(); }
+  const uint8_t* holes() const { return holes_.data(); }
+  uint64_t unresolved() const { return unresolved_; }
+  void set_unresolved(uint64_t count) { unresolved_ = count; }
+  double pitch() const { return pitch_; }
+  void set_pitch(double pitch) { pitch_ = pitch; }
+
+  /// Adds a ring of points in units; false if fewer than three remain when they are rounded.
+  bool add_ring(const std::vector<LayerPoint>& ring, int64_t parent, bool is_hole);
+  /// Gives back memory that no ring needs.
+  void close();
+
+ private:
+  ContourFormat format_;
+  std::vector<uint64_t> starts_{0};
+  std::vector<int64_t> parents_;
+  std::vector<uint8_t> holes_;
+  std::vector<int32_t> int32_;
+  std::vector<int64_t> int64_;
+  std::vector<double> float64_;
+  uint64_t unresolved_ = 0;
+  double pitch_ = 0;
+};
+
+/// Throws Error(argument) for a window or units that make no sense, Error(limit) where numbers do
+/// not hold the coordinates.
+Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* job);
+
+}  // namespace msq

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a slicer makes of a layer. An output is one file with one line in make_layer_output().
+//
+// Three kinds of source serve outputs: the bits of one sample per pixel, the bits of k x k samples
+// per pixel (coverage), and no bits at all, where the output computes values itself.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "base/job.h"
+#include "base/sample_grid.h"
+#include "model/model.h"
+
+namespace msq {
+
+enum class LayerFormat : int32_t { bits = 1, bytes = 2, grey = 3, distance = 4, material = 5 };
+
+/// How coverage becomes grey. See msq_slicer_def.
+struct GreyScale {
+  unsigned samples = 4;  ///< per pixel along x and along y: 2, 4, 8 or 16
+  double gamma = 1;
+  unsigned threshold = 0;  ///< smaller values become 0
+};
+
+/// One layer, to be written.
+struct LayerSource {
+  const Model& model;
+  const Scales& resolved;
+  SampleGrid pixels;      ///< of the one layer
+  const uint64_t* words;  ///< rows of bits in words_for() words; null for outputs without samples
+  Job* job;
+};
+
+class LayerOutput {
+ public:
+  virtual ~LayerOutput() = default;
+
+  /// Bytes of one pixel; 0: one bit.
+  virtual unsigned pixel_bytes() const = 0;
+  /// Samples per pixel along x and along y, whose bits the output is made from; 0: none.
+  virtual unsigned samples_across() const = 0;
+  /// Writes height rows of layer_stride() bytes, with zeros past the width. Returns the number of
+  /// samples, or pixels where there are none, that are inside.
+  virtual uint64_t write(const LayerSource& source, uint8_t* out) const = 0;
+};
+
+/// Bytes from one row to the next, a multiple of 8.
+inline uint64_t layer_stride(unsigned pixel_bytes, uint64_t width) {
+  return pixel_bytes ? (width * pixel_bytes + 7) / 8 * 8 : words_for(width) * 8;
+}
+
+/// The samples of pixels divided into across x across. Sample a of pixel i along x lies at
+/// x(i) + ((a + 1/2) / across - 1/2) * pitch, and so along y.
+SampleGrid divided(const SampleGrid& pixels, unsigned across);
+
+std::unique_ptr<const LayerOutput> make_layer_output(LayerFormat format, const GreyScale& grey);
+
+// Of the files of outputs, for make_layer_output().
+std::unique_ptr<const LayerOutput> make_bit_output();
+std::unique_ptr<const LayerOutput> make_byte_output();
+std::unique_ptr<const LayerOutput> make_grey_output(const GreyScale& grey);
+std::unique_ptr<const LayerOutput> make_distance_output();
+std::unique_ptr<const LayerOutput> make_material_output();
+
+}  // namespace msq

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Beams as input, and as stored: in the order of the tree over them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "structure/beams/beam.h"
+
+namespace msq {
+
+struct BeamSource {
+  uint64_t count = 0;  ///< below 2^32
+  /// Gets beam i, for i < count. Returns false if the beam is to be left out, which is required if
+  /// it has no solid. Several threads call this at once.
+  std::function<bool(uint64_t i, Beam& beam)> get;
+};
+
+class BeamList {
+ public:
+  /// `caps`: the caps of all beams, or null if they differ.
+  BeamList(size_t count, const BeamCap* caps) : kept_(count), has_caps_(!caps) {
+    if (has_caps_)
+      caps_.resize(2 * count);
+    else
+      common_[0] = caps[0], common_[1] = caps[1];
+  }
+  static uint64_t bytes(uint64_t count, bool has_caps) {
+    return count * (sizeof(Kept) + (has_caps ? 2 * sizeof(BeamCap) : 0));
+  }
+
+  size_t size() const { return kept_.size(); }
+  Beam at(size_t i) const {
+    const Kept& kept = kept_[i];
+    const BeamCap* caps = has_caps_ ? caps_.data() + 2 * i : common_;
+    return {kept.a, kept.b, kept.radius_a, kept.radius_b, caps[0], caps[1]};
+  }
+  /// Prefetches beams [begin, end), which at() will read soon.
+  void prefetch([[maybe_unused]] size_t begin, [[maybe_unused]] size_t end) const {
+#if defined(__GNUC__)
+    for (size_t i = begin; i < end; ++i) __builtin_prefetch(kept_.data() + i);
+#endif
+  }
+  /// Several threads may set different beams at once.
+  void set(size_t i, const Beam& beam) {
+    kept_[i] = {beam.a, beam.b, beam.radius_a, beam.radius_b};
+    if (!has_caps_) return;
+    caps_[2 * i] = beam.cap_a;
+    caps_[2 * i + 1] = beam.cap_b;
+  }
+
+ private:
+  struct Kept {
+    Vec3 a, b;
+    double radius_a, radius_b;
+  };
+  static_assert(sizeof(Kept) == 64);
+
+  std::vector<Kept> kept_;
+  bool has_caps_;
+  BeamCap common_[2] = {};
+  std::vector<BeamCap> caps_;
+};
+
+}  // namespace msq

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The common part of the rows of strut structures: add struts, then restrict samples, for any kind
+// of radius.
+#pragma once
+
+#include "cell/neighbourhood.h"
+#include "field/field.h"
+#include "strut/segment_selection.h"
+#include "strut/span_raster.h"
+
+namespace msq {
+
+class StrutRows {
+ public:
+  /// `margin`: error of the strut ends and radii relative to the scalar predicate, in model units;
+  /// the error of the positions of samples and struts is added here. `max_factor`: maximum factor
+  /// of the radius of any strut.
+  StrutRows(const RowBlock& block, const Neighbourhood& grid, const Parameter& radius,
+            double margin, double max_factor = 1)
+      : radius_(radius),
+        raster_(block),
+        margin_(margin + position_margin(raster_.box(), grid.origin) + block.grid->rounding()),
+        reach_(raster_.box().grown(max_factor * radius.range().high + margin_)) {}
+
+  /// True if no sample is alive: nothing to do.
+  bool empty() const { return raster_.empty(); }
+  /// Whether there are more than `critical` samples per cell in reach. If not, single points are
+  /// faster, and cells without samples are not visited.
+  bool pays(const Neighbourhood& grid, double critical) const {
+    const Vec3 spread = grid.to_grid(reach_).extent();
+    double cells = 1;
+    for (int axis = 0; axis < 3; ++axis) cells *= 1 + spread[axis] / grid.cell_size[axis];
+    return raster_.samples() > critical * cells;
+  }
+  /// Struts whose axis does not meet this box may be left out.
+  const Box3& reach() const { return reach_; }
+
+  /// Adds a strut whose radius is the radius times `factor`. Struts of one factor are drawn
+  /// together: add them one after the other.
+  void add(Vec3 a, Vec3 b, double factor) {
+    const Box3 extent{min(a, b), max(a, b)};
+    if (!extent.overlaps(reach_)) return;
+    if (factor != factor_) {
+      flush();
+      factor_ = factor;
+    }
+    batch_.push(a, b);
+    if (batch_.full()) flush();
+  }
+  /// Adds the segments of a set that may touch `box` (the set's coordinates), with factor 1.
+  void add(const SegmentSet& set, const SegmentFrame& frame, const Box3& box) {
+    flush();
+    factor_ = 1;
+    selection_.select(set, box);
+    for (size_t first = 0; first < selection_.count(); first += StrutBatch::capacity) {
+      selection_.place(frame, first, batch_);
+      flush();
+    }
+  }
+  /// Draws the struts added so far.
+  void flush() {
+    if (batch_.count == 0) return;
+    set_radii();
+    raster_.add(batch_, margin_, [this](Vec3 p) { return factor_ * radius_.at(p); });
+    batch_.count = 0;
+  }
+  /// Clears the samples outside all struts; inside(p) decides the doubtful samples.
+  template <class Inside>
+  void finish(const Job* job, Inside&& inside) {
+    flush();
+    raster_.finish(job, inside);
+  }
+
+ private:
+  void set_radii() {
+    // The radius at samples that a strut may contain, with an error below the margin.
+    const Interval range{factor_ * radius_.range().low, factor_ * radius_.range().high};
+    const double most = range.high, around = most + margin_;
+    const auto extent = [&](size_t i) {
+      return Box3{min(batch_.from(i), batch_.to(i)), max(batch_.from(i), batch_.to(i))};
+    };
+    batch_.linear = false;
+    if (!radius_.is_constant()) {
+      Box3 all = extent(0);
+      for (size_t i = 1; i < batch_.count; ++i) {
+        const Box3 box = extent(i);
+        all = {min(all.min, box.min), max(all.max, box.max)};
+      }
+      batch_.linear = radius_.is_linear(all.grown(around * (1 + 1e-6)), batch_.gradient);
+      batch_.gradient = batch_.gradient * factor_;
+      batch_.linear = batch_.linear && max_magnitude(batch_.gradient) < StrutBatch::max_gradient;
+    }
+    for (size_t i = 0; i < batch_.count; ++i) {
+      Interval r{most, most};
+      if (batch_.linear) {
+        const Vec3 a = batch_.from(i), ab = batch_.to(i) - a, g = batch_.gradient;
+        const double at_a = factor_ * radius_.at(a), along = dot(g, ab);
+        const double about = around * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) + 1e-9 * most;
+        batch_.at_a[i] = at_a;
+        r = {std::max(range.low, at_a + std::min(along, 0.0) - about),
+             std::min(most, at_a + std::max(along, 0.0) + about)};
+      } else if (!radius_.is_constant()) {
+        r = radius_.range(extent(i).grown(around));
+        r = {factor_ * r.low, factor_ * r.high};
+      }
+      batch_.low[i] = r.low;
+      batch_.high[i] = r.high;
+    }
+  }
+
+  /// The error of positions on either side is a few units of 2^-53 of the largest magnitude; this
+  /// is 2^-40.
+  static double position_margin(const Box3& box, Vec3 origin) {
+    return 0x1p-40 * (max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(origin));
+  }
+
+  const Parameter& radius_;
+  SpanRaster raster_;
+  double margin_;
+  Box3 reach_;
+  double factor_ = 1;  // of the batch
+  StrutBatch batch_;
+  SegmentSelection selection_;
+};
+
+}  // namespace msq

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/edges/edge_brick.h"
+
+#include "base/borrowed.h"
+#include "structure/foam/edges/edge_builder.h"
+
+namespace msq {
+
+namespace {
+
+struct Workspace {
+  EdgeBuilder builder;
+  std::vector<SegmentSet::Node> nodes;
+
+  size_t bytes() const { return builder.bytes(); }
+};
+
+}  // namespace
+
+EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner)
+    : origin_(seeds.scale() * (0.5 * side)) {
+  const Borrowed<Workspace> workspace;
+  auto& [builder, nodes] = *workspace;
+  builder.build(seeds, corner, side);
+  // The few vertices without an edge of the brick stay: removing them is not worth the time.
+  nodes.resize(builder.vertex_count());
+  for (uint32_t i = 0; i < nodes.size(); ++i) {
+    const Vec3 p = builder.vertex(i) - origin_;
+    nodes[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  }
+  segments_ = SegmentSet(nodes, builder.ends(), builder.starts());
+}
+
+std::vector<FoamEdge> EdgeBrick::edges() const {
+  std::vector<FoamEdge> edges;
+  for (size_t i = 0; i < segments_.count(); ++i) {
+    const FloatSegment s = segments_.at(i);
+    edges.push_back(
+        {origin_ + Vec3{s.a[0], s.a[1], s.a[2]}, origin_ + Vec3{s.b[0], s.b[1], s.b[2]}});
+  }
+  return edges;
+}
+
+}  // namespace msq

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the Voronoi edges that the seeds of a brick of cells own (edge_brick.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "structure/foam/edges/brick_seeds.h"
+#include "structure/foam/edges/clipped_cell.h"
+#include "structure/foam/edges/shared_vertices.h"
+#include "structure/foam/edges/voronoi_cell.h"
+
+namespace msq {
+
+/// Works for one brick after another and reuses its memory.
+class EdgeBuilder {
+ public:
+  /// Finds the edges owned by the brick of side^3 cells whose first is `corner`. wants_seeds: also
+  /// fills seeds().
+  void build(const FoamSeeds& seeds, CellIndex corner, int side, bool wants_seeds = false);
+
+  // Results for the last brick.
+
+  /// Vertices, relative to the brick's corner; a few belong to no edge.
+  size_t vertex_count() const { return shared_.count(); }
+  Vec3 vertex(uint32_t number) const { return shared_.position(number); }
+  /// The vertices that each edge joins, in the order of their owners' cells.
+  const std::vector<std::array<uint32_t, 2>>& ends() const { return ends_; }
+  /// Where the edges that each row of cells along x owns begin.
+  const std::vector<uint32_t>& starts() const { return starts_; }
+  /// The three seeds to which each edge is equally near: the owner first, by numbers in block(). If
+  /// they are not known, since more than three may be equally near, the owner three times.
+  const std::vector<std::array<uint32_t, 3>>& seeds() const { return triples_; }
+  const BrickSeeds& block() const { return block_; }
+
+  /// Approximate memory.
+  size_t bytes() const { return sizeof *this + block_.bytes() + shared_.bytes(); }
+
+ private:
+  struct Neighbour {
+    Vec3 position;  // relative to the own seed
+    double distance_squared;
+    bool after;
+  };
+
+  void add_owned_edges(size_t own);
+  void find_neighbours(size_t own);
+  bool add_by_cuts(size_t own);
+  void add_by_definition(size_t own);
+  void add_unknown(size_t own) {
+    const auto number = static_cast<uint32_t>(own);
+    if (wants_seeds_) triples_.push_back({number, number, number});
+  }
+
+  BrickSeeds block_;
+  SharedVertices shared_;
+  VoronoiCell cell_;
+  ClippedCell clipped_;
+  std::vector<Neighbour> neighbours_;
+  double empty_radius_ = 0;
+  double max_squared_ = 0;  // twice that, squared
+  std::vector<std::array<uint32_t, 2>> ends_;
+  std::vector<uint32_t> starts_;
+  bool wants_seeds_ = false;
+  std::vector<std::array<uint32_t, 3>> triples_;
+};
+
+}  // namespace msq

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/foam_data.h"
+
+#include "structure/foam/graded_graph.h"
+#include "structure/foam/uniform_graph.h"
+
+namespace msq {
+
+namespace {
+
+std::shared_ptr<const GradedSeeds> grade(const FoamSeeds& seeds, const Neighbourhood& grid,
+                                         Parameter density) {
+  if (!(density.range().high > 1)) return nullptr;
+  return std::make_shared<const GradedSeeds>(seeds, grid, std::move(density));
+}
+
+std::unique_ptr<const FoamGraph> make_graph(const FoamSeeds& seeds,
+                                            const std::shared_ptr<const GradedSeeds>& graded) {
+  if (graded) return std::make_unique<const GradedGraph>(graded);
+  return std::make_unique<const UniformGraph>(seeds);
+}
+
+}  // namespace
+
+FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
+                   double jitter, uint64_t seed, Parameter density)
+    : Structure(neighbourhood),
+      context_(std::move(context)),
+      id_(context_->new_structure_id()),
+      ray_bricks_id_(context_->new_structure_id()),
+      cell_lists_id_(context_->new_structure_id()),
+      ray_demand_id_(context_->new_structure_id()),
+      radius_(std::move(radius)),
+      unit_(max_component(neighbourhood.cell_size)),
+      seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
+      graded_(grade(seeds_, neighbourhood, std::move(density))),
+      graph_(make_graph(seeds_, graded_)) {}
+
+FoamData::~FoamData() {
+  for (const uint64_t id : {id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_})
+    context_->cache.drop(id);
+}
+
+double FoamData::max_radius(CellIndex cell, double margin) const {
+  if (radius_.is_constant()) return max_radius();
+  const Neighbourhood& grid = neighbourhood();
+  const Vec3 low = Vec3{double(cell.x), double(cell.y), double(cell.z)} * grid.cell_size;
+  const Box3 box = Box3{low, low + grid.cell_size}.grown(margin * unit_);
+  return radius_.range(grid.from_grid(box)).high / unit_;
+}
+
+}  // namespace msq

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The data that the folders of a foam work on: seeds, grid, radius, graph and the ids of its data
+// in the cell cache. Foam (foam.h) adds only the choice between the folders.
+#pragma once
+
+#include <memory>
+
+#include "cell/context.h"
+#include "field/field.h"
+#include "structure/foam/foam_graph.h"
+#include "structure/foam/seeds/graded_seeds.h"
+#include "structure/foam/seeds/seeds.h"
+#include "structure/structure.h"
+
+namespace msq {
+
+class FoamData : public Structure {
+ public:
+  /// One seed in each cell; these are the foam's seeds unless it is graded.
+  const FoamSeeds& seeds() const { return seeds_; }
+  /// The graded seeds if the density exceeds 1 anywhere, otherwise null.
+  const std::shared_ptr<const GradedSeeds>& graded() const { return graded_; }
+  const FoamGraph& graph() const { return *graph_; }
+  /// Length of a foam unit in model units.
+  double unit() const { return unit_; }
+  const Parameter& radius() const { return radius_; }
+  /// The maximum radius, in foam units.
+  double max_radius() const { return radius_.range().high / unit_; }
+  /// The maximum radius in a cell and within `margin` of it, all in foam units.
+  double max_radius(CellIndex cell, double margin) const;
+  Context& context() const { return *context_; }
+  /// Ids in the cache: of edges for slices, of edges for rays, of the struts of a cell if seeds are
+  /// graded, and of the count of rays.
+  uint64_t id() const { return id_; }
+  uint64_t ray_bricks_id() const { return ray_bricks_id_; }
+  uint64_t cell_lists_id() const { return cell_lists_id_; }
+  uint64_t ray_demand_id() const { return ray_demand_id_; }
+  /// Whether struts are capsules of one radius, and each cell has exactly one seed.
+  bool has_capsules() const { return !graded_ && radius_.is_constant(); }
+
+ protected:
+  /// `density`: as in GradedSeeds.
+  FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
+           double jitter, uint64_t seed, Parameter density);
+  /// Removes the data from the cache.
+  ~FoamData() override;
+
+ private:
+  const Ref<Context> context_;
+  const uint64_t id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_;
+  const Parameter radius_;
+  const double unit_;
+  const FoamSeeds seeds_;
+  const std::shared_ptr<const GradedSeeds> graded_;
+  const std::unique_ptr<const FoamGraph> graph_;
+};
+
+}  // namespace msq

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/rays/march.h"
+#include "structure/foam/rays/graded_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/borrowed.h"
+#include "structure/foam/point/edges_near.h"
+#include "structure/foam/point/graded_point.h"
+#include "structure/foam/rays/strut_entry.h"
+#include "structure/foam/rays/tapered_entry.h"
+
+namespace msq {
+
+namespace {
+
+/// The struts within a radius (foam units) of a point, and the point in their frame.
+class NearStruts {
+ public:
+  NearStruts(const FoamData& foam, Vec3 p, double radius) {
+    const Neighbourhood::Located located = foam.neighbourhood().locate(p);
+    q = located.fraction * foam.seeds().scale();
+    find_edges_near(foam.seeds(), located.cell, q, radius, *struts_);
+  }
+  auto begin() const { return struts_->cbegin(); }
+  auto end() const { return struts_->cend(); }
+
+  Vec3 q;
+
+ private:
+  const Borrowed<std::vector<NearEdge>> struts_;
+};
+
+/// The same for foams with graded seeds: lines, and the squared distances of their edges.
+struct NearLine {
+  StrutLine line;
+  double distance_squared;
+};
+void find_graded_lines(const FoamData& foam, Vec3 p, double radius, std::vector<NearLine>& lines) {
+  const Borrowed<std::vector<NearGradedEdge>> struts;
+  const Neighbourhood::Located located = foam.neighbourhood().locate(p);
+  find_graded_edges_near(foam.graded(), located.cell, located.fraction * foam.seeds().scale(),
+                         radius, *struts);
+  for (const NearGradedEdge& strut : *struts)
+    lines.push_back(
+        {graded_line(*foam.graded(), located.cell, strut.seeds), strut.distance_squared});
+}
+
+/// The lines of the edges within a radius of a point, in the frame of StrutEntries.
+std::vector<NearLine> lines_near(const FoamData& foam, const StrutEntries& entries, Vec3 p,
+                                 double radius) {
+  std::vector<NearLine> lines;
+  if (foam.graded()) {
+    find_graded_lines(foam, p, radius, lines);
+    return lines;
+  }
+  for (const NearEdge& strut : NearStruts(foam, p, radius))
+    lines.push_back({entries.line(strut.seeds), strut.distance_squared});
+  return lines;
+}
+
+/// Maximum distance, in foam units, of points of the surface from it.
+constexpr double surface_error = 1e-8;
+
+}  // namespace
+
+Vec3 strut_normal(const FoamData& foam, const Ray& ray, double t) {
+  const Vec3 p = ray.at(t);
+  const double radius = foam.radius().at(p) / foam.unit();
+  const StrutEntries entries(foam);
+  const RaySearch search{ray, t, t};
+  const FoamRay foam_ray = entries.ray(search);
+  const NearLine* nearest = nullptr;
+  const double reach = radius + surface_error + 2 * (foam_ray.tolerance + foam_ray.error);
+  const std::vector<NearLine> lines = lines_near(foam, entries, p, reach);
+  for (const NearLine& near : lines)
+    if (!nearest || near.distance_squared < nearest->distance_squared) nearest = &near;
+  if (!nearest || !(nearest->distance_squared > 0.25 * radius * radius)) return {};
+  const Vec3 normal = TaperedStrut(foam, foam_ray, nearest->line).normal(foam_ray.from);
+  return dot(normal, ray.direction) < 0 ? normal : Vec3{};
+}
+
+double strut_exit(const FoamData& foam, const Ray& ray, double from, double to) {
+  const double unit = foam.unit();
+  const RaySearch search{ray, from, to};
+  const FoamRay foam_ray = StrutEntries(foam).ray(search);
+  const double radius = foam.max_radius() - 2 * foam_ray.error;
+  double farthest = 0;
+  const NearStruts struts(foam, ray.at(from), 2 * radius);
+  for (const NearEdge& strut : struts) {
+    if (!(strut.distance_squared <= radius * radius)) continue;
+    // The known part of the edge is an axis; the point is within the radius of it.
+    const Vec3 a = strut.line.at(strut.part.low), ab = strut.line.at(strut.part.high) - a;
+    const double exit = -capsule_entry(a - struts.q, ab, foam_ray.direction * -1.0, radius);
+    if (std::isfinite(exit)) farthest = std::max(farthest, exit);
+  }
+  return std::min(to, from + farthest * unit);
+}
+
+double way_to_strut(const FoamData& foam, Vec3 p, Vec3 direction, double room) {
+  const double unit = foam.unit();
+  const Vec3 u = foam.neighbourhood().rotation.apply_inverse(direction);
+  const auto max_radius = [&](double ahead) {
+    if (foam.radius().is_constant()) return foam.max_radius() + room / unit;
+    return (foam.radius().range(box_of({p, direction}, 0, ahead * unit)).high + room) / unit;
+  };
+  // A longer way needs more seeds, and the number of their triples grows with their cube.
+  double ahead = 0.05 * min_component(foam.seeds().scale());
+  double radius = max_radius(ahead);
+  const NearStruts struts(foam, p, radius + ahead);
+  const Vec3 q = struts.q;
+  // To the start of struts with the radius.
+  const auto entry = [&] {
+    double first = ahead;
+    for (const NearEdge& strut : struts) {
+      const Vec3 a = strut.line.at(strut.part.low) - q, b = strut.line.at(strut.part.high) - q;
+      const double in = capsule_entry(a, b - a, u, radius);
+      // Behind p, unless p is on its surface up to rounding.
+      if (in < 0 && -capsule_entry(a, b - a, u * -1.0, radius) < -surface_error) continue;
+      first = std::min(first, in);
+    }
+    return first;
+  };
+  double way = entry();
+  // On a shorter way, the radius changes less.
+  constexpr int max_times = 4;
+  for (int n = 0; n < max_times && way < ahead && !foam.radius().is_constant(); ++n) {
+    ahead = std::max(2 * way, 0.125 * ahead);
+    radius = max_radius(ahead);
+    way = std::max(way, entry());
+  }
+  return way * unit - foam.ray_tolerance();
+}
+
+bool sharpen_entry(const FoamData& foam, RaySearch& search) {
+  if (!(search.t > search.from)) return true;
+  const double unit = foam.unit(), radius = foam.radius().at(search.ray.at(search.t)) / unit;
+  const StrutEntries entries(foam);
+  const FoamRay ray = entries.ray(search);
+  // Rounding may split an entry into many; the one found may be any of them.
+  const double at = search.t / unit, near = 4 * ray.tolerance + 256 * ray.error;
+  StrutEntry best;
+  for (NearLine& near_line :
+       lines_near(foam, entries, search.ray.at(search.t), radius + std::max(surface_error, near))) {
+    StrutLine& line = near_line.line;
+    if (!line.has_line) continue;
+    // The ray enters at this edge, so its ends are not in the way.
+    constexpr double beyond = 16;
+    line.corner = line.home;
+    line.a = line.line.at(0) - line.along * beyond;
+    line.length = 2 * beyond;
+    line.ab = line.along * line.length;
+    const StrutEntry entry = foam.has_capsules() ? entries.find(ray, line)
+                                                 : entries.find_tapered_near(ray, line, at, near);
+    if (!entry.is_met || entry.at_from || std::abs(entry.t - at) > near) continue;
+    if (comes_before(entry, best)) best = entry;
+  }
+  if (!best.is_met) best = entries.settle(ray, std::max(ray.from, at - ray.tolerance), at);
+  search.t = std::clamp(best.t * unit, search.from, search.to);
+  search.normal = best.normal;
+  return best.is_sure;
+}
+
+}  // namespace msq

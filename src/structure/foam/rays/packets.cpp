@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays are processed in the grid's frame, in foam units. A packet advances along the axis on which
+// it crosses most cells, slab by slab of cells. In each slab, the lists of the cells that its rays
+// are in (cell_lists.h) are sieved in single precision (strut/capsule_rays.h). The strut that a ray
+// may meet first is then tested exactly (strut_entry.h). If a second strut may come before that
+// entry, all struts that the sieve leaves for the ray are tested, in the order of their lower
+// bounds.
+//
+// A ray's result is the first exact entry of all struts in its way. The sieve decides which struts
+// are tested, not the results of the tests. So the result does not depend on packets, lists or
+// caches.
+#include "structure/foam/rays/packets.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "base/borrowed.h"
+#include "structure/foam/rays/cell_lists.h"
+#include "structure/foam/rays/graded_lists.h"
+#include "structure/foam/rays/packet_path.h"
+#include "structure/foam/rays/ray_demand.h"
+#include "structure/foam/rays/ray_struts.h"
+#include "structure/foam/rays/single_ray.h"
+
+namespace msq {
+
+namespace {
+
+/// Memory that a thread keeps from batch to batch; the struts are forgotten in between.
+template <class Struts>
+struct Memory {
+  std::vector<FoamRay> rays;
+  Struts struts;
+};
+
+template <class Struts>
+class Walker {
+ public:
+  Walker(const FoamData& foam, RaySearch* searches, Memory<Struts>& memory, const Job* job)
+      : foam_(foam),
+        scale_(foam.seeds().scale()),
+        asks_once_(!foam.graded() && foam.radius().is_constant()),
+        searches_(searches),
+        job_(job),
+        memory_(memory),
+        struts_(foam, memory.struts),
+        lone_(foam, struts_, job) {
+    memory_.struts.move_to(foam);
+  }
+  ~Walker() { memory_.struts.forget(); }
+
+  void run(size_t count) {
+    std::vector<FoamRay>& rays = memory_.rays;
+    rays.clear();
+    for (size_t i = 0; i < count; ++i) {
+      searches_[i].found = false;
+      rays.push_back(struts_.ray(searches_[i]));
+      FoamRay& ray = rays.back();
+      // Larger rounding errors may hide the strut in which the ray begins.
+      if (ray.error <= max_sure_error || !(ray.from <= ray.to)) continue;
+      if (!foam_.inside(searches_[i].ray.at(searches_[i].from))) continue;
+      StrutEntry begin;
+      begin.is_met = begin.at_from = true;
+      struts_.take(begin, searches_[i]);
+      ray.to = -std::numeric_limits<double>::infinity();
+    }
+    for (size_t i = 0; i < count;) {
+      const size_t end = packet_end(i, count);
+      start(i, end);
+      i = end;
+    }
+  }
+
+ private:
+  static constexpr size_t most = RayPacket::most;
+  struct Coming {
+    float at, last;
+    int32_t i, j;
+  };
+  /// Maximum distance between rays of a packet, across it, in foam units, and maximum difference of
+  /// their directions.
+  static constexpr double max_apart = 0.9, max_turned = 0.05;
+  /// If there are fewer rays, each is processed alone.
+  static constexpr size_t min_packet = 12;
+  /// Maximum error of rays, foam units: some thousand cells from the origin.
+  static constexpr double max_sure_error = 0x1p-38;
+  /// Maximum number of cells across a slab for a packet; a wider packet continues ray by ray.
+  static constexpr int max_across = 4;
+
+  /// The end of the packet that begins at ray i.
+  size_t packet_end(size_t i, size_t count) const {
+    const FoamRay& first = memory_.rays[i];
+    const Vec3 from = first.at(first.from);
+    size_t end = i + 1;
+    for (; end < count && end < i + most; ++end) {
+      const FoamRay& ray = memory_.rays[end];
+      const Vec3 turned = ray.direction - first.direction;
+      if (dot(turned, turned) > max_turned * max_turned) break;
+      const Vec3 apart = ray.at(ray.from) - from;
+      const Vec3 across = apart - first.direction * dot(apart, first.direction);
+      if (dot(across, across) > max_apart * max_apart) break;
+    }
+    return end;
+  }
+
+  /// Takes the rays [begin, end) of the batch as a packet.
+  void start(size_t begin, size_t end) {
+    uint32_t rays[most];
+    size_t count = 0;
+    for (size_t i = begin; i < end; ++i)
+      if (memory_.rays[i].from <= memory_.rays[i].to) rays[count++] = static_cast<uint32_t>(i);
+    if (count >= min_packet && take_packet(rays, count)) return walk(first_slab());
+    for (size_t n = 0; n < count; ++n)
+      lone_.walk(memory_.rays[rays[n]], memory_.rays[rays[n]].from, searches_[rays[n]]);
+  }
+
+  /// Returns false if the rays cross too different cells along the packet's axis.
+  bool take_packet(const uint32_t* rays, size_t count) {
+    count_ = count;
+    Vec3 sum;
+    room_ = 0;
+    packet_.is_parallel = true;
+    for (size_t n = 0; n < count; ++n) {
+      ray_[n] = rays[n];
+      const FoamRay& ray = memory_.rays[rays[n]];
+      sum = sum + ray.direction;
+      room_ = std::max(room_, struts_.room(ray));
+      for (int axis = 0; axis < 3; ++axis) {
+        packet_.direction[axis][n] = static_cast<float>(ray.direction[axis]);
+        packet_.is_parallel &= packet_.direction[axis][n] == packet_.direction[axis][0];
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis) packet_.along[axis] = packet_.direction[axis][0];
+    // The axis along which most cells are crossed; then each ray crosses it.
+    axis_ = 0;
+    for (int axis = 1; axis < 3; ++axis)
+      if (std::abs(sum[axis]) * scale_[axis_] > std::abs(sum[axis_]) * scale_[axis]) axis_ = axis;
+    up_ = sum[axis_] > 0;
+    const double least = 0.5 * std::abs(sum[axis_]) / static_cast<double>(count);
+    for (size_t n = 0; n < count; ++n) {
+      const double d = memory_.rays[rays[n]].direction[axis_];
+      if (!((up_ ? d : -d) >= least)) return false;
+      inverse_[n] = 1 / d;
+    }
+    packet_.count = count;
+    live_ = (uint32_t{1} << count) - 1;
+    has_base_ = false;
+    return true;
+  }
+
+  /// The first slab that contains a ray.
+  int32_t first_slab() const {
+    double first = 0;
+    for (size_t n = 0; n < count_; ++n) {
+      const FoamRay& ray = memory_.rays[ray_[n]];
+      const double place = ray.origin[axis_] + ray.direction[axis_] * ray.from;
+      const double at = std::floor(place / scale_[axis_]);
+      first = n == 0 ? at : up_ ? std::min(first, at) : std::max(first, at);
+    }
+    return static_cast<int32_t>(first);
+  }
+
+  void walk(int32_t slab) {
+    for (; live_; slab += up_ ? 1 : -1) {
+      check_cancelled(job_);
+      if (!cross(slab)) {
+        go_on_alone(slab);
+        return;
+      }
+    }
+  }
+
+  /// Continues ray by ray from a slab on.
+  void go_on_alone(int32_t slab) {
+    const double plane = (slab + !up_) * scale_[axis_];
+    for (uint32_t rest = live_; rest; rest &= rest - 1) {
+      const auto n = static_cast<size_t>(std::countr_zero(rest));
+      const FoamRay& ray = memory_.rays[ray_[n]];
+      const double crossing = (plane - ray.origin[axis_]) * inverse_[n];
+      lone_.walk(ray, std::max(ray.from, crossing), searches_[ray_[n]]);
+    }
+  }
+
+  /// Makes the rays' coordinates relative to a slab, and to the cell there that the first live ray
+  /// is in.
+  void set_base(int32_t slab) {
+    const int k = axis_, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
+    const double plane = (slab + !up_) * scale_[k];
+    const auto crossing = [&](size_t n) {
+      return (plane - memory_.rays[ray_[n]].origin[k]) * inverse_[n];
+    };
+    base_slab_ = slab;
+    has_base_ = true;
+    const auto first = static_cast<size_t>(std::countr_zero(live_));
+    const FoamRay& live = memory_.rays[ray_[first]];
+    const Vec3 place = live.at(std::max(live.from, crossing(first)));
+    for (int side = 0; side < 2; ++side)
+      base_[side] = static_cast<int32_t>(std::floor(place[lateral[side]] / scale_[lateral[side]]));
+    for (size_t n = 0; n < count_; ++n) {
+      const FoamRay& ray = memory_.rays[ray_[n]];
+      const double t = crossing(n), step = scale_[k] * std::abs(inverse_[n]);
+      enter_[n] = t;
+      step_[n] = step;
+      path_.step[n] = static_cast<float>(step);
+      path_.from[n] = static_cast<float>(ray.from - t);
+      path_.to[n] = static_cast<float>(ray.to - t);
+      for (int side = 0; side < 2; ++side) {
+        const int axis = lateral[side];
+        const double at = ray.origin[axis] + ray.direction[axis] * t - base_[side] * scale_[axis];
+        path_.place[side][n] = static_cast<float>(at);
+        path_.slope[side][n] = static_cast<float>(ray.direction[axis] * step);
+      }
+    }
+    for (size_t n = count_; n < most; ++n) {
+      path_.step[n] = 1;
+      path_.from[n] = path_.to[n] = path_.place[0][n] = path_.place[1][n] = 0;
+      path_.slope[0][n] = path_.slope[1][n] = 0;
+    }
+    packet_.starts = false;
+    for (size_t n = 0; n < most; ++n) {
+      const bool is_live = live_ >> n & 1;
+      packet_.origin[k][n] = static_cast<float>(up_ ? 0 : scale_[k]);
+      packet_.origin[lateral[0]][n] = path_.place[0][n];
+      packet_.origin[lateral[1]][n] = path_.place[1][n];
+      packet_.from[n] = is_live ? std::max(path_.from[n] - along_rounding, 0.0f) : 1;
+      packet_.to[n] = is_live ? path_.to[n] + along_rounding : -1;
+      packet_.starts |= is_live && path_.from[n] >= -static_cast<float>(ray_list_margin);
+    }
+    hits_.clear();
+    seen_.clear();
+  }
+
+  /// Crosses one slab. Returns false and does nothing if the packet is in too many of its cells.
+  bool cross(int32_t slab) {
+    // Coordinates relative to nearby slabs and cells stay small.
+    constexpr int max_slabs = 4;
+    constexpr float max_cells = 5;
+    const int k = axis_, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
+    int number = up_ ? slab - base_slab_ : base_slab_ - slab;
+    if (!has_base_ || number < 0 || number >= max_slabs) {
+      set_base(slab);
+      number = 0;
+    }
+    SlabCrossing crossing;
+    while (true) {
+      const double rise = up_ ? scale_[k] : -scale_[k];
+      crossing = cross_slab(path_,
+                            {number, k, static_cast<float>((up_ ? 0 : scale_[k]) + number * rise),
+                             static_cast<float>(rise)},
+                            live_, packet_);
+      live_ &= ~crossing.ended;
+      if (!crossing.active) return true;
+      if (number == 0) break;
+      bool is_far = false;
+      for (int side = 0; side < 2; ++side) {
+        const float size = static_cast<float>(scale_[lateral[side]]);
+        is_far |= crossing.low[side] < -max_cells * size || crossing.high[side] > max_cells * size;
+      }
+      if (!is_far) break;
+      set_base(slab);
+      number = 0;
+    }
+    uint32_t active = crossing.active;
+    int32_t first[2], last[2];
+    for (int side = 0; side < 2; ++side) {
+      const float size = static_cast<float>(scale_[lateral[side]]);
+      // Roundings are within the margin of the lists.
+      first[side] = static_cast<int32_t>(std::floor(crossing.low[side] / size));
+      last[side] = static_cast<int32_t>(std::floor(crossing.high[side] / size));
+    }
+    if (last[0] - first[0] >= max_across || last[1] - first[1] >= max_across) return false;
+
+    number_ = number;
+    if (!asks_once_) hits_.clear();
+    slots_.clear();
+    if (struts_.lists().is_full()) {
+      struts_.forget();
+      set_base(slab);
+      return cross(slab);
+    }
+    // Length of the packet's line in the slab.
+    const float rise = static_cast<float>(scale_[k]) / std::abs(packet_.along[k]);
+    // Cells in the order in which the packet reaches them; rays usually end in the first ones.
+    order_.clear();
+    for (int32_t j = first[1]; j <= last[1]; ++j)
+      for (int32_t i = first[0]; i <= last[0]; ++i)
+        if (Coming coming{0, 1, i, j}; comes_to(coming, rise)) order_.push_back(coming);
+    std::sort(order_.begin(), order_.end(),
+              [](const Coming& x, const Coming& y) { return x.at < y.at; });
+    // If a ray and the centre are in one plane of the slab, the centre may be behind by this.
+    const float behind =
+        packet_.spread * std::sqrt(std::max(0.0f, 1 - packet_.along[k] * packet_.along[k])) +
+        static_cast<float>(ray_list_margin);
+    for (size_t c = 0; c < order_.size() && active; ++c) {
+      packet_.near = order_[c].at * rise - behind;
+      packet_.far = order_[c].last * rise + behind;
+      const Slot& slot = add_slot(order_[c], slab);
+      meet_capsules(slot.list, slot.radius + room_, slot.corner, packet_,
+                    asks_once_ ? &seen_ : nullptr, hits_);
+      const bool is_last = c + 1 == order_.size();
+      for (uint32_t rest = active; rest; rest &= rest - 1) {
+        const size_t n = static_cast<size_t>(std::countr_zero(rest));
+        if (hits_.first[n] == std::numeric_limits<float>::infinity()) continue;
+        // The other cells contain nothing that the ray may meet before.
+        const double last_t =
+            is_last ? limit(n) : std::min(limit(n), enter(n) + double(order_[c + 1].at) * step_[n]);
+        if (enter_[n] + double(hits_.first[n]) > last_t || !settle(n, last_t)) continue;
+        active &= ~(1u << n);
+        live_ &= ~(1u << n);
+        packet_.to[n] = -1;
+      }
+    }
+    return true;
+  }
+
+  /// Where ray n crosses the first plane of the current slab.
+  double enter(size_t n) const { return enter_[n] + number_ * step_[n]; }
+
+  /// Whether the packet may be in the cell (i, j) relative to the base along the two other axes,
+  /// and in which part of its way through the slab.
+  bool comes_to(Coming& coming, float rise) const {
+    const int32_t cell[2] = {coming.i, coming.j};
+    float low = 0, high = 1;
+    for (int side = 0; side < 2; ++side) {
+      const int axis = (axis_ + 1 + side) % 3;
+      const float size = static_cast<float>(scale_[axis]), room = packet_.spread + 1e-5f;
+      const float from = packet_.centre[axis], by = packet_.along[axis] * rise;
+      const float begin = static_cast<float>(cell[side]) * size - room - from;
+      const float end = begin + size + 2 * room;
+      if (std::abs(by) < 1e-3f) continue;
+      const float p = begin / by, q = end / by;
+      low = std::max(low, std::min(p, q) - 1e-4f);
+      high = std::min(high, std::max(p, q) + 1e-4f);
+    }
+    coming.at = low;
+    coming.last = high;
+    return low <= high;
+  }
+
+  /// The lists of this slab contain all struts that ray n may meet up to this t.
+  double limit(size_t n) const {
+    return std::min(memory_.rays[ray_[n]].to, enter(n) + step_[n] + 0.5 * ray_list_margin);
+  }
+
+  /// The list of a cell, for one slab.
+  struct Slot {
+    CapsuleView list;
+    float corner[3];
+    float radius;  // maximum radius there
+  };
+
+  const Slot& add_slot(const Coming& coming, int32_t slab) {
+    const int a = (axis_ + 1) % 3, b = (axis_ + 2) % 3;
+    int32_t cell[3];
+    cell[axis_] = slab;
+    cell[a] = base_[0] + coming.i;
+    cell[b] = base_[1] + coming.j;
+    Slot& slot = slots_.emplace_back();
+    slot.list = memory_.struts.list({cell[0], cell[1], cell[2]});
+    slot.corner[axis_] = static_cast<float>((slab - base_slab_) * scale_[axis_]);
+    slot.corner[a] = static_cast<float>(coming.i * scale_[a]);
+    slot.corner[b] = static_cast<float>(coming.j * scale_[b]);
+    slot.radius = struts_.radius_in({cell[0], cell[1], cell[2]});
+    if (slot.radius < 0) slot.list.count = 0;
+    return slot;
+  }
+
+  /// Whether ray n ends in this slab before `last`. The current lists contain all struts that it
+  /// may meet up to `last`.
+  bool settle(size_t n, double last) {
+    const double second = enter_[n] + double(hits_.second[n]);
+    const StrutEntry found = struts_.entry(memory_.rays[ray_[n]], hits_.id[n]);
+    if (found.is_met && (found.at_from || (found.t <= second && found.t <= last))) {
+      struts_.take(found, searches_[ray_[n]]);
+      return true;
+    }
+    if (second > last) return false;
+    return settle_all(n, last);
+  }
+
+  /// The same from all struts that the ray may meet in the slab's cells so far.
+  bool settle_all(size_t n, double last) {
+    const FoamRay& ray = memory_.rays[ray_[n]];
+    const float from = packet_.from[n];
+    CapsuleRay alone;
+    alone.to =
+        std::min(packet_.to[n], static_cast<float>(last - enter_[n]) + along_rounding) - from;
+    first_.clear();
+    for (const Slot& slot : slots_) {
+      for (int axis = 0; axis < 3; ++axis) {
+        alone.direction[axis] = packet_.direction[axis][n];
+        alone.origin[axis] =
+            packet_.origin[axis][n] + alone.direction[axis] * from - slot.corner[axis];
+      }
+      struts_.ask(ray, slot.list, slot.radius, alone, first_);
+    }
+    if (!first_.entry.is_met || first_.entry.t > last) return false;
+    struts_.take(first_.entry, searches_[ray_[n]]);
+    return true;
+  }
+
+  const FoamData& foam_;
+  const Vec3 scale_;
+  /// Whether the result of a strut in one cell is valid in all cells; false if cells have their own
+  /// radii.
+  const bool asks_once_;
+  RaySearch* const searches_;
+  const Job* const job_;
+  Memory<Struts>& memory_;
+  RayStruts<Struts> struts_;
+  SingleRay<Struts> lone_;
+
+  // The current packet.
+  int axis_ = 0;
+  bool up_ = true;
+  size_t count_ = 0;
+  float room_ = 0;  // the maximum of its rays
+  uint32_t ray_[most], live_ = 0;
+  double inverse_[most];
+  bool has_base_ = false;
+  int32_t base_slab_ = 0, base_[2];
+  PacketPath path_;
+  double enter_[most], step_[most];  // of t: at the first plane of the base, and per slab
+  int number_ = 0;                   // of the current slab, relative to the base
+  RayPacket packet_;
+  // Relative to the base.
+  PacketHits hits_;
+  SeenIds seen_;
+  std::vector<Coming> order_;
+  std::vector<Slot> slots_;
+  FirstEntry first_;
+};
+
+}  // namespace
+
+bool walk_cells(const FoamData& foam, RaySearch* searches, size_t count, const Job* job) {
+  if (!RayBrick::fits(foam.seeds())) return false;
+  // On the heap: walkers are too large for the stacks of a host's threads.
+  if (foam.graded()) {
+    const Borrowed<Memory<GradedLists>> memory;
+    std::make_unique<Walker<GradedLists>>(foam, searches, *memory, job)->run(count);
+  } else {
+    const Borrowed<Memory<CellLists>> memory;
+    std::make_unique<Walker<CellLists>>(foam, searches, *memory, job)->run(count);
+  }
+  return true;
+}
+
+bool enter_by_cells(const FoamData& foam, RaySearch* searches, size_t count, const Job* job) {
+  return RayDemand::pays_for(foam, searches, count) && walk_cells(foam, searches, count, job);
+}
+
+}  // namespace msq

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// The struts in the way of rays: lists for cells, and exact entries into single struts.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_map>
+#include <vector>
+
+#include "cell/cell_hash.h"
+#include "structure/foam/foam_data.h"
+#include "structure/foam/rays/march.h"
+#include "structure/foam/rays/ray_brick.h"
+#include "structure/foam/rays/strut_entry.h"
+#include "strut/capsule_rays.h"
+
+namespace msq {
+
+/// Slack for the rounding of positions along rays in single precision, foam units.
+constexpr float along_rounding = 4e-6f;
+
+/// The first strut that a ray meets, among those tested.
+struct FirstEntry {
+  StrutEntry entry;
+  std::vector<uint32_t> asked;
+
+  void clear() {
+    entry = {};
+    asked.clear();
+  }
+};
+
+/// `Struts`: lists of struts for cells: CellLists, or a class with its interface.
+template <class Struts>
+class RayStruts {
+ public:
+  RayStruts(const FoamData& foam, Struts& lists) : foam_(foam), entries_(foam), lists_(lists) {}
+
+  Struts& lists() { return lists_; }
+  /// Forgets all lists; call it when they are full.
+  void forget() {
+    lists_.forget();
+    radii_.clear();
+  }
+  FoamRay ray(const RaySearch& search) const { return entries_.ray(search); }
+
+  /// How much thicker the sieve must make struts, foam units. No entry is farther from its strut
+  /// than this beyond the radius, or before the ray comes that near.
+  static float room(const FoamRay& ray) { return static_cast<float>(8 * ray.error); }
+
+  /// The maximum radius in a cell; below 0 if there are no struts.
+  float radius_in(CellIndex cell) {
+    if (foam_.radius().is_constant()) return static_cast<float>(foam_.max_radius());
+    const auto [found, is_new] = radii_.try_emplace(cell, 0.0f);
+    if (is_new) found->second = static_cast<float>(foam_.max_radius(cell, ray_list_margin));
+    return found->second;
+  }
+
+  /// The entry into a strut of a list.
+  StrutEntry entry(const FoamRay& ray, uint32_t id) {
+    // Neighbouring rays meet few different struts.
+    Known& known = known_[id % std::size(known_)];
+    if (known.id != id || known.era != lists_.era())
+      known = {id, lists_.era(), lists_.line(entries_, id)};
+    return entries_.find(ray, known.line);
+  }
+
+  /// Tests the struts that a ray may meet by a list of a cell, each strut once. Updates the first
+  /// of their entries and of those tested before.
+  void ask(const FoamRay& ray, const CapsuleView& list, float radius, const CapsuleRay& near,
+           FirstEntry& first) {
+    if (ids_.size() < list.count + capsule_padding) ids_.resize(list.count + capsule_padding);
+    const size_t count = capsules_on_ray(list, radius + room(ray), near, ids_.data());
+    for (size_t n = 0; n < count; ++n) {
+      // Cells share struts.
+      if (std::find(first.asked.begin(), first.asked.end(), ids_[n]) != first.asked.end()) continue;
+      first.asked.push_back(ids_[n]);
+      const StrutEntry found = entry(ray, ids_[n]);
+      if (comes_before(found, first.entry)) first.entry = found;
+    }
+  }
+
+  /// Makes the entry the result of the search.
+  void take(const StrutEntry& entry, RaySearch& search) const {
+    search.found = true;
+    search.t =
+        entry.at_from ? search.from : std::clamp(entry.t * foam_.unit(), search.from, search.to);
+    search.normal = entry.at_from ? Vec3{} : entry.normal;
+    if (entry.by_ends) sharpen_entry(foam_, search);
+  }
+
+ private:
+  const FoamData& foam_;
+  const StrutEntries entries_;
+  Struts& lists_;
+  std::unordered_map<CellIndex, float, CellHash> radii_;  // if they vary
+  struct Known {
+    uint32_t id = UINT32_MAX;
+    uint64_t era = 0;
+    StrutLine line;
+  };
+  Known known_[256];
+  std::vector<uint32_t> ids_;
+};
+
+}  // namespace msq

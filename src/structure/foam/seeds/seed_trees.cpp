@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/seeds/seed_trees.h"
+
+#include "base/job.h"
+
+namespace msq {
+
+void SeedTrees::move_to(const std::shared_ptr<const GradedSeeds>& seeds) {
+  // A control block is not reused while owner_ refers to it; the address of the seeds may be.
+  const bool is_same = !owner_.owner_before(seeds) && !seeds.owner_before(owner_);
+  if (is_same && nodes_.size() < max_nodes) return;
+  owner_.reset();  // until everything is set
+  // Nodes 0 and 1 are not used: they would look like the marks of Node::children.
+  nodes_.assign(2, {});
+  slots_.assign(slots_per_axis * slots_per_axis * slots_per_axis, {});
+  owner_ = seeds;
+  seeds_ = seeds.get();
+}
+
+uint32_t SeedTrees::root_of(CellIndex cell) {
+  constexpr uint32_t mask = slots_per_axis - 1;
+  const auto part = [](int32_t i) { return static_cast<uint32_t>(i) & mask; };
+  Slot& slot =
+      slots_[(part(cell.z) * slots_per_axis + part(cell.y)) * slots_per_axis + part(cell.x)];
+  if (slot.root == 0 || !(slot.cell == cell)) {
+    slot = {cell, static_cast<uint32_t>(nodes_.size())};
+    nodes_.emplace_back();
+  }
+  return slot.root;
+}
+
+uint32_t SeedTrees::grow(uint32_t index, const GradedSeeds::Node& node) {
+  uint32_t children = is_leaf;
+  check_cancelled();
+  if (seeds_->splits(node)) {
+    children = static_cast<uint32_t>(nodes_.size());
+    nodes_.resize(nodes_.size() + 8);
+  } else {
+    nodes_[index].seed = seeds_->in_leaf(node);
+  }
+  nodes_[index].children = children;
+  return children;
+}
+
+LeafSeed SeedTrees::leaf_seed(CellIndex home, uint32_t index, const GradedSeeds::Node& node) const {
+  const CellIndex cell = node.cell;
+  const auto biased = [](int32_t from_home) {
+    return static_cast<uint64_t>(static_cast<uint16_t>(from_home + 0x8000));
+  };
+  const int32_t x = cell.x - home.x, y = cell.y - home.y, z = cell.z - home.z;
+  const Vec3 in_cell = nodes_[index].seed;
+  return {Vec3{x + in_cell.x, y + in_cell.y, z + in_cell.z} * seeds_->scale(), node.level,
+          ((biased(z) << 16 | biased(y)) << 16 | biased(x)) << 15 | node.order()};
+}
+
+LeafSeed SeedTrees::at(CellIndex home, Vec3 q) {
+  const Vec3 scale = seeds_->scale();
+  uint32_t index = root_of(home);
+  GradedSeeds::Node node{home};
+  for (;;) {
+    uint32_t children = nodes_[index].children;
+    if (children == not_known) children = grow(index, node);
+    if (children == is_leaf) return leaf_seed(home, index, node);
+    const double half = 0.5 * node.size();
+    uint32_t octant = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      if (q[axis] >= (node.low[axis] + half) * scale[axis]) octant |= 1u << axis;
+    index = children + octant;
+    node = node.child(octant);
+  }
+}
+
+}  // namespace msq

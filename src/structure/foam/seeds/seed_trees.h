@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// The octrees of the seeds of a graded foam (graded_seeds.h). They grow as far as searches need,
+// and are kept for the next search of the thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "structure/foam/seeds/graded_seeds.h"
+
+namespace msq {
+
+/// The seed of a leaf.
+struct LeafSeed {
+  Vec3 position;   ///< foam units, from the corner of the search's home cell
+  int level;       ///< of the leaf
+  uint64_t order;  ///< ascends by cell (z, y, x), then by path; for seeds within 2^15 cells of home
+};
+
+class SeedTrees {
+ public:
+  /// Moves to the seeds of a foam. Free if these are the current ones, except that too large a
+  /// store is emptied.
+  void move_to(const std::shared_ptr<const GradedSeeds>& seeds);
+
+  /// Calls found(seed) for the leaf seeds in cells that meet a box, in the order of seeds. May skip
+  /// boxes for which wanted(box) is false. Foam units from the corner of `home`.
+  template <class Wanted, class Found>
+  void visit(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found);
+
+  /// The same for all leaves of one cell.
+  template <class Found>
+  void visit_cell(CellIndex home, CellIndex cell, Found&& found);
+
+  /// The seed of the leaf that contains q, a point of `home`.
+  LeafSeed at(CellIndex home, Vec3 q);
+
+  /// Finds the seed nearest to q among those with accept(seed) that are nearer than
+  /// sqrt(distance_squared). If there is one, sets both outputs.
+  template <class Accept>
+  void nearest(CellIndex home, Vec3 q, double& distance_squared, LeafSeed& seed, Accept&& accept);
+
+  size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
+
+ private:
+  struct Node {
+    Vec3 seed;              // of a leaf, in its cell
+    uint32_t children = 0;  // first of eight; or
+  };
+  static constexpr uint32_t not_known = 0, is_leaf = 1;
+  /// Trees are found by cell modulo this; cells that share a slot replace each other.
+  static constexpr int slots_per_axis = 16;
+  static constexpr size_t max_nodes = size_t{1} << 17;
+  struct Slot {
+    CellIndex cell;
+    uint32_t root = 0;
+  };
+
+  uint32_t root_of(CellIndex cell);
+  /// Makes a node a leaf or gives it children.
+  uint32_t grow(uint32_t index, const GradedSeeds::Node& node);
+  LeafSeed leaf_seed(CellIndex home, uint32_t index, const GradedSeeds::Node& node) const;
+  template <class Wanted, class Found>
+  void descend(CellIndex home, uint32_t index, const GradedSeeds::Node& node, Wanted& wanted,
+               Found& found);
+
+  std::weak_ptr<const GradedSeeds> owner_;  // identifies the foam, but does not keep it alive
+  const GradedSeeds* seeds_ = nullptr;
+  std::vector<Node> nodes_;
+  std::vector<Slot> slots_;
+};
+
+/// Squared distances from q to the nearest and the farthest point of a box.
+inline double min_squared(const Box3& box, Vec3 q) {
+  const Vec3 d = max(max(box.min - q, q - box.max), Vec3{});
+  return dot(d, d);
+}
+inline double max_squared(const Box3& box, Vec3 q) {
+  const Vec3 d = max(box.max - q, q - box.min);
+  return dot(d, d);
+}
+
+template <class Wanted, class Found>
+void SeedTrees::descend(CellIndex home, uint32_t index, const GradedSeeds::Node& node,
+                        Wanted& wanted, Found& found) {
+  const Vec3 scale = seeds_->scale();
+  const Vec3 cell{double(node.cell.x - home.x), double(node.cell.y - home.y),
+                  double(node.cell.z - home.z)};
+  const double size = node.size();
+  // Rounded as the seeds are, so the seeds are inside.
+  if (!wanted(
+          Box3{(cell + node.low) * scale, (cell + (node.low + Vec3{size, size, size})) * scale}))
+    return;
+  uint32_t children = nodes_[index].children;
+  if (children == not_known) children = grow(index, node);
+  if (children == is_leaf) return found(leaf_seed(home, index, node));
+  for (uint32_t octant = 0; octant < 8; ++octant)
+    descend(home, children + octant, node.child(octant), wanted, found);
+}
+
+template <class Wanted, class Found>
+void SeedTrees::visit(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found) {
+  const Vec3 scale = seeds_->scale();
+  int first[3], last[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    first[axis] = static_cast<int>(std::floor(box.min[axis] / scale[axis]));
+    last[axis] = static_cast<int>(std::floor(box.max[axis] / scale[axis]));
+  }
+  for (int z = first[2]; z <= last[2]; ++z)
+    for (int y = first[1]; y <= last[1]; ++y)
+      for (int x = first[0]; x <= last[0]; ++x) {
+        const CellIndex cell{home.x + x, home.y + y, home.z + z};
+        descend(home, root_of(cell), {cell}, wanted, found);
+      }
+}
+
+template <class Found>
+void SeedTrees::visit_cell(CellIndex home, CellIndex cell, Found&& found) {
+  const auto all = [](const Box3&) { return true; };
+  descend(home, root_of(cell), {cell}, all, found);
+}
+
+template <class Accept>
+void SeedTrees::nearest(CellIndex home, Vec3 q, double& distance_squared, LeafSeed& seed,
+                        Accept&& accept) {
+  visit(
+      home, Box3{q, q}.grown(std::sqrt(distance_squared) + 1e-9),
+      [&](const Box3& box) { return min_squared(box, q) < distance_squared; },
+      [&](const LeafSeed& found) {
+        const Vec3 d = found.position - q;
+        if (dot(d, d) < distance_squared && accept(found)) {
+          distance_squared = dot(d, d);
+          seed = found;
+        }
+      });
+}
+
+}  // namespace msq

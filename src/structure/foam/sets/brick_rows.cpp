@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The edges come in bricks from the cell cache and go as struts to the span raster. The point query
+// decides the few samples in doubt.
+#include "structure/foam/sets/brick_rows.h"
+
+#include "structure/common/strut_rows.h"
+#include "structure/foam/sets/bricks.h"
+
+namespace msq {
+
+bool keep_brick_rows(const FoamData& foam, const RowBlock& block, const Job* job) {
+  const Neighbourhood& grid = foam.neighbourhood();
+  StrutRows rows(block, grid, foam.radius(), edge_error * foam.unit());
+  if (rows.empty()) return true;
+  const Box3 reach = grid.to_grid(rows.reach());
+  const double critical =
+      foam.graph().critical_samples(reach.grown(owner_distance(foam)), foam.max_radius());
+  if (!rows.pays(grid, critical)) return false;
+  for_each_brick(foam, reach, job, [&](const BrickPart& part) {
+    rows.add(part.brick.segments(), part.frame, part.wanted);
+  });
+  rows.finish(job, [&](Vec3 p) { return foam.inside(p); });
+  return true;
+}
+
+}  // namespace msq

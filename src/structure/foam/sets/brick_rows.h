@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of foam samples: each edge is built once and drawn as spans.
+#pragma once
+
+#include "structure/foam/foam_data.h"
+
+namespace msq {
+
+/// Structure::keep_rows for foams. Returns false and does nothing if each cell has so few samples
+/// that evaluating them costs less than the edges.
+bool keep_brick_rows(const FoamData& foam, const RowBlock& block, const Job* job);
+
+}  // namespace msq

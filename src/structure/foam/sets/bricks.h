@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bricks of edges about a box, from the cell cache.
+#pragma once
+
+#include <functional>
+
+#include "structure/foam/edges/edge_brick.h"
+#include "structure/foam/foam_data.h"
+#include "strut/segment_selection.h"
+
+namespace msq {
+
+/// Segments of a brick about a box, and where they are.
+struct BrickPart {
+  const EdgeBrick& brick;
+  SegmentFrame frame;
+  Box3 wanted;  ///< in the coordinates of the segments
+};
+
+/// An edge that touches a box has a point in it, and its owner lies within this distance of that
+/// point (model units).
+double owner_distance(const FoamData& foam);
+
+/// Calls visit(part) for each brick that may have edges that touch a box (grid coordinates).
+void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
+                    const std::function<void(const BrickPart&)>& visit);
+
+/// Structure::for_each_strut for foams of constant radius.
+void for_each_foam_strut(const FoamData& foam, const Box3& box, const Structure::TakeStrut& take,
+                         const Job* job);
+
+}  // namespace msq

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Voronoi cells of the seeds of a brick of neighbourhood cells, by their faces.
+#pragma once
+
+#include <vector>
+
+#include "cell/cache.h"
+#include "structure/foam/seeds/seeds.h"
+
+namespace msq {
+
+/// Foam units.
+class FaceBrick final : public CellData {
+ public:
+  /// Cells along each axis; bricks begin `lead` before multiples of that, as those of edges do
+  /// (edges/edge_brick.h).
+  static constexpr int side = 8, lead = 2;
+
+  struct Face {
+    float normal[3];  // outward, of length 1
+    float distance;   // of its plane from the seed
+  };
+  struct Cell {
+    Vec3 seed;              // from the corner of the brick
+    float low[3], high[3];  // about the cell, from the seed
+    uint32_t first, count;  // of its faces
+  };
+  /// By how much coordinates of the boxes about cells exceed those of their vertices, at least.
+  static constexpr double box_slack = 1e-6;
+
+  /// The brick whose first cell is `corner`.
+  FaceBrick(const FoamSeeds& seeds, CellIndex corner);
+
+  /// Each is bounded by its faces; there may be planes among them that only touch it.
+  const std::vector<Cell>& cells() const { return cells_; }
+  const Face* faces(const Cell& cell) const { return faces_.data() + cell.first; }
+  uint64_t bytes() const override {
+    return sizeof *this + cells_.capacity() * sizeof(Cell) + faces_.capacity() * sizeof(Face);
+  }
+
+ private:
+  std::vector<Cell> cells_;
+  std::vector<Face> faces_;
+};
+
+}  // namespace msq

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/walls/foam_walls.h"
+
+#include <algorithm>
+
+#include "structure/common/group_by_cell.h"
+#include "structure/common/strut_distance_bound.h"
+#include "structure/foam/section/section_lines.h"
+#include "structure/foam/walls/void_rows.h"
+#include "structure/foam/walls/wall_ray.h"
+
+namespace msq {
+
+namespace {
+
+NearSeeds make_seeds(const Neighbourhood& grid, double unit, double jitter, uint64_t seed,
+                     Parameter density) {
+  const FoamSeeds cells(seed, jitter, grid.cell_size * (1 / unit));
+  if (!(density.range().high > 1)) return NearSeeds(cells, nullptr);
+  return NearSeeds(cells, std::make_shared<const GradedSeeds>(cells, grid, std::move(density)));
+}
+
+}  // namespace
+
+FoamWalls::FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
+                     double jitter, uint64_t seed, Parameter density)
+    : Structure(neighbourhood),
+      context_(std::move(context)),
+      id_(context_->new_structure_id()),
+      thickness_(std::move(thickness)),
+      unit_(max_component(neighbourhood.cell_size)),
+      seeds_(make_seeds(neighbourhood, unit_, jitter, seed, density)),
+      is_concurrent_(thickness_.is_concurrent() && density.is_concurrent()) {}
+
+FoamWalls::~FoamWalls() {
+  context_->cache.drop(id_);
+}
+
+bool FoamWalls::inside(const Neighbourhood::Located& located, Vec3 p) const {
+  const Vec3 q = located.fraction * seeds_.seeds().scale();
+  return is_in_wall(seeds_, located.cell, q, thickness_.at(p) / unit_);
+}
+
+bool FoamWalls::inside(Vec3 p) const {
+  return inside(neighbourhood().locate(p), p);
+}
+
+NearFace FoamWalls::face_near(Vec3 p) const {
+  const Neighbourhood::Located located = neighbourhood().locate(p);
+  return find_nearest_face(seeds_, located.cell, located.fraction * seeds_.seeds().scale());
+}
+
+double FoamWalls::onset(Vec3 p) const {
+  return unit_ * face_near(p).onset;
+}
+
+double FoamWalls::slack(Vec3 p, double distance) const {
+  // Where cells are cubes, differences of seeds are exact. Otherwise seeds are rounded by 2^-53,
+  // and the normal of a face by that over their distance: room for seeds down to 1e-6 of a cell
+  // from each other.
+  const Vec3 scale = seeds_.seeds().scale();
+  const double of_faces = scale == Vec3{1, 1, 1} ? 0x1p-47 : 1e-9;
+  return of_faces * unit_ + locating_slack(p - neighbourhood().origin, distance);
+}
+
+// The distance to the nearest face changes by no more than a step, and half the thickness by no
+// more than half its Lipschitz constant times that. In the void of a cell, the face's wall is as
+// near as the face less half the thickness, as cells are convex.
+double FoamWalls::distance_bound(Vec3 p) const {
+  const double distance = 0.5 * onset(p);
+  const Interval t = thickness_.range(Box3{p, p});
+  const double gap = std::max(distance - 0.5 * t.high, 0.5 * t.low - distance) - slack(p, distance);
+  return std::max(0.0, gap / (1 + 0.5 * thickness_.lipschitz()));
+}
+
+void FoamWalls::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  // Cell by cell, since the point query keeps the seeds about the last point's cell.
+  size_t asked = 0;
+  for (const LocatedPoint& point : group_by_cell(neighbourhood(), points, alive, count)) {
+    if (asked++ % 16 == 0) check_cancelled();
+    if (!inside(point.located, points[point.index])) alive[point.index] = 0;
+  }
+}
+
+void FoamWalls::keep_rows(const RowBlock& block, const Job* job) const {
+  if (!keep_void_rows(*this, block, job)) Structure::keep_rows(block, job);
+}
+
+BoxClass FoamWalls::classify(const Box3& box) const {
+  const Vec3 centre = (box.min + box.max) * 0.5;
+  const double distance = 0.5 * onset(centre);
+  const double half = 0.5 * length(box.extent());
+  const double around = half * (1 + 1e-9) + 2 * slack(centre, distance + half) +
+                        0x1p-50 * (max_magnitude(box.min) + max_magnitude(box.max));
+  const Interval t = thickness_.range(box);
+  if (distance - around > 0.5 * t.high) return BoxClass::outside;
+  if (distance + around < 0.5 * t.low) return BoxClass::inside;
+  return BoxClass::mixed;
+}
+
+double FoamWalls::min_ray_step() const {
+  return thickness_.lipschitz() < std::numeric_limits<double>::infinity()
+             ? ray_tolerance()
+             : Structure::min_ray_step();
+}
+
+void FoamWalls::enter(RaySearch* searches, size_t count, const Job* job) const {
+  JobPoll poll(job);
+  for (size_t i = 0; i < count; ++i) {
+    poll();
+    enter(searches[i], job);
+  }
+}
+
+void FoamWalls::enter(RaySearch& search, const Job* job) const {
+  const Ray& ray = search.ray;
+  const double tolerance = ray_tolerance(ray, search.to);
+  // Where coordinates are so large that rounding is, membership alone knows.
+  if (!thickness_.is_constant() || !(tolerance <= 0x1p-23 * unit_))
+    return Structure::enter(&search, 1, job);
+  const auto is_inside = [this](Vec3 p) { return inside(p); };
+  search.found = false;
+  if (inside(ray.at(search.from))) {
+    search.found = true;
+    search.t = search.from;
+    return;
+  }
+  const WallRay wall{seeds_, neighbourhood(), unit_, thickness_.at({}) / unit_};
+  double from = search.from;
+  // A ray that all but slides along a wall may come out of rounding's reach only after some tries.
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    double t = from;
+    const WallRay::Way way = wall.find(ray, from, search.to, tolerance, t);
+    if (way == WallRay::Way::passes) return;
+    if (way == WallRay::Way::unknown) break;
+    if (settle_entry(ray, search.from, tolerance, is_inside, t)) {
+      search.found = true;
+      search.t = t;
+      return;
+    }
+    from = t + tolerance;
+    if (from >= search.to) return;
+  }
+  RaySearch rest = search;
+  rest.from = from;
+  Structure::enter(&rest, 1, job);
+  search.found = rest.found;
+  search.t = rest.t;
+}
+
+Vec3 FoamWalls::normal(const Ray& ray, double t) const {
+  const Vec3 p = ray.at(t);
+  const NearFace face = face_near(p);
+  const double apart = length(face.across);
+  if (face.onset > 0 && apart > 0) {
+    // Against the direction in which the onset less the thickness falls.
+    const Vec3 outward = neighbourhood().rotation.apply(face.across) * (-2 / apart) -
+                         thickness_.gradient(p, normal_distance());
+    const double size = length(outward);
+    if (size > 0.5 && dot(outward, ray.direction) <= 0) return outward * (1 / size);
+  }
+  return Structure::normal(ray, t);
+}
+
+LineGraph FoamWalls::wall_lines(const WallSection& section) const {
+  return foam_section({*context_, neighbourhood(), seeds_.seeds(), seeds_.graded(), unit_},
+                      section);
+}
+
+}  // namespace msq

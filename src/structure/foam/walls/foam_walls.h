@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The walls of a closed-cell Voronoi foam: the points that are within half a thickness of a face of
+// the Voronoi diagram of all seeds. Onset of a point: twice its distance to the nearest face.
+#pragma once
+
+#include "cell/context.h"
+#include "field/field.h"
+#include "structure/foam/walls/near_seeds.h"
+#include "structure/foam/walls/wall_point.h"
+#include "structure/structure.h"
+
+namespace msq {
+
+class FoamWalls final : public Structure {
+ public:
+  /// `density`: as in GradedSeeds.
+  FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
+            double jitter, uint64_t seed, Parameter density = Parameter(1));
+  ~FoamWalls() override;
+
+  bool inside(Vec3 p) const override;
+  bool is_concurrent() const override { return is_concurrent_; }
+  /// Exact in the voids where the thickness is constant.
+  double distance_bound(Vec3 p) const override;
+  bool has_onset() const override { return true; }
+  double onset(Vec3 p) const override;
+  double parameter(Vec3 p) const override { return thickness_.at(p); }
+  double onset_limit() const override { return min_component(neighbourhood().cell_size); }
+  void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  bool gains_by_groups() const override { return true; }
+  bool gains_by_layers() const override { return true; }
+  void keep_rows(const RowBlock& block, const Job* job) const override;
+  bool knows_boxes() const override { return true; }
+  BoxClass classify(const Box3& box) const override;
+  double min_ray_step() const override;
+
+  void enter(RaySearch* searches, size_t count, const Job* job) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
+
+  ThinWalls thin_walls() const override {
+    return seeds_.graded() ? ThinWalls::varying : ThinWalls::uniform;
+  }
+  LineGraph wall_lines(const WallSection& section) const override;
+
+  const NearSeeds& seeds() const { return seeds_; }
+  const Parameter& thickness() const { return thickness_; }
+  /// Length of a foam unit in model units.
+  double unit() const { return unit_; }
+  Context& context() const { return *context_; }
+  /// Of the faces of cells in the cache.
+  uint64_t id() const { return id_; }
+
+ private:
+  bool inside(const Neighbourhood::Located& located, Vec3 p) const;
+  NearFace face_near(Vec3 p) const;
+  /// By how much distances may be off, in model units.
+  double slack(Vec3 p, double distance) const;
+  void enter(RaySearch& search, const Job* job) const;
+
+  const Ref<Context> context_;
+  const uint64_t id_;
+  const Parameter thickness_;
+  const double unit_;
+  const NearSeeds seeds_;
+  const bool is_concurrent_;
+};
+
+}  // namespace msq

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/walls/void_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/borrowed.h"
+#include "base/simd.h"
+#include "structure/foam/walls/face_brick.h"
+#include "structure/foam/walls/void_spans.h"
+
+namespace msq {
+
+namespace {
+
+/// Samples of a cell from which on its faces cost less than asking them (docs/benchmarks.md).
+constexpr double critical_samples = 24;
+/// Fields that grow faster tilt planes too far for the margin; they are bounded instead.
+constexpr double max_gradient = 0.25;
+
+struct Workspace {
+  std::vector<VoidPlane> planes;
+  std::vector<DoubtfulSamples> doubts;
+  std::vector<double> y, z;
+  std::vector<float> near_y, near_z;
+
+  size_t bytes() const { return doubts.capacity() * sizeof(DoubtfulSamples); }
+};
+
+class BlockVoids {
+ public:
+  BlockVoids(const FoamWalls& walls, const RowBlock& block, Workspace& work)
+      : walls_(walls), grid_(walls.neighbourhood()), unit_(walls.unit()), block_(block), w_(work) {
+    find_alive();
+  }
+
+  bool is_empty() const { return j0_ >= j1_; }
+  /// Of the samples that are alive.
+  const Box3& box() const { return box_; }
+  bool pays() const {
+    const Vec3 spread = grid_.to_grid(box_).extent();
+    double cells = 1;
+    for (int axis = 0; axis < 3; ++axis) cells *= 1 + spread[axis] / grid_.cell_size[axis];
+    return samples_ > critical_samples * cells && margin_ < 1e-4 &&
+           unit_ < max_per_unit * block_.grid->spacing.x && block_.grid->spacing.x < unit_;
+  }
+
+  void take(const FaceBrick& brick, CellIndex corner) {
+    const Vec3 origin =
+        Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid_.cell_size;
+    for (const FaceBrick::Cell& cell : brick.cells()) clear(brick, cell, origin);
+  }
+
+  void decide(const Job* job) {
+    size_t asked = 0;
+    for (const DoubtfulSamples& run : w_.doubts) {
+      uint64_t* const row = block_.row(block_.y0 + run.row, block_.z0 + run.layer);
+      for (uint64_t i = run.first; i < run.first + run.count; ++i) {
+        uint64_t& word = row[i / bits_per_word];
+        const uint64_t bit = uint64_t{1} << (i % bits_per_word);
+        if (!(word & bit)) continue;
+        if (asked++ % 256 == 0) check_cancelled(job);
+        if (!walls_.inside(block_.grid->at(i, block_.y0 + run.row, block_.z0 + run.layer)))
+          word &= ~bit;
+      }
+    }
+    w_.doubts.clear();
+  }
+  bool has_many_doubts() const { return w_.doubts.size() > size_t{1} << 16; }
+
+ private:
+  void find_alive() {
+    const SampleGrid& samples = *block_.grid;
+    const size_t words = block_.row_words();
+    size_t w0 = words, w1 = 0;
+    j0_ = block_.y1;
+    j1_ = block_.y0;
+    k0_ = block_.z1;
+    k1_ = block_.z0;
+    for (uint64_t k = block_.z0; k < block_.z1; ++k)
+      for (uint64_t j = block_.y0; j < block_.y1; ++j) {
+        const uint64_t* row = block_.row(j, k);
+        size_t first = 0, last = words;
+        while (first < words && !row[first]) ++first;
+        if (first == words) continue;
+        while (!row[last - 1]) --last;
+        w0 = std::min(w0, first);
+        w1 = std::max(w1, last);
+        j0_ = std::min(j0_, j);
+        j1_ = std::max(j1_, j + 1);
+        k0_ = std::min(k0_, k);
+        k1_ = std::max(k1_, k + 1);
+      }
+    if (is_empty()) return;
+    const uint64_t i0 = w0 * bits_per_word,
+                   i1 = std::min<uint64_t>(samples.nx, w1 * bits_per_word) - 1;
+    box_ = {samples.at(i0, j0_, k0_), samples.at(i1, j1_ - 1, k1_ - 1)};
+    samples_ = double(i1 - i0 + 1) * double(j1_ - j0_) * double(k1_ - k0_);
+    // Positions of samples and seeds carry a few units of 2^-53 of the largest magnitude.
+    const double most = max_magnitude(box_.min) + max_magnitude(box_.max) +
+                        max_magnitude(grid_.origin) + samples.magnitude();
+    margin_ = void_margin + 0x1p-40 * most / unit_;
+    w_.y.clear();
+    w_.z.clear();
+    for (uint64_t j = j0_; j < j1_; ++j) w_.y.push_back(samples.y(j));
+    for (uint64_t k = k0_; k < k1_; ++k) w_.z.push_back(samples.z(k));
+    w_.doubts.clear();
+  }
+
+  /// `origin`: of the brick, in grid coordinates.
+  void clear(const FaceBrick& brick, const FaceBrick::Cell& cell, Vec3 origin) {
+    const Vec3 seed = grid_.from_grid(origin + cell.seed * unit_);
+    Box3 around{{cell.low[0], cell.low[1], cell.low[2]},
+                {cell.high[0], cell.high[1], cell.high[2]}};
+    around = turned(around);
+    Box3 reach{seed + around.min * unit_, seed + around.max * unit_};
+    if (!reach.overlaps(box_)) return;
+
+    // The thickness: at_seed + gradient . x, off by `off` at most.
+    const Parameter& thickness = walls_.thickness();
+    const Box3 whole = reach.grown(1e-3 * unit_);
+    const Interval range = thickness.range(whole);
+    double at_seed = range.high / unit_, off = 0;
+    Vec3 gradient;
+    if (!thickness.is_constant()) {
+      if (thickness.is_linear(whole, gradient) && max_magnitude(gradient) <= max_gradient) {
+        at_seed = thickness.at(seed) / unit_;
+        off = 1e-9 * range.high / unit_;
+      } else {
+        gradient = {};
+        at_seed = 0.5 * (range.low + range.high) / unit_;
+        off = 0.5 * (range.high - range.low) / unit_ * (1 + 1e-9) + 1e-9 * range.high / unit_;
+      }
+    }
+    // A ball of half the thickness about a point of the void lies in the cell.
+    const double inwards = 0.5 * range.low / unit_ - margin_;
+    around = around.grown(-inwards);
+    if (!(around.min.x < around.max.x && around.min.y < around.max.y &&
+          around.min.z < around.max.z))
+      return;
+    reach = {seed + around.min * unit_, seed + around.max * unit_};
+    const auto part = [](const std::vector<double>& v, double low, double high, size_t& first) {
+      const auto begin = std::lower_bound(v.begin(), v.end(), low),
+                 end = std::upper_bound(begin, v.end(), high);
+      first = static_cast<size_t>(begin - v.begin());
+      return static_cast<size_t>(end - begin);
+    };
+    size_t row, layer;
+    const size_t rows = part(w_.y, reach.min.y, reach.max.y, row),
+                 layers = part(w_.z, reach.min.z, reach.max.z, layer);
+    if (rows == 0 || layers == 0) return;
+
+    w_.planes.clear();
+    const FaceBrick::Face* faces = brick.faces(cell);
+    const float plane_margin = static_cast<float>((margin_ + 0.5 * off) * (1 + 1e-6));
+    for (uint32_t i = 0; i < cell.count; ++i) {
+      const FaceBrick::Face& face = faces[i];
+      const Vec3 n =
+          grid_.rotation.apply({face.normal[0], face.normal[1], face.normal[2]}) + gradient * 0.5;
+      w_.planes.push_back(
+          {{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
+           static_cast<float>(face.distance - 0.5 * at_seed),
+           plane_margin});
+    }
+    const size_t room = 2 * max_simd_doubles;
+    w_.near_y.assign(rows + room, 0);
+    w_.near_z.resize(layers);
+    const double per_unit = 1 / unit_;
+    for (size_t j = 0; j < rows; ++j)
+      w_.near_y[j] = static_cast<float>((w_.y[row + j] - seed.y) * per_unit);
+    for (size_t k = 0; k < layers; ++k)
+      w_.near_z[k] = static_cast<float>((w_.z[layer + k] - seed.z) * per_unit);
+    const SampleGrid& samples = *block_.grid;
+    const double place = (seed.x - samples.x(0)) / samples.spacing.x, base = std::floor(place);
+    if (!(std::abs(base) < 0x1p52)) return;  // no sample is near
+    const uint64_t j = j0_ + row, k = k0_ + layer;
+    const VoidRows target{w_.near_y.data(),
+                          w_.near_z.data(),
+                          rows,
+                          layers,
+                          static_cast<uint32_t>(j - block_.y0),
+                          static_cast<uint32_t>(k - block_.z0),
+                          block_.row(j, k),
+                          block_.row_stride,
+                          block_.layer_stride,
+                          static_cast<float>(unit_ / samples.spacing.x),
+                          static_cast<float>(place - base),
+                          static_cast<int64_t>(base),
+                          static_cast<int64_t>(samples.nx) - 1};
+    clear_void(w_.planes, target, w_.doubts);
+  }
+
+  /// About a box that is given along the grid's axes, along those of the samples.
+  Box3 turned(const Box3& box) const {
+    const Vec3 centre = grid_.rotation.apply((box.min + box.max) * 0.5);
+    const Vec3 half = box.extent() * 0.5;
+    const auto& m = grid_.rotation.m;
+    const auto along = [&](size_t row) {
+      return std::abs(m[3 * row]) * half.x + std::abs(m[3 * row + 1]) * half.y +
+             std::abs(m[3 * row + 2]) * half.z;
+    };
+    const Vec3 h = Vec3{along(0), along(1), along(2)} * (1 + 1e-12);
+    return {centre - h, centre + h};
+  }
+
+  const FoamWalls& walls_;
+  const Neighbourhood& grid_;
+  const double unit_;
+  const RowBlock& block_;
+  Workspace& w_;
+  uint64_t j0_ = 0, j1_ = 0, k0_ = 0, k1_ = 0;
+  Box3 box_;
+  double samples_ = 0;
+  double margin_ = 0;  // foam units
+};
+
+}  // namespace
+
+bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* job) {
+  if (walls.seeds().graded()) return false;
+  const Borrowed<Workspace> workspace;
+  BlockVoids voids(walls, block, *workspace);
+  if (voids.is_empty()) return true;
+  if (!voids.pays()) return false;
+  const Neighbourhood& grid = walls.neighbourhood();
+  const FoamSeeds& seeds = walls.seeds().seeds();
+  // A cell that touches the box has a point in it, and its seed within the empty radius of that.
+  const double around = seeds.empty_radius() * walls.unit() * (1 + 1e-9);
+  const Box3 reach = grid.to_grid(voids.box()).grown(around);
+  constexpr int side = FaceBrick::side, lead = FaceBrick::lead;
+  int64_t first[3], last[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto brick = [&](double g) {
+      return static_cast<int64_t>(std::floor((g / grid.cell_size[axis] + lead) / side));
+    };
+    first[axis] = brick(reach.min[axis]);
+    last[axis] = brick(reach.max[axis]);
+  }
+  for (int64_t k = first[2]; k <= last[2]; ++k)
+    for (int64_t j = first[1]; j <= last[1]; ++j)
+      for (int64_t i = first[0]; i <= last[0]; ++i) {
+        check_cancelled(job);
+        const CellIndex corner{static_cast<int32_t>(i * side - lead),
+                               static_cast<int32_t>(j * side - lead),
+                               static_cast<int32_t>(k * side - lead)};
+        const auto brick = walls.context().cache.fetch(
+            walls.id(), corner, [&] { return std::make_shared<const FaceBrick>(seeds, corner); });
+        voids.take(static_cast<const FaceBrick&>(*brick), corner);
+        if (voids.has_many_doubts()) voids.decide(job);
+      }
+  voids.decide(job);
+  return true;
+}
+
+}  // namespace msq

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The struts that can contain points of each part of a cell, for a lattice whose cells are all
+// equal.
+#pragma once
+
+#include "structure/lattice/rays/strut_rays.h"
+
+namespace msq {
+
+/// The lists.
+class CellParts {
+ public:
+  /// near: the struts that can contain points of a cell, from its corner; `most`: the maximum
+  /// radius.
+  CellParts(const std::vector<LatticeStrut>& near, Vec3 cell_size, double most);
+
+ private:
+  friend class PartLists;
+
+  int parts_ = 1;
+  CapsuleList struts_;                 // part by part
+  std::vector<StrutLists::Run> runs_;  // of each
+};
+
+/// The same for every cell.
+class PartLists final : public StrutLists {
+ public:
+  explicit PartLists(const CellParts& parts) : parts_(parts) {}
+
+  const CapsuleList& struts() const override { return parts_.struts_; }
+  int parts() const override { return parts_.parts_; }
+  void find(CellIndex, const int (&part)[3], std::vector<Run>& runs) override {
+    const int n = parts_.parts_;
+    runs.push_back(parts_.runs_[static_cast<size_t>((part[2] * n + part[1]) * n + part[0])]);
+  }
+
+ private:
+  const CellParts& parts_;
+};
+
+}  // namespace msq

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every position in the cell depends on one coordinate of the sample, to the last bit, and equals
+// that of the predicate. Rows are first drawn into separate words, which then restrict the block's
+// words.
+#include "structure/lattice/rows/lattice_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "base/simd.h"
+
+namespace msq {
+
+namespace {
+
+/// Rows of a layer that share bounds of a radius that is not linear.
+constexpr uint64_t bounded_rows = 16;
+
+}  // namespace
+
+LatticeRows::LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& axis,
+                         const RowStruts& struts, const Parameter& radius, const RowBlock& block)
+    : cells_(grid),
+      axis_(axis),
+      struts_(struts),
+      radius_(radius),
+      block_(block),
+      grid_(*block.grid),
+      same_(0x1p-40 * struts.extent),
+      margin_(4 * same_),
+      level_margin_(0x1p-24 * struts.extent) {
+  if (!find_alive()) return;
+  const Box3 box{grid_.at(i0_, j0_, k0_), grid_.at(i1_ - 1, j1_ - 1, k1_ - 1)};
+  is_linear_ = radius.is_linear(box, gradient_);
+  if (!is_linear_) return;
+  // The field departs from a linear one, at the sample and at its starting point, and positions are
+  // rounded.
+  const Interval range = radius.range();
+  const double positions = max_magnitude(box.min) + max_magnitude(box.max) + grid_.magnitude();
+  const double slopes = std::abs(gradient_.x) + std::abs(gradient_.y) + std::abs(gradient_.z);
+  double max_factor = 0;
+  for (const RowStrut& s : struts.struts) max_factor = std::max(max_factor, s.factor);
+  const double departure = 0x1p-38 * (range.high - range.low) + 0x1p-48 * slopes * positions;
+  margin_ += max_factor * departure;
+  level_margin_ += max_factor * departure;
+}
+
+bool LatticeRows::find_alive() {
+  const size_t words = block_.row_words();
+  size_t w0 = words, w1 = 0;
+  j0_ = block_.y1;
+  k0_ = block_.z1;
+  for (uint64_t k = block_.z0; k < block_.z1; ++k)
+    for (uint64_t j = block_.y0; j < block_.y1; ++j) {
+      const uint64_t* row = block_.row(j, k);
+      size_t first = 0;
+      while (first < words && !row[first]) ++first;
+      if (first == words) continue;
+      w0 = std::min(w0, first);
+      for (size_t w = words; w > std::max(w1, first); --w)
+        if (row[w - 1]) w1 = w;
+      j0_ = std::min(j0_, j);
+      j1_ = std::max(j1_, j + 1);
+      k0_ = std::min(k0_, k);
+      k1_ = std::max(k1_, k + 1);
+    }
+  if (w0 >= w1) return false;
+  uint64_t head = 0, tail = 0;
+  for (uint64_t k = k0_; k < k1_; ++k)
+    for (uint64_t j = j0_; j < j1_; ++j) {
+      head |= block_.row(j, k)[w0];
+      tail |= block_.row(j, k)[w1 - 1];
+    }
+  i0_ = w0 * bits_per_word + static_cast<unsigned>(std::countr_zero(head));
+  i1_ = w1 * bits_per_word - static_cast<unsigned>(std::countl_zero(tail));
+  return true;
+}
+
+std::vector<double> LatticeRows::positions(int axis, uint64_t first, uint64_t end) const {
+  std::vector<double> out;
+  out.reserve(end - first + max_simd_doubles);
+  const int along = axis_[static_cast<size_t>(axis)];
+  Vec3 p = grid_.at(i0_, j0_, k0_);
+  for (uint64_t i = first; i < end; ++i) {
+    p[axis] = axis == 0 ? grid_.x(i) : axis == 1 ? grid_.y(i) : grid_.z(i);
+    out.push_back(cells_.locate(p).fraction[along]);
+  }
+  return out;
+}
+
+void LatticeRows::keep(const Job* job, const std::function<bool(Vec3)>& inside) {
+  if (i0_ >= i1_) return;
+  const uint64_t first = i0_ / bits_per_word / ColumnSets::part_words * ColumnSets::part_words;
+  for (uint64_t w = first; w * bits_per_word < i1_; w += window_words) keep_window(w, job, inside);
+}
+
+/// Rows or layers [begin, end) in the order of their positions in the cell; positions within `same`
+/// of each other are one class.
+LatticeRows::Classes LatticeRows::classes(int axis, uint64_t begin, uint64_t end,
+                                          double same) const {
+  const std::vector<double> fractions = positions(axis, begin, end);
+  Classes made;
+  made.members.resize(fractions.size());
+  std::iota(made.members.begin(), made.members.end(), begin);
+  const auto position = [&](uint64_t i) {
+    return fractions[i - begin] * struts_.cell_size[static_cast<size_t>(axis)];
+  };
+  std::sort(made.members.begin(), made.members.end(), [&](uint64_t i, uint64_t j) {
+    return position(i) != position(j) ? position(i) < position(j) : i < j;
+  });
+  for (size_t n = 0; n < made.members.size(); ++n) {
+    const double at = position(made.members[n]);
+    if (n > 0 && at - made.positions.back() <= same) continue;
+    made.first.push_back(n);
+    made.positions.push_back(at);
+  }
+  made.first.push_back(made.members.size());
+  made.positions.resize(made.count() + max_simd_doubles, 0);
+  return made;
+}
+
+void LatticeRows::keep_window(size_t first_word, const Job* job,
+                              const std::function<bool(Vec3)>& inside) {
+  const uint64_t base = first_word * bits_per_word;
+  const uint64_t begin = std::max(i0_, base);
+  const uint64_t end = std::min(i1_, base + window_words * bits_per_word);
+  std::vector<double> x = positions(0, begin, end), sample_x;
+  x.insert(x.begin(), begin - base, 0);
+  const ColumnSets columns(x.data(), begin - base, end - base);
+  for (double& position : x) position *= struts_.cell_size[0];
+  for (uint64_t i = base; i < end; ++i) sample_x.push_back(grid_.x(i));
+  const Window window{first_word,      base,   begin, end, words_for(end) - first_word, x.data(),
+                      sample_x.data(), columns};
+  const uint64_t max_rows = radius_.is_constant() || is_linear_ ? j1_ - j0_ : bounded_rows;
+  for (uint64_t j = j0_; j < j1_; j += max_rows)
+    keep_rows(window, j, std::min(j1_, j + max_rows), job, inside);
+}
+
+void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, const Job* job,
+                            const std::function<bool(Vec3)>& inside) {
+  // If the radius is constant, rows at the same position in the cell are equal.
+  const double same = radius_.is_constant() ? same_ : -1;
+  const Classes rows = classes(1, begin, end, same), layers = classes(2, k0_, k1_, same);
+  std::vector<double> sample_y;
+  for (const uint64_t j : rows.members) sample_y.push_back(grid_.y(j));
+  RowTask task;
+  task.struts = &struts_;
+  task.columns = &window.columns;
+  task.x = window.positions;
+  task.y = rows.positions.data();
+  task.rows = rows.count();
+  task.words = window.words;
+  task.sample_x = window.sample_x;
+  task.sample_y = sample_y.data();  // of each row, if they are evaluated one by one
+  task.margin = margin_;
+  const size_t padded = task.row_words();
+  std::vector<uint64_t> drawn(rows.count() * padded), all(padded);
+  set_bits(all.data(), window.begin - window.base, window.end - 1 - window.base);
+  task.inside = drawn.data();
+  std::vector<const uint64_t*> alive(rows.count());
+  task.alive = alive.data();
+  std::vector<LeftSample> left;
+  std::vector<Bit> restored;
+
+  for (size_t layer = 0; layer < layers.count(); ++layer) {
+    check_cancelled(job);
+    const uint64_t k0 = layers.members[layers.first[layer]];
+    task.z = layers.positions[layer];
+    task.sample_z = grid_.z(k0);
+    // Calls visit(class, words) for each row.
+    const auto for_each_row = [&](auto&& visit) {
+      for (size_t n = layers.first[layer]; n < layers.first[layer + 1]; ++n)
+        for (size_t row = 0; row < rows.count(); ++row)
+          for (size_t m = rows.first[row]; m < rows.first[row + 1]; ++m)
+            visit(row, block_.row(rows.members[m], layers.members[n]) + window.first_word);
+    };
+    std::fill(alive.begin(), alive.end(), nullptr);
+    bool is_any = false;
+    for_each_row([&](size_t row, const uint64_t* words) {
+      for (size_t w = 0; w < window.words; ++w) {
+        if (!words[w]) continue;
+        alive[row] = alive[row] ? all.data() : words;
+        is_any = true;
+        return;
+      }
+    });
+    if (!is_any) continue;
+    set_levels(task, window, rows, k0);
+    std::fill(drawn.begin(), drawn.end(), 0);
+    mark_inside(task, left);
+
+    for (const LeftSample& sample : left) {
+      const size_t w = sample.column / bits_per_word;
+      const uint64_t bit = uint64_t{1} << (sample.column % bits_per_word);
+      if (drawn[sample.row * padded + w] & bit) continue;
+      for (size_t n = layers.first[layer]; n < layers.first[layer + 1]; ++n)
+        for (size_t m = rows.first[sample.row]; m < rows.first[sample.row + 1]; ++m) {
+          const uint64_t j = rows.members[m], k = layers.members[n];
+          uint64_t& word = block_.row(j, k)[window.first_word + w];
+          if (!(word & bit)) continue;
+          if (inside(grid_.at(window.base + sample.column, j, k))) restored.push_back({&word, bit});
+        }
+      if (++asked_ % 256 == 0) check_cancelled(job);
+    }
+    left.clear();
+    for_each_row([&](size_t row, uint64_t* words) {
+      const uint64_t* const restricted = drawn.data() + row * padded;
+      for (size_t w = 0; w < window.words; ++w) words[w] &= restricted[w];
+    });
+    for (const Bit& bit : restored) *bit.word |= bit.mask;
+    restored.clear();
+  }
+}
+
+/// Words of a section of a row of that many columns along which the radius changes by `change`. A
+/// section costs about three times as much as a doubtful sample. The number of doubtful samples is
+/// about three times the columns times the change, in cells, by which a section's ends move.
+size_t LatticeRows::section_words(double columns, double change) const {
+  const double best = std::sqrt(columns * change / struts_.cell_size[0]);
+  size_t words = ColumnSets::part_words;
+  while (words > RowTask::min_section_words &&
+         columns < best * 0.7 * static_cast<double>(words * bits_per_word))
+    words /= 2;
+  return words;
+}
+
+void LatticeRows::set_whole_rows(RowTask& task, Interval radii, double margin) const {
+  task.levels = {{radii.high, margin}, {radii.low, -margin}};
+  std::fill_n(task.outer, RowTask::max_sections, 0);
+  std::fill_n(task.inner, RowTask::max_sections, 1);
+  task.widest = 0;
+  task.section_words = ColumnSets::part_words;
+}
+
+void LatticeRows::set_levels(RowTask& task, const Window& window, const Classes& rows, uint64_t k) {
+  task.field = nullptr;
+  task.of_row = nullptr;
+  task.radius = task.slope = 0;
+  if (radius_.is_constant()) {
+    task.radius = radius_.range().high;
+    return set_whole_rows(task, radius_.range(), level_margin_);
+  }
+  if (is_linear_) return set_linear(task, window, rows, k);
+  task.field = &radius_;
+  task.section_words = ColumnSets::part_words;
+  task.levels.clear();
+  task.widest = 0;
+  const auto [low, high] = std::minmax_element(rows.members.begin(), rows.members.end());
+  for (size_t section = 0; section < task.sections(); ++section) {
+    constexpr uint64_t columns = ColumnSets::part_words * bits_per_word;
+    const uint64_t first = window.base + section * columns;
+    const uint64_t from = std::min(std::max(window.begin, first), window.end - 1);
+    const uint64_t to = std::max(from, std::min(window.end, first + columns) - 1);
+    const Interval range = radius_.range({grid_.at(from, *low, k), grid_.at(to, *high, k)});
+    task.outer[section] = task.levels.size();
+    task.levels.push_back({range.high, level_margin_});
+    task.inner[section] = task.levels.size();
+    task.levels.push_back({range.low, -level_margin_});
+    if (range.high > task.levels[task.widest].radius) task.widest = task.outer[section];
+  }
+}
+
+void LatticeRows::set_linear(RowTask& task, const Window& window, const Classes& rows, uint64_t k) {
+  // The field is evaluated where it is known to be linear.
+  const Vec3 from = grid_.at(window.begin, rows.members[0], k);
+  task.slope = gradient_.x * grid_.spacing.x;
+  task.radius = radius_.at(from) - task.slope * static_cast<double>(window.begin - window.base);
+  of_row_.assign(task.rows + max_simd_doubles, 0);
+  for (size_t row = 0; row < task.rows; ++row)
+    of_row_[row] = gradient_.y * (grid_.y(rows.members[row]) - from.y);
+  task.of_row = of_row_.data();
+  const auto radius_at = [&](double column) { return task.radius + task.slope * column; };
+  const auto columns = static_cast<double>(window.end - window.base);
+  // Between the columns of two sections, the radius differs from that at either by half its change
+  // per column. If that exceeds the margin, one level serves both.
+  double min_factor = struts_.struts[0].factor;
+  for (const RowStrut& s : struts_.struts) min_factor = std::min(min_factor, s.factor);
+  if (0.5 * std::abs(task.slope) * min_factor < level_margin_) {
+    const double a = radius_at(-0.5), b = radius_at(columns - 0.5);
+    return set_whole_rows(task, {std::min(a, b), std::max(a, b)}, level_margin_);
+  }
+  task.section_words = section_words(columns, columns * std::abs(task.slope));
+  task.levels.clear();
+  for (size_t section = 0; section <= task.sections(); ++section) {
+    const auto column = static_cast<double>(section * task.section_words * bits_per_word);
+    task.levels.push_back({radius_at(std::min(column, columns) - 0.5), 0});
+  }
+  const size_t rises = task.slope > 0;
+  for (size_t section = 0; section < task.sections(); ++section) {
+    task.outer[section] = section + rises;
+    task.inner[section] = section + 1 - rises;
+  }
+  task.widest = rises ? task.sections() : 0;
+}
+
+}  // namespace msq

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of samples that run along an axis of a strut lattice's grid.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/job.h"
+#include "base/sample_grid.h"
+#include "cell/neighbourhood.h"
+#include "structure/lattice/rows/row_kernel.h"
+
+namespace msq {
+
+class LatticeRows {
+ public:
+  /// axis[i]: the axis of the grid parallel to axis i of the samples.
+  LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& axis, const RowStruts& struts,
+              const Parameter& radius, const RowBlock& block);
+
+  /// Clears the bits of samples that are outside; inside(p) decides the doubtful samples.
+  void keep(const Job* job, const std::function<bool(Vec3)>& inside);
+
+ private:
+  static constexpr size_t window_words = ColumnSets::max_parts * ColumnSets::part_words;
+
+  /// Columns that are drawn at a time.
+  struct Window {
+    size_t first_word;
+    uint64_t base, begin, end;  ///< its first column; the columns that may be alive
+    size_t words;
+    const double *positions, *sample_x;  ///< of columns from `base` on: in the cell; of samples
+    const ColumnSets& columns;
+  };
+  /// Rows or layers by their position in the cell.
+  struct Classes {
+    std::vector<uint64_t> members;  ///< members of all classes, class by class
+    std::vector<size_t> first;      ///< of each class, and the end of the last
+    std::vector<double> positions;  ///< of each class, padded by a vector
+    size_t count() const { return first.size() - 1; }
+  };
+  struct Bit {
+    uint64_t* word;
+    uint64_t mask;
+  };
+
+  bool find_alive();
+  /// Positions of columns, rows or layers in their cell: 0 to 1.
+  std::vector<double> positions(int axis, uint64_t first, uint64_t end) const;
+  Classes classes(int axis, uint64_t begin, uint64_t end, double same) const;
+  void keep_window(size_t first_word, const Job* job, const std::function<bool(Vec3)>& inside);
+  void keep_rows(const Window& window, uint64_t begin, uint64_t end, const Job* job,
+                 const std::function<bool(Vec3)>& inside);
+  void set_levels(RowTask& task, const Window& window, const Classes& rows, uint64_t k);
+  void set_linear(RowTask& task, const Window& window, const Classes& rows, uint64_t k);
+  void set_whole_rows(RowTask& task, Interval radii, double margin) const;
+  size_t section_words(double columns, double change) const;
+
+  const Neighbourhood& cells_;
+  const std::array<int, 3>& axis_;
+  const RowStruts& struts_;
+  const Parameter& radius_;
+  const RowBlock& block_;
+  const SampleGrid& grid_;
+  double same_, margin_, level_margin_;
+  uint64_t i0_ = 0, i1_ = 0, j0_ = 0, j1_ = 0, k0_ = 0, k1_ = 0;  // bounds of all samples alive
+  Vec3 gradient_;
+  bool is_linear_ = false;
+  std::vector<double> of_row_;
+  size_t asked_ = 0;
+};
+
+}  // namespace msq

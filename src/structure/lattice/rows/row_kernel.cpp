@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+// In the plane across the rows, the axis of a strut, with its copies along the rows, projects to a
+// segment. A row meets the strut if it comes within the radius r of that segment, and then in one
+// interval of x, as a capsule is convex. Let a = (ax, ay, az) be the first end, d the vector to the
+// other, (v, w) the row from a, e = v dy + w dz and A = dy^2 + dz^2. Points of the axis's line are
+// at s = (x dx + e) / |d|^2 of d. The row is k = |v dz - w dy| / sqrt(A) from that line, and cuts
+// the cylinder around it at x = dx e / A -+ sqrt((r^2 - k^2) |d|^2 / A). Where s < 0 or s > 1
+// there, the sphere around that end gives the interval's end.
+//
+// Bounds. All is computed in double precision from coordinates of at most S (RowStruts::extent)
+// with errors of a few 2^-53 S. So the error of squared distances and discriminants, times A /
+// |d|^2, is less than 2^-48 S^2 for any direction: what is divided by A is a product with d across
+// the row. For the level r + m, m = 2^-24 S, the squared radius is larger by 2 r m + m^2 > 2^-48
+// S^2: the interval found contains that of r. In the same way the interval of r contains the one
+// found for r - m. The error of the ends themselves, and of their buckets, is about 2^-50 S more,
+// which is less than the m by which ends move at least.
+//
+// The samples of whole buckets within the inner interval are inside. The other samples of the outer
+// interval, in whole buckets, are compared with the strut one by one: the error of the distance,
+// from the difference vector, is less than 2^-48 S. Within the margin the predicate decides.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "structure/lattice/rows/row_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/borrowed.h"
+#include "base/mask_bits-inl.h"
+#include "base/sample_grid.h"
+#include "base/simd.h"
+#include "structure/lattice/rows/row_kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace msq {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+namespace {
+
+using Doubles = hn::ScalableTag<double>;
+using V = hn::Vec<Doubles>;
+
+/// The columns of a part in a range of buckets: the sets at both ends, and the bits to flip for
+/// ranges that wrap around.
+struct BucketRange {
+  static constexpr int32_t all = ColumnSets::buckets;
+  int32_t from, to;
+  uint64_t flip;
+
+  /// Buckets [begin, end) of the unrolled line of the cell.
+  BucketRange(int32_t begin, int32_t end) : from(0), to(0), flip(0) {
+    if (end <= begin) return;
+    if (end - begin >= all) {
+      flip = ~uint64_t{0};
+      return;
+    }
+    from = begin & (all - 1);
+    to = end & (all - 1);
+    flip = to < from ? ~uint64_t{0} : 0;
+  }
+};
+
+template <size_t section_words>
+class SectionRows {
+ public:
+  SectionRows(const RowTask& task, RowWorkspace& workspace, std::vector<LeftSample>& left)
+      : task_(task),
+        workspace_(workspace),
+        left_(left),
+        size_(task.struts->cell_size[0]),
+        to_buckets_(ColumnSets::buckets / size_) {}
+
+  HWY_INLINE void draw(const RowStrut& strut);
+
+ private:
+  HWY_INLINE void draw_row(size_t lane, size_t row);
+  HWY_INLINE void decide(size_t lane, size_t row, size_t samples);
+
+  const RowTask& task_;
+  RowWorkspace& workspace_;
+  std::vector<LeftSample>& left_;
+  const double size_, to_buckets_;
+
+  // Of the current strut.
+  double ax_, dx_, dy_, dz_, factor_, inverse_squared_;
+  double w_;
+  HWY_ALIGN double v_[max_simd_doubles];
+  int32_t low_ = 0, high_ = 0;  // of the widest interval, in the current row
+};
+
+template <size_t section_words>
+HWY_INLINE void SectionRows<section_words>::draw(const RowStrut& strut) {
+  const Doubles d;
+  const hn::Rebind<int32_t, Doubles> di;
+  const size_t lanes = hn::Lanes(d);
+  ax_ = strut.a[0];
+  dx_ = strut.ab[0];
+  dy_ = strut.ab[1];
+  dz_ = strut.ab[2];
+  factor_ = strut.factor;
+  w_ = task_.z - strut.a[2];
+  const double across = dy_ * dy_ + dz_ * dz_, squared = dx_ * dx_ + across;
+  const RowLevel widest = task_.levels[task_.widest];
+  inverse_squared_ = squared > 0 ? 1 / squared : 0;
+  // So nearly along the rows that the projection is a point within the error of S.
+  const bool is_along = !(across > 1e-28 * squared);
+  const double inverse_across = is_along ? 0 : 1 / across;
+
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const V dx = hn::Set(d, dx_), dy = hn::Set(d, dy_), dz = hn::Set(d, dz_), w = hn::Set(d, w_);
+  const V inverse = hn::Set(d, inverse_across), factor = hn::Set(d, factor_);
+  const V length2 = hn::Set(d, squared), ax = hn::Set(d, ax_), scale = hn::Set(d, to_buckets_);
+  const V stretch = hn::Set(d, squared * inverse_across), slide = hn::Set(d, dx_ * inverse_across);
+  const V wb = hn::Sub(w, dz), w2 = hn::Mul(w, w), wb2 = hn::Mul(wb, wb);
+
+  for (size_t j = 0; j < task_.rows; j += lanes) {
+    const V v = hn::Sub(hn::LoadU(d, task_.y + j), hn::Set(d, strut.a[1]));
+    const V e = hn::MulAdd(v, dy, hn::Mul(w, dz));
+    const V t = hn::Min(hn::Max(hn::Mul(e, inverse), zero), one);
+    const V flat_v = hn::NegMulAdd(t, dy, v), flat_w = hn::NegMulAdd(t, dz, w);
+    const V flat2 = hn::MulAdd(flat_v, flat_v, hn::Mul(flat_w, flat_w));
+    const V of_row = task_.of_row ? hn::LoadU(d, task_.of_row + j) : zero;
+    const auto radius_of = [&](const RowLevel& level) HWY_ATTR {
+      const V r =
+          hn::MulAdd(hn::Add(of_row, hn::Set(d, level.radius)), factor, hn::Set(d, level.margin));
+      return hn::Max(r, zero);
+    };
+    const V reach = radius_of(widest);
+    uint64_t met = bits_of(d, hn::Le(flat2, hn::Mul(reach, reach)));
+    if (task_.rows - j < lanes) met &= (uint64_t{1} << (task_.rows - j)) - 1;
+    if (!met) continue;
+
+    const V cross = hn::MulSub(v, dz, hn::Mul(w, dy));
+    const V k2 = hn::Mul(hn::Mul(cross, cross), inverse);
+    const V vb = hn::Sub(v, dy);
+    const V rho2_a = hn::MulAdd(v, v, w2), rho2_b = hn::MulAdd(vb, vb, wb2);
+    const V centre = hn::Mul(slide, e);
+    for (size_t l = 0; l < task_.levels.size(); ++l) {
+      const V r = radius_of(task_.levels[l]), r2 = hn::Mul(r, r);
+      V low, high;
+      if (is_along) {
+        const V root = hn::Sqrt(hn::Max(hn::Sub(r2, hn::Min(rho2_a, rho2_b)), zero));
+        low = hn::Sub(hn::Min(zero, dx), root);
+        high = hn::Add(hn::Max(zero, dx), root);
+      } else {
+        const V root = hn::Sqrt(hn::Mul(hn::Max(hn::Sub(r2, k2), zero), stretch));
+        low = hn::Sub(centre, root);
+        high = hn::Add(centre, root);
+        const V s_low = hn::MulAdd(low, dx, e), s_high = hn::MulAdd(high, dx, e);
+        const auto low_a = hn::Lt(s_low, zero), low_b = hn::Gt(s_low, length2);
+        const auto high_a = hn::Lt(s_high, zero), high_b = hn::Gt(s_high, length2);
+        const auto root_of = [&](hn::Mask<Doubles> at_b) HWY_ATTR {
+          return hn::Sqrt(hn::Max(hn::Sub(r2, hn::IfThenElse(at_b, rho2_b, rho2_a)), zero));
+        };
+        const auto low_round = hn::Or(low_a, low_b), high_round = hn::Or(high_a, high_b);
+        if (!hn::AllFalse(d, hn::Or(low_round, high_round))) {
+          const V low_end = hn::Sub(hn::IfThenElseZero(low_b, dx), root_of(low_b));
+          const V high_end = hn::Add(hn::IfThenElseZero(high_b, dx), root_of(high_b));
+          low = hn::IfThenElse(low_round, low_end, low);
+          high = hn::IfThenElse(high_round, high_end, high);
+        }
+      }
+      const auto is_met = hn::And(hn::Le(flat2, r2), hn::Gt(r, zero));
+      low = hn::Floor(hn::Mul(hn::Add(low, ax), scale));
+      high = hn::Floor(hn::Mul(hn::Add(high, ax), scale));
+      high = hn::IfThenElse(is_met, high, hn::Sub(low, one));
+      hn::Store(hn::DemoteTo(di, low), di, workspace_.low[l]);
+      hn::Store(hn::DemoteTo(di, high), di, workspace_.high[l]);
+    }
+    hn::Store(v, d, v_);
+    for (; met; met &= met - 1) {
+      const auto lane = static_cast<size_t>(std::countr_zero(met));
+      if (task_.alive[j + lane]) draw_row(lane, j + lane);
+    }
+  }
+}
+
+template <size_t section_words>
+HWY_INLINE void SectionRows<section_words>::draw_row(size_t lane, size_t row) {
+  const hn::CappedTag<uint64_t, section_words> d;
+  const size_t lanes = hn::Lanes(d);
+  const uint64_t* const alive = task_.alive[row];
+  uint64_t* const inside = task_.inside + row * task_.row_words();
+  low_ = workspace_.low[task_.widest][lane];
+  high_ = workspace_.high[task_.widest][lane];
+  size_t words = 0, samples = 0;  // doubtful
+  for (size_t first = 0, section = 0; first < task_.words; first += section_words, ++section) {
+    const size_t o = task_.outer[section], i = task_.inner[section];
+    const BucketRange outer(workspace_.low[o][lane], workspace_.high[o][lane] + 1);
+    const BucketRange inner(workspace_.low[i][lane] + 1, workspace_.high[i][lane]);
+    const size_t part = first / ColumnSets::part_words, offset = first % ColumnSets::part_words;
+    const uint64_t* const outer_from = task_.columns->before(outer.from, part) + offset;
+    const uint64_t* const outer_to = task_.columns->before(outer.to, part) + offset;
+    const uint64_t* const inner_from = task_.columns->before(inner.from, part) + offset;
+    const uint64_t* const inner_to = task_.columns->before(inner.to, part) + offset;
+    const auto outer_flip = hn::Set(d, outer.flip), inner_flip = hn::Set(d, inner.flip);
+    HWY_ALIGN uint64_t doubtful[section_words];
+    auto any = hn::Zero(d);
+    for (size_t word = 0; word < section_words; word += lanes) {
+      const auto most = hn::Xor(
+          hn::Xor(hn::LoadU(d, outer_from + word), hn::LoadU(d, outer_to + word)), outer_flip);
+      const auto least = hn::Xor(
+          hn::Xor(hn::LoadU(d, inner_from + word), hn::LoadU(d, inner_to + word)), inner_flip);
+      const auto now = hn::Or(hn::LoadU(d, inside + first + word), least);
+      hn::StoreU(now, d, inside + first + word);
+      const auto rest = hn::AndNot(now, most);
+      hn::StoreU(rest, d, doubtful + word);
+      any = hn::Or(any, rest);
+    }
+    if (hn::AllTrue(d, hn::Eq(any, hn::Zero(d)))) continue;
+    const size_t end = std::min(section_words, task_.words - first);
+    for (size_t word = 0; word < end; ++word) {
+      const uint64_t rest = doubtful[word] & alive[first + word];
+      workspace_.doubtful[words] = rest;
+      workspace_.first_column[words] = static_cast<uint32_t>((first + word) * bits_per_word);
+      words += rest != 0;
+      samples += static_cast<size_t>(std::popcount(rest));
+    }
+  }
+  if (samples > 0) decide(lane, row, samples);
+}
+
+/// Compares the doubtful samples with the strut.
+template <size_t section_words>
+HWY_INLINE void SectionRows<section_words>::decide(size_t lane, size_t row, size_t samples) {
+  // One loop, so that the processor need not predict how many samples each word has.
+  const uint64_t* const doubtful = workspace_.doubtful;
+  uint32_t* const column = workspace_.column;
+  uint64_t rest = doubtful[0];
+  for (size_t n = 0, word = 0; n < samples; ++n) {
+    column[n] = workspace_.first_column[word] + static_cast<uint32_t>(std::countr_zero(rest));
+    workspace_.x[n] = task_.x[column[n]];
+    rest &= rest - 1;
+    word += rest == 0;
+    rest = rest ? rest : doubtful[word];
+  }
+  double radius = task_.radius + (task_.of_row ? task_.of_row[row] : 0);
+  if (task_.field) {
+    std::vector<Vec3>& positions = workspace_.positions;
+    positions.clear();
+    for (size_t n = 0; n < samples; ++n)
+      positions.push_back({task_.sample_x[column[n]], task_.sample_y[row], task_.sample_z});
+    task_.field->values(positions.data(), samples, workspace_.r);
+  }
+  const double v = v_[lane];
+  const Doubles dd;
+  const V zero = hn::Zero(dd), one = hn::Set(dd, 1.0);
+  const V dx = hn::Set(dd, dx_), dy = hn::Set(dd, dy_), dz = hn::Set(dd, dz_);
+  const V vv = hn::Set(dd, v), ww = hn::Set(dd, w_), e = hn::Set(dd, v * dy_ + w_ * dz_);
+  const V inverse = hn::Set(dd, inverse_squared_), margin = hn::Set(dd, task_.margin);
+  // The copy with the nearest middle of the interval; if intervals meet their neighbours, those on
+  // either side, too.
+  const double middle = (low_ + 0.5 * (high_ + 1 - low_)) / to_buckets_;
+  const int beyond =
+      high_ - low_ + 3 >= ColumnSets::buckets ? (high_ - low_ + 3) / ColumnSets::buckets : 0;
+  const V size = hn::Set(dd, size_), inverse_size = hn::Set(dd, 1 / size_);
+  const hn::Rebind<int32_t, Doubles> di;
+  for (size_t n = 0; n < samples; n += hn::Lanes(dd)) {
+    V x = hn::Sub(hn::LoadU(dd, workspace_.x + n), hn::Set(dd, middle));
+    x = hn::NegMulAdd(hn::Round(hn::Mul(x, inverse_size)), size, x);
+    x = hn::Add(x, hn::Set(dd, middle - ax_));
+    V least = hn::Set(dd, 1e300);
+    for (int copy = -beyond; copy <= beyond; ++copy) {
+      const V from_a = hn::Add(x, hn::Set(dd, copy * size_));
+      const V t = hn::Min(hn::Max(hn::Mul(hn::MulAdd(from_a, dx, e), inverse), zero), one);
+      const V px = hn::NegMulAdd(t, dx, from_a), py = hn::NegMulAdd(t, dy, vv),
+              pz = hn::NegMulAdd(t, dz, ww);
+      least = hn::Min(least, hn::MulAdd(px, px, hn::MulAdd(py, py, hn::Mul(pz, pz))));
+    }
+    V r;
+    if (task_.field) {
+      r = hn::LoadU(dd, workspace_.r + n);
+    } else {
+      const auto columns = hn::LoadU(di, reinterpret_cast<const int32_t*>(column) + n);
+      r = hn::MulAdd(hn::PromoteTo(dd, columns), hn::Set(dd, task_.slope), hn::Set(dd, radius));
+    }
+    r = hn::Mul(r, hn::Set(dd, factor_));
+    const V thick = hn::Add(r, margin), thin = hn::Sub(r, margin);
+    const size_t here = std::min(hn::Lanes(dd), samples - n);
+    const uint64_t some = here == 64 ? ~uint64_t{0} : (uint64_t{1} << here) - 1;
+    const uint64_t in =
+        some & bits_of(dd, hn::And(hn::Gt(thin, zero), hn::Lt(least, hn::Mul(thin, thin))));
+    const uint64_t near = some & ~in & bits_of(dd, hn::Le(least, hn::Mul(thick, thick)));
+    uint64_t* const bits = task_.inside + row * task_.row_words();
+    for (uint64_t lanes = in; lanes; lanes &= lanes - 1) {
+      const uint32_t at = column[n + static_cast<size_t>(std::countr_zero(lanes))];
+      bits[at / bits_per_word] |= uint64_t{1} << (at % bits_per_word);
+    }
+    for (uint64_t lanes = near; lanes; lanes &= lanes - 1)
+      left_.push_back(
+          {static_cast<uint32_t>(row), column[n + static_cast<size_t>(std::countr_zero(lanes))]});
+  }
+}
+
+template <size_t section_words>
+HWY_INLINE void mark_sections(const RowTask& task, RowWorkspace& workspace,
+                              std::vector<LeftSample>& left) {
+  SectionRows<section_words> rows(task, workspace, left);
+  size_t max_left = size_t{1} << 16;
+  const RowLevel widest = task.levels[task.widest];
+  const double max_of_row =
+      task.of_row ? *std::max_element(task.of_row, task.of_row + task.rows) : 0;
+  for (const RowStrut& strut : task.struts->struts) {
+    const double reach = strut.factor * (widest.radius + max_of_row) + widest.margin;
+    const double w = task.z - strut.a[2];
+    if (w - std::max(strut.ab[2], 0.0) > reach || std::min(strut.ab[2], 0.0) - w > reach) continue;
+    rows.draw(strut);
+    if (left.size() < max_left) continue;
+    // Struts that share a surface leave the same samples undecided.
+    std::sort(left.begin(), left.end());
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    max_left = std::max(max_left, 2 * left.size());
+  }
+}
+
+void mark_rows(const RowTask& task, RowWorkspace& workspace, std::vector<LeftSample>& left) {
+  if (task.section_words == 8)
+    mark_sections<8>(task, workspace, left);
+  else if (task.section_words == 4)
+    mark_sections<4>(task, workspace, left);
+  else
+    mark_sections<2>(task, workspace, left);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace msq
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace msq {
+
+namespace {
+
+HWY_EXPORT(mark_rows);
+
+}  // namespace
+
+void mark_inside(const RowTask& task, std::vector<LeftSample>& left) {
+  // The field may be the host's, and its callbacks may slice.
+  const Borrowed<RowWorkspace> workspace;
+  HWY_DYNAMIC_DISPATCH(mark_rows)(task, *workspace, left);
+}
+
+}  // namespace msq
+#endif  // HWY_ONCE

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The struts that rows of samples along an axis of the grid may meet.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "structure/lattice/cell/unit_cell.h"
+
+namespace msq {
+
+/// A strut and its copies, a whole number of cells apart along the rows. Coordinates: along the
+/// rows, across them, across the layers; model units, from a corner of the cell.
+struct RowStrut {
+  std::array<double, 3> a, ab;
+  double factor;
+};
+
+struct RowStruts {
+  std::array<double, 3> cell_size;
+  double extent = 0;  ///< maximum magnitude of coordinates of struts' surfaces and of the cell
+  std::vector<RowStrut> struts;
+
+  /// The struts that reach rows through the cell if the radius is at most `most`. axis[i]: the axis
+  /// of the grid parallel to coordinate i.
+  RowStruts(const std::vector<PeriodicStrut>& periodic, Vec3 cell_size, std::array<int, 3> axis,
+            double most);
+};
+
+}  // namespace msq

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_fill_calibrate: a stack of layers of the structure with the cell sizes found has the density
+ * that was asked for, within 2 %. */
+#include "fills.h"
+
+enum { kinds = 5 };
+
+typedef msq_structure* (*make_fn)(msq_context* context, const double cell[3]);
+
+static msq_structure* foam_with(msq_context* context, const double cell[3], double jitter,
+                                uint64_t seed) {
+  msq_foam_def def;
+  msq_structure* made;
+  assert_ok(msq_foam_def_init(&def, sizeof def));
+  def.radius.value = 0.05;
+  def.jitter = jitter;
+  def.seed = seed;
+  for (int axis = 0; axis < 3; ++axis) def.grid.cell_size[axis] = cell[axis];
+  assert_ok(msq_structure_foam(context, &def, &made));
+  return made;
+}
+static msq_structure* usual_foam(msq_context* context, const double cell[3]) {
+  return foam_with(context, cell, 1, 0);
+}
+static msq_structure* calm_foam(msq_context* context, const double cell[3]) {
+  return foam_with(context, cell, 0.3, 11);
+}
+static msq_structure* function_with(msq_context* context, const double cell[3], int32_t function,
+                                    int32_t kind, int is_turned) {
+  const double turned[9] = {0.8, 0, 0.6, 0, 1, 0, -0.6, 0, 0.8};
+  msq_functional_def def;
+  msq_structure* made;
+  assert_ok(msq_functional_def_init(&def, sizeof def));
+  def.function = function;
+  def.kind = kind;
+  if (kind == MSQ_FUNCTIONAL_SHEET) def.thickness.value = 0.05;
+  for (int axis = 0; axis < 3; ++axis) def.grid.cell_size[axis] = cell[axis];
+  if (is_turned) memcpy(def.grid.rotation, turned, sizeof turned);
+  assert_ok(msq_structure_functional(context, &def, &made));
+  return made;
+}
+static msq_structure* gyroid(msq_context* context, const double cell[3]) {
+  return function_with(context, cell, MSQ_FUNCTION_GYROID, MSQ_FUNCTIONAL_SHEET, 0);
+}
+static msq_structure* network(msq_context* context, const double cell[3]) {
+  return function_with(context, cell, MSQ_FUNCTION_I_WP, MSQ_FUNCTIONAL_NETWORK, 0);
+}
+static msq_structure* turned_diamond(msq_context* context, const double cell[3]) {
+  return function_with(context, cell, MSQ_FUNCTION_DIAMOND, MSQ_FUNCTIONAL_SHEET, 1);
+}
+
+static void stacks_have_the_density(void** state) {
+  static const struct {
+    const char* name;
+    make_fn make;
+    double cell[3];
+  } known[kinds] = {{"foam", usual_foam, {1, 1, 1}},
+                    {"foam of unlike cells, jitter 0.3", calm_foam, {2, 1, 1.5}},
+                    {"gyroid", gyroid, {3, 3, 3}},
+                    {"I-WP network", network, {2, 1.5, 1}},
+                    {"turned diamond", turned_diamond, {2, 2, 2}}};
+  msq_context* context = make_context();
+  const double width = 0.2, density = 0.15;
+  (void)state;
+  for (int k = 0; k < kinds; ++k) {
+    double cell[3] = {-1, -1, -1};
+    msq_structure* given = known[k].make(context, known[k].cell);
+    assert_ok(msq_fill_calibrate(context, given, width, density, cell, NULL));
+    assert_near(cell[1] / cell[0], known[k].cell[1] / known[k].cell[0], 1e-12);
+    assert_near(cell[2] / cell[0], known[k].cell[2] / known[k].cell[0], 1e-12);
+    msq_structure_release(given);
+
+    msq_structure* made = known[k].make(context, cell);
+    /* About 40 x 40 cells, at heights through 13 of them. */
+    const int64_t side = 120000000;
+    const int64_t corners[4][2] = {{0, 0}, {side, 0}, {side, side}, {0, side}};
+    const msq_ring ring = {corners, 4};
+    double sum = 0;
+    const int layers = 60;
+    for (int i = 0; i < layers; ++i) {
+      msq_fill_def def = square_def((i + 0.5) / layers * 13 * cell[2] + 1000);
+      def.rings = &ring;
+      def.ring_count = 1;
+      msq_fill* fill = make_fill(context, made, &def);
+      sum += paths_of(fill).length;
+      msq_fill_release(fill);
+    }
+    const double found = sum * width / (layers * 120.0 * 120.0);
+    print_message("%s: cell %.4f %.4f %.4f, density %.5f, %+.2f %%\n", known[k].name, cell[0],
+                  cell[1], cell[2], found, 100 * (found / density - 1));
+    assert_near(found, density, 0.02 * density);
+    msq_structure_release(made);
+  }
+  msq_context_release(context);
+}
+
+static void refuses(void** state) {
+  msq_context* context = make_context();
+  const double ones[3] = {1, 1, 1}, from[3] = {0, 0, 0}, to[3] = {4, 0, 0};
+  double cell[3] = {-1, -2, -3};
+  msq_structure* foam = usual_foam(context, ones);
+  (void)state;
+  const double widths[] = {0, -1, NAN, INFINITY};
+  for (int i = 0; i < 4; ++i)
+    assert_refused(msq_fill_calibrate(context, foam, widths[i], 0.2, cell, NULL), MSQ_E_ARGUMENT,
+                   "line_width is");
+  const double densities[] = {0, -1, 1.01, NAN};
+  for (int i = 0; i < 4; ++i)
+    assert_refused(msq_fill_calibrate(context, foam, 0.4, densities[i], cell, NULL), MSQ_E_ARGUMENT,
+                   "density is");
+  assert_refused(msq_fill_calibrate(NULL, foam, 0.4, 0.2, cell, NULL), MSQ_E_ARGUMENT, "context");
+  assert_refused(msq_fill_calibrate(context, NULL, 0.4, 0.2, cell, NULL), MSQ_E_ARGUMENT,
+                 "structure");
+  assert_refused(msq_fill_calibrate(context, foam, 0.4, 0.2, NULL, NULL), MSQ_E_ARGUMENT,
+                 "cell_size");
+  msq_structure_release(foam);
+
+  msq_structure* lattice = make_lattice(context);
+  assert_refused(msq_fill_calibrate(context, lattice, 0.4, 0.2, cell, NULL), MSQ_E_UNSUPPORTED,
+                 "contours");
+  msq_structure_release(lattice);
+
+  msq_field* field;
+  assert_ok(msq_field_gradient(context, from, 1, to, 9, &field));
+  msq_foam_def def;
+  assert_ok(msq_foam_def_init(&def, sizeof def));
+  def.radius.value = 0.1;
+  def.density.field = field;
+  msq_structure* graded;
+  assert_ok(msq_structure_foam(context, &def, &graded));
+  assert_refused(msq_fill_calibrate(context, graded, 0.4, 0.2, cell, NULL), MSQ_E_UNSUPPORTED,
+                 "without the field");
+  /* Its lines are found all the same. */
+  const msq_fill_def square = square_def(1);
+  msq_fill* fill = make_fill(context, graded, &square);
+  assert_true(paths_of(fill).path_count > 100);
+  msq_fill_release(fill);
+  msq_structure_release(graded);
+  msq_field_release(field);
+
+  msq_functional_def none;
+  assert_ok(msq_functional_def_init(&none, sizeof none));
+  none.level.value = 9;
+  msq_structure* full;
+  assert_ok(msq_structure_functional(context, &none, &full));
+  assert_refused(msq_fill_calibrate(context, full, 0.4, 0.2, cell, NULL), MSQ_E_LIMIT, "no wall");
+  msq_structure_release(full);
+
+  msq_job* job;
+  assert_ok(msq_job_create(&job));
+  assert_ok(msq_job_cancel(job));
+  foam = usual_foam(context, ones);
+  assert_refused(msq_fill_calibrate(context, foam, 0.4, 0.2, cell, job), MSQ_E_CANCELLED, "cancel");
+  msq_job_release(job);
+  msq_structure_release(foam);
+  assert_true(cell[0] == -1 && cell[1] == -2 && cell[2] == -3);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(stacks_have_the_density),
+      cmocka_unit_test(refuses),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

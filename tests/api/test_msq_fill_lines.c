@@ -1,0 +1,388 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_fill_lines: paths in the polygon and on the walls, types and far coordinates, refusals. */
+#include "fills.h"
+
+DEFINE_INIT(fill_def)
+
+typedef struct fill_env {
+  msq_context* context;
+  const msq_structure* structure;
+} fill_env;
+
+static msq_status fill_with(void* env, void* def) {
+  const fill_env* known = (const fill_env*)env;
+  msq_fill* made = (msq_fill*)untouched();
+  const msq_status status =
+      msq_fill_lines(known->context, known->structure, (const msq_fill_def*)def, &made, NULL);
+  if (status == MSQ_OK)
+    msq_fill_release(made);
+  else
+    assert_ptr_equal(made, untouched());
+  return status;
+}
+
+/* Paths are whole, as long as said, in the square and not in its hole, and on the gyroid. */
+static void check_paths(const msq_fill_report* paths, double scale, double z, int is_gyroid,
+                        double cell) {
+  double sum = 0, travel = 0, last[2] = {0, 0};
+  assert_int_equal(paths->path_starts[0], 0);
+  assert_int_equal(paths->path_starts[paths->path_count], paths->point_count);
+  for (uint64_t p = 0; p < paths->path_count; ++p) {
+    const uint64_t begin = paths->path_starts[p], end = paths->path_starts[p + 1];
+    assert_true(paths->closed[p] <= 1 && end >= begin + (paths->closed[p] ? 3 : 2));
+    for (uint64_t i = begin; i < end; ++i) {
+      const double x = coordinate_of(paths, 2 * i) * scale;
+      const double y = coordinate_of(paths, 2 * i + 1) * scale;
+      const uint64_t j = i + 1 < end ? i + 1 : begin;
+      const double to_x = coordinate_of(paths, 2 * j) * scale,
+                   to_y = coordinate_of(paths, 2 * j + 1) * scale;
+      assert_true(x >= 0 && x <= 40 && y >= 0 && y <= 40);
+      if (j > i || paths->closed[p]) {
+        const double mx = 0.5 * (x + to_x), my = 0.5 * (y + to_y);
+        sum += hypot(to_x - x, to_y - y);
+        assert_false(mx > 15 + 2 * scale && mx < 25 - 2 * scale && my > 15 + 2 * scale &&
+                     my < 25 - 2 * scale);
+      }
+      if (is_gyroid) {
+        const double k = 6.283185307179586 / cell;
+        const double g =
+            sin(k * x) * cos(k * y) + sin(k * y) * cos(k * z) + sin(k * z) * cos(k * x);
+        /* The slope is at most k * sqrt 3 for each unit of length. */
+        assert_true(fabs(g) < 1.8 * k * (cell / 200 + scale));
+      }
+      if (i == begin && p > 0) travel += hypot(x - last[0], y - last[1]);
+    }
+    const uint64_t stop = paths->closed[p] ? begin : end - 1;
+    last[0] = coordinate_of(paths, 2 * stop) * scale;
+    last[1] = coordinate_of(paths, 2 * stop + 1) * scale;
+  }
+  assert_near(paths->length, sum, 1e-9 * sum);
+  assert_near(paths->travel, travel, 1e-9 * sum);
+}
+
+static void fills_a_square_with_a_hole(void** state) {
+  msq_context* context = make_context();
+  msq_structure* structures[2] = {make_sheet(context, MSQ_FUNCTION_GYROID, 8),
+                                  make_foam_of(context, 5)};
+  (void)state;
+  for (int s = 0; s < 2; ++s)
+    for (double z = 0.15; z < 12; z += 2.7) {
+      const msq_fill_def def = square_def(z);
+      msq_fill* fill = make_fill(context, structures[s], &def);
+      const msq_fill_report paths = paths_of(fill);
+      assert_int_equal(paths.coordinate_type, MSQ_INT64);
+      check_paths(&paths, 1e-6, z, s == 0, 8);
+      print_message("%s at %.2f: %llu paths, length %.1f, travel %.1f\n", s ? "foam" : "gyroid", z,
+                    (unsigned long long)paths.path_count, paths.length, paths.travel);
+      assert_true(paths.length > 200 && paths.travel < 0.6 * paths.length);
+
+      /* The same again, bit for bit, also by another context and after its structure is gone. */
+      msq_context* other = make_context_of(1, 0, 0);
+      msq_structure* again = s ? make_foam_of(other, 5) : make_sheet(other, MSQ_FUNCTION_GYROID, 8);
+      msq_fill* second = make_fill(other, again, &def);
+      msq_structure_release(again);
+      msq_context_release(other);
+      const msq_fill_report same = paths_of(second);
+      assert_int_equal(same.point_count, paths.point_count);
+      assert_int_equal(same.path_count, paths.path_count);
+      assert_memory_equal(same.points, paths.points, 16 * paths.point_count);
+      assert_memory_equal(same.path_starts, paths.path_starts, 8 * (paths.path_count + 1));
+      assert_memory_equal(same.closed, paths.closed, paths.path_count);
+      msq_fill_release(second);
+      msq_fill_release(fill);
+    }
+  msq_structure_release(structures[0]);
+  msq_structure_release(structures[1]);
+  msq_context_release(context);
+}
+
+/* int32 in steps of 0.01 mm; far from the origin; with a stride; holes that run the other way. */
+static void takes_the_coordinates_of_the_host(void** state) {
+  typedef struct point32 {
+    int32_t x, y, unused;
+  } point32;
+  static const point32 square[4] = {{0, 0, 7}, {4000, 0, 7}, {4000, 4000, 7}, {0, 4000, 7}};
+  static const point32 hole[4] = {
+      {1500, 1500, 7}, {2500, 1500, 7}, {2500, 2500, 7}, {1500, 2500, 7}};
+  const msq_ring rings[2] = {{hole, 4}, {square, 4}};
+  msq_context* context = make_context();
+  msq_structure* gyroid = make_sheet(context, MSQ_FUNCTION_GYROID, 8);
+  msq_fill_def def = square_def(0.7);
+  msq_fill* wide = make_fill(context, gyroid, &def);
+  const msq_fill_report paths64 = paths_of(wide);
+  (void)state;
+
+  def.coordinate_type = MSQ_INT32;
+  def.rings = rings;
+  def.point_stride = sizeof(point32);
+  def.scale = 0.01;
+  msq_fill* small = make_fill(context, gyroid, &def);
+  const msq_fill_report paths32 = paths_of(small);
+  assert_int_equal(paths32.coordinate_type, MSQ_INT32);
+  check_paths(&paths32, 0.01, 0.7, 1, 8);
+  assert_near(paths32.length, paths64.length, 0.02 * paths64.length);
+
+  /* The same places under other coordinates: moved by whole cells of 8 mm. */
+  const int64_t far = (int64_t)8000000 * 1000000; /* 8e6 mm */
+  int64_t moved[4][2];
+  for (int i = 0; i < 4; ++i) {
+    moved[i][0] = square_nm[i][0] + far;
+    moved[i][1] = square_nm[i][1] - far;
+  }
+  const msq_ring moved_ring = {moved, 4}, near_ring = {square_nm, 4};
+  def = square_def(0.7);
+  def.rings = &near_ring;
+  def.ring_count = 1;
+  msq_fill* near_fill = make_fill(context, gyroid, &def);
+  def.rings = &moved_ring;
+  msq_fill* moved_fill = make_fill(context, gyroid, &def);
+  def.origin[0] = -(double)far * 1e-6;
+  def.origin[1] = (double)far * 1e-6;
+  msq_fill* shifted_fill = make_fill(context, gyroid, &def);
+  const msq_fill_report a = paths_of(near_fill), b = paths_of(moved_fill),
+                        c = paths_of(shifted_fill);
+  assert_near(b.length, a.length, 0.01 * a.length);
+  assert_near(c.length, a.length, 0.001 * a.length);
+  for (uint64_t i = 0; i < c.point_count; ++i)
+    assert_true(coordinate_of(&c, 2 * i) >= (double)far &&
+                coordinate_of(&c, 2 * i + 1) <= 40000000 - (double)far);
+  msq_fill_release(near_fill);
+  msq_fill_release(moved_fill);
+  msq_fill_release(shifted_fill);
+  msq_fill_release(small);
+  msq_fill_release(wide);
+  msq_structure_release(gyroid);
+  msq_context_release(context);
+}
+
+static void drops_what_is_short(void** state) {
+  msq_context* context = make_context();
+  msq_structure* foam = make_foam_of(context, 3);
+  msq_fill_def def = square_def(1.1);
+  msq_fill* all = make_fill(context, foam, &def);
+  def.min_length = 4;
+  msq_fill* some = make_fill(context, foam, &def);
+  const msq_fill_report whole = paths_of(all), part = paths_of(some);
+  (void)state;
+  assert_true(part.path_count > 0 && part.path_count < whole.path_count);
+  for (uint64_t p = 0; p < part.path_count; ++p) {
+    double sum = 0;
+    const uint64_t begin = part.path_starts[p], end = part.path_starts[p + 1];
+    for (uint64_t i = begin; i + !part.closed[p] < end; ++i) {
+      const uint64_t j = i + 1 < end ? i + 1 : begin;
+      sum += hypot(coordinate_of(&part, 2 * j) - coordinate_of(&part, 2 * i),
+                   coordinate_of(&part, 2 * j + 1) - coordinate_of(&part, 2 * i + 1));
+    }
+    assert_true(sum * 1e-6 >= 4 - 1e-9);
+  }
+  def.min_length = 1e9;
+  msq_fill* none = make_fill(context, foam, &def);
+  const msq_fill_report nothing = paths_of(none);
+  assert_int_equal(nothing.path_count, 0);
+  assert_int_equal(nothing.point_count, 0);
+  assert_int_equal(nothing.path_starts[0], 0);
+  assert_true(nothing.length == 0 && nothing.travel == 0);
+  msq_fill_release(none);
+  msq_fill_release(some);
+  msq_fill_release(all);
+  msq_structure_release(foam);
+  msq_context_release(context);
+}
+
+/* Two halves of the square have the lines of the whole. */
+static void goes_on_in_the_next_polygon(void** state) {
+  msq_context* context = make_context();
+  msq_structure* structures[2] = {make_sheet(context, MSQ_FUNCTION_DIAMOND, 7),
+                                  make_foam_of(context, 4)};
+  (void)state;
+  for (int s = 0; s < 2; ++s) {
+    const int64_t whole[4][2] = {{0, 0}, {40000000, 0}, {40000000, 30000000}, {0, 30000000}};
+    const int64_t left[4][2] = {{0, 0}, {17000000, 0}, {13000000, 30000000}, {0, 30000000}};
+    const int64_t right[4][2] = {
+        {17000000, 0}, {40000000, 0}, {40000000, 30000000}, {13000000, 30000000}};
+    const msq_ring rings[3] = {{whole, 4}, {left, 4}, {right, 4}};
+    double lengths[3];
+    for (int i = 0; i < 3; ++i) {
+      msq_fill_def def = square_def(2.3);
+      def.rings = &rings[i];
+      def.ring_count = 1;
+      def.tolerance = 1e-4;
+      msq_fill* fill = make_fill(context, structures[s], &def);
+      lengths[i] = paths_of(fill).length;
+      msq_fill_release(fill);
+    }
+    assert_near(lengths[1] + lengths[2], lengths[0], 2e-4 * lengths[0]);
+  }
+  msq_structure_release(structures[0]);
+  msq_structure_release(structures[1]);
+  msq_context_release(context);
+}
+
+static void refuses_what_has_no_walls(void** state) {
+  msq_context* context = make_context();
+  msq_structure* lattice = make_lattice(context);
+  msq_fill_def def = square_def(1);
+  (void)state;
+  fill_env env = {context, lattice};
+  assert_refused(fill_with(&env, &def), MSQ_E_UNSUPPORTED, "use its contours");
+  msq_structure_release(lattice);
+  msq_context_release(context);
+}
+
+static void refuses_bad_polygons(void** state) {
+  msq_context* context = make_context();
+  msq_structure* foam = make_foam_of(context, 5);
+  fill_env env = {context, foam};
+  (void)state;
+  msq_fill_def def = square_def(1);
+  msq_ring rings[2] = {square_rings[0], square_rings[1]};
+  def.rings = rings;
+  rings[1].count = 2;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring 1 has 2 points");
+  rings[1].count = 4;
+  rings[1].points = NULL;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring 1 are NULL");
+  const int64_t flat[4][2] = {{3, 1}, {6, 2}, {6, 2}, {300000003, 100000001}};
+  rings[1].points = flat;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring 1 are on one line");
+  const int64_t same[3][2] = {{3, 1}, {3, 1}, {3, 1}};
+  rings[1].points = same;
+  rings[1].count = 3;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring 1 are on one line");
+  const int64_t most = (int64_t)1 << 53;
+  int64_t large[3][2] = {{-most, -most}, {-most + 9, -most}, {-most, -most + 9}};
+  rings[0].points = large;
+  rings[0].count = 3;
+  def.ring_count = 1;
+  def.scale = 1e-9;
+  assert_ok(fill_with(&env, &def));
+  large[2][1] = -most - 1;
+  assert_refused(fill_with(&env, &def), MSQ_E_LIMIT, "point 2 of ring 0 has the coordinate");
+  assert_message_has("-9007199254740993");
+  large[2][1] = INT64_MIN;
+  assert_refused(fill_with(&env, &def), MSQ_E_LIMIT, "the limit is 2^53");
+  large[2][1] = -most + 9;
+  def.scale = 1; /* 9e15 cells away */
+  assert_refused(fill_with(&env, &def), MSQ_E_LIMIT, "cells from the grid's origin");
+
+  def = square_def(1);
+  def.ring_count = 0;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring_count is 0");
+  def = square_def(1);
+  def.rings = NULL;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "rings is NULL");
+  def = square_def(1);
+  def.point_stride = 15;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "point_stride is 15 bytes; a point has 16");
+  def = square_def(1);
+  def.coordinate_type = MSQ_FLOAT64;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "coordinate_type is 2");
+  msq_structure_release(foam);
+  msq_context_release(context);
+}
+
+static void refuses_bad_numbers(void** state) {
+  msq_context* context = make_context();
+  msq_structure* foam = make_foam_of(context, 5);
+  fill_env env = {context, foam};
+  const msq_fill_def good = square_def(1);
+  (void)state;
+  for (int which = 0; which < 3; ++which) {
+    msq_fill_def def = good;
+    def.scale = not_finite(which);
+    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "scale");
+    def = good;
+    def.origin[1] = not_finite(which);
+    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "origin");
+    def = good;
+    def.z = not_finite(which);
+    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "z is");
+    def = good;
+    def.tolerance = not_finite(which);
+    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "tolerance");
+    def = good;
+    def.min_length = not_finite(which);
+    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "min_length");
+  }
+  msq_fill_def def = good;
+  def.scale = 0;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "scale is 0");
+  def.scale = 2e75;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "scale is 2e+75");
+  def = good;
+  def.tolerance = -1;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "tolerance is -1");
+  def = good;
+  def.min_length = -2;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "min_length is -2");
+  def = square_def(0);
+  def.scale = 1e-60; /* a cell is 8e60 units wide, and a line runs through the corner */
+  msq_structure* gyroid = make_sheet(context, MSQ_FUNCTION_GYROID, 8);
+  env.structure = gyroid;
+  assert_refused(fill_with(&env, &def), MSQ_E_LIMIT, "the limit is 2^60");
+  msq_structure_release(gyroid);
+  env.structure = foam;
+  check_def_init(init_fill_def, sizeof(msq_fill_def));
+  check_def_sizes(&good, sizeof good, fill_with, &env);
+  assert_refused(fill_with(&env, NULL), MSQ_E_ARGUMENT, "def is NULL");
+  env.structure = NULL;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "structure is NULL");
+  env.context = NULL;
+  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "context is NULL");
+  assert_refused(msq_fill_lines(context, foam, &good, NULL, NULL), MSQ_E_ARGUMENT, "fill is NULL");
+  msq_fill_retain(NULL);
+  msq_fill_release(NULL);
+  msq_structure_release(foam);
+  msq_context_release(context);
+}
+
+static void stops_and_keeps_to_its_memory(void** state) {
+  msq_context* context = make_context();
+  msq_structure* structures[2] = {make_sheet(context, MSQ_FUNCTION_GYROID, 8),
+                                  make_foam_of(context, 5)};
+  const msq_fill_def def = square_def(1);
+  msq_job* job;
+  double progress = -1;
+  (void)state;
+  assert_ok(msq_job_create(&job));
+  msq_fill* fill;
+  assert_ok(msq_fill_lines(context, structures[1], &def, &fill, job));
+  assert_ok(msq_job_progress(job, &progress));
+  assert_true(progress == 1);
+  const msq_memory_report memory = memory_of(context);
+  assert_true(memory.bytes >= 16 * paths_of(fill).point_count);
+  msq_fill_retain(fill);
+  msq_fill_release(fill);
+  assert_true(memory_of(context).bytes == memory.bytes);
+  msq_fill_release(fill);
+  assert_true(memory_of(context).bytes == 0);
+  assert_ok(msq_job_cancel(job));
+  for (int s = 0; s < 2; ++s)
+    assert_makes_nothing(msq_fill, msq_fill_lines(context, structures[s], &def, &made, job),
+                         MSQ_E_CANCELLED, "cancelled");
+  msq_job_release(job);
+  msq_structure_release(structures[0]);
+  msq_structure_release(structures[1]);
+  msq_context_release(context);
+
+  context = make_context_of(1, 0, 20000);
+  msq_structure* foam = make_foam_of(context, 5);
+  assert_makes_nothing(msq_fill, msq_fill_lines(context, foam, &def, &made, NULL), MSQ_E_LIMIT,
+                       "memory_limit");
+  msq_structure_release(foam);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(fills_a_square_with_a_hole),
+      cmocka_unit_test(takes_the_coordinates_of_the_host),
+      cmocka_unit_test(drops_what_is_short),
+      cmocka_unit_test(goes_on_in_the_next_polygon),
+      cmocka_unit_test(refuses_what_has_no_walls),
+      cmocka_unit_test(refuses_bad_polygons),
+      cmocka_unit_test(refuses_bad_numbers),
+      cmocka_unit_test(stops_and_keeps_to_its_memory),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

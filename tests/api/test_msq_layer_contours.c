@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_layer_contours, msq_slicer_contours and msq_contours_info. What contours must be like:
+ * tests/unit/test_contours.cpp. */
+#include "definitions.h"
+#include "layers.h"
+
+DEFINE_INIT(contours_def)
+
+static msq_contours_def contours_def(int32_t type, double tolerance) {
+  msq_contours_def def;
+  assert_ok(msq_contours_def_init(&def, sizeof def));
+  def.type = type;
+  def.tolerance = tolerance;
+  if (type != MSQ_FLOAT64) def.units = 1e5;
+  return def;
+}
+
+static msq_contours_report contents_of(const msq_contours* contours) {
+  msq_contours_report report;
+  memset(&report, 0, sizeof report);
+  report.struct_size = sizeof report;
+  assert_ok(msq_contours_info(contours, &report));
+  return report;
+}
+
+static double coordinate(const msq_contours_report* report, uint64_t n) {
+  return report->type == MSQ_INT32   ? (double)((const int32_t*)report->points)[n]
+         : report->type == MSQ_INT64 ? (double)((const int64_t*)report->points)[n]
+                                     : ((const double*)report->points)[n];
+}
+
+static double area_of(const msq_contours_report* report) {
+  double sum = 0;
+  for (uint64_t r = 0; r < report->ring_count; ++r) {
+    const uint64_t first = report->starts[r], end = report->starts[r + 1];
+    for (uint64_t i = first; i < end; ++i) {
+      const uint64_t k = i + 1 < end ? i + 1 : first;
+      sum += 0.5 * (coordinate(report, 2 * i) * coordinate(report, 2 * k + 1) -
+                    coordinate(report, 2 * k) * coordinate(report, 2 * i + 1));
+    }
+  }
+  return sum;
+}
+
+static void types_have_the_same_rings(void** state) {
+  const int32_t types[] = {MSQ_FLOAT64, MSQ_INT64, MSQ_INT32};
+  msq_context* context = make_context();
+  msq_model* model = make_lattice_model(context);
+  double low[3], high[3], area = 0;
+  uint64_t points = 0;
+  (void)state;
+  assert_ok(msq_model_bounds(model, low, high));
+  for (int i = 0; i < 3; ++i) {
+    const msq_contours_def def = contours_def(types[i], 0.02);
+    msq_contours* contours;
+    msq_contours_report report;
+    assert_ok(msq_layer_contours(model, 0.5 * (low[2] + high[2]) + 0.1, &def, &contours, NULL));
+    msq_contours_retain(contours);
+    msq_contours_release(contours);
+    report = contents_of(contours);
+    assert_int_equal(report.type, types[i]);
+    assert_true(report.ring_count > 0);
+    assert_int_equal(report.starts[0], 0);
+    assert_int_equal(report.starts[report.ring_count], report.point_count);
+    assert_int_equal(report.parents[0], -1);
+    assert_int_equal(report.holes[0], 0);
+    assert_near(report.pitch, 0.02, 0.005);
+    for (uint64_t n = 0; n < 2 * report.point_count; ++n) {
+      assert_true(coordinate(&report, n) >= (low[n % 2] - 1e-4) * def.units);
+      assert_true(coordinate(&report, n) <= (high[n % 2] + 1e-4) * def.units);
+    }
+    if (i == 0) {
+      area = area_of(&report);
+      assert_true(area > 0);
+    } else {
+      assert_near(area_of(&report) / (def.units * def.units), area, 1e-3 * area);
+    }
+    if (i == 1) points = report.point_count;
+    if (i == 2) assert_int_equal(report.point_count, points);
+    msq_contours_release(contours);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void layers_of_slicers_are_those_of_models(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_lattice_model(context);
+  const msq_slicer_def plan = slicer_def(MSQ_LAYER_BITS, 70, 45, 0.25);
+  msq_slicer* slicer = make_slicer(model, &plan);
+  const msq_slicer_report pixels = plan_of(slicer);
+  msq_contours_def def = contours_def(MSQ_INT64, 0.03);
+  msq_contours *of_slicer, *of_model;
+  msq_contours_report a, b;
+  double z;
+  (void)state;
+  assert_ok(msq_slicer_contours(slicer, 2, &def, &of_slicer, NULL));
+  assert_ok(msq_slicer_layer_z(slicer, 2, &z));
+  def.has_window = 1;
+  for (int i = 0; i < 2; ++i) {
+    def.window_min[i] = pixels.origin[i] - 0.5 * pixels.pitch[i];
+    def.window_max[i] =
+        pixels.origin[i] + ((i == 0 ? pixels.width : pixels.height) - 0.5) * pixels.pitch[i];
+  }
+  assert_ok(msq_layer_contours(model, z, &def, &of_model, NULL));
+  a = contents_of(of_slicer);
+  b = contents_of(of_model);
+  assert_true(a.ring_count > 0);
+  assert_int_equal(a.ring_count, b.ring_count);
+  assert_int_equal(a.point_count, b.point_count);
+  assert_memory_equal(a.points, b.points, a.point_count * 2 * sizeof(int64_t));
+  assert_memory_equal(a.starts, b.starts, (a.ring_count + 1) * sizeof(uint64_t));
+  msq_contours_release(of_slicer);
+  msq_contours_release(of_model);
+  def.has_window = 0;
+  def.window_min[0] = def.window_min[1] = def.window_max[0] = def.window_max[1] = 0;
+  assert_makes_nothing(msq_contours, msq_slicer_contours(NULL, 0, &def, &made, NULL),
+                       MSQ_E_ARGUMENT, "slicer is NULL");
+  assert_makes_nothing(msq_contours, msq_slicer_contours(slicer, 16, &def, &made, NULL),
+                       MSQ_E_ARGUMENT, "layer 16");
+  def.axis = 1;
+  assert_makes_nothing(msq_contours, msq_slicer_contours(slicer, 0, &def, &made, NULL),
+                       MSQ_E_ARGUMENT, "axis is 1");
+  def.axis = 2;
+  def.length_scale = 3;
+  assert_makes_nothing(msq_contours, msq_slicer_contours(slicer, 0, &def, &made, NULL),
+                       MSQ_E_ARGUMENT, "length_scale is 3");
+  msq_slicer_release(slicer);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void layers_beside_the_model_are_empty(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_lattice_model(context);
+  msq_contours_def def = contours_def(MSQ_FLOAT64, 0.05);
+  double low[3], high[3];
+  (void)state;
+  assert_ok(msq_model_bounds(model, low, high));
+  for (int beside = 0; beside < 2; ++beside) {
+    msq_contours* contours;
+    msq_contours_report report;
+    if (beside) {
+      def.has_window = 1;
+      for (int i = 0; i < 2; ++i) {
+        def.window_min[i] = high[i] + 10;
+        def.window_max[i] = high[i] + 20;
+      }
+    }
+    assert_ok(msq_layer_contours(model, beside ? low[2] : high[2] + 1, &def, &contours, NULL));
+    report = contents_of(contours);
+    assert_int_equal(report.ring_count, 0);
+    assert_int_equal(report.point_count, 0);
+    assert_int_equal(report.starts[0], 0);
+    assert_int_equal(report.unresolved_count, 0);
+    msq_contours_release(contours);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+#define REFUSED(field, value, status, text)                                                     \
+  do {                                                                                          \
+    msq_contours_def bad = def;                                                                 \
+    bad.field = value;                                                                          \
+    assert_makes_nothing(msq_contours, msq_layer_contours(model, 1, &bad, &made, NULL), status, \
+                         text);                                                                 \
+  } while (0)
+
+static void def_init_honours_every_size(void** state) {
+  (void)state;
+  check_def_init(init_contours_def, sizeof(msq_contours_def));
+}
+
+static void wrong_arguments_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_lattice_model(context);
+  msq_contours_def def = contours_def(MSQ_FLOAT64, 0.05);
+  msq_job* job;
+  (void)state;
+  assert_makes_nothing(msq_contours, msq_layer_contours(NULL, 1, &def, &made, NULL), MSQ_E_ARGUMENT,
+                       "model is NULL");
+  assert_makes_nothing(msq_contours, msq_layer_contours(model, 1, NULL, &made, NULL),
+                       MSQ_E_ARGUMENT, "def is NULL");
+  assert_refused(msq_layer_contours(model, 1, &def, NULL, NULL), MSQ_E_ARGUMENT,
+                 "contours is NULL");
+  assert_makes_nothing(msq_contours, msq_layer_contours(model, NAN, &def, &made, NULL),
+                       MSQ_E_ARGUMENT, "height is nan");
+  REFUSED(struct_size, 3, MSQ_E_ARGUMENT, "struct_size");
+  REFUSED(type, 4, MSQ_E_ARGUMENT, "type is 4");
+  REFUSED(axis, -1, MSQ_E_ARGUMENT, "axis is -1");
+  REFUSED(has_window, 2, MSQ_E_ARGUMENT, "has_window is 2");
+  REFUSED(window_max[1], 2, MSQ_E_ARGUMENT, "has_window is 0");
+  REFUSED(has_window, 1, MSQ_E_ARGUMENT, "not empty");
+  REFUSED(tolerance, 0, MSQ_E_ARGUMENT, "tolerance is 0");
+  REFUSED(tolerance, INFINITY, MSQ_E_ARGUMENT, "tolerance is inf");
+  REFUSED(pitch, -1, MSQ_E_ARGUMENT, "pitch is -1");
+  REFUSED(units, 0, MSQ_E_ARGUMENT, "units is 0");
+  REFUSED(length_scale, -2, MSQ_E_ARGUMENT, "length_scale is -2");
+  /* Too many nodes, too few digits. */
+  REFUSED(tolerance, 1e-9, MSQ_E_LIMIT, "the limit is 2147483392");
+  def.type = MSQ_INT32;
+  def.units = 1000;
+  REFUSED(tolerance, 0.03, MSQ_E_ARGUMENT, "at least 64");
+  def.pitch = 0.2;
+  REFUSED(tolerance, 0.003, MSQ_E_ARGUMENT, "at least 4");
+  REFUSED(units, 1e10, MSQ_E_LIMIT, "the limit is 2147483647");
+  def.type = MSQ_INT64;
+  REFUSED(units, 1e16, MSQ_E_LIMIT, "the limit is 9007199254740992");
+  assert_ok(msq_job_create(&job));
+  msq_job_cancel(job);
+  assert_makes_nothing(msq_contours, msq_layer_contours(model, 1, &def, &made, job),
+                       MSQ_E_CANCELLED, "cancelled");
+  msq_job_release(job);
+  assert_refused(msq_contours_info(NULL, NULL), MSQ_E_ARGUMENT, "contours is NULL");
+  msq_contours_retain(NULL);
+  msq_contours_release(NULL);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void memory_is_limited(void** state) {
+  msq_context* context = make_context_of(1, 1 << 20, 8 << 20);
+  msq_model* model = make_lattice_model(context);
+  const msq_contours_def def = contours_def(MSQ_FLOAT64, 1e-4);
+  (void)state;
+  assert_makes_nothing(msq_contours, msq_layer_contours(model, 1, &def, &made, NULL), MSQ_E_LIMIT,
+                       "the nodes of a layer");
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(types_have_the_same_rings),
+      cmocka_unit_test(layers_of_slicers_are_those_of_models),
+      cmocka_unit_test(layers_beside_the_model_are_empty),
+      cmocka_unit_test(def_init_honours_every_size),
+      cmocka_unit_test(wrong_arguments_are_refused),
+      cmocka_unit_test(memory_is_limited),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

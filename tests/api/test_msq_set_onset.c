@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "definitions.h"
+
+enum { count = 4000 };
+
+static msq_context* context;
+static double points[count][3], onsets[count], gradients[count][3];
+
+static int set_up(void** state) {
+  uint64_t random = 3;
+  (void)state;
+  context = make_context();
+  for (int i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis) points[i][axis] = random_between(&random, -7, 7);
+  return 0;
+}
+
+static int tear_down(void** state) {
+  (void)state;
+  msq_context_release(context);
+  return 0;
+}
+
+static msq_points_def array_points(void) {
+  msq_points_def def;
+  assert_ok(msq_points_def_init(&def, sizeof def));
+  def.kind = MSQ_POINTS_ARRAY;
+  def.coordinates = points;
+  def.count = count;
+  return def;
+}
+
+static void ask(const msq_structure* structure, int32_t value) {
+  const msq_points_def def = array_points();
+  assert_ok(
+      msq_set_onset(context, structure, &def, value, onsets, count, gradients[0], 3 * count, NULL));
+}
+
+/* The distance to the edges of a cubic grid of cells of 2, and its gradient: 0 along the nearest
+ * edge. False near the places where two edges are as near. */
+static int cubic_oracle(const double p[3], double* distance, double gradient[3]) {
+  double offset[3], least = INFINITY, next = INFINITY;
+  int along = 0;
+  for (int axis = 0; axis < 3; ++axis) offset[axis] = p[axis] - 2 * round(p[axis] / 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = offset[(axis + 1) % 3], b = offset[(axis + 2) % 3], d = sqrt(a * a + b * b);
+    if (d < least) {
+      next = least;
+      least = d;
+      along = axis;
+    } else if (d < next) {
+      next = d;
+    }
+  }
+  *distance = least;
+  for (int axis = 0; axis < 3; ++axis) gradient[axis] = axis == along ? 0 : offset[axis] / least;
+  if (next - least < 1e-3 || least < 1e-2) return 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (fabs(offset[axis]) > 0.999) return 0;
+  return 1;
+}
+
+static void of_lattices_is_the_distance_to_axes(void** state) {
+  msq_structure* cubic = make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 2, 0.2);
+  int smooth = 0;
+  (void)state;
+  ask(cubic, MSQ_ONSET_PLAIN);
+  for (int i = 0; i < count; ++i) {
+    double distance, gradient[3];
+    const int is_smooth = cubic_oracle(points[i], &distance, gradient);
+    assert_near(onsets[i], distance, 1e-13);
+    for (int axis = 0; is_smooth && axis < 3; ++axis)
+      assert_near(gradients[i][axis], gradient[axis], 1e-5);
+    smooth += is_smooth;
+  }
+  assert_true(smooth > count / 2);
+  ask(cubic, MSQ_ONSET_SIGNED);
+  for (int i = 0; i < count; ++i) {
+    double distance, gradient[3];
+    cubic_oracle(points[i], &distance, gradient);
+    assert_near(onsets[i], distance - 0.2, 1e-13);
+  }
+  msq_structure_release(cubic);
+}
+
+/* A gyroid of period 4 whose level is linear in x. */
+static msq_structure* make_graded_gyroid(int32_t kind) {
+  const double from[3] = {-10, 0, 0}, to[3] = {10, 0, 0};
+  msq_functional_def def;
+  msq_structure* gyroid;
+  msq_field* level;
+  assert_ok(msq_field_gradient(context, from, 0.2, to, 0.6, &level));
+  assert_ok(msq_functional_def_init(&def, sizeof def));
+  def.function = MSQ_FUNCTION_GYROID;
+  def.kind = kind;
+  set_cell(&def.grid, 4);
+  def.level.field = level;
+  assert_ok(msq_structure_functional(context, &def, &gyroid));
+  msq_field_release(level);
+  return gyroid;
+}
+
+static void of_functions_is_the_function(void** state) {
+  const double k = 2 * 3.14159265358979323846 / 4;
+  (void)state;
+  for (int32_t kind = MSQ_FUNCTIONAL_NETWORK; kind <= MSQ_FUNCTIONAL_SHEET; ++kind) {
+    msq_structure* gyroid = make_graded_gyroid(kind);
+    for (int32_t value = MSQ_ONSET_PLAIN; value <= MSQ_ONSET_SIGNED; ++value) {
+      ask(gyroid, value);
+      for (int i = 0; i < count; ++i) {
+        const double x = k * points[i][0], y = k * points[i][1], z = k * points[i][2];
+        double g = sin(x) * cos(y) + sin(y) * cos(z) + sin(z) * cos(x);
+        double d[3] = {k * (cos(x) * cos(y) - sin(z) * sin(x)),
+                       k * (cos(y) * cos(z) - sin(x) * sin(y)),
+                       k * (cos(z) * cos(x) - sin(y) * sin(z))};
+        if (kind == MSQ_FUNCTIONAL_SHEET && fabs(g) < 1e-3) continue;
+        if (kind == MSQ_FUNCTIONAL_SHEET && g < 0) {
+          g = -g;
+          for (int axis = 0; axis < 3; ++axis) d[axis] = -d[axis];
+        }
+        if (value == MSQ_ONSET_SIGNED) {
+          g -= 0.4 + 0.02 * points[i][0];
+          d[0] -= 0.02;
+        }
+        assert_near(onsets[i], g, 1e-12);
+        for (int axis = 0; axis < 3; ++axis) assert_near(gradients[i][axis], d[axis], 1e-7);
+      }
+    }
+    msq_structure_release(gyroid);
+  }
+}
+
+static void its_sign_is_membership(void** state) {
+  msq_structure* all[4] = {make_lattice(context), make_foam(context, MSQ_FOAM_DIRECT),
+                           make_graded_gyroid(MSQ_FUNCTIONAL_NETWORK),
+                           make_graded_gyroid(MSQ_FUNCTIONAL_SHEET)};
+  const msq_points_def def = array_points();
+  static uint8_t inside[count];
+  (void)state;
+  for (int s = 0; s < 4; ++s) {
+    msq_shape* space;
+    int held = 0;
+    ask(all[s], MSQ_ONSET_SIGNED);
+    assert_ok(msq_shape_all_space(context, &space));
+    msq_model* model = make_model(context, space, all[s], NULL);
+    assert_ok(msq_set_membership(model, &def, NULL, inside, count, NULL));
+    for (int i = 0; i < count; ++i) {
+      held += inside[i];
+      if (s >= 2 || fabs(onsets[i]) > 1e-9) assert_int_equal(inside[i], onsets[i] <= 0);
+    }
+    assert_true(held > count / 100 && held < count);
+    msq_model_release(model);
+  }
+}
+
+static void grids_and_windows_have_the_values_of_their_points(void** state) {
+  enum { n = 6 };
+  msq_structure* foam = make_foam(context, MSQ_FOAM_DIRECT);
+  msq_points_def grid = grid_points(-1, 1, n), one = array_points();
+  double whole[n * n * n], part[2 * 3 * 4], slopes[2 * 3 * 4][3];
+  (void)state;
+  assert_ok(msq_set_onset(context, foam, &grid, MSQ_ONSET_PLAIN, whole, n * n * n, NULL, 0, NULL));
+  grid.window.first[0] = 4;
+  grid.window.first[2] = 1;
+  for (uint64_t axis = 0; axis < 3; ++axis) grid.window.count[axis] = 2 + axis;
+  assert_ok(msq_set_onset(context, foam, &grid, MSQ_ONSET_PLAIN, part, 24, slopes[0], 72, NULL));
+  for (uint64_t i = 0; i < 24; ++i) {
+    double point[3], alone, slope[3], length = 0;
+    assert_true(part[i] == whole[4 + i % 2 + n * (i / 2 % 3 + n * (1 + i / 6))]);
+    assert_ok(msq_points_generate(&grid, i, 1, point));
+    one.coordinates = point;
+    one.count = 1;
+    assert_ok(msq_set_onset(context, foam, &one, MSQ_ONSET_PLAIN, &alone, 1, slope, 3, NULL));
+    assert_true(alone == part[i]);
+    assert_memory_equal(slope, slopes[i], sizeof slope);
+    for (int axis = 0; axis < 3; ++axis) length += slope[axis] * slope[axis];
+    assert_true(length < 1 + 1e-6); /* a distance */
+  }
+  msq_structure_release(foam);
+}
+
+static void arguments_are_checked(void** state) {
+  msq_structure* lattice = make_lattice(context);
+  msq_points_def def = array_points(), far = grid_points(0, 1, 2);
+  double value[8], slopes[24];
+  (void)state;
+  for (int i = 0; i < 8; ++i) value[i] = 7;
+  for (int i = 0; i < 24; ++i) slopes[i] = 7;
+  def.count = 8;
+#define ONSET(c, s, p, v, o, n, g, m) msq_set_onset(c, s, p, v, o, n, g, m, NULL)
+  assert_refused(ONSET(NULL, lattice, &def, 0, value, 8, NULL, 0), MSQ_E_ARGUMENT, "context");
+  assert_refused(ONSET(context, NULL, &def, 0, value, 8, NULL, 0), MSQ_E_ARGUMENT, "structure");
+  assert_refused(ONSET(context, lattice, NULL, 0, value, 8, NULL, 0), MSQ_E_ARGUMENT, "points");
+  assert_refused(ONSET(context, lattice, &def, 2, value, 8, NULL, 0), MSQ_E_ARGUMENT, "value is 2");
+  assert_refused(ONSET(context, lattice, &def, 0, NULL, 8, NULL, 0), MSQ_E_ARGUMENT, "onsets");
+  assert_refused(ONSET(context, lattice, &def, 0, value, 7, NULL, 0), MSQ_E_ARGUMENT,
+                 "onset_count is 7");
+  assert_refused(ONSET(context, lattice, &def, 0, value, 8, slopes, 8), MSQ_E_ARGUMENT,
+                 "gradient_count is 8");
+  assert_refused(ONSET(context, lattice, &def, 0, value, 8, NULL, 24), MSQ_E_ARGUMENT,
+                 "gradient_count is 24");
+  far.origin[2] = 16777215.5;
+  assert_refused(ONSET(context, lattice, &far, 0, value, 8, slopes, 24), MSQ_E_LIMIT,
+                 "cells of the structure");
+  double odd[2][3] = {{0, 0, 0}, {0, NAN, 0}};
+  def.coordinates = odd;
+  def.count = 2;
+  assert_refused(ONSET(context, lattice, &def, 0, value, 2, slopes, 6), MSQ_E_ARGUMENT, "point 1");
+  odd[1][1] = -2e7;
+  assert_refused(ONSET(context, lattice, &def, 0, value, 2, slopes, 6), MSQ_E_LIMIT, "point 1");
+  for (int i = 0; i < 8; ++i) assert_true(value[i] == 7);
+  for (int i = 0; i < 24; ++i) assert_true(slopes[i] == 7);
+  def.count = 0;
+  assert_ok(ONSET(context, lattice, &def, 0, NULL, 0, NULL, 0));
+  msq_structure_release(lattice);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(of_lattices_is_the_distance_to_axes),
+      cmocka_unit_test(of_functions_is_the_function),
+      cmocka_unit_test(its_sign_is_membership),
+      cmocka_unit_test(grids_and_windows_have_the_values_of_their_points),
+      cmocka_unit_test(arguments_are_checked),
+  };
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Distances to structures whose parameter is an expression: safe, since membership is the same all
+// over the ball, and of use, where the slope of the expression is known.
+#include "expression/parser.h"
+#include "field/expression.h"
+#include "field/map.h"
+#include "random.h"
+#include "structure/functional/presets.h"
+#include "structures.h"
+#include "suite.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+struct Row {
+  std::string name;
+  Factory make;
+  std::string expression;
+  Interval range;
+  double slope;  ///< greatest of the expression; 0: it has none everywhere
+  double own;    ///< of the onset
+};
+
+std::vector<Row> rows() {
+  struct Kind {
+    const char* name;
+    Factory make;
+    double own;
+  };
+  const Kind kinds[] = {
+      {"BCC", lattice_factory(bcc_unit_cell()), 1},
+      {"factors", lattice_factory(factored_unit_cell()), 1},
+      {"mixed", mixed_factory(), 1},
+      {"foam", foam_factory(FoamMethod::direct, 1), 1},
+      {"gyroid", functional_factory(preset_expressions[0], FunctionalKind::network, 0), 0},
+  };
+  struct Expression {
+    const char* text;
+    double slope;
+  };
+  const Expression expressions[] = {
+      {"0.1 + 0.03*sin(x)*cos(y)", 0.03},
+      {"0.05 + 0.1*abs(sin(0.5*x))", 0.05},
+      {"max(0.04, min(0.15, 0.02*(x + y*y)))", 0},
+      {"0.1 + 0.05*sin(40*x)", 2},
+      {"0.03*sqrt(x*x + y*y)", 0},
+      {"0.1 + 0.02/(x - 0.3)", 0},
+      {"0.02*log(x)", 0},
+  };
+  std::vector<Row> all;
+  for (const Kind& kind : kinds)
+    for (const Expression& e : expressions)
+      all.push_back({std::string(kind.name) + ", " + e.text,
+                     kind.make,
+                     e.text,
+                     {0.02, 0.16},
+                     e.slope,
+                     kind.own});
+  return all;
+}
+
+void test_row(void** state) {
+  const Row& row = *static_cast<const Row*>(*state);
+  Random random(7);
+  const Ref<const Field> field =
+      make_ref<ExpressionField>(parse_expression(row.expression, {}), row.range);
+  const Neighbourhood grid{{0.1, -0.2, 0.3}, {1, 1, 1}, {}};
+  const Ref<const Structure> structure = row.make(grid, Parameter(field));
+  size_t positive = 0, good = 0;
+  const size_t count = test_count(1500);
+  for (size_t n = 0; n < count; ++n) {
+    const Vec3 p = random.in_box({{-3, -3, -3}, {3, 3, 3}});
+    const double distance_bound = structure->distance_bound(p);
+    assert_true(distance_bound >= 0 && std::isfinite(distance_bound));
+    positive += distance_bound > 0;
+    const bool is_inside = structure->inside(p);
+    for (int k = 0; k < 40 && distance_bound > 0; ++k) {
+      Vec3 way{random.normal(), random.normal(), random.normal()};
+      way = way * (distance_bound * (1 - 1e-12) * std::cbrt(random.unit()) / length(way));
+      if (k % 2) way = way * (distance_bound * (1 - 1e-12) / length(way));
+      if (structure->inside(p + way) != is_inside)
+        fail_msg("(%.17g, %.17g, %.17g), %g from (%.17g, %.17g, %.17g)", p.x + way.x, p.y + way.y,
+                 p.z + way.z, distance_bound, p.x, p.y, p.z);
+    }
+    if (row.own == 0 || row.slope == 0 || !structure->has_onset() || row.name[0] == 'f') continue;
+    // Half of what the greatest slope of all would allow.
+    const double gap = std::abs(structure->onset(p) - structure->parameter(p));
+    good += distance_bound >= 0.49 * gap / (1 + row.slope) - 1e-9;
+  }
+  if (row.slope > 0 && positive < count / 2) fail_msg("%zu of %zu are 0", count - positive, count);
+  if (row.own > 0 && row.slope > 0 && structure->has_onset() && row.name[0] != 'f' && good < count)
+    fail_msg("%zu of %zu are less than they could be", count - good, count);
+  print_message("%s: %zu of %zu above 0\n", row.name.c_str(), positive, count);
+}
+
+}  // namespace
+
+int main() {
+  std::vector<Row> all = rows();
+  return run_for_each("distances by expressions", all, test_row);
+}

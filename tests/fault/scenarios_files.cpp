@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "scenarios.h"
+#include "world.h"
+
+namespace msq::test {
+
+#if MSQ_WITH_ASSIMP
+
+namespace {
+
+template <class T>
+void put(std::string& bytes, T value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+uint32_t crc32(const std::string& bytes) {
+  uint32_t crc = ~0u;
+  for (const char c : bytes) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+  }
+  return ~crc;
+}
+
+/// An archive of one file that is not compressed.
+std::string zip(const std::string& name, const std::string& file) {
+  const auto header = [&](std::string& out) {
+    put(out, uint16_t{20});
+    put(out, uint64_t{0});  // flags, method, time, date
+    put(out, crc32(file));
+    put(out, static_cast<uint32_t>(file.size()));
+    put(out, static_cast<uint32_t>(file.size()));
+    put(out, static_cast<uint16_t>(name.size()));
+    put(out, uint16_t{0});
+  };
+  std::string out = "PK\3\4";
+  header(out);
+  out += name + file;
+  const size_t directory = out.size();
+  out += "PK\1\2";
+  put(out, uint16_t{20});
+  header(out);
+  put(out, uint32_t{0});  // comment, disk
+  put(out, uint16_t{0});
+  put(out, uint32_t{0});
+  put(out, uint32_t{0});  // where the file begins
+  out += name;
+  const size_t end = out.size();
+  out += "PK\5\6";
+  put(out, uint32_t{0});
+  put(out, uint16_t{1});
+  put(out, uint16_t{1});
+  put(out, static_cast<uint32_t>(end - directory));
+  put(out, static_cast<uint32_t>(directory));
+  put(out, uint16_t{0});
+  return out;
+}
+
+// A tetrahedron in every format.
+constexpr const char* stl =
+    "solid t\nfacet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 4 0\nvertex 4 0 0\nendloop\n"
+    "endfacet\nfacet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 4 0 0\nvertex 0 0 4\nendloop\n"
+    "endfacet\nfacet normal 1 1 1\nouter loop\nvertex 4 0 0\nvertex 0 4 0\nvertex 0 0 4\nendloop\n"
+    "endfacet\nfacet normal -1 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 4\nvertex 0 4 0\nendloop\n"
+    "endfacet\nendsolid t\n";
+constexpr const char* obj =
+    "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+constexpr const char* ply =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+    "z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n4 0 0\n0 4 0\n0 0 "
+    "4\n"
+    "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+constexpr const char* off =
+    "OFF\n4 4 0\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+constexpr const char* amf =
+    "<?xml version=\"1.0\"?><amf unit=\"millimeter\"><object id=\"1\"><mesh><vertices>"
+    "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"
+    "<vertex><coordinates><x>4</x><y>0</y><z>0</z></coordinates></vertex>"
+    "<vertex><coordinates><x>0</x><y>4</y><z>0</z></coordinates></vertex>"
+    "<vertex><coordinates><x>0</x><y>0</y><z>4</z></coordinates></vertex></vertices><volume>"
+    "<triangle><v1>0</v1><v2>2</v2><v3>1</v3></triangle>"
+    "<triangle><v1>0</v1><v2>1</v2><v3>3</v3></triangle>"
+    "<triangle><v1>1</v1><v2>2</v2><v3>3</v3></triangle>"
+    "<triangle><v1>0</v1><v2>3</v2><v3>2</v3></triangle></volume></mesh></object></amf>";
+constexpr const char* threemf_model =
+    "<?xml version=\"1.0\"?><model unit=\"millimeter\" "
+    "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources>"
+    "<object id=\"1\" type=\"model\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>"
+    "<vertex x=\"4\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"4\" z=\"0\"/>"
+    "<vertex x=\"0\" y=\"0\" z=\"4\"/></vertices><triangles>"
+    "<triangle v1=\"0\" v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/>"
+    "<triangle v1=\"1\" v2=\"2\" v3=\"3\"/><triangle v1=\"0\" v2=\"3\" "
+    "v3=\"2\"/></triangles></mesh>"
+    "</object></resources><build><item objectid=\"1\"/></build></model>";
+
+struct Format {
+  const char* name;
+  int32_t format;
+  std::string bytes;
+  bool is_assimp;
+};
+
+const std::vector<Format>& formats() {
+  static const std::vector<Format> all = {
+      {"STL", MSQ_FORMAT_STL, stl, true},
+      {"OBJ", MSQ_FORMAT_OBJ, obj, true},
+      {"PLY", MSQ_FORMAT_PLY, ply, false},
+      {"OFF", MSQ_FORMAT_OFF, off, false},
+      {"AMF", MSQ_FORMAT_AMF, amf, false},
+      {"3MF", MSQ_FORMAT_3MF, zip("3D/3dmodel.model", threemf_model), false}};
+  return all;
+}
+
+void finish_shape(msq_shape* shape, std::vector<double>& probe) {
+  msq_shape_report report = {};
+  report.struct_size = sizeof report;
+  require_ok(msq_shape_info(shape, &report));
+  probe[0] = report.volume;
+  probe[1] = static_cast<double>(report.triangles);
+  msq_shape_release(shape);
+}
+
+void set_limits(Stage& stage, const Format& format) {
+  stage.needs_stack = stage.allows_leaks = stage.allows_io = format.is_assimp;
+}
+
+}  // namespace
+
+std::vector<Scenario> file_scenarios() {
+  std::vector<Scenario> scenarios;
+  for (const Format& format : formats()) {
+    scenarios.push_back(
+        {std::string("msq_shape_from_memory: ") + format.name, [&format](Stage& stage) {
+           set_limits(stage, format);
+           World world(stage);
+           msq_file_def def = make_def(msq_file_def_init);
+           def.format = format.format;
+           msq_shape* shape;
+           std::vector<double> probe(2);
+           stage.watch_handle(shape);
+           stage.watch_probe(probe);
+           stage.call(
+               [&] {
+                 return msq_shape_from_memory(world.context, format.bytes.data(),
+                                              format.bytes.size(), &def, &shape, nullptr);
+               },
+               [&] { finish_shape(shape, probe); });
+         }});
+    scenarios.push_back(
+        {std::string("msq_shape_from_file: ") + format.name, [&format](Stage& stage) {
+           set_limits(stage, format);
+           World world(stage);
+           char path[] = "/tmp/msq_fault_XXXXXX";
+           const int file = mkstemp(path);
+           require(file >= 0, "no file can be made");
+           const bool is_written = write(file, format.bytes.data(), format.bytes.size()) ==
+                                   static_cast<ssize_t>(format.bytes.size());
+           close(file);
+           msq_file_def def = make_def(msq_file_def_init);
+           def.format = format.format;
+           msq_shape* shape;
+           std::vector<double> probe(2);
+           stage.watch_handle(shape);
+           stage.watch_probe(probe);
+           try {
+             require(is_written, "the file cannot be written");
+             stage.call(
+                 [&] { return msq_shape_from_file(world.context, path, &def, &shape, nullptr); },
+                 [&] { finish_shape(shape, probe); });
+           } catch (...) {
+             unlink(path);
+             throw;
+           }
+           unlink(path);
+         }});
+  }
+  return scenarios;
+}
+
+#else
+
+std::vector<Scenario> file_scenarios() {
+  return {};
+}
+
+#endif
+
+}  // namespace msq::test

@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace msq::test {
+
+namespace {
+
+constexpr double corners[8][3] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0},
+                                  {0, 0, 4}, {4, 0, 4}, {0, 4, 4}, {4, 4, 4}};
+constexpr uint32_t triangles[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
+                                       {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                       {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+
+MakeStructure lattice(World& world, int32_t unit_cell, msq_param radius) {
+  msq_lattice_def def = make_def(msq_lattice_def_init);
+  def.unit_cell = unit_cell;
+  def.radius = radius;
+  def.clusters = 3;
+  return [&world, def](msq_structure** made) {
+    return msq_structure_lattice(world.context, &def, made);
+  };
+}
+
+MakeStructure mixed_lattice(World& world) {
+  static const double factors[12] = {1, 0.5, 1.5, 1, 0.5, 1.5, 1, 0.5, 1.5, 1, 0.5, 1.5};
+  static msq_unit_cell_def cells[2];
+  for (msq_unit_cell_def& cell : cells) cell = make_def(msq_unit_cell_def_init);
+  cells[1].unit_cell = MSQ_UNIT_CELL_CUBIC;
+  cells[1].strut_factors = factors;
+  cells[1].strut_count = 12;
+  msq_lattice_def def = make_def(msq_lattice_def_init);
+  def.cells = cells;
+  def.cell_count = 2;
+  def.cell_choice.field = world.gradient();
+  def.radius.value = 0.12;
+  return [&world, def](msq_structure** made) {
+    return msq_structure_lattice(world.context, &def, made);
+  };
+}
+
+MakeStructure beams(World& world) {
+  static const double nodes[12] = {0.1, 0.2, 0.3, 0.9, 0.8, 0.4, 0.3, 0.9, 0.8, 0.7, 0.1, 0.9};
+  static const uint32_t pairs[8] = {0, 1, 1, 2, 2, 3, 3, 0};
+  static const double radii[8] = {0.1, 0.05, 0.05, 0.12, 0.12, 0.1, 0.1, 0.1};
+  msq_beams_def def = make_def(msq_beams_def_init);
+  def.nodes = nodes;
+  def.node_count = 4;
+  def.beams = pairs;
+  def.beam_count = 4;
+  def.radii = radii;
+  return [&world, def](msq_structure** made) {
+    return msq_structure_beams(world.context, &def, made, nullptr);
+  };
+}
+
+MakeStructure foam(World& world, int32_t method, msq_param radius, msq_param density = {1, nullptr},
+                   double cell_height = 1) {
+  msq_foam_def def = make_def(msq_foam_def_init);
+  def.method = method;
+  def.radius = radius;
+  def.density = density;
+  def.seed = 5;
+  def.grid.cell_size[2] = cell_height;
+  return
+      [&world, def](msq_structure** made) { return msq_structure_foam(world.context, &def, made); };
+}
+
+MakeStructure closed_foam(World& world, double radius, double thickness) {
+  msq_foam_def def = make_def(msq_foam_def_init);
+  def.radius.value = radius;
+  def.wall_thickness.value = thickness;
+  return
+      [&world, def](msq_structure** made) { return msq_structure_foam(world.context, &def, made); };
+}
+
+MakeStructure graded_foam(World& world, msq_param radius) {
+  const double from[3] = {0, 0, 0}, to[3] = {4, 1, 0};
+  msq_field* density;
+  require_ok(msq_field_gradient(world.context, from, 1, to, 12, &density));
+  return foam(world, MSQ_FOAM_AUTO, radius, {1, world.keep(density)});
+}
+
+MakeStructure functional(World& world, int32_t function, int32_t kind, msq_param level,
+                         double thickness, bool is_turned) {
+  static const msq_named_value parameter = {"a", 0.75};
+  msq_functional_def def = make_def(msq_functional_def_init);
+  def.function = function;
+  def.kind = kind;
+  def.clusters = 4;
+  def.level = level;
+  def.thickness.value = thickness;
+  if (function == MSQ_FUNCTION_EXPRESSION) {
+    def.expression = "sin(x) * cos(y) + a * max(sin(y) * cos(z), sin(z) * cos(x))^2";
+    def.parameters = &parameter;
+    def.parameter_count = 1;
+  }
+  if (is_turned) {
+    const double turned[9] = {0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1};
+    std::copy_n(turned, 9, def.grid.rotation);
+  }
+  return [&world, def](msq_structure** made) {
+    return msq_structure_functional(world.context, &def, made);
+  };
+}
+
+bool host_has(const double* position) {
+  double squared = 0;
+  for (int axis = 0; axis < 3; ++axis) squared += (position[axis] - 0.5) * (position[axis] - 0.5);
+  return squared >= 0.16;
+}
+
+int32_t structure_inside(void*, const msq_host_points* points, uint8_t* inside) {
+  for (uint64_t i = 0; i < points->count; ++i) inside[i] = host_has(points->positions + 3 * i);
+  return 0;
+}
+
+int32_t structure_distance(void*, const msq_host_points* points, double* distances) {
+  for (uint64_t i = 0; i < points->count; ++i) {
+    double squared = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      squared += std::pow(points->positions[3 * i + static_cast<uint64_t>(axis)] - 0.5, 2);
+    distances[i] = std::abs(std::sqrt(squared) - 0.4);
+  }
+  return 0;
+}
+
+int32_t build_cell(void*, const int32_t cell[3], void** data, uint64_t* bytes) {
+  static int32_t something;
+  something = cell[0];
+  *data = &something;
+  *bytes = 64;
+  return 0;
+}
+
+int32_t evaluate_cell(void*, const void*, const msq_host_points* points, uint8_t* inside) {
+  return structure_inside(nullptr, points, inside);
+}
+
+MakeStructure host_structure(World& world, bool has_cells) {
+  msq_host_structure_def def = make_def(msq_host_structure_def_init);
+  if (has_cells) {
+    def.build_cell = build_cell;
+    def.evaluate_cell = evaluate_cell;
+  } else {
+    def.inside = structure_inside;
+    def.distance = structure_distance;
+  }
+  return
+      [&world, def](msq_structure** made) { return msq_structure_host(world.context, &def, made); };
+}
+
+int32_t host_function(void*, const double* angles, uint64_t count, double* values) {
+  for (uint64_t i = 0; i < count; ++i)
+    values[i] = std::cos(angles[3 * i]) + std::cos(angles[3 * i + 1]) + std::cos(angles[3 * i + 2]);
+  return 0;
+}
+
+MakeStructure host_functional(World& world) {
+  msq_host_function_def def = make_def(msq_host_function_def_init);
+  def.clusters = 4;
+  def.level.value = 0.2;
+  def.evaluate = host_function;
+  def.lipschitz = 1.8;
+  return [&world, def](msq_structure** made) {
+    return msq_structure_host_function(world.context, &def, made);
+  };
+}
+
+}  // namespace
+
+msq_structure* Kind::make(World& world) const {
+  msq_structure* structure;
+  require_ok(prepare(world)(&structure));
+  return world.keep(structure);
+}
+
+int32_t host_values(void*, const double* points, uint64_t count, double* values) {
+  for (uint64_t i = 0; i < count; ++i) values[i] = 0.15 + 0.05 * std::tanh(points[3 * i] - 2);
+  return 0;
+}
+
+int32_t host_range(void*, const double min[3], const double max[3], double* low, double* high) {
+  *low = 0.15 + 0.05 * std::tanh(min[0] - 2) - 1e-9;
+  *high = 0.15 + 0.05 * std::tanh(max[0] - 2) + 1e-9;
+  return 0;
+}
+
+int32_t host_inside(void*, const double* points, uint64_t count, uint8_t* inside) {
+  for (uint64_t i = 0; i < count; ++i) {
+    double squared = 0;
+    for (uint64_t axis = 0; axis < 3; ++axis) squared += std::pow(points[3 * i + axis] - 2, 2);
+    inside[i] = squared <= 3.9;
+  }
+  return 0;
+}
+
+World::World(const Stage& stage) {
+  msq_context_def def = make_def(msq_context_def_init);
+  def.threads = stage.threads;
+  require_ok(msq_context_create(&def, &context));
+  keep(context);
+}
+
+World::~World() {
+  for (; !kept_.empty(); kept_.pop_back()) kept_.back()();
+}
+
+msq_shape* World::box() {
+  const double min[3] = {0, 0, 0}, max[3] = {4, 4, 4};
+  msq_shape* shape;
+  require_ok(msq_shape_from_box(context, min, max, &shape));
+  return keep(shape);
+}
+
+msq_shape* World::mesh() {
+  msq_mesh_def def = make_def(msq_mesh_def_init);
+  def.vertices = corners;
+  def.vertex_count = 8;
+  def.triangles = triangles[0];
+  def.triangle_count = 12;
+  msq_shape* shape;
+  require_ok(msq_shape_from_mesh(context, &def, &shape));
+  return keep(shape);
+}
+
+msq_shape* World::voxels() {
+  uint8_t values[9 * 9 * 9];
+  for (int i = 0; i < 9 * 9 * 9; ++i) {
+    const int x = i % 9 - 4, y = i / 9 % 9 - 4, z = i / 81 - 4;
+    values[i] = static_cast<uint8_t>(200 - 10 * (x * x + y * y + z * z) / 2);
+  }
+  msq_voxels_def def = make_def(msq_voxels_def_init);
+  def.image.values = values;
+  def.image.value_type = MSQ_UINT8;
+  for (int axis = 0; axis < 3; ++axis) {
+    def.image.size[axis] = 9;
+    def.image.grid.cell_size[axis] = 0.5;
+  }
+  def.threshold = 130;
+  msq_shape* shape;
+  require_ok(msq_shape_from_voxels(context, &def, &shape));
+  return keep(shape);
+}
+
+msq_shape* World::host_shape() {
+  msq_host_shape_def def = make_def(msq_host_shape_def_init);
+  def.inside = host_inside;
+  for (int axis = 0; axis < 3; ++axis) {
+    def.min[axis] = 0;
+    def.max[axis] = 4;
+  }
+  msq_shape* shape;
+  require_ok(msq_shape_from_host(context, &def, &shape));
+  return keep(shape);
+}
+
+msq_field* World::gradient() {
+  const double from[3] = {0, 0, 0}, to[3] = {4, 0, 2};
+  msq_field* field;
+  require_ok(msq_field_gradient(context, from, 0.1, to, 0.25, &field));
+  return keep(field);
+}
+
+msq_field* World::expression() {
+  msq_expression_field_def def = make_def(msq_expression_field_def_init);
+  def.expression = "0.15 + 0.05 * sin(x) * cos(y + z)";
+  def.low = 0.1;
+  def.high = 0.2;
+  msq_field* field;
+  require_ok(msq_field_expression(context, &def, &field));
+  return keep(field);
+}
+
+msq_field* World::host_field() {
+  msq_host_field_def def = make_def(msq_host_field_def_init);
+  def.evaluate = host_values;
+  def.range = host_range;
+  def.low = 0.1;
+  def.high = 0.2;
+  def.lipschitz = 0.05;
+  msq_field* field;
+  require_ok(msq_field_host(context, &def, &field));
+  return keep(field);
+}
+
+msq_material* World::material(uint32_t id) {
+  const msq_channel channel = {"density", {0, gradient()}};
+  msq_material_def def = make_def(msq_material_def_init);
+  def.id = id;
+  def.channels = &channel;
+  def.channel_count = 1;
+  msq_material* material;
+  require_ok(msq_material_create(context, &def, &material));
+  return keep(material);
+}
+
+msq_model* World::model(msq_shape* shape, msq_structure* structure, double skin) {
+  msq_scale_def scales[2];
+  std::memset(scales, 0, sizeof scales);
+  scales[0].shape = shape;
+  scales[0].material = material(1);
+  scales[1].structure = structure;
+  scales[1].skin.value = skin;
+  scales[1].material = material(2);
+  msq_model_def def = make_def(msq_model_def_init);
+  def.scales = scales;
+  def.scale_count = structure ? 2 : 1;
+  msq_model* model;
+  require_ok(msq_model_create(context, &def, &model));
+  return keep(model);
+}
+
+msq_slicer* World::slicer(const msq_model* model, bool is_slow) {
+  msq_slicer_def def = make_def(msq_slicer_def_init);
+  def.resolution[0] = is_slow ? 5 : 70;
+  def.resolution[1] = is_slow ? 3 : 9;
+  def.layer_height = 0.9;
+  def.slab_layers = 2;
+  msq_slicer* slicer;
+  require_ok(msq_slicer_create(model, &def, &slicer));
+  return keep(slicer);
+}
+
+msq_slicer_report plan_of(const msq_slicer* slicer) {
+  msq_slicer_report plan = {};
+  plan.struct_size = sizeof plan;
+  require_ok(msq_slicer_info(slicer, &plan));
+  return plan;
+}
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> kinds = [] {
+    const msq_param constant = {0.15, nullptr};
+    std::vector<Kind> all = {
+        {"lattice", [=](World& w) { return lattice(w, MSQ_UNIT_CELL_BCC, constant); }},
+        {"lattice of graded radius",
+         [](World& w) {
+           return lattice(w, MSQ_UNIT_CELL_CUBIC, {0, w.gradient()});
+         }},
+        {"lattice of the host's radius",
+         [](World& w) {
+           return lattice(w, MSQ_UNIT_CELL_CUBIC, {0, w.host_field()});
+         }},
+        {"mixed lattice", mixed_lattice, false},
+        {"foam", [=](World& w) { return foam(w, MSQ_FOAM_AUTO, constant); }},
+        {"foam of walls", [=](World& w) { return closed_foam(w, 0, 0.1); }},
+        {"foam of struts and walls", [=](World& w) { return closed_foam(w, 0.2, 0.1); }, false},
+        {"foam of flat cells",
+         [=](World& w) {
+           return foam(w, MSQ_FOAM_AUTO, constant, {1, nullptr}, 0.5);
+         }},
+        {"foam of graded radius",
+         [](World& w) {
+           return foam(w, MSQ_FOAM_AUTO, {0, w.gradient()});
+         }},
+        {"foam of an expression's radius",
+         [](World& w) {
+           return foam(w, MSQ_FOAM_AUTO, {0, w.expression()});
+         }},
+        {"graded foam",
+         [=](World& w) {
+           return graded_foam(w, {0.06, nullptr});
+         }},
+        {"graded foam of graded radius",
+         [](World& w) {
+           return graded_foam(w, {0, w.gradient()});
+         }},
+        {"foam by points", [=](World& w) { return foam(w, MSQ_FOAM_POINT, constant); }, true, false,
+         true},
+        {"foam by method 1", [=](World& w) { return foam(w, MSQ_FOAM_METHOD_1, constant); }},
+        {"gyroid",
+         [](World& w) {
+           return functional(w, MSQ_FUNCTION_GYROID, MSQ_FUNCTIONAL_NETWORK, {0.1, nullptr}, 0,
+                             false);
+         }},
+        {"gyroid of graded level",
+         [](World& w) {
+           return functional(w, MSQ_FUNCTION_GYROID, MSQ_FUNCTIONAL_SHEET, {0, w.gradient()}, 0,
+                             false);
+         }},
+        {"turned sheet of a thickness",
+         [](World& w) {
+           return functional(w, MSQ_FUNCTION_SCHWARZ_P, MSQ_FUNCTIONAL_SHEET, {0, nullptr}, 0.2,
+                             true);
+         }},
+        {"expression",
+         [](World& w) {
+           return functional(w, MSQ_FUNCTION_EXPRESSION, MSQ_FUNCTIONAL_NETWORK,
+                             {0, w.expression()}, 0, false);
+         }},
+        {"turned expression",
+         [](World& w) {
+           return functional(w, MSQ_FUNCTION_EXPRESSION, MSQ_FUNCTIONAL_NETWORK, {0.1, nullptr}, 0,
+                             true);
+         }},
+        {"host structure", [](World& w) { return host_structure(w, false); }, false},
+        {"host structure with cells", [](World& w) { return host_structure(w, true); }, false},
+        {"beams", beams, false},
+        {"host function", host_functional, false},
+    };
+#if MSQ_WITH_CGAL
+    all.push_back(
+        {"foam by method 2", [=](World& w) { return foam(w, MSQ_FOAM_METHOD_2, constant); }});
+    all.back().is_cgal = true;
+#endif
+    return all;
+  }();
+  return kinds;
+}
+
+std::vector<double> some_points(size_t count) {
+  std::vector<double> coordinates(3 * count);
+  uint64_t state = 7;
+  for (double& x : coordinates) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    x = 4.4 * static_cast<double>(state >> 11) * 0x1p-53 - 0.2;
+  }
+  return coordinates;
+}
+
+msq_points_def array_of(const std::vector<double>& coordinates) {
+  msq_points_def def = make_def(msq_points_def_init);
+  def.kind = MSQ_POINTS_ARRAY;
+  def.coordinates = coordinates.data();
+  def.count = coordinates.size() / 3;
+  return def;
+}
+
+msq_points_def grid_of(uint64_t side) {
+  msq_points_def def = make_def(msq_points_def_init);
+  def.kind = MSQ_POINTS_GRID;
+  for (int axis = 0; axis < 3; ++axis) {
+    def.origin[axis] = 0.31;
+    def.spacing[axis] = 3.4 / static_cast<double>(side);
+    def.counts[axis] = side;
+  }
+  return def;
+}
+
+msq_points_def strata_of(uint64_t side, uint32_t per_cell) {
+  msq_points_def def = make_def(msq_points_def_init);
+  def.kind = MSQ_POINTS_STRATIFIED;
+  def.per_cell = per_cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    def.origin[axis] = 0.2;
+    def.spacing[axis] = 3.6 / static_cast<double>(side);
+    def.counts[axis] = side;
+  }
+  return def;
+}
+
+}  // namespace msq::test

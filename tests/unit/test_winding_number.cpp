@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// The generalised winding number of open meshes from their boundary loops, and what caps prove of
+// it, against the sum of the solid angles of all triangles.
+#include "meshes.h"
+#include "random.h"
+#include "shape/mesh_diagnosis.h"
+#include "shape/open_mesh.h"
+#include "shape/triangle_tree.h"
+#include "suite.h"
+#include "winding_number.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+struct Row {
+  std::string name;
+  TriangleSoup soup;
+  size_t points;
+};
+
+std::vector<Row> rows() {
+  const TriangleSoup cube = box_mesh({0, 0, 0}, {1, 1, 1}), ball = icosphere(0.5, 3);
+  TriangleSoup lidless = cube, sheet = cube, far = with_holes(ball, 0.05, 3), two = cube;
+  lidless.triangles.erase(lidless.triangles.begin() + 2, lidless.triangles.begin() + 4);
+  sheet.triangles.resize(1);
+  for (Vec3& v : far.vertices) v = v * 1e-3 + Vec3{50, 9, -70};
+  append(two, ball, {0.25, 0.125, 0.25});
+  TriangleSoup twice = lidless;
+  append(twice, lidless);
+  TriangleSoup crossed = inside_out(with_holes(cube, 0.3, 1));
+  append(crossed, with_holes(cube, 0.3, 2), {0.5, 0.5, 0.5});
+  // Many coordinates alike, or apart by less than others are rounded by.
+  TriangleSoup alike;
+  Random random(4);
+  for (uint32_t i = 0; i < 60; ++i) {
+    const double places[] = {0, 1e-30, -1e-17, 0.1, 0.3, 1.0 / 3, 0.7, 1, std::nextafter(1.0, 2.0)};
+    alike.vertices.push_back(
+        {places[random.below(9)], places[random.below(9)], places[random.below(9)]});
+    if (i % 3 == 2) alike.triangles.push_back({i - 2, i - 1, i});
+  }
+  TriangleSoup half = ball;
+  std::erase_if(half.triangles, [&](const Triangle& t) { return half.vertices[t[0]].z > 0.01; });
+  return {{"a triangle", sheet, 40000},
+          {"cube without a lid", lidless, 40000},
+          {"cube without a lid, twice", twice, 20000},
+          {"half a ball", half, 4000},
+          {"ball, 1 % removed", with_holes(ball, 0.01, 1), 4000},
+          {"ball, 20 % removed", with_holes(ball, 0.2, 1), 4000},
+          {"torus, 60 % removed", with_holes(torus_mesh(0.375, 0.125, 24, 12), 0.6, 1), 4000},
+          {"cubes, crossed, one inside out", crossed, 20000},
+          {"two shells, 5 % removed", with_holes(two, 0.05, 1), 4000},
+          {"small and far away", far, 4000},
+          {"triangles on few planes", alike, 40000},
+          {"loose triangles", torn(ball, 0.01, 1), 4000}};
+}
+
+/// Points about a mesh: anywhere, on a grid of its box, with coordinates of vertices, near
+/// vertices, and behind and before vertices on the +x ray.
+Vec3 some_point(Random& random, const TriangleSoup& soup, const Box3& box, size_t i) {
+  const double extent = max_component(box.extent());
+  const auto vertex = [&] {
+    return soup.vertices[soup.triangles[random.below(soup.triangles.size())][random.below(3)]];
+  };
+  Vec3 p = random.in_box(box.grown(i % 7 ? 0 : 2 * extent));
+  switch (i % 8) {
+    case 1:
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] = box.min[axis] + box.extent()[axis] * static_cast<double>(random.below(9)) / 8;
+      break;
+    case 2:
+      p = {p.x, vertex().y, vertex().z};
+      if (i % 32 == 2) p.y = std::nextafter(p.y, random.between(-9, 9));
+      if (i % 32 >= 18) p.z = std::nextafter(p.z, random.between(-9, 9));
+      break;
+    case 3: {
+      const Vec3 v = vertex();
+      p = {p.x, v.y, v.z};
+      break;
+    }
+    case 4: {
+      const Vec3 v = vertex();
+      const double by = extent * std::pow(10.0, random.between(-17, 0));
+      p = {p.x, v.y + by * random.between(-1, 1), v.z + by * random.between(-1, 1)};
+      break;
+    }
+    case 5: {
+      const double by = extent * std::pow(10.0, random.between(-12, 0));
+      p = vertex() + random.in_box({{-by, -by, -by}, {by, by, by}});
+      break;
+    }
+    case 6: {  // beside an edge or in a triangle
+      const double s = i % 16 == 6 ? 0 : random.unit(), t = random.unit() * (1 - s);
+      const Triangle& of = soup.triangles[random.below(soup.triangles.size())];
+      p = soup.vertices[of[0]] * (1 - s - t) + soup.vertices[of[1]] * s + soup.vertices[of[2]] * t;
+      p.x = i % 32 < 16 ? p.x : random.between(box.min.x, box.max.x);
+      break;
+    }
+    default:
+      break;
+  }
+  return p;
+}
+
+struct Parts {
+  TriangleSoup soup;
+  Box3 box;
+  double scale;
+  Loops loops;
+
+  explicit Parts(const Row& row) : soup(row.soup) {
+    weld(soup, nullptr);
+    box = diagnose(soup, nullptr).bounds;
+    scale = std::ldexp(1.0, -std::ilogb(max_component(box.extent())));
+    loops = join_edges(open_edges(soup, nullptr), soup.vertices.size());
+  }
+};
+
+/// Numbers of all triangles, as count_crossings() takes them.
+std::vector<uint32_t> all_triangles(const TriangleSoup& soup) {
+  std::vector<uint32_t> all(soup.triangles.size());
+  for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<uint32_t>(i);
+  return all;
+}
+
+void test_loops(void** state) {
+  const Parts parts(*static_cast<const Row*>(*state));
+  // They run along each open edge as often as it counts.
+  std::map<std::pair<uint32_t, uint32_t>, int64_t> uses;
+  for (size_t i = 0; i < parts.loops.count(); ++i) {
+    const uint64_t begin = parts.loops.starts[i], end = parts.loops.starts[i + 1];
+    assert_true(end >= begin + 3);
+    for (uint64_t n = begin; n < end; ++n)
+      ++uses[{parts.loops.vertices[n], parts.loops.vertices[n + 1 == end ? begin : n + 1]}];
+  }
+  for (const Triangle& t : parts.soup.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const uint32_t a = t[i], b = t[(i + 1) % 3];
+      --uses[{a, b}];
+    }
+  for (const auto& [edge, count] : uses) {
+    const auto back = uses.find({edge.second, edge.first});
+    assert_int_equal(count, back == uses.end() ? 0 : back->second);
+  }
+}
+
+void test_numbers(void** state) {
+  const Row& row = *static_cast<const Row*>(*state);
+  const Parts parts(row);
+  const BoundaryLoops loops(parts.soup, parts.loops, parts.scale);
+  const std::vector<uint32_t> all = all_triangles(parts.soup);
+  std::vector<TreeTriangle> triangles;
+  for (const Triangle& t : parts.soup.triangles)
+    triangles.emplace_back(parts.soup.vertices[t[0]] * parts.scale,
+                           parts.soup.vertices[t[1]] * parts.scale,
+                           parts.soup.vertices[t[2]] * parts.scale);
+  const TriangleTree tree(triangles, nullptr);
+  Random random(5);
+  size_t compared = 0;
+  for (size_t i = 0; i < test_count(row.points); ++i) {
+    const Vec3 p = some_point(random, parts.soup, parts.box, i);
+    const int64_t row_winding = count_crossings(parts.soup, all, p).beyond;
+    const double wanted = winding_number(parts.soup, p);
+    const BoundaryLoops::Level level = loops.level(p);
+    assert_int_equal(level.turns, loops.turns(p));
+    // On a triangle there is no such number, and by its edges the sum over triangles loses digits.
+    if (tree.distance(p * parts.scale) < 1e-8 * (1 + parts.scale * max_magnitude(p))) continue;
+    const double room = 1e-9 + level.error;
+    ++compared;
+    const double got = static_cast<double>(row_winding - level.turns) - level.rest / (2 * pi);
+    if (!(std::abs(got - wanted) <= room))
+      fail_msg("(%.17g, %.17g, %.17g): %.17g, not %.17g", p.x, p.y, p.z, got, wanted);
+    if (std::abs(wanted - std::floor(wanted) - 0.5) > room)
+      assert_int_equal(row_winding - level.turns, std::floor(wanted + 0.5));
+  }
+  assert_true(compared > test_count(row.points) / 3);
+}
+
+/// Caps say the same as the definition wherever they say anything, and their bounds hold.
+void test_caps(void** state) {
+  const Row& row = *static_cast<const Row*>(*state);
+  const Parts parts(row);
+  const OpenMesh mesh(parts.soup, parts.box);
+  const BoundaryLoops loops(parts.soup, parts.loops, parts.scale);
+  Random random(6);
+  size_t proven = 0;
+  const size_t count = 4 * test_count(row.points);
+  for (size_t i = 0; i < count; ++i) {
+    const Vec3 p = some_point(random, i % 2 ? mesh.caps().soup() : parts.soup, parts.box, i);
+    const int64_t turns = loops.turns(p);
+    assert_int_equal(mesh.correction(p), -turns);
+    for (const double opening : {2.0, 4.0, 12.0}) {
+      const Caps::View view = mesh.caps().view(p, opening);
+      if (!(view.margin() > 0)) continue;
+      ++proven;
+      const int64_t got = mesh.caps().count_beyond(p) - view.whole();
+      if (got != -turns)
+        fail_msg("(%.17g, %.17g, %.17g): %lld turns, not %lld", p.x, p.y, p.z,
+                 static_cast<long long>(-got), static_cast<long long>(turns));
+      if (!(std::abs(view.turns - winding_number(mesh.caps().soup(), p)) <= view.error + 1e-12))
+        fail_msg("(%.17g, %.17g, %.17g): the caps make %.17g, to %g, not %.17g", p.x, p.y, p.z,
+                 view.turns, view.error, winding_number(mesh.caps().soup(), p));
+    }
+    // Within the reach of a point, away from the caps, it is one number.
+    const double size = std::pow(10.0, random.between(-3, 0));
+    int64_t whole;
+    if (!mesh.is_whole_about(p, size / parts.scale, whole)) continue;
+    for (int n = 0; n < 4; ++n) {
+      Vec3 by = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+      by = by * (size * (n ? random.unit() : 1) / length(by) / parts.scale);
+      assert_int_equal(mesh.caps().count_beyond(p + by) + loops.turns(p + by), whole);
+    }
+  }
+  assert_true(proven > count);
+}
+
+}  // namespace
+
+int main() {
+  std::vector<Row> all = rows();
+  return run_for_each("loops", all, test_loops) + run_for_each("numbers", all, test_numbers) +
+         run_for_each("caps", all, test_caps);
+}
