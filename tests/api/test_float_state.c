@@ -274,6 +274,7 @@ static void test_failures(void** state) {
     msq_field* field;
     msq_structure* structure;
     host_state = 0;
+    notes_messages = threads == 1;
     assert_ok(make_field(context, 3, &field));
     assert_ok(make_structure(context, foam_of_field, field, &structure));
     msq_model* model = make_model(context, make_box(context), structure, NULL);
@@ -308,6 +309,7 @@ static void test_failures(void** state) {
     msq_model_release(model);
     msq_context_release(context);
   }
+  notes_messages = 1;
 }
 
 /* ---- callbacks on other threads
