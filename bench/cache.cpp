@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cell cache: what a hit costs, what two threads build twice, and which cells to keep where not
-// all fit: fetches of real work are recorded and replayed through policies.
+// The cell cache: what a hit costs, what two threads build twice, and how many cells of real work
+// are found if not all fit, under both policies.
 //
 // usage: cache [results.json]
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
-#include <map>
-#include <mutex>
 #include <thread>
 
-#include "api/guard.h"
 #include "base/random.h"
 #include "bench.h"
-#include "cache_policies.h"
+#include "cell/cache.h"
 #include "foam_rays.h"
 
 namespace {
@@ -185,56 +182,38 @@ void random_boxes(msq_context* context) {
   msq_model_release(model);
 }
 
-bench::Trace record(void (*work)(msq_context*)) {
-  msq_context* context = make_context({});
-  bench::Trace trace;
-  std::mutex mutex;
-  std::map<std::array<int64_t, 4>, uint32_t> numbers;
-  msq::api::object(context, "context")
-      .cache.observe([&](uint64_t structure, msq::CellIndex cell, uint64_t bytes) {
-        std::lock_guard lock(mutex);
-        const std::array<int64_t, 4> key{static_cast<int64_t>(structure), cell.x, cell.y, cell.z};
-        const auto number = numbers.emplace(key, static_cast<uint32_t>(numbers.size()));
-        trace.push_back({number.first->second, bytes});
-      });
-  work(context);
-  msq_context_release(context);
-  return trace;
-}
-
+/// Does the work with caches that hold a part of all its cells, under both policies.
 void bench_work(bench::Report& report, const std::string& name, void (*work)(msq_context*)) {
-  const bench::Trace trace = record(work);
-  if (trace.empty()) {
-    report.note(name + ": fetches", 0, "");
-    return;
-  }
-  std::unordered_map<uint32_t, uint64_t> sizes;
-  for (const bench::Fetch& fetch : trace) sizes[fetch.cell] = fetch.bytes;
-  uint64_t all = 0;
-  for (const auto& [cell, bytes] : sizes) all += bytes;
-  report.note(name + ": fetches", static_cast<double>(trace.size()), "");
-  report.note("  different cells", static_cast<double>(sizes.size()), "");
-  report.note("  these take", static_cast<double>(all) / 1e6, "MB");
-  for (const double part : {0.03125, 0.0625, 0.125, 0.25, 0.5, 0.75}) {
-    std::map<std::string, double> rates;
-    for (const std::string& policy : bench::policy_names())
-      rates[policy] = 100 * bench::hit_rate(policy, trace, static_cast<uint64_t>(part * all));
-    report.compare(name, "cache " + std::to_string(part * 100).substr(0, 4) + " %", rates);
-  }
-  for (const int32_t policy : {MSQ_CACHE_FIFO, MSQ_CACHE_SEGMENTED}) {
-    msq_context* context = make_context({static_cast<uint64_t>(all) / 2, policy});
-    const double seconds = bench::seconds_of([&] { work(context); });
-    const std::string title = policy ? ", half of it, segmented" : ", half of it, FIFO";
+  const auto cache_after = [&](const Setting& setting, double* seconds) {
+    msq_context* context = make_context(setting);
+    const double taken = bench::seconds_of([&] { work(context); });
     const msq_cache_report cache = bench::cache_of(context);
-    report.add(name + title + ", two threads", seconds, static_cast<double>(trace.size()), "fetch");
-    const double fetches = static_cast<double>(cache.hits + cache.misses);
-    report.note("  hits", 100 * static_cast<double>(cache.hits) / fetches, "%");
-    report.note("  built twice",
-                100 * static_cast<double>(cache.duplicates) / static_cast<double>(cache.misses),
-                "% of misses");
-    report.note("  no room", static_cast<double>(cache.unkept), "misses");
     msq_context_release(context);
-  }
+    if (seconds) *seconds = taken;
+    return cache;
+  };
+  const auto fetches_of = [](const msq_cache_report& cache) {
+    return static_cast<double>(cache.hits + cache.misses);
+  };
+  // With room for all cells, the peak is what they take.
+  const msq_cache_report all = cache_after({}, nullptr);
+  report.note(name + ": fetches", fetches_of(all), "");
+  report.note("  different cells", static_cast<double>(all.misses - all.duplicates), "");
+  report.note("  these take", static_cast<double>(all.peak_bytes) / 1e6, "MB");
+  for (const double part : {0.125, 0.25, 0.5})
+    for (const int32_t policy : {MSQ_CACHE_FIFO, MSQ_CACHE_SEGMENTED}) {
+      double seconds;
+      const auto room = static_cast<uint64_t>(part * static_cast<double>(all.peak_bytes));
+      const msq_cache_report cache = cache_after({room, policy}, &seconds);
+      const std::string title = name + ", " + std::to_string(part * 100).substr(0, 4) +
+                                (policy ? " % of it, segmented" : " % of it, FIFO");
+      report.add(title + ", two threads", seconds, fetches_of(cache), "fetch");
+      report.note("  hits", 100 * static_cast<double>(cache.hits) / fetches_of(cache), "%");
+      report.note("  built twice",
+                  100 * static_cast<double>(cache.duplicates) / static_cast<double>(cache.misses),
+                  "% of misses");
+      report.note("  no room", static_cast<double>(cache.unkept), "misses");
+    }
 }
 
 }  // namespace

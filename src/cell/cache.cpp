@@ -82,7 +82,6 @@ CellCache::Data CellCache::find(const Key& key) {
   // Stored only once: a cache line that is only read stays in the caches of all cores.
   if (!entry.is_fetched_again.load(std::memory_order_relaxed))
     entry.is_fetched_again.store(true, std::memory_order_relaxed);
-  if (observer_) observer_(key.structure, key.cell, entry.bytes);
   return entry.data;
 }
 
@@ -91,7 +90,6 @@ CellCache::Data CellCache::add(const Key& key, uint64_t expected_bytes,
   Room room(*this, key, expected_bytes);
   Data data = build();
   const uint64_t bytes = data->bytes() + entry_overhead;
-  if (observer_) observer_(key.structure, key.cell, bytes);
   std::lock_guard lock(mutex_);
   return keep(key, std::move(data), bytes, room);
 }

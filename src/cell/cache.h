@@ -87,11 +87,6 @@ class CellCache {
   Counters counters() const;
   uint64_t limit() const { return limit_; }
 
-  /// For measurements: called at the end of each fetch, on its thread, with the bytes that the cell
-  /// takes in the cache. Set it only while nothing is fetched.
-  using Observer = std::function<void(uint64_t structure, CellIndex cell, uint64_t bytes)>;
-  void observe(Observer observer) { observer_ = std::move(observer); }
-
  private:
   struct Key {
     Key(uint64_t of_structure, CellIndex of_cell);
@@ -138,7 +133,6 @@ class CellCache {
   const uint64_t limit_;
   const std::shared_ptr<MemoryBudget> budget_;
   const CachePolicy policy_;
-  Observer observer_;
   std::array<Part, 64> parts_;
   /// Guards all members below.
   mutable std::mutex mutex_;
