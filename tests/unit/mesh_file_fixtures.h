@@ -386,6 +386,21 @@ inline void assert_refused(const std::string& file, MeshFormat format, Status st
   assert_fails([&] { read(file, options_for(format)); }, status, words);
 }
 
+/// Reads a malformed file: any Error will do.
+inline void read_anything(const std::string& content, MeshFormat format) {
+  MeshFileOptions options = options_for(format);
+  options.max_bytes = 1 << 24;
+  options.max_triangles = 100000;
+  // A copy of its own, so that reading past the end is seen.
+  const std::vector<char> copy(content.begin(), content.end());
+  try {
+    assert_valid(msq::read_mesh_memory(copy.data(), copy.size(), options));
+  } catch (const msq::Error& error) {
+    assert_true(error.what()[0] != '\0');
+    if (error.status == Status::internal) fail_msg("%s", error.what());
+  }
+}
+
 struct Sample {
   const char* name;
   MeshFormat format;

@@ -218,21 +218,6 @@ void refuses_archives_that_unpack_to_too_much(void**) {
 
 // ---- malformed files at random
 
-/// Reads, and takes any Error for an answer.
-void read_anything(const std::string& content, MeshFormat format) {
-  MeshFileOptions options = options_for(format);
-  options.max_bytes = 1 << 24;
-  options.max_triangles = 100000;
-  // A copy of its own, so that reading past the end is seen.
-  const std::vector<char> copy(content.begin(), content.end());
-  try {
-    assert_valid(msq::read_mesh_memory(copy.data(), copy.size(), options));
-  } catch (const msq::Error& error) {
-    assert_true(error.what()[0] != '\0');
-    if (error.status == Status::internal) fail_msg("%s", error.what());
-  }
-}
-
 void survives_truncation(void**) {
   for (const Sample& sample : samples())
     for (size_t n = 0; n < sample.content.size(); ++n)

@@ -285,20 +285,6 @@ void wide_text_is_told_apart(void**) {
         }
 }
 
-/// Reads, and takes any Error for an answer.
-void read_anything(const std::string& content, MeshFormat format) {
-  MeshFileOptions options = options_for(format);
-  options.max_triangles = 100000;
-  // A copy of its own, so that reading past the end is seen.
-  const std::vector<char> copy(content.begin(), content.end());
-  try {
-    assert_valid(msq::read_mesh_memory(copy.data(), copy.size(), options));
-  } catch (const msq::Error& error) {
-    assert_true(error.what()[0] != '\0');
-    if (error.status == Status::internal) fail_msg("%s", error.what());
-  }
-}
-
 void survives_edits(void**) {
   constexpr int rounds = 4000;
   const std::string pieces[] = {"\\\n",   "#",  " -1", "f ",    "\r", "e999",
