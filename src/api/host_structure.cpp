@@ -130,9 +130,9 @@ msq_status msq_structure_host_function(msq_context* context, const msq_host_func
     const bool is_concurrent = require_range(known.concurrent, 0, 1, "concurrent") != 0;
     const Neighbourhood grid = read_neighbourhood(known.grid);
     require_range(known.kind, MSQ_FUNCTIONAL_NETWORK, MSQ_FUNCTIONAL_SHEET, "kind");
-    constexpr uint32_t most = HostFunction::max_clusters;
-    if (known.clusters > most)
-      fail(Status::argument, "clusters is %u; it must be from 0 to %u", known.clusters, most);
+    if (known.clusters > uint32_t{max_clusters})
+      fail(Status::argument, "clusters is %u; it must be from 0 to %d", known.clusters,
+           max_clusters);
     if (!known.evaluate) fail(Status::argument, "evaluate is NULL");
     Ref<HostFunction> made = make_ref<HostFunction>(
         grid,

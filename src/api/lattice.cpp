@@ -6,6 +6,7 @@
 #include "api/neighbourhood.h"
 #include "api/strut_radius.h"
 #include "api/unit_cell.h"
+#include "structure/common/max_clusters.h"
 #include "structure/lattice/mixed/mixed_lattice.h"
 
 using namespace msq;
@@ -86,9 +87,9 @@ msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* de
     object(context, "context");
     require(structure, "structure");
     const msq_lattice_def known = read_def(def, lattice_defaults(), "def");
-    if (known.clusters > uint32_t{StrutClusters::max_side})
+    if (known.clusters > uint32_t{max_clusters})
       fail(Status::argument, "clusters is %u; it must be from 0 to %d", known.clusters,
-           StrutClusters::max_side);
+           max_clusters);
     const Neighbourhood grid = read_neighbourhood(known.grid);
     std::vector<UnitCell> library = read_library(known);
     double max_factor = 0;

@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/pi.h"
+
 namespace msq {
 
 /// The angle of the vector (x, y), from -pi to pi, with the signs of zeros of std::atan2(y, x). x
@@ -25,7 +27,6 @@ inline double arc_tangent(double y, double x) {
                                           0.6435011087932844,
                                           0.7188299996216245,
                                           0.7853981633974483};
-  constexpr double pi = 3.14159265358979323846;
   double low = std::abs(y), high = std::abs(x);
   const bool is_steep = low > high;
   if (is_steep) std::swap(low, high);

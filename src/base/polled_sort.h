@@ -3,20 +3,17 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 
 #include "base/job.h"
 
 namespace msq {
 
-/// As std::sort. If the current job is cancelled, throws Error(cancelled) within milliseconds; the
-/// order is then unspecified.
+/// As std::sort, and polls once per comparison. If the job is cancelled, throws Error(cancelled);
+/// the order is then unspecified.
 template <class Iterator, class Less>
-void polled_sort(Iterator first, Iterator last, Less less) {
-  constexpr uint32_t between = 1u << 16;
-  uint32_t compared = 0;
+void polled_sort(Iterator first, Iterator last, Less less, CancelPoll& poll) {
   std::sort(first, last, [&](const auto& a, const auto& b) {
-    if (++compared % between == 0) check_cancelled();
+    poll();
     return less(a, b);
   });
 }

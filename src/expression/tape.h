@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/pi.h"
 #include "base/vec.h"
 
 namespace msq {
@@ -83,7 +84,5 @@ double apply(Op op, double a, double b);
 
 /// The value at a position. This is the definition. All other evaluators agree with it bit for bit.
 double evaluate(const Tape& tape, Vec3 position);
-
-constexpr double two_pi = 6.283185307179586;
 
 }  // namespace msq

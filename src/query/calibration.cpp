@@ -29,7 +29,8 @@ Calibration::Calibration(const Structure& structure, const StratifiedPoints& sam
     job->raise_progress(0.9 * static_cast<double>(now) / static_cast<double>(parts));
   });
   sorted_ = onsets_;
-  polled_sort(sorted_.begin(), sorted_.end(), std::less<>());
+  CancelPoll poll(current_job());
+  polled_sort(sorted_.begin(), sorted_.end(), std::less<>(), poll);
   const double most = std::min(structure.onset_limit(), std::numeric_limits<double>::max());
   reached_ = static_cast<uint64_t>(std::upper_bound(sorted_.begin(), sorted_.end(), most) -
                                    sorted_.begin());

@@ -7,13 +7,13 @@
 #include <limits>
 #include <utility>
 
+#include "base/pi.h"
 #include "shape/half_angles.h"
 
 namespace msq {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 /// In multiples of its radius: the distance from which a node is evaluated as a whole.
 constexpr double opening = 3;
 

@@ -2,8 +2,10 @@
 #include "shape/mesh_diagnosis.h"
 
 #include <cstring>
+#include <functional>
 #include <vector>
 
+#include "base/polled_sort.h"
 #include "base/random.h"
 #include "base/status.h"
 
@@ -173,10 +175,7 @@ ShapeFacts diagnose(const TriangleSoup& soup, const Job* job) {
     std::sort(t.begin(), t.end());
     sorted.push_back(t);
   }
-  std::sort(sorted.begin(), sorted.end(), [&](const Triangle& l, const Triangle& r) {
-    poll();
-    return l < r;
-  });
+  polled_sort(sorted.begin(), sorted.end(), std::less<>(), poll);
   for (size_t i = 1; i < sorted.size(); ++i) {
     poll();
     if (sorted[i] == sorted[i - 1]) ++facts.duplicate_triangles;
@@ -191,10 +190,9 @@ ShapeFacts diagnose(const TriangleSoup& soup, const Job* job) {
       const uint32_t a = t[i], b = t[(i + 1) % 3];
       uses.push_back({std::min(a, b), std::max(a, b), a < b});
     }
-  std::sort(uses.begin(), uses.end(), [&](const EdgeUse& l, const EdgeUse& r) {
-    poll();
-    return l.a != r.a ? l.a < r.a : l.b < r.b;
-  });
+  polled_sort(
+      uses.begin(), uses.end(),
+      [](const EdgeUse& l, const EdgeUse& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; }, poll);
   for (size_t i = 0; i < uses.size();) {
     poll();
     size_t end = i;

@@ -2,7 +2,10 @@
 #include "shape/open_edges.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
+
+#include "base/polled_sort.h"
 
 namespace msq {
 
@@ -30,10 +33,7 @@ std::vector<OpenEdge> open_edges(const TriangleSoup& soup, const Job* job) {
       const uint32_t a = t[i], b = t[(i + 1) % 3];
       uses.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
     }
-  std::sort(uses.begin(), uses.end(), [&](const EdgeUse& a, const EdgeUse& b) {
-    poll();
-    return a < b;
-  });
+  polled_sort(uses.begin(), uses.end(), std::less<>(), poll);
   std::vector<OpenEdge> open;
   for (size_t i = 0; i < uses.size();) {
     int64_t net = 0;

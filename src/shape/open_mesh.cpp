@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pi.h"
 #include "shape/mesh_diagnosis.h"
 
 namespace msq {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 
 double scale_of(const Box3& bounds) {
   return std::ldexp(1.0, std::clamp(-std::ilogb(max_component(bounds.extent())), -1000, 1000));
@@ -84,7 +84,6 @@ double OpenMesh::distance_bound(Vec3 p, int64_t winding, double max) const {
 // So steps towards the level shrink as Newton's do, and from it on they are long at once: where m
 // is no more than rounding, only what is lost in that is to be passed by other means.
 double OpenMesh::steady_way(Vec3 p, Vec3 direction, int64_t beyond) const {
-  constexpr double two_pi = 2 * pi;
   const BoundaryLoops::Course c = loops_.course(p, direction, rounding_);
   const int64_t winding = beyond - c.turns;
   const double turns = 2 * two_pi * static_cast<double>(winding) - 2 * c.rest;  // 4 pi w

@@ -4,10 +4,11 @@
 #include <limits>
 #include <vector>
 
+#include "base/pi.h"
+
 namespace msq {
 
 namespace {
-constexpr double pi = 3.14159265358979323846;
 
 /// Distance to the nearest edge or wall of two walls at right angles, from a point that lies beyond
 /// (positive) or within (negative) each of them.

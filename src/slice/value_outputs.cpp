@@ -15,16 +15,31 @@ namespace {
 /// So many rows are computed at once that the values of a strip take little memory.
 constexpr uint64_t strip_pixels = uint64_t{1} << 18;
 
-/// Calls write_rows(points, first row, number of rows) for strips of a layer.
-template <class WriteRows>
-void for_each_strip(const SampleGrid& pixels, WriteRows&& write_rows) {
-  const uint64_t rows = std::max<uint64_t>(1, strip_pixels / pixels.nx);
+/// Writes the pixels of a layer from one value per point, strip by strip. query(points, values)
+/// finds them; put(value, at) writes a pixel and returns whether it is inside.
+template <class Value, class Query, class Put>
+uint64_t write_values(const LayerSource& source, unsigned pixel_bytes, uint8_t* out, Query&& query,
+                      Put&& put) {
+  const SampleGrid& pixels = source.pixels;
+  const uint64_t width = pixels.nx, stride = layer_stride(pixel_bytes, width);
+  const uint64_t rows = std::max<uint64_t>(1, strip_pixels / width);
+  std::vector<Value> values;
+  uint64_t inside = 0;
   for (uint64_t first = 0; first < pixels.ny; first += rows) {
     SampleGrid strip = pixels;
     strip.ny = std::min(rows, pixels.ny - first);
     strip.first[1] += first;
-    write_rows(GridPoints(strip), first, strip.ny);
+    const GridPoints points(strip);
+    values.resize(points.count());
+    query(points, values.data());
+    for (uint64_t j = 0; j < strip.ny; ++j) {
+      uint8_t* row = out + (first + j) * stride;
+      std::memset(row + stride - 8, 0, 8);
+      for (uint64_t i = 0; i < width; ++i)
+        inside += put(values[j * width + i], row + i * pixel_bytes);
+    }
   }
+  return inside;
 }
 
 class DistanceOutput final : public LayerOutput {
@@ -33,24 +48,16 @@ class DistanceOutput final : public LayerOutput {
   unsigned samples_across() const override { return 0; }
 
   uint64_t write(const LayerSource& source, uint8_t* out) const override {
-    const uint64_t width = source.pixels.nx, stride = layer_stride(pixel_bytes(), width);
-    std::vector<double> distances;
-    uint64_t inside = 0;
-    for_each_strip(source.pixels, [&](const GridPoints& points, uint64_t first, uint64_t rows) {
-      distances.resize(points.count());
-      set_distance(source.model, source.resolved, points, distances.data(), source.job);
-      for (uint64_t j = 0; j < rows; ++j) {
-        uint8_t* row = out + (first + j) * stride;
-        std::memset(row + stride - 8, 0, 8);
-        for (uint64_t i = 0; i < width; ++i) {
-          const double distance = distances[j * width + i];
-          inside += distance <= 0;
+    return write_values<double>(
+        source, pixel_bytes(), out,
+        [&](const GridPoints& points, double* distances) {
+          set_distance(source.model, source.resolved, points, distances, source.job);
+        },
+        [](double distance, uint8_t* at) {
           const auto rounded = static_cast<float>(distance);
-          std::memcpy(row + i * sizeof rounded, &rounded, sizeof rounded);
-        }
-      }
-    });
-    return inside;
+          std::memcpy(at, &rounded, sizeof rounded);
+          return distance <= 0;
+        });
   }
 };
 
@@ -60,20 +67,15 @@ class MaterialOutput final : public LayerOutput {
   unsigned samples_across() const override { return 0; }
 
   uint64_t write(const LayerSource& source, uint8_t* out) const override {
-    const uint64_t width = source.pixels.nx, stride = layer_stride(pixel_bytes(), width);
-    std::vector<uint32_t> ids;
-    uint64_t inside = 0;
-    for_each_strip(source.pixels, [&](const GridPoints& points, uint64_t first, uint64_t rows) {
-      ids.resize(points.count());
-      set_material(source.model, source.resolved, points, {}, {}, ids.data(), nullptr, source.job);
-      for (uint64_t j = 0; j < rows; ++j) {
-        uint8_t* row = out + (first + j) * stride;
-        std::memset(row + stride - 8, 0, 8);
-        std::memcpy(row, &ids[j * width], width * sizeof(uint32_t));
-      }
-      for (const uint32_t id : ids) inside += id != 0;
-    });
-    return inside;
+    return write_values<uint32_t>(
+        source, pixel_bytes(), out,
+        [&](const GridPoints& points, uint32_t* ids) {
+          set_material(source.model, source.resolved, points, {}, {}, ids, nullptr, source.job);
+        },
+        [](uint32_t id, uint8_t* at) {
+          std::memcpy(at, &id, sizeof id);
+          return id != 0;
+        });
   }
 };
 

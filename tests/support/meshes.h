@@ -5,11 +5,12 @@
 #include <map>
 #include <utility>
 
+#include "base/pi.h"
 #include "base/triangle_soup.h"
 
 namespace msq::test {
 
-constexpr double pi = 3.14159265358979323846;
+using msq::pi;
 
 /// Adds a mesh's triangles to another, moved.
 inline void append(TriangleSoup& soup, const TriangleSoup& more, Vec3 by = {}) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "base/pi.h"
 #include "field/gradient.h"
 #include "graded_cells.h"
 #include "msq_test.h"
@@ -255,7 +256,6 @@ void test_length_by_stereology(void**) {
   }
   const double area = 2 * static_cast<double>(hits) / static_cast<double>(count) / span;
   const double error = area / std::sqrt(static_cast<double>(hits));
-  const double pi = 3.14159265358979323846;
   print_message("length per area %.4f, pi / 4 of the area of faces %.4f +- %.4f\n", density,
                 pi / 4 * area, pi / 4 * error);
   // Lines shorter than an eighth of an edge see two faces at once, or none, near edges: 1 %.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/pi.h"
 #include "expression/parser.h"
 #include "field/gradient.h"
 #include "fill/chain.h"
@@ -20,8 +21,6 @@ using namespace msq;
 using namespace msq::test;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 Rotation turned() {
   const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(-1.1), t = std::sin(-1.1);

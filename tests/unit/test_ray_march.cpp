@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Marches along rays: what they find, and how often they ask where the distance is next to nothing.
 #include "base/march_together.h"
+#include "base/pi.h"
 #include "base/ray.h"
 #include "random.h"
 #include "structure/host/host_function.h"
@@ -114,7 +115,7 @@ void test_rays_together_march_as_each_alone(void**) {
 
 /// A steep function of a host: a plate, |y - pi| <= 1 in angles, with a wall at x = 5 to 5.5.
 void test_steep_functions_of_hosts_do_not_hang(void**) {
-  constexpr double slope = 1e6, pi = 3.14159265358979324, off = 1e-7;
+  constexpr double slope = 1e6, off = 1e-7;
   size_t asked = 0;
   HostFunctionCalls calls;
   calls.evaluate = [&](const Vec3* angles, size_t count, double* values) {
@@ -140,7 +141,7 @@ void test_steep_functions_of_hosts_do_not_hang(void**) {
 /// A function of a host of slope 1 in angles, at most what its bound says: a plate of 2e-5 angles,
 /// about x = pi.
 HostFunction plate(bool is_solid) {
-  constexpr double pi = 3.14159265358979324, half = 1e-5;
+  constexpr double half = 1e-5;
   HostFunctionCalls calls;
   calls.evaluate = [=](const Vec3* angles, size_t count, double* values) {
     for (size_t i = 0; i < count; ++i) {

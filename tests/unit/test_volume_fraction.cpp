@@ -7,6 +7,7 @@
 #include <array>
 #include <set>
 
+#include "base/pi.h"
 #include "bit_rows.h"
 #include "msq_test.h"
 #include "random.h"
@@ -18,8 +19,6 @@ using namespace msq;
 using namespace msq::test;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// The part of about `samples` samples that are inside, one in each of n^3 boxes of the cell. The
 /// standard error of random samples is an upper bound for that of stratified ones.

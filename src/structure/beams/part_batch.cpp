@@ -16,6 +16,22 @@ namespace parts {
 
 constexpr double u24 = 0x1p-24;
 
+/// Whether lanes from i on hold parts of the batch.
+template <class Batch>
+HWY_INLINE auto holds_parts(D d, const Batch& batch, size_t i) {
+  return hn::Lt(hn::Iota(d, static_cast<double>(i)), hn::Set(d, static_cast<double>(batch.count)));
+}
+
+/// Bound on the error of the column where a plane of slope 1 / over_x meets a row; `ur`: a unit of
+/// rounding of the size of the part.
+HWY_INLINE V plane_error_of(D d, V ur, V over_x, const RasterTarget& target) {
+  const auto num = [&](double value) HWY_ATTR { return hn::Set(d, value); };
+  const V margin = num(target.margin * target.inverse_dx);
+  return with_room(hn::Add(
+      hn::MulAdd(hn::MulAdd(num(26), ur, margin), hn::Abs(over_x), hn::Mul(num(4), num(u24))),
+      num(target.slack)));
+}
+
 struct FrustumSetups {
   RowSetups rows;
   Floats ux, uy, uz, inverse_across;              // axis; 1 / A
@@ -55,8 +71,7 @@ struct FrustumSetups {
     serves = hn::And(serves, hn::Gt(length, hn::Mul(whole, num(1e-9))));
     serves = hn::And(serves, hn::Gt(most, hn::Mul(whole, num(1e-4))));
     serves = hn::And(serves, hn::Lt(margin, hn::Mul(most, num(1e-3))));
-    const auto is_there =
-        hn::Lt(hn::Iota(d, static_cast<double>(i)), num(static_cast<double>(batch.count)));
+    const auto is_there = holds_parts(d, batch, i);
     // The discs at the ends, wider by what the margin moves points.
     const V wide = num(4 * target.margin);
     const auto low_of = [&](V from, V to, V component) HWY_ATTR {
@@ -103,8 +118,7 @@ struct FrustumSetups {
     max_radius.set(hn::MulAdd(reached, num(1.01), r_error));
     inverse_slope.set(over_x);
     plane_step.set(hn::Mul(length, over_x));
-    plane_error.set(with_room(hn::Add(
-        hn::MulAdd(hn::MulAdd(num(26), uu, margin), hn::Abs(over_x), hn::Mul(num(4), u)), slack)));
+    plane_error.set(plane_error_of(d, uu, over_x, target));
     error.set(squared);
     root_error.set(hn::Sqrt(squared));
     scaled_error.set(with_room(hn::Mul(size, squared)));
@@ -174,8 +188,7 @@ struct BallSetups {
     const V r = hn::Mul(model_r, num(target.inverse_dx)), u = num(u24), zero = hn::Zero(d);
     const V margin = num(target.margin * target.inverse_dx), slack = num(target.slack);
     const auto serves = hn::Lt(margin, hn::Mul(r, num(1e-3)));
-    const auto is_there =
-        hn::Lt(hn::Iota(d, static_cast<double>(i)), num(static_cast<double>(batch.count)));
+    const auto is_there = holds_parts(d, batch, i);
     rows.set(target, x, y, z, hn::Sub(y, thick), hn::Add(y, thick), hn::Sub(z, thick),
              hn::Add(z, thick), r, is_there, serves);
     const auto is_whole =
@@ -186,8 +199,7 @@ struct BallSetups {
     ny.set(out_y);
     nz.set(out_z);
     inverse_slope.set(over_x);
-    plane_error.set(with_room(hn::Add(
-        hn::MulAdd(hn::MulAdd(num(26), ur, margin), hn::Abs(over_x), hn::Mul(num(4), u)), slack)));
+    plane_error.set(plane_error_of(d, ur, over_x, target));
     cuts_low.set(hn::IfThenZeroElse(is_whole, hn::IfThenElseZero(is_up, num(1))));
     cuts_high.set(hn::IfThenZeroElse(is_whole, hn::IfThenZeroElse(is_up, num(1))));
     const V squared = with_room(hn::MulAdd(

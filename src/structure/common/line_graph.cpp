@@ -2,9 +2,11 @@
 #include "structure/common/line_graph.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "base/job.h"
+#include "base/polled_sort.h"
 
 namespace msq {
 
@@ -50,10 +52,7 @@ void LineGraph::weld(double distance) {
   for (uint32_t i = 0; i < points.size(); ++i)
     places[i] = {square(points[i].x), square(points[i].y), i};
   CancelPoll poll(current_job());
-  std::sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
-    poll();
-    return a < b;
-  });
+  polled_sort(places.begin(), places.end(), std::less<>(), poll);
   Sets sets(points.size());
   for (const Place& place : places) {
     poll();

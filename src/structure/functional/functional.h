@@ -13,6 +13,7 @@
 #include "expression/ray_bounds.h"
 #include "expression/slope.h"
 #include "field/field.h"
+#include "structure/common/max_clusters.h"
 #include "structure/functional/clusters.h"
 #include "structure/functional/row_plan.h"
 #include "structure/functional/trigonometric_form.h"
@@ -21,8 +22,6 @@
 namespace msq {
 
 enum class FunctionalKind : int32_t { network = 1, sheet = 2 };
-
-constexpr int max_clusters = 64;  // along an axis of the cell
 
 class Functional final : public Structure {
  public:

@@ -9,12 +9,12 @@
 #include <limits>
 
 #include "base/march_together.h"
+#include "base/pi.h"
 
 namespace msq {
 
 namespace {
 
-constexpr double two_pi = 6.283185307179586;
 constexpr int automatic_clusters = 32;
 /// For boxes with more clusters, the clusters are not examined one by one.
 constexpr int max_in_box = 4096;

@@ -2,6 +2,10 @@
 // A functional structure whose function the host computes. The solid is where the onset is at most
 // the level. The onset is the function of the position within the cell (network) or its magnitude
 // (sheet).
+//
+// This is not a Functional: that one evaluates a tape, whose intervals, slopes and factors it derives
+// and on which its rows and rays are built. Of the host's function only values and perhaps a range
+// are known, in batches that cost a callback each.
 #pragma once
 
 #include <functional>
@@ -9,6 +13,7 @@
 
 #include "base/host.h"
 #include "field/field.h"
+#include "structure/common/max_clusters.h"
 #include "structure/structure.h"
 
 namespace msq {
@@ -22,8 +27,6 @@ struct HostFunctionCalls {
 
 class HostFunction final : public Structure {
  public:
-  static constexpr int max_clusters = 64;
-
   /// `clusters`: number along an axis of the cell; 0: the most efficient number. `lipschitz`: with
   /// respect to angles; infinite if unknown. Evaluates the ranges of the clusters at once.
   HostFunction(const Neighbourhood& neighbourhood, HostFunctionCalls calls, bool is_sheet,

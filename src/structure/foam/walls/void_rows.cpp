@@ -7,6 +7,7 @@
 
 #include "base/borrowed.h"
 #include "base/simd.h"
+#include "structure/common/cell_blocks.h"
 #include "structure/foam/walls/face_brick.h"
 #include "structure/foam/walls/void_spans.h"
 
@@ -228,27 +229,12 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
   // A cell that touches the box has a point in it, and its seed within the empty radius of that.
   const double around = seeds.empty_radius() * walls.unit() * (1 + 1e-9);
   const Box3 reach = grid.to_grid(voids.box()).grown(around);
-  constexpr int side = FaceBrick::side, lead = FaceBrick::lead;
-  int64_t first[3], last[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto brick = [&](double g) {
-      return static_cast<int64_t>(std::floor((g / grid.cell_size[axis] + lead) / side));
-    };
-    first[axis] = brick(reach.min[axis]);
-    last[axis] = brick(reach.max[axis]);
-  }
-  for (int64_t k = first[2]; k <= last[2]; ++k)
-    for (int64_t j = first[1]; j <= last[1]; ++j)
-      for (int64_t i = first[0]; i <= last[0]; ++i) {
-        check_cancelled(job);
-        const CellIndex corner{static_cast<int32_t>(i * side - lead),
-                               static_cast<int32_t>(j * side - lead),
-                               static_cast<int32_t>(k * side - lead)};
-        const auto brick = walls.context().cache.fetch(
-            walls.id(), corner, [&] { return std::make_shared<const FaceBrick>(seeds, corner); });
-        voids.take(static_cast<const FaceBrick&>(*brick), corner);
-        if (voids.has_many_doubts()) voids.decide(job);
-      }
+  for_each_block(grid, reach, FaceBrick::side, FaceBrick::lead, job, [&](CellIndex corner) {
+    const auto brick = walls.context().cache.fetch(
+        walls.id(), corner, [&] { return std::make_shared<const FaceBrick>(seeds, corner); });
+    voids.take(static_cast<const FaceBrick&>(*brick), corner);
+    if (voids.has_many_doubts()) voids.decide(job);
+  });
   voids.decide(job);
   return true;
 }

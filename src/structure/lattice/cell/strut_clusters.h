@@ -44,7 +44,6 @@ namespace msq {
 
 class StrutClusters {
  public:
-  static constexpr int max_side = 64;
   static constexpr size_t max_entries = size_t{1} << 20, max_of_cluster = 32;
 
   /// `struts`: those of one factor are adjacent. `radius`: contains every r that is queried.
