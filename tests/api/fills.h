@@ -3,7 +3,7 @@
 #ifndef FILLS_H
 #define FILLS_H
 
-#include "structures.h"
+#include "fixtures.h"
 
 static inline msq_structure* make_sheet(msq_context* context, int32_t function, double cell) {
   msq_functional_def def;

@@ -3,7 +3,7 @@
 #ifndef SAMPLES_H
 #define SAMPLES_H
 
-#include "definitions.h"
+#include "fixtures.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -25,28 +25,6 @@ static inline msq_points_def sample_of(double low, double high, uint64_t side, u
 static inline void assert_within(const msq_estimate* e, double known, double bias) {
   if (fabs(e->value - known) <= 4.5 * e->standard_error + bias) return;
   fail_msg("%.8f, standard error %.8f: not %.8f", e->value, e->standard_error, known);
-}
-
-/* Every way for a sample to be wrong. */
-static inline void check_sample_refusals(use_fn ask, void* env) {
-  const msq_points_def good = sample_of(0, 4, 4, 2);
-  msq_points_def sample = good;
-  sample.per_cell = 1;
-  assert_refused(ask(env, &sample), MSQ_E_ARGUMENT, "per_cell is 1");
-  sample.per_cell = 4097;
-  assert_refused(ask(env, &sample), MSQ_E_ARGUMENT, "per_cell is 4097");
-  sample = good;
-  sample.kind = MSQ_POINTS_GRID;
-  assert_refused(ask(env, &sample), MSQ_E_ARGUMENT, "kind is 2");
-  sample = good;
-  sample.counts[2] = 0;
-  assert_refused(ask(env, &sample), MSQ_E_ARGUMENT, "counts[2] is 0");
-  sample = good;
-  sample.origin[1] = NAN;
-  assert_refused(ask(env, &sample), MSQ_E_ARGUMENT, "origin");
-  sample = good;
-  sample.struct_size = 1;
-  assert_refused(ask(env, &sample), MSQ_E_ARGUMENT, "struct_size");
 }
 
 /* Plates normal to x of thickness 0.3, 1 apart, without end: a function of period 1. */
@@ -76,88 +54,19 @@ typedef msq_status (*segments_fn)(const msq_model* model, const msq_points_def* 
                                   const msq_query_def* query, const msq_segments_def* def,
                                   msq_estimate* estimates, uint64_t estimate_count, msq_job* job);
 
-typedef struct segments_call {
-  segments_fn ask;
-  msq_model* model;
-} segments_call;
-
-static inline msq_status ask_segments(void* env, void* def) {
-  const segments_call* call = (const segments_call*)env;
+static inline void check_segments_job(segments_fn ask) {
+  const double lengths[2] = {0.5, 0};
+  msq_context* context = make_context();
+  msq_model* model = make_lattice_model(context);
+  const msq_segments_def def = segments_of(lengths, 2, MSQ_PHASE_SOLID, NULL);
   const msq_points_def sample = sample_of(0, 4, 4, 2);
   msq_estimate estimates[2];
-  memset(estimates, struct_pattern, sizeof estimates);
-  const msq_status status =
-      call->ask(call->model, &sample, NULL, (const msq_segments_def*)def, estimates, 2, NULL);
-  if (status != MSQ_OK) assert_filled(estimates, sizeof estimates, struct_pattern);
-  return status;
-}
-
-static inline msq_status ask_of_sample(void* env, void* sample) {
-  const segments_call* call = (const segments_call*)env;
-  const double lengths[1] = {0.5};
-  const msq_segments_def def = segments_of(lengths, 1, MSQ_PHASE_SOLID, NULL);
-  msq_estimate estimate;
-  memset(&estimate, struct_pattern, sizeof estimate);
-  const msq_status status =
-      call->ask(call->model, (const msq_points_def*)sample, NULL, &def, &estimate, 1, NULL);
-  if (status != MSQ_OK) assert_filled(&estimate, sizeof estimate, struct_pattern);
-  return status;
-}
-
-DEFINE_INIT(segments_def)
-
-/* What msq_two_point_correlation and msq_lineal_path refuse. */
-static inline void check_segments_refusals(segments_fn ask) {
-  const double lengths[2] = {0.5, 0};
-  const double wrong[4] = {-0.1, NAN, INFINITY, -INFINITY};
-  msq_context* context = make_context();
-  segments_call call = {ask, make_lattice_model(context)};
-  const msq_segments_def good = segments_of(lengths, 2, MSQ_PHASE_SOLID, NULL);
-  const msq_points_def sample = sample_of(0, 4, 4, 2);
-  msq_estimate estimates[3];
   msq_job* job;
-  check_def_init(init_segments_def, sizeof good);
-  check_def_sizes(&good, sizeof good, ask_segments, &call);
-  check_sample_refusals(ask_of_sample, &call);
-  assert_refused(ask_segments(&call, NULL), MSQ_E_ARGUMENT, "def is NULL");
-  assert_refused(ask_of_sample(&call, NULL), MSQ_E_ARGUMENT, "sample is NULL");
-  assert_refused(ask(NULL, &sample, NULL, &good, estimates, 2, NULL), MSQ_E_ARGUMENT,
-                 "model is NULL");
-  assert_refused(ask(call.model, &sample, NULL, &good, NULL, 2, NULL), MSQ_E_ARGUMENT,
-                 "estimates is NULL");
-  for (uint64_t count = 1; count <= 3; count += 2)
-    assert_refused(ask(call.model, &sample, NULL, &good, estimates, count, NULL), MSQ_E_ARGUMENT,
-                   "there are 2 lengths");
-  msq_segments_def def = good;
-  def.phase = 3;
-  assert_refused(ask_segments(&call, &def), MSQ_E_ARGUMENT, "phase is 3");
-  def = good;
-  def.lengths = NULL;
-  assert_refused(ask_segments(&call, &def), MSQ_E_ARGUMENT, "lengths is NULL");
-  def = good;
-  def.length_count = 0;
-  assert_refused(ask_segments(&call, &def), MSQ_E_ARGUMENT, "length_count is 0");
-  def.length_count = 4097;
-  assert_refused(ask_segments(&call, &def), MSQ_E_ARGUMENT, "4097");
-  for (int i = 0; i < 4; ++i) {
-    const double some[2] = {1, wrong[i]};
-    def = segments_of(some, 2, MSQ_PHASE_SOLID, NULL);
-    assert_refused(ask_segments(&call, &def), MSQ_E_ARGUMENT, "length 1 is ");
-  }
-  for (int which = 0; which < 3; ++which) {
-    def = good;
-    def.direction[which] = not_finite(which);
-    assert_refused(ask_segments(&call, &def), MSQ_E_ARGUMENT, "direction");
-  }
   assert_ok(msq_job_create(&job));
-  assert_ok(ask(call.model, &sample, NULL, &good, estimates, 2, job));
+  assert_ok(ask(model, &sample, NULL, &def, estimates, 2, job));
   assert_true(progress_of(job) == 1);
-  assert_ok(msq_job_cancel(job));
-  memset(estimates, struct_pattern, sizeof estimates);
-  assert_status(ask(call.model, &sample, NULL, &good, estimates, 2, job), MSQ_E_CANCELLED);
-  assert_filled(estimates, sizeof estimates, struct_pattern);
   msq_job_release(job);
-  msq_model_release(call.model);
+  msq_model_release(model);
   msq_context_release(context);
 }
 

@@ -9,11 +9,6 @@ static msq_slicer* make_foam_slicer(msq_context* context) {
   return slicer;
 }
 
-static void context_null_is_refused(void** state) {
-  (void)state;
-  assert_refused(msq_cache_clear(NULL), MSQ_E_ARGUMENT, "context is NULL");
-}
-
 static void clear_drops_cells_and_keeps_counters(void** state) {
   msq_context* context = make_context();
   msq_slicer* slicer = make_foam_slicer(context);
@@ -80,7 +75,6 @@ static void clear_during_a_run_changes_nothing(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(context_null_is_refused),
       cmocka_unit_test(clear_drops_cells_and_keeps_counters),
       cmocka_unit_test(empty_cache_can_be_cleared),
       cmocka_unit_test(clear_during_a_run_changes_nothing),

@@ -2,27 +2,6 @@
 #include "definitions.h"
 #include "layers.h"
 
-static msq_status read_stats(void* env, void* report) {
-  return msq_cache_stats((const msq_context*)env, (msq_cache_report*)report);
-}
-
-static void report_has_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  (void)state;
-  check_grown_report_sizes(offsetof(msq_cache_report, building_bytes), sizeof(msq_cache_report),
-                           read_stats, context);
-  msq_context_release(context);
-}
-
-static void context_null_is_refused(void** state) {
-  struct_bytes report;
-  (void)state;
-  memset(&report, struct_pattern, sizeof report);
-  report.struct_size = sizeof(msq_cache_report);
-  assert_refused(read_stats(NULL, &report), MSQ_E_ARGUMENT, "context is NULL");
-  assert_filled(report.bytes + 4, sizeof report - 4, struct_pattern);
-}
-
 static void new_cache_is_empty(void** state) {
   msq_context* context = make_context_of(1, 4096, 0);
   const msq_cache_report report = cache_of(context);
@@ -294,8 +273,6 @@ static void released_foams_leave_no_cells(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(report_has_every_struct_size),
-    cmocka_unit_test(context_null_is_refused),
     cmocka_unit_test(new_cache_is_empty),
     cmocka_unit_test(direct_foam_is_the_same_at_any_cache_size),
 #if MSQ_WITH_CGAL

@@ -2,25 +2,6 @@
  * msq_context_def_init, msq_context_create, msq_context_retain, msq_context_release. */
 #include "definitions.h"
 
-DEFINE_INIT(context_def)
-
-static msq_status create(void* env, void* def) {
-  msq_context* context = (msq_context*)untouched();
-  const msq_status status = msq_context_create((const msq_context_def*)def, &context);
-  (void)env;
-  if (status == MSQ_OK)
-    msq_context_release(context);
-  else
-    assert_ptr_equal(context, untouched());
-  return status;
-}
-
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_grown_def_init(init_context_def, offsetof(msq_context_def, cache_policy),
-                       sizeof(msq_context_def));
-}
-
 static void defaults_are_those_of_the_header(void** state) {
   msq_context_def def;
   (void)state;
@@ -30,13 +11,6 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.memory_limit, 0);
   assert_int_equal(def.cache_policy, MSQ_CACHE_FIFO);
   assert_int_equal(def.reserved, 0);
-}
-
-static void create_honours_every_struct_size(void** state) {
-  msq_context_def def;
-  (void)state;
-  assert_ok(msq_context_def_init(&def, sizeof def));
-  check_grown_def_sizes(&def, offsetof(msq_context_def, cache_policy), sizeof def, create, NULL);
 }
 
 static void no_definition_means_defaults(void** state) {
@@ -54,27 +28,6 @@ static void definition_is_taken_over(void** state) {
   assert_int_equal(cache_of(context).limit_bytes, 12345);
   assert_int_equal(memory_of(context).limit_bytes, 67890);
   msq_context_release(context);
-}
-
-static void policy_must_be_known(void** state) {
-  const int32_t refused[] = {-1, MSQ_CACHE_SEGMENTED + 1, INT32_MIN, INT32_MAX};
-  msq_context_def def;
-  (void)state;
-  assert_ok(msq_context_def_init(&def, sizeof def));
-  for (size_t i = 0; i < sizeof refused / sizeof refused[0]; ++i) {
-    def.cache_policy = refused[i];
-    assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "cache_policy");
-    assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "from 0 to 1");
-  }
-  def.cache_policy = MSQ_CACHE_SEGMENTED;
-  assert_ok(create(NULL, &def));
-  def.reserved = 7;
-  assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "reserved is 7");
-}
-
-static void output_null_is_refused(void** state) {
-  (void)state;
-  assert_refused(msq_context_create(NULL, NULL), MSQ_E_ARGUMENT, "context is NULL");
 }
 
 static void any_number_of_threads_gives_the_same_answers(void** state) {
@@ -137,13 +90,9 @@ static void mesh_alone_outlives_its_context(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
-      cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(no_definition_means_defaults),
       cmocka_unit_test(definition_is_taken_over),
-      cmocka_unit_test(policy_must_be_known),
-      cmocka_unit_test(output_null_is_refused),
       cmocka_unit_test(any_number_of_threads_gives_the_same_answers),
       cmocka_unit_test(retain_adds_a_reference),
       cmocka_unit_test(release_of_null_does_nothing),

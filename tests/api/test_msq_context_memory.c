@@ -3,26 +3,6 @@
 #include "definitions.h"
 #include "layers.h"
 
-static msq_status read_memory(void* env, void* report) {
-  return msq_context_memory((const msq_context*)env, (msq_memory_report*)report);
-}
-
-static void report_has_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  (void)state;
-  check_report_sizes(sizeof(msq_memory_report), read_memory, context);
-  msq_context_release(context);
-}
-
-static void context_null_is_refused(void** state) {
-  struct_bytes report;
-  (void)state;
-  memset(&report, struct_pattern, sizeof report);
-  report.struct_size = sizeof(msq_memory_report);
-  assert_refused(read_memory(NULL, &report), MSQ_E_ARGUMENT, "context is NULL");
-  assert_filled(report.bytes + 4, sizeof report - 4, struct_pattern);
-}
-
 static void new_context_holds_nothing(void** state) {
   msq_context* context = make_context_of(1, 0, 1000);
   const msq_memory_report report = memory_of(context);
@@ -182,8 +162,6 @@ static void cached_cells_give_way_to_the_limit(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(report_has_every_struct_size),
-      cmocka_unit_test(context_null_is_refused),
       cmocka_unit_test(new_context_holds_nothing),
       cmocka_unit_test(mesh_is_held_until_it_is_released),
       cmocka_unit_test(refused_mesh_leaves_nothing_held),

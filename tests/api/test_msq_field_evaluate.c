@@ -23,14 +23,6 @@ static int32_t sum_of(void* user, const double* points, uint64_t count, double* 
   return 0;
 }
 
-static int32_t failing(void* user, const double* points, uint64_t count, double* values) {
-  (void)user;
-  (void)points;
-  (void)count;
-  (void)values;
-  return -42;
-}
-
 static msq_field* make_host(msq_values_fn evaluate, void* user) {
   msq_host_field_def def;
   msq_field* field;
@@ -99,40 +91,9 @@ static void values_are_those_of_the_field(void** state) {
   free(values);
 }
 
-static void arguments_are_checked(void** state) {
-  const double odd[2][3] = {{0, 0, 0}, {INFINITY, 0, 0}};
-  msq_points_def grid = grid_points(0, 1, 2), array;
-  double values[8];
-  msq_field *rise = make_rise(), *bad = make_host(failing, NULL);
-  (void)state;
-  for (int i = 0; i < 8; ++i) values[i] = 7;
-  assert_refused(msq_field_evaluate(NULL, rise, &grid, values, 8, NULL), MSQ_E_ARGUMENT, "context");
-  assert_refused(msq_field_evaluate(context, NULL, &grid, values, 8, NULL), MSQ_E_ARGUMENT,
-                 "field");
-  assert_refused(msq_field_evaluate(context, rise, NULL, values, 8, NULL), MSQ_E_ARGUMENT,
-                 "points");
-  assert_refused(msq_field_evaluate(context, rise, &grid, NULL, 8, NULL), MSQ_E_ARGUMENT, "values");
-  assert_refused(msq_field_evaluate(context, rise, &grid, values, 9, NULL), MSQ_E_ARGUMENT,
-                 "value_count is 9");
-  assert_ok(msq_points_def_init(&array, sizeof array));
-  array.kind = MSQ_POINTS_ARRAY;
-  array.coordinates = odd;
-  array.count = 2;
-  assert_refused(msq_field_evaluate(context, rise, &array, values, 2, NULL), MSQ_E_ARGUMENT,
-                 "point 1");
-  for (int i = 0; i < 8; ++i) assert_true(values[i] == 7);
-  assert_status(msq_field_evaluate(context, bad, &grid, values, 8, NULL), MSQ_E_HOST);
-  assert_int_equal(msq_error_host_code(), -42);
-  array.count = 0;
-  assert_ok(msq_field_evaluate(context, rise, &array, NULL, 0, NULL));
-  msq_field_release(bad);
-  msq_field_release(rise);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(values_are_those_of_the_field),
-      cmocka_unit_test(arguments_are_checked),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }

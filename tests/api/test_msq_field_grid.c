@@ -2,34 +2,11 @@
  * msq_grid_field_def_init, msq_field_grid. */
 #include "images.h"
 
-DEFINE_INIT(grid_field_def)
-
 static msq_grid_field_def grid_def(const msq_image* image) {
   msq_grid_field_def def;
   assert_ok(msq_grid_field_def_init(&def, sizeof def));
   def.image = *image;
   return def;
-}
-
-DEFINE_CREATE(field, field_grid, grid_field_def)
-
-static msq_status use_image(msq_context* context, const msq_image* image) {
-  msq_grid_field_def def = grid_def(image);
-  return create(context, &def);
-}
-
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_def_init(init_grid_field_def, sizeof(msq_grid_field_def));
-}
-
-static void create_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  const msq_image image = small_image();
-  const msq_grid_field_def def = grid_def(&image);
-  (void)state;
-  check_def_sizes(&def, sizeof def, create, context);
-  msq_context_release(context);
 }
 
 static void field_is_linear_between_values_and_constant_beyond(void** state) {
@@ -116,36 +93,12 @@ static void values_are_copied_and_counted(void** state) {
   msq_context_release(context);
 }
 
-static void null_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  const msq_image image = small_image();
-  msq_grid_field_def def = grid_def(&image);
-  (void)state;
-  assert_makes_nothing(msq_field, msq_field_grid(NULL, &def, &made), MSQ_E_ARGUMENT,
-                       "context is NULL");
-  assert_makes_nothing(msq_field, msq_field_grid(context, NULL, &made), MSQ_E_ARGUMENT,
-                       "def is NULL");
-  assert_refused(msq_field_grid(context, &def, NULL), MSQ_E_ARGUMENT, "field is NULL");
-  def.reserved = 5;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "reserved is 5");
-  msq_context_release(context);
-}
-
-static void bad_images_are_refused(void** state) {
-  (void)state;
-  check_bad_images(use_image, 1);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
-      cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(field_is_linear_between_values_and_constant_beyond),
       cmocka_unit_test(image_may_be_turned),
       cmocka_unit_test(every_type_of_value_is_read),
       cmocka_unit_test(values_are_copied_and_counted),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(bad_images_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,8 +2,6 @@
  * msq_host_field_def_init, msq_field_host. */
 #include "hosts.h"
 
-DEFINE_INIT(host_field_def)
-
 /* What msq_field_gradient from `from` to `to` gives, operation by operation. */
 typedef struct ramp {
   host_log log;
@@ -79,18 +77,6 @@ static msq_field* make_field(msq_context* context, const msq_host_field_def* def
   msq_field* field;
   assert_ok(msq_field_host(context, def, &field));
   return field;
-}
-
-DEFINE_CREATE(field, field_host, host_field_def)
-
-static void definitions_honour_every_size(void** state) {
-  msq_context* context = make_context();
-  ramp r = make_ramp(0, 1);
-  const msq_host_field_def def = ramp_def(&r);
-  (void)state;
-  check_def_init(init_host_field_def, sizeof(msq_host_field_def));
-  check_def_sizes(&def, sizeof def, create, context);
-  msq_context_release(context);
 }
 
 static void defaults_are_those_of_the_header(void** state) {
@@ -392,43 +378,8 @@ static void callbacks_may_call_msq(void** state) {
   msq_context_release(context);
 }
 
-static void what_is_refused_is_not_released(void** state) {
-  msq_context* context = make_context();
-  ramp r = make_ramp(0.25, 0.75);
-  (void)state;
-  msq_host_field_def def = ramp_def(&r);
-  assert_makes_nothing(msq_field, msq_field_host(NULL, &def, &made), MSQ_E_ARGUMENT, "context");
-  assert_makes_nothing(msq_field, msq_field_host(context, NULL, &made), MSQ_E_ARGUMENT, "def");
-  assert_refused(msq_field_host(context, &def, NULL), MSQ_E_ARGUMENT, "field is NULL");
-  def.evaluate = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "evaluate is NULL");
-  def = ramp_def(&r);
-  def.concurrent = 2;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "concurrent is 2");
-  def = ramp_def(&r);
-  def.low = 0.875;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "low is 0.875 and high is 0.75");
-  for (int which = 0; which < 3; ++which) {
-    def = ramp_def(&r);
-    def.low = not_finite(which);
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "low");
-    def = ramp_def(&r);
-    def.high = not_finite(which);
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "high");
-  }
-  def = ramp_def(&r);
-  def.lipschitz = -0.5;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "lipschitz is -0.5");
-  def.lipschitz = NAN;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "lipschitz");
-  assert_int_equal(r.log.released, 0);
-  assert_int_equal(r.log.calls, 0);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(definitions_honour_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(structures_are_those_of_the_same_field),
       cmocka_unit_test(only_the_calling_thread_is_asked),
@@ -438,7 +389,6 @@ int main(void) {
       cmocka_unit_test(promises_that_are_broken_do_no_harm),
       cmocka_unit_test(codes_come_back_from_worker_threads),
       cmocka_unit_test(callbacks_may_call_msq),
-      cmocka_unit_test(what_is_refused_is_not_released),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,52 +42,6 @@ static void a_radius_may_be_mapped_from_what_no_radius_could_be(void** state) {
   msq_context_release(context);
 }
 
-static void null_arguments_are_refused(void** state) {
-  const double curve[] = {0, 1, 2, 3};
-  msq_context* context = make_context();
-  msq_field* ramp = make_ramp(context);
-  (void)state;
-  assert_makes_nothing(msq_field, msq_field_map(NULL, ramp, curve, 2, &made), MSQ_E_ARGUMENT,
-                       "context is NULL");
-  assert_makes_nothing(msq_field, msq_field_map(context, NULL, curve, 2, &made), MSQ_E_ARGUMENT,
-                       "argument is NULL");
-  assert_makes_nothing(msq_field, msq_field_map(context, ramp, NULL, 2, &made), MSQ_E_ARGUMENT,
-                       "curve is NULL");
-  assert_refused(msq_field_map(context, ramp, curve, 2, NULL), MSQ_E_ARGUMENT, "field is NULL");
-  msq_field_release(ramp);
-  msq_context_release(context);
-}
-
-static void bad_curves_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_field* ramp = make_ramp(context);
-  double curve[] = {0, 1, 2, 3, 4, 5};
-  (void)state;
-  assert_makes_nothing(msq_field, msq_field_map(context, ramp, curve, 0, &made), MSQ_E_ARGUMENT,
-                       "curve_count is 0");
-  assert_makes_nothing(msq_field, msq_field_map(context, ramp, curve, 65537, &made), MSQ_E_ARGUMENT,
-                       "65536");
-  for (int number = 0; number < 6; ++number)
-    for (int which = 0; which < 3; ++which) {
-      double bad[6];
-      memcpy(bad, curve, sizeof bad);
-      bad[number] = not_finite(which);
-      assert_makes_nothing(msq_field, msq_field_map(context, ramp, bad, 3, &made), MSQ_E_ARGUMENT,
-                           "finite");
-    }
-  curve[4] = 2;
-  assert_makes_nothing(msq_field, msq_field_map(context, ramp, curve, 3, &made), MSQ_E_ARGUMENT,
-                       "ascend");
-  assert_message_has("pair 2");
-  curve[4] = 4;
-  curve[1] = -1e308;
-  curve[3] = 1e308;
-  assert_makes_nothing(msq_field, msq_field_map(context, ramp, curve, 3, &made), MSQ_E_ARGUMENT,
-                       "difference");
-  msq_field_release(ramp);
-  msq_context_release(context);
-}
-
 static void at_most_64_maps_are_within_each_other(void** state) {
   const double curve[] = {0, 0, 10, 10};
   msq_context* context = make_context();
@@ -108,8 +62,6 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(curve_runs_over_the_other_field),
       cmocka_unit_test(a_radius_may_be_mapped_from_what_no_radius_could_be),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(bad_curves_are_refused),
       cmocka_unit_test(at_most_64_maps_are_within_each_other),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,25 +2,6 @@
  * msq_fill_lines: paths in the polygon and on the walls, types and far coordinates, refusals. */
 #include "fills.h"
 
-DEFINE_INIT(fill_def)
-
-typedef struct fill_env {
-  msq_context* context;
-  const msq_structure* structure;
-} fill_env;
-
-static msq_status fill_with(void* env, void* def) {
-  const fill_env* known = (const fill_env*)env;
-  msq_fill* made = (msq_fill*)untouched();
-  const msq_status status =
-      msq_fill_lines(known->context, known->structure, (const msq_fill_def*)def, &made, NULL);
-  if (status == MSQ_OK)
-    msq_fill_release(made);
-  else
-    assert_ptr_equal(made, untouched());
-  return status;
-}
-
 /* Paths are whole, as long as said, in the square and not in its hole, and on the gyroid. */
 static void check_paths(const msq_fill_report* paths, double scale, double z, int is_gyroid,
                         double cell) {
@@ -218,124 +199,6 @@ static void goes_on_in_the_next_polygon(void** state) {
   msq_context_release(context);
 }
 
-static void refuses_what_has_no_walls(void** state) {
-  msq_context* context = make_context();
-  msq_structure* lattice = make_lattice(context);
-  msq_fill_def def = square_def(1);
-  (void)state;
-  fill_env env = {context, lattice};
-  assert_refused(fill_with(&env, &def), MSQ_E_UNSUPPORTED, "use its contours");
-  msq_structure_release(lattice);
-  msq_context_release(context);
-}
-
-static void refuses_bad_polygons(void** state) {
-  msq_context* context = make_context();
-  msq_structure* foam = make_foam_of(context, 5);
-  fill_env env = {context, foam};
-  (void)state;
-  msq_fill_def def = square_def(1);
-  msq_ring rings[2] = {square_rings[0], square_rings[1]};
-  def.rings = rings;
-  rings[1].count = 2;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring 1 has 2 points");
-  rings[1].count = 4;
-  rings[1].points = NULL;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring 1 are NULL");
-  const int64_t flat[4][2] = {{3, 1}, {6, 2}, {6, 2}, {300000003, 100000001}};
-  rings[1].points = flat;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring 1 are on one line");
-  const int64_t same[3][2] = {{3, 1}, {3, 1}, {3, 1}};
-  rings[1].points = same;
-  rings[1].count = 3;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring 1 are on one line");
-  const int64_t most = (int64_t)1 << 53;
-  int64_t large[3][2] = {{-most, -most}, {-most + 9, -most}, {-most, -most + 9}};
-  rings[0].points = large;
-  rings[0].count = 3;
-  def.ring_count = 1;
-  def.scale = 1e-9;
-  assert_ok(fill_with(&env, &def));
-  large[2][1] = -most - 1;
-  assert_refused(fill_with(&env, &def), MSQ_E_LIMIT, "point 2 of ring 0 has the coordinate");
-  assert_message_has("-9007199254740993");
-  large[2][1] = INT64_MIN;
-  assert_refused(fill_with(&env, &def), MSQ_E_LIMIT, "the limit is 2^53");
-  large[2][1] = -most + 9;
-  def.scale = 1; /* 9e15 cells away */
-  assert_refused(fill_with(&env, &def), MSQ_E_LIMIT, "cells from the grid's origin");
-
-  def = square_def(1);
-  def.ring_count = 0;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "ring_count is 0");
-  def = square_def(1);
-  def.rings = NULL;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "rings is NULL");
-  def = square_def(1);
-  def.point_stride = 15;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "point_stride is 15 bytes; a point has 16");
-  def = square_def(1);
-  def.coordinate_type = MSQ_FLOAT64;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "coordinate_type is 2");
-  msq_structure_release(foam);
-  msq_context_release(context);
-}
-
-static void refuses_bad_numbers(void** state) {
-  msq_context* context = make_context();
-  msq_structure* foam = make_foam_of(context, 5);
-  fill_env env = {context, foam};
-  const msq_fill_def good = square_def(1);
-  (void)state;
-  for (int which = 0; which < 3; ++which) {
-    msq_fill_def def = good;
-    def.scale = not_finite(which);
-    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "scale");
-    def = good;
-    def.origin[1] = not_finite(which);
-    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "origin");
-    def = good;
-    def.z = not_finite(which);
-    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "z is");
-    def = good;
-    def.tolerance = not_finite(which);
-    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "tolerance");
-    def = good;
-    def.min_length = not_finite(which);
-    assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "min_length");
-  }
-  msq_fill_def def = good;
-  def.scale = 0;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "scale is 0");
-  def.scale = 2e75;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "scale is 2e+75");
-  def = good;
-  def.tolerance = -1;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "tolerance is -1");
-  def = good;
-  def.min_length = -2;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "min_length is -2");
-  def = square_def(0);
-  def.scale = 1e-60; /* a cell is 8e60 units wide, and a line runs through the corner */
-  msq_structure* gyroid = make_sheet(context, MSQ_FUNCTION_GYROID, 8);
-  env.structure = gyroid;
-  assert_refused(fill_with(&env, &def), MSQ_E_LIMIT, "the limit is 2^60");
-  msq_structure_release(gyroid);
-  env.structure = foam;
-  check_def_init(init_fill_def, sizeof(msq_fill_def));
-  check_def_sizes(&good, sizeof good, fill_with, &env);
-  assert_refused(fill_with(&env, NULL), MSQ_E_ARGUMENT, "def is NULL");
-  env.structure = NULL;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "structure is NULL");
-  env.context = NULL;
-  assert_refused(fill_with(&env, &def), MSQ_E_ARGUMENT, "context is NULL");
-  assert_refused(msq_fill_lines(context, foam, &good, NULL, NULL), MSQ_E_ARGUMENT, "fill is NULL");
-  msq_fill_retain(NULL);
-  msq_fill_release(NULL);
-  msq_structure_release(foam);
-  msq_context_release(context);
-}
-
 static void stops_and_keeps_to_its_memory(void** state) {
   msq_context* context = make_context();
   msq_structure* structures[2] = {make_sheet(context, MSQ_FUNCTION_GYROID, 8),
@@ -379,9 +242,6 @@ int main(void) {
       cmocka_unit_test(takes_the_coordinates_of_the_host),
       cmocka_unit_test(drops_what_is_short),
       cmocka_unit_test(goes_on_in_the_next_polygon),
-      cmocka_unit_test(refuses_what_has_no_walls),
-      cmocka_unit_test(refuses_bad_polygons),
-      cmocka_unit_test(refuses_bad_numbers),
       cmocka_unit_test(stops_and_keeps_to_its_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

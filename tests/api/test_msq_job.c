@@ -10,11 +10,6 @@ static void new_job_has_done_nothing(void** state) {
   msq_job_release(job);
 }
 
-static void output_null_is_refused(void** state) {
-  (void)state;
-  assert_refused(msq_job_create(NULL), MSQ_E_ARGUMENT, "job is NULL");
-}
-
 static void retain_adds_a_reference(void** state) {
   msq_job* job;
   (void)state;
@@ -51,7 +46,6 @@ static void job_serves_one_call_after_another(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(new_job_has_done_nothing),
-      cmocka_unit_test(output_null_is_refused),
       cmocka_unit_test(retain_adds_a_reference),
       cmocka_unit_test(release_of_null_does_nothing),
       cmocka_unit_test(job_serves_one_call_after_another),

@@ -13,11 +13,6 @@ static msq_job* make_job(void) {
   return job;
 }
 
-static void job_null_is_refused(void** state) {
-  (void)state;
-  assert_refused(msq_job_cancel(NULL), MSQ_E_ARGUMENT, "job is NULL");
-}
-
 static void calls_under_a_cancelled_job_stop_at_once(void** state) {
   const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 40, 40, 0.2);
   const msq_points_def grid = grid_points(0, 4, 10);
@@ -178,7 +173,6 @@ static void another_thread_cancels_a_grid_query(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(job_null_is_refused),
       cmocka_unit_test(calls_under_a_cancelled_job_stop_at_once),
       cmocka_unit_test(callback_may_cancel_its_own_run),
       cmocka_unit_test(another_thread_cancels_between_layers),

@@ -3,26 +3,11 @@
  * the method in msq_query_def. */
 #include "definitions.h"
 
-static msq_status read_info(void* env, void* report) {
-  return msq_job_info((const msq_job*)env, (msq_job_report*)report);
-}
-
 static msq_job_report counts_of(const msq_job* job) {
   msq_job_report report = {0};
   report.struct_size = sizeof report;
   assert_ok(msq_job_info(job, &report));
   return report;
-}
-
-static void every_struct_size_is_honoured(void** state) {
-  msq_job* job;
-  msq_job_report report = {0};
-  (void)state;
-  assert_ok(msq_job_create(&job));
-  check_report_sizes(sizeof(msq_job_report), read_info, job);
-  report.struct_size = sizeof report;
-  assert_refused(msq_job_info(NULL, &report), MSQ_E_ARGUMENT, "job is NULL");
-  msq_job_release(job);
 }
 
 enum { count = 6000 };
@@ -214,7 +199,6 @@ static void numbers_are_those_of_the_last_call(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_struct_size_is_honoured),
       cmocka_unit_test(what_a_scale_answers_is_not_asked_of_finer_ones),
       cmocka_unit_test(the_critical_count_decides),
       cmocka_unit_test(cells_can_be_divided),

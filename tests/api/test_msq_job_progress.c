@@ -1,17 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "layers.h"
 
-static void null_arguments_are_refused(void** state) {
-  double fraction = 0.375;
-  msq_job* job;
-  (void)state;
-  assert_ok(msq_job_create(&job));
-  assert_refused(msq_job_progress(NULL, &fraction), MSQ_E_ARGUMENT, "job is NULL");
-  assert_true(fraction == 0.375);
-  assert_refused(msq_job_progress(job, NULL), MSQ_E_ARGUMENT, "fraction is NULL");
-  msq_job_release(job);
-}
-
 typedef struct watched {
   msq_job* job;
   double last;
@@ -116,7 +105,6 @@ static void work_on_nothing_is_done(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(progress_of_a_run_rises_to_1),
       cmocka_unit_test(progress_of_a_layer_reaches_1),
       cmocka_unit_test(progress_of_set_queries_reaches_1),

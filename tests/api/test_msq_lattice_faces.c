@@ -99,20 +99,6 @@ static void lattices_of_one_cell_have_none(void** state) {
   msq_context_release(context);
 }
 
-static msq_status read_report(void* env, void* report) {
-  return msq_lattice_faces((const msq_structure*)env, low, high, (msq_lattice_faces_report*)report,
-                           NULL);
-}
-
-static void sizes_are_honoured(void** state) {
-  msq_context* context = make_context();
-  msq_structure* lattice = make_mixed(context, MSQ_UNIT_CELL_OCTET, MSQ_UNIT_CELL_BCC, NULL);
-  (void)state;
-  check_report_sizes(sizeof(msq_lattice_faces_report), read_report, lattice);
-  msq_structure_release(lattice);
-  msq_context_release(context);
-}
-
 static void jobs_are_kept_and_heeded(void** state) {
   msq_context* context = make_context();
   msq_structure* lattice = make_mixed(context, MSQ_UNIT_CELL_OCTET, MSQ_UNIT_CELL_BCC, NULL);
@@ -132,51 +118,12 @@ static void jobs_are_kept_and_heeded(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_structure* lattice = make_mixed(context, MSQ_UNIT_CELL_OCTET, MSQ_UNIT_CELL_BCC, NULL);
-  msq_structure* foam = make_foam(context, MSQ_FOAM_AUTO);
-  msq_lattice_faces_report report;
-  (void)state;
-  memset(&report, struct_pattern, sizeof report);
-  report.struct_size = sizeof report;
-  assert_refused(msq_lattice_faces(NULL, low, high, &report, NULL), MSQ_E_ARGUMENT,
-                 "lattice is NULL");
-  assert_refused(msq_lattice_faces(foam, low, high, &report, NULL), MSQ_E_ARGUMENT,
-                 "not a lattice");
-  assert_refused(msq_lattice_faces(lattice, NULL, high, &report, NULL), MSQ_E_ARGUMENT,
-                 "min is NULL");
-  assert_refused(msq_lattice_faces(lattice, low, NULL, &report, NULL), MSQ_E_ARGUMENT,
-                 "max is NULL");
-  assert_refused(msq_lattice_faces(lattice, low, low, &report, NULL), MSQ_E_ARGUMENT,
-                 "min must be less");
-  for (int which = 0; which < 3; ++which)
-    for (int axis = 0; axis < 3; ++axis) {
-      double wrong[3] = {0, 0, 0};
-      wrong[axis] = not_finite(which);
-      assert_refused(msq_lattice_faces(lattice, wrong, high, &report, NULL), MSQ_E_ARGUMENT,
-                     "min is (");
-      assert_refused(msq_lattice_faces(lattice, low, wrong, &report, NULL), MSQ_E_ARGUMENT,
-                     "max is (");
-    }
-  const double many[3] = {1100, 1100, 1100}, far[3] = {1, 1, 2e7}, beyond[3] = {1, 1e300, 1};
-  assert_refused(msq_lattice_faces(lattice, low, many, &report, NULL), MSQ_E_LIMIT, "cells");
-  assert_refused(msq_lattice_faces(lattice, low, far, &report, NULL), MSQ_E_LIMIT, "axis 2");
-  assert_refused(msq_lattice_faces(lattice, low, beyond, &report, NULL), MSQ_E_LIMIT, "axis 1");
-  assert_filled((unsigned char*)&report + 4, sizeof report - 4, struct_pattern);
-  msq_structure_release(foam);
-  msq_structure_release(lattice);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(faces_between_unlike_cells_are_counted),
       cmocka_unit_test(places_are_in_the_model),
       cmocka_unit_test(lattices_of_one_cell_have_none),
-      cmocka_unit_test(sizes_are_honoured),
       cmocka_unit_test(jobs_are_kept_and_heeded),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,8 +4,6 @@
 #include "definitions.h"
 #include "layers.h"
 
-DEFINE_INIT(contours_def)
-
 static msq_contours_def contours_def(int32_t type, double tolerance) {
   msq_contours_def def;
   assert_ok(msq_contours_def_init(&def, sizeof def));
@@ -112,19 +110,6 @@ static void layers_of_slicers_are_those_of_models(void** state) {
   assert_memory_equal(a.starts, b.starts, (a.ring_count + 1) * sizeof(uint64_t));
   msq_contours_release(of_slicer);
   msq_contours_release(of_model);
-  def.has_window = 0;
-  def.window_min[0] = def.window_min[1] = def.window_max[0] = def.window_max[1] = 0;
-  assert_makes_nothing(msq_contours, msq_slicer_contours(NULL, 0, &def, &made, NULL),
-                       MSQ_E_ARGUMENT, "slicer is NULL");
-  assert_makes_nothing(msq_contours, msq_slicer_contours(slicer, 16, &def, &made, NULL),
-                       MSQ_E_ARGUMENT, "layer 16");
-  def.axis = 1;
-  assert_makes_nothing(msq_contours, msq_slicer_contours(slicer, 0, &def, &made, NULL),
-                       MSQ_E_ARGUMENT, "axis is 1");
-  def.axis = 2;
-  def.length_scale = 3;
-  assert_makes_nothing(msq_contours, msq_slicer_contours(slicer, 0, &def, &made, NULL),
-                       MSQ_E_ARGUMENT, "length_scale is 3");
   msq_slicer_release(slicer);
   msq_model_release(model);
   msq_context_release(context);
@@ -159,66 +144,6 @@ static void layers_beside_the_model_are_empty(void** state) {
   msq_context_release(context);
 }
 
-#define REFUSED(field, value, status, text)                                                     \
-  do {                                                                                          \
-    msq_contours_def bad = def;                                                                 \
-    bad.field = value;                                                                          \
-    assert_makes_nothing(msq_contours, msq_layer_contours(model, 1, &bad, &made, NULL), status, \
-                         text);                                                                 \
-  } while (0)
-
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_def_init(init_contours_def, sizeof(msq_contours_def));
-}
-
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_contours_def def = contours_def(MSQ_FLOAT64, 0.05);
-  msq_job* job;
-  (void)state;
-  assert_makes_nothing(msq_contours, msq_layer_contours(NULL, 1, &def, &made, NULL), MSQ_E_ARGUMENT,
-                       "model is NULL");
-  assert_makes_nothing(msq_contours, msq_layer_contours(model, 1, NULL, &made, NULL),
-                       MSQ_E_ARGUMENT, "def is NULL");
-  assert_refused(msq_layer_contours(model, 1, &def, NULL, NULL), MSQ_E_ARGUMENT,
-                 "contours is NULL");
-  assert_makes_nothing(msq_contours, msq_layer_contours(model, NAN, &def, &made, NULL),
-                       MSQ_E_ARGUMENT, "height is nan");
-  REFUSED(struct_size, 3, MSQ_E_ARGUMENT, "struct_size");
-  REFUSED(type, 4, MSQ_E_ARGUMENT, "type is 4");
-  REFUSED(axis, -1, MSQ_E_ARGUMENT, "axis is -1");
-  REFUSED(has_window, 2, MSQ_E_ARGUMENT, "has_window is 2");
-  REFUSED(window_max[1], 2, MSQ_E_ARGUMENT, "has_window is 0");
-  REFUSED(has_window, 1, MSQ_E_ARGUMENT, "not empty");
-  REFUSED(tolerance, 0, MSQ_E_ARGUMENT, "tolerance is 0");
-  REFUSED(tolerance, INFINITY, MSQ_E_ARGUMENT, "tolerance is inf");
-  REFUSED(pitch, -1, MSQ_E_ARGUMENT, "pitch is -1");
-  REFUSED(units, 0, MSQ_E_ARGUMENT, "units is 0");
-  REFUSED(length_scale, -2, MSQ_E_ARGUMENT, "length_scale is -2");
-  /* Too many nodes, too few digits. */
-  REFUSED(tolerance, 1e-9, MSQ_E_LIMIT, "the limit is 2147483392");
-  def.type = MSQ_INT32;
-  def.units = 1000;
-  REFUSED(tolerance, 0.03, MSQ_E_ARGUMENT, "at least 64");
-  def.pitch = 0.2;
-  REFUSED(tolerance, 0.003, MSQ_E_ARGUMENT, "at least 4");
-  REFUSED(units, 1e10, MSQ_E_LIMIT, "the limit is 2147483647");
-  def.type = MSQ_INT64;
-  REFUSED(units, 1e16, MSQ_E_LIMIT, "the limit is 9007199254740992");
-  assert_ok(msq_job_create(&job));
-  msq_job_cancel(job);
-  assert_makes_nothing(msq_contours, msq_layer_contours(model, 1, &def, &made, job),
-                       MSQ_E_CANCELLED, "cancelled");
-  msq_job_release(job);
-  assert_refused(msq_contours_info(NULL, NULL), MSQ_E_ARGUMENT, "contours is NULL");
-  msq_contours_retain(NULL);
-  msq_contours_release(NULL);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 static void memory_is_limited(void** state) {
   msq_context* context = make_context_of(1, 1 << 20, 8 << 20);
   msq_model* model = make_lattice_model(context);
@@ -230,14 +155,19 @@ static void memory_is_limited(void** state) {
   msq_context_release(context);
 }
 
+static void release_of_null_does_nothing(void** state) {
+  (void)state;
+  msq_contours_retain(NULL);
+  msq_contours_release(NULL);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(types_have_the_same_rings),
       cmocka_unit_test(layers_of_slicers_are_those_of_models),
       cmocka_unit_test(layers_beside_the_model_are_empty),
-      cmocka_unit_test(def_init_honours_every_size),
-      cmocka_unit_test(wrong_arguments_are_refused),
       cmocka_unit_test(memory_is_limited),
+      cmocka_unit_test(release_of_null_does_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

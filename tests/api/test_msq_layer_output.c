@@ -238,47 +238,6 @@ static void windows_are_cut_from_the_whole(void** state) {
   }
 }
 
-static void assert_def_refused(msq_slicer_def def, const char* text) {
-  msq_slicer* slicer = (msq_slicer*)untouched();
-  assert_refused(msq_slicer_create(model, &def, &slicer), MSQ_E_ARGUMENT, text);
-  assert_ptr_equal(slicer, untouched());
-}
-
-static void wrong_definitions_are_refused(void** state) {
-  msq_slicer_def def = plan_def(MSQ_LAYER_GREY);
-  msq_model* plain = make_lattice_model(context);
-  msq_slicer* slicer = (msq_slicer*)untouched();
-  (void)state;
-  def.grey_samples = 3;
-  assert_def_refused(def, "grey_samples is 3");
-  def.grey_samples = 0;
-  assert_def_refused(def, "grey_samples is 0");
-  def = plan_def(MSQ_LAYER_GREY);
-  def.grey_gamma = 0;
-  assert_def_refused(def, "grey_gamma is 0");
-  def.grey_gamma = NAN;
-  assert_def_refused(def, "grey_gamma is");
-  def = plan_def(MSQ_LAYER_GREY);
-  def.grey_threshold = 256;
-  assert_def_refused(def, "grey_threshold is 256");
-  def = plan_def(MSQ_LAYER_GREY);
-  def.orientation = 8;
-  assert_def_refused(def, "orientation is 8");
-  def = plan_def(MSQ_LAYER_GREY);
-  def.reserved = 1;
-  assert_def_refused(def, "reserved");
-  def = plan_def(6);
-  assert_def_refused(def, "output is 6");
-  def = plan_def(MSQ_LAYER_GREY);
-  def.pitch[0] = 1e-9;
-  def.resolution[0] = INT32_MAX / 2;
-  assert_refused(msq_slicer_create(model, &def, &slicer), MSQ_E_LIMIT, "the limit is 2147483647");
-  def = plan_def(MSQ_LAYER_MATERIAL);
-  assert_refused(msq_slicer_create(plain, &def, &slicer), MSQ_E_ARGUMENT, "material");
-  assert_ptr_equal(slicer, untouched());
-  msq_model_release(plain);
-}
-
 static void cancelled_layers_leave_the_buffer(void** state) {
   (void)state;
   for (int32_t output = MSQ_LAYER_GREY; output <= MSQ_LAYER_MATERIAL; ++output) {
@@ -304,7 +263,6 @@ int main(void) {
       cmocka_unit_test(values_are_those_of_set_queries),
       cmocka_unit_test(layers_are_turned_as_said),
       cmocka_unit_test(windows_are_cut_from_the_whole),
-      cmocka_unit_test(wrong_definitions_are_refused),
       cmocka_unit_test(cancelled_layers_leave_the_buffer),
   };
   return cmocka_run_group_tests_name("msq_layer_output", tests, set_up, tear_down);

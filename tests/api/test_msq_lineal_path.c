@@ -79,33 +79,14 @@ static void struts_thinner_than_the_step_are_met(void** state) {
   msq_context_release(context);
 }
 
-static void steps_have_limits(void** state) {
-  const double apart[2] = {2, 1};
-  msq_context* context = make_context();
-  segments_call call = {msq_lineal_path, make_box_model(context)};
-  msq_segments_def def = segments_of(apart, 2, MSQ_PHASE_SOLID, NULL);
-  (void)state;
-  def.step = 2e-6;
-  assert_ok(ask_segments(&call, &def));
-  def.step = 1.9e-6;
-  assert_refused(ask_segments(&call, &def), MSQ_E_LIMIT, "1.9e-06");
-  const double wrong[3] = {-1, NAN, INFINITY};
-  for (int i = 0; i < 3; ++i) {
-    def.step = wrong[i];
-    assert_refused(ask_segments(&call, &def), MSQ_E_ARGUMENT, "step is ");
-  }
-  msq_model_release(call.model);
-  msq_context_release(context);
-}
-
 static void threads_do_not_matter(void** state) {
   (void)state;
   check_threads(msq_lineal_path);
 }
 
-static void wrong_arguments_are_refused(void** state) {
+static void jobs_show_progress(void** state) {
   (void)state;
-  check_segments_refusals(msq_lineal_path);
+  check_segments_job(msq_lineal_path);
 }
 
 int main(void) {
@@ -113,9 +94,8 @@ int main(void) {
       cmocka_unit_test(plates_have_theirs),
       cmocka_unit_test(a_ball_has_its_own),
       cmocka_unit_test(struts_thinner_than_the_step_are_met),
-      cmocka_unit_test(steps_have_limits),
       cmocka_unit_test(threads_do_not_matter),
-      cmocka_unit_test(wrong_arguments_are_refused),
+      cmocka_unit_test(jobs_show_progress),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

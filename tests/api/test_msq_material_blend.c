@@ -45,37 +45,6 @@ static void a_blend_runs_from_one_to_the_other(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_blends_are_refused(void** state) {
-  msq_context* context = make_context();
-  const msq_channel channel = {"density", {1, NULL}};
-  const msq_material_def def = material_def(5, &channel, 1);
-  msq_material *a = make_material(context, 1, 100, 1), *b = make_material(context, 2, 300, 5), *c;
-  msq_param fraction = {0.5, NULL};
-  (void)state;
-  assert_ok(msq_material_create(context, &def, &c));
-#define REFUSED(context, id, a, b, f, text)                                           \
-  assert_makes_nothing(msq_material, msq_material_blend(context, id, a, b, f, &made), \
-                       MSQ_E_ARGUMENT, text)
-  REFUSED(NULL, 9, a, b, &fraction, "context is NULL");
-  REFUSED(context, 0, a, b, &fraction, "id is 0");
-  REFUSED(context, 9, NULL, b, &fraction, "a is NULL");
-  REFUSED(context, 9, a, NULL, &fraction, "b is NULL");
-  REFUSED(context, 9, a, b, NULL, "fraction is NULL");
-  assert_refused(msq_material_blend(context, 9, a, b, &fraction, NULL), MSQ_E_ARGUMENT, "NULL");
-  REFUSED(context, 9, a, c, &fraction, "modulus");
-  REFUSED(context, 9, c, a, &fraction, "modulus");
-  fraction.value = 1.25;
-  REFUSED(context, 9, a, b, &fraction, "1.25");
-  fraction.value = -0.5;
-  REFUSED(context, 9, a, b, &fraction, "-0.5");
-  fraction.value = NAN;
-  REFUSED(context, 9, a, b, &fraction, "fraction");
-  msq_material_release(a);
-  msq_material_release(b);
-  msq_material_release(c);
-  msq_context_release(context);
-}
-
 static void at_most_64_blends_are_within_each_other(void** state) {
   msq_context* context = make_context();
   msq_material *a = make_material(context, 1, 100, 1), *last = a, *next;
@@ -113,7 +82,6 @@ static void at_most_4096_materials_are_asked(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_blend_runs_from_one_to_the_other),
-      cmocka_unit_test(wrong_blends_are_refused),
       cmocka_unit_test(at_most_64_blends_are_within_each_other),
       cmocka_unit_test(at_most_4096_materials_are_asked),
   };

@@ -2,8 +2,6 @@
  * msq_model_def_init, msq_model_create, msq_model_retain, msq_model_release. */
 #include "definitions.h"
 
-DEFINE_INIT(model_def)
-
 typedef struct parts {
   msq_context* context;
   msq_shape* shape;
@@ -34,11 +32,6 @@ static msq_model_def model_def(const msq_scale_def* scales, uint32_t count) {
 
 DEFINE_CREATE(model, model_create, model_def)
 
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_def_init(init_model_def, sizeof(msq_model_def));
-}
-
 static void defaults_are_those_of_the_header(void** state) {
   msq_model_def def;
   (void)state;
@@ -47,15 +40,6 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.scale_size, 0);
   assert_null(def.scales);
   assert_int_equal(def.reserved, 0);
-}
-
-static void create_honours_every_struct_size(void** state) {
-  parts p = make_parts();
-  const msq_scale_def scales[2] = {{.shape = p.shape}, {.structure = p.structure}};
-  const msq_model_def def = model_def(scales, 2);
-  (void)state;
-  check_def_sizes(&def, sizeof def, create, p.context);
-  release_parts(&p);
 }
 
 static void model_is_the_intersection_of_its_scales(void** state) {
@@ -95,56 +79,6 @@ static void release_of_null_does_nothing(void** state) {
   (void)state;
   msq_model_release(NULL);
   msq_model_retain(NULL);
-}
-
-/* 64 scales, the most there may be, all the same structure. */
-static void max_scales_are_64(void** state) {
-  parts p = make_parts();
-  msq_scale_def scales[65] = {{0}};
-  (void)state;
-  for (int i = 0; i < 65; ++i) {
-    scales[i].shape = i ? NULL : p.shape;
-    scales[i].structure = i ? p.structure : NULL;
-  }
-  msq_model_def def = model_def(scales, 64);
-  assert_ok(create(p.context, &def));
-  def.scale_count = 65;
-  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale_count is 65");
-  assert_message_has("64");
-  def.scale_count = 0;
-  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale_count is 0");
-  release_parts(&p);
-}
-
-static void null_arguments_are_refused(void** state) {
-  parts p = make_parts();
-  const msq_scale_def scales[1] = {{.shape = p.shape}};
-  msq_model_def def = model_def(scales, 1);
-  (void)state;
-  assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "context is NULL");
-  assert_refused(create(p.context, NULL), MSQ_E_ARGUMENT, "def is NULL");
-  assert_refused(msq_model_create(p.context, &def, NULL), MSQ_E_ARGUMENT, "model is NULL");
-  def.scales = NULL;
-  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scales is NULL");
-  release_parts(&p);
-}
-
-static void scales_are_a_shape_then_structures(void** state) {
-  parts p = make_parts();
-  const msq_scale_def wrong[6][2] = {
-      {{.shape = NULL}, {.structure = p.structure}},
-      {{.structure = p.structure}, {.structure = p.structure}},
-      {{.shape = p.shape, .structure = p.structure}, {.structure = p.structure}},
-      {{.shape = p.shape}, {.shape = NULL}},
-      {{.shape = p.shape}, {.shape = p.shape}},
-      {{.shape = p.shape}, {.shape = p.shape, .structure = p.structure}}};
-  (void)state;
-  for (int i = 0; i < 6; ++i) {
-    msq_model_def def = model_def(wrong[i], 2);
-    assert_refused(create(p.context, &def), MSQ_E_ARGUMENT,
-                   i < 3 ? "scale 0 must have a shape" : "scale 1 must have a structure");
-  }
-  release_parts(&p);
 }
 
 typedef struct later_scale { /* of a host that is newer than the library */
@@ -213,31 +147,6 @@ static void skin_is_solid_under_the_surface(void** state) {
   release_parts(&p);
 }
 
-static void wrong_skins_are_refused(void** state) {
-  parts p = make_parts();
-  const double from[3] = {0, 0, 0}, to[3] = {0, 0, 4};
-  msq_scale_def scales[2] = {{.shape = p.shape}, {.structure = p.structure}};
-  msq_model_def def = model_def(scales, 2);
-  msq_field* field;
-  (void)state;
-  def.scale_size = sizeof scales[0];
-  scales[1].skin.value = -0.5;
-  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "the skin of scale 1 is -0.5");
-  for (int i = 0; i < 3; ++i) {
-    scales[1].skin.value = not_finite(i);
-    assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "skin");
-  }
-  scales[1].skin.value = 0;
-  assert_ok(msq_field_gradient(p.context, from, -0.25, to, 1, &field));
-  scales[1].skin.field = field;
-  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "-0.25 somewhere");
-  msq_field_release(field);
-  scales[1].skin.field = NULL;
-  scales[0].skin.value = 1;
-  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale 0");
-  release_parts(&p);
-}
-
 static int32_t everywhere(void* user, const double* points, uint64_t count, uint8_t* inside) {
   (void)user;
   (void)points;
@@ -286,67 +195,17 @@ static void shapes_without_depths_have_no_skin(void** state) {
   release_parts(&p);
 }
 
-static void wrong_sizes_are_refused(void** state) {
-  parts p = make_parts();
-  const msq_scale_def scales[1] = {{.shape = p.shape}};
-  /* A scale after the first would not be aligned. */
-  const uint32_t refused[] = {
-      1,   2 * sizeof(void*) - 1, UINT32_MAX, sizeof(msq_scale_def) + 1, sizeof(msq_scale_def) + 4,
-      4097};
-  msq_model_def def = model_def(scales, 1);
-  (void)state;
-  for (size_t i = 0; i < sizeof refused / sizeof refused[0]; ++i) {
-    def.scale_size = refused[i];
-    assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "scale_size");
-    assert_message_has_number(refused[i]);
-  }
-  def = model_def(scales, 1);
-  def.reserved = 5;
-  assert_refused(create(p.context, &def), MSQ_E_ARGUMENT, "reserved is 5");
-  release_parts(&p);
-}
-
-static void too_many_cells_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_shape* shape = make_box(context);
-  (void)state;
-  /* 4 / 2^-22 cells are 2^24, one too many; 4 / 2^-21 are few enough. */
-  for (int exponent = -22; exponent <= -21; ++exponent) {
-    msq_structure* fine =
-        make_lattice_of(context, MSQ_UNIT_CELL_BCC, ldexp(1, exponent), ldexp(1, exponent - 3));
-    const msq_scale_def scales[2] = {{.shape = shape}, {.structure = fine}};
-    msq_model_def def = model_def(scales, 2);
-    if (exponent == -21) {
-      assert_ok(create(context, &def));
-    } else {
-      assert_refused(create(context, &def), MSQ_E_LIMIT, "scale 1");
-      assert_message_has("1.67772e+07");
-    }
-    msq_structure_release(fine);
-  }
-  msq_shape_release(shape);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
-      cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(model_is_the_intersection_of_its_scales),
       cmocka_unit_test(model_keeps_its_parts_alive),
       cmocka_unit_test(release_of_null_does_nothing),
-      cmocka_unit_test(max_scales_are_64),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(scales_are_a_shape_then_structures),
       cmocka_unit_test(scales_of_a_newer_host_must_be_zero_in_the_rest),
       cmocka_unit_test(scale_size_of_0_is_that_of_version_0_1),
       cmocka_unit_test(scales_of_an_older_host_have_no_skin),
       cmocka_unit_test(skin_is_solid_under_the_surface),
-      cmocka_unit_test(wrong_skins_are_refused),
       cmocka_unit_test(shapes_without_depths_have_no_skin),
-      cmocka_unit_test(wrong_sizes_are_refused),
-      cmocka_unit_test(too_many_cells_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

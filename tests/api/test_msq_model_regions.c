@@ -120,49 +120,11 @@ static void every_region_needs_a_material(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* part = make_box_model(context);
-  const msq_model* const parts[2] = {part, NULL};
-  const double point[3] = {1, 1, 1}, bad[3] = {1, NAN, 1};
-  int32_t region = 77;
-  (void)state;
-#define REFUSED(context, regions, count, status, text) \
-  assert_makes_nothing(msq_model, msq_model_regions(context, regions, count, &made), status, text)
-  REFUSED(NULL, parts, 1, MSQ_E_ARGUMENT, "context is NULL");
-  REFUSED(context, NULL, 1, MSQ_E_ARGUMENT, "regions is NULL");
-  REFUSED(context, parts, 0, MSQ_E_ARGUMENT, "count is 0");
-  REFUSED(context, parts, 4097, MSQ_E_ARGUMENT, "4096");
-  REFUSED(context, parts, 2, MSQ_E_ARGUMENT, "regions[1] is NULL");
-  assert_refused(msq_model_regions(context, parts, 1, NULL), MSQ_E_ARGUMENT, "model is NULL");
-  static const msq_model* many[4096];
-  msq_model* most;
-  for (int i = 0; i < 4096; ++i) many[i] = part;
-  assert_ok(msq_model_regions(context, many, 4096, &most));
-  const msq_model* const too_many[2] = {most, part};
-  REFUSED(context, too_many, 2, MSQ_E_LIMIT, "4097");
-  msq_model_release(most);
-#undef REFUSED
-  assert_refused(msq_point_region(NULL, point, &region), MSQ_E_ARGUMENT, "model is NULL");
-  assert_refused(msq_point_region(part, NULL, &region), MSQ_E_ARGUMENT, "point is NULL");
-  assert_refused(msq_point_region(part, bad, &region), MSQ_E_ARGUMENT, "nan");
-  assert_refused(msq_point_region(part, point, NULL), MSQ_E_ARGUMENT, "region is NULL");
-  msq_points_def def = grid_points(0, 4, 2);
-  assert_refused(msq_set_region(NULL, &def, &region, 8, NULL), MSQ_E_ARGUMENT, "model is NULL");
-  assert_refused(msq_set_region(part, NULL, &region, 8, NULL), MSQ_E_ARGUMENT, "points is NULL");
-  assert_refused(msq_set_region(part, &def, NULL, 8, NULL), MSQ_E_ARGUMENT, "regions is NULL");
-  assert_refused(msq_set_region(part, &def, &region, 7, NULL), MSQ_E_ARGUMENT, "region_count is 7");
-  assert_int_equal(region, 77);
-  msq_model_release(part);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(first_region_decides),
       cmocka_unit_test(rays_name_the_scale_of_the_region),
       cmocka_unit_test(every_region_needs_a_material),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,39 +29,9 @@ static void length_is_the_largest_cell_size(void** state) {
   msq_context_release(context);
 }
 
-static void scale_that_is_not_there_is_refused(void** state) {
-  const uint32_t refused[] = {3, UINT32_MAX};
-  msq_context* context = make_context();
-  msq_model* model = make_three_scales(context);
-  double length = 0.375;
-  (void)state;
-  for (int i = 0; i < 2; ++i) {
-    assert_refused(msq_model_scale_length(model, refused[i], &length), MSQ_E_ARGUMENT,
-                   "model has 3");
-    assert_message_has_number(refused[i]);
-    assert_true(length == 0.375);
-  }
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void null_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_box_model(context);
-  double length = 0.375;
-  (void)state;
-  assert_refused(msq_model_scale_length(NULL, 0, &length), MSQ_E_ARGUMENT, "model is NULL");
-  assert_true(length == 0.375);
-  assert_refused(msq_model_scale_length(model, 0, NULL), MSQ_E_ARGUMENT, "length is NULL");
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(length_is_the_largest_cell_size),
-      cmocka_unit_test(scale_that_is_not_there_is_refused),
-      cmocka_unit_test(null_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,38 +44,9 @@ static void structures_move_with_their_grid(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  msq_neighbourhood grid = {{0}, {1, 1, 1}, {1, 0, 0, 0, 1, 0, 0, 0, 1}}, placed;
-  double changed[12];
-  (void)state;
-  memset(&placed, 0x5a, sizeof placed);
-#define REFUSED(grid, matrix, text) \
-  assert_refused(msq_neighbourhood_placed(grid, matrix, &placed), MSQ_E_ARGUMENT, text)
-  REFUSED(NULL, matrix, "grid is NULL");
-  REFUSED(&grid, NULL, "matrix is NULL");
-  assert_refused(msq_neighbourhood_placed(&grid, matrix, NULL), MSQ_E_ARGUMENT, "placed is NULL");
-  for (int i = 0; i < 12; ++i) {
-    memcpy(changed, matrix, sizeof changed);
-    changed[i] = NAN;
-    REFUSED(&grid, changed, "must be finite");
-  }
-  memcpy(changed, matrix, sizeof changed);
-  changed[10] = -2;
-  REFUSED(&grid, changed, "mirrors");
-  changed[10] = 2.001;
-  REFUSED(&grid, changed, "1e-09");
-  changed[10] = 0;
-  REFUSED(&grid, changed, "singular");
-  grid.cell_size[1] = -1;
-  REFUSED(&grid, matrix, "cell_size");
-#undef REFUSED
-  assert_filled(&placed, sizeof placed, 0x5a);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(structures_move_with_their_grid),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

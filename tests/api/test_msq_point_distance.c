@@ -15,25 +15,6 @@ static double distance_of(const msq_model* model, double x, double y, double z) 
   return distance;
 }
 
-static msq_status ask(void* env, void* def) {
-  double distance = 77;
-  const msq_status status =
-      msq_point_distance((const msq_model*)env, inner, (const msq_query_def*)def, &distance);
-  assert_true(status == MSQ_OK ? distance < 0 : distance == 77);
-  return status;
-}
-
-static void query_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_query_def def;
-  (void)state;
-  assert_ok(msq_query_def_init(&def, sizeof def));
-  check_grown_def_sizes(&def, offsetof(msq_query_def, critical_count), sizeof def, ask, model);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 static void shapes_are_exact(void** state) {
   const double centre[3] = {2, 2, 2}, from[3] = {0, 2, 2}, to[3] = {4, 2, 2};
   msq_context* context = make_context();
@@ -191,66 +172,14 @@ static void trees_need_room(void** state) {
   msq_context_release(narrow);
 }
 
-static void null_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_box_model(context);
-  double distance = 77;
-  (void)state;
-  assert_refused(msq_point_distance(NULL, inner, NULL, &distance), MSQ_E_ARGUMENT, "model is NULL");
-  assert_refused(msq_point_distance(model, NULL, NULL, &distance), MSQ_E_ARGUMENT, "point is NULL");
-  assert_refused(msq_point_distance(model, inner, NULL, NULL), MSQ_E_ARGUMENT, "distance is NULL");
-  assert_true(distance == 77);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void points_that_are_not_finite_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_box_model(context);
-  (void)state;
-  for (int which = 0; which < 3; ++which)
-    for (int axis = 0; axis < 3; ++axis) {
-      double point[3] = {1, 1, 1}, distance = 77;
-      point[axis] = not_finite(which);
-      assert_refused(msq_point_distance(model, point, NULL, &distance), MSQ_E_ARGUMENT,
-                     which == 0 ? "nan" : "inf");
-      assert_message_has("point");
-      assert_true(distance == 77);
-    }
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void wrong_queries_are_refused(void** state) {
-  const double refused[] = {-0.5, NAN, -INFINITY};
-  msq_context* context = make_context();
-  msq_model* model = make_box_model(context);
-  msq_query_def def;
-  (void)state;
-  for (int i = 0; i < 3; ++i) {
-    assert_ok(msq_query_def_init(&def, sizeof def));
-    def.length_scale = refused[i];
-    assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "length_scale");
-  }
-  assert_ok(msq_query_def_init(&def, sizeof def));
-  def.method = 3;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "method is 3");
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(query_honours_every_struct_size),
       cmocka_unit_test(shapes_are_exact),
       cmocka_unit_test(lattices_are_exact_outside),
       cmocka_unit_test(fields_divide_by_their_slope),
       cmocka_unit_test(scales_are_composed),
       cmocka_unit_test(far_points_have_finite_distances),
       cmocka_unit_test(trees_need_room),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(points_that_are_not_finite_are_refused),
-      cmocka_unit_test(wrong_queries_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

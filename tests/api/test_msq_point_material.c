@@ -45,44 +45,10 @@ static void channels_come_in_the_order_asked_for(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model *model = make_material_model(context, 1, 1, 1),
-            *bare = make_material_model(context, 0, 1, 0);
-  const char* const unknown[1] = {"colour"};
-  const char* const none[1] = {NULL};
-  const double* p = material_points[0];
-  const double bad[3] = {0, NAN, 0};
-  msq_query_def query;
-  uint32_t id = 77;
-  double values[2] = {7, 7};
-  (void)state;
-#define REFUSED(model, p, query, names, count, id, values, text)                                \
-  assert_refused(msq_point_material(model, p, query, names, count, id, values), MSQ_E_ARGUMENT, \
-                 text)
-  REFUSED(NULL, p, NULL, NULL, 0, &id, NULL, "model is NULL");
-  REFUSED(model, NULL, NULL, NULL, 0, &id, NULL, "point is NULL");
-  REFUSED(model, bad, NULL, NULL, 0, &id, NULL, "finite");
-  REFUSED(model, p, NULL, NULL, 2, &id, values, "channels is NULL");
-  REFUSED(model, p, NULL, none, 1, &id, values, "channel 0 is NULL");
-  REFUSED(model, p, NULL, unknown, 1, &id, values, "colour");
-  REFUSED(model, p, NULL, material_channels, 257, &id, values, "257");
-  REFUSED(model, p, NULL, material_channels, 2, NULL, values, "id is NULL");
-  REFUSED(model, p, NULL, material_channels, 2, &id, NULL, "values is NULL");
-  assert_ok(msq_query_def_init(&query, sizeof query));
-  query.length_scale = 2;
-  REFUSED(bare, p, &query, NULL, 0, &id, NULL, "no scale that the query resolves has a material");
-  assert_true(id == 77 && values[0] == 7 && values[1] == 7);
-  msq_model_release(bare);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_finest_scale_that_has_one_gives_it),
       cmocka_unit_test(channels_come_in_the_order_asked_for),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,24 +4,6 @@
 
 #include "definitions.h"
 
-DEFINE_INIT(query_def)
-
-static const double inner[3] = {0.5, 0.5, 0.5};
-
-static msq_status ask(void* env, void* def) {
-  int32_t inside = 77;
-  const msq_status status =
-      msq_point_membership((const msq_model*)env, inner, (const msq_query_def*)def, &inside);
-  assert_int_equal(inside, status == MSQ_OK ? 1 : 77);
-  return status;
-}
-
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_grown_def_init(init_query_def, offsetof(msq_query_def, critical_count),
-                       sizeof(msq_query_def));
-}
-
 static void defaults_are_those_of_the_header(void** state) {
   msq_query_def def;
   (void)state;
@@ -29,17 +11,6 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.method, MSQ_QUERY_AUTO);
   assert_int_equal(def.critical_count, 0);
   assert_true(def.length_scale == 0);
-}
-
-static void query_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_query_def def;
-  (void)state;
-  assert_ok(msq_query_def_init(&def, sizeof def));
-  check_grown_def_sizes(&def, offsetof(msq_query_def, critical_count), sizeof def, ask, model);
-  msq_model_release(model);
-  msq_context_release(context);
 }
 
 /* A lattice of cell 2, and one of cell 0.5 within its struts. */
@@ -89,73 +60,11 @@ static void far_points_are_outside(void** state) {
   msq_context_release(context);
 }
 
-static void null_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_box_model(context);
-  int32_t inside = 77;
-  (void)state;
-  assert_refused(msq_point_membership(NULL, inner, NULL, &inside), MSQ_E_ARGUMENT, "model is NULL");
-  assert_refused(msq_point_membership(model, NULL, NULL, &inside), MSQ_E_ARGUMENT, "point is NULL");
-  assert_refused(msq_point_membership(model, inner, NULL, NULL), MSQ_E_ARGUMENT, "inside is NULL");
-  assert_int_equal(inside, 77);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void points_that_are_not_finite_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_box_model(context);
-  (void)state;
-  for (int which = 0; which < 3; ++which)
-    for (int axis = 0; axis < 3; ++axis) {
-      double point[3] = {1, 1, 1};
-      int32_t inside = 77;
-      point[axis] = not_finite(which);
-      assert_refused(msq_point_membership(model, point, NULL, &inside), MSQ_E_ARGUMENT,
-                     which == 0 ? "nan" : "inf");
-      assert_message_has("point");
-      assert_int_equal(inside, 77);
-    }
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void wrong_queries_are_refused(void** state) {
-  const double refused[] = {-0.5, NAN, -INFINITY};
-  const char* texts[] = {"-0.5", "nan", "-inf"};
-  msq_context* context = make_context();
-  msq_model* model = make_box_model(context);
-  msq_query_def def;
-  (void)state;
-  for (int i = 0; i < 3; ++i) {
-    assert_ok(msq_query_def_init(&def, sizeof def));
-    def.length_scale = refused[i];
-    assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "length_scale");
-    assert_message_has(texts[i]);
-  }
-  assert_ok(msq_query_def_init(&def, sizeof def));
-  def.method = 3;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "method is 3");
-  def.method = 0;
-  def.group_parts = 65;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "group_parts is 65");
-  def.group_parts = 0;
-  def.reserved = 2;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "reserved is 2");
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
-      cmocka_unit_test(query_honours_every_struct_size),
       cmocka_unit_test(finer_scales_are_solid_at_a_length_scale),
       cmocka_unit_test(far_points_are_outside),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(points_that_are_not_finite_are_refused),
-      cmocka_unit_test(wrong_queries_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,16 +51,6 @@ static void assert_answers(const msq_model* model, const msq_points_def* def,
   free(distance);
 }
 
-static void query_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  const msq_points_def def = array_of(few_points(), few);
-  (void)state;
-  check_grown_def_sizes(&def, offsetof(msq_points_def, seed), sizeof def, ask, model);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 /* Random points, of a type and `stride` bytes apart, at an odd address. */
 static void check_array(const msq_model* model, uint64_t count, int32_t type, uint64_t stride) {
   const uint64_t size = type == MSQ_FLOAT32 ? 12 : 24, step = stride ? stride : size;
@@ -184,93 +174,6 @@ static void no_points_is_nothing_to_do(void** state) {
   msq_context_release(context);
 }
 
-static void null_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_points_def def = array_of(few_points(), few);
-  (void)state;
-  assert_refused(ask(NULL, &def), MSQ_E_ARGUMENT, "model is NULL");
-  assert_refused(ask(model, NULL), MSQ_E_ARGUMENT, "points is NULL");
-  assert_refused(msq_set_distance(model, &def, NULL, NULL, few, NULL), MSQ_E_ARGUMENT,
-                 "distance is NULL");
-  def.coordinates = NULL;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "coordinates is NULL");
-  const msq_points_def grid = grid_points(0, 1, 2);
-  assert_refused(msq_set_distance(model, &grid, NULL, NULL, 8, NULL), MSQ_E_ARGUMENT,
-                 "distance is NULL");
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void distance_count_must_be_the_number_of_points(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  const msq_points_def def = array_of(few_points(), few), grid = grid_points(0, 1, 2);
-  double distance[few + 1];
-  (void)state;
-  memset(distance, struct_pattern, sizeof distance);
-  for (uint64_t count = few - 1; count <= few + 1; count += 2) {
-    assert_refused(msq_set_distance(model, &def, NULL, distance, count, NULL), MSQ_E_ARGUMENT,
-                   "distance_count");
-    assert_message_has_number(count);
-    assert_message_has_number(few);
-  }
-  assert_refused(msq_set_distance(model, &grid, NULL, distance, 4, NULL), MSQ_E_ARGUMENT,
-                 "distance_count is 4");
-  assert_filled(distance, sizeof distance, struct_pattern);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void wrong_points_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  (void)state;
-  for (int which = 0; which < 3; ++which) {
-    double points[few][3];
-    memcpy(points, few_points(), sizeof points);
-    points[3][which] = not_finite(which);
-    msq_points_def def = array_of(points, few);
-    assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "point 3");
-  }
-  msq_points_def def = array_of(few_points(), few);
-  def.kind = 4;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "kind is 4");
-  def = array_of(few_points(), few);
-  def.stride = 23;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "23");
-  def = array_of(few_points(), few);
-  def.reserved = 8;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "reserved is 8");
-  def = array_of(few_points(), UINT64_MAX / 2);
-  assert_refused(ask(model, &def), MSQ_E_LIMIT, "24");
-  def = grid_points(0, 1, 2);
-  def.spacing[1] = 0;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "spacing");
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void wrong_queries_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  const msq_points_def def = array_of(few_points(), few);
-  double distance[few];
-  msq_query_def query;
-  (void)state;
-  memset(distance, struct_pattern, sizeof distance);
-  assert_ok(msq_query_def_init(&query, sizeof query));
-  query.length_scale = -0.5;
-  assert_refused(msq_set_distance(model, &def, &query, distance, few, NULL), MSQ_E_ARGUMENT,
-                 "length_scale");
-  query.struct_size = 4;
-  assert_refused(msq_set_distance(model, &def, &query, distance, few, NULL), MSQ_E_ARGUMENT,
-                 "struct_size of query is 4");
-  assert_filled(distance, sizeof distance, struct_pattern);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 /* No room for the tree of a mesh: nothing is written. */
 static void a_limit_leaves_the_output_alone(void** state) {
   msq_context* wide = make_context();
@@ -316,16 +219,11 @@ static void jobs_show_progress_and_cancel(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(query_honours_every_struct_size),
       cmocka_unit_test(arrays_have_any_type_and_stride),
       cmocka_unit_test(arrays_have_any_length),
       cmocka_unit_test(every_kind_of_model_answers_sets_as_points),
       cmocka_unit_test(finer_scales_are_left_out_at_a_length_scale),
       cmocka_unit_test(no_points_is_nothing_to_do),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(distance_count_must_be_the_number_of_points),
-      cmocka_unit_test(wrong_points_are_refused),
-      cmocka_unit_test(wrong_queries_are_refused),
       cmocka_unit_test(a_limit_leaves_the_output_alone),
       cmocka_unit_test(jobs_show_progress_and_cancel),
   };

@@ -48,38 +48,9 @@ static void a_set_answers_as_its_points(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_material_model(context, 1, 1, 1);
-  const msq_points_def points = grid_points(0, 4, 2);
-  const char* const unknown[1] = {"colour"};
-  uint32_t ids[8];
-  double values[16];
-  (void)state;
-  memset(ids, 0x5a, sizeof ids);
-  memset(values, 0x5a, sizeof values);
-#define REFUSED(model, points, names, count, ids, id_count, values, value_count, text)      \
-  assert_refused(msq_set_material(model, points, NULL, names, count, ids, id_count, values, \
-                                  value_count, NULL),                                       \
-                 MSQ_E_ARGUMENT, text)
-  REFUSED(NULL, &points, material_channels, 2, ids, 8, values, 16, "model is NULL");
-  REFUSED(model, NULL, material_channels, 2, ids, 8, values, 16, "points is NULL");
-  REFUSED(model, &points, NULL, 2, ids, 8, values, 16, "channels is NULL");
-  REFUSED(model, &points, unknown, 1, ids, 8, values, 8, "colour");
-  REFUSED(model, &points, material_channels, 2, NULL, 8, values, 16, "ids is NULL");
-  REFUSED(model, &points, material_channels, 2, ids, 8, NULL, 16, "values is NULL");
-  REFUSED(model, &points, material_channels, 2, ids, 7, values, 14, "id_count is 7");
-  REFUSED(model, &points, material_channels, 2, ids, 8, values, 15, "value_count is 15");
-  assert_filled(ids, sizeof ids, 0x5a);
-  assert_filled(values, sizeof values, 0x5a);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_set_answers_as_its_points),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

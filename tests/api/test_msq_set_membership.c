@@ -3,8 +3,6 @@
  * test_msq_context_memory.c. */
 #include "definitions.h"
 
-DEFINE_INIT(points_def)
-
 enum { few = 5 };
 
 static msq_points_def array_of(const void* coordinates, uint64_t count) {
@@ -31,11 +29,6 @@ static msq_status ask(void* env, void* def) {
   return status;
 }
 
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_grown_def_init(init_points_def, offsetof(msq_points_def, seed), sizeof(msq_points_def));
-}
-
 static void defaults_are_those_of_the_header(void** state) {
   msq_points_def def;
   (void)state;
@@ -44,16 +37,6 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.coordinate_type, MSQ_FLOAT64);
   assert_int_equal(def.count, 0);
   assert_null(def.coordinates);
-}
-
-static void query_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  const msq_points_def def = array_of(few_points(), few);
-  (void)state;
-  check_grown_def_sizes(&def, offsetof(msq_points_def, seed), sizeof def, ask, model);
-  msq_model_release(model);
-  msq_context_release(context);
 }
 
 /* ---- answers */
@@ -262,90 +245,6 @@ static void finer_scales_are_solid_at_a_length_scale(void** state) {
 
 /* ---- what is refused */
 
-static void null_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_points_def def = array_of(few_points(), few);
-  (void)state;
-  assert_refused(ask(NULL, &def), MSQ_E_ARGUMENT, "model is NULL");
-  assert_refused(ask(model, NULL), MSQ_E_ARGUMENT, "points is NULL");
-  assert_refused(msq_set_membership(model, &def, NULL, NULL, few, NULL), MSQ_E_ARGUMENT,
-                 "inside is NULL");
-  def.coordinates = NULL;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "coordinates is NULL");
-  const msq_points_def grid = grid_points(0, 1, 2);
-  assert_refused(msq_set_membership(model, &grid, NULL, NULL, 8, NULL), MSQ_E_ARGUMENT,
-                 "inside is NULL");
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void unknown_numbers_are_refused(void** state) {
-  const int32_t refused[] = {-1, 0, 4};
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  (void)state;
-  for (int i = 0; i < 3; ++i) {
-    char text[32];
-    msq_points_def def = array_of(few_points(), few);
-    def.kind = refused[i];
-    snprintf(text, sizeof text, "kind is %d;", (int)refused[i]);
-    assert_refused(ask(model, &def), MSQ_E_ARGUMENT, text);
-    assert_message_has("from 1 to 3");
-    def = array_of(few_points(), few);
-    def.coordinate_type = refused[i];
-    snprintf(text, sizeof text, "coordinate_type is %d;", (int)refused[i]);
-    assert_refused(ask(model, &def), MSQ_E_ARGUMENT, text);
-    assert_message_has("from 1 to 2");
-  }
-  msq_points_def def = array_of(few_points(), few);
-  def.reserved = 8;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "reserved is 8");
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void inside_count_must_be_the_number_of_points(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_points_def def = array_of(few_points(), few);
-  uint8_t inside[few + 1];
-  (void)state;
-  memset(inside, struct_pattern, sizeof inside);
-  for (uint64_t count = few - 1; count <= few + 1; count += 2) {
-    assert_refused(msq_set_membership(model, &def, NULL, inside, count, NULL), MSQ_E_ARGUMENT,
-                   "inside_count");
-    assert_message_has_number(count);
-    assert_message_has_number(few);
-  }
-  const msq_points_def grid = grid_points(0, 1, 2);
-  assert_refused(msq_set_membership(model, &grid, NULL, inside, 4, NULL), MSQ_E_ARGUMENT,
-                 "inside_count is 4");
-  assert_message_has("8");
-  def.count = 0;
-  assert_refused(msq_set_membership(model, &def, NULL, inside, 1, NULL), MSQ_E_ARGUMENT,
-                 "inside_count is 1");
-  assert_filled(inside, sizeof inside, struct_pattern);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void stride_within_a_point_is_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_points_def def = array_of(few_points(), few);
-  (void)state;
-  def.stride = 23;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "23");
-  assert_message_has("24");
-  def.coordinate_type = MSQ_FLOAT32;
-  def.stride = 11;
-  assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "11");
-  assert_message_has("12");
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 static void points_that_are_not_finite_are_named(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_lattice_model(context);
@@ -363,95 +262,9 @@ static void points_that_are_not_finite_are_named(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_grids_are_refused(void** state) {
-  const double spacings[] = {0, -1, NAN, INFINITY};
-  const uint64_t counts[] = {0, (uint64_t)1 << 31, UINT64_MAX};
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  (void)state;
-  for (int axis = 0; axis < 3; ++axis) {
-    msq_points_def def = grid_points(0, 1, 2);
-    for (int i = 0; i < 3; ++i) {
-      char text[32];
-      def = grid_points(0, 1, 2);
-      def.origin[axis] = not_finite(i);
-      assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "origin");
-      def = grid_points(0, 1, 2);
-      def.counts[axis] = counts[i];
-      snprintf(text, sizeof text, "counts[%d]", axis);
-      assert_refused(ask(model, &def), MSQ_E_ARGUMENT, text);
-      assert_message_has_number(counts[i]);
-      assert_message_has("2147483647");
-    }
-    for (int i = 0; i < 4; ++i) {
-      def = grid_points(0, 1, 2);
-      def.spacing[axis] = spacings[i];
-      assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "spacing");
-    }
-    def = grid_points(0, 1, 2);
-    def.spacing[axis] = 1e308;
-    def.counts[axis] = 3;
-    assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "last point");
-    def = grid_points(0, 1, 2);
-    def.origin[axis] = 1e6;
-    def.spacing[axis] = 1e-11;
-    assert_refused(ask(model, &def), MSQ_E_ARGUMENT, "would coincide");
-    assert_message_has("1e-11");
-  }
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void sizes_whose_product_overflows_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_points_def def = grid_points(0, 1, 2);
-  (void)state;
-  for (int axis = 0; axis < 3; ++axis) {
-    def.spacing[axis] = 1e-9;
-    def.counts[axis] = INT32_MAX;
-  }
-  assert_refused(ask(model, &def), MSQ_E_LIMIT, "2147483647");
-  assert_message_has("2^63");
-  def = array_of(few_points(), UINT64_MAX / 2);
-  assert_refused(ask(model, &def), MSQ_E_LIMIT, "24");
-  assert_message_has_number(UINT64_MAX / 2);
-  def = array_of(few_points(), few);
-  def.stride = UINT64_MAX / 2;
-  assert_refused(ask(model, &def), MSQ_E_LIMIT, "2^63");
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
-static void wrong_queries_are_refused(void** state) {
-  const double refused[] = {-0.5, NAN, -INFINITY};
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  const msq_points_def def = array_of(few_points(), few);
-  uint8_t inside[few];
-  msq_query_def query;
-  (void)state;
-  memset(inside, struct_pattern, sizeof inside);
-  for (int i = 0; i < 3; ++i) {
-    assert_ok(msq_query_def_init(&query, sizeof query));
-    query.length_scale = refused[i];
-    assert_refused(msq_set_membership(model, &def, &query, inside, few, NULL), MSQ_E_ARGUMENT,
-                   "length_scale");
-  }
-  assert_ok(msq_query_def_init(&query, sizeof query));
-  query.struct_size = 4;
-  assert_refused(msq_set_membership(model, &def, &query, inside, few, NULL), MSQ_E_ARGUMENT,
-                 "struct_size of query is 4");
-  assert_filled(inside, sizeof inside, struct_pattern);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
-      cmocka_unit_test(query_honours_every_struct_size),
       cmocka_unit_test(arrays_have_any_type_and_stride),
       cmocka_unit_test(arrays_have_any_length),
       cmocka_unit_test(every_kind_of_model_answers_arrays_as_points),
@@ -459,14 +272,7 @@ int main(void) {
       cmocka_unit_test(grid_of_one_point_is_a_grid),
       cmocka_unit_test(no_points_is_nothing_to_do),
       cmocka_unit_test(finer_scales_are_solid_at_a_length_scale),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(unknown_numbers_are_refused),
-      cmocka_unit_test(inside_count_must_be_the_number_of_points),
-      cmocka_unit_test(stride_within_a_point_is_refused),
       cmocka_unit_test(points_that_are_not_finite_are_named),
-      cmocka_unit_test(wrong_grids_are_refused),
-      cmocka_unit_test(sizes_whose_product_overflows_are_refused),
-      cmocka_unit_test(wrong_queries_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

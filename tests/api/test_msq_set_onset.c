@@ -179,49 +179,12 @@ static void grids_and_windows_have_the_values_of_their_points(void** state) {
   msq_structure_release(foam);
 }
 
-static void arguments_are_checked(void** state) {
-  msq_structure* lattice = make_lattice(context);
-  msq_points_def def = array_points(), far = grid_points(0, 1, 2);
-  double value[8], slopes[24];
-  (void)state;
-  for (int i = 0; i < 8; ++i) value[i] = 7;
-  for (int i = 0; i < 24; ++i) slopes[i] = 7;
-  def.count = 8;
-#define ONSET(c, s, p, v, o, n, g, m) msq_set_onset(c, s, p, v, o, n, g, m, NULL)
-  assert_refused(ONSET(NULL, lattice, &def, 0, value, 8, NULL, 0), MSQ_E_ARGUMENT, "context");
-  assert_refused(ONSET(context, NULL, &def, 0, value, 8, NULL, 0), MSQ_E_ARGUMENT, "structure");
-  assert_refused(ONSET(context, lattice, NULL, 0, value, 8, NULL, 0), MSQ_E_ARGUMENT, "points");
-  assert_refused(ONSET(context, lattice, &def, 2, value, 8, NULL, 0), MSQ_E_ARGUMENT, "value is 2");
-  assert_refused(ONSET(context, lattice, &def, 0, NULL, 8, NULL, 0), MSQ_E_ARGUMENT, "onsets");
-  assert_refused(ONSET(context, lattice, &def, 0, value, 7, NULL, 0), MSQ_E_ARGUMENT,
-                 "onset_count is 7");
-  assert_refused(ONSET(context, lattice, &def, 0, value, 8, slopes, 8), MSQ_E_ARGUMENT,
-                 "gradient_count is 8");
-  assert_refused(ONSET(context, lattice, &def, 0, value, 8, NULL, 24), MSQ_E_ARGUMENT,
-                 "gradient_count is 24");
-  far.origin[2] = 16777215.5;
-  assert_refused(ONSET(context, lattice, &far, 0, value, 8, slopes, 24), MSQ_E_LIMIT,
-                 "cells of the structure");
-  double odd[2][3] = {{0, 0, 0}, {0, NAN, 0}};
-  def.coordinates = odd;
-  def.count = 2;
-  assert_refused(ONSET(context, lattice, &def, 0, value, 2, slopes, 6), MSQ_E_ARGUMENT, "point 1");
-  odd[1][1] = -2e7;
-  assert_refused(ONSET(context, lattice, &def, 0, value, 2, slopes, 6), MSQ_E_LIMIT, "point 1");
-  for (int i = 0; i < 8; ++i) assert_true(value[i] == 7);
-  for (int i = 0; i < 24; ++i) assert_true(slopes[i] == 7);
-  def.count = 0;
-  assert_ok(ONSET(context, lattice, &def, 0, NULL, 0, NULL, 0));
-  msq_structure_release(lattice);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(of_lattices_is_the_distance_to_axes),
       cmocka_unit_test(of_functions_is_the_function),
       cmocka_unit_test(its_sign_is_membership),
       cmocka_unit_test(grids_and_windows_have_the_values_of_their_points),
-      cmocka_unit_test(arguments_are_checked),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }

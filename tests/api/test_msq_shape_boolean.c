@@ -55,37 +55,9 @@ static void memberships_are_put_together(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_shape* shapes[3];
-  (void)state;
-  make_shapes(context, shapes);
-  const msq_shape* const* known = (const msq_shape* const*)shapes;
-#define REFUSED(operation, shapes, count, text)                                       \
-  assert_makes_nothing(msq_shape, msq_shape_boolean(operation, shapes, count, &made), \
-                       MSQ_E_ARGUMENT, text)
-  REFUSED(0, known, 3, "operation is 0");
-  REFUSED(4, known, 3, "operation is 4");
-  REFUSED(MSQ_BOOLEAN_UNION, NULL, 3, "shapes is NULL");
-  REFUSED(MSQ_BOOLEAN_UNION, known, 0, "count is 0");
-  REFUSED(MSQ_BOOLEAN_UNION, known, 4097, "4096");
-  const msq_shape* const holed[2] = {shapes[0], NULL};
-  REFUSED(MSQ_BOOLEAN_UNION, holed, 2, "shapes[1] is NULL");
-  assert_refused(msq_shape_boolean(MSQ_BOOLEAN_UNION, known, 3, NULL), MSQ_E_ARGUMENT,
-                 "shape is NULL");
-  msq_shape* far = make_box_of(context, 5, 6);
-  const msq_shape* const apart[2] = {shapes[0], far};
-  REFUSED(MSQ_BOOLEAN_INTERSECTION, apart, 2, "do not meet");
-#undef REFUSED
-  msq_shape_release(far);
-  for (int i = 0; i < 3; ++i) msq_shape_release(shapes[i]);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(memberships_are_put_together),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,65 +70,11 @@ static void report_has_its_measures(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  const double from[3] = {1, 2, 3}, to[3] = {4, 5, 6};
-  const double radii[] = {0, -2, NAN, INFINITY, 1e200};
-  const char* texts[] = {"is 0;", "is -2;", "nan", "inf", "1e+200"};
-  msq_context* context = make_context();
-  (void)state;
-  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(NULL, from, to, 1, &made), MSQ_E_ARGUMENT,
-                       "context is NULL");
-  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, NULL, to, 1, &made),
-                       MSQ_E_ARGUMENT, "from is NULL");
-  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, from, NULL, 1, &made),
-                       MSQ_E_ARGUMENT, "to is NULL");
-  assert_refused(msq_shape_from_cylinder(context, from, to, 1, NULL), MSQ_E_ARGUMENT,
-                 "shape is NULL");
-  for (size_t i = 0; i < sizeof radii / sizeof radii[0]; ++i) {
-    assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, from, to, radii[i], &made),
-                         MSQ_E_ARGUMENT, texts[i]);
-    assert_message_has("radius");
-  }
-  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, from, from, 1, &made),
-                       MSQ_E_ARGUMENT, "(1, 2, 3)");
-  assert_message_has("differ");
-  for (int which = 0; which < 3; ++which)
-    for (int axis = 0; axis < 3; ++axis) {
-      double point[3] = {0, 0, 0};
-      point[axis] = not_finite(which);
-      assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, point, to, 1, &made),
-                           MSQ_E_ARGUMENT, "from is (");
-      assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, from, point, 1, &made),
-                           MSQ_E_ARGUMENT, "to is (");
-    }
-  msq_context_release(context);
-}
-
-/* Of coordinates, of the radius, and of the way from end to end along each axis. */
-static void sizes_have_limits(void** state) {
-  const double low[3] = {0, -0.6e75, 0}, high[3] = {0, 0.6e75, 0}, middle[3] = {0, 0.4e75, 0};
-  const double far[3] = {1e75, 0, 0}, too_far[3] = {0, 0, 1.0001e75};
-  msq_context* context = make_context();
-  msq_shape* shape;
-  (void)state;
-  assert_ok(msq_shape_from_cylinder(context, low, middle, 1e75, &shape));
-  msq_shape_release(shape);
-  assert_ok(msq_shape_from_cylinder(context, middle, far, 1, &shape));
-  msq_shape_release(shape);
-  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, low, high, 1, &made),
-                       MSQ_E_ARGUMENT, "1.2e+75");
-  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, low, middle, 1.0001e75, &made),
-                       MSQ_E_ARGUMENT, "the limit is 1e+75");
-  assert_makes_nothing(msq_shape, msq_shape_from_cylinder(context, too_far, far, 1, &made),
-                       MSQ_E_ARGUMENT, "the limit is 1e+75");
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(boundary_is_inside),      cmocka_unit_test(slanted_cylinder_has_its_points),
-      cmocka_unit_test(report_has_its_measures), cmocka_unit_test(wrong_arguments_are_refused),
-      cmocka_unit_test(sizes_have_limits),
+      cmocka_unit_test(boundary_is_inside),
+      cmocka_unit_test(slanted_cylinder_has_its_points),
+      cmocka_unit_test(report_has_its_measures),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

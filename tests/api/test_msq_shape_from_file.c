@@ -6,8 +6,6 @@
 #include "definitions.h"
 #include "stl.h"
 
-DEFINE_INIT(file_def)
-
 static char folder[512];
 
 static int make_folder(void** state) {
@@ -66,11 +64,6 @@ static msq_status read_file(void* env, void* def) {
   return status;
 }
 
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_def_init(init_file_def, sizeof(msq_file_def));
-}
-
 static void defaults_are_those_of_the_header(void** state) {
   const msq_file_def def = file_def();
   (void)state;
@@ -80,39 +73,6 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_true(def.unit_mm == 1);
   assert_int_equal(def.max_bytes, (uint64_t)4 << 30);
   assert_int_equal(def.max_triangles, 200000000);
-}
-
-static void wrong_arguments_are_refused(void** state) {
-  const int32_t formats[] = {-1, 7};
-  const double units[] = {0, -1, NAN, INFINITY};
-  request r = {make_context(), "part.stl"};
-  msq_file_def def = file_def();
-  (void)state;
-  assert_makes_nothing(msq_shape, msq_shape_from_file(NULL, r.path, NULL, &made, NULL),
-                       MSQ_E_ARGUMENT, "context is NULL");
-  assert_makes_nothing(msq_shape, msq_shape_from_file(r.context, NULL, NULL, &made, NULL),
-                       MSQ_E_ARGUMENT, "path is NULL");
-  assert_refused(msq_shape_from_file(r.context, r.path, NULL, NULL, NULL), MSQ_E_ARGUMENT,
-                 "shape is NULL");
-  for (int i = 0; i < 2; ++i) {
-    def = file_def();
-    def.format = formats[i];
-    assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, i ? "format is 7" : "format is -1");
-    assert_message_has("from 0 to 6");
-    def = file_def();
-    def.winding_rule = i ? 4 : -1;
-    assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, "winding_rule");
-    assert_message_has("from 0 to 3");
-  }
-  for (int i = 0; i < 4; ++i) {
-    def = file_def();
-    def.unit_mm = units[i];
-    assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, "unit_mm");
-  }
-  def = file_def();
-  def.reserved = 9;
-  assert_refused(read_file(&r, &def), MSQ_E_ARGUMENT, "reserved is 9");
-  msq_context_release(r.context);
 }
 
 /* Numbers that no float has. */
@@ -167,15 +127,6 @@ static void job_cancels_and_tells_the_progress(void** state) {
 }
 
 #if MSQ_WITH_ASSIMP
-
-static void create_honours_every_struct_size(void** state) {
-  const msq_file_def def = file_def();
-  request r = {make_context(), write_stl("cube.stl")};
-  (void)state;
-  check_def_sizes(&def, sizeof def, read_file, &r);
-  unlink(r.path);
-  msq_context_release(r.context);
-}
 
 static void stl_is_read_by_its_extension(void** state) {
   const char* names[] = {"cube.stl", "CUBE.STL", "with.dots.Stl"};
@@ -278,47 +229,6 @@ static void truncated_file_is_an_io_error(void** state) {
   }
 }
 
-static void file_without_triangles_is_refused(void** state) {
-  uint8_t file[stl_bytes];
-  (void)state;
-  make_stl(file);
-  put_little_endian(file + 80, 0);
-  request r = {make_context(), write_file("empty.stl", file, 84)};
-  assert_refused(read_file(&r, NULL), MSQ_E_MESH, "no triangles");
-  unlink(r.path);
-  msq_context_release(r.context);
-}
-
-static void vertex_that_is_not_finite_is_refused(void** state) {
-  uint8_t file[stl_bytes];
-  (void)state;
-  make_stl(file);
-  put_float(file + 84 + 12, NAN);
-  request r = {make_context(), write_file("nan.stl", file, stl_bytes)};
-  assert_refused(read_file(&r, NULL), MSQ_E_MESH, "finite");
-  unlink(r.path);
-  msq_context_release(r.context);
-}
-
-static void limits_are_kept_to_the_byte(void** state) {
-  request r = {make_context(), write_stl("cube.stl")};
-  msq_file_def def = file_def();
-  (void)state;
-  def.max_bytes = stl_bytes;
-  def.max_triangles = 12;
-  assert_ok(read_file(&r, &def));
-  def.max_bytes = stl_bytes - 1;
-  assert_refused(read_file(&r, &def), MSQ_E_LIMIT, "max_bytes");
-  assert_message_has_number(stl_bytes);
-  assert_message_has_number(stl_bytes - 1);
-  def.max_bytes = stl_bytes;
-  def.max_triangles = 11;
-  assert_refused(read_file(&r, &def), MSQ_E_LIMIT, "max_triangles is 11");
-  assert_message_has("12");
-  unlink(r.path);
-  msq_context_release(r.context);
-}
-
 static void memory_limit_is_kept(void** state) {
   request r = {make_context_of(1, 0, 100), write_stl("cube.stl")};
   (void)state;
@@ -342,14 +252,11 @@ static void build_without_assimp_says_so(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(def_init_honours_every_size),
     cmocka_unit_test(defaults_are_those_of_the_header),
-    cmocka_unit_test(wrong_arguments_are_refused),
     cmocka_unit_test(text_keeps_every_digit),
     cmocka_unit_test(error_names_path_and_line),
     cmocka_unit_test(job_cancels_and_tells_the_progress),
 #if MSQ_WITH_ASSIMP
-    cmocka_unit_test(create_honours_every_struct_size),
     cmocka_unit_test(stl_is_read_by_its_extension),
     cmocka_unit_test(named_format_goes_before_the_extension),
     cmocka_unit_test(unit_scales_the_shape),
@@ -358,9 +265,6 @@ int main(void) {
     cmocka_unit_test(folder_is_an_io_error),
     cmocka_unit_test(reason_is_told_of_a_long_path),
     cmocka_unit_test(truncated_file_is_an_io_error),
-    cmocka_unit_test(file_without_triangles_is_refused),
-    cmocka_unit_test(vertex_that_is_not_finite_is_refused),
-    cmocka_unit_test(limits_are_kept_to_the_byte),
     cmocka_unit_test(memory_limit_is_kept),
 #else
     cmocka_unit_test(build_without_assimp_says_so),

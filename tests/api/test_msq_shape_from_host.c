@@ -2,8 +2,6 @@
  * msq_host_shape_def_init, msq_shape_from_host. */
 #include "hosts.h"
 
-DEFINE_INIT(host_shape_def)
-
 static const double centre[3] = {2, 1.75, 2.25};
 static const double radius = 1.5;
 
@@ -59,18 +57,6 @@ static msq_shape* make_own_ball(msq_context* context) {
   msq_shape* shape;
   assert_ok(msq_shape_from_sphere(context, centre, radius, &shape));
   return shape;
-}
-
-DEFINE_CREATE(shape, shape_from_host, host_shape_def)
-
-static void definitions_honour_every_size(void** state) {
-  msq_context* context = make_context();
-  host_log log = make_log();
-  const msq_host_shape_def def = ball_def(&log);
-  (void)state;
-  check_def_init(init_host_shape_def, sizeof(msq_host_shape_def));
-  check_def_sizes(&def, sizeof def, create, context);
-  msq_context_release(context);
 }
 
 static void defaults_are_those_of_the_header(void** state) {
@@ -282,36 +268,6 @@ static void callbacks_that_fail_stop_the_call(void** state) {
   assert_int_equal(log.released, 1);
 }
 
-static void what_is_refused_is_not_released(void** state) {
-  msq_context* context = make_context();
-  host_log log = make_log();
-  msq_host_shape_def def = ball_def(&log);
-  (void)state;
-  assert_makes_nothing(msq_shape, msq_shape_from_host(NULL, &def, &made), MSQ_E_ARGUMENT,
-                       "context");
-  assert_makes_nothing(msq_shape, msq_shape_from_host(context, NULL, &made), MSQ_E_ARGUMENT, "def");
-  assert_refused(msq_shape_from_host(context, &def, NULL), MSQ_E_ARGUMENT, "shape is NULL");
-  def.inside = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "inside is NULL");
-  def = ball_def(&log);
-  def.concurrent = -1;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "concurrent is -1");
-  def = ball_def(&log);
-  def.min[1] = def.max[1];
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "min[1]");
-  for (int which = 0; which < 3; ++which) {
-    def = ball_def(&log);
-    def.max[2] = not_finite(which);
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "finite");
-  }
-  def = ball_def(&log);
-  def.max[0] = 1e76;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "1e+75");
-  assert_int_equal(log.released, 0);
-  assert_int_equal(log.calls, 0);
-  msq_context_release(context);
-}
-
 /* ---- callbacks that let go of what the call works with */
 
 typedef struct farewell {
@@ -377,7 +333,6 @@ static void callbacks_may_let_go_of_the_model_and_the_job(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(definitions_honour_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(a_ball_is_a_ball),
       cmocka_unit_test(sets_ask_in_batches),
@@ -386,7 +341,6 @@ int main(void) {
       cmocka_unit_test(fields_of_its_distance_ask_the_calling_thread),
       cmocka_unit_test(volume_and_area_are_not_known),
       cmocka_unit_test(callbacks_that_fail_stop_the_call),
-      cmocka_unit_test(what_is_refused_is_not_released),
       cmocka_unit_test(callbacks_may_let_go_of_the_model_and_the_job),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -38,31 +38,6 @@ static msq_status read_memory(void* env, void* def) {
   return status;
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  request r = {make_context(), stl, stl_bytes};
-  msq_file_def def = stl_def();
-  (void)state;
-  assert_refused(msq_shape_from_memory(r.context, stl, stl_bytes, &def, NULL, NULL), MSQ_E_ARGUMENT,
-                 "shape is NULL");
-  assert_makes_nothing(msq_shape, msq_shape_from_memory(NULL, stl, stl_bytes, &def, &made, NULL),
-                       MSQ_E_ARGUMENT, "context is NULL");
-  r.data = NULL;
-  assert_refused(read_memory(&r, &def), MSQ_E_ARGUMENT, "data is NULL");
-  r.data = stl;
-  def.format = 7;
-  assert_refused(read_memory(&r, &def), MSQ_E_ARGUMENT, "format is 7");
-  def = stl_def();
-  def.winding_rule = -1;
-  assert_refused(read_memory(&r, &def), MSQ_E_ARGUMENT, "winding_rule is -1");
-  def = stl_def();
-  def.unit_mm = NAN;
-  assert_refused(read_memory(&r, &def), MSQ_E_ARGUMENT, "unit_mm is ");
-  def = stl_def();
-  def.reserved = 1;
-  assert_refused(read_memory(&r, &def), MSQ_E_ARGUMENT, "reserved is 1");
-  msq_context_release(r.context);
-}
-
 /* A sheet of 2 n n triangles as OBJ. */
 static char* make_sheet(int n, size_t* bytes) {
   const size_t room = (size_t)(n + 1) * (size_t)(n + 1) * 40 + (size_t)n * (size_t)n * 60;
@@ -157,14 +132,6 @@ static void job_tells_the_progress(void** state) {
 
 #if MSQ_WITH_ASSIMP
 
-static void create_honours_every_struct_size(void** state) {
-  request r = {make_context(), stl, stl_bytes};
-  const msq_file_def def = stl_def();
-  (void)state;
-  check_def_sizes(&def, sizeof def, read_memory, &r);
-  msq_context_release(r.context);
-}
-
 static void stl_is_read_from_memory(void** state) {
   msq_context* context = make_context();
   uint8_t own[stl_bytes];
@@ -182,16 +149,6 @@ static void stl_is_read_from_memory(void** state) {
   msq_shape_release(shape);
   assert_int_equal(memory_of(context).bytes, 0);
   msq_context_release(context);
-}
-
-static void format_must_be_named(void** state) {
-  request r = {make_context(), stl, stl_bytes};
-  msq_file_def def = stl_def();
-  (void)state;
-  assert_refused(read_memory(&r, NULL), MSQ_E_ARGUMENT, "format");
-  def.format = MSQ_FORMAT_AUTO;
-  assert_refused(read_memory(&r, &def), MSQ_E_ARGUMENT, "format");
-  msq_context_release(r.context);
 }
 
 static void truncated_file_is_an_io_error(void** state) {
@@ -217,24 +174,6 @@ static void file_of_another_format_is_an_io_error(void** state) {
   msq_context_release(r.context);
 }
 
-static void limits_are_kept_to_the_byte(void** state) {
-  request r = {make_context(), stl, stl_bytes};
-  msq_file_def def = stl_def();
-  (void)state;
-  def.max_bytes = stl_bytes;
-  def.max_triangles = 12;
-  assert_ok(read_memory(&r, &def));
-  def.max_bytes = stl_bytes - 1;
-  assert_refused(read_memory(&r, &def), MSQ_E_LIMIT, "max_bytes");
-  assert_message_has_number(stl_bytes);
-  assert_message_has_number(stl_bytes - 1);
-  def = stl_def();
-  def.max_triangles = 11;
-  assert_refused(read_memory(&r, &def), MSQ_E_LIMIT, "max_triangles is 11");
-  assert_message_has("12");
-  msq_context_release(r.context);
-}
-
 #else
 
 static void build_without_assimp_says_so(void** state) {
@@ -249,16 +188,12 @@ static void build_without_assimp_says_so(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(wrong_arguments_are_refused),
     cmocka_unit_test(job_cancels_what_is_under_way),
     cmocka_unit_test(job_tells_the_progress),
 #if MSQ_WITH_ASSIMP
-    cmocka_unit_test(create_honours_every_struct_size),
     cmocka_unit_test(stl_is_read_from_memory),
-    cmocka_unit_test(format_must_be_named),
     cmocka_unit_test(truncated_file_is_an_io_error),
     cmocka_unit_test(file_of_another_format_is_an_io_error),
-    cmocka_unit_test(limits_are_kept_to_the_byte),
 #else
     cmocka_unit_test(build_without_assimp_says_so),
 #endif

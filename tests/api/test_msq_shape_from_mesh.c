@@ -2,8 +2,6 @@
  * msq_mesh_def_init, msq_shape_from_mesh. The diagnosis of meshes: test_msq_shape_info.c. */
 #include "definitions.h"
 
-DEFINE_INIT(mesh_def)
-
 static double corners[8][3];
 
 static int set_corners(void** state) {
@@ -16,13 +14,6 @@ static msq_mesh_def cube_def(void) {
   return mesh_def((const double(*)[3])corners, 8, cube_triangles(), 12);
 }
 
-DEFINE_CREATE(shape, shape_from_mesh, mesh_def)
-
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_def_init(init_mesh_def, sizeof(msq_mesh_def));
-}
-
 static void defaults_are_those_of_the_header(void** state) {
   msq_mesh_def def;
   (void)state;
@@ -32,14 +23,6 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.vertex_stride, 0);
   assert_null(def.vertices);
   assert_null(def.triangles);
-}
-
-static void create_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  const msq_mesh_def def = cube_def();
-  (void)state;
-  check_def_sizes(&def, sizeof def, create, context);
-  msq_context_release(context);
 }
 
 /* An older caller without triangles has none. */
@@ -273,129 +256,6 @@ static void cubes_of_opposite_turn_cancel(void** state) {
   check_two_cubes(1, 1 | 2 | 4, 0, 1 | 2);
 }
 
-static void null_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_mesh_def def = cube_def();
-  (void)state;
-  assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "context is NULL");
-  assert_refused(create(context, NULL), MSQ_E_ARGUMENT, "def is NULL");
-  assert_refused(msq_shape_from_mesh(context, &def, NULL), MSQ_E_ARGUMENT, "shape is NULL");
-  def.vertices = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "vertices is NULL");
-  def = cube_def();
-  def.triangles = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "triangles is NULL");
-  msq_context_release(context);
-}
-
-static void unknown_numbers_are_refused(void** state) {
-  const int32_t rules[] = {-1, 4}, types[] = {0, 3, -1};
-  msq_context* context = make_context();
-  (void)state;
-  for (size_t i = 0; i < 2; ++i) {
-    msq_mesh_def def = cube_def();
-    def.winding_rule = rules[i];
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "winding_rule");
-    assert_message_has(i ? "is 4;" : "is -1;");
-    assert_message_has("from 0 to 3");
-  }
-  for (size_t i = 0; i < 3; ++i) {
-    msq_mesh_def def = cube_def();
-    def.coordinate_type = types[i];
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "coordinate_type");
-    assert_message_has("from 1 to 2");
-  }
-  msq_mesh_def def = cube_def();
-  def.reserved = 17;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "reserved is 17");
-  msq_context_release(context);
-}
-
-static void stride_within_a_vertex_is_refused(void** state) {
-  msq_context* context = make_context();
-  msq_mesh_def def = cube_def();
-  (void)state;
-  def.vertex_stride = 23;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "23");
-  assert_message_has("24");
-  def.coordinate_type = MSQ_FLOAT32;
-  def.vertex_stride = 11;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "11");
-  assert_message_has("12");
-  msq_context_release(context);
-}
-
-static void counts_beyond_memory_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_mesh_def def = cube_def();
-  (void)state;
-  def.vertex_count = UINT64_MAX / 2; /* times 24 bytes */
-  assert_refused(create(context, &def), MSQ_E_LIMIT, "vertices");
-  assert_message_has_number(UINT64_MAX / 2);
-  def = cube_def();
-  def.vertex_stride = UINT64_MAX / 4;
-  assert_refused(create(context, &def), MSQ_E_LIMIT, "vertices");
-  def = cube_def();
-  def.triangle_count = (uint64_t)UINT32_MAX + 1;
-  assert_refused(create(context, &def), MSQ_E_LIMIT, "4294967296");
-  assert_message_has("4294967295");
-  def = cube_def();
-  def.vertex_count = (uint64_t)UINT32_MAX + 1;
-  assert_refused(create(context, &def), MSQ_E_LIMIT, "4294967296");
-  msq_context_release(context);
-}
-
-static void mesh_without_triangles_is_refused(void** state) {
-  const uint32_t flat[2][3] = {{0, 0, 1}, {2, 3, 3}};
-  msq_context* context = make_context();
-  msq_mesh_def def = cube_def();
-  (void)state;
-  def.triangle_count = 0;
-  assert_refused(create(context, &def), MSQ_E_MESH, "no triangles");
-  def.triangles = flat[0]; /* none left */
-  def.triangle_count = 2;
-  assert_refused(create(context, &def), MSQ_E_MESH, "all 2 triangles");
-  msq_context_release(context);
-}
-
-static void index_out_of_range_is_refused(void** state) {
-  uint32_t triangles[12][3];
-  const uint32_t wrong[] = {8, UINT32_MAX};
-  msq_context* context = make_context();
-  (void)state;
-  for (size_t i = 0; i < 2; ++i) {
-    memcpy(triangles, cube_triangles(), sizeof triangles);
-    triangles[7][2] = wrong[i];
-    const msq_mesh_def def =
-        mesh_def((const double(*)[3])corners, 8, (const uint32_t(*)[3])triangles, 12);
-    assert_makes_nothing(msq_shape, msq_shape_from_mesh(context, &def, &made), MSQ_E_MESH,
-                         "triangle 7");
-    assert_message_has_number(wrong[i]);
-    assert_message_has("8 vertices");
-  }
-  msq_mesh_def def = cube_def();
-  def.vertex_count = 0;
-  def.vertices = NULL;
-  assert_refused(create(context, &def), MSQ_E_MESH, "0 vertices");
-  msq_context_release(context);
-}
-
-static void coordinates_have_limits(void** state) {
-  msq_context* context = make_context();
-  double own[8][3];
-  (void)state;
-  memcpy(own, corners, sizeof own);
-  own[5][1] = -1e100;
-  own[7][2] = 1e100;
-  const msq_mesh_def def = mesh_def((const double(*)[3])own, 8, cube_triangles(), 12);
-  msq_shape_release(make_mesh(context, &def));
-  own[5][1] = -1.0001e100;
-  assert_makes_nothing(msq_shape, msq_shape_from_mesh(context, &def, &made), MSQ_E_MESH,
-                       "at most 1e100");
-  assert_message_has("vertex 5");
-  msq_context_release(context);
-}
-
 /* On a slanted face rounding decides; next to it the side does, and on faces along the axes, above,
  * nothing but the rule. */
 static void slanted_faces_hold_to_rounding(void** state) {
@@ -429,27 +289,9 @@ static void slanted_faces_hold_to_rounding(void** state) {
   msq_context_release(context);
 }
 
-static void vertex_that_is_not_finite_is_refused(void** state) {
-  msq_context* context = make_context();
-  (void)state;
-  for (int which = 0; which < 3; ++which)
-    for (int axis = 0; axis < 3; ++axis) {
-      double own[8][3];
-      memcpy(own, corners, sizeof own);
-      own[5][axis] = not_finite(which);
-      const msq_mesh_def def = mesh_def((const double(*)[3])own, 8, cube_triangles(), 12);
-      assert_makes_nothing(msq_shape, msq_shape_from_mesh(context, &def, &made), MSQ_E_MESH,
-                           "vertex 5");
-      assert_message_has(which == 0 ? "nan" : "inf");
-    }
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
-      cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(cube_is_the_box_away_from_its_boundary),
       cmocka_unit_test(boundary_is_closed_in_x_and_half_open_in_y_and_z),
       cmocka_unit_test(vertices_have_any_type_and_stride),
@@ -459,15 +301,7 @@ int main(void) {
       cmocka_unit_test(inside_out_cube_has_winding_minus_1),
       cmocka_unit_test(overlapping_cubes_have_winding_2),
       cmocka_unit_test(cubes_of_opposite_turn_cancel),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(unknown_numbers_are_refused),
-      cmocka_unit_test(stride_within_a_vertex_is_refused),
-      cmocka_unit_test(counts_beyond_memory_are_refused),
-      cmocka_unit_test(mesh_without_triangles_is_refused),
-      cmocka_unit_test(index_out_of_range_is_refused),
-      cmocka_unit_test(coordinates_have_limits),
       cmocka_unit_test(slanted_faces_hold_to_rounding),
-      cmocka_unit_test(vertex_that_is_not_finite_is_refused),
   };
   return cmocka_run_group_tests(tests, set_corners, NULL);
 }

@@ -60,51 +60,11 @@ static void report_has_its_measures(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  const double radii[] = {0, -1, NAN, INFINITY, -INFINITY, 1e200};
-  const char* texts[] = {"is 0;", "is -1;", "nan", "inf", "-inf", "1e+200"};
-  msq_context* context = make_context();
-  (void)state;
-  assert_makes_nothing(msq_shape, msq_shape_from_sphere(NULL, center, 1, &made), MSQ_E_ARGUMENT,
-                       "context is NULL");
-  assert_makes_nothing(msq_shape, msq_shape_from_sphere(context, NULL, 1, &made), MSQ_E_ARGUMENT,
-                       "center is NULL");
-  assert_refused(msq_shape_from_sphere(context, center, 1, NULL), MSQ_E_ARGUMENT, "shape is NULL");
-  for (size_t i = 0; i < sizeof radii / sizeof radii[0]; ++i) {
-    assert_makes_nothing(msq_shape, msq_shape_from_sphere(context, center, radii[i], &made),
-                         MSQ_E_ARGUMENT, texts[i]);
-    assert_message_has("radius");
-  }
-  for (int which = 0; which < 3; ++which)
-    for (int axis = 0; axis < 3; ++axis) {
-      double point[3] = {0, 0, 0};
-      point[axis] = not_finite(which);
-      assert_makes_nothing(msq_shape, msq_shape_from_sphere(context, point, 1, &made),
-                           MSQ_E_ARGUMENT, "center");
-      assert_message_has("finite");
-    }
-  msq_context_release(context);
-}
-
-static void sizes_have_limits(void** state) {
-  const double far[3] = {0, -1e75, 1e75}, too_far[3] = {0, 0, -1.0001e75};
-  msq_context* context = make_context();
-  msq_shape* shape;
-  (void)state;
-  assert_ok(msq_shape_from_sphere(context, far, 1e75, &shape));
-  msq_shape_release(shape);
-  assert_makes_nothing(msq_shape, msq_shape_from_sphere(context, center, 1.0001e75, &made),
-                       MSQ_E_ARGUMENT, "the limit is 1e+75");
-  assert_makes_nothing(msq_shape, msq_shape_from_sphere(context, too_far, 1, &made), MSQ_E_ARGUMENT,
-                       "the limit is 1e+75");
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(boundary_is_inside),      cmocka_unit_test(points_of_the_ball_and_no_others),
-      cmocka_unit_test(report_has_its_measures), cmocka_unit_test(wrong_arguments_are_refused),
-      cmocka_unit_test(sizes_have_limits),
+      cmocka_unit_test(boundary_is_inside),
+      cmocka_unit_test(points_of_the_ball_and_no_others),
+      cmocka_unit_test(report_has_its_measures),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

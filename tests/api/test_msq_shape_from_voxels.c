@@ -2,35 +2,12 @@
  * msq_voxels_def_init, msq_shape_from_voxels. */
 #include "images.h"
 
-DEFINE_INIT(voxels_def)
-
 static msq_voxels_def voxels_def(const msq_image* image) {
   msq_voxels_def def;
   assert_ok(msq_voxels_def_init(&def, sizeof def));
   def.image = *image;
   def.threshold = 100;
   return def;
-}
-
-DEFINE_CREATE(shape, shape_from_voxels, voxels_def)
-
-static msq_status use_image(msq_context* context, const msq_image* image) {
-  msq_voxels_def def = voxels_def(image);
-  return create(context, &def);
-}
-
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_def_init(init_voxels_def, sizeof(msq_voxels_def));
-}
-
-static void create_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  const msq_image image = small_image();
-  const msq_voxels_def def = voxels_def(&image);
-  (void)state;
-  check_def_sizes(&def, sizeof def, create, context);
-  msq_context_release(context);
 }
 
 /* Along z the values of a column grow by 81 from one to the next, 0.5 apart. */
@@ -97,52 +74,11 @@ static void values_are_copied(void** state) {
   msq_context_release(context);
 }
 
-static void bad_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  const msq_image image = small_image();
-  msq_voxels_def def = voxels_def(&image);
-  (void)state;
-  assert_makes_nothing(msq_shape, msq_shape_from_voxels(NULL, &def, &made), MSQ_E_ARGUMENT,
-                       "context is NULL");
-  assert_makes_nothing(msq_shape, msq_shape_from_voxels(context, NULL, &made), MSQ_E_ARGUMENT,
-                       "def is NULL");
-  assert_refused(msq_shape_from_voxels(context, &def, NULL), MSQ_E_ARGUMENT, "shape is NULL");
-  for (int32_t solid = -1; solid <= 2; solid += 3) {
-    def = voxels_def(&image);
-    def.solid = solid;
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "solid is");
-  }
-  for (int which = 0; which < 3; ++which) {
-    def = voxels_def(&image);
-    def.threshold = not_finite(which);
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "threshold");
-  }
-  def = voxels_def(&image);
-  def.threshold = 234.5;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "from 0 to 234");
-  def.solid = MSQ_SOLID_BELOW;
-  def.threshold = -0.5;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "no value of the image is solid");
-  def = voxels_def(&image);
-  def.image.grid.origin[2] = 1e80;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "too large");
-  msq_context_release(context);
-}
-
-static void bad_images_are_refused(void** state) {
-  (void)state;
-  check_bad_images(use_image, 2);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
-      cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(solid_is_on_the_chosen_side_of_the_threshold),
       cmocka_unit_test(info_says_what_the_header_says),
       cmocka_unit_test(values_are_copied),
-      cmocka_unit_test(bad_arguments_are_refused),
-      cmocka_unit_test(bad_images_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

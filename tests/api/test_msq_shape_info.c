@@ -83,28 +83,6 @@ static void assert_counts(const msq_shape_report* report, uint64_t vertices, uin
   assert_int_equal(report->duplicate_triangles, duplicate);
 }
 
-static msq_status read_info(void* env, void* report) {
-  return msq_shape_info((const msq_shape*)env, (msq_shape_report*)report);
-}
-
-static void report_has_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  msq_shape* shape = make_cube_mesh(context);
-  (void)state;
-  check_report_sizes(sizeof(msq_shape_report), read_info, shape);
-  msq_shape_release(shape);
-  msq_context_release(context);
-}
-
-static void shape_null_is_refused(void** state) {
-  struct_bytes report;
-  (void)state;
-  memset(&report, struct_pattern, sizeof report);
-  report.struct_size = sizeof(msq_shape_report);
-  assert_refused(read_info(NULL, &report), MSQ_E_ARGUMENT, "shape is NULL");
-  assert_filled(report.bytes + 4, sizeof report - 4, struct_pattern);
-}
-
 static void clean_cube_is_closed(void** state) {
   const soup mesh = unit_cube();
   const msq_shape_report report = diagnosis(&mesh);
@@ -236,8 +214,6 @@ static void unused_vertices_count_for_nothing(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(report_has_every_struct_size),
-      cmocka_unit_test(shape_null_is_refused),
       cmocka_unit_test(clean_cube_is_closed),
       cmocka_unit_test(volume_is_exact_far_from_the_origin),
       cmocka_unit_test(inside_out_cube_has_negative_volume),

@@ -45,39 +45,9 @@ static void surface_moves_by_the_distance(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_shape *box = make_box(context), *both, *stretched;
-  const double center[3] = {4, 2, 2}, stretch[12] = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0};
-  msq_shape* ball;
-  (void)state;
-  assert_ok(msq_shape_from_sphere(context, center, 2, &ball));
-  const msq_shape* const members[2] = {box, ball};
-  assert_ok(msq_shape_boolean(MSQ_BOOLEAN_UNION, members, 2, &both));
-  assert_ok(msq_shape_placed(ball, stretch, &stretched));
-#define REFUSED(shape, distance, status, text) \
-  assert_makes_nothing(msq_shape, msq_shape_offset(shape, distance, &made), status, text)
-  REFUSED(NULL, 1, MSQ_E_ARGUMENT, "original is NULL");
-  REFUSED(box, 0, MSQ_E_ARGUMENT, "distance is 0");
-  for (int which = 0; which < 3; ++which)
-    REFUSED(box, not_finite(which), MSQ_E_ARGUMENT, "distance is ");
-  REFUSED(box, -2.5, MSQ_E_ARGUMENT, "-2.5");
-  REFUSED(box, 2e75, MSQ_E_ARGUMENT, "2e+75");
-  REFUSED(both, -0.5, MSQ_E_UNSUPPORTED, "-0.5");
-  REFUSED(stretched, 0.5, MSQ_E_UNSUPPORTED, "bound");
-  assert_refused(msq_shape_offset(box, 1, NULL), MSQ_E_ARGUMENT, "shape is NULL");
-#undef REFUSED
-  msq_shape_release(stretched);
-  msq_shape_release(both);
-  msq_shape_release(ball);
-  msq_shape_release(box);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(surface_moves_by_the_distance),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -96,55 +96,11 @@ static void skin_needs_equal_growth(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_shape *original = make_box(context), *nested[64];
-  const double singular[12] = {1, 2, 3, 0, 2, 4, 6, 0, 0, 0, 1, 0};
-  const double flat[12] = {1, 1, 0, 0, 1, 1 + 1e-9, 0, 0, 0, 0, 1, 0};
-  const double nothing[12] = {0};
-  double matrix[12];
-  (void)state;
-#define REFUSED(shape, matrix, text) \
-  assert_makes_nothing(msq_shape, msq_shape_placed(shape, matrix, &made), MSQ_E_ARGUMENT, text)
-  REFUSED(NULL, exact, "original is NULL");
-  REFUSED(original, NULL, "matrix is NULL");
-  assert_refused(msq_shape_placed(original, exact, NULL), MSQ_E_ARGUMENT, "shape is NULL");
-  for (int i = 0; i < 12; ++i)
-    for (int which = 0; which < 3; ++which) {
-      char text[32];
-      memcpy(matrix, exact, sizeof matrix);
-      matrix[i] = not_finite(which);
-      snprintf(text, sizeof text, "matrix[%d] is ", i);
-      REFUSED(original, matrix, text);
-    }
-  REFUSED(original, singular, "singular");
-  REFUSED(original, flat, "the limit is 1e+06");
-  REFUSED(original, nothing, "singular");
-  memcpy(matrix, exact, sizeof matrix);
-  matrix[3] = 2e75;
-  REFUSED(original, matrix, "1e+75");
-  memcpy(matrix, nothing, sizeof matrix);
-  matrix[0] = matrix[5] = matrix[10] = 1e76;
-  REFUSED(original, matrix, "1e+76");
-  matrix[0] = matrix[5] = matrix[10] = 1e-76;
-  REFUSED(original, matrix, "1e-76");
-#undef REFUSED
-  nested[0] = original;
-  for (int i = 1; i < 64; ++i) assert_ok(msq_shape_placed(nested[i - 1], exact, &nested[i]));
-  msq_shape* last;
-  assert_ok(msq_shape_placed(nested[63], exact, &last));
-  assert_makes_nothing(msq_shape, msq_shape_placed(last, exact, &made), MSQ_E_LIMIT, "64");
-  msq_shape_release(last);
-  for (int i = 0; i < 64; ++i) msq_shape_release(nested[i]);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(membership_is_that_of_the_mapped_point),
       cmocka_unit_test(report_is_that_of_the_instance),
       cmocka_unit_test(skin_needs_equal_growth),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -196,18 +196,6 @@ static void primitives_have_none(void** state) {
   msq_context_release(context);
 }
 
-static void nulls_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_shape* mesh = make_cube_mesh(context);
-  uint64_t pairs = 7;
-  (void)state;
-  assert_refused(msq_shape_self_intersections(NULL, &pairs, NULL), MSQ_E_ARGUMENT, "shape is NULL");
-  assert_int_equal(pairs, 7);
-  assert_refused(msq_shape_self_intersections(mesh, NULL, NULL), MSQ_E_ARGUMENT, "pairs is NULL");
-  msq_shape_release(mesh);
-  msq_context_release(context);
-}
-
 static void progress_ends_at_1(void** state) {
   msq_context* context = make_context();
   msq_shape* shape = MSQ_WITH_CGAL ? make_cube_mesh(context) : make_box(context);
@@ -258,7 +246,6 @@ int main(void) {
     cmocka_unit_test(mesh_is_unsupported),
 #endif
     cmocka_unit_test(primitives_have_none),
-    cmocka_unit_test(nulls_are_refused),
     cmocka_unit_test(progress_ends_at_1),
     cmocka_unit_test(cancelled_job_stops_at_once),
   };

@@ -42,39 +42,9 @@ static void layer_is_that_of_a_run(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  const uint64_t refused[] = {16, UINT64_MAX};
-  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 20, 10, 0.25);
-  msq_context* context = make_context();
-  msq_model* model = make_lattice_model(context);
-  msq_slicer* slicer = make_slicer(model, &def);
-  uint8_t layer[80];
-  (void)state;
-  memset(layer, struct_pattern, sizeof layer);
-  assert_refused(msq_slice_layer(NULL, 0, layer, sizeof layer, NULL), MSQ_E_ARGUMENT,
-                 "slicer is NULL");
-  assert_refused(msq_slice_layer(slicer, 0, NULL, sizeof layer, NULL), MSQ_E_ARGUMENT,
-                 "buffer is NULL");
-  for (int i = 0; i < 2; ++i) {
-    assert_refused(msq_slice_layer(slicer, refused[i], layer, sizeof layer, NULL), MSQ_E_ARGUMENT,
-                   "16 layers");
-    assert_message_has_number(refused[i]);
-  }
-  for (uint64_t bytes = 0; bytes < 80; bytes += 79) {
-    assert_refused(msq_slice_layer(slicer, 0, layer, bytes, NULL), MSQ_E_ARGUMENT, "buffer_bytes");
-    assert_message_has_number(bytes);
-    assert_message_has("80");
-  }
-  assert_filled(layer, sizeof layer, struct_pattern);
-  msq_slicer_release(slicer);
-  msq_model_release(model);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(layer_is_that_of_a_run),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

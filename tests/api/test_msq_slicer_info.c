@@ -27,28 +27,6 @@ static msq_slicer_report plan_for(msq_slicer_def def) {
   return plan;
 }
 
-static msq_status read_info(void* env, void* report) {
-  return msq_slicer_info((const msq_slicer*)env, (msq_slicer_report*)report);
-}
-
-static void report_has_every_struct_size(void** state) {
-  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 8, 8, 0.5);
-  msq_slicer* slicer = make_slicer(model, &def);
-  (void)state;
-  check_grown_report_sizes(offsetof(msq_slicer_report, window), sizeof(msq_slicer_report),
-                           read_info, slicer);
-  msq_slicer_release(slicer);
-}
-
-static void slicer_null_is_refused(void** state) {
-  struct_bytes report;
-  (void)state;
-  memset(&report, struct_pattern, sizeof report);
-  report.struct_size = sizeof(msq_slicer_report);
-  assert_refused(read_info(NULL, &report), MSQ_E_ARGUMENT, "slicer is NULL");
-  assert_filled(report.bytes + 4, sizeof report - 4, struct_pattern);
-}
-
 static void resolution_divides_the_box(void** state) {
   const msq_slicer_report plan = plan_for(slicer_def(MSQ_LAYER_BITS, 16, 5, 0.5));
   (void)state;
@@ -219,8 +197,6 @@ static void slabs_of_one_thread_are_no_more_than_2_mib(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(report_has_every_struct_size),
-      cmocka_unit_test(slicer_null_is_refused),
       cmocka_unit_test(resolution_divides_the_box),
       cmocka_unit_test(pitch_counts_pixels_rounded_up_and_centred),
       cmocka_unit_test(rounding_makes_no_more_pixels),

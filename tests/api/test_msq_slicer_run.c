@@ -348,37 +348,6 @@ static void runs_go_on_at_once(void** state) {
 
 /* ---- what is refused */
 
-static void null_arguments_are_refused(void** state) {
-  const msq_slicer_def def = small_def(MSQ_LAYER_BITS);
-  msq_slicer* slicer = make_slicer(lattice, &def);
-  layer_stack stack = make_stack(slicer, MSQ_LAYER_BITS, 0, 0);
-  (void)state;
-  assert_refused(msq_slicer_run(NULL, 0, 1, take_layer, &stack, NULL), MSQ_E_ARGUMENT,
-                 "slicer is NULL");
-  assert_refused(msq_slicer_run(slicer, 0, 1, NULL, &stack, NULL), MSQ_E_ARGUMENT, "fn is NULL");
-  assert_int_equal(stack.taken, 0);
-  free_stack(&stack);
-  msq_slicer_release(slicer);
-}
-
-static void layers_that_are_not_there_are_refused(void** state) {
-  const uint64_t first[] = {17, 0, 16, 1, 8, UINT64_MAX, 17};
-  const uint64_t count[] = {0, 17, 1, 16, UINT64_MAX - 1, 1, UINT64_MAX};
-  const msq_slicer_def def = small_def(MSQ_LAYER_BITS);
-  msq_slicer* slicer = make_slicer(lattice, &def);
-  layer_stack stack = make_stack(slicer, MSQ_LAYER_BITS, 0, 0);
-  (void)state;
-  for (int i = 0; i < 7; ++i) {
-    assert_refused(msq_slicer_run(slicer, first[i], count[i], take_layer, &stack, NULL),
-                   MSQ_E_ARGUMENT, "16 layers");
-    assert_message_has_number(first[i]);
-    assert_message_has_number(count[i]);
-  }
-  assert_int_equal(stack.taken, 0);
-  free_stack(&stack);
-  msq_slicer_release(slicer);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(layers_hold_what_the_points_say),
@@ -394,8 +363,6 @@ int main(void) {
       cmocka_unit_test(callback_may_release_the_last_references),
       cmocka_unit_test(any_code_but_0_stops_the_run),
       cmocka_unit_test(runs_go_on_at_once),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(layers_that_are_not_there_are_refused),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }

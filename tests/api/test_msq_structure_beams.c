@@ -4,13 +4,6 @@
 
 #include "beams.h"
 
-DEFINE_INIT(beams_def)
-
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_def_init(init_beams_def, sizeof(msq_beams_def));
-}
-
 static void defaults_are_those_of_the_header(void** state) {
   msq_beams_def def, zero;
   (void)state;
@@ -20,14 +13,6 @@ static void defaults_are_those_of_the_header(void** state) {
   zero.coordinate_type = MSQ_FLOAT64;
   assert_ok(msq_beams_def_init(&def, sizeof def));
   assert_memory_equal(&def, &zero, sizeof def);
-}
-
-static void create_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  const msq_beams_def def = frame_def();
-  (void)state;
-  check_def_sizes(&def, sizeof def, create, context);
-  msq_context_release(context);
 }
 
 /* ---- the solid */
@@ -359,9 +344,7 @@ static void rays_and_distances_meet_the_beam(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
-      cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(a_beam_ends_in_its_caps),
       cmocka_unit_test(unlike_radii_are_linear_between),
       cmocka_unit_test(lists_are_the_union_of_beams_and_balls),

@@ -207,107 +207,6 @@ struct call {
   msq_structure* structure;
 };
 
-static msq_status with_report(void* env, void* report) {
-  const struct call* call = (const struct call*)env;
-  const msq_points_def sample = small_sample(2, 4);
-  return msq_structure_calibrate(call->context, call->structure, &sample, 0.25, NULL, NULL, 0,
-                                 (msq_calibration_report*)report, NULL);
-}
-
-static msq_status with_sample(void* env, void* sample) {
-  const struct call* call = (const struct call*)env;
-  msq_calibration_report report;
-  memset(&report, struct_pattern, sizeof report);
-  report.struct_size = sizeof report;
-  const msq_status status =
-      msq_structure_calibrate(call->context, call->structure, (const msq_points_def*)sample, 0.25,
-                              NULL, NULL, 0, &report, NULL);
-  if (status != MSQ_OK) assert_filled((const char*)&report + 4, sizeof report - 4, struct_pattern);
-  return status;
-}
-
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context_of(2, 0, 1 << 20);
-  struct call call = {context, make_lattice(context)};
-  msq_calibration_report report = report_of();
-  msq_points_def sample = small_sample(2, 4);
-  double pairs[2];
-  msq_job* job;
-  (void)state;
-  memset(pairs, struct_pattern, sizeof pairs);
-  for (size_t size = sizeof report; size <= sizeof report + struct_tail; ++size) {
-    struct_bytes grown;
-    memset(&grown, struct_pattern, sizeof grown);
-    grown.struct_size = (uint32_t)size;
-    assert_ok(with_report(&call, &grown));
-    assert_filled(grown.bytes + sizeof report, size - sizeof report, 0);
-    assert_filled(grown.bytes + size, sizeof grown - size, struct_pattern);
-  }
-  report.struct_size = sizeof report - 1;
-  assert_refused(with_report(&call, &report), MSQ_E_ARGUMENT, "struct_size");
-  report.struct_size = sizeof report;
-  assert_ok(with_report(&call, NULL));
-
-  assert_refused(
-      msq_structure_calibrate(NULL, call.structure, &sample, 0.5, NULL, NULL, 0, NULL, NULL),
-      MSQ_E_ARGUMENT, "context is NULL");
-  assert_refused(msq_structure_calibrate(context, NULL, &sample, 0.5, NULL, NULL, 0, NULL, NULL),
-                 MSQ_E_ARGUMENT, "structure is NULL");
-  const double targets[] = {-0.1, 1.1, NAN, INFINITY};
-  for (int i = 0; i < 4; ++i)
-    assert_refused(msq_structure_calibrate(context, call.structure, &sample, targets[i], NULL, NULL,
-                                           0, NULL, NULL),
-                   MSQ_E_ARGUMENT, "target is ");
-  assert_refused(
-      msq_structure_calibrate(context, call.structure, &sample, 0.5, pairs, pairs, 1, NULL, NULL),
-      MSQ_E_ARGUMENT, "pair_count is 1");
-  /* A count that was forgotten. */
-  assert_refused(
-      msq_structure_calibrate(context, call.structure, &sample, 0.5, pairs, NULL, 0, NULL, NULL),
-      MSQ_E_ARGUMENT, "pair_count is 0; parameters must be NULL");
-  assert_refused(
-      msq_structure_calibrate(context, call.structure, &sample, 0.5, NULL, pairs, 0, NULL, NULL),
-      MSQ_E_ARGUMENT, "pair_count is 0; fractions must be NULL");
-  assert_refused(msq_structure_calibrate(context, call.structure, &sample, 0.5, pairs, pairs,
-                                         (1 << 20) + 1, NULL, NULL),
-                 MSQ_E_ARGUMENT, "from 2 to 1048576");
-  assert_refused(
-      msq_structure_calibrate(context, call.structure, &sample, 0.5, NULL, pairs, 2, NULL, NULL),
-      MSQ_E_ARGUMENT, "parameters is NULL");
-  assert_refused(
-      msq_structure_calibrate(context, call.structure, &sample, 0.5, pairs, NULL, 2, NULL, NULL),
-      MSQ_E_ARGUMENT, "fractions is NULL");
-  /* 2 * 64^3 points of 16 bytes. */
-  assert_refused(
-      msq_structure_calibrate(context, call.structure, NULL, 0.5, NULL, NULL, 0, &report, NULL),
-      MSQ_E_LIMIT, "8388608");
-  sample.per_cell = 1;
-  assert_refused(with_sample(&call, &sample), MSQ_E_ARGUMENT, "per_cell is 1");
-  sample.per_cell = 4097;
-  assert_refused(with_sample(&call, &sample), MSQ_E_ARGUMENT, "4097");
-  sample = small_sample(2, 4);
-  sample.kind = MSQ_POINTS_GRID;
-  assert_refused(with_sample(&call, &sample), MSQ_E_ARGUMENT, "kind is 2");
-  sample = small_sample(2, 4);
-  sample.spacing[1] = NAN;
-  assert_refused(with_sample(&call, &sample), MSQ_E_ARGUMENT, "spacing");
-  sample = small_sample(2, 4);
-  sample.reserved = 4;
-  assert_refused(with_sample(&call, &sample), MSQ_E_ARGUMENT, "reserved is 4");
-
-  assert_ok(msq_job_create(&job));
-  assert_ok(msq_job_cancel(job));
-  sample = small_sample(2, 4);
-  assert_status(
-      msq_structure_calibrate(context, call.structure, &sample, 0.5, pairs, pairs, 2, NULL, job),
-      MSQ_E_CANCELLED);
-  assert_filled(pairs, sizeof pairs, struct_pattern);
-  assert_int_equal(memory_of(context).bytes, 0);
-  msq_job_release(job);
-  msq_structure_release(call.structure);
-  msq_context_release(context);
-}
-
 static int32_t nothing_inside(void* user, const msq_host_points* points, uint8_t* inside) {
   (void)user;
   memset(inside, 0, points->count);
@@ -363,7 +262,6 @@ int main(void) {
       cmocka_unit_test(thin_foams_have_their_edges),
       cmocka_unit_test(the_curve_ascends_and_threads_do_not_matter),
       cmocka_unit_test(the_limit_of_the_radius_is_respected),
-      cmocka_unit_test(wrong_arguments_are_refused),
       cmocka_unit_test(kinds_without_onset_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

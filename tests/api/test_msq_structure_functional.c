@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_functional_def_init, msq_structure_functional. */
-#include "structures.h"
-
-DEFINE_INIT(functional_def)
+#include "definitions.h"
 
 static msq_functional_def functional_def(int32_t function, double level) {
   msq_functional_def def;
@@ -20,11 +18,6 @@ static msq_functional_def expression_def(const char* text) {
 
 DEFINE_CREATE(structure, structure_functional, functional_def)
 
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_def_init(init_functional_def, sizeof(msq_functional_def));
-}
-
 static void defaults_are_those_of_the_header(void** state) {
   msq_functional_def def;
   (void)state;
@@ -40,14 +33,6 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_null(def.expression);
   assert_null(def.parameters);
   assert_int_equal(def.parameter_count, 0);
-}
-
-static void create_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  const msq_functional_def def = functional_def(MSQ_FUNCTION_NEOVIUS, 0.1);
-  (void)state;
-  check_def_sizes(&def, sizeof def, create, context);
-  msq_context_release(context);
 }
 
 /* ---- the solid, against the C library's functions */
@@ -289,121 +274,6 @@ static void thickness_may_be_a_field(void** state) {
 
 /* ---- refusals */
 
-static void wrong_thicknesses_are_refused(void** state) {
-  msq_context* context = make_context();
-  const double from[3] = {0, 0, 0}, to[3] = {1, 0, 0};
-  msq_functional_def def = functional_def(MSQ_FUNCTION_GYROID, 0);
-  msq_field* field;
-  (void)state;
-  def.thickness.value = 0.1;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "only sheets have walls");
-  def.kind = MSQ_FUNCTIONAL_SHEET;
-  assert_ok(create(context, &def));
-  def.level.value = 0.2;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "both level and thickness");
-  def.level.value = 0;
-  for (int which = 0; which < 3; ++which) {
-    def.thickness.value = not_finite(which);
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "thickness is ");
-  }
-  def.thickness.value = -0.25;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "-0.25");
-  def.thickness.value = 0.4; /* all of the cell: 1 / 3.09 */
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "walls of 0.32");
-  assert_message_has("0.4");
-  assert_ok(msq_field_gradient(context, from, -0.1, to, 0.1, &field));
-  def.thickness.field = field;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "thickness runs from -0.1");
-  msq_field_release(field);
-  def.thickness.field = NULL;
-  def.thickness.value = 0.1;
-  def.function = MSQ_FUNCTION_EXPRESSION;
-  def.expression = "2+sin(x)";
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 nowhere");
-  def.expression = "0";
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 nowhere");
-  def.expression = "1e-306*sin(x)";
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "1e-300");
-  def.expression = "sqrt(-1-x)";
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 nowhere");
-  msq_context_release(context);
-}
-
-static void null_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  const msq_functional_def def = functional_def(MSQ_FUNCTION_GYROID, 0);
-  (void)state;
-  assert_makes_nothing(msq_structure, msq_structure_functional(NULL, &def, &made), MSQ_E_ARGUMENT,
-                       "context is NULL");
-  assert_makes_nothing(msq_structure, msq_structure_functional(context, NULL, &made),
-                       MSQ_E_ARGUMENT, "def is NULL");
-  assert_refused(msq_structure_functional(context, &def, NULL), MSQ_E_ARGUMENT,
-                 "structure is NULL");
-  msq_context_release(context);
-}
-
-static void wrong_numbers_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_functional_def def = functional_def(MSQ_FUNCTION_GYROID, 0.1);
-  (void)state;
-  for (int i = 0; i < 2; ++i) {
-    def.function = i ? 9 : -1;
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "function");
-    def.function = MSQ_FUNCTION_GYROID;
-    def.kind = i ? 3 : 0;
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "kind");
-    def.kind = MSQ_FUNCTIONAL_NETWORK;
-  }
-  def.clusters = 64;
-  assert_ok(create(context, &def));
-  def.clusters = 65;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "clusters is 65");
-  def.clusters = UINT32_MAX;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "clusters");
-  def.clusters = 1;
-  check_grid_refusals(&def.grid, create, context, &def);
-  for (int which = 0; which < 3; ++which) {
-    def.level.value = not_finite(which);
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "level is ");
-  }
-  def.level.value = -1.5;
-  assert_ok(create(context, &def));
-  def.kind = MSQ_FUNCTIONAL_SHEET;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "level");
-  assert_message_has("-1.5");
-  def.level.value = 0;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "0 everywhere");
-  msq_context_release(context);
-}
-
-static void texts_are_refused_with_position_and_reason(void** state) {
-  msq_context* context = make_context();
-  msq_functional_def def = expression_def("sin(x)+cos(q)");
-  (void)state;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "character 12");
-  assert_message_has("'q'");
-  def.expression = "";
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "character 1");
-  def.expression = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "expression is NULL");
-  def.function = MSQ_FUNCTION_GYROID;
-  def.expression = "x";
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "expression is given");
-  msq_context_release(context);
-}
-
-static void long_and_deep_texts_are_refused(void** state) {
-  msq_context* context = make_context();
-  static char text[20000];
-  msq_functional_def def = expression_def(text);
-  (void)state;
-  memset(text, '(', sizeof text - 1);
-  assert_refused(create(context, &def), MSQ_E_LIMIT, "4096");
-  text[4000] = 0;
-  assert_refused(create(context, &def), MSQ_E_LIMIT, "nested deeper than 100");
-  msq_context_release(context);
-}
-
 /* Numbers and variables count, equal ones once. */
 static void at_most_1024_different_operations(void** state) {
   msq_context* context = make_context();
@@ -433,45 +303,9 @@ static void cells_may_be_as_small_and_as_large_as_the_header_says(void** state) 
   msq_context_release(context);
 }
 
-static void wrong_parameters_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_named_value values[2] = {{"a", 1}, {"b", 2}};
-  msq_functional_def def = expression_def("cos(x)+a*b");
-  (void)state;
-  def.parameter_count = 2;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameters is NULL");
-  def.parameters = values;
-  assert_ok(create(context, &def));
-  values[1].name = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameter 1 is NULL");
-  values[1].name = "a";
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameters 0 and 1");
-  values[1].name = "cos";
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "'cos'");
-  values[1].name = "1b";
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "'1b'");
-  values[1].name = "b";
-  for (int which = 0; which < 3; ++which) {
-    values[1].value = not_finite(which);
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "finite");
-  }
-  values[1].value = 2;
-  def.parameter_count = 1025;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameter_count is 1025");
-  def.parameter_count = UINT64_MAX;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameter_count");
-  def.parameter_count = 2;
-  def.function = MSQ_FUNCTION_DIAMOND;
-  def.expression = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "parameters are given");
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
-      cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(named_functions_are_those_of_the_header),
       cmocka_unit_test(an_expression_is_its_function),
       cmocka_unit_test(expressions_repeat_with_the_cell),
@@ -479,14 +313,8 @@ int main(void) {
       cmocka_unit_test(level_may_be_a_field),
       cmocka_unit_test(thickness_is_that_of_the_walls),
       cmocka_unit_test(thickness_may_be_a_field),
-      cmocka_unit_test(wrong_thicknesses_are_refused),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(wrong_numbers_are_refused),
-      cmocka_unit_test(texts_are_refused_with_position_and_reason),
-      cmocka_unit_test(long_and_deep_texts_are_refused),
       cmocka_unit_test(at_most_1024_different_operations),
       cmocka_unit_test(cells_may_be_as_small_and_as_large_as_the_header_says),
-      cmocka_unit_test(wrong_parameters_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

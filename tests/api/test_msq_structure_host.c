@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_host_structure_def_init, msq_structure_host. */
 #include "hosts.h"
-#include "structures.h"
-
-DEFINE_INIT(host_structure_def)
 
 /* A host that has lattices of its own: BCC, by points or by cells. */
 typedef struct bcc_host {
@@ -214,18 +211,6 @@ static msq_model* make_same_model(msq_context* context, const bcc_host* host) {
   def.radius.value = host->radius;
   assert_ok(msq_structure_lattice(context, &def, &structure));
   return make_model(context, make_box(context), structure, NULL);
-}
-
-DEFINE_CREATE(structure, structure_host, host_structure_def)
-
-static void definitions_honour_every_size(void** state) {
-  msq_context* context = make_context();
-  bcc_host host = make_host(0);
-  const msq_host_structure_def def = host_def(&host, by_points);
-  (void)state;
-  check_def_init(init_host_structure_def, sizeof(msq_host_structure_def));
-  check_def_sizes(&def, sizeof def, create, context);
-  msq_context_release(context);
 }
 
 static void defaults_are_those_of_the_header(void** state) {
@@ -523,40 +508,8 @@ static void concurrent_structures_give_the_same(void** state) {
   }
 }
 
-static void what_is_refused_is_not_released(void** state) {
-  msq_context* context = make_context();
-  bcc_host host = make_host(0);
-  msq_host_structure_def def = host_def(&host, by_points | by_cells);
-  (void)state;
-  assert_makes_nothing(msq_structure, msq_structure_host(NULL, &def, &made), MSQ_E_ARGUMENT,
-                       "context");
-  assert_makes_nothing(msq_structure, msq_structure_host(context, NULL, &made), MSQ_E_ARGUMENT,
-                       "def");
-  assert_refused(msq_structure_host(context, &def, NULL), MSQ_E_ARGUMENT, "structure is NULL");
-  def.build_cell = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "build_cell is NULL");
-  def.evaluate_cell = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "free_cell is given");
-  def.free_cell = NULL;
-  def.inside = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "inside and build_cell are NULL");
-  def = host_def(&host, by_cells);
-  def.evaluate_cell = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "evaluate_cell is NULL");
-  def = host_def(&host, by_points);
-  def.concurrent = 2;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "concurrent is 2");
-  assert_int_equal(host.log.released, 0);
-  def.concurrent = 0;
-  def.release = NULL;
-  check_grid_refusals(&def.grid, create, context, &def);
-  assert_int_equal(host.log.calls, 0);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(definitions_honour_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(a_lattice_is_a_lattice),
       cmocka_unit_test(boxes_spare_points),
@@ -567,7 +520,6 @@ int main(void) {
       cmocka_unit_test(callbacks_that_fail_stop_the_call),
       cmocka_unit_test(answers_that_cannot_be_stop_the_call),
       cmocka_unit_test(concurrent_structures_give_the_same),
-      cmocka_unit_test(what_is_refused_is_not_released),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_host_function_def_init, msq_structure_host_function. */
 #include "hosts.h"
-#include "structures.h"
-
-DEFINE_INIT(host_function_def)
 
 static double schwarz_p(const double* a) {
   return cos(a[0]) + cos(a[1]) + cos(a[2]);
@@ -58,16 +55,6 @@ static msq_model* fill_box(msq_context* context, const msq_host_function_def* de
 }
 
 DEFINE_CREATE(structure, structure_host_function, host_function_def)
-
-static void definitions_honour_every_size(void** state) {
-  msq_context* context = make_context();
-  host_log log = make_log();
-  const msq_host_function_def def = function_def(&log, 0);
-  (void)state;
-  check_def_init(init_host_function_def, sizeof(msq_host_function_def));
-  check_def_sizes(&def, sizeof def, create, context);
-  msq_context_release(context);
-}
 
 static void defaults_are_those_of_the_header(void** state) {
   msq_host_function_def def;
@@ -193,43 +180,6 @@ static void callbacks_that_fail_stop_the_call(void** state) {
   msq_context_release(context);
 }
 
-static void what_is_refused_is_not_released(void** state) {
-  msq_context* context = make_context();
-  host_log log = make_log();
-  msq_host_function_def def = function_def(&log, 0.3);
-  (void)state;
-  assert_makes_nothing(msq_structure, msq_structure_host_function(NULL, &def, &made),
-                       MSQ_E_ARGUMENT, "context");
-  assert_makes_nothing(msq_structure, msq_structure_host_function(context, NULL, &made),
-                       MSQ_E_ARGUMENT, "def");
-  assert_refused(msq_structure_host_function(context, &def, NULL), MSQ_E_ARGUMENT,
-                 "structure is NULL");
-  def.evaluate = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "evaluate is NULL");
-  def = function_def(&log, NAN);
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "level");
-  def = function_def(&log, 0);
-  def.kind = MSQ_FUNCTIONAL_SHEET;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "level runs from 0 to 0");
-  def.kind = 3;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "kind is 3");
-  def = function_def(&log, 0);
-  def.clusters = 65;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "clusters is 65");
-  def = function_def(&log, 0);
-  def.lipschitz = -1;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "lipschitz is -1");
-  def = function_def(&log, 0);
-  def.concurrent = 2;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "concurrent is 2");
-  assert_int_equal(log.released, 0);
-  def = function_def(&log, 0);
-  def.release = NULL;
-  check_grid_refusals(&def.grid, create, context, &def);
-  assert_int_equal(log.calls, 0);
-  msq_context_release(context);
-}
-
 /* Not even where the slope is known. */
 static void distances_are_0_within_the_shape(void** state) {
   msq_context* context = make_context();
@@ -253,13 +203,11 @@ static void distances_are_0_within_the_shape(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(definitions_honour_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(a_function_is_that_function),
       cmocka_unit_test(clusters_spare_points),
       cmocka_unit_test(callbacks_that_fail_stop_the_call),
       cmocka_unit_test(distances_are_0_within_the_shape),
-      cmocka_unit_test(what_is_refused_is_not_released),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_lattice_def_init, msq_structure_lattice, msq_structure_retain, msq_structure_release. */
-#include "structures.h"
-
-DEFINE_INIT(lattice_def)
+#include "definitions.h"
 
 /* Bytes of the definition when it was published. */
-enum { first_size = offsetof(msq_lattice_def, strut_factors) };
-
 /* A cell with nothing in common with the named ones. */
 static const double custom_nodes[4][3] = {
     {0, 0, 0}, {0.25, 0.25, 0.25}, {0.5, 0.5, 0}, {0.9, 0.1, 1}};
@@ -28,11 +24,6 @@ static msq_lattice_def lattice_def(int32_t unit_cell, double radius) {
 
 DEFINE_CREATE(structure, structure_lattice, lattice_def)
 
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_grown_def_init(init_lattice_def, first_size, sizeof(msq_lattice_def));
-}
-
 static void defaults_are_those_of_the_header(void** state) {
   msq_lattice_def def;
   (void)state;
@@ -46,14 +37,6 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_null(def.cells);
   assert_int_equal(def.cell_count, 0);
   assert_int_equal(def.clusters, 0);
-}
-
-static void create_honours_every_struct_size(void** state) {
-  msq_context* context = make_context();
-  const msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_OCTET, 0.1);
-  (void)state;
-  check_grown_def_sizes(&def, first_size, sizeof def, create, context);
-  msq_context_release(context);
 }
 
 /* ---- the solid, against distances to all struts of the cells around */
@@ -262,105 +245,6 @@ static void structures_are_counted(void** state) {
 
 /* ---- what is refused */
 
-static void null_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_BCC, 0.1);
-  (void)state;
-  assert_refused(create(NULL, &def), MSQ_E_ARGUMENT, "context is NULL");
-  assert_refused(create(context, NULL), MSQ_E_ARGUMENT, "def is NULL");
-  assert_refused(msq_structure_lattice(context, &def, NULL), MSQ_E_ARGUMENT, "structure is NULL");
-  def = lattice_def(MSQ_UNIT_CELL_CUSTOM, 0.1);
-  def.nodes = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "nodes is NULL");
-  def = lattice_def(MSQ_UNIT_CELL_CUSTOM, 0.1);
-  def.struts = NULL;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "struts is NULL");
-  msq_context_release(context);
-}
-
-static void unknown_unit_cells_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_lattice_def def = lattice_def(-1, 0.1);
-  (void)state;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "unit_cell is -1");
-  def.unit_cell = 9;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "unit_cell is 9");
-  assert_message_has("from 0 to 8");
-  msq_context_release(context);
-}
-
-static void wrong_grids_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_BCC, 0.1);
-  (void)state;
-  check_grid_refusals(&def.grid, create, context, &def);
-  msq_context_release(context);
-}
-
-static void wrong_radii_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_CUBIC, 0.1);
-  (void)state;
-  def.grid.cell_size[1] = 0.25;
-  check_radius_refusals(&def.radius, 1, context, create, context, &def);
-  msq_context_release(context);
-}
-
-static void custom_counts_have_limits(void** state) {
-  const uint64_t counts[] = {0, 4097, UINT64_MAX};
-  msq_context* context = make_context();
-  (void)state;
-  for (int i = 0; i < 3; ++i) {
-    msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_CUSTOM, 0.1);
-    def.node_count = counts[i];
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "node_count");
-    assert_message_has_number(counts[i]);
-    assert_message_has("4096");
-    def = lattice_def(MSQ_UNIT_CELL_CUSTOM, 0.1);
-    def.strut_count = counts[i];
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "strut_count");
-    assert_message_has_number(counts[i]);
-    assert_message_has("4096");
-  }
-  msq_context_release(context);
-}
-
-static void custom_nodes_outside_the_cell_are_refused(void** state) {
-  const double refused[] = {-0.125, 1.125, NAN, INFINITY};
-  const char* texts[] = {"-0.125", "1.125", "nan", "inf"};
-  msq_context* context = make_context();
-  (void)state;
-  for (int i = 0; i < 4; ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      double nodes[4][3];
-      memcpy(nodes, custom_nodes, sizeof nodes);
-      nodes[2][axis] = refused[i];
-      msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_CUSTOM, 0.1);
-      def.nodes = nodes[0];
-      assert_refused(create(context, &def), MSQ_E_ARGUMENT, texts[i]);
-      assert_message_has("node");
-    }
-  msq_context_release(context);
-}
-
-static void custom_struts_join_two_nodes_that_are_there(void** state) {
-  const uint32_t refused[3][2] = {{0, 4}, {UINT32_MAX, 1}, {2, 2}};
-  msq_context* context = make_context();
-  (void)state;
-  for (int i = 0; i < 3; ++i) {
-    uint32_t struts[3][2];
-    memcpy(struts, custom_struts, sizeof struts);
-    memcpy(struts[1], refused[i], sizeof refused[i]);
-    msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_CUSTOM, 0.1);
-    def.struts = struts[0];
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "strut 1");
-    assert_message_has_number(refused[i][0]);
-    assert_message_has_number(refused[i][1]);
-    assert_message_has("4 nodes");
-  }
-  msq_context_release(context);
-}
-
 static void clusters_change_no_answer(void** state) {
   enum { count = 3000 };
   static double points[3 * count];
@@ -416,22 +300,13 @@ static void clusters_change_no_answer(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
-      cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(unit_cells_are_tiled_capsules),
       cmocka_unit_test(unit_cells_stand_on_any_grid),
       cmocka_unit_test(struts_reach_over_cell_borders),
       cmocka_unit_test(custom_arrays_are_copied),
       cmocka_unit_test(clusters_change_no_answer),
       cmocka_unit_test(structures_are_counted),
-      cmocka_unit_test(null_arguments_are_refused),
-      cmocka_unit_test(unknown_unit_cells_are_refused),
-      cmocka_unit_test(wrong_grids_are_refused),
-      cmocka_unit_test(wrong_radii_are_refused),
-      cmocka_unit_test(custom_counts_have_limits),
-      cmocka_unit_test(custom_nodes_outside_the_cell_are_refused),
-      cmocka_unit_test(custom_struts_join_two_nodes_that_are_there),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

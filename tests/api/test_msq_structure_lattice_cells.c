@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_structure_lattice: named cells, factors of the radius, libraries of unit cells. */
-#include "structures.h"
+#include "definitions.h"
 
 enum { max_nodes = 32, max_struts = 48 };
 
@@ -33,8 +33,6 @@ static msq_lattice_def lattice_def(double radius) {
   def.radius.value = radius;
   return def;
 }
-
-DEFINE_CREATE(structure, structure_lattice, lattice_def)
 
 static double distance_to_strut(const double p[3], const double a[3], const double b[3]) {
   double along = 0, squared = 0, sum = 0;
@@ -261,73 +259,6 @@ static void libraries_are_copied(void** state) {
   msq_context_release(context);
 }
 
-static void wrong_factors_are_refused(void** state) {
-  const double refused[] = {0, -1, 0.00099, 1000.5, NAN, INFINITY};
-  double factors[8] = {1, 1, 1, 1, 1, 1, 1, 1};
-  msq_context* context = make_context();
-  msq_lattice_def def = lattice_def(0.1);
-  (void)state;
-  def.strut_factors = factors;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "strut_count is 0");
-  assert_message_has("8");
-  def.strut_count = 8;
-  assert_ok(create(context, &def));
-  for (int i = 0; i < 6; ++i) {
-    factors[5] = refused[i];
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "the factor of strut 5");
-    assert_message_has("from 0.001 to 1000");
-  }
-  factors[5] = 40; /* 4 times the smallest cell size */
-  assert_ok(create(context, &def));
-  factors[5] = 40.0009765625;
-  assert_refused(create(context, &def), MSQ_E_LIMIT, "greatest strut factor");
-  assert_message_has("the limit is 4");
-  msq_context_release(context);
-}
-
-static void wrong_libraries_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_lattice_def def = lattice_def(0.1);
-  msq_unit_cell_def cells[257];
-  const double node[3] = {0, 0, 0};
-  (void)state;
-  for (int i = 0; i < 257; ++i) cells[i] = named_cell(MSQ_UNIT_CELL_CUBIC);
-  def.cell_count = 1;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "cells is NULL");
-  def.cells = cells;
-  assert_ok(create(context, &def));
-  def.cell_count = 0;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "cell_count is 0");
-  def.cell_count = 257;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "cell_count is 257");
-  def.cell_count = 256;
-  assert_ok(create(context, &def));
-  for (int i = 0; i < 256; ++i) cells[i].unit_cell = MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON;
-  assert_refused(create(context, &def), MSQ_E_LIMIT, "8192 struts");
-  assert_message_has("4096");
-  def.cell_count = 3;
-  cells[2].unit_cell = 9;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "unit cell 2: unit_cell is 9");
-  cells[2].unit_cell = MSQ_UNIT_CELL_CUSTOM;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "unit cell 2: node_count is 0");
-  cells[2].unit_cell = MSQ_UNIT_CELL_BCC;
-  cells[1].struct_size -= 8;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "unit cell 1: ");
-  assert_message_has("struct_size");
-  cells[1].struct_size += 8;
-  def.nodes = node;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "must be NULL");
-  def.nodes = NULL;
-  for (int which = 0; which < 3; ++which) {
-    def.cell_choice.value = not_finite(which);
-    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "cell_choice is ");
-  }
-  def.cell_choice.value = 0;
-  def.clusters = 65;
-  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "clusters is 65");
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(named_cells_are_tiled_capsules),
@@ -335,8 +266,6 @@ int main(void) {
       cmocka_unit_test(a_field_chooses_cells_of_a_library),
       cmocka_unit_test(a_number_chooses_too),
       cmocka_unit_test(libraries_are_copied),
-      cmocka_unit_test(wrong_factors_are_refused),
-      cmocka_unit_test(wrong_libraries_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

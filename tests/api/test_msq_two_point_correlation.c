@@ -58,9 +58,9 @@ static void threads_do_not_matter(void** state) {
   check_threads(msq_two_point_correlation);
 }
 
-static void wrong_arguments_are_refused(void** state) {
+static void jobs_show_progress(void** state) {
   (void)state;
-  check_segments_refusals(msq_two_point_correlation);
+  check_segments_job(msq_two_point_correlation);
 }
 
 int main(void) {
@@ -68,7 +68,7 @@ int main(void) {
       cmocka_unit_test(plates_have_theirs),
       cmocka_unit_test(a_ball_has_its_own),
       cmocka_unit_test(threads_do_not_matter),
-      cmocka_unit_test(wrong_arguments_are_refused),
+      cmocka_unit_test(jobs_show_progress),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

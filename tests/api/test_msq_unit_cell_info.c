@@ -2,8 +2,6 @@
  * msq_unit_cell_def_init, msq_unit_cell_info. */
 #include "definitions.h"
 
-DEFINE_INIT(unit_cell_def)
-
 static msq_unit_cell_report report_of(const msq_unit_cell_def* cell) {
   msq_unit_cell_report report;
   memset(&report, 0, sizeof report);
@@ -24,25 +22,6 @@ static msq_unit_cell_def custom_cell(void) {
   cell.struts = struts[0];
   cell.strut_count = 4;
   return cell;
-}
-
-static msq_status info(void* env, void* def) {
-  msq_unit_cell_report report;
-  (void)env;
-  report.struct_size = sizeof report;
-  return msq_unit_cell_info((const msq_unit_cell_def*)def, &report, NULL, 0);
-}
-
-static msq_status read_report(void* env, void* report) {
-  return msq_unit_cell_info((const msq_unit_cell_def*)env, (msq_unit_cell_report*)report, NULL, 0);
-}
-
-static void sizes_are_honoured(void** state) {
-  msq_unit_cell_def cell = named_cell(MSQ_UNIT_CELL_KELVIN);
-  (void)state;
-  check_def_init(init_unit_cell_def, sizeof(msq_unit_cell_def));
-  check_def_sizes(&cell, sizeof cell, info, NULL);
-  check_report_sizes(sizeof(msq_unit_cell_report), read_report, &cell);
 }
 
 static void defaults_are_those_of_the_header(void** state) {
@@ -109,32 +88,11 @@ static void unmatched_nodes_are_counted_and_listed(void** state) {
   assert_int_equal(unmatched[1], 77);
 }
 
-static void wrong_arguments_are_refused(void** state) {
-  msq_unit_cell_def cell = custom_cell();
-  msq_unit_cell_report report;
-  uint32_t unmatched = 77;
-  (void)state;
-  memset(&report, struct_pattern, sizeof report);
-  report.struct_size = sizeof report;
-  assert_refused(msq_unit_cell_info(NULL, &report, NULL, 0), MSQ_E_ARGUMENT, "cell is NULL");
-  assert_refused(msq_unit_cell_info(&cell, &report, NULL, 1), MSQ_E_ARGUMENT, "unmatched is NULL");
-  assert_refused(msq_unit_cell_info(&cell, NULL, &unmatched, 1), MSQ_E_ARGUMENT, "report is NULL");
-  cell.node_count = 4;
-  assert_refused(msq_unit_cell_info(&cell, &report, &unmatched, 1), MSQ_E_ARGUMENT, "strut 0");
-  cell.unit_cell = 9;
-  assert_refused(msq_unit_cell_info(&cell, &report, &unmatched, 1), MSQ_E_ARGUMENT,
-                 "unit_cell is 9");
-  assert_filled((unsigned char*)&report + 4, sizeof report - 4, struct_pattern);
-  assert_int_equal(unmatched, 77);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sizes_are_honoured),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(named_cells_are_periodic),
       cmocka_unit_test(unmatched_nodes_are_counted_and_listed),
-      cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

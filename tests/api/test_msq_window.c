@@ -98,46 +98,6 @@ static void windows_of_the_largest_grid(void** state) {
   }
 }
 
-static void points_refuse_windows(void** state) {
-  static const struct {
-    msq_window window;
-    const char *value, *limit;
-  } wrong[] = {
-      {{{0, 0, 0}, {42, 1, 1}}, "42", "41"},
-      {{{0, 41, 0}, {1, 1, 1}}, "41", "41"},
-      {{{0, 0, 40}, {1, 1, 2}}, "40", "41"},
-      {{{0, 1, 0}, {1, 0, 1}}, "count[1] is 0", "at least 1"},
-      {{{3, 0, 0}, {0, 0, 0}}, "count[0] is 0", "at least 1"},
-      {{{0, 0, UINT64_MAX}, {1, 1, 2}}, "18446744073709551615", "41"},
-      {{{0, 0, 2}, {1, 1, UINT64_MAX}}, "18446744073709551615", "41"},
-  };
-  uint8_t inside[1] = {7};
-  double point[3] = {7, 7, 7};
-  msq_points_def def = grid_of_tenths();
-  (void)state;
-  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
-    def.window = wrong[i].window;
-    assert_refused(msq_set_membership(model, &def, NULL, inside, 1, NULL), MSQ_E_ARGUMENT,
-                   wrong[i].value);
-    assert_message_has(wrong[i].limit);
-    assert_refused(msq_points_generate(&def, 0, 1, point), MSQ_E_ARGUMENT, wrong[i].value);
-  }
-  /* Only grids have windows. */
-  def.window = window_of(0, 0, 0, 1, 1, 1);
-  def.kind = MSQ_POINTS_STRATIFIED;
-  assert_refused(msq_points_generate(&def, 0, 1, point), MSQ_E_ARGUMENT, "stratified");
-  def.per_cell = 2;
-  msq_estimate estimate;
-  assert_refused(msq_volume_fraction(model, &def, NULL, MSQ_PHASE_SOLID, &estimate, NULL),
-                 MSQ_E_ARGUMENT, "stratified");
-  def.kind = MSQ_POINTS_ARRAY;
-  def.coordinates = point;
-  def.count = 1;
-  assert_refused(msq_set_membership(model, &def, NULL, inside, 1, NULL), MSQ_E_ARGUMENT, "arrays");
-  assert_int_equal(inside[0], 7);
-  assert_true(point[0] == 7 && point[1] == 7 && point[2] == 7);
-}
-
 /* A host that was built before windows leaves them out, whatever lies behind its struct. */
 static void older_definitions_have_no_window(void** state) {
   msq_points_def points = grid_of_tenths();
@@ -209,32 +169,12 @@ static void panels_have_the_bytes_of_the_layer(void** state) {
   }
 }
 
-static void slicers_refuse_windows(void** state) {
-  msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 40, 30, 0.5);
-  (void)state;
-  def.window = window_of(0, 0, 0, 40, 30, 9);
-  assert_makes_nothing(msq_slicer, msq_slicer_create(model, &def, &made), MSQ_E_ARGUMENT, "9");
-  assert_message_has("8");
-  def.window = window_of(1, 0, 0, 40, 30, 8);
-  assert_makes_nothing(msq_slicer, msq_slicer_create(model, &def, &made), MSQ_E_ARGUMENT, "40");
-  def.window = window_of(0, 30, 0, 1, 1, 1);
-  assert_makes_nothing(msq_slicer, msq_slicer_create(model, &def, &made), MSQ_E_ARGUMENT, "30");
-  def.window = window_of(0, UINT64_MAX, 0, 1, 2, 1);
-  assert_makes_nothing(msq_slicer, msq_slicer_create(model, &def, &made), MSQ_E_ARGUMENT,
-                       "18446744073709551615");
-  def.window = window_of(0, 0, 0, 1, 1, 0);
-  assert_makes_nothing(msq_slicer, msq_slicer_create(model, &def, &made), MSQ_E_ARGUMENT,
-                       "count[2] is 0");
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(windows_have_the_points_and_values_of_the_grid),
       cmocka_unit_test(windows_of_the_largest_grid),
-      cmocka_unit_test(points_refuse_windows),
       cmocka_unit_test(older_definitions_have_no_window),
       cmocka_unit_test(panels_have_the_bytes_of_the_layer),
-      cmocka_unit_test(slicers_refuse_windows),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * What fill lines refuse. */
+#include "fills.h"
+#include "wrong_values.h"
+
+static msq_context* context;
+
+static void fill_lines(void** state) {
+  const int64_t most = (int64_t)1 << 53;
+  msq_context* small = make_context_of(1, 0, 20000);
+  msq_structure *foam = make_foam_of(context, 5), *lattice = make_lattice(context);
+  msq_structure* gyroid = make_sheet(context, MSQ_FUNCTION_GYROID, 8);
+  msq_structure* of_small = make_foam_of(small, 5);
+  const msq_fill_def square = square_def(1);
+  msq_fill* made = make_fill(context, foam, &square);
+  (void)state;
+  REFUSALS("msq_fill_lines") {
+    msq_ring rings[2] = {square_rings[0], square_rings[1]};
+    int64_t hole[4][2];
+    msq_context* in = context;
+    const msq_structure* structure = foam;
+    msq_fill_def* def = (msq_fill_def*)definition(0);
+    msq_fill** fill = (msq_fill**)output(0);
+    msq_job* job = NULL;
+    memcpy(hole, hole_nm, sizeof hole);
+    *def = square;
+    def->rings = rings;
+    rings[1].points = hole;
+    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    WRONG(ARGUMENT, "context is NULL", in = NULL);
+    WRONG(ARGUMENT, "structure is NULL", structure = NULL);
+    WRONG(ARGUMENT, "fill is NULL", fill = NULL);
+    WRONG(UNSUPPORTED, "use its contours", structure = lattice);
+    WRONG(ARGUMENT, "ring_count is 0", def->ring_count = 0);
+    WRONG(ARGUMENT, "rings is NULL", def->rings = NULL);
+    WRONG(ARGUMENT, "ring 1 has 2 points", rings[1].count = 2);
+    WRONG(ARGUMENT, "ring 1 are NULL", rings[1].points = NULL);
+    WRONG(ARGUMENT, "ring 1 are on one line", hole[0][0] = 3; hole[0][1] = 1; hole[1][0] = 6;
+          hole[1][1] = 2; hole[2][0] = 6; hole[2][1] = 2; hole[3][0] = 300000003;
+          hole[3][1] = 100000001);
+    WRONG(ARGUMENT, "ring 1 are on one line", memcpy(hole[1], hole[0], sizeof hole[0]);
+          memcpy(hole[2], hole[0], sizeof hole[0]); rings[1].count = 3);
+    WRONG(ARGUMENT, "point_stride is 15 bytes; a point has 16", def->point_stride = 15);
+    WRONG(ARGUMENT, "coordinate_type is 2", def->coordinate_type = MSQ_FLOAT64);
+    wrong_number(table, &def->scale, "scale");
+    wrong_number(table, &def->origin[0], "origin");
+    wrong_number(table, &def->origin[1], "origin");
+    wrong_number(table, &def->z, "z is");
+    wrong_number(table, &def->tolerance, "tolerance");
+    wrong_number(table, &def->min_length, "min_length");
+    WRONG(ARGUMENT, "scale is 0", def->scale = 0);
+    WRONG(ARGUMENT, "scale is 2e+75", def->scale = 2e75);
+    WRONG(ARGUMENT, "tolerance is -1", def->tolerance = -1);
+    WRONG(ARGUMENT, "min_length is -2", def->min_length = -2);
+    /* a cell is 8e60 units wide, and a line runs through the corner */
+    WRONG(LIMIT, "the limit is 2^60", structure = gyroid; def->z = 0; def->scale = 1e-60);
+    WRONG(LIMIT, "memory_limit", in = small; structure = of_small);
+    WRONG(CANCELLED, "cancelled", job = cancelled_job());
+    WRONG(CANCELLED, "cancelled", structure = gyroid; job = cancelled_job());
+    WRONG(ARGUMENT, "def is NULL", def = NULL);
+    if (TRY(msq_fill_lines(in, structure, def, fill, job))) msq_fill_release(*fill);
+  }
+  REFUSALS("msq_fill_lines") { /* coordinates at the limit */
+    int64_t corners[3][2] = {{-most, -most}, {-most + 9, -most}, {-most, -most + 9}};
+    const msq_ring ring = {corners, 3};
+    msq_fill_def* def = (msq_fill_def*)definition(0);
+    msq_fill** fill = (msq_fill**)output(0);
+    *def = square;
+    def->rings = &ring;
+    def->ring_count = 1;
+    def->scale = 1e-9;
+    WRONG(LIMIT, "point 2 of ring 0 has the coordinate|-9007199254740993",
+          corners[2][1] = -most - 1);
+    WRONG(LIMIT, "the limit is 2^53", corners[2][1] = INT64_MIN);
+    WRONG(LIMIT, "cells from the grid's origin", def->scale = 1); /* 9e15 cells away */
+    if (TRY(msq_fill_lines(context, foam, def, fill, NULL))) msq_fill_release(*fill);
+  }
+  REFUSALS("msq_fill_info") {
+    const msq_fill* fill = made;
+    msq_fill_report* report = (msq_fill_report*)output(0);
+    report->struct_size = sizeof *report;
+    WRONG(ARGUMENT, "fill is NULL", fill = NULL);
+    WRONG(ARGUMENT, "report is NULL", report = NULL);
+    TRY(msq_fill_info(fill, report));
+  }
+  msq_fill_release(made);
+  msq_structure_release(of_small);
+  msq_structure_release(gyroid);
+  msq_structure_release(lattice);
+  msq_structure_release(foam);
+  msq_context_release(small);
+}
+
+static void fill_calibrations(void** state) {
+  const double widths[] = {0, -1, NAN, INFINITY}, densities[] = {0, -1, 1.01, NAN};
+  msq_structure *foam = make_foam_of(context, 1), *lattice = make_lattice(context), *graded, *full;
+  msq_field* field = ramp_of(context, 1, 3);
+  msq_foam_def foam_def;
+  msq_functional_def functional_def;
+  (void)state;
+  assert_ok(msq_foam_def_init(&foam_def, sizeof foam_def));
+  foam_def.radius.value = 0.1;
+  foam_def.density.field = field;
+  assert_ok(msq_structure_foam(context, &foam_def, &graded));
+  assert_ok(msq_functional_def_init(&functional_def, sizeof functional_def));
+  functional_def.level.value = 9;
+  assert_ok(msq_structure_functional(context, &functional_def, &full));
+  REFUSALS("msq_fill_calibrate") {
+    msq_context* in = context;
+    const msq_structure* structure = foam;
+    double line_width = 0.4, density = 0.2;
+    double* cell_size = (double*)output(0);
+    msq_job* job = NULL;
+    WRONG(ARGUMENT, "context", in = NULL);
+    WRONG(ARGUMENT, "structure", structure = NULL);
+    WRONG(ARGUMENT, "cell_size", cell_size = NULL);
+    for (int i = 0; i < 4; ++i) {
+      WRONG(ARGUMENT, "line_width is", line_width = widths[i]);
+      WRONG(ARGUMENT, "density is", density = densities[i]);
+    }
+    WRONG(UNSUPPORTED, "contours", structure = lattice);
+    WRONG(UNSUPPORTED, "without the field", structure = graded);
+    WRONG(LIMIT, "no wall", structure = full);
+    WRONG(CANCELLED, "cancel", job = cancelled_job());
+    TRY(msq_fill_calibrate(in, structure, line_width, density, cell_size, job));
+  }
+  msq_structure_release(full);
+  msq_structure_release(graded);
+  msq_structure_release(lattice);
+  msq_structure_release(foam);
+  msq_field_release(field);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(fill_lines),
+      cmocka_unit_test(fill_calibrations),
+  };
+  context = make_context();
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  msq_job_release(cancelled_job());
+  msq_context_release(context);
+  return failed;
+}

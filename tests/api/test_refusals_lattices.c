@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * What functions of lattices and unit cells refuse. */
+#include "wrong_values.h"
+
+static msq_context* context;
+
+static msq_lattice_def* lattice_of(int32_t unit_cell) {
+  msq_lattice_def* def = (msq_lattice_def*)definition(0);
+  assert_ok(msq_lattice_def_init(def, sizeof *def));
+  def->unit_cell = unit_cell;
+  def->radius.value = 0.1;
+  return def;
+}
+
+static void lattices(void** state) {
+  const uint32_t pairs[3][2] = {{0, 4}, {UINT32_MAX, 1}, {2, 2}};
+  const double outside[] = {-0.125, 1.125, NAN, INFINITY};
+  const char* texts[] = {"-0.125", "1.125", "nan", "inf"};
+  const uint64_t counts[] = {0, 4097, UINT64_MAX};
+  msq_field* fields[3];
+  (void)state;
+  make_fields(context, fields, 1);
+  REFUSALS("msq_structure_lattice") {
+    msq_context* in = context;
+    msq_lattice_def* def = lattice_of(MSQ_UNIT_CELL_BCC);
+    msq_structure** structure = (msq_structure**)output(0);
+    wrong_sizes(table, def, offsetof(msq_lattice_def, strut_factors), sizeof *def);
+    WRONG(ARGUMENT, "context is NULL", in = NULL);
+    WRONG(ARGUMENT, "structure is NULL", structure = NULL);
+    wrong_enum(table, &def->unit_cell, "unit_cell", 0, 8);
+    WRONG(ARGUMENT, "clusters is 65", def->clusters = 65);
+    wrong_grid(table, &def->grid);
+    WRONG(ARGUMENT, "def is NULL", def = NULL);
+    if (TRY(msq_structure_lattice(in, def, structure))) msq_structure_release(*structure);
+  }
+  REFUSALS("msq_structure_lattice") { /* radii; cells of unlike sides */
+    msq_lattice_def* def = lattice_of(MSQ_UNIT_CELL_CUBIC);
+    msq_structure** structure = (msq_structure**)output(0);
+    def->grid.cell_size[1] = 0.25;
+    wrong_radius(table, &def->radius, 1, fields);
+    if (TRY(msq_structure_lattice(context, def, structure))) msq_structure_release(*structure);
+  }
+  REFUSALS("msq_structure_lattice") { /* cells of the host */
+    double cell_nodes[4][3] = {{0, 0, 0}, {0.25, 0.25, 0.25}, {0.5, 0.5, 0}, {0.9, 0.1, 1}};
+    uint32_t struts[3][2] = {{0, 1}, {1, 2}, {2, 3}};
+    msq_lattice_def* def = lattice_of(MSQ_UNIT_CELL_CUSTOM);
+    msq_structure** structure = (msq_structure**)output(0);
+    def->nodes = cell_nodes[0];
+    def->node_count = 4;
+    def->struts = struts[0];
+    def->strut_count = 3;
+    WRONG(ARGUMENT, "nodes is NULL", def->nodes = NULL);
+    WRONG(ARGUMENT, "struts is NULL", def->struts = NULL);
+    for (int i = 0; i < 3; ++i) {
+      WRONG(ARGUMENT, words_of("node_count|%" PRIu64 "|4096", counts[i]),
+            def->node_count = counts[i]);
+      WRONG(ARGUMENT, words_of("strut_count|%" PRIu64 "|4096", counts[i]),
+            def->strut_count = counts[i]);
+      WRONG(ARGUMENT, words_of("strut 1|%" PRIu32 "|%" PRIu32 "|4 nodes", pairs[i][0], pairs[i][1]),
+            memcpy(struts[1], pairs[i], sizeof pairs[i]));
+    }
+    for (int i = 0; i < 4; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        WRONG(ARGUMENT, words_of("node|%s", texts[i]), cell_nodes[2][axis] = outside[i]);
+    if (TRY(msq_structure_lattice(context, def, structure))) msq_structure_release(*structure);
+  }
+  release_fields(fields);
+  REFUSALS("msq_structure_lattice") { /* factors of struts */
+    const double refused[] = {0, -1, 0.00099, 1000.5, NAN, INFINITY};
+    double factors[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    msq_lattice_def* def = lattice_of(MSQ_UNIT_CELL_BCC);
+    msq_structure** structure = (msq_structure**)output(0);
+    def->strut_factors = factors;
+    def->strut_count = 8;
+    WRONG(ARGUMENT, "strut_count is 0|8", def->strut_count = 0);
+    for (int i = 0; i < 6; ++i)
+      WRONG(ARGUMENT, "the factor of strut 5|from 0.001 to 1000", factors[5] = refused[i]);
+    RIGHT(factors[5] = 40); /* 4 times the smallest cell size */
+    WRONG(LIMIT, "greatest strut factor|the limit is 4", factors[5] = 40.0009765625);
+    if (TRY(msq_structure_lattice(context, def, structure))) msq_structure_release(*structure);
+  }
+  REFUSALS("msq_structure_lattice") { /* libraries of unit cells */
+    static msq_unit_cell_def cells[257];
+    const double node[3] = {0, 0, 0};
+    msq_lattice_def* def = lattice_of(MSQ_UNIT_CELL_BCC);
+    msq_structure** structure = (msq_structure**)output(0);
+    for (int i = 0; i < 257; ++i) cells[i] = named_cell(MSQ_UNIT_CELL_CUBIC);
+    def->cells = cells;
+    def->cell_count = 3;
+    WRONG(ARGUMENT, "cells is NULL", def->cells = NULL);
+    WRONG(ARGUMENT, "cell_count is 0", def->cell_count = 0);
+    WRONG(ARGUMENT, "cell_count is 257", def->cell_count = 257);
+    RIGHT(def->cell_count = 256);
+    WRONG(LIMIT, "8192 struts|4096", def->cell_count = 256;
+          for (int i = 0; i < 256; ++i) cells[i].unit_cell = MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON);
+    WRONG(ARGUMENT, "unit cell 2: unit_cell is 9", cells[2].unit_cell = 9);
+    WRONG(ARGUMENT, "unit cell 2: node_count is 0", cells[2].unit_cell = MSQ_UNIT_CELL_CUSTOM);
+    WRONG(ARGUMENT, "unit cell 1: |struct_size", cells[1].struct_size -= 8);
+    WRONG(ARGUMENT, "must be NULL", def->nodes = node);
+    wrong_number(table, &def->cell_choice.value, "cell_choice is ");
+    WRONG(ARGUMENT, "clusters is 65", def->clusters = 65);
+    if (TRY(msq_structure_lattice(context, def, structure))) msq_structure_release(*structure);
+  }
+}
+
+static msq_unit_cell_def* cell_of(int32_t unit_cell) {
+  msq_unit_cell_def* cell = (msq_unit_cell_def*)definition(0);
+  *cell = named_cell(unit_cell);
+  return cell;
+}
+
+static void unit_cells(void** state) {
+  msq_structure *lattice = make_lattice(context), *foam = make_foam(context, MSQ_FOAM_AUTO);
+  (void)state;
+  REFUSALS("msq_unit_cell_info") {
+    static const double cell_nodes[2][3] = {{0, 0.25, 0.5}, {1, 0.25, 0.5}};
+    static const uint32_t struts[1][2] = {{0, 1}};
+    msq_unit_cell_def* cell = cell_of(MSQ_UNIT_CELL_CUSTOM);
+    msq_unit_cell_report* report = (msq_unit_cell_report*)output(0);
+    uint32_t* unmatched = (uint32_t*)output(1);
+    report->struct_size = sizeof *report;
+    cell->nodes = cell_nodes[0];
+    cell->node_count = 2;
+    cell->struts = struts[0];
+    cell->strut_count = 1;
+    wrong_sizes(table, cell, sizeof *cell, sizeof *cell);
+    WRONG(ARGUMENT, "unmatched is NULL", unmatched = NULL);
+    WRONG(ARGUMENT, "report is NULL", report = NULL);
+    WRONG(ARGUMENT, "strut 0", cell->node_count = 1);
+    WRONG(ARGUMENT, "unit_cell is 9", cell->unit_cell = 9);
+    WRONG(ARGUMENT, "cell is NULL", cell = NULL);
+    TRY(msq_unit_cell_info(cell, report, unmatched, 1));
+  }
+  REFUSALS("msq_unit_cell_geometry") {
+    msq_unit_cell_def* cell = cell_of(MSQ_UNIT_CELL_BCC);
+    double* cell_nodes = (double*)output(0);
+    uint32_t* struts = (uint32_t*)output(1);
+    uint64_t nodes_room = 9, struts_room = 8;
+    WRONG(ARGUMENT, "nodes is NULL", cell_nodes = NULL);
+    WRONG(ARGUMENT, "struts is NULL", struts = NULL);
+    WRONG(ARGUMENT, "node_count is 8; the unit cell has 9", nodes_room = 8);
+    WRONG(ARGUMENT, "strut_count is 9; the unit cell has 8", struts_room = 9);
+    WRONG(ARGUMENT, "unit_cell is -1", cell->unit_cell = -1);
+    WRONG(ARGUMENT, "cell is NULL", cell = NULL);
+    TRY(msq_unit_cell_geometry(cell, cell_nodes, nodes_room, struts, struts_room));
+  }
+  REFUSALS("msq_lattice_faces") {
+    const msq_structure* structure = lattice;
+    double low[3] = {0, 0, 0}, high[3] = {2, 2, 2};
+    const double *min = low, *max = high;
+    msq_lattice_faces_report* report = (msq_lattice_faces_report*)output(0);
+    msq_job* job = NULL;
+    report->struct_size = sizeof *report;
+    WRONG(ARGUMENT, "lattice is NULL", structure = NULL);
+    WRONG(ARGUMENT, "not a lattice", structure = foam);
+    WRONG(ARGUMENT, "min is NULL", min = NULL);
+    WRONG(ARGUMENT, "max is NULL", max = NULL);
+    WRONG(ARGUMENT, "report is NULL", report = NULL);
+    WRONG(ARGUMENT, "min must be less", max = min);
+    wrong_vector(table, low, "min is (");
+    wrong_vector(table, high, "max is (");
+    WRONG(LIMIT, "cells", high[0] = high[1] = high[2] = 1100);
+    WRONG(LIMIT, "axis 2", high[2] = 2e7);
+    WRONG(LIMIT, "axis 1", high[1] = 1e300);
+    WRONG(CANCELLED, "cancelled", job = cancelled_job());
+    TRY(msq_lattice_faces(structure, min, max, report, job));
+  }
+  msq_structure_release(lattice);
+  msq_structure_release(foam);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(lattices),
+      cmocka_unit_test(unit_cells),
+  };
+  context = make_context();
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  msq_job_release(cancelled_job());
+  msq_context_release(context);
+  return failed;
+}

@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * What slicers and contours refuse. */
+#include "layers.h"
+#include "wrong_values.h"
+
+static msq_context* context;
+static msq_model *plain, *plain_of_small, *everywhere; /* a lattice in a box; without bounds */
+
+static msq_slicer_def* plan_of_output(int32_t kind) {
+  msq_slicer_def* def = (msq_slicer_def*)definition(0);
+  *def = slicer_def(kind, 32, 32, 0.25);
+  return def;
+}
+
+static void slicers(void** state) {
+  const double pitches[] = {-0.125, NAN, INFINITY}, lengths[] = {-0.5, NAN, -INFINITY};
+  const double heights[] = {0, -0.5, NAN, INFINITY};
+  const char* pitch_texts[] = {"-0.125", "nan", "inf"};
+  const char* length_texts[] = {"-0.5", "nan", "-inf"};
+  const char* height_texts[] = {"is 0;", "-0.5", "nan", "inf"};
+  (void)state;
+  REFUSALS("msq_slicer_create") {
+    const msq_model* model = plain;
+    msq_slicer_def* def = plan_of_output(MSQ_LAYER_BITS);
+    msq_slicer** slicer = (msq_slicer**)output(0);
+    wrong_sizes(table, def, offsetof(msq_slicer_def, window), sizeof *def);
+    WRONG(ARGUMENT, "model is NULL", model = NULL);
+    WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
+    wrong_enum(table, &def->output, "output", 1, 5);
+    wrong_enum(table, &def->has_region, "has_region", 0, 1);
+    for (int axis = 0; axis < 2; ++axis) {
+      for (int i = 0; i < 3; ++i)
+        WRONG(ARGUMENT, words_of("pitch|%s", pitch_texts[i]), def->pitch[axis] = pitches[i]);
+      WRONG(ARGUMENT, words_of("neither pitch nor resolution|along %c", "xy"[axis]),
+            def->resolution[axis] = 0);
+      WRONG(ARGUMENT, "pitch|1e+18", def->has_region = 1; /* pixels would fall together */
+            def->region_min[axis] = 1e18; def->region_max[axis] = 2e18;
+            def->region_max[1 - axis] = def->region_max[2] = 1; def->pitch[axis] = 1e-3);
+      WRONG(LIMIT, "2147483648|2147483647", def->resolution[axis] = (uint32_t)1 << 31);
+      WRONG(LIMIT, "1e+12|2147483647", def->resolution[axis] = 0; def->pitch[axis] = 4e-12);
+      WRONG(LIMIT, "2147483647", def->resolution[axis] = 0; def->pitch[axis] = 5e-324);
+    }
+    for (int i = 0; i < 4; ++i)
+      WRONG(ARGUMENT, words_of("layer_height|%s", height_texts[i]), def->layer_height = heights[i]);
+    for (int i = 0; i < 3; ++i)
+      WRONG(ARGUMENT, words_of("length_scale|%s", length_texts[i]), def->length_scale = lengths[i]);
+    WRONG(LIMIT, "2147483648|2147483647", def->layer_count = (uint64_t)1 << 31);
+    WRONG(LIMIT, "18446744073709551615", def->layer_count = UINT64_MAX);
+    WRONG(LIMIT, "1e+12|2147483647", def->layer_height = 4e-12);
+    WRONG(LIMIT, "2^63", def->resolution[0] = def->resolution[1] = INT32_MAX;
+          def->layer_count = INT32_MAX; def->layer_height = 1e-8);
+    WRONG(ARGUMENT, "material", def->output = MSQ_LAYER_MATERIAL);
+    WRONG(ARGUMENT, "region", model = everywhere);
+    WRONG(ARGUMENT, "def is NULL", def = NULL);
+    if (TRY(msq_slicer_create(model, def, slicer))) msq_slicer_release(*slicer);
+  }
+  REFUSALS("msq_slicer_create") { /* regions */
+    const msq_model* model = plain;
+    msq_slicer_def* def = plan_of_output(MSQ_LAYER_BITS);
+    msq_slicer** slicer = (msq_slicer**)output(0);
+    def->has_region = 1;
+    for (int axis = 0; axis < 3; ++axis) def->region_max[axis] = 4;
+    wrong_vector(table, def->region_min, "region_min");
+    wrong_vector(table, def->region_max, "region_max");
+    for (int axis = 0; axis < 3; ++axis) {
+      WRONG(ARGUMENT, "extent|is 0;", def->region_max[axis] = 0);
+      WRONG(ARGUMENT, "extent|-1.5", def->region_max[axis] = -1.5);
+    }
+    RIGHT(model = everywhere);
+    WRONG(LIMIT, "the region", model = everywhere; def->region_min[2] = 16777214;
+          def->region_max[2] = 16777218);
+    if (TRY(msq_slicer_create(model, def, slicer))) msq_slicer_release(*slicer);
+  }
+  REFUSALS("msq_slicer_create") { /* listed heights */
+    double z[4] = {0.5, 1, 1.5, 2};
+    msq_slicer_def* def = plan_of_output(MSQ_LAYER_BITS);
+    msq_slicer** slicer = (msq_slicer**)output(0);
+    def->layer_z = z;
+    def->layer_z_count = 4;
+    WRONG(ARGUMENT, "layer_z_count is 0", def->layer_z_count = 0);
+    WRONG(ARGUMENT, "2147483648|2147483647", def->layer_z_count = (uint64_t)1 << 31);
+    WRONG(ARGUMENT, "layer_count is 3|4", def->layer_count = 3);
+    RIGHT(def->layer_count = 4);
+    WRONG(ARGUMENT, "layer_z[2]|ascend", z[2] = 1);
+    WRONG(ARGUMENT, "0.75", z[2] = 0.75);
+    for (int which = 0; which < 3; ++which)
+      WRONG(ARGUMENT, "layer_z|finite", z[2] = not_finite(which));
+    WRONG(ARGUMENT, "layer_z is NULL", def->layer_z = NULL);
+    if (TRY(msq_slicer_create(plain, def, slicer))) msq_slicer_release(*slicer);
+  }
+  REFUSALS("msq_slicer_create") { /* grey pixels */
+    msq_slicer_def* def = plan_of_output(MSQ_LAYER_GREY);
+    msq_slicer** slicer = (msq_slicer**)output(0);
+    WRONG(ARGUMENT, "grey_samples is 3", def->grey_samples = 3);
+    WRONG(ARGUMENT, "grey_samples is 0", def->grey_samples = 0);
+    WRONG(ARGUMENT, "grey_gamma is 0", def->grey_gamma = 0);
+    wrong_number(table, &def->grey_gamma, "grey_gamma is");
+    WRONG(ARGUMENT, "grey_threshold is 256", def->grey_threshold = 256);
+    WRONG(ARGUMENT, "orientation is 8", def->orientation = 8);
+    WRONG(ARGUMENT, "reserved", def->reserved = 1);
+    WRONG(LIMIT, "the limit is 2147483647", def->pitch[0] = 1e-9;
+          def->resolution[0] = INT32_MAX / 2);
+    if (TRY(msq_slicer_create(plain, def, slicer))) msq_slicer_release(*slicer);
+  }
+  REFUSALS("msq_slicer_create") { /* windows; 16 layers */
+    const msq_window whole = {{0, 0, 0}, {32, 32, 16}};
+    msq_slicer_def* def = plan_of_output(MSQ_LAYER_BITS);
+    msq_slicer** slicer = (msq_slicer**)output(0);
+    def->window = whole;
+    WRONG(ARGUMENT, "17|16", def->window.count[2] = 17);
+    WRONG(ARGUMENT, "32", def->window.first[0] = 1);
+    WRONG(ARGUMENT, "32", def->window.first[1] = 32; def->window.count[1] = 1);
+    WRONG(ARGUMENT, "18446744073709551615", def->window.first[1] = UINT64_MAX;
+          def->window.count[1] = 2);
+    WRONG(ARGUMENT, "18446744073709551615", def->window.count[0] = UINT64_MAX);
+    for (int axis = 0; axis < 3; ++axis)
+      WRONG(ARGUMENT, words_of("count[%d] is 0", axis), def->window.count[axis] = 0);
+    if (TRY(msq_slicer_create(plain, def, slicer))) msq_slicer_release(*slicer);
+  }
+}
+
+static void layers(void** state) {
+  const uint64_t first[] = {17, 0, 16, 1, 8, UINT64_MAX, 17};
+  const uint64_t count[] = {0, 17, 1, 16, UINT64_MAX - 1, 1, UINT64_MAX};
+  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 20, 10, 0.25);
+  msq_slicer* known = make_slicer(plain, &def);
+  (void)state;
+  REFUSALS("msq_slicer_info") {
+    const msq_slicer* slicer = known;
+    msq_slicer_report* report = (msq_slicer_report*)output(0);
+    report->struct_size = sizeof *report;
+    WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
+    WRONG(ARGUMENT, "report is NULL", report = NULL);
+    TRY(msq_slicer_info(slicer, report));
+  }
+  REFUSALS("msq_slicer_layer_z") {
+    const msq_slicer* slicer = known;
+    uint64_t index = 15;
+    double* z = (double*)output(0);
+    WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
+    WRONG(ARGUMENT, "z is NULL", z = NULL);
+    WRONG(ARGUMENT, "layer 16|16 layers", index = 16);
+    WRONG(ARGUMENT, "18446744073709551615|16 layers", index = UINT64_MAX);
+    TRY(msq_slicer_layer_z(slicer, index, z));
+  }
+  REFUSALS("msq_slice_layer") {
+    const msq_slicer* slicer = known;
+    uint64_t index = 15, bytes = 80;
+    uint8_t* layer = (uint8_t*)output(0);
+    msq_job* job = NULL;
+    WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
+    WRONG(ARGUMENT, "buffer is NULL", layer = NULL);
+    WRONG(ARGUMENT, "layer 16|16 layers", index = 16);
+    WRONG(ARGUMENT, "18446744073709551615|16 layers", index = UINT64_MAX);
+    WRONG(ARGUMENT, "buffer_bytes|0|80", bytes = 0);
+    WRONG(ARGUMENT, "buffer_bytes|79|80", bytes = 79);
+    WRONG(CANCELLED, "cancelled", job = cancelled_job());
+    TRY(msq_slice_layer(slicer, index, layer, bytes, job));
+  }
+  REFUSALS("msq_slicer_run") {
+    const msq_slicer* slicer = known;
+    uint64_t from = 0, layers = 2;
+    msq_layer_fn fn = take_layer;
+    layer_stack stack = make_stack(known, MSQ_LAYER_BITS, 0, 0);
+    msq_job* job = NULL;
+    WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
+    WRONG(ARGUMENT, "fn is NULL", fn = NULL);
+    for (int i = 0; i < 7; ++i)
+      WRONG(ARGUMENT, words_of("16 layers|%" PRIu64 "|%" PRIu64, first[i], count[i]),
+            from = first[i];
+            layers = count[i]);
+    WRONG(HOST, "-7", stack.stop_code = -7; stack.stop_at = 1);
+    WRONG(CANCELLED, "cancelled", job = cancelled_job());
+    const int ran = TRY(msq_slicer_run(slicer, from, layers, fn, &stack, job));
+    assert_int_equal(stack.taken, ran || stack.stop_code ? 2 : 0);
+    free_stack(&stack);
+  }
+  msq_slicer_release(known);
+}
+
+static msq_contours_def* contours_of(int32_t type) {
+  msq_contours_def* def = (msq_contours_def*)definition(0);
+  assert_ok(msq_contours_def_init(def, sizeof *def));
+  def->type = type;
+  def->tolerance = 0.05;
+  if (type != MSQ_FLOAT64) def->units = 1e5;
+  return def;
+}
+
+static void contours(void** state) {
+  const msq_slicer_def plan = slicer_def(MSQ_LAYER_BITS, 70, 45, 0.25);
+  msq_slicer* known = make_slicer(plain, &plan);
+  msq_contours* made;
+  (void)state;
+  REFUSALS("msq_layer_contours") {
+    const msq_model* model = plain;
+    double height = 1;
+    msq_contours_def* def = contours_of(MSQ_FLOAT64);
+    msq_contours** contours = (msq_contours**)output(0);
+    msq_job* job = NULL;
+    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    WRONG(ARGUMENT, "model is NULL", model = NULL);
+    WRONG(ARGUMENT, "contours is NULL", contours = NULL);
+    wrong_number(table, &height, "height is ");
+    WRONG(ARGUMENT, "type is 4", def->type = 4);
+    WRONG(ARGUMENT, "type is -1", def->type = -1);
+    wrong_enum(table, &def->axis, "axis", 0, 2);
+    wrong_enum(table, &def->has_window, "has_window", 0, 1);
+    WRONG(ARGUMENT, "has_window is 0", def->window_max[1] = 2);
+    WRONG(ARGUMENT, "not empty", def->has_window = 1);
+    RIGHT(def->has_window = 1; def->window_max[0] = def->window_max[1] = 2);
+    for (int i = 0; i < 2; ++i)
+      for (int which = 0; which < 3; ++which) {
+        WRONG(ARGUMENT, "window", def->has_window = 1; def->window_max[0] = def->window_max[1] = 2;
+              def->window_min[i] = not_finite(which));
+        WRONG(ARGUMENT, "window", def->has_window = 1; def->window_max[0] = def->window_max[1] = 2;
+              def->window_max[i] = not_finite(which));
+      }
+    WRONG(ARGUMENT, "tolerance is 0", def->tolerance = 0);
+    wrong_number(table, &def->tolerance, "tolerance is ");
+    WRONG(ARGUMENT, "pitch is -1", def->pitch = -1);
+    wrong_number(table, &def->pitch, "pitch is ");
+    WRONG(ARGUMENT, "units is 0", def->units = 0);
+    WRONG(ARGUMENT, "length_scale is -2", def->length_scale = -2);
+    WRONG(LIMIT, "the limit is 2147483392", def->tolerance = 1e-9);
+    WRONG(LIMIT, "memory_limit", model = plain_of_small);
+    WRONG(LIMIT, "inf nodes|along x", model = everywhere);
+    WRONG(CANCELLED, "cancelled", job = cancelled_job());
+    WRONG(ARGUMENT, "def is NULL", def = NULL);
+    if (TRY(msq_layer_contours(model, height, def, contours, job))) msq_contours_release(*contours);
+  }
+  REFUSALS("msq_layer_contours") { /* whole numbers: too few digits, or too many */
+    msq_contours_def* def = contours_of(MSQ_INT32);
+    msq_contours** contours = (msq_contours**)output(0);
+    def->units = 1000;
+    def->pitch = 0.2;
+    WRONG(ARGUMENT, "at least 64", def->pitch = 0; def->tolerance = 0.03);
+    WRONG(ARGUMENT, "at least 4", def->tolerance = 0.003);
+    WRONG(LIMIT, "the limit is 2147483647", def->units = 1e10);
+    WRONG(LIMIT, "the limit is 9007199254740992", def->type = MSQ_INT64; def->units = 1e16);
+    wrong_number(table, &def->units, "units is ");
+    if (TRY(msq_layer_contours(plain, 1, def, contours, NULL))) msq_contours_release(*contours);
+  }
+  REFUSALS("msq_slicer_contours") {
+    const msq_slicer* slicer = known;
+    uint64_t index = 2;
+    msq_contours_def* def = contours_of(MSQ_INT64);
+    msq_contours** contours = (msq_contours**)output(0);
+    msq_job* job = NULL;
+    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
+    WRONG(ARGUMENT, "contours is NULL", contours = NULL);
+    WRONG(ARGUMENT, "layer 16", index = 16);
+    WRONG(ARGUMENT, "layer 18446744073709551615", index = UINT64_MAX);
+    WRONG(ARGUMENT, "axis is 1", def->axis = 1);
+    WRONG(ARGUMENT, "length_scale is 3", def->length_scale = 3);
+    WRONG(ARGUMENT, "window", def->has_window = 1);
+    WRONG(ARGUMENT, "tolerance is 0", def->tolerance = 0);
+    WRONG(ARGUMENT, "units is 0", def->units = 0);
+    WRONG(CANCELLED, "cancelled", job = cancelled_job());
+    WRONG(ARGUMENT, "def is NULL", def = NULL);
+    if (TRY(msq_slicer_contours(slicer, index, def, contours, job)))
+      msq_contours_release(*contours);
+  }
+  assert_ok(msq_layer_contours(plain, 1, contours_of(MSQ_FLOAT64), &made, NULL));
+  REFUSALS("msq_contours_info") {
+    const msq_contours* contours = made;
+    msq_contours_report* report = (msq_contours_report*)output(0);
+    report->struct_size = sizeof *report;
+    WRONG(ARGUMENT, "contours is NULL", contours = NULL);
+    WRONG(ARGUMENT, "report is NULL", report = NULL);
+    TRY(msq_contours_info(contours, report));
+  }
+  msq_contours_release(made);
+  msq_slicer_release(known);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(slicers),
+      cmocka_unit_test(layers),
+      cmocka_unit_test(contours),
+  };
+  msq_shape* all;
+  msq_context* small = make_context_of(1, 0, 20000);
+  context = make_context();
+  plain = make_lattice_model(context);
+  plain_of_small = make_lattice_model(small);
+  assert_ok(msq_shape_all_space(context, &all));
+  everywhere = make_model(context, all, make_lattice(context), NULL);
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  msq_job_release(cancelled_job());
+  msq_model_release(everywhere);
+  msq_model_release(plain_of_small);
+  msq_model_release(plain);
+  msq_context_release(small);
+  msq_context_release(context);
+  return failed;
+}
