@@ -1,23 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_set_distance. What else msq_points_def may hold: test_msq_set_membership.c, which shares the
  * reading of it. */
-#include "definitions.h"
-
-enum { few = 5 };
-
-static msq_points_def array_of(const void* coordinates, uint64_t count) {
-  msq_points_def def;
-  assert_ok(msq_points_def_init(&def, sizeof def));
-  def.coordinates = coordinates;
-  def.count = count;
-  return def;
-}
-
-static const double (*few_points(void))[3] {
-  static const double points[few][3] = {
-      {0.5, 0.5, 0.5}, {0.5, 0, 0.5}, {9, 9, 9}, {4, 4, 4}, {0.75, 0.25, 0.25}};
-  return points;
-}
+#include "arrays.h"
 
 /* Asks for `few` answers; on failure none may be written. */
 static msq_status ask(void* env, void* def) {
@@ -51,39 +35,14 @@ static void assert_answers(const msq_model* model, const msq_points_def* def,
   free(distance);
 }
 
-/* Random points, of a type and `stride` bytes apart, at an odd address. */
-static void check_array(const msq_model* model, uint64_t count, int32_t type, uint64_t stride) {
-  const uint64_t size = type == MSQ_FLOAT32 ? 12 : 24, step = stride ? stride : size;
-  unsigned char* bytes = (unsigned char*)malloc(count * step + 1);
-  double(*seen)[3] = (double(*)[3])malloc(count * sizeof *seen);
-  uint64_t random = stride + 1;
-  assert_non_null(bytes);
-  assert_non_null(seen);
-  memset(bytes, 0xff, count * step + 1); /* NaN between the points */
-  for (uint64_t i = 0; i < count; ++i) {
-    float single[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      seen[i][axis] = random_between(&random, -0.3, 4.3);
-      if (type == MSQ_FLOAT32) seen[i][axis] = single[axis] = (float)seen[i][axis];
-    }
-    memcpy(bytes + 1 + i * step, type == MSQ_FLOAT32 ? (const void*)single : seen[i], size);
-  }
-  msq_points_def def = array_of(bytes + 1, count);
-  def.coordinate_type = type;
-  def.stride = stride;
-  assert_answers(model, &def, (const double(*)[3])seen, count);
-  free(bytes);
-  free(seen);
-}
-
 static void arrays_have_any_type_and_stride(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_lattice_model(context);
   (void)state;
-  check_array(model, test_count(1000), MSQ_FLOAT64, 0);
-  check_array(model, test_count(1000), MSQ_FLOAT64, 31);
-  check_array(model, test_count(1000), MSQ_FLOAT32, 0);
-  check_array(model, test_count(1000), MSQ_FLOAT32, 17);
+  check_array(model, test_count(1000), MSQ_FLOAT64, 0, assert_answers);
+  check_array(model, test_count(1000), MSQ_FLOAT64, 31, assert_answers);
+  check_array(model, test_count(1000), MSQ_FLOAT32, 0, assert_answers);
+  check_array(model, test_count(1000), MSQ_FLOAT32, 17, assert_answers);
   msq_model_release(model);
   msq_context_release(context);
 }
@@ -94,7 +53,7 @@ static void arrays_have_any_length(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_lattice_model(context);
   (void)state;
-  for (int i = 0; i < 6; ++i) check_array(model, counts[i], MSQ_FLOAT64, 0);
+  for (int i = 0; i < 6; ++i) check_array(model, counts[i], MSQ_FLOAT64, 0, assert_answers);
   msq_model_release(model);
   msq_context_release(context);
 }
@@ -135,7 +94,7 @@ static void every_kind_of_model_answers_sets_as_points(void** state) {
                  make_lattice_of(context, MSQ_UNIT_CELL_OCTET, 0.5, 0.05)),
   };
   for (size_t i = 0; i < sizeof models / sizeof models[0]; ++i) {
-    check_array(models[i], test_count(2000), MSQ_FLOAT64, 0);
+    check_array(models[i], test_count(2000), MSQ_FLOAT64, 0, assert_answers);
     check_grid(models[i]);
     msq_model_release(models[i]);
   }
