@@ -1,50 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_shape_self_intersections: which pairs of triangles count, and what the call promises. On
  * larger meshes it is compared with CGAL's own: tests/unit/test_self_intersections_cgal.cpp. */
-#include "fixtures.h"
+#include "soups.h"
 
 #if MSQ_WITH_CGAL
-
-/* A mesh of at most 24 triangles over at most 16 vertices. */
-typedef struct soup {
-  double vertices[16][3];
-  uint32_t triangles[24][3];
-  uint64_t vertex_count, triangle_count;
-} soup;
 
 static uint64_t pairs_of(const soup* mesh) {
   uint64_t pairs = UINT64_MAX;
   msq_context* context = make_context();
-  const msq_mesh_def def = mesh_def((const double(*)[3])mesh->vertices, mesh->vertex_count,
-                                    (const uint32_t(*)[3])mesh->triangles, mesh->triangle_count);
-  msq_shape* shape = make_mesh(context, &def);
+  msq_shape* shape = make_soup(context, mesh);
   assert_ok(msq_shape_self_intersections(shape, &pairs, NULL));
   msq_shape_release(shape);
   msq_context_release(context);
   return pairs;
-}
-
-/* A unit cube with vertices of its own. */
-static void add_cube(soup* mesh, double x, double y, double z) {
-  const uint32_t first = (uint32_t)mesh->vertex_count;
-  cube_corners(0, 1, mesh->vertices + first);
-  for (uint32_t i = first; i < first + 8; ++i) {
-    mesh->vertices[i][0] += x;
-    mesh->vertices[i][1] += y;
-    mesh->vertices[i][2] += z;
-  }
-  for (int i = 0; i < 12; ++i)
-    for (int v = 0; v < 3; ++v)
-      mesh->triangles[mesh->triangle_count + (uint64_t)i][v] = first + cube_triangles()[i][v];
-  mesh->vertex_count += 8;
-  mesh->triangle_count += 12;
-}
-
-static soup unit_cube(void) {
-  soup mesh;
-  memset(&mesh, 0, sizeof mesh);
-  add_cube(&mesh, 0, 0, 0);
-  return mesh;
 }
 
 static void clean_cube_has_none(void** state) {
