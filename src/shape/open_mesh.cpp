@@ -11,7 +11,6 @@ namespace msq {
 
 namespace {
 
-
 double scale_of(const Box3& bounds) {
   return std::ldexp(1.0, std::clamp(-std::ilogb(max_component(bounds.extent())), -1000, 1000));
 }

@@ -3,7 +3,6 @@
  * see the points that it writes. */
 #include "definitions.h"
 
-
 static msq_points_def stratified(double low, double spacing, uint64_t side, uint32_t per_cell) {
   msq_points_def def;
   assert_ok(msq_points_def_init(&def, sizeof def));

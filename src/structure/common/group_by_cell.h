@@ -2,9 +2,9 @@
 // Groups points by neighbourhood cell. Source: paper, section "Structured and Unstructured Set
 // Queries".
 //
-// Two other sorts are for other data. Of millions of points query/point_groups makes boxes of cells,
-// by counting and in parallel. structure/foam/sets/point_set.cpp has the cells of its points from
-// vectors already, keeps its arrays between calls and needs the order alone.
+// Two other sorts are for other data. Of millions of points query/point_groups makes boxes of
+// cells, by counting and in parallel. structure/foam/sets/point_set.cpp has the cells of its points
+// from vectors already, keeps its arrays between calls and needs the order alone.
 #pragma once
 
 #include <cstdint>

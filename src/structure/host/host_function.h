@@ -3,9 +3,9 @@
 // the level. The onset is the function of the position within the cell (network) or its magnitude
 // (sheet).
 //
-// This is not a Functional: that one evaluates a tape, whose intervals, slopes and factors it derives
-// and on which its rows and rays are built. Of the host's function only values and perhaps a range
-// are known, in batches that cost a callback each.
+// This is not a Functional: that one evaluates a tape, whose intervals, slopes and factors it
+// derives and on which its rows and rays are built. Of the host's function only values and perhaps
+// a range are known, in batches that cost a callback each.
 #pragma once
 
 #include <functional>
