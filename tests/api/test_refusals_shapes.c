@@ -152,6 +152,7 @@ static void meshes(void** state) {
   msq_shape_release(mesh);
 }
 
+#if MSQ_WITH_ASSIMP
 static void wrong_file(refusals* table, msq_file_def* def) {
   const double units[] = {0, -1, NAN, INFINITY};
   wrong_sizes(table, def, sizeof *def, sizeof *def);
@@ -222,6 +223,8 @@ static void files(void** state) {
     unlink(path);
   }
 }
+
+#endif
 
 static int32_t all_inside(void* user, const double* points, uint64_t count, uint8_t* inside) {
   (void)points;
