@@ -5,6 +5,7 @@
 // usage: cancel [results.json [part of a name]]
 #include <atomic>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -274,6 +275,52 @@ msq_status calibrate(Setup& setup, msq_job* job) {
                                  &report, job);
 }
 
+/// The mesh as a file in memory.
+std::string file_of(const MeshArrays& mesh, int32_t format) {
+  std::string text;
+  const auto put = [&](const auto& value) {
+    text.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  if (format == MSQ_FORMAT_OBJ) {
+    char line[128];
+    for (size_t i = 0; i < mesh.vertices.size(); i += 3) {
+      const double* v = &mesh.vertices[i];
+      std::snprintf(line, sizeof line, "v %.9g %.9g %.9g\n", v[0], v[1], v[2]);
+      text += line;
+    }
+    for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+      const uint32_t* t = &mesh.triangles[i];
+      std::snprintf(line, sizeof line, "f %u %u %u\n", t[0] + 1, t[1] + 1, t[2] + 1);
+      text += line;
+    }
+    return text;
+  }
+  text.assign(80, ' ');
+  put(static_cast<uint32_t>(mesh.triangles.size() / 3));
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    text.append(12, '\0');
+    for (size_t n = i; n < i + 3; ++n)
+      for (size_t axis = 0; axis < 3; ++axis)
+        put(static_cast<float>(mesh.vertices[3 * mesh.triangles[n] + axis]));
+    put(uint16_t{0});
+  }
+  return text;
+}
+
+Call load(int32_t format) {
+  const auto file = std::make_shared<std::string>(file_of(rippled_torus(1000, 500), format));
+  return [=](Setup& setup, msq_job* job) {
+    msq_file_def def;
+    check(msq_file_def_init(&def, sizeof def));
+    def.format = format;
+    msq_shape* shape = nullptr;
+    const msq_status status =
+        msq_shape_from_memory(setup.context, file->data(), file->size(), &def, &shape, job);
+    msq_shape_release(shape);
+    return status;
+  };
+}
+
 // ---- the cases
 // -----------------------------------------------------------------------------------
 
@@ -323,6 +370,10 @@ std::vector<Case> all_cases() {
         s.structure = foam(s, {8, 0.003, 0, 32768});
       },
       calibrate);
+  add(
+      "loading OBJ, 10^6 triangles", [](Setup&) {}, load(MSQ_FORMAT_OBJ));
+  add(
+      "loading binary STL, 10^6 triangles", [](Setup&) {}, load(MSQ_FORMAT_STL));
   add(
       "distances, 10^6 triangles",
       [](Setup& s) {

@@ -42,9 +42,9 @@
  * for the next call and freed with the last context of the process.
  *
  * Stack. A thread of the host with a stack of 64 KiB may call every function: large working memory
- * is on the heap, and thread-local storage takes less than 1 KiB. Calls that enter Assimp (some
- * mesh files) or CGAL (MSQ_FOAM_METHOD_2, msq_shape_self_intersections) need the stack that these
- * need.
+ * is on the heap, and thread-local storage takes less than 1 KiB. Exceptions: calls that read
+ * binary STL, by Assimp, and those that use CGAL (MSQ_FOAM_METHOD_2, msq_shape_self_intersections)
+ * need the stack that these need. Callbacks of the host take theirs from the same stack.
  *
  * Process. msq never prints, exits, aborts, installs a signal handler, reads the environment, or
  * changes the locale. No C++ exception leaves it. (oneTBB, the thread library, prints its version
@@ -251,8 +251,8 @@ MSQ_API void msq_job_retain(msq_job* job);
 MSQ_API void msq_job_release(msq_job* job);
 
 /** Cancels the call that runs under the job. The call returns MSQ_E_CANCELLED, usually within tens
- * of milliseconds. Arrays of points in foams with MSQ_FOAM_POINT take seconds, with a large radius
- * minutes. The job stays cancelled: later calls under it return at once. Errors: ARGUMENT. */
+ * of milliseconds. The job stays cancelled: later calls under it return at once. Errors: ARGUMENT.
+ */
 MSQ_API msq_status msq_job_cancel(msq_job* job);
 
 /** Returns the completed fraction, 0 to 1, of the last call under the job. It is 1 only after

@@ -15,7 +15,7 @@ namespace msq {
 namespace {
 
 /// In multiples of its radius: the distance from which a node is evaluated as a whole.
-constexpr double opening = 3;
+constexpr double usual_opening = 3;
 
 /// Triangles over a loop that run along its edges in the opposite direction. Chords cut off halves
 /// of the loop, and so on: with many vertices, most triangles are small and lie along the loop.
@@ -229,8 +229,11 @@ void Caps::FarView::add(const Node& node, Vec3 d, double r, double gap, double r
   turns += node.solid_angle(d, r) * (1 / (4 * pi));
   gradient = gradient +
              (d * (3 * inverse * dot(node.normal, d)) - node.normal) * (of_cube * (1 / (4 * pi)));
-  const double size = std::sqrt(node.second_moment) + radius * std::sqrt(node.area);
-  error += 3 / (4 * pi) * size * size / (gap_squared * gap_squared);
+  const double of_ball = radius * std::sqrt(node.area);
+  const double size = std::sqrt(node.second_moment) + of_ball;
+  const double factor = 3 / (4 * pi) / (gap_squared * gap_squared);
+  error += factor * (size * size);
+  error_of_ball += factor * (of_ball * of_ball);
 }
 
 void Caps::gather(Vec3 centre, double radius, Nearby& near) const {
@@ -241,7 +244,7 @@ void Caps::gather(Vec3 centre, double radius, Nearby& near) const {
   near.triangles.clear();
   near.far = {};
   for_each_part(
-      p, opening, radius, radius,
+      p, usual_opening, radius, radius,
       [&](const Node& node, Vec3 d, double r, double gap) {
         if (r > 8 * (node.radius + radius))
           near.far.add(node, d, r, gap, radius);
@@ -305,31 +308,50 @@ void Caps::bound(uint32_t triangle, Vec3 p, Slope& slope) const {
   slope.nearest = std::min(slope.nearest, is_far ? to_triangle : to_edges);
 }
 
-bool Caps::is_steady_in(Vec3 centre, double radius, int64_t* whole) const {
-  const Vec3 p = centre * scale_;
-  radius *= scale_;
+Caps::Steadiness Caps::look_about(Vec3 p, double radius, double opening, int64_t* whole) const {
   FarView far;
   Sum sum;
   Slope slope;
   const double clear = radius + 64 * tolerance_;
-  bool may_be = true;
+  // A smaller ball helps as much, and costs less, where much of the error is due to its size.
+  constexpr double max_of_ball = 0.05;
+  Steadiness found = Steadiness::steady;
   for_each_part(
       p, opening, 1.5 * radius, radius,
       [&](const Node& node, Vec3 d, double r, double gap) {
         far.add(node, d, r, gap, radius);
-        return may_be = gap > 64 * tolerance_ && far.error < 0.5;
+        if (!(gap > 64 * tolerance_))
+          found = Steadiness::unsteady;
+        else if (!(far.error < 0.5))
+          found = far.error_of_ball < max_of_ball ? Steadiness::unknown : Steadiness::unsteady;
+        return found == Steadiness::steady;
       },
       [&](uint32_t triangle) {
         bound(triangle, p, slope);
-        if (!((whole ? slope.to_caps : slope.nearest) > clear)) return may_be = false;
+        if (!((whole ? slope.to_caps : slope.nearest) > clear)) {
+          found = Steadiness::unsteady;
+          return false;
+        }
         look_at(triangle, p, sum);
         return true;
       });
-  if (!may_be) return false;
+  if (found != Steadiness::steady) return found;
   View view{sum.turns() + far.turns, sum.error + far.error + rounding_};
   view.error += radius * length(far.gradient) + slope.change(radius) * (1 / (4 * pi));
   if (whole) *whole = view.whole();
-  return view.margin() > 0;
+  if (view.margin() > 0) return Steadiness::steady;
+  view.error -= far.error - far.error_of_ball;
+  const bool may_be = view.margin() > 0 && far.error_of_ball < max_of_ball;
+  return may_be ? Steadiness::unknown : Steadiness::unsteady;
+}
+
+bool Caps::is_steady_in(Vec3 centre, double radius, int64_t* whole) const {
+  for (const double finer : {1.0, 8.0 / 3}) {
+    const Steadiness found =
+        look_about(centre * scale_, radius * scale_, finer * usual_opening, whole);
+    if (found != Steadiness::unknown) return found == Steadiness::steady;
+  }
+  return false;
 }
 
 uint64_t Caps::bytes() const {

@@ -82,6 +82,7 @@ class Caps {
   /// Solid angle over 4 pi of far nodes, as a linear function in a ball, and its error there.
   struct FarView {
     double turns = 0, error = 0;
+    double error_of_ball = 0;  // the part of the error that smaller nodes would leave
     Vec3 gradient;
 
     void add(const Node& node, Vec3 d, double r, double gap, double radius);
@@ -96,6 +97,9 @@ class Caps {
   void look_at(uint32_t triangle, Vec3 p, Sum& sum) const;
   struct Slope;
   void bound(uint32_t triangle, Vec3 p, Slope& slope) const;
+  /// As is_steady_in(), scaled; `unknown` if smaller nodes might prove it.
+  enum class Steadiness { steady, unsteady, unknown };
+  Steadiness look_about(Vec3 p, double radius, double opening, int64_t* whole) const;
   /// Calls far(node, vector to it, distance, lower bound on the distance from the ball about p to
   /// its caps) for nodes farther than opening times their radius plus `room`, and near(triangle)
   /// for triangles of other nodes, until one of these returns false.

@@ -179,7 +179,8 @@ double Mesh::open_distance_bound(Vec3 p) const {
 
 // Between two crossings of triangles membership changes only where the winding number passes a
 // half. A step is as long as that is proven not to, by a ball about it, else by the course of the
-// winding number, and no less than LeastStep has it, which bounds their number.
+// winding number, and no less than LeastStep has it, which bounds their number. Next to a half no
+// ball is small enough for the bounds of caps: there the course decides.
 bool Mesh::find_between(const Ray& ray, double from, double to, bool wanted, double& t,
                         LeastStep& least, JobPoll& poll) const {
   const double tolerance = ray_tolerance();
@@ -191,19 +192,27 @@ bool Mesh::find_between(const Ray& ray, double from, double to, bool wanted, dou
     t = from;
     return true;
   }
-  for (double at = from, step = to - from; at < to; step *= 2) {
+  double growth = 2;  // of a step that is proven at once
+  for (double at = from, step = to - from; at < to; step *= growth) {
     poll();
     const double min_now = least.of_step(at);
     step = std::min(step, to - at);
+    const double first = step;
     size_t tries = open_->tries_before_way();
     for (; step > min_now && !is_steady(at, step); step *= 0.5) {
-      if (tries-- > 0) continue;
+      const bool is_last = open_->knows_way() && 0.5 * step <= min_now;
+      if (tries > 0 && !is_last) {
+        --tries;
+        continue;
+      }
       const Vec3 p = ray.at(at);
       const int64_t beyond = count_crossings(soup_, columns_.at(p.y, p.z), p).beyond;
-      step = std::min(step, open_->steady_way(p, ray.direction, beyond));
+      step = std::min(to - at, open_->steady_way(p, ray.direction, beyond));
       break;
     }
-    const double next = std::min(to, at + std::max(step, min_now));
+    growth = step < first ? 1 : 2;
+    step = std::max(step, min_now);
+    const double next = std::min(to, at + step);
     if (!(next > at)) return false;  // steps vanish in rounding
     if (is_wanted(next)) {
       t = bisect(at, next, tolerance, is_wanted);

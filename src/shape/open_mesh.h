@@ -33,6 +33,8 @@ class OpenMesh {
   /// How many times a step is tried by is_steady_in() before steady_way(), a sum over all edges, is
   /// worth its while.
   size_t tries_before_way() const { return 1 + loops_.edges() / 1024; }
+  /// Whether it is also worth its while where no step can be proven by is_steady_in().
+  bool knows_way() const { return loops_.edges() <= max_way_edges; }
   /// A lower bound of the distance from p, whose winding number is `winding`, to where that is 0 on
   /// one side and not 0 on the other, as long as no triangle is crossed; where that is above `max`,
   /// any number above it. Where is_steady(), that of two points differs by no more than the way
@@ -52,6 +54,7 @@ class OpenMesh {
   static constexpr size_t few_edges = 24;
   /// Up to this number of edges, computing the bounds is worth a sum over all edges.
   static constexpr size_t max_steady_edges = 4096;
+  static constexpr size_t max_way_edges = 65536;
 
   double scale_;
   double rounding_;  // of positions, scaled

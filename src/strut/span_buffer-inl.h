@@ -55,7 +55,7 @@ class SpanBuffer {
   }
 
  private:
-  static constexpr size_t capacity = 1024;
+  static constexpr size_t capacity = 256;
 
   uint64_t* const words_;
   size_t count_ = 0;

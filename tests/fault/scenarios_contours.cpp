@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <initializer_list>
+
 #include "scenarios.h"
 #include "world.h"
 
@@ -29,7 +32,10 @@ msq_contours_def coarse() {
 std::vector<Scenario> contour_scenarios() {
   std::vector<Scenario> scenarios;
   for (const Kind& kind : kinds()) {
-    if (kind.name != "foam" && kind.name != "gyroid" && kind.name != "mixed lattice") continue;
+    const auto is_one_of = [&](std::initializer_list<const char*> names) {
+      return std::find(names.begin(), names.end(), kind.name) != names.end();
+    };
+    if (!is_one_of({"foam", "gyroid", "mixed lattice", "foam of walls", "beams"})) continue;
     scenarios.push_back(
         {"msq_layer_contours: " + kind.name, [&kind](Stage& stage) {
            World world(stage);

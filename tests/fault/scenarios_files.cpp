@@ -99,6 +99,20 @@ constexpr const char* threemf_model =
     "v3=\"2\"/></triangles></mesh>"
     "</object></resources><build><item objectid=\"1\"/></build></model>";
 
+std::string binary_stl() {
+  const float corners[4][3] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+  const int triangles[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  std::string out(80, ' ');
+  put(out, uint32_t{4});
+  for (const auto& triangle : triangles) {
+    for (int i = 0; i < 3; ++i) put(out, 0.0f);  // the normal
+    for (const int corner : triangle)
+      for (const float x : corners[corner]) put(out, x);
+    put(out, uint16_t{0});
+  }
+  return out;
+}
+
 struct Format {
   const char* name;
   int32_t format;
@@ -108,8 +122,9 @@ struct Format {
 
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = {
-      {"STL", MSQ_FORMAT_STL, stl, true},
-      {"OBJ", MSQ_FORMAT_OBJ, obj, true},
+      {"STL", MSQ_FORMAT_STL, stl, false},
+      {"binary STL", MSQ_FORMAT_STL, binary_stl(), true},
+      {"OBJ", MSQ_FORMAT_OBJ, obj, false},
       {"PLY", MSQ_FORMAT_PLY, ply, false},
       {"OFF", MSQ_FORMAT_OFF, off, false},
       {"AMF", MSQ_FORMAT_AMF, amf, false},

@@ -17,6 +17,44 @@ struct Subject {
   const Kind* kind;
 };
 
+/// A tetrahedron without a side.
+msq_shape* open_mesh(World& w) {
+  static const double corners[4][3] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
+  static const uint32_t triangles[3][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}};
+  msq_mesh_def def = make_def(msq_mesh_def_init);
+  def.vertices = corners;
+  def.vertex_count = 4;
+  def.triangles = triangles[0];
+  def.triangle_count = 3;
+  msq_shape* shape;
+  require_ok(msq_shape_from_mesh(w.context, &def, &shape));
+  return w.keep(shape);
+}
+
+/// A turned mesh and a box, as deep within shapes made of shapes as there may be.
+msq_shape* nested(World& w, int depth) {
+  static const double turned[12] = {0.8, -0.6, 0, 1.5, 0.6, 0.8, 0, -0.5, 0, 0, 1, 0.25};
+  msq_shape* shape;
+  require_ok(msq_shape_placed(w.mesh(), turned, &shape));
+  w.keep(shape);
+  for (int i = 1; i < depth; ++i) {
+    const double moved[12] = {1, 0, 0, i % 4 < 2 ? 0.01 : -0.01, 0, 1, 0, 0, 0, 0, 1, 0};
+    const msq_shape* const both[2] = {shape, w.box()};
+    require_ok(i % 2 ? msq_shape_boolean(MSQ_BOOLEAN_INTERSECTION, both, 2, &shape)
+                     : msq_shape_placed(both[0], moved, &shape));
+    w.keep(shape);
+  }
+  return shape;
+}
+
+msq_model* regions(World& w, msq_structure* inside) {
+  const msq_model* const parts[2] = {w.model(open_mesh(w), inside, 0.2),
+                                     w.model(nested(w, 2), nullptr)};
+  msq_model* model;
+  require_ok(msq_model_regions(w.context, parts, 2, &model));
+  return w.keep(model);
+}
+
 std::vector<Subject> subjects() {
   std::vector<Subject> all;
   for (const Kind& kind : kinds())
@@ -36,6 +74,15 @@ std::vector<Subject> subjects() {
       [](World& w, msq_structure* inside) { return w.model(w.host_shape(), inside); });
   add("mesh alone", [](World& w, msq_structure*) { return w.model(w.mesh(), nullptr); });
   add("voxels alone", [](World& w, msq_structure*) { return w.model(w.voxels(), nullptr); });
+  add("open mesh alone", [](World& w, msq_structure*) { return w.model(open_mesh(w), nullptr); });
+  add("lattice in nested shapes",
+      [](World& w, msq_structure* inside) { return w.model(nested(w, 64), inside); });
+  add("offset alone", [](World& w, msq_structure*) {
+    msq_shape* shape;
+    require_ok(msq_shape_offset(nested(w, 2), -0.1, &shape));
+    return w.model(w.keep(shape), nullptr);
+  });
+  add("regions", regions);
   return all;
 }
 

@@ -13,7 +13,13 @@ constexpr double max_beams_to_a_sample = 1;
 }  // namespace
 
 BeamRows::BeamRows(const Beams& beams, const RowBlock& block, const Job* job)
-    : beams_(beams), job_(job), raster_(block) {
+    : beams_(beams),
+      job_(job),
+      raster_(block),
+      capsules_(batches_->capsules),
+      frusta_(batches_->frusta),
+      balls_(batches_->balls) {
+  capsules_.count = frusta_.count = balls_.count = 0;
   const Box3 box = raster_.box();
   // The error of sample positions is a few units of 2^-53 of the largest magnitude.
   margin_ =

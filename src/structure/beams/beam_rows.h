@@ -3,6 +3,7 @@
 // predicate of that beam alone decides them, so that the bits are those of the definition.
 #pragma once
 
+#include "base/borrowed.h"
 #include "structure/beams/beams.h"
 #include "structure/beams/part_batch.h"
 #include "strut/span_raster.h"
@@ -36,9 +37,15 @@ class BeamRows {
     uint32_t begin, end;
   };
   std::vector<Run> found_;  // beams
-  StrutBatch capsules_;
-  FrustumBatch frusta_;
-  BallBatch balls_;
+  struct Batches {
+    StrutBatch capsules;
+    FrustumBatch frusta;
+    BallBatch balls;
+  };
+  const Borrowed<Batches> batches_;  // 20 KB, too much for the stacks of small threads
+  StrutBatch& capsules_;
+  FrustumBatch& frusta_;
+  BallBatch& balls_;
   double capsule_rounding_ = 0, other_rounding_ = 0;
   std::vector<Beam> of_capsules_, others_;
 };
