@@ -1,9 +1,6 @@
 # Installs the library, its one C header, the CMake package and the pkg-config file. A shared msq
 # keeps its dependencies to itself; a static one hands them on to whoever links it.
-option(MSQ_INSTALL "Make install rules for msq" ${PROJECT_IS_TOP_LEVEL})
-if(NOT MSQ_INSTALL)
-  return()
-endif()
+include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(MSQ_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/msq)
@@ -25,14 +22,21 @@ install(TARGETS msq EXPORT msqTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES include/msq.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Not CMAKE_INSTALL_DOCDIR, which is the host's where msq is a part of another project.
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/msq)
 install(EXPORT msqTargets NAMESPACE msq:: DESTINATION ${MSQ_CMAKE_DIR})
 
 configure_package_config_file(cmake/msqConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/msqConfig.cmake
                               INSTALL_DESTINATION ${MSQ_CMAKE_DIR}
                               NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+# The ABI is frozen with 0.2 (docs/abi.md).
+set(MSQ_COMPATIBILITY SameMajorVersion)
+if(PROJECT_VERSION VERSION_LESS 0.2)
+  set(MSQ_COMPATIBILITY SameMinorVersion)
+endif()
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/msqConfigVersion.cmake
-                                 COMPATIBILITY SameMinorVersion)
+                                 VERSION ${PROJECT_VERSION}
+                                 COMPATIBILITY ${MSQ_COMPATIBILITY})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/msqConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/msqConfigVersion.cmake
         DESTINATION ${MSQ_CMAKE_DIR})
@@ -51,7 +55,9 @@ if(NOT BUILD_SHARED_LIBS)
   list(JOIN MSQ_PC_REQUIRES_PRIVATE ", " MSQ_PC_REQUIRES_PRIVATE)
   # The C++ runtime, which a C compiler does not link by itself.
   set(MSQ_PC_LIBS_PRIVATE ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
-  list(REMOVE_ITEM MSQ_PC_LIBS_PRIVATE ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
+  if(CMAKE_C_IMPLICIT_LINK_LIBRARIES) # where C is among the languages
+    list(REMOVE_ITEM MSQ_PC_LIBS_PRIVATE ${CMAKE_C_IMPLICIT_LINK_LIBRARIES})
+  endif()
   list(TRANSFORM MSQ_PC_LIBS_PRIVATE PREPEND "-l")
   list(APPEND MSQ_PC_LIBS_PRIVATE ${CMAKE_THREAD_LIBS_INIT})
   list(JOIN MSQ_PC_LIBS_PRIVATE " " MSQ_PC_LIBS_PRIVATE)

@@ -1,16 +1,49 @@
-# Compile options of all targets of the project.
+# Compile options of all targets of the project. The same bits on every machine: no contraction of
+# a product and a sum into one rounding. Visual C++ 2022 contracts only where /fp:contract says so.
 function(msq_compile_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra)
-  # The same bits on every machine: no contraction into fused multiply-adds.
-  target_compile_options(${target} PRIVATE -ffp-contract=off)
-  if(MSQ_WERROR)
-    target_compile_options(${target} PRIVATE -Werror)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "^(GNU|Clang|AppleClang)$" AND NOT MSVC)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -ffp-contract=off)
+    if(MSQ_WERROR)
+      target_compile_options(${target} PRIVATE -Werror)
+    endif()
+  elseif(MSVC)
+    target_compile_options(${target} PRIVATE /W3 /utf-8 /fp:precise)
+    # The names of the C library without underscores, and std::min next to <windows.h>.
+    target_compile_definitions(${target} PRIVATE _CRT_SECURE_NO_WARNINGS NOMINMAX)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+      target_compile_options(${target} PRIVATE /clang:-ffp-contract=off)
+    else()
+      target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:/Zc:__cplusplus /bigobj>)
+    endif()
+    if(MSQ_WERROR)
+      target_compile_options(${target} PRIVATE /WX)
+    endif()
+  else()
+    message(WARNING "msq: ${CMAKE_CXX_COMPILER_ID} is not known. Results are exact only without "
+                    "contraction of floating-point expressions; add the option for that.")
   endif()
   if(MSQ_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer
                                              -fno-sanitize-recover=all)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
   endif()
+endfunction()
+
+# A shared library exports msq_* and nothing else, not even templates of the standard library. On
+# Windows only what msq.h marks is exported.
+function(msq_export_only_api target)
+  get_target_property(type ${target} TYPE)
+  if(NOT type STREQUAL "SHARED_LIBRARY" OR WIN32)
+    return()
+  endif()
+  if(APPLE)
+    set(list ${CMAKE_CURRENT_SOURCE_DIR}/src/api/msq.exports)
+    target_link_options(${target} PRIVATE "LINKER:-exported_symbols_list,${list}")
+  elseif(UNIX)
+    set(list ${CMAKE_CURRENT_SOURCE_DIR}/src/api/msq.map)
+    target_link_options(${target} PRIVATE "LINKER:--version-script=${list}" "LINKER:--no-undefined")
+  endif()
+  set_target_properties(${target} PROPERTIES LINK_DEPENDS ${list})
 endfunction()
 
 # Compile options of those of the files that include a header, in sanitized builds.

@@ -70,7 +70,7 @@
 #else
 #define MSQ_API __declspec(dllimport)
 #endif
-#elif defined(__GNUC__)
+#elif defined(__GNUC__) && !defined(_WIN32)
 #define MSQ_API __attribute__((visibility("default")))
 #else
 #define MSQ_API
@@ -440,7 +440,8 @@ typedef struct msq_file_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_file_def_init(msq_file_def* def, size_t size);
 
-/** Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job.
+/** Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job. On Windows `path` is
+ * UTF-8; on other systems the bytes of it reach the system unchanged.
  *
  * All instances in the file become one shape in millimetres. msq applies transforms, triangulates
  * polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It

@@ -49,6 +49,9 @@ void overlay_write(SDL_Renderer* renderer, int left, int top, int size, const ch
     rows += *at == '\n';
     columns = column > columns ? column : columns;
   }
+  int width, height;
+  if (SDL_GetRendererOutputSize(renderer, &width, &height) == 0)
+    while (size > 1 && left + (6 * columns + 3) * size > width) --size;
   const SDL_Rect ground = {left, top, (6 * columns + 3) * size, (10 * rows + 1) * size};
   SDL_SetRenderDrawBlendMode(renderer, SDL_BLENDMODE_BLEND);
   SDL_SetRenderDrawColor(renderer, 20, 26, 36, 190);

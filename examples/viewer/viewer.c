@@ -26,10 +26,10 @@ static const char usage[] =
     "  --script TEXT " SCRIPT_HELP "\n";
 
 static const char help[] =
-    "DRAG: TURN   RIGHT DRAG: PAN   WHEEL: ZOOM\n"
-    "1-7: STRUCTURE   [ ]: COARSER, FINER SCALES\n"
-    "O: SHADOWS   P: PERSPECTIVE   SPACE: SPIN\n"
-    "R: RESET   H: HELP   Q: QUIT";
+    "DRAG: TURN\nRIGHT DRAG: PAN   WHEEL: ZOOM\n"
+    "1-7: STRUCTURE\n[ ]: COARSER, FINER SCALES\n"
+    "O: SHADOWS   P: PERSPECTIVE\nSPACE: SPIN   R: RESET\n"
+    "H: HELP   Q: QUIT";
 
 enum { FILLS = 8 };
 

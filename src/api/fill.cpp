@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "api/guard.h"
+#include "base/int128.h"
 #include "fill/line_density.h"
 
 using namespace msq;
@@ -37,7 +38,6 @@ void require_coordinate(int64_t value, uint64_t ring, uint64_t point) {
 
 /// Whether all points are on one line. Coordinates are at most 2^53, so products have 109 bits.
 bool is_flat(const std::vector<IntPoint>& ring) {
-  __extension__ using Int128 = __int128;
   const IntPoint a = ring[0];
   IntPoint b = a;
   for (const IntPoint p : ring) {

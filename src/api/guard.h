@@ -8,6 +8,7 @@
 #include <cstring>
 #include <new>
 
+#include "base/attributes.h"
 #include "base/call.h"
 #include "base/checked.h"
 #include "base/job.h"
@@ -32,7 +33,7 @@ msq_status record(Status status, const char* message, int32_t host_code) noexcep
 
 /// Calls a function where the compiler moves no arithmetic out of it.
 template <class Body>
-[[gnu::noinline]] void call_apart(Body& body) {
+MSQ_NOINLINE void call_apart(Body& body) {
   body();
 }
 

@@ -2,12 +2,19 @@
 // The last failure of each thread. A thread has pointers to it in TLS (base/borrowed.h says why no
 // more), and the message is allocated with the first failure and freed with the thread. Where there
 // is no memory for that, the message is a constant that names the status alone.
-#include <pthread.h>
-
 #include <cstdlib>
 #include <cstring>
 
 #include "api/guard.h"
+#include "base/attributes.h"
+
+// The last of all: it defines words such as `near`.
+#ifdef _WIN32
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#else
+#include <pthread.h>
+#endif
 
 namespace msq::api {
 
@@ -20,25 +27,44 @@ struct LastError {
   char* room = nullptr;
   int32_t host_code = 0;
 };
-[[gnu::tls_model("initial-exec")]] constinit thread_local LastError last_error;
+MSQ_INITIAL_EXEC constinit thread_local LastError last_error;
 
 /// Frees the messages of threads that end.
 class MessageKey {
  public:
+#ifdef _WIN32
+  MessageKey() : key_(FlsAlloc(free_message)), is_made_(key_ != FLS_OUT_OF_INDEXES) {}
+  ~MessageKey() {
+    if (is_made_) FlsFree(key_);
+    is_made_ = false;
+  }
+  bool set(char* room) const {
+    return is_made_ && FlsSetValue(key_, room);
+  }
+#else
   MessageKey() : is_made_(pthread_key_create(&key_, free_message) == 0) {}
   ~MessageKey() {
     if (is_made_) pthread_key_delete(key_);
     is_made_ = false;
   }
-  bool set(char* room) const { return is_made_ && pthread_setspecific(key_, room) == 0; }
+  bool set(char* room) const {
+    return is_made_ && pthread_setspecific(key_, room) == 0;
+  }
+#endif
 
  private:
+#ifdef _WIN32
+  using Key = DWORD;
+  static void WINAPI free_message(void* room) {
+#else
+  using Key = pthread_key_t;
   static void free_message(void* room) {
+#endif
     last_error = {};
     std::free(room);
   }
 
-  pthread_key_t key_;
+  Key key_;
   bool is_made_;
 } message_key;
 

@@ -27,6 +27,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/attributes.h"
+
 namespace msq {
 
 /// Objects whose bytes() is larger are deleted, not kept.
@@ -86,7 +88,7 @@ class KeptType {
 
 /// The only state of a thread. It is TLS that exists from the start of the thread: TLS that is made
 /// at its first touch may fail without a way to report it.
-[[gnu::tls_model("initial-exec")]] extern constinit thread_local uint32_t place_of_thread;
+MSQ_INITIAL_EXEC extern constinit thread_local uint32_t place_of_thread;
 
 inline uint32_t KeptType::own_place() {
   const uint32_t place = place_of_thread;

@@ -13,6 +13,7 @@
 // inlined.
 #pragma once
 
+#include "base/attributes.h"
 #include "base/float_state.h"
 
 namespace msq {
@@ -92,7 +93,7 @@ class HostScope {
 
 /// Calls a function of the host.
 template <class Function, class... Arguments>
-[[gnu::noinline]] auto call_host(Function* function, Arguments... arguments) {
+MSQ_NOINLINE auto call_host(Function* function, Arguments... arguments) {
   const HostScope scope;
   return function(arguments...);
 }

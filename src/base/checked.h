@@ -10,11 +10,10 @@
 namespace msq {
 
 inline uint64_t checked_product(uint64_t a, uint64_t b, const char* what) {
-  uint64_t product;
-  if (__builtin_mul_overflow(a, b, &product) || product > UINT64_MAX / 2)
+  if (b > 0 && a > UINT64_MAX / 2 / b)
     fail(Status::limit, "%s: %llu times %llu is more than 2^63", what,
          static_cast<unsigned long long>(a), static_cast<unsigned long long>(b));
-  return product;
+  return a * b;
 }
 
 }  // namespace msq

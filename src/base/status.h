@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/attributes.h"
+
 namespace msq {
 
 enum class Status : int32_t {
@@ -31,7 +33,6 @@ class Error : public std::runtime_error {
 };
 
 /// Throws Error with a message formatted as by printf.
-[[noreturn]] void fail(Status status, const char* format, ...)
-    __attribute__((format(printf, 2, 3)));
+[[noreturn]] void fail(Status status, const char* format, ...) MSQ_PRINTF_FORMAT(2, 3);
 
 }  // namespace msq

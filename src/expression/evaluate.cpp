@@ -5,15 +5,23 @@
 #include "expression/elementary-inl.h"
 #include "expression/tape.h"
 
+// What inlines a function of a target must be compiled for that target: on aarch64 the baseline is
+// not NEON as Highway means it.
+HWY_BEFORE_NAMESPACE();
 namespace msq {
 
 double apply(Op op, double a, double b) {
   double v = 0;
-  HWY_NAMESPACE::with_op(op, [&](auto which) {
+  HWY_NAMESPACE::with_op(op, [&](auto which) HWY_ATTR {
     v = HWY_NAMESPACE::result<decltype(which)::value>(HWY_NAMESPACE::Single(), a, b);
   });
   return v;
 }
+
+}  // namespace msq
+HWY_AFTER_NAMESPACE();
+
+namespace msq {
 
 double evaluate(const Tape& tape, Vec3 position) {
   double values[max_tape_nodes];

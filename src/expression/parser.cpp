@@ -68,8 +68,7 @@ class Parser {
   }
 
  private:
-  [[noreturn]] void refuse(size_t at, const char* format, ...) const
-      __attribute__((format(printf, 3, 4))) {
+  [[noreturn]] void refuse(size_t at, const char* format, ...) const MSQ_PRINTF_FORMAT(3, 4) {
     char reason[200];
     std::va_list arguments;
     va_start(arguments, format);

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "base/int128.h"
 #include "base/job.h"
 
 namespace msq {
 
 namespace {
-
-__extension__ using Int128 = __int128;
 
 Int128 cross(IntPoint a, IntPoint b, IntPoint c) {
   return static_cast<Int128>(b.x - a.x) * (c.y - a.y) -

@@ -81,29 +81,48 @@ struct Content {
   uint64_t size;
 };
 
+namespace fs = std::filesystem;
+
+/// From UTF-8. Elsewhere than on Windows a path is bytes in no set encoding.
+fs::path system_path(const std::string& path) {
+#ifdef _WIN32
+  return fs::path(std::u8string(path.begin(), path.end()));
+#else
+  return fs::path(path);
+#endif
+}
+
+std::FILE* open_to_read(const fs::path& path) {
+#ifdef _WIN32
+  return _wfopen(path.c_str(), L"rb");
+#else
+  return std::fopen(path.c_str(), "rb");
+#endif
+}
+
 Content read_whole_file(const std::string& path, const MeshFileOptions& options,
                         Reservation& reservation) {
-  namespace fs = std::filesystem;
+  const fs::path file_path = system_path(path);
   const auto give_up = [&](int error) {
     if (error == ENOMEM) throw std::bad_alloc();
     fail(Status::io, "%s: %s", shown(path).c_str(), std::generic_category().message(error).c_str());
   };
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
+  const fs::file_status status = fs::status(file_path, error);
   if (status.type() == fs::file_type::not_found) give_up(ENOENT);
   if (error) give_up(error.value());
   if (status.type() == fs::file_type::directory) give_up(EISDIR);
   // Pipes and devices have no size to check, and may never end.
   if (status.type() != fs::file_type::regular)
     fail(Status::io, "%s: not a regular file", shown(path).c_str());
-  const uint64_t bytes = fs::file_size(path, error);
+  const uint64_t bytes = fs::file_size(file_path, error);
   if (error) give_up(error.value());
   check_size(bytes, options);
   reservation = reserve_reading(bytes, options);
 
   const auto close = [](std::FILE* file) { std::fclose(file); };
   errno = 0;
-  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
+  const std::unique_ptr<std::FILE, decltype(close)> file(open_to_read(file_path), close);
   if (!file) give_up(errno ? errno : ENOMEM);
   // Unbuffered, directly into memory that is not filled with zeros first.
   std::setvbuf(file.get(), nullptr, _IONBF, 0);

@@ -36,7 +36,8 @@ OUTSIDE = [
                                 "slice/*.cpp", "expression/*.cpp"]),
     (r"hwy/.*", ["base/simd.h", "base/simd.cpp"]),
     (r"(oneapi/)?tbb/.*", ["base/parallel.cpp"]),
-    (r"pthread\.h", ["api/last_error.cpp"]),  # a key whose values are freed with their threads
+    (r"pthread\.h|windows\.h", ["api/last_error.cpp"]),  # a key whose values are freed with their threads
+    (r"__msvc_int128\.hpp", ["base/int128.h"]),
     (r"execution", ["base/parallel.cpp"]),  # libstdc++ builds it upon TBB
     (r"assimp/.*|pugi(xml|config)\.hpp", ["io/*"]),
     (r"(minizip/)?(unzip|zip|ioapi|mz\w*)\.h|zlib\.h|zconf\.h", ["io/*"]),

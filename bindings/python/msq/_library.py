@@ -15,6 +15,7 @@ import threading
 from typing import Any, List, Sequence, Type, TypeVar
 
 from . import _abi
+from ._words import in_words_of_python
 from .errors import BY_STATUS, Error, HostError
 
 
@@ -81,7 +82,7 @@ def _raise_status(status: int, _function: Any, _arguments: Any) -> int:
         host_error = HostError(message)
         host_error.code = code
         raise host_error
-    raise BY_STATUS.get(status, Error)(message)
+    raise BY_STATUS.get(status, Error)(in_words_of_python(message))
 
 
 def _load() -> ctypes.CDLL:

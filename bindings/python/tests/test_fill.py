@@ -71,7 +71,7 @@ class FillLines(unittest.TestCase):
         foam = msq.Foam(radius=0.1)
         with self.assertRaisesRegex(msq.ArgumentError, "ring 0 has 2 points"):
             foam.fill_lines(SQUARE[:2], 1)
-        with self.assertRaisesRegex(msq.ArgumentError, "ring_count is 0"):
+        with self.assertRaisesRegex(msq.ArgumentError, "the number of rings is 0"):
             foam.fill_lines([], 1)
         with self.assertRaises(ValueError):
             foam.fill_lines(SQUARE + 0.5, 1)

@@ -79,6 +79,18 @@ class Exceptions(unittest.TestCase):
             with self.assertRaisesRegex(kind, text):
                 call()
 
+    def test_are_in_words_of_python(self):
+        box = msq.Shape.box((0, 0, 0), (1, 1, 1))
+        graded = msq.Field.gradient((0, 0, 0), 1, (1, 0, 0), 9)
+        for text, call in (
+                ("^cell_size is 0;", lambda: msq.Lattice(cell_size=0, radius=1)),
+                ("^the number of scales is 65;",
+                 lambda: msq.Model(box, [msq.Lattice(radius=0.1)] * 64)),
+                ("must be 'auto' or 'direct'",
+                 lambda: msq.Foam(radius=0.1, density=graded, method="point"))):
+            with self.assertRaisesRegex(msq.Error, text):
+                call()
+
     def test_fields_stand_where_the_readme_says(self):
         field = msq.Field.gradient((0, 0, 0), 0.125, (1, 0, 0), 0.25)
         steel = msq.Material(1, density=field)

@@ -51,7 +51,7 @@ class Blocks {
   };
 
   // TLS that is there from the thread's start: it cannot fail (borrowed.h).
-  [[gnu::tls_model("initial-exec")]] static constinit thread_local Blocks* innermost;
+  MSQ_INITIAL_EXEC static constinit thread_local Blocks* innermost;
 
   Block list_;
   Blocks* const outer_;

@@ -1,0 +1,16 @@
+# Debian's cross compiler for aarch64. MSQ_CROSS_ROOT holds the unpacked arm64 packages of oneTBB and
+# Highway; scripts/cross makes it.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES MSQ_CROSS_ROOT)
+
+set(CMAKE_FIND_ROOT_PATH ${MSQ_CROSS_ROOT} /usr/aarch64-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(ENV{PKG_CONFIG_SYSROOT_DIR} ${MSQ_CROSS_ROOT})
+set(ENV{PKG_CONFIG_LIBDIR} ${MSQ_CROSS_ROOT}/usr/lib/aarch64-linux-gnu/pkgconfig)

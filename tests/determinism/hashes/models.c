@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "models.h"
+
+#include "parts.h"
+
+static msq_model* with_skin(Kit* kit, const msq_shape* shape, const msq_structure* coarse,
+                            const msq_structure* fine, msq_param skin) {
+  const msq_scale_def scales[3] = {
+      {.shape = shape}, {.structure = coarse, .skin = skin}, {.structure = fine}};
+  msq_model_def def;
+  must(msq_model_def_init(&def, sizeof def));
+  def.scales = scales;
+  def.scale_count = fine ? 3 : 2;
+  def.scale_size = sizeof scales[0];
+  msq_model* model;
+  must(msq_model_create(kit->context, &def, &model));
+  return model;
+}
+
+static msq_model* filled(Kit* kit, const msq_shape* shape, const msq_structure* structure) {
+  return with_skin(kit, shape, structure, NULL, number(0));
+}
+
+static msq_model* cubic(Kit* kit) {
+  const msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_CUBIC, 4, number(0.6));
+  return filled(kit, box(kit), lattice(kit, &def));
+}
+
+static msq_model* bcc_turned(Kit* kit) {
+  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_BCC, 5, gradient(kit, 0.3, 0.9));
+  turn(&def.grid);
+  return filled(kit, sphere(kit, 9.7), lattice(kit, &def));
+}
+
+static msq_model* octet_flat(Kit* kit) {
+  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_OCTET, 5, number(0.35));
+  set_cells(&def.grid, 5, 4, 7);
+  return filled(kit, mesh(kit, 0), lattice(kit, &def));
+}
+
+static msq_model* kelvin_skin(Kit* kit) {
+  const msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_KELVIN, 6, number(0.5));
+  return with_skin(kit, mesh(kit, 0), lattice(kit, &def), NULL, gradient(kit, 0.2, 1.1));
+}
+
+static msq_model* diamond_sampled(Kit* kit) {
+  const msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_DIAMOND, 7, sampled(kit, 0.2, 1.2));
+  return filled(kit, voxels(kit), lattice(kit, &def));
+}
+
+static msq_model* reentrant_waves(Kit* kit) {
+  const msq_param radius = expression(kit, "0.5 + 0.2 * sin(x) * cos(y / 2)", 0.2, 0.8);
+  const msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_REENTRANT, 6, radius);
+  return filled(kit, cylinder(kit), lattice(kit, &def));
+}
+
+static msq_model* mixed(Kit* kit) {
+  msq_unit_cell_def cells[3];
+  const int32_t names[3] = {MSQ_UNIT_CELL_FCC, MSQ_UNIT_CELL_OCTET,
+                            MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON};
+  for (int i = 0; i < 3; ++i) {
+    must(msq_unit_cell_def_init(&cells[i], sizeof cells[i]));
+    cells[i].unit_cell = names[i];
+  }
+  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_BCC, 4, number(0.4));
+  def.cells = cells;
+  def.cell_count = 3;
+  def.cell_choice = gradient(kit, -0.5, 2.5);
+  return filled(kit, box(kit), lattice(kit, &def));
+}
+
+static msq_model* custom(Kit* kit) {
+  static const double nodes[5][3] = {
+      {0, 0.25, 0.75}, {1, 0.5, 0.125}, {0.3, 0, 1}, {0.7, 1, 0}, {0.6, 0.45, 0.55}};
+  static const uint32_t struts[4][2] = {{0, 1}, {2, 3}, {4, 0}, {4, 3}};
+  static const double factors[4] = {1, 0.5, 1.75, 1.2};
+  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_CUSTOM, 5, radial(kit, 0.4, 0.8));
+  def.nodes = &nodes[0][0];
+  def.node_count = 5;
+  def.struts = &struts[0][0];
+  def.strut_count = 4;
+  def.strut_factors = factors;
+  return filled(kit, box(kit), lattice(kit, &def));
+}
+
+static msq_model* foam_plain(Kit* kit) {
+  const msq_foam_def def = foam_def(4, number(0.4));
+  return filled(kit, box(kit), foam(kit, &def));
+}
+
+static msq_model* foam_turned(Kit* kit) {
+  msq_foam_def def = foam_def(4, radial(kit, 0.3, 0.9));
+  set_cells(&def.grid, 4, 5, 3.5);
+  turn(&def.grid);
+  def.jitter = 0.3;
+  return filled(kit, mesh(kit, 0), foam(kit, &def));
+}
+
+static msq_model* foam_graded(Kit* kit) {
+  msq_foam_def def = foam_def(6, number(0.25));
+  def.density = gradient(kit, 1, 30);
+  return filled(kit, box(kit), foam(kit, &def));
+}
+
+static msq_model* foam_regular(Kit* kit) {
+  msq_foam_def def = foam_def(5, depth(kit, mesh(kit, 0), 0.8, 0.3));
+  def.jitter = 0;
+  return filled(kit, kit->shapes[0], foam(kit, &def));
+}
+
+static msq_model* walls(Kit* kit) {
+  msq_foam_def def = foam_def(5, number(0));
+  def.wall_thickness = gradient(kit, 0.2, 0.6);
+  return filled(kit, sphere(kit, 9.5), foam(kit, &def));
+}
+
+static msq_model* walled(Kit* kit) {
+  msq_foam_def def = foam_def(5, number(0.5));
+  def.wall_thickness = number(0.3);
+  return filled(kit, box(kit), foam(kit, &def));
+}
+
+static msq_model* gyroid(Kit* kit) {
+  msq_functional_def def = functional_def(MSQ_FUNCTION_GYROID, MSQ_FUNCTIONAL_NETWORK, 6);
+  turn(&def.grid);
+  return filled(kit, mesh(kit, 1), functional(kit, &def));
+}
+
+static msq_model* sheet(Kit* kit) {
+  msq_functional_def def = functional_def(MSQ_FUNCTION_SCHWARZ_P, MSQ_FUNCTIONAL_SHEET, 5);
+  def.thickness = number(0.7);
+  return filled(kit, cylinder(kit), functional(kit, &def));
+}
+
+static msq_model* lidinoid(Kit* kit) {
+  msq_functional_def def = functional_def(MSQ_FUNCTION_LIDINOID, MSQ_FUNCTIONAL_SHEET, 8);
+  def.level = gradient(kit, 0.1, 0.5);
+  return filled(kit, box(kit), functional(kit, &def));
+}
+
+static msq_model* formula(Kit* kit) {
+  const msq_named_value k = {"k", 1.3};
+  msq_functional_def def = functional_def(MSQ_FUNCTION_EXPRESSION, MSQ_FUNCTIONAL_NETWORK, 7);
+  def.expression =
+      "k * cos(x) + sin(y) ^ 3 - exp(-abs(sin(z))) + sqrt(2 + cos(x)) * log(1.5 + cos(y) / 2) "
+      "+ pow(1.2 + sin(z), 0.7) / 3";
+  def.parameters = &k;
+  def.parameter_count = 1;
+  def.level = number(0.2);
+  return filled(kit, box(kit), functional(kit, &def));
+}
+
+static msq_model* beam_list(Kit* kit) {
+  return filled(kit, box(kit), beams(kit));
+}
+
+static msq_model* nested(Kit* kit) {
+  const msq_lattice_def coarse = lattice_def(MSQ_UNIT_CELL_OCTET, 9, number(1.4));
+  const msq_foam_def fine = foam_def(1.5, number(0.25));
+  return with_skin(kit, sphere(kit, 9.9), lattice(kit, &coarse), foam(kit, &fine), number(0.3));
+}
+
+static msq_model* cut(Kit* kit) {
+  const msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_CUBIC, 3, number(0.5));
+  const msq_shape* part = placed(kit, mesh(kit, 0));
+  return filled(kit, difference(kit, part, sphere(kit, 5)), lattice(kit, &def));
+}
+
+static msq_model* regions(Kit* kit) {
+  const msq_foam_def inner = foam_def(3, number(0.3));
+  const msq_lattice_def outer = lattice_def(MSQ_UNIT_CELL_BCC, 4, number(0.4));
+  kit->models[kit->model_count++] = filled(kit, sphere(kit, 6), foam(kit, &inner));
+  kit->models[kit->model_count++] = filled(kit, box(kit), lattice(kit, &outer));
+  const msq_model* both[2] = {kit->models[0], kit->models[1]};
+  msq_model* model;
+  must(msq_model_regions(kit->context, both, 2, &model));
+  return model;
+}
+
+static const struct {
+  const char* name;
+  msq_model* (*make)(Kit* kit);
+} models[model_count] = {
+    {"cubic", cubic},
+    {"bcc-turned", bcc_turned},
+    {"octet-flat", octet_flat},
+    {"kelvin-skin", kelvin_skin},
+    {"diamond-sampled", diamond_sampled},
+    {"reentrant-waves", reentrant_waves},
+    {"mixed", mixed},
+    {"custom", custom},
+    {"foam", foam_plain},
+    {"foam-turned", foam_turned},
+    {"foam-graded", foam_graded},
+    {"foam-regular", foam_regular},
+    {"walls", walls},
+    {"walled", walled},
+    {"gyroid-open-mesh", gyroid},
+    {"p-sheet", sheet},
+    {"lidinoid", lidinoid},
+    {"formula", formula},
+    {"beams", beam_list},
+    {"nested", nested},
+    {"cut", cut},
+    {"regions", regions},
+};
+
+const char* model_name(int i) {
+  return models[i].name;
+}
+
+msq_model* make_model(msq_context* context, int i) {
+  Kit kit = {.context = context};
+  msq_model* const model = models[i].make(&kit);
+  throw_away(&kit);
+  return model;
+}
