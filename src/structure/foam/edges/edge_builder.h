@@ -16,6 +16,11 @@ namespace msq {
 /// Works for one brick after another and reuses its memory.
 class EdgeBuilder {
  public:
+  /// The square of the distance D within which a cell's neighbours are first looked for. It goes
+  /// with the volume of the grid's cells, so that flat and long cells have as many seeds within D
+  /// as cubes have.
+  static double first_squared(Vec3 scale);
+
   /// Finds the edges owned by the brick of side^3 cells whose first is `corner`. wants_seeds: also
   /// fills seeds().
   void build(const FoamSeeds& seeds, CellIndex corner, int side, bool wants_seeds = false);
@@ -45,6 +50,8 @@ class EdgeBuilder {
   };
 
   void add_owned_edges(size_t own);
+  /// Returns false, and appends nothing, if the walk fails.
+  bool add_by_walk(size_t own);
   void find_neighbours(size_t own);
   bool add_by_cuts(size_t own);
   void add_by_definition(size_t own);
@@ -58,10 +65,12 @@ class EdgeBuilder {
   VoronoiCell cell_;
   ClippedCell clipped_;
   std::vector<Neighbour> neighbours_;
+  double first_squared_ = 0;
   double empty_radius_ = 0;
   double max_squared_ = 0;  // twice that, squared
   std::vector<std::array<uint32_t, 2>> ends_;
   std::vector<uint32_t> starts_;
+  bool has_jitter_ = false;
   bool wants_seeds_ = false;
   std::vector<std::array<uint32_t, 3>> triples_;
 };
