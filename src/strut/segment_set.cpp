@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 namespace msq {
 
@@ -45,6 +46,14 @@ SegmentSet::SegmentSet(const std::vector<FloatSegment>& segments,
             return ends;
           }(),
           starts) {}
+
+SegmentSet::SegmentSet(Arrays&& arrays)
+    : count_(arrays.starts.back()),
+      node_count_(arrays.nodes.size() / 3),
+      nodes_(std::move(arrays.nodes)),
+      bounds_(std::move(arrays.bounds)),
+      narrow_(std::move(arrays.ends)),
+      starts_(std::move(arrays.starts)) {}
 
 template <class Number>
 void SegmentSet::set_bounds(const std::vector<Number>& ends) {

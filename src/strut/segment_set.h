@@ -29,6 +29,16 @@ class SegmentSet {
   /// The same for segments that share no nodes.
   SegmentSet(const std::vector<FloatSegment>& segments, const std::vector<uint32_t>& starts);
 
+  static constexpr size_t padding = 2 * max_simd_doubles;  // lanes of the widest vector of floats
+  /// A set of at most 65,536 nodes as it is stored.
+  struct Arrays {
+    std::vector<float> nodes;      // x of all nodes, then y, then z
+    std::vector<uint16_t> ends;    // all first ends, then all second ends, then the padding
+    std::vector<float> bounds;     // bound 0 of all runs, then bound 1, up to 5
+    std::vector<uint32_t> starts;  // of runs, and the number of segments
+  };
+  explicit SegmentSet(Arrays&& arrays);
+
   size_t count() const { return count_; }
   FloatSegment at(size_t i) const;
 
@@ -55,8 +65,6 @@ class SegmentSet {
   }
 
  private:
-  static constexpr size_t padding = 2 * max_simd_doubles;  // lanes of the widest vector of floats
-
   template <class Number>
   void set_bounds(const std::vector<Number>& ends);
 

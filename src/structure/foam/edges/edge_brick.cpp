@@ -3,6 +3,7 @@
 
 #include "base/borrowed.h"
 #include "structure/foam/edges/edge_builder.h"
+#include "structure/foam/edges/facet_walk.h"
 
 namespace msq {
 
@@ -15,20 +16,36 @@ struct Workspace {
   size_t bytes() const { return builder.bytes(); }
 };
 
+bool walk_facets(const FoamSeeds& seeds, CellIndex corner, SegmentSet& segments) {
+  static_assert(FacetWalk::side == EdgeBrick::side);
+  if (!FacetWalk::suits(seeds)) return false;
+  const Borrowed<FacetWalk> walk;
+  if (!walk->build(seeds, corner)) return false;
+  segments = walk->segments();
+  return true;
+}
+
 }  // namespace
 
 EdgeBrick::EdgeBrick(const FoamSeeds& seeds, CellIndex corner)
     : origin_(seeds.scale() * (0.5 * side)) {
+  if (!walk_facets(seeds, corner, segments_)) segments_ = by_cells(seeds, corner).segments_;
+}
+
+EdgeBrick EdgeBrick::by_cells(const FoamSeeds& seeds, CellIndex corner) {
   const Borrowed<Workspace> workspace;
   auto& [builder, nodes] = *workspace;
   builder.build(seeds, corner, side);
+  EdgeBrick brick;
+  brick.origin_ = seeds.scale() * (0.5 * side);
   // The few vertices without an edge of the brick stay: removing them is not worth the time.
   nodes.resize(builder.vertex_count());
   for (uint32_t i = 0; i < nodes.size(); ++i) {
-    const Vec3 p = builder.vertex(i) - origin_;
+    const Vec3 p = builder.vertex(i) - brick.origin_;
     nodes[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   }
-  segments_ = SegmentSet(nodes, builder.ends(), builder.starts());
+  brick.segments_ = SegmentSet(nodes, builder.ends(), builder.starts());
+  return brick;
 }
 
 std::vector<FoamEdge> EdgeBrick::edges() const {

@@ -32,8 +32,12 @@ class EdgeBrick final : public CellData {
   /// multiples of 8, as those of whole parts and slabs often do, need few bricks.
   static constexpr int side = 8, lead = 2;
 
-  /// The brick whose first cell is `corner`.
+  /// The brick whose first cell is `corner`: by the walk over tetrahedra (facet_walk.h), or, where
+  /// that gives up, over Voronoi cells.
   EdgeBrick(const FoamSeeds& seeds, CellIndex corner);
+  /// By the walk over Voronoi cells (edge_builder.h), which works for all seeds. The same edges, in
+  /// another order within each owner.
+  static EdgeBrick by_cells(const FoamSeeds& seeds, CellIndex corner);
   /// From edges that were found in another way, relative to the brick's corner, in runs as in
   /// SegmentSet.
   EdgeBrick(const std::vector<FloatSegment>& edges, const std::vector<uint32_t>& starts)
@@ -48,6 +52,8 @@ class EdgeBrick final : public CellData {
   uint64_t bytes() const override { return sizeof *this + segments_.bytes(); }
 
  private:
+  EdgeBrick() = default;
+
   Vec3 origin_;
   SegmentSet segments_;
 };

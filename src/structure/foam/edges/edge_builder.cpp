@@ -9,6 +9,7 @@
 #include "structure/foam/edges/edge_builder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/job.h"
 #include "structure/foam/point/edge_line.h"
@@ -17,16 +18,23 @@ namespace msq {
 
 namespace {
 
-/// A list of neighbours with at least this D^2 is enough for most cells (cube cells: 97 of 100).
+/// A list of neighbours with at least this D^2 is enough for most cells of volume 1 (cubes: 97 of
+/// 100).
 constexpr double first_distance_squared = 4.75;
 
 }  // namespace
 
+double EdgeBuilder::first_squared(Vec3 scale) {
+  return first_distance_squared * std::pow(scale.x * scale.y * scale.z, 2.0 / 3);
+}
+
 void EdgeBuilder::build(const FoamSeeds& seeds, CellIndex corner, int side, bool wants_seeds) {
-  block_.move_to(seeds, corner, side, first_distance_squared);
+  first_squared_ = first_squared(seeds.scale());
+  block_.move_to(seeds, corner, side, first_squared_);
   shared_.reset(block_);
   empty_radius_ = seeds.empty_radius();
   max_squared_ = 4 * empty_radius_ * empty_radius_;
+  has_jitter_ = seeds.jitter() > 0;
   wants_seeds_ = wants_seeds;
   ends_.clear();
   starts_.clear();
@@ -41,12 +49,19 @@ void EdgeBuilder::build(const FoamSeeds& seeds, CellIndex corner, int side, bool
 
 /// Seeds come in the order of their cells.
 void EdgeBuilder::add_owned_edges(size_t own) {
-  const double needed = std::max(first_distance_squared, shared_.needed(own));
+  // Without jitter all vertices have eight seeds. A walk that finds a way through the roundings
+  // would name three of them for each edge, and rays would differ by the choice.
+  if (has_jitter_ && add_by_walk(own)) return;
+  if (!add_by_cuts(own)) add_by_definition(own);
+}
+
+bool EdgeBuilder::add_by_walk(size_t own) {
+  const double needed = std::max(first_squared_, shared_.needed(own));
   for (double d2 = std::min(needed, max_squared_);;) {
     const uint32_t before = static_cast<uint32_t>(block_.refill(cell_, own, d2));
-    if (cell_.count() > VoronoiCell::max_planes) break;
+    if (cell_.count() > VoronoiCell::max_planes) return false;
     shared_.give(block_, own, cell_);
-    if (!cell_.walk()) break;
+    if (!cell_.walk()) return false;
     // 1e-9: slack for the rounding of vertices.
     if (d2 >= max_squared_ || 4 * cell_.radius_squared() * (1 + 1e-9) <= d2) {
       shared_.take(block_, own, before, cell_);
@@ -57,11 +72,10 @@ void EdgeBuilder::add_owned_edges(size_t own) {
         ends_.push_back({numbers[from], numbers[to]});
         if (wants_seeds_) triples_.push_back({static_cast<uint32_t>(own), seeds[a], seeds[b]});
       });
-      return;
+      return true;
     }
     d2 = std::min(max_squared_, std::max(4 * cell_.radius_squared() * (1 + 1e-6), 1.25 * d2));
   }
-  if (!add_by_cuts(own)) add_by_definition(own);
 }
 
 /// Fills neighbours_ with all seeds that may matter, by distance.

@@ -13,6 +13,7 @@
 #include "base/job.h"
 #include "structure/foam/edges/brick_seeds.h"
 #include "structure/foam/edges/clipped_cell.h"
+#include "structure/foam/edges/edge_builder.h"
 #include "structure/foam/edges/shared_vertices.h"
 #include "structure/foam/edges/voronoi_cell.h"
 
@@ -20,15 +21,13 @@ namespace msq {
 
 namespace {
 
-/// A list of neighbours with D^2 at least this holds most cells (cube cells: 97 of 100).
-constexpr double first_distance_squared = 4.75;
-
 class FaceBuilder {
  public:
   void build(const FoamSeeds& seeds, CellIndex corner, std::vector<FaceBrick::Cell>& cells,
              std::vector<FaceBrick::Face>& faces) {
     constexpr int side = FaceBrick::side;
-    block_.move_to(seeds, corner, side, first_distance_squared);
+    first_squared_ = EdgeBuilder::first_squared(seeds.scale());
+    block_.move_to(seeds, corner, side, first_squared_);
     shared_.reset(block_);
     empty_radius_ = seeds.empty_radius();
     max_squared_ = 4 * empty_radius_ * empty_radius_;
@@ -60,7 +59,7 @@ class FaceBuilder {
   }
 
   bool find_by_walk(size_t own) {
-    const double needed = std::max(first_distance_squared, shared_.needed(own));
+    const double needed = std::max(first_squared_, shared_.needed(own));
     for (double d2 = std::min(needed, max_squared_);;) {
       const uint32_t before = static_cast<uint32_t>(block_.refill(cell_, own, d2));
       if (cell_.count() > VoronoiCell::max_planes) return false;
@@ -145,6 +144,7 @@ class FaceBuilder {
   std::vector<bool> used_;
   std::vector<Vec3> planes_;  // of the cell at hand: neighbours, from the own seed
   Vec3 low_, high_;           // of its vertices
+  double first_squared_ = 0;
   double empty_radius_ = 0;
   double max_squared_ = 0;  // twice that, squared
 };

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// The edges of bricks by both walks: over Delaunay tetrahedra, and over Voronoi cells.
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <memory>
+
+#include "msq_test.h"
+#include "random.h"
+#include "structure/foam/edges/edge_brick.h"
+#include "structure/foam/edges/facet_walk.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+double apart(const float (&a)[3], const float (&b)[3]) {
+  double most = 0;
+  for (int axis = 0; axis < 3; ++axis) most = std::max(most, std::abs(double(a[axis]) - b[axis]));
+  return most;
+}
+double apart(const FloatSegment& l, const FloatSegment& r) {
+  return std::min(std::max(apart(l.a, r.a), apart(l.b, r.b)),
+                  std::max(apart(l.a, r.b), apart(l.b, r.a)));
+}
+/// Edges so short that rounding decides whether they exist.
+bool is_short(const FloatSegment& s) {
+  return apart(s.a, s.b) < 2 * edge_error;
+}
+
+/// Compares run by run; returns the number of edges.
+size_t compare(const SegmentSet& expected, const SegmentSet& got) {
+  assert_int_equal(got.runs(), expected.runs());
+  for (size_t run = 0; run < got.runs(); ++run) {
+    std::vector<FloatSegment> rest;
+    for (size_t i = got.run_start(run); i < got.run_end(run); ++i) {
+      rest.push_back(got.at(i));
+      for (int axis = 0; axis < 3; ++axis)
+        for (const float p : {rest.back().a[axis], rest.back().b[axis]}) {
+          assert_true(got.bound(axis)[run] <= p);
+          assert_true(got.bound(axis + 3)[run] >= p);
+        }
+    }
+    for (size_t i = expected.run_start(run); i < expected.run_end(run); ++i) {
+      size_t best = rest.size();
+      double least = 2 * edge_error;
+      for (size_t j = 0; j < rest.size(); ++j)
+        if (const double d = apart(expected.at(i), rest[j]); d <= least) {
+          least = d;
+          best = j;
+        }
+      if (best == rest.size()) {
+        if (!is_short(expected.at(i))) fail_msg("run %d lacks an edge", int(run));
+        continue;
+      }
+      rest.erase(rest.begin() + static_cast<ptrdiff_t>(best));
+    }
+    for (const FloatSegment& s : rest)
+      if (!is_short(s)) fail_msg("run %d has an edge too many", int(run));
+  }
+  return got.count();
+}
+
+void assert_same(const SegmentSet& a, const SegmentSet& b) {
+  assert_int_equal(a.count(), b.count());
+  for (size_t i = 0; i < a.count(); ++i) {
+    const FloatSegment l = a.at(i), r = b.at(i);
+    assert_memory_equal(&l, &r, sizeof l);
+  }
+}
+
+void test_random_grids(void**) {
+  const auto walk = std::make_unique<FacetWalk>();
+  Random random(21);
+  const Vec3 scales[] = {{1, 1, 1}, {1, 0.8, 0.9}, {0.8, 1, 1}, {0.6, 0.6, 1}, {1, 1, 0.75}};
+  size_t bricks = 0, refused = 0, edges = 0;
+  for (const double jitter : {1.0, 0.7, 0.5, 0.2, 0.05, 0.02})
+    for (const Vec3 scale : scales)
+      for (size_t n = test_count(3); n > 0; --n) {
+        const FoamSeeds seeds(random.bits(), jitter, scale);
+        assert_true(FacetWalk::suits(seeds));
+        const auto place = [&] {
+          return static_cast<int32_t>(random.below(uint64_t{1} << (n == 1 ? 31 : 5))) - 16;
+        };
+        const CellIndex corner{place(), place(), place()};
+        ++bricks;
+        if (!walk->build(seeds, corner)) {
+          ++refused;
+          continue;
+        }
+        edges += compare(EdgeBrick::by_cells(seeds, corner).segments(), walk->segments());
+      }
+  print_message("%zu edges of %zu bricks; %zu bricks refused\n", edges, bricks, refused);
+  assert_true(8 * refused <= bricks);
+}
+
+/// A seed of the brick whose tetrahedra have no other seed of it.
+void test_island(void**) {
+  const auto walk = std::make_unique<FacetWalk>();
+  const FoamSeeds seeds(5, 1, {0.75, 1, 0.75});
+  const CellIndex corner{1400, 0, 0};
+  assert_true(walk->build(seeds, corner));
+  compare(EdgeBrick::by_cells(seeds, corner).segments(), walk->segments());
+}
+
+/// The same numbers, whichever vector instructions find them.
+void test_instruction_sets(void**) {
+  const auto walk = std::make_unique<FacetWalk>();
+  const FoamSeeds seeds(5, 1, {1, 0.9, 0.8});
+  assert_true(walk->build(seeds, {3, -5, 100}));
+  const SegmentSet expected = walk->segments();
+  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1) {
+    hwy::SetSupportedTargetsForTest(all & -all);
+    const bool is_built = walk->build(seeds, {3, -5, 100});
+    hwy::SetSupportedTargetsForTest(0);
+    assert_true(is_built);
+    assert_same(walk->segments(), expected);
+  }
+}
+
+/// What the walk refuses, the brick has from the walk over cells.
+void test_refused(void**) {
+  const auto walk = std::make_unique<FacetWalk>();
+  struct Case {
+    double jitter;
+    Vec3 scale;
+  };
+  for (const Case& c : {Case{0, {1, 1, 1}}, Case{1e-9, {1, 1, 1}}, Case{1e-4, {1, 1, 1}},
+                        Case{0.01, {1, 1, 1}}, Case{1, {1, 1, 0.25}}, Case{1, {1. / 9, 1. / 3, 1}},
+                        Case{0.5, {0.25, 0.25, 1}}, Case{0, {1, 0.5, 0.75}}}) {
+    const FoamSeeds seeds(3, c.jitter, c.scale);
+    const CellIndex corner{-4, 7, 1};
+    const EdgeBrick by_cells = EdgeBrick::by_cells(seeds, corner), brick(seeds, corner);
+    const SegmentSet& expected = by_cells.segments();
+    if (c.jitter > 0) compare(expected, brick.segments());
+    // Also where no caller tries it: it refuses, or finds all edges.
+    if (walk->build(seeds, corner)) {
+      assert_true(c.jitter > 1e-5);
+      compare(expected, walk->segments());
+      continue;
+    }
+    assert_same(brick.segments(), expected);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(test_random_grids), cmocka_unit_test(test_island),
+                              cmocka_unit_test(test_instruction_sets),
+                              cmocka_unit_test(test_refused)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
