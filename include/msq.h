@@ -1424,9 +1424,11 @@ enum msq_struts_selection {
 typedef struct msq_strut {
   /** Depends on the definition of the structure alone, not on the box, threads or machine. */
   uint64_t id[2];
-  /** Ids of the nodes at a and at b. Struts that meet in a node have the same id there, and the
-   * same coordinates, bit for bit. */
-  uint64_t nodes[2][2];
+  /** Id of the node at a. Struts that meet in a node have the same id there, and the same
+   * coordinates, bit for bit. */
+  uint64_t node_a[2];
+  /** Id of the node at b. */
+  uint64_t node_b[2];
   /** First end in model units. */
   double a[3];
   /** Second end. */

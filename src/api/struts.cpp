@@ -25,7 +25,8 @@ namespace {
 // Struts are passed to the host without conversion.
 static_assert(sizeof(Strut) == sizeof(msq_strut) && sizeof(msq_strut) == 128);
 static_assert(offsetof(Strut, id) == offsetof(msq_strut, id));
-static_assert(offsetof(Strut, nodes) == offsetof(msq_strut, nodes));
+static_assert(offsetof(Strut, nodes) == offsetof(msq_strut, node_a));
+static_assert(offsetof(msq_strut, node_b) == offsetof(msq_strut, node_a) + sizeof(Id));
 static_assert(offsetof(Strut, a) == offsetof(msq_strut, a));
 static_assert(offsetof(Strut, b) == offsetof(msq_strut, b));
 static_assert(offsetof(Strut, radii) == offsetof(msq_strut, radii));
