@@ -38,13 +38,18 @@ class Cutter {
     double at = std::max(0.0, reach_from);
     const double end = std::min(length_, reach_to);
     while (at <= end) {
-      double from;
-      if (inside(at))
-        from = at;
-      else if (!shape_.enter(ray_, at, end, from, job_) || !settle(at, from))
-        return;
+      double from = at;
+      if (!inside(at)) {
+        if (!shape_.enter(ray_, at, end, from, job_)) return;
+        from = std::clamp(from, at, length_);
+        if (!inside(from)) from = std::min(length_, from + tolerance_);
+        if (!inside(from)) {  // a graze
+          at = from + steps.behind(from, tolerance_, 0x1p-20 * length_);
+          continue;
+        }
+      }
       const double to = leave(from);
-      if (to > from || from == 0 || to >= length_) add(from, to);
+      if (to > from) add(from, to);
       at = to + steps.behind(to, tolerance_, 0x1p-20 * length_);
     }
   }
@@ -53,14 +58,6 @@ class Cutter {
   /// Membership on the line; its ends are those of the strut, to the last bit.
   bool inside(double t) const { return shape_.inside(point(t)); }
   Vec3 point(double t) const { return t <= 0 ? strut_->a : t >= length_ ? strut_->b : ray_.at(t); }
-
-  /// Moves a computed entry to a point that is inside.
-  bool settle(double at, double& from) const {
-    from = std::clamp(from, at, length_);
-    if (inside(from)) return true;
-    from = std::min(length_, from + tolerance_);
-    return inside(from);
-  }
 
   /// The end of the part that is inside at `from`.
   double leave(double from) const {

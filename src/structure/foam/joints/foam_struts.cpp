@@ -71,7 +71,7 @@ class FoamStruts final : public StrutParts {
     const Borrowed<Workspace> workspace;
     find_joints(static_cast<const EdgeBrick&>(*data), corner, *workspace);
     find_pairs(corner, *workspace);
-    add_struts(*workspace, list);
+    add_struts(corner, *workspace, list);
   }
 
   double radius_at(const Strut&, double, double, Vec3 p) const override {
@@ -149,7 +149,7 @@ class FoamStruts final : public StrutParts {
                           joint.position * foam_.unit());
   }
 
-  void add_struts(Workspace& work, StrutList& list) const {
+  void add_struts(CellIndex corner, Workspace& work, StrutList& list) const {
     const size_t from = list.struts.size();
     const double max_radius = foam_.radius().range().high;
     for (const auto& [i, j] : work.pairs) {
@@ -158,6 +158,7 @@ class FoamStruts final : public StrutParts {
       work.common.clear();
       std::set_intersection(a->seeds.begin(), a->seeds.end(), b->seeds.begin(), b->seeds.end(),
                             std::back_inserter(work.common));
+      if (!owns(corner, work.common[0].cell)) continue;
       Strut strut;
       strut.a = place(*a);
       strut.b = place(*b);

@@ -65,16 +65,16 @@ bool are_collinear(const NamedSeed& a, const NamedSeed& b, const NamedSeed& c, V
 }
 
 void JointFinder::gather(NamedSeeds& seeds, Vec3 p) {
-  // Twice the spread that edge_error causes, and once more for brick vertices whose four seeds are
-  // almost in a plane.
-  constexpr double within = 4 * edge_error, at_most = 64 * edge_error;
+  // Twice the spread that edge_error causes. If more than four seeds are so nearly as far, rounded
+  // positions may be less exact: the seeds may be almost in a plane.
+  constexpr double within = 4 * edge_error, in_doubt = 64 * edge_error;
   joints_.clear();
-  for (double more = within; joints_.empty() && more <= at_most; more *= 4) {
-    seeds.find(p, more, near_);
-    if (near_.size() < 4) continue;
-    if (near_.size() > max_near) near_.resize(max_near);
-    try_all(seeds, p, more);
-  }
+  seeds.find(p, within, near_);
+  if (near_.size() == 4) try_all(seeds, p, within);
+  if (!joints_.empty()) return;
+  seeds.find(p, in_doubt, near_);
+  if (near_.size() > max_near) near_.resize(max_near);
+  if (near_.size() >= 4) try_all(seeds, p, in_doubt);
 }
 
 // Let s be the seed nearest to p, and c a vertex within `within` / 2 of p. A seed that is not in
@@ -97,6 +97,7 @@ void JointFinder::try_all(const NamedSeeds& seeds, Vec3 p, double within) {
       if (length(at[i] - centre) < radius - equally_far) return;
     if (length(centre - place_of_p) > 0.5 * within) return;
     Joint joint;
+    joint.seeds.reserve(count);
     for (size_t i = 0; i < count; ++i)
       if (length(at[i] - centre) <= radius + equally_far) joint.seeds.push_back(near_[i]);
     joint.id = id_of(joint.seeds);

@@ -26,7 +26,7 @@ struct Joint {
 
 /// Seeds that are farther from a vertex than its nearest one by this, in foam units, count as
 /// equally far.
-constexpr double equally_far = 1e-10;
+constexpr double equally_far = 1e-13;
 
 class JointFinder {
  public:

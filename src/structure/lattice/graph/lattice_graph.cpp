@@ -12,8 +12,7 @@ namespace msq {
 namespace {
 
 /// Struts in a block of cells, about.
-constexpr double struts_in_block = 4096;
-constexpr double max_side = 16;
+constexpr int64_t struts_in_block = 4096, max_side = 16;
 
 bool is_same(Vec3 a, Vec3 b) {
   return max_magnitude(a - b) <= same_node;
@@ -96,8 +95,11 @@ LatticeStruts::LatticeStruts(const LatticeGraph& graph, const Neighbourhood& gri
       radius_(radius),
       selection_(selection),
       cells_(grid, grid.to_grid(selection.around(graph.max_factor() * radius.range().high))) {
-  const double per_cell = static_cast<double>(graph.edge_count());
-  side_ = static_cast<int64_t>(std::clamp(std::cbrt(struts_in_block / per_cell), 1.0, max_side));
+  const auto per_cell = static_cast<int64_t>(graph.edge_count());
+  const auto fits = [&](int64_t side) {
+    return side <= max_side && side * side * side * per_cell <= struts_in_block;
+  };
+  while (fits(side_ + 1)) ++side_;
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t cells = std::max<int64_t>(0, cells_.last[axis] - cells_.first[axis] + 1);
     blocks_[axis] = static_cast<uint64_t>((cells + side_ - 1) / side_);
