@@ -120,7 +120,7 @@ void struts_do_not_depend_on_threads(void**) {
 }
 
 /// Of the struts that a cell of a foam owns, summed. Hosts may have stored ids.
-constexpr uint64_t foam_ids = 0, foam_nodes = 0;
+constexpr uint64_t foam_ids = 0x9b7ed2c929fba560, foam_nodes = 0xb550070c72c4baff;
 
 void ids_stay(void**) {
   const Ref<Structure> foam = make_ref<Foam>(context_of(1), Neighbourhood{}, Parameter(0.1), 1.0,
