@@ -179,8 +179,8 @@ void pieces_are_what_is_inside(void**) {
       parts.push_back({from, to});
       assert_true(from <= to);
       assert_true(shape->inside(piece.a) && shape->inside(piece.b));
-      assert_int_equal(piece.cut[0], from > 0);
-      assert_int_equal(piece.cut[1], to < 1);
+      assert_int_equal(piece.cut[0], from > 1e-12);
+      assert_int_equal(piece.cut[1], to < 1 - 1e-12);
       assert_true((piece.nodes[0] == s.nodes[0]) == !piece.cut[0]);
       assert_true((piece.nodes[1] == s.nodes[1]) == !piece.cut[1]);
       // Just beyond a cut end it is outside.
