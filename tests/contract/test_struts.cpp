@@ -160,9 +160,10 @@ int main() {
   for (StructureRow& row : structures()) {
     // All methods of a foam have the same graph, whatever the radius.
     const bool is_foam = row.kind.family.rfind("foam", 0) == 0;
-    const bool is_other_method =
-        is_foam && row.kind.family != "foam DIRECT" && row.kind.family != "foam walls";
-    if (is_other_method || row.kind.radius > 0.2) continue;
+    const bool has_density = row.kind.name.rfind("density", 0) == 0 && row.kind.radius == 0.06;
+    const bool has_other = row.kind.name.find("and struts") != std::string::npos;
+    const bool is_wanted = row.kind.family == "foam DIRECT" && row.kind.radius == 0.1;
+    if (is_foam ? !(is_wanted || has_density || has_other) : row.kind.radius > 0.2) continue;
     rows.push_back(row);
   }
   return run_for_each("struts", rows, test_row);
