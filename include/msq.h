@@ -1270,7 +1270,7 @@ MSQ_API msq_status msq_beams_def_init(msq_beams_def* def, size_t size);
  * caps. A beam shorter than 1e-100 has no axis: its round caps are balls; with two flat caps it is
  * dropped. Beams may overlap and repeat. Limits: 2^31 - 1 beams and balls in total; coordinates up
  * to 1e75; radii 0 or from 1e-100 to 1e75. One radius of a beam may be 0; that of a ball may not.
- * Cost: n log n, in parallel: about 0.3 us of processor time and 100 bytes per beam, of which 73
+ * Cost: n log n, in parallel: about 0.3 us of processor time and 104 bytes per beam, of which 77
  * are kept, in the memory limit of the context. Queries search a tree of boxes. Errors: ARGUMENT
  * (also, with its index: a node that is not finite; a node index, radius or cap out of range),
  * CANCELLED, LIMIT, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Kamel and
@@ -1405,6 +1405,140 @@ MSQ_API msq_status msq_structure_host_function(msq_context* context,
 MSQ_API void msq_structure_retain(msq_structure* structure);
 /** Drops a reference. */
 MSQ_API void msq_structure_release(msq_structure* structure);
+
+/* ---- Struts ---------------------------------------------------------------------------------- */
+
+/** Which struts a box selects. */
+enum msq_struts_selection {
+  /** The struts whose middle is in the half-open box: min <= middle < max along each axis. Boxes
+   * that tile a region share no strut, and together they have those of the region. The middle is
+   * half the sum of the ends, rounded. */
+  MSQ_STRUTS_OWNED = 0,
+  /** All struts that come near the closed box: the centre line meets the box, grown on all sides by
+   * the greatest radius that the strut may have. Every strut with a point in the box is among them.
+   * A strut may come near several boxes. */
+  MSQ_STRUTS_NEAR = 1
+};
+
+/** A strut, or a piece of one: a segment of the centre lines of a structure. Two struts, or two
+ * nodes, are the same if and only if both numbers of their ids are equal. */
+typedef struct msq_strut {
+  /** Depends on the definition of the structure alone, not on the box, threads or machine. */
+  uint64_t id[2];
+  /** Id of the node at a. Struts that meet in a node have the same id there, and the same
+   * coordinates, bit for bit. */
+  uint64_t node_a[2];
+  /** Id of the node at b. */
+  uint64_t node_b[2];
+  /** First end in model units. */
+  double a[3];
+  /** Second end. */
+  double b[3];
+  /** Radius at a and at b, in model units. A field of radius is evaluated at the ends. */
+  double radii[2];
+  /** Cell of the grid that owns the strut. Beams: 0. */
+  int32_t cell[3];
+  /** An msq_cap for each end. MSQ_CAP_SPHERE except for beams. */
+  uint8_t caps[2];
+  /** 1: this end is where the strut leaves the shape. 0: a node of the structure. */
+  uint8_t cut[2];
+} msq_strut;
+
+/** Receives count struts, valid until the callback returns. A return value other than 0 stops the
+ * call with MSQ_E_HOST. */
+typedef int32_t (*msq_struts_fn)(void* user, const msq_strut* struts, uint64_t count);
+
+/** Which struts of a structure are wanted. */
+typedef struct msq_struts_def {
+  uint32_t struct_size;
+  /** An msq_struts_selection. Default MSQ_STRUTS_OWNED. */
+  int32_t selection;
+  /** Corners of the box in model units, min <= max. Default 0. */
+  double min[3];
+  double max[3];
+  /** Struts are cut to this shape. NULL (default): they are not. The selection goes by the whole
+   * strut, so pieces of one strut come together. */
+  const msq_shape* shape;
+} msq_struts_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_struts_def_init(msq_struts_def* def, size_t size);
+
+/** Passes the struts of a lattice, an open foam or beams that a box selects to a callback: for beam
+ * models of finite elements, for 3MF, or for drawing.
+ *
+ * Lattices: the struts of the tiled unit cell, each once, where struts coincide with the greatest
+ * factor. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the first.
+ * Foams: the edges of the Voronoi diagram. A node is a point equally far from four or more seeds;
+ * its id comes from their names. Node positions are computed from the seeds in double precision.
+ * Nodes and struts whose ids are made from more than 128 bits have a hash as id; it is taken for
+ * unique. Beams: all beams and balls, whose a and b are equal; ends at the same coordinates are one
+ * node; id[0] is the index of the beam in the definition, after which balls count on. Foams with
+ * struts and walls: the struts.
+ *
+ * With a shape, the parts of a strut's centre line whose points are inside the shape come instead,
+ * in the order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and
+ * coordinates of the place where membership changes on the line, found as rays find it
+ * (msq_ray_cast); parts and gaps shorter than that may be overlooked. The solid around the line is
+ * not cut. Radii at cut ends are evaluated there. The first piece has the id of the strut, others
+ * have an id and each cut end a node of its own.
+ *
+ * The order of struts and their bytes are the same on every call and on any number of threads.
+ * callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must
+ * not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the
+ * cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams,
+ * microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around
+ * it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone: they
+ * have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED,
+ * MEMORY. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams:
+ * Aurenhammer 1991. */
+MSQ_API msq_status msq_structure_struts(msq_context* context, const msq_structure* structure,
+                                        const msq_struts_def* def, msq_struts_fn callback,
+                                        void* user, msq_job* job);
+
+/** Struts as arrays, joined at numbered nodes. Immutable; any thread may read it. */
+typedef struct msq_strut_graph msq_strut_graph;
+
+/** Collects the struts that msq_structure_struts passes, in the same order, and numbers their nodes
+ * in the order in which they first occur. Cost: as msq_structure_struts, and a table of the nodes
+ * on the calling thread. Memory: 56 bytes per strut and 40 per node, accounted to the context;
+ * while the call lasts, up to four times as much. Errors: as msq_structure_struts; LIMIT also for
+ * memory or more than 2^32 - 2 nodes. Since 0.2. */
+MSQ_API msq_status msq_structure_strut_graph(msq_context* context, const msq_structure* structure,
+                                             const msq_struts_def* def, msq_strut_graph** graph,
+                                             msq_job* job);
+/** Adds a reference. */
+MSQ_API void msq_strut_graph_retain(msq_strut_graph* graph);
+/** Drops a reference. */
+MSQ_API void msq_strut_graph_release(msq_strut_graph* graph);
+
+/** What a graph of struts holds. Pointers are valid as long as the graph is. */
+typedef struct msq_strut_graph_report {
+  uint32_t struct_size;
+  uint32_t reserved;
+  uint64_t node_count;
+  uint64_t strut_count;
+  /** node_count triples x, y, z in model units. */
+  const double* nodes;
+  /** node_count pairs, as in msq_strut. */
+  const uint64_t* node_ids;
+  /** strut_count pairs of indices of nodes: at a and at b. */
+  const uint32_t* struts;
+  /** strut_count pairs: radius at a and at b. */
+  const double* radii;
+  /** strut_count pairs, as in msq_strut. */
+  const uint64_t* strut_ids;
+  /** strut_count triples, as in msq_strut. */
+  const int32_t* cells;
+  /** strut_count pairs of msq_cap. */
+  const uint8_t* caps;
+  /** strut_count pairs: 1 for an end where the strut leaves the shape. */
+  const uint8_t* cuts;
+} msq_strut_graph_report;
+
+/** Reports what a graph holds. Errors: ARGUMENT. Since 0.2. */
+MSQ_API msq_status msq_strut_graph_info(const msq_strut_graph* graph,
+                                        msq_strut_graph_report* report);
 
 /* ---- Materials ------------------------------------------------------------------------------- */
 

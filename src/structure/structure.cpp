@@ -2,6 +2,7 @@
 #include "structure/structure.h"
 
 #include "structure/common/sampled_rows.h"
+#include "structure/common/struts.h"
 
 #include "base/ray_normal.h"
 
@@ -41,6 +42,10 @@ double Structure::leave(const Ray& ray, double from, double to, const Job* job) 
 
 Vec3 Structure::normal(const Ray& ray, double t) const {
   return normal_by_membership([this](Vec3 p) { return inside(p); }, ray, t, normal_distance());
+}
+
+std::unique_ptr<StrutParts> Structure::struts(const StrutSelection&) const {
+  return nullptr;
 }
 
 LineGraph Structure::wall_lines(const WallSection&) const {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 
 #include "base/job.h"
 #include "base/ray.h"
@@ -22,6 +23,9 @@
 namespace msq {
 
 enum class BoxClass { mixed, outside, inside };
+
+class StrutParts;
+struct StrutSelection;
 
 class Structure : public RefCounted {
  public:
@@ -127,6 +131,10 @@ class Structure : public RefCounted {
   /// Calls take() for all struts that may touch a box, at least once each, with the same numbers in
   /// every call. Their error is at most that of samples in doubt (keep_rows()).
   virtual void for_each_strut(const Box3&, const TakeStrut&, const Job*) const {}
+
+  /// The selected struts as a graph (common/struts.h), for as long as the structure lives; null for
+  /// kinds without struts.
+  virtual std::unique_ptr<StrutParts> struts(const StrutSelection&) const;
 
   /// Whether rows cost less in blocks of many layers, because the work per cell serves all of its
   /// samples in a block.

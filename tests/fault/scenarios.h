@@ -18,6 +18,7 @@ std::vector<Scenario> ray_scenarios();        ///< rays and pictures
 std::vector<Scenario> statistic_scenarios();  ///< statistics and calibration
 std::vector<Scenario> fill_scenarios();       ///< fill lines
 std::vector<Scenario> contour_scenarios();    ///< contours
+std::vector<Scenario> strut_scenarios();      ///< struts
 
 /// All of these.
 std::vector<Scenario> all_scenarios();

@@ -47,6 +47,7 @@ std::vector<Scenario> small_scenarios() {
       definition("msq_slicer_def_init", msq_slicer_def_init),
       definition("msq_contours_def_init", msq_contours_def_init),
       definition("msq_fill_def_init", msq_fill_def_init),
+      definition("msq_struts_def_init", msq_struts_def_init),
       definition("msq_rays_def_init", msq_rays_def_init),
       definition("msq_camera_init", msq_camera_init),
       definition("msq_render_def_init", msq_render_def_init),

@@ -19,8 +19,8 @@ ROOMS = ["api", "slice", "fill", "ray", "query", "model", "structure", "cell", "
 # below; the files of the kind itself, at its top, include any. A room may include of them only what
 # is named here.
 KIND_ROOMS = {
-    "foam": ["paper", "rays", "walls", "sets", "edges", "point", "section", "seeds"],
-    "lattice": ["mixed", "rows", "rays", "cell"],
+    "foam": ["paper", "rays", "walls", "sets", "joints", "edges", "point", "section", "seeds"],
+    "lattice": ["mixed", "rows", "rays", "graph", "cell"],
 }
 KIND_BASE = {"foam": {"foam_data.h", "foam_graph.h"}, "lattice": set()}
 

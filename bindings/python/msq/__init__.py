@@ -29,6 +29,7 @@ from .slicer import Layer, Slicer
 from .statistics import Calibration, Estimate
 from .structure import (Beams, Foam, Functional, HostFunctional, HostStructure, Lattice,
                         LatticeFaces, Structure)
+from .strut_graph import StrutGraph
 from .unit_cell import UnitCell, UnitCellInfo
 
 __version__ = "0.1.0"
@@ -40,6 +41,6 @@ __all__ = [
     "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",
     "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "MeshError", "Model",
     "OutOfMemoryError", "Param", "Picture", "PointGrid", "PointSet", "RenderPass", "Scale", "Shape",
-    "ShapeInfo", "Slicer", "Stratified", "Structure", "UnitCell", "UnitCellInfo",
+    "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
     "UnsupportedError", "build_info",
 ]

@@ -73,6 +73,8 @@ MSQ_CAP_BUTT = 2
 MSQ_BOX_MIXED = 0
 MSQ_BOX_OUTSIDE = 1
 MSQ_BOX_INSIDE = 2
+MSQ_STRUTS_OWNED = 0
+MSQ_STRUTS_NEAR = 1
 MSQ_MATERIAL_VOID = 0
 MSQ_QUERY_AUTO = 0
 MSQ_QUERY_POINT = 1
@@ -117,6 +119,10 @@ class msq_field(Structure):
 
 
 class msq_structure(Structure):
+    """Opaque."""
+
+
+class msq_strut_graph(Structure):
     """Opaque."""
 
 
@@ -354,6 +360,28 @@ class msq_host_function_def(Structure):
                 ("clusters", c_uint32), ("grid", msq_neighbourhood), ("level", msq_param),
                 ("evaluate", msq_values_fn), ("range", msq_range_fn), ("user", c_void_p),
                 ("release", msq_release_fn), ("lipschitz", c_double)]
+
+
+class msq_strut(Structure):
+    _fields_ = [("id", c_uint64 * 2), ("node_a", c_uint64 * 2), ("node_b", c_uint64 * 2),
+                ("a", c_double * 3), ("b", c_double * 3), ("radii", c_double * 2),
+                ("cell", c_int32 * 3), ("caps", c_uint8 * 2), ("cut", c_uint8 * 2)]
+
+
+msq_struts_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_strut), c_uint64)
+
+
+class msq_struts_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("selection", c_int32), ("min", c_double * 3),
+                ("max", c_double * 3), ("shape", POINTER(msq_shape))]
+
+
+class msq_strut_graph_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("node_count", c_uint64),
+                ("strut_count", c_uint64), ("nodes", POINTER(c_double)),
+                ("node_ids", POINTER(c_uint64)), ("struts", POINTER(c_uint32)),
+                ("radii", POINTER(c_double)), ("strut_ids", POINTER(c_uint64)),
+                ("cells", POINTER(c_int32)), ("caps", POINTER(c_uint8)), ("cuts", POINTER(c_uint8))]
 
 
 class msq_channel(Structure):
@@ -607,6 +635,15 @@ FUNCTIONS = {
                                     POINTER(POINTER(msq_structure))],
     "msq_structure_retain": [None, POINTER(msq_structure)],
     "msq_structure_release": [None, POINTER(msq_structure)],
+    "msq_struts_def_init": [c_int32, POINTER(msq_struts_def), c_size_t],
+    "msq_structure_struts": [c_int32, POINTER(msq_context), POINTER(msq_structure),
+                             POINTER(msq_struts_def), msq_struts_fn, c_void_p, POINTER(msq_job)],
+    "msq_structure_strut_graph": [c_int32, POINTER(msq_context), POINTER(msq_structure),
+                                  POINTER(msq_struts_def), POINTER(POINTER(msq_strut_graph)),
+                                  POINTER(msq_job)],
+    "msq_strut_graph_retain": [None, POINTER(msq_strut_graph)],
+    "msq_strut_graph_release": [None, POINTER(msq_strut_graph)],
+    "msq_strut_graph_info": [c_int32, POINTER(msq_strut_graph), POINTER(msq_strut_graph_report)],
     "msq_material_def_init": [c_int32, POINTER(msq_material_def), c_size_t],
     "msq_material_create": [c_int32, POINTER(msq_context), POINTER(msq_material_def),
                             POINTER(POINTER(msq_material))],

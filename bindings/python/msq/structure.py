@@ -20,7 +20,9 @@ from .context import Context, Job, context_of, doubles, record, unsigned
 from .field import Param, set_param, set_parameters
 from .fill import Fill
 from .points import Stratified, definition_of
+from .shape import Shape
 from .statistics import Calibration
+from .strut_graph import StrutGraph
 from .unit_cell import UnitCellLike
 from .unit_cell import unit_cell as as_unit_cell
 
@@ -99,6 +101,16 @@ class Structure(Handle):
         interruptible(lambda work: lib.msq_fill_calibrate(context, reference, line_width, density,
                                                           found, work), job)
         return found[0], found[1], found[2]
+
+    def strut_graph(self, min: Sequence[float], max: Sequence[float], *, near: bool = False,
+                    shape: Optional[Shape] = None, job: Optional[Job] = None) -> StrutGraph:
+        """The struts of a lattice, an open foam or beams as arrays, joined at numbered nodes: a beam
+        model.
+
+        Struts whose middle is in the half-open box from min to max, so boxes that tile a region
+        share none. near: all struts that come near the box. shape: struts are cut to it.
+        """
+        return StrutGraph._of(self.context._ref, self._ref, min, max, near, shape, job)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -10,7 +10,8 @@ import msq
 from msq import _abi
 
 # Functions that the package has no need of.
-NOT_NEEDED = {"msq_status_name": "exceptions have the name"}
+NOT_NEEDED = {"msq_status_name": "exceptions have the name",
+              "msq_structure_struts": "Structure.strut_graph has the same struts as arrays"}
 NOT_NEEDED.update({name: "Python counts its own references" for name in _abi.FUNCTIONS
                    if name.endswith("_retain")})
 # Functions, reports, and fields of definitions as "struct.field", still to be bound.
@@ -21,7 +22,8 @@ REPORTS = {"msq_build_report": msq.BuildInfo, "msq_memory_report": msq.MemoryInf
            "msq_unit_cell_report": msq.UnitCellInfo, "msq_lattice_faces_report": msq.LatticeFaces,
            "msq_job_report": msq.JobInfo, "msq_calibration_report": msq.Calibration}
 # Reports that objects hold, as attributes and arrays.
-ARRAYS = {"msq_slicer_report", "msq_contours_report", "msq_fill_report"}
+ARRAYS = {"msq_slicer_report", "msq_contours_report", "msq_fill_report",
+          "msq_strut_graph_report"}
 DEFINITIONS = {"msq_camera"}  # beside those that end in _def
 SET_BY_NAME = {"struct_size", "reserved", "reserved2", "user", "release"}
 

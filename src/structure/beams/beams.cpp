@@ -6,6 +6,7 @@
 #include "structure/beams/beam_order.h"
 #include "structure/beams/beam_rays.h"
 #include "structure/beams/beam_rows.h"
+#include "structure/beams/beam_struts.h"
 
 namespace msq {
 
@@ -38,6 +39,7 @@ bool share_caps(const BeamSource& source, const BeamOrder& order, const Executor
 
 struct Beams::Parts {
   Reservation reservation;
+  std::vector<uint32_t> numbers;
   BeamList beams;
   BeamTree tree;
   double longest;
@@ -55,7 +57,10 @@ Ref<Beams> Beams::make(const BeamSource& source, double length_scale, const Exec
          static_cast<unsigned long long>(source.count));
   BeamCap caps[2];
   const bool has_caps = !share_caps(source, order, executor, job, caps);
-  Reservation kept(budget, BeamList::bytes(count, has_caps) + BeamTree::bytes(count), "beams");
+  Reservation kept(budget,
+                   BeamList::bytes(count, has_caps) + BeamTree::bytes(count) +
+                       order.numbers.capacity() * sizeof(uint32_t),
+                   "beams");
   BeamList beams(count, has_caps ? nullptr : caps);
   run_parts(executor, (count + at_once - 1) / at_once, job, {0.6, 0.8}, [&](uint64_t n) {
     for (size_t i = n * at_once, end = std::min<size_t>(count, i + at_once); i < end; ++i) {
@@ -65,14 +70,16 @@ Ref<Beams> Beams::make(const BeamSource& source, double length_scale, const Exec
     }
   });
   BeamTree tree(beams, order.box, executor, job, {0.8, 1});
-  return Ref<Beams>::adopt(
-      new Beams({std::move(kept), std::move(beams), std::move(tree), order.longest}, length_scale));
+  return Ref<Beams>::adopt(new Beams(
+      {std::move(kept), std::move(order.numbers), std::move(beams), std::move(tree), order.longest},
+      length_scale));
 }
 
 Beams::Beams(Parts&& parts, double length_scale)
     : Structure(parts.tree.box().min, parts.longest,
                 length_scale > 0 ? length_scale : parts.longest),
       reservation_(std::move(parts.reservation)),
+      numbers_(std::move(parts.numbers)),
       beams_(std::move(parts.beams)),
       tree_(std::move(parts.tree)) {}
 
@@ -123,6 +130,10 @@ void Beams::enter(RaySearch* searches, size_t count, const Job* job) const {
 
 double Beams::leave(const Ray& ray, double from, double to, const Job* job) const {
   return BeamRays(*this).leave(ray, from, to, job);
+}
+
+std::unique_ptr<StrutParts> Beams::struts(const StrutSelection& selection) const {
+  return beam_struts(*this, selection);
 }
 
 Vec3 Beams::normal(const Ray& ray, double t) const {

@@ -2,7 +2,9 @@
 // A list of beams: the union of their points. It has no grid, and its outside is empty.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "base/memory.h"
 #include "structure/beams/beam_list.h"
@@ -28,9 +30,12 @@ class Beams final : public Structure {
   Vec3 normal(const Ray& ray, double t) const override;
   bool gains_by_layers() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
 
   /// In the order of the tree.
   const BeamList& beams() const { return beams_; }
+  /// The number in the source of the beam at that place in the order of the tree.
+  uint32_t number(size_t i) const { return numbers_[i]; }
   const BeamTree& tree() const { return tree_; }
 
  private:
@@ -38,6 +43,7 @@ class Beams final : public Structure {
   Beams(Parts&& parts, double length_scale);
 
   Reservation reservation_;
+  std::vector<uint32_t> numbers_;
   BeamList beams_;
   BeamTree tree_;
 };

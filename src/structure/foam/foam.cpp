@@ -5,6 +5,7 @@
 
 #include "structure/common/group_by_cell.h"
 #include "structure/common/strut_distance_bound.h"
+#include "structure/foam/joints/foam_struts.h"
 #include "structure/foam/paper/method_1.h"
 #include "structure/foam/paper/method_2.h"
 #include "structure/foam/paper/naive_point.h"
@@ -77,6 +78,10 @@ void Foam::keep_rows(const RowBlock& block, const Job* job) const {
 
 void Foam::for_each_strut(const Box3& box, const TakeStrut& take, const Job* job) const {
   for_each_foam_strut(*this, box, take, job);
+}
+
+std::unique_ptr<StrutParts> Foam::struts(const StrutSelection& selection) const {
+  return foam_struts(*this, selection);
 }
 
 void Foam::enter(RaySearch* searches, size_t count, const Job* job) const {

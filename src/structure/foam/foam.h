@@ -5,9 +5,9 @@
 // where the solid differs from theirs.
 //
 // The folders follow the flow of data: seeds/ (positions of seeds), point/ (the definition), edges/
-// (edges, each built once), sets/ (rows of samples and arrays of points), rays/, section/ (faces
-// cut by a plane); paper/ holds the methods of the paper. This file chooses between them. walls/
-// closes cells; walled_foam.h joins struts and walls.
+// (edges, each built once), joints/ (struts as a graph), sets/ (rows of samples and arrays of
+// points), rays/, section/ (faces cut by a plane); paper/ holds the methods of the paper. This file
+// chooses between them. walls/ closes cells; walled_foam.h joins struts and walls.
 #pragma once
 
 #include "structure/foam/foam_data.h"
@@ -37,6 +37,7 @@ class Foam final : public FoamData {
   void keep_rows(const RowBlock& block, const Job* job) const override;
   bool has_struts() const override { return radius().is_constant(); }
   void for_each_strut(const Box3& box, const TakeStrut& take, const Job* job) const override;
+  std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   /// Exact outside where the radius is constant.
   double distance_bound(Vec3 p) const override;
   bool has_onset() const override { return true; }

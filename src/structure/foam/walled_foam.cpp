@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "structure/common/struts.h"
+
 namespace msq {
 
 // Outside both, the boundary is that of the nearer one. A ball about p in either is in the union.
@@ -42,6 +44,10 @@ void WalledFoam::keep_rows(const RowBlock& block, const Job* job) const {
   for_each_word([](uint64_t& whole, uint64_t& part) { part &= ~whole; });
   struts_->keep_rows(rest, job);
   for_each_word([](uint64_t& whole, uint64_t& part) { whole |= part; });
+}
+
+std::unique_ptr<StrutParts> WalledFoam::struts(const StrutSelection& selection) const {
+  return struts_->struts(selection);
 }
 
 void WalledFoam::enter(RaySearch* searches, size_t count, const Job* job) const {

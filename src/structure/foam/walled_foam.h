@@ -28,6 +28,7 @@ class WalledFoam final : public Structure {
     return std::max(walls_->min_ray_step(), struts_->min_ray_step());
   }
 
+  std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;

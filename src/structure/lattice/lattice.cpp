@@ -28,6 +28,7 @@ Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Param
     : Structure(neighbourhood),
       radius_(std::move(radius)),
       struts_(periodic_struts(cell)),
+      graph_({cell}),
       max_factor_(struts_[0].factor),
       side_(clusters),
       row_axes_{-1, -1, -1} {
@@ -92,6 +93,10 @@ void Lattice::for_each_strut(const Box3& box, const TakeStrut& take, const Job* 
         }
       }
   }
+}
+
+std::unique_ptr<StrutParts> Lattice::struts(const StrutSelection& selection) const {
+  return std::make_unique<LatticeStruts>(graph_, neighbourhood(), radius_, selection);
 }
 
 const StrutClusters& Lattice::clusters() const {

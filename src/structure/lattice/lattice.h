@@ -9,6 +9,7 @@
 #include "field/field.h"
 #include "structure/lattice/cell/strut_clusters.h"
 #include "structure/lattice/cell/unit_cell.h"
+#include "structure/lattice/graph/lattice_graph.h"
 #include "structure/lattice/rays/part_lists.h"
 #include "structure/lattice/rows/row_struts.h"
 #include "structure/structure.h"
@@ -33,6 +34,7 @@ class Lattice final : public Structure {
   /// layer.
   bool has_struts() const override { return row_axes_[0] >= 0 && radius_.is_constant(); }
   void for_each_strut(const Box3& box, const TakeStrut& take, const Job* job) const override;
+  std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   /// Exact outside if the radius is constant and the cell sizes differ by a factor of at most 8 (4
   /// if struts' factors differ).
   double distance_bound(Vec3 p) const override;
@@ -59,6 +61,7 @@ class Lattice final : public Structure {
 
   Parameter radius_;
   std::vector<PeriodicStrut> struts_;  // in cell units, the thickest first
+  LatticeGraph graph_;
   double max_factor_;
   Box3 reach_;                      // of all of them
   std::vector<LatticeStrut> near_;  // those of the tiling that may reach a cell, from its corner

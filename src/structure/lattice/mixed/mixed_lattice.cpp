@@ -31,6 +31,7 @@ MixedLattice::MixedLattice(const Neighbourhood& neighbourhood, std::vector<UnitC
                            Parameter choice, Parameter radius)
     : Structure(neighbourhood),
       library_(std::move(library)),
+      graph_(library_),
       choice_(std::move(choice)),
       radius_(std::move(radius)) {
   const Vec3 size = neighbourhood.cell_size;

@@ -16,6 +16,7 @@
 #include "base/lazy.h"
 #include "field/field.h"
 #include "structure/lattice/cell/unit_cell.h"
+#include "structure/lattice/graph/lattice_graph.h"
 #include "structure/lattice/mixed/mixed_part_lists.h"
 #include "structure/structure.h"
 
@@ -57,6 +58,7 @@ class MixedLattice final : public Structure {
   bool gains_by_groups() const override { return true; }
   bool gains_by_layers() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   /// Exact outside if the radius is constant, up to twice the smallest cell size.
   double distance_bound(Vec3 p) const override;
   double min_ray_step() const override {
@@ -100,6 +102,7 @@ class MixedLattice final : public Structure {
   void find_copies();
 
   std::vector<UnitCell> library_;
+  LatticeGraph graph_;
   Parameter choice_, radius_;
   double max_factor_ = 0;
   double reach_;                       // of distance_bound(): farther struts are left out

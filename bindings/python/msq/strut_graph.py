@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The struts of a structure, as arrays."""
+from __future__ import annotations
+
+import ctypes
+from typing import Any, Optional, Sequence
+
+import numpy as np
+
+from . import _abi
+from ._handle import Handle, Reference
+from ._interrupt import build
+from ._library import defaults, lib
+from .context import Job
+from .shape import Shape
+
+
+class _Memory:
+    """Memory of a graph, kept as long as an array refers to it."""
+
+    def __init__(self, reference: Reference, address: Any, shape: Sequence[int], kind: str) -> None:
+        self._reference = reference
+        self.__array_interface__ = {"version": 3, "typestr": kind, "shape": tuple(shape),
+                                    "data": (ctypes.cast(address, ctypes.c_void_p).value or 0, True)}
+
+
+class StrutGraph(Handle):
+    """Struts, joined at numbered nodes. Made by Structure.strut_graph.
+
+    The arrays are views of the library's memory, which they keep, and are read-only.
+    """
+
+    _kind = "strut_graph"
+
+    def __init__(self) -> None:
+        raise TypeError("graphs of struts are made by Structure.strut_graph")
+
+    @classmethod
+    def _of(cls, context: Any, structure: Any, min: Sequence[float], max: Sequence[float],
+            near: bool, shape: Optional[Shape], job: Optional[Job]) -> StrutGraph:
+        definition = defaults(_abi.msq_struts_def)
+        definition.selection = _abi.MSQ_STRUTS_NEAR if near else _abi.MSQ_STRUTS_OWNED
+        definition.min[:] = [float(c) for c in min]
+        definition.max[:] = [float(c) for c in max]
+        definition.shape = None if shape is None else shape._pointer
+        graph = cls._wrap(build(
+            lambda create: cls._create(create, context, structure, ctypes.byref(definition)),
+            lib.msq_structure_strut_graph, job))
+        graph._read()
+        return graph
+
+    def _read(self) -> None:
+        report = _abi.msq_strut_graph_report()
+        report.struct_size = ctypes.sizeof(report)
+        reference = self._ref
+        lib.msq_strut_graph_info(reference, ctypes.byref(report))
+        nodes, struts = report.node_count, report.strut_count
+
+        def view(address: Any, shape: Sequence[int], typestr: str) -> np.ndarray:
+            if 0 in shape:
+                return np.empty(shape, typestr)
+            return np.asarray(_Memory(reference, address, shape, typestr))
+
+        self.nodes = view(report.nodes, (nodes, 3), "<f8")  #: positions
+        self.node_ids = view(report.node_ids, (nodes, 2), "<u8")  #: equal in every box
+        self.struts = view(report.struts, (struts, 2), "<u4")  #: indices of nodes
+        self.radii = view(report.radii, (struts, 2), "<f8")  #: at the first and the second node
+        self.strut_ids = view(report.strut_ids, (struts, 2), "<u8")
+        self.cells = view(report.cells, (struts, 3), "<i4")  #: that own the struts; beams: 0
+        self.caps = view(report.caps, (struts, 2), "|u1")  #: as MSQ_CAP_*
+        self.cuts = view(report.cuts, (struts, 2), "|b1")  #: does it leave the shape at that end
+
+    def __len__(self) -> int:
+        """The number of struts."""
+        return len(self.struts)
+
+    def __repr__(self) -> str:
+        return f"<msq.StrutGraph of {len(self)} struts, {len(self.nodes)} nodes>"

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/joints/foam_struts.h"
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <iterator>
+
+#include "base/borrowed.h"
+#include "base/id_table.h"
+#include "base/job.h"
+#include "structure/foam/edges/edge_brick.h"
+#include "structure/foam/joints/joint.h"
+
+namespace msq {
+
+namespace {
+
+struct Workspace {
+  NamedSeeds seeds;
+  JointFinder finder;
+  std::vector<Joint> joints;
+  std::vector<NamedSeed> common;
+  std::vector<std::array<uint32_t, 2>> pairs;  // of joints
+  IdTable vertices, by_id, by_seeds;
+
+  size_t bytes() const {
+    return seeds.bytes() + joints.capacity() * (sizeof(Joint) + 4 * sizeof(NamedSeed)) +
+           vertices.bytes() + by_id.bytes() + by_seeds.bytes();
+  }
+};
+
+class FoamStruts final : public StrutParts {
+ public:
+  FoamStruts(const FoamData& foam, const StrutSelection& selection)
+      : foam_(foam),
+        selection_(selection),
+        side_(foam.graph().brick_layout().side),
+        lead_(foam.graph().brick_layout().lead) {
+    const Neighbourhood& grid = foam.neighbourhood();
+    // An edge that is selected has a point in this box, within the empty radius of its owner.
+    around_ = grid.to_grid(selection.around(foam.radius().range().high))
+                  .grown(2 * edge_error * foam.unit());
+    const double owners = foam.seeds().empty_radius() * foam.unit() * (1 + 1e-9);
+    const StrutCells cells(grid, around_.grown(owners));
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto brick = [&](int64_t cell) {
+        const int64_t from_lead = cell + lead_;
+        return from_lead >= 0 ? from_lead / side_ : -((-from_lead + side_ - 1) / side_);
+      };
+      first_[axis] = brick(cells.first[axis]);
+      bricks_[axis] =
+          static_cast<uint64_t>(std::max<int64_t>(0, brick(cells.last[axis]) - first_[axis] + 1));
+    }
+  }
+
+  uint64_t count() const override { return bricks_[0] * bricks_[1] * bricks_[2]; }
+
+  void append(uint64_t part, StrutList& list) const override {
+    int32_t at[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      at[axis] = static_cast<int32_t>(
+          (first_[axis] + static_cast<int64_t>(part % bricks_[axis])) * side_ - lead_);
+      part /= bricks_[axis];
+    }
+    const CellIndex corner{at[0], at[1], at[2]};
+    const FoamGraph& graph = foam_.graph();
+    if (!graph.may_own_edges(corner, around_)) return;
+    const auto data =
+        foam_.context().cache.fetch(foam_.id(), corner, [&] { return graph.make_brick(corner); });
+    const Borrowed<Workspace> workspace;
+    find_joints(static_cast<const EdgeBrick&>(*data), corner, *workspace);
+    find_pairs(corner, *workspace);
+    add_struts(corner, *workspace, list);
+  }
+
+  double radius_at(const Strut&, double, double, Vec3 p) const override {
+    return foam_.radius().at(p);
+  }
+
+ private:
+  void find_joints(const EdgeBrick& brick, CellIndex corner, Workspace& work) const {
+    work.seeds.move_to(foam_.seeds(), foam_.graded(), corner, side_);
+    work.joints.clear();
+    const SegmentSet& segments = brick.segments();
+    work.vertices.reset(2 * segments.count());
+    work.by_id.reset(4 * segments.count());
+    uint32_t vertices = 0;
+    for (size_t i = 0; i < segments.count(); ++i) {
+      if (i % 64 == 0) check_cancelled();
+      const FloatSegment segment = segments.at(i);
+      for (const float(&end)[3] : {std::cref(segment.a), std::cref(segment.b)}) {
+        uint32_t bits[3];
+        std::memcpy(bits, end, sizeof bits);
+        IdHash hash(0);
+        hash.add(bits[0] | uint64_t{bits[1]} << 32);
+        hash.add(uint64_t{bits[2]});
+        if (work.vertices.find_or_add(hash.id(), vertices) != vertices) continue;
+        ++vertices;
+        const Vec3 p = brick.origin() + Vec3{end[0], end[1], end[2]};
+        work.finder.find(work.seeds, p, [&](Joint& joint) {
+          const auto number = static_cast<uint32_t>(work.joints.size());
+          if (work.by_id.find_or_add(joint.id, number) == number)
+            work.joints.push_back(std::move(joint));
+        });
+      }
+    }
+  }
+
+  bool owns(CellIndex corner, CellIndex cell) const {
+    const auto is_in = [&](int32_t low, int32_t at) { return at >= low && at - low < side_; };
+    return is_in(corner.x, cell.x) && is_in(corner.y, cell.y) && is_in(corner.z, cell.z);
+  }
+
+  /// Pairs of joints with three seeds in common, the first of which is in the brick. Pairs with
+  /// more in common come several times.
+  void find_pairs(CellIndex corner, Workspace& work) const {
+    work.pairs.clear();
+    size_t triples = 0;
+    for (const Joint& joint : work.joints) {
+      const size_t n = joint.seeds.size();
+      triples += n * (n - 1) * (n - 2) / 6;
+    }
+    work.by_seeds.reset(triples);
+    const Vec3 scale = foam_.seeds().scale();
+    for (uint32_t j = 0; j < work.joints.size(); ++j) {
+      const std::vector<NamedSeed>& seeds = work.joints[j].seeds;
+      const size_t n = seeds.size();
+      for (size_t a = 0; a + 2 < n; ++a) {
+        if (!owns(corner, seeds[a].cell)) continue;
+        for (size_t b = a + 1; b + 1 < n; ++b)
+          for (size_t c = b + 1; c < n; ++c) {
+            if (n > 4 && are_collinear(seeds[a], seeds[b], seeds[c], scale)) continue;
+            IdHash hash(3);
+            for (const size_t i : {a, b, c}) seeds[i].add_name(hash);
+            const uint32_t other = work.by_seeds.find_or_add(hash.id(), j);
+            if (other != j) work.pairs.push_back({other, j});
+          }
+      }
+    }
+    std::sort(work.pairs.begin(), work.pairs.end());
+    work.pairs.erase(std::unique(work.pairs.begin(), work.pairs.end()), work.pairs.end());
+  }
+
+  Vec3 place(const Joint& joint) const {
+    const CellIndex cell = joint.seeds[0].cell;
+    const Neighbourhood& grid = foam_.neighbourhood();
+    return grid.from_grid(Vec3{double(cell.x), double(cell.y), double(cell.z)} * grid.cell_size +
+                          joint.position * foam_.unit());
+  }
+
+  void add_struts(CellIndex corner, Workspace& work, StrutList& list) const {
+    const size_t from = list.struts.size();
+    const double max_radius = foam_.radius().range().high;
+    for (const auto& [i, j] : work.pairs) {
+      const Joint *a = &work.joints[i], *b = &work.joints[j];
+      if (b->id < a->id) std::swap(a, b);
+      work.common.clear();
+      std::set_intersection(a->seeds.begin(), a->seeds.end(), b->seeds.begin(), b->seeds.end(),
+                            std::back_inserter(work.common));
+      if (!owns(corner, work.common[0].cell)) continue;
+      Strut strut;
+      strut.a = place(*a);
+      strut.b = place(*b);
+      if (!selection_.selects(strut.a, strut.b, max_radius)) continue;
+      IdHash hash(4);
+      for (const NamedSeed& seed : work.common) seed.add_name(hash);
+      strut.id = hash.id();
+      strut.nodes[0] = a->id;
+      strut.nodes[1] = b->id;
+      strut.cell = work.common[0].cell;
+      strut.radii[0] = strut.radii[1] = max_radius;
+      list.add(strut, 1);
+    }
+    std::sort(list.struts.begin() + static_cast<ptrdiff_t>(from), list.struts.end(),
+              [](const Strut& a, const Strut& b) {
+                if (!(a.cell == b.cell))
+                  return a.cell.z != b.cell.z   ? a.cell.z < b.cell.z
+                         : a.cell.y != b.cell.y ? a.cell.y < b.cell.y
+                                                : a.cell.x < b.cell.x;
+                return a.id < b.id;
+              });
+    if (!foam_.radius().is_constant()) set_radii(foam_.radius(), from, list);
+  }
+
+  const FoamData& foam_;
+  const StrutSelection selection_;
+  const int side_, lead_;
+  Box3 around_;
+  int64_t first_[3];
+  uint64_t bricks_[3];
+};
+
+}  // namespace
+
+std::unique_ptr<StrutParts> foam_struts(const FoamData& foam, const StrutSelection& selection) {
+  return std::make_unique<FoamStruts>(foam, selection);
+}
+
+}  // namespace msq

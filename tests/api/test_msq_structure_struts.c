@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_structure_struts. What struts must be like: tests/contract/test_struts.cpp. */
+#include "struts.h"
+
+DEFINE_INIT(struts_def)
+
+/* What a callback saw. */
+typedef struct taken {
+  msq_strut first[8];
+  uint64_t count, calls;
+  double length;
+  uint64_t ids;
+  int32_t stop_with;
+} taken;
+
+static int32_t take(void* user, const msq_strut* struts, uint64_t count) {
+  taken* all = (taken*)user;
+  if (count < 1 || count > 4096) return -100;
+  for (uint64_t i = 0; i < count; ++i) {
+    double squared = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double way = struts[i].b[axis] - struts[i].a[axis];
+      squared += way * way;
+    }
+    all->length += sqrt(squared);
+    all->ids += struts[i].id[0] ^ struts[i].id[1];
+    if (all->count < 8) all->first[all->count] = struts[i];
+    ++all->count;
+  }
+  ++all->calls;
+  return all->stop_with;
+}
+
+static taken struts_of(msq_context* context, const msq_structure* structure,
+                       const msq_struts_def* def) {
+  taken all;
+  memset(&all, 0, sizeof all);
+  assert_ok(msq_structure_struts(context, structure, def, take, &all, NULL));
+  return all;
+}
+
+static void lattices_have_struts(void** state) {
+  msq_context* context = make_context();
+  msq_structure* lattice = make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 1, 0.125);
+  msq_struts_def def = struts_def(0, 4);
+  taken owned = struts_of(context, lattice, &def), near;
+  (void)state;
+  assert_int_equal(sizeof(msq_strut), 128);
+  assert_int_equal(owned.count, 3 * 64);
+  assert_true(owned.length == 3 * 64);
+  for (int i = 0; i < 8; ++i) {
+    const msq_strut* s = &owned.first[i];
+    assert_true(s->radii[0] == 0.125 && s->radii[1] == 0.125);
+    assert_int_equal(s->caps[0] + s->caps[1] + s->cut[0] + s->cut[1], 0);
+    assert_true(s->node_a[0] != s->node_b[0] || s->node_a[1] != s->node_b[1]);
+    for (int axis = 0; axis < 3; ++axis) assert_true(s->cell[axis] >= 0 && s->cell[axis] < 4);
+  }
+  /* Struts in the upper faces come near the box, and those that end there: (5^2 + 4 * 5^2 ...). */
+  def.selection = MSQ_STRUTS_NEAR;
+  near = struts_of(context, lattice, &def);
+  assert_int_equal(near.count, 3 * 6 * 25);
+  /* A box that is a point. */
+  def = struts_def(0.5, 0.5);
+  assert_int_equal(struts_of(context, lattice, &def).count, 0);
+  def.selection = MSQ_STRUTS_NEAR;
+  assert_int_equal(struts_of(context, lattice, &def).count, 0);
+  def.min[0] = def.max[0] = 0;
+  def.min[1] = def.max[1] = 0.1;
+  assert_int_equal(struts_of(context, lattice, &def).count, 1);
+  msq_structure_release(lattice);
+  msq_context_release(context);
+}
+
+static void beams_are_struts(void** state) {
+  msq_context* context = make_context();
+  msq_structure* truss = make_truss(context);
+  const msq_struts_def def = struts_def(-1, 3);
+  const taken all = struts_of(context, truss, &def);
+  int seen = 0;
+  (void)state;
+  assert_int_equal(all.count, 3);
+  for (int i = 0; i < 3; ++i) {
+    const msq_strut* s = &all.first[i];
+    assert_true(s->id[0] < 3 && s->id[1] == 0);
+    seen |= 1 << s->id[0];
+    if (s->id[0] == 1) {
+      assert_true(s->radii[0] == 0.5 && s->radii[1] == 0.125);
+      assert_int_equal(s->caps[0], MSQ_CAP_HEMISPHERE);
+      assert_int_equal(s->caps[1], MSQ_CAP_SPHERE);
+    }
+    if (s->id[0] == 2) {
+      assert_true(s->radii[0] == 0.75);
+      assert_memory_equal(s->a, s->b, sizeof s->a);
+      assert_memory_equal(s->node_a, s->node_b, sizeof s->node_a);
+    }
+  }
+  assert_int_equal(seen, 7);
+  msq_structure_release(truss);
+  msq_context_release(context);
+}
+
+static void struts_are_cut_to_a_shape(void** state) {
+  const double centre[3] = {0, 0, 0};
+  msq_context* context = make_context();
+  msq_structure* truss = make_truss(context);
+  msq_shape *ball, *space;
+  msq_struts_def def = struts_def(-1, 3);
+  taken all;
+  (void)state;
+  assert_ok(msq_shape_from_sphere(context, centre, 1, &ball));
+  def.shape = ball;
+  all = struts_of(context, truss, &def);
+  assert_int_equal(all.count, 2); /* half a beam and the ball */
+  for (int i = 0; i < 2; ++i) {
+    const msq_strut* s = &all.first[i];
+    if (s->id[0] == 2) continue;
+    assert_int_equal(s->id[0], 0);
+    assert_int_equal(s->cut[0], 0);
+    assert_int_equal(s->cut[1], 1);
+    assert_near(s->b[0], 1, 1e-9);
+    assert_true(s->b[0] <= 1);
+    assert_true(s->radii[1] == 0.25);
+  }
+  assert_ok(msq_shape_all_space(context, &space));
+  def.shape = space;
+  assert_int_equal(struts_of(context, truss, &def).count, 3);
+  msq_shape_release(space);
+  msq_shape_release(ball);
+  msq_structure_release(truss);
+  msq_context_release(context);
+}
+
+static void foams_have_struts(void** state) {
+  msq_context* context = make_context();
+  msq_context* single = make_context_of(1, 0, 0);
+  msq_structure* foam = make_foam_with(context, 0.1, 0);
+  msq_structure* walled = make_foam_with(context, 0.1, 0.02);
+  const msq_struts_def def = struts_def(0, 9);
+  const taken all = struts_of(context, foam, &def);
+  const taken again = struts_of(single, foam, &def), with_walls = struts_of(context, walled, &def);
+  (void)state;
+  /* A Poisson process has 13.54 edges per seed, a jittered grid about as many. */
+  assert_near((double)all.count / 729, 13.5, 0.3);
+  assert_int_equal(all.count, again.count);
+  assert_int_equal(all.ids, again.ids);
+  assert_memory_equal(all.first, again.first, sizeof all.first);
+  assert_int_equal(all.ids, with_walls.ids);
+  msq_structure_release(walled);
+  msq_structure_release(foam);
+  msq_context_release(single);
+  msq_context_release(context);
+}
+
+static void callbacks_stop_the_call(void** state) {
+  msq_context* context = make_context();
+  msq_structure* lattice = make_lattice(context);
+  const msq_struts_def def = struts_def(0, 30);
+  msq_job* job;
+  taken all;
+  (void)state;
+  memset(&all, 0, sizeof all);
+  all.stop_with = -7;
+  assert_refused(msq_structure_struts(context, lattice, &def, take, &all, NULL), MSQ_E_HOST, "-7");
+  assert_int_equal(msq_error_host_code(), -7);
+  assert_int_equal(all.calls, 1);
+  assert_ok(msq_job_create(&job));
+  all.stop_with = 0;
+  assert_ok(msq_structure_struts(context, lattice, &def, take, &all, job));
+  assert_true(progress_of(job) == 1);
+  assert_ok(msq_job_cancel(job));
+  assert_refused(msq_structure_struts(context, lattice, &def, take, &all, job), MSQ_E_CANCELLED,
+                 "cancelled");
+  msq_job_release(job);
+  msq_structure_release(lattice);
+  msq_context_release(context);
+}
+
+/* The last references go in a callback. */
+static int32_t let_go(void* user, const msq_strut* struts, uint64_t count) {
+  void** handles = (void**)user;
+  (void)struts;
+  (void)count;
+  msq_structure_release((msq_structure*)handles[0]);
+  msq_shape_release((msq_shape*)handles[1]);
+  msq_context_release((msq_context*)handles[2]);
+  handles[0] = handles[1] = handles[2] = NULL;
+  return 0;
+}
+
+static void references_may_go_in_callbacks(void** state) {
+  msq_context* context = make_context();
+  const double centre[3] = {3, 3, 3};
+  msq_struts_def def = struts_def(0, 6);
+  msq_shape* ball;
+  (void)state;
+  assert_ok(msq_shape_from_sphere(context, centre, 3, &ball));
+  def.shape = ball;
+  {
+    void* handles[3] = {make_lattice(context), ball, context};
+    assert_ok(
+        msq_structure_struts(context, (msq_structure*)handles[0], &def, let_go, handles, NULL));
+    assert_null(handles[0]);
+  }
+}
+
+static msq_status use(void* env, void* def) {
+  void** handles = (void**)env;
+  taken all;
+  memset(&all, 0, sizeof all);
+  const msq_status status =
+      msq_structure_struts((msq_context*)handles[0], (msq_structure*)handles[1],
+                           (const msq_struts_def*)def, take, &all, NULL);
+  if (status != MSQ_OK) assert_int_equal(all.calls, 0);
+  return status;
+}
+
+static void definitions_honour_every_size(void** state) {
+  msq_context* context = make_context();
+  void* handles[2] = {context, make_lattice(context)};
+  const msq_struts_def def = struts_def(0, 2);
+  (void)state;
+  check_def_init(init_struts_def, sizeof(msq_struts_def));
+  check_def_sizes(&def, sizeof def, use, handles);
+  msq_structure_release((msq_structure*)handles[1]);
+  msq_context_release(context);
+}
+
+static void wrong_arguments_are_refused(void** state) {
+  msq_context* context = make_context();
+  msq_structure *lattice = make_lattice(context), *gyroid = make_gyroid(context),
+                *walls = make_foam_with(context, 0, 0.05), *foam = make_foam_with(context, 0.1, 0);
+  void* handles[2] = {context, lattice};
+  const msq_struts_def good = struts_def(0, 2);
+  msq_struts_def def = good;
+  taken all;
+  (void)state;
+  memset(&all, 0, sizeof all);
+  assert_refused(msq_structure_struts(NULL, lattice, &def, take, &all, NULL), MSQ_E_ARGUMENT,
+                 "context is NULL");
+  assert_refused(msq_structure_struts(context, NULL, &def, take, &all, NULL), MSQ_E_ARGUMENT,
+                 "structure is NULL");
+  assert_refused(msq_structure_struts(context, lattice, NULL, take, &all, NULL), MSQ_E_ARGUMENT,
+                 "def is NULL");
+  assert_refused(msq_structure_struts(context, lattice, &def, NULL, &all, NULL), MSQ_E_ARGUMENT,
+                 "callback is NULL");
+  def.selection = 2;
+  assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "selection is 2");
+  def.selection = -1;
+  assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "selection is -1");
+  def = good;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int which = 0; which < 3; ++which) {
+      def.min[axis] = not_finite(which);
+      assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "min is (");
+      def = good;
+      def.max[axis] = not_finite(which);
+      assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "max is (");
+      def = good;
+    }
+    def.min[axis] = 2.5;
+    assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "min is 2.5 and max is 2");
+    def = good;
+    def.max[axis] = 1e8;
+    assert_refused(use(handles, &def), MSQ_E_LIMIT, "1.67772e+07");
+    def.max[axis] = 1e300;
+    assert_refused(use(handles, &def), MSQ_E_LIMIT, "the limit is");
+    handles[1] = foam;
+    assert_refused(use(handles, &def), MSQ_E_LIMIT, "the limit is");
+    handles[1] = lattice;
+    def = good;
+  }
+  handles[1] = gyroid;
+  assert_refused(use(handles, &def), MSQ_E_UNSUPPORTED, "no struts");
+  handles[1] = walls;
+  assert_refused(use(handles, &def), MSQ_E_UNSUPPORTED, "no struts");
+  msq_structure_release(foam);
+  msq_structure_release(walls);
+  msq_structure_release(gyroid);
+  msq_structure_release(lattice);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(lattices_have_struts),
+      cmocka_unit_test(beams_are_struts),
+      cmocka_unit_test(struts_are_cut_to_a_shape),
+      cmocka_unit_test(foams_have_struts),
+      cmocka_unit_test(callbacks_stop_the_call),
+      cmocka_unit_test(references_may_go_in_callbacks),
+      cmocka_unit_test(definitions_honour_every_size),
+      cmocka_unit_test(wrong_arguments_are_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
