@@ -2,6 +2,7 @@
 #include "structure/foam/sets/bricks.h"
 
 #include "base/borrowed.h"
+#include "structure/common/grid_boxes.h"
 
 namespace msq {
 
@@ -13,41 +14,30 @@ void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
                     const std::function<void(const BrickPart&)>& visit) {
   const Neighbourhood& grid = foam.neighbourhood();
   const FoamGraph& graph = foam.graph();
-  const double unit = foam.unit(), around = owner_distance(foam);
-  const int side = graph.brick_layout().side, lead = graph.brick_layout().lead;
-  int64_t first[3], last[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto brick = [&](double g) {
-      return static_cast<int64_t>(std::floor((g / grid.cell_size[axis] + lead) / side));
-    };
-    first[axis] = brick(box.min[axis] - around);
-    last[axis] = brick(box.max[axis] + around);
-  }
-  for (int64_t k = first[2]; k <= last[2]; ++k)
-    for (int64_t j = first[1]; j <= last[1]; ++j)
-      for (int64_t i = first[0]; i <= last[0]; ++i) {
+  const double unit = foam.unit();
+  const FoamGraph::BrickLayout layout = graph.brick_layout();
+  for_each_brick_near(
+      grid, box, owner_distance(foam), layout.side, layout.lead,
+      [&](CellIndex corner, const Box3& near) {
         check_cancelled(job);
-        const CellIndex corner{static_cast<int32_t>(i * side - lead),
-                               static_cast<int32_t>(j * side - lead),
-                               static_cast<int32_t>(k * side - lead)};
-        if (!graph.may_own_edges(corner, box)) continue;
+        if (!graph.may_own_edges(corner, near)) return;
         const auto data =
             foam.context().cache.fetch(foam.id(), corner, [&] { return graph.make_brick(corner); });
         const auto& brick = static_cast<const EdgeBrick&>(*data);
         const Vec3 origin =
             Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
             brick.origin() * unit;
-        const Box3 from_brick{(box.min - origin) * (1 / unit), (box.max - origin) * (1 / unit)};
+        const Box3 from_brick{(near.min - origin) * (1 / unit), (near.max - origin) * (1 / unit)};
         SegmentFrame frame{grid.from_grid(origin), grid.rotation.m};
         for (double& m : frame.matrix) m *= unit;
         visit(BrickPart{brick, frame, from_brick.grown(edge_error)});
-      }
+      });
 }
 
 void for_each_foam_strut(const FoamData& foam, const Box3& box, const Structure::TakeStrut& take,
                          const Job* job) {
   const double radius = foam.radius().range().high;
-  const Box3 reach = foam.neighbourhood().to_grid(box.grown(radius + edge_error * foam.unit()));
+  const Box3 reach = box.grown(radius + edge_error * foam.unit());
   SegmentSelection selection;
   const Borrowed<StrutBatch> batch;
   for_each_brick(foam, reach, job, [&](const BrickPart& part) {

@@ -7,6 +7,7 @@
 
 #include "base/borrowed.h"
 #include "base/simd.h"
+#include "structure/common/grid_boxes.h"
 #include "structure/foam/walls/face_brick.h"
 #include "structure/foam/walls/void_spans.h"
 
@@ -39,10 +40,7 @@ class BlockVoids {
   /// Of the samples that are alive.
   const Box3& box() const { return box_; }
   bool pays() const {
-    const Vec3 spread = grid_.to_grid(box_).extent();
-    double cells = 1;
-    for (int axis = 0; axis < 3; ++axis) cells *= 1 + spread[axis] / grid_.cell_size[axis];
-    return samples_ > critical_samples * cells && margin_ < 1e-4 &&
+    return samples_ > critical_samples * mean_cells_met(grid_, box_) && margin_ < 1e-4 &&
            unit_ < max_per_unit * block_.grid->spacing.x && block_.grid->spacing.x < unit_;
   }
 
@@ -227,28 +225,15 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
   const FoamSeeds& seeds = walls.seeds().seeds();
   // A cell that touches the box has a point in it, and its seed within the empty radius of that.
   const double around = seeds.empty_radius() * walls.unit() * (1 + 1e-9);
-  const Box3 reach = grid.to_grid(voids.box()).grown(around);
-  constexpr int side = FaceBrick::side, lead = FaceBrick::lead;
-  int64_t first[3], last[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto brick = [&](double g) {
-      return static_cast<int64_t>(std::floor((g / grid.cell_size[axis] + lead) / side));
-    };
-    first[axis] = brick(reach.min[axis]);
-    last[axis] = brick(reach.max[axis]);
-  }
-  for (int64_t k = first[2]; k <= last[2]; ++k)
-    for (int64_t j = first[1]; j <= last[1]; ++j)
-      for (int64_t i = first[0]; i <= last[0]; ++i) {
-        check_cancelled(job);
-        const CellIndex corner{static_cast<int32_t>(i * side - lead),
-                               static_cast<int32_t>(j * side - lead),
-                               static_cast<int32_t>(k * side - lead)};
-        const auto brick = walls.context().cache.fetch(
-            walls.id(), corner, [&] { return std::make_shared<const FaceBrick>(seeds, corner); });
-        voids.take(static_cast<const FaceBrick&>(*brick), corner);
-        if (voids.has_many_doubts()) voids.decide(job);
-      }
+  for_each_brick_near(grid, voids.box(), around, FaceBrick::side, FaceBrick::lead,
+                      [&](CellIndex corner, const Box3&) {
+                        check_cancelled(job);
+                        const auto brick = walls.context().cache.fetch(walls.id(), corner, [&] {
+                          return std::make_shared<const FaceBrick>(seeds, corner);
+                        });
+                        voids.take(static_cast<const FaceBrick&>(*brick), corner);
+                        if (voids.has_many_doubts()) voids.decide(job);
+                      });
   voids.decide(job);
   return true;
 }
