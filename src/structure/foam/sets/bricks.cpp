@@ -16,13 +16,19 @@ void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
   const FoamGraph& graph = foam.graph();
   const double unit = foam.unit();
   const FoamGraph::BrickLayout layout = graph.brick_layout();
+  // Without jitter, all seeds are at the centres of their cells, so one brick serves for all. It
+  // takes many times as long to build as others, since its seeds are on common spheres.
+  const bool are_equal = !foam.graded() && foam.seeds().jitter() == 0;
+  CellCache::Data data;
   for_each_brick_near(
       grid, box, owner_distance(foam), layout.side, layout.lead,
       [&](CellIndex corner, const Box3& near) {
         check_cancelled(job);
         if (!graph.may_own_edges(corner, near)) return;
-        const auto data =
-            foam.context().cache.fetch(foam.id(), corner, [&] { return graph.make_brick(corner); });
+        if (!are_equal) data.reset();
+        if (!data)
+          data = foam.context().cache.fetch(foam.id(), are_equal ? CellIndex{} : corner,
+                                            [&] { return graph.make_brick(corner); });
         const auto& brick = static_cast<const EdgeBrick&>(*data);
         const Vec3 origin =
             Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +

@@ -225,12 +225,17 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
   const FoamSeeds& seeds = walls.seeds().seeds();
   // A cell that touches the box has a point in it, and its seed within the empty radius of that.
   const double around = seeds.empty_radius() * walls.unit() * (1 + 1e-9);
+  // Without jitter, one brick serves for all.
+  const bool are_equal = seeds.jitter() == 0;
+  CellCache::Data brick;
   for_each_brick_near(grid, voids.box(), around, FaceBrick::side, FaceBrick::lead,
                       [&](CellIndex corner, const Box3&) {
                         check_cancelled(job);
-                        const auto brick = walls.context().cache.fetch(walls.id(), corner, [&] {
-                          return std::make_shared<const FaceBrick>(seeds, corner);
-                        });
+                        if (!are_equal) brick.reset();
+                        if (!brick)
+                          brick = walls.context().cache.fetch(
+                              walls.id(), are_equal ? CellIndex{} : corner,
+                              [&] { return std::make_shared<const FaceBrick>(seeds, corner); });
                         voids.take(static_cast<const FaceBrick&>(*brick), corner);
                         if (voids.has_many_doubts()) voids.decide(job);
                       });
