@@ -53,6 +53,13 @@ class CliffReport {
     cases_.push_back({ratio, sweep + ": " + name});
   }
 
+  /// A time without a plain case.
+  void note(const std::string& what, double seconds) {
+    std::printf("%-75s %10.4f\n", what.c_str(), seconds);
+    std::fflush(stdout);
+    json_["notes"].push_back({{"what", what}, {"seconds", seconds}});
+  }
+
   /// Prints the cases above the maximum ratio, the worst first, and writes JSON.
   void finish(const char* file) {
     std::sort(cases_.begin(), cases_.end(),
