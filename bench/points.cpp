@@ -12,6 +12,7 @@
 #include "query/array_points.h"
 #include "query/point_groups.h"
 #include "setup.h"
+#include "structure/foam/foam.h"
 #include "structure/foam/sets/point_set.h"
 
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "query/membership.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <vector>
@@ -14,11 +15,21 @@ namespace {
 /// Rows are restricted in tiles of about this many words: small enough that the span raster's
 /// working rows stay in a core's own cache, large enough that few struts reach into several tiles.
 constexpr uint64_t tile_words = uint64_t{1} << 17, tile_layers = 64, min_tile_rows = 16;
+/// A smaller cache loses the cells that neighbouring tiles share before the second tile comes, so
+/// both build them. Then one tile for each thread, even if it exceeds a core's cache, costs less.
+constexpr uint64_t min_cache_of_tiles = uint64_t{2} << 20;
 
-uint64_t tile_rows(const SampleGrid& grid, uint64_t layers, unsigned threads) {
+uint64_t tile_rows(const Model& model, const Scales& scales, const SampleGrid& grid,
+                   uint64_t layers) {
+  const unsigned threads = model.executor().threads();
+  const bool shares_cells = std::any_of(scales.begin(), scales.end(), [](const Scale* scale) {
+    return scale->structure->gains_by_layers();
+  });
+  const bool is_cached = !shares_cells || model.context().cache.limit() >= min_cache_of_tiles;
   const uint64_t deep = std::max<uint64_t>(1, std::min(layers, tile_layers));
-  const uint64_t fit = tile_words / (words_for(grid.nx) * deep);
-  const uint64_t balanced = grid.ny / (4 * threads);  // several tiles for each thread
+  const uint64_t fit = (is_cached ? 1 : 8) * tile_words / (words_for(grid.nx) * deep);
+  // Several tiles for each thread.
+  const uint64_t balanced = is_cached ? grid.ny / (4 * threads) : (grid.ny + threads - 1) / threads;
   return std::clamp<uint64_t>(std::min(fit, balanced), min_tile_rows,
                               std::max(min_tile_rows, grid.ny));
 }
@@ -46,7 +57,7 @@ uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, con
   }
   if (resolved.empty()) return 0;
   const unsigned threads = model.executor().threads();
-  const uint64_t rows = std::min(grid.ny, tile_rows(grid, layers, threads));
+  const uint64_t rows = std::min(grid.ny, tile_rows(model, resolved, grid, layers));
   uint64_t tiles = 1;
   for (const Scale* scale : resolved)
     if (!scale->skin.is_none()) tiles = 2;
@@ -92,11 +103,12 @@ bool has_samples(const RowBlock& block) {
 
 /// Tiles of the rows of a block, one after the other in the order of a slab's.
 template <class Visit>
-void for_each_tile(const Executor& executor, const RowBlock& block, const Job* job, Visit&& visit) {
-  const uint64_t rows = tile_rows(*block.grid, block.layers(), executor.threads());
+void for_each_tile(const Model& model, const Scales& scales, const RowBlock& block, const Job* job,
+                   Visit&& visit) {
+  const uint64_t rows = tile_rows(model, scales, *block.grid, block.layers());
   const uint64_t across = (block.rows() + rows - 1) / rows;
   const uint64_t deep = (block.layers() + tile_layers - 1) / tile_layers;
-  executor.for_each(across * deep, [&](uint64_t n) {
+  model.executor().for_each(across * deep, [&](uint64_t n) {
     check_cancelled(job);
     RowBlock tile = block;
     tile.y0 = block.y0 + n % across * rows;
@@ -147,7 +159,7 @@ void fill_regions(const Model& model, const Scales& resolved, const SampleGrid& 
         }
       }
     });
-    for_each_tile(executor, rows, job, [&](const RowBlock& tile) {
+    for_each_tile(model, scales, rows, job, [&](const RowBlock& tile) {
       if (!has_samples(tile)) return;
       if (counts && !scales.empty()) counts->by_shape -= samples_of(tile);
       for (const Scale* scale : scales) {
@@ -194,7 +206,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
 
   // In the same order in each slab: what two slabs share is then found again after as many cells as
   // one slab is high, which the cache must hold at least (docs/benchmarks.md).
-  for_each_tile(executor, slab, job, [&](const RowBlock& block) {
+  for_each_tile(model, resolved, slab, job, [&](const RowBlock& block) {
     for (const Scale* scale : resolved) {
       if (const uint64_t living = counts ? samples_of(block) : 0) counts->add_group(living);
       scale->keep_rows(block, job);

@@ -20,6 +20,8 @@ constexpr uint64_t shallow_slab_bytes = uint64_t{2} << 20;
 /// Of an automatic slab: of less, each slab would redo much of what the one before it found about
 /// the cells that both reach.
 constexpr double automatic_slab_layers = 64;
+/// The first slab of a run has this part of the layers of a slab: 1 / 8.
+constexpr uint64_t first_slab_part = 8;
 
 /// Samples of a pitch that cover an extent; a remainder of rounding does not make one more.
 double samples_across(double extent, double pitch) {
@@ -165,20 +167,25 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   if (output_->samples_across() == 0) return run_by_layers(first, last, take, job);
   const uint64_t layer_words = words_for(samples_.nx) * samples_.ny;
   const uint64_t deep = std::min(slab_layers_, last - first);
+  // The host waits for the first slab, and workers fill the second one while it takes the first.
+  const uint64_t shallow = (deep + first_slab_part - 1) / first_slab_part;
   const bool is_one_slab = deep == last - first;
+  const uint64_t room[2] = {is_one_slab ? shallow : deep, is_one_slab ? deep - shallow : deep};
+  const uint64_t scratch = std::max(fill_slab_scratch_words(*model_, resolved_, samples_, shallow),
+                                    fill_slab_scratch_words(*model_, resolved_, samples_, deep));
   const Reservation reservation(model_->context().budget,
-                                ((is_one_slab ? 1 : 2) * deep * layer_words +
-                                 fill_slab_scratch_words(*model_, resolved_, samples_, deep)) *
-                                        sizeof(uint64_t) +
+                                ((room[0] + room[1]) * layer_words + scratch) * sizeof(uint64_t) +
                                     layer_bytes() + plain_bytes(),
                                 "slabs of layers");
-  std::vector<uint64_t> current(deep * layer_words), next(is_one_slab ? 0 : deep * layer_words);
+  std::vector<uint64_t> current(room[0] * layer_words), next(room[1] * layer_words);
   std::vector<uint8_t> bytes(layer_bytes()), plain(plain_bytes());
 
   Job ahead_job(job);  // stops the slab ahead when a callback ends the run
-  fill_slab(*model_, resolved_, samples_, first, first + deep, current.data(), job);
-  for (uint64_t z0 = first; z0 < last; z0 += deep) {
-    const uint64_t z1 = std::min(last, z0 + deep), z2 = std::min(last, z1 + deep);
+  fill_slab(*model_, resolved_, samples_, first, first + shallow, current.data(), job);
+  for (uint64_t z0 = first, z1 = first + shallow; z0 < last;) {
+    // All slabs but the first begin at a multiple of their height: what is said of whole cells in
+    // plan_slabs() holds for them.
+    const uint64_t z2 = std::min(last, first + (z1 - first) / deep * deep + deep);
     std::optional<Executor::Task> ahead;
     if (z1 < last)
       ahead.emplace(model_->executor(), [&, z1, z2] {
@@ -200,6 +207,8 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
     }
     if (ahead) ahead->wait();
     std::swap(current, next);
+    z0 = z1;
+    z1 = z2;
   }
 }
 

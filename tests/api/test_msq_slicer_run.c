@@ -162,6 +162,53 @@ static void count_of_uint64_max_runs_to_the_last(void** state) {
 
 /* ---- callbacks */
 
+/* Points that a host's shape was asked for, in all and when the first layer came. */
+typedef struct point_counts {
+  uint64_t now, at_first;
+} point_counts;
+
+static int32_t count_points(void* user, const double* points, uint64_t count, uint8_t* inside) {
+  (void)points;
+  ((point_counts*)user)->now += count;
+  memset(inside, 1, count);
+  return 0;
+}
+
+static int32_t note_first(void* user, const msq_layer* layer) {
+  point_counts* counts = (point_counts*)user;
+  if (layer->index == 0) counts->at_first = counts->now;
+  return 0;
+}
+
+static void first_layer_waits_for_few_layers(void** state) {
+  const uint64_t layers[] = {1, 7, 32, 33, 100}, slab = 32, pixels = 24;
+  (void)state;
+  for (int i = 0; i < 5; ++i) {
+    point_counts counts = {0, 0};
+    msq_host_shape_def def;
+    msq_shape* shape;
+    assert_ok(msq_host_shape_def_init(&def, sizeof def));
+    def.inside = count_points;
+    def.user = &counts;
+    for (int axis = 0; axis < 3; ++axis) {
+      def.min[axis] = 0;
+      def.max[axis] = 4;
+    }
+    assert_ok(msq_shape_from_host(context, &def, &shape));
+    msq_model* model = make_shape_model(context, shape);
+    msq_slicer_def plan =
+        slicer_def(MSQ_LAYER_BITS, (uint32_t)pixels, (uint32_t)pixels, 4.0 / (double)layers[i]);
+    plan.slab_layers = (uint32_t)slab;
+    msq_slicer* slicer = make_slicer(model, &plan);
+    assert_ok(msq_slicer_run(slicer, 0, UINT64_MAX, note_first, &counts, NULL));
+    const uint64_t layer = pixels * pixels, deep = layers[i] < slab ? layers[i] : slab;
+    assert_int_equal(counts.now, layers[i] * layer);
+    assert_int_equal(counts.at_first, (deep + 7) / 8 * layer);
+    msq_slicer_release(slicer);
+    msq_model_release(model);
+  }
+}
+
 static void negative_return_stops_the_run(void** state) {
   const uint64_t stops[] = {0, 3, 4, 15};
   const msq_slicer_def def = small_def(MSQ_LAYER_BITS);
@@ -358,6 +405,7 @@ int main(void) {
       cmocka_unit_test(any_slab_and_threads_give_the_same_bytes),
       cmocka_unit_test(ranges_are_parts_of_the_whole),
       cmocka_unit_test(count_of_uint64_max_runs_to_the_last),
+      cmocka_unit_test(first_layer_waits_for_few_layers),
       cmocka_unit_test(negative_return_stops_the_run),
       cmocka_unit_test(callback_may_call_msq),
       cmocka_unit_test(callback_may_release_the_last_references),

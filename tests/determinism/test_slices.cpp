@@ -72,6 +72,14 @@ std::vector<ModelRow> models() {
              Structures{make_ref<Lattice>(cells_of(0.8, 0.2), bcc_unit_cell(), Parameter(0.15)),
                         foam(c, 0.25, 0.03, FoamMethod::direct)});
        }});
+  rows.push_back({"foam without jitter, turned", 5, [](Ref<Context> c) {
+                    Neighbourhood grid = cells_of(0.25, 0.3);
+                    grid.cell_size.y = 0.35;
+                    return make_ref<Model>(
+                        c, make_ref<BoxShape>(Box3{{-1, -0.4, -0.3}, {1, 0.4, 0.3}}),
+                        Structures{make_ref<Foam>(c, grid, Parameter(0.03), 0.0, uint64_t{6},
+                                                  FoamMethod::direct)});
+                  }});
   rows.push_back(
       {"foam of graded density", 8, [](Ref<Context> c) {
          const Ref<const Field> density =

@@ -5,6 +5,7 @@
 
 #include "cell/neighbourhood.h"
 #include "field/field.h"
+#include "structure/common/grid_boxes.h"
 #include "strut/segment_selection.h"
 #include "strut/span_raster.h"
 
@@ -27,10 +28,7 @@ class StrutRows {
   /// Whether there are more than `critical` samples per cell in reach. If not, single points are
   /// faster, and cells without samples are not visited.
   bool pays(const Neighbourhood& grid, double critical) const {
-    const Vec3 spread = grid.to_grid(reach_).extent();
-    double cells = 1;
-    for (int axis = 0; axis < 3; ++axis) cells *= 1 + spread[axis] / grid.cell_size[axis];
-    return raster_.samples() > critical * cells;
+    return raster_.samples() > critical * mean_cells_met(grid, reach_);
   }
   /// Struts whose axis does not meet this box may be left out.
   const Box3& reach() const { return reach_; }

@@ -12,11 +12,10 @@ bool keep_brick_rows(const FoamData& foam, const RowBlock& block, const Job* job
   const Neighbourhood& grid = foam.neighbourhood();
   StrutRows rows(block, grid, foam.radius(), edge_error * foam.unit());
   if (rows.empty()) return true;
-  const Box3 reach = grid.to_grid(rows.reach());
-  const double critical =
-      foam.graph().critical_samples(reach.grown(owner_distance(foam)), foam.max_radius());
+  const double critical = foam.graph().critical_samples(
+      grid.to_grid(rows.reach()).grown(owner_distance(foam)), foam.max_radius());
   if (!rows.pays(grid, critical)) return false;
-  for_each_brick(foam, reach, job, [&](const BrickPart& part) {
+  for_each_brick(foam, rows.reach(), job, [&](const BrickPart& part) {
     rows.add(part.brick.segments(), part.frame, part.wanted);
   });
   rows.finish(job, [&](Vec3 p) { return foam.inside(p); });

@@ -2,7 +2,7 @@
 #include "structure/foam/sets/bricks.h"
 
 #include "base/borrowed.h"
-#include "structure/common/cell_blocks.h"
+#include "structure/common/grid_boxes.h"
 
 namespace msq {
 
@@ -15,26 +15,35 @@ void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
   const Neighbourhood& grid = foam.neighbourhood();
   const FoamGraph& graph = foam.graph();
   const double unit = foam.unit();
-  const auto [side, lead] = graph.brick_layout();
-  for_each_block(grid, box.grown(owner_distance(foam)), side, lead, job, [&](CellIndex corner) {
-    if (!graph.may_own_edges(corner, box)) return;
-    const auto data =
-        foam.context().cache.fetch(foam.id(), corner, [&] { return graph.make_brick(corner); });
-    const auto& brick = static_cast<const EdgeBrick&>(*data);
-    const Vec3 origin =
-        Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
-        brick.origin() * unit;
-    const Box3 from_brick{(box.min - origin) * (1 / unit), (box.max - origin) * (1 / unit)};
-    SegmentFrame frame{grid.from_grid(origin), grid.rotation.m};
-    for (double& m : frame.matrix) m *= unit;
-    visit(BrickPart{brick, frame, from_brick.grown(edge_error)});
-  });
+  const FoamGraph::BrickLayout layout = graph.brick_layout();
+  // Without jitter, all seeds are at the centres of their cells, so one brick serves for all. It
+  // takes many times as long to build as others, since its seeds are on common spheres.
+  const bool are_equal = !foam.graded() && foam.seeds().jitter() == 0;
+  CellCache::Data data;
+  for_each_brick_near(
+      grid, box, owner_distance(foam), layout.side, layout.lead,
+      [&](CellIndex corner, const Box3& near) {
+        check_cancelled(job);
+        if (!graph.may_own_edges(corner, near)) return;
+        if (!are_equal) data.reset();
+        if (!data)
+          data = foam.context().cache.fetch(foam.id(), are_equal ? CellIndex{} : corner,
+                                            [&] { return graph.make_brick(corner); });
+        const auto& brick = static_cast<const EdgeBrick&>(*data);
+        const Vec3 origin =
+            Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
+            brick.origin() * unit;
+        const Box3 from_brick{(near.min - origin) * (1 / unit), (near.max - origin) * (1 / unit)};
+        SegmentFrame frame{grid.from_grid(origin), grid.rotation.m};
+        for (double& m : frame.matrix) m *= unit;
+        visit(BrickPart{brick, frame, from_brick.grown(edge_error)});
+      });
 }
 
 void for_each_foam_strut(const FoamData& foam, const Box3& box, const Structure::TakeStrut& take,
                          const Job* job) {
   const double radius = foam.radius().range().high;
-  const Box3 reach = foam.neighbourhood().to_grid(box.grown(radius + edge_error * foam.unit()));
+  const Box3 reach = box.grown(radius + edge_error * foam.unit());
   SegmentSelection selection;
   const Borrowed<StrutBatch> batch;
   for_each_brick(foam, reach, job, [&](const BrickPart& part) {

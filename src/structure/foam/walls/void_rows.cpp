@@ -7,7 +7,7 @@
 
 #include "base/borrowed.h"
 #include "base/simd.h"
-#include "structure/common/cell_blocks.h"
+#include "structure/common/grid_boxes.h"
 #include "structure/foam/walls/face_brick.h"
 #include "structure/foam/walls/void_spans.h"
 
@@ -40,10 +40,7 @@ class BlockVoids {
   /// Of the samples that are alive.
   const Box3& box() const { return box_; }
   bool pays() const {
-    const Vec3 spread = grid_.to_grid(box_).extent();
-    double cells = 1;
-    for (int axis = 0; axis < 3; ++axis) cells *= 1 + spread[axis] / grid_.cell_size[axis];
-    return samples_ > critical_samples * cells && margin_ < 1e-4 &&
+    return samples_ > critical_samples * mean_cells_met(grid_, box_) && margin_ < 1e-4 &&
            unit_ < max_per_unit * block_.grid->spacing.x && block_.grid->spacing.x < unit_;
   }
 
@@ -228,13 +225,20 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
   const FoamSeeds& seeds = walls.seeds().seeds();
   // A cell that touches the box has a point in it, and its seed within the empty radius of that.
   const double around = seeds.empty_radius() * walls.unit() * (1 + 1e-9);
-  const Box3 reach = grid.to_grid(voids.box()).grown(around);
-  for_each_block(grid, reach, FaceBrick::side, FaceBrick::lead, job, [&](CellIndex corner) {
-    const auto brick = walls.context().cache.fetch(
-        walls.id(), corner, [&] { return std::make_shared<const FaceBrick>(seeds, corner); });
-    voids.take(static_cast<const FaceBrick&>(*brick), corner);
-    if (voids.has_many_doubts()) voids.decide(job);
-  });
+  // Without jitter, one brick serves for all.
+  const bool are_equal = seeds.jitter() == 0;
+  CellCache::Data brick;
+  for_each_brick_near(grid, voids.box(), around, FaceBrick::side, FaceBrick::lead,
+                      [&](CellIndex corner, const Box3&) {
+                        check_cancelled(job);
+                        if (!are_equal) brick.reset();
+                        if (!brick)
+                          brick = walls.context().cache.fetch(
+                              walls.id(), are_equal ? CellIndex{} : corner,
+                              [&] { return std::make_shared<const FaceBrick>(seeds, corner); });
+                        voids.take(static_cast<const FaceBrick&>(*brick), corner);
+                        if (voids.has_many_doubts()) voids.decide(job);
+                      });
   voids.decide(job);
   return true;
 }

@@ -223,19 +223,27 @@ void MixedLattice::keep_rows(const RowBlock& block, const Job* job) const {
   }
   struct Cell {
     Vec3 corner;
-    size_t type;
+    size_t type;      // `types` if it is far from the rows
     size_t above[3];  // types of the cells above; `types` if they are out of range
   };
   std::vector<Cell> cells;
   const size_t types = library_.size(), steps[3] = {1, counts[0], counts[0] * counts[1]};
+  // Most cells of the box about a turned block are far from it.
+  const bool is_turned = grid.sample_axes()[0] < 0;
+  const double slack = 1e-6 * max_component(grid.cell_size);
   for (int64_t k = first[2]; k <= last[2]; ++k) {
     check_cancelled(job);
     for (int64_t j = first[1]; j <= last[1]; ++j)
-      for (int64_t i = first[0]; i <= last[0]; ++i)
-        cells.push_back(
-            {{double(i), double(j), double(k)},
-             type_of({static_cast<int32_t>(i), static_cast<int32_t>(j), static_cast<int32_t>(k)}),
-             {types, types, types}});
+      for (int64_t i = first[0]; i <= last[0]; ++i) {
+        const Vec3 corner{double(i), double(j), double(k)};
+        const Box3 cell{corner * grid.cell_size, (corner + Vec3{1, 1, 1}) * grid.cell_size};
+        const bool is_near = !is_turned || grid.from_grid(cell).grown(slack).overlaps(rows.reach());
+        cells.push_back({corner,
+                         is_near ? type_of({static_cast<int32_t>(i), static_cast<int32_t>(j),
+                                            static_cast<int32_t>(k)})
+                                 : types,
+                         {types, types, types}});
+      }
   }
   for (size_t c = 0; c < cells.size(); ++c)
     for (int axis = 0; axis < 3; ++axis)
@@ -245,6 +253,7 @@ void MixedLattice::keep_rows(const RowBlock& block, const Job* job) const {
     size_t n = 0;
     for (const Cell& cell : cells) {
       if (n++ % 1024 == 0) check_cancelled(job);
+      if (cell.type == types) continue;
       const auto struts = own(cell.type);
       auto s = std::lower_bound(struts.begin(), struts.end(), factor,
                                 [](const OwnStrut& t, double f) { return t.factor > f; });
