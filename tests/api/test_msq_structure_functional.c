@@ -4,6 +4,8 @@
 
 DEFINE_INIT(functional_def)
 
+static const size_t first_size = offsetof(msq_functional_def, period);
+
 static msq_functional_def functional_def(int32_t function, double level) {
   msq_functional_def def;
   assert_ok(msq_functional_def_init(&def, sizeof def));
@@ -22,7 +24,7 @@ DEFINE_CREATE(structure, structure_functional, functional_def)
 
 static void def_init_honours_every_size(void** state) {
   (void)state;
-  check_def_init(init_functional_def, sizeof(msq_functional_def));
+  check_grown_def_init(init_functional_def, first_size, sizeof(msq_functional_def));
 }
 
 static void defaults_are_those_of_the_header(void** state) {
@@ -40,13 +42,14 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_null(def.expression);
   assert_null(def.parameters);
   assert_int_equal(def.parameter_count, 0);
+  assert_null(def.period);
 }
 
 static void create_honours_every_struct_size(void** state) {
   msq_context* context = make_context();
   const msq_functional_def def = functional_def(MSQ_FUNCTION_NEOVIUS, 0.1);
   (void)state;
-  check_def_sizes(&def, sizeof def, create, context);
+  check_grown_def_sizes(&def, first_size, sizeof def, create, context);
   msq_context_release(context);
 }
 

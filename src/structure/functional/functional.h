@@ -13,6 +13,7 @@
 #include "expression/ray_bounds.h"
 #include "expression/slope.h"
 #include "field/field.h"
+#include "structure/functional/cell_angles.h"
 #include "structure/functional/clusters.h"
 #include "structure/functional/row_plan.h"
 #include "structure/functional/trigonometric_form.h"
@@ -26,14 +27,17 @@ constexpr int max_clusters = 64;  // along an axis of the cell
 
 class Functional final : public Structure {
  public:
-  /// `clusters`: number along an axis of the cell; 1: none, 0: the most efficient number.
+  /// `clusters`: number along an axis of the cell; 1: none, 0: the most efficient number. The
+  /// period takes the place of the cell size along its axis.
   Functional(const Neighbourhood& neighbourhood, const Tape& function, FunctionalKind kind,
-             Parameter level, int clusters);
+             Parameter level, int clusters, std::optional<GradedPeriod> period = {});
 
   bool inside(Vec3 p) const override;
+  CellIndex cell_of(Vec3 p) const override { return angles_.cell_of(p); }
   bool is_concurrent() const override { return level_.is_concurrent(); }
   /// The difference of onset and level over the sum of their Lipschitz constants. The onset's
-  /// constant is that of the whole cell. Along axes on which the function is not periodic by
+  /// constant is that of the whole cell; in cells of varying size, of all cells that are as near as
+  /// the distance. Along axes on which the function is not periodic by
   /// itself, at most the distance to the cell's border. 0 everywhere if the slope is unbounded.
   double distance_bound(Vec3 p) const override;
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
@@ -48,9 +52,10 @@ class Functional final : public Structure {
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return level_.at(p); }
-  bool is_periodic() const override { return true; }
+  bool is_periodic() const override { return !angles_.period(); }
   ThinWalls thin_walls() const override {
-    return is_sheet() || level_.is_constant() ? ThinWalls::uniform : ThinWalls::varying;
+    return !angles_.period() && (is_sheet() || level_.is_constant()) ? ThinWalls::uniform
+                                                                     : ThinWalls::varying;
   }
   /// Of sheets the lines where the function is 0, of networks those where it is the level.
   LineGraph wall_lines(const WallSection& section) const override;
@@ -62,6 +67,7 @@ class Functional final : public Structure {
   const Program& program() const { return program_; }
   const RayProgram& ray_program() const { return ray_program_; }
   const Parameter& level() const { return level_; }
+  const CellAngles& angles() const { return angles_; }
   /// For each axis, whether the onset is periodic along it by itself.
   const std::array<bool, 3>& repeats() const { return repeats_; }
   /// Built by the first call, on its thread.
@@ -76,7 +82,11 @@ class Functional final : public Structure {
   const std::optional<TrigonometricForm>& form() const { return form_; }
 
  private:
-  const Slope& slope() const;
+  /// In cells that have frequency(n), or less, along the period's axis.
+  const Slope& slope(size_t n) const;
+  const Slope& steepest() const { return slope(slopes_ - 1); }
+  double frequency(size_t n) const;
+  double steady_distance_of(double gap, Vec3 p) const;
   /// Data for rows along the axes.
   struct Prepared {
     Clusters clusters;
@@ -86,6 +96,7 @@ class Functional final : public Structure {
   /// The value of the onset's tape.
   double value(Vec3 p) const;
 
+  CellAngles angles_;
   Parameter level_;
   FunctionalKind kind_;
   Tape function_, onset_;
@@ -95,7 +106,9 @@ class Functional final : public Structure {
   int side_;  // of the clusters
   std::optional<TrigonometricForm> form_;
   std::array<bool, 3> repeats_;
-  Lazy<Slope> slope_;
+  // Frequencies a factor of sqrt(2) apart: 1024 is the largest ratio of cell sizes.
+  std::array<Lazy<Slope>, 21> slope_;
+  size_t slopes_ = 1;
   mutable std::once_flag once_;
   mutable std::optional<Prepared> prepared_;
 };
