@@ -1226,9 +1226,9 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * With a period, the function is that of the position in a cell of varying size. A level applies to
  * cells of all sizes, so walls grow with the cells. A thickness selects at each position along the
  * axis the level of walls that thick in cells of the size there: the thickness stays, the spacing
- * varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate and
- * msq_structure_calibrate are for structures without a period. Rows along the axes of the grid cost
- * what those of a structure that does not tile do.
+ * varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only
+ * structures without a period. Slices along the axes of the grid cost what those of a structure do
+ * whose cells hold no whole number of samples.
  *
  * Functions use IEEE operations only, not the C library, so their bits are equal on every machine.
  * Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by
@@ -1889,10 +1889,11 @@ typedef struct msq_calibration_report {
  * ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of
  * radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2
  * points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells
- * (foams), from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices
- * 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context.
- * Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host
- * structures and functions, beams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.
+ * (foams; with a period, of the smallest size), from the origin of the grid. job NULL: no job.
+ * Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes
+ * per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices
+ * with two or more unit cells, host structures and functions, beams), CANCELLED, LIMIT (target
+ * above max_fraction; memory), MEMORY.
  */
 MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_structure* structure,
                                            const msq_points_def* sample, double target,

@@ -255,6 +255,7 @@ void FunctionalRays::set_piece(const RaySearch& search, Live& live, size_t lane)
   is_clear_[lane] = true;
   const std::optional<GradedPeriod>& period = solid_.angles().period();
   if (period) grade(search, live, lane);
+  const double error = pieces_.error[lane];
   for (int axis = 0; axis < 3; ++axis) {
     const double rate = live.rates[axis];
     pieces_.rates[static_cast<size_t>(axis)][lane] = rate;
@@ -262,8 +263,8 @@ void FunctionalRays::set_piece(const RaySearch& search, Live& live, size_t lane)
     if (rate == 0 && grid_.sample_axes()[0] >= 0) continue;  // then rounding is the same all along
     const double angle = pieces_.coordinates[static_cast<size_t>(axis)][lane];
     const double behind = rate > 0 ? angle : two_pi - angle;
-    const double ahead = two_pi - behind - live.error;
-    if (behind < live.error) is_clear_[lane] = false;  // points may still be before the border
+    const double ahead = two_pi - behind - error;
+    if (behind < error) is_clear_[lane] = false;  // points may still be before the border
     const bool is_graded = period && period->axis() == axis;
     const double until =
         cell_ * std::max(0.0, ahead / (is_graded ? max_rate_[lane] : std::abs(rate)));
