@@ -8,6 +8,7 @@
 #include "cell/neighbourhood.h"
 #include "expression/parser.h"
 #include "random.h"
+#include "ray_check.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/graded_walls.h"
 #include "structure/functional/presets.h"
@@ -141,6 +142,46 @@ void distances_are_those_of_the_cells_nearby(void**) {
   }
 }
 
+/// Functions that jump at the cells' borders: rays stop there.
+void rays_meet_the_borders_of_cells(void**) {
+  for (const char* text : {"0.15*x-0.2*cos(y/2)+0.1*cos(z)", "z-x/4", "abs(z-3)+0.2*sin(y)"})
+    for (const int axis : {0, 2}) {
+      const Knots knots = {{-1, 0.6}, {0.2, 0.3}, {0.21, 0.5}, {1.5, 1.1}};
+      const Functional solid({}, parse_expression(text, {}), FunctionalKind::network,
+                             Parameter(0.4), 0, GradedPeriod(axis, knots));
+      Random random(static_cast<uint64_t>(axis) + 9);
+      for (size_t i = 0; i < test_count(60) + 4; ++i) {
+        const Vec3 a = random.in_box({{-1, -1, -1}, {2, 2, 2}});
+        Vec3 way = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+        if (i % 4 == 0) way = axis == 0 ? Vec3{1, 0, 0} : Vec3{0, 0, -1};
+        check_ray(
+            text, {a, way * (1 / length(way))}, 0, 3, RayWalk{4 * solid.ray_tolerance(), 300},
+            [&](Vec3 p) { return solid.inside(p); },
+            [&](const Ray& r, double first, double last, double& t) {
+              RaySearch search{r, first, last};
+              solid.enter(&search, 1, nullptr);
+              t = search.t;
+              return search.found;
+            },
+            [&](const Ray& r, double first, double last) {
+              return solid.leave(r, first, last, nullptr);
+            });
+      }
+      // Within the distance of a point membership does not change.
+      for (size_t i = 0; i < test_count(2000) + 50; ++i) {
+        const Vec3 p = random.in_box({{-2, -2, -2}, {3, 3, 3}});
+        const double d = solid.distance_bound(p);
+        for (int n = 0; n < 10; ++n) {
+          const Vec3 off = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+          const Vec3 q = p + off * (d * (1 - 1e-9) / length(off));
+          if (solid.inside(q) != solid.inside(p))
+            fail_msg("%s: membership changes within %g of (%.17g, %.17g, %.17g)", text, d, p.x, p.y,
+                     p.z);
+        }
+      }
+    }
+}
+
 /// The level along the axis is that of the cells there.
 void a_thickness_keeps_its_walls(void**) {
   const Tape tape = parse_expression(preset_expressions[0], {});
@@ -165,6 +206,7 @@ int main() {
       cmocka_unit_test(bounds_hold_in_intervals),
       cmocka_unit_test(a_constant_size_is_that_of_the_grid),
       cmocka_unit_test(distances_are_those_of_the_cells_nearby),
+      cmocka_unit_test(rays_meet_the_borders_of_cells),
       cmocka_unit_test(a_thickness_keeps_its_walls),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
