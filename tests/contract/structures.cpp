@@ -133,7 +133,7 @@ Factory graded_functional_factory(const char* expression, FunctionalKind kind, i
   return [=](const Neighbourhood& grid, Parameter level) {
     const double size = grid.cell_size[axis];
     std::vector<GradedPeriod::Knot> knots = {
-        {-1.7, 1}, {-0.45, 1.5}, {0.3, 0.5}, {0.301, 0.7}, {1.9, 1.2}};
+        {-1.7, 1}, {-0.45, 1.5}, {0.3, 0.5}, {0.4, 0.7}, {1.9, 1.2}};
     for (auto& knot : knots) knot = {knot.position * size, knot.cell_size * size};
     return Ref<const Structure>(
         make_ref<Functional>(grid, tape, kind, std::move(level), 0, GradedPeriod(axis, knots)));
