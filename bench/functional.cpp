@@ -19,6 +19,7 @@ struct Setting {
   int cells = 32;
   const char* expression = nullptr;  // NULL: the gyroid of the library
   bool is_graded = false, is_turned = false;
+  int32_t period_axis = -1;  // cells along it from half to twice the size; -1: of one size
   uint32_t clusters = 0;
   int32_t kind = MSQ_FUNCTIONAL_NETWORK;
   double level = 0;
@@ -38,6 +39,14 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   def.level.value = setting.level;
   for (double& size : def.grid.cell_size) size = 1.0 / setting.cells;
   if (setting.is_turned) bench::turn(def.grid);
+  const double positions[] = {0, 1}, sizes[] = {0.5 / setting.cells, 2.0 / setting.cells};
+  msq_period_def period;
+  bench::check(msq_period_def_init(&period, sizeof period));
+  period.axis = setting.period_axis;
+  period.positions = positions;
+  period.cell_sizes = sizes;
+  period.count = 2;
+  if (setting.period_axis >= 0) def.period = &period;
   msq_field* field = nullptr;
   if (setting.is_graded) {
     const double from[3] = {0, 0, 0}, to[3] = {1, 0.5, 0.25};
@@ -85,7 +94,16 @@ int main(int count, char** arguments) try {
   setting.cells = 256;
   add("gyroid, 256^3 cells", setting, 2048);
   setting.cells = 37;
-  add("gyroid, 37^3 cells, which no whole number of samples fills", setting, 2048);
+  const double plain =
+      add("gyroid, 37^3 cells, which no whole number of samples fills", setting, 2048);
+  for (const int axis : {0, 2}) {
+    setting.period_axis = axis;
+    const char* const name = axis ? "gyroid, 37^3 cells, period graded along z"
+                                  : "gyroid, 37^3 cells, period graded along x";
+    const double graded = add(name, setting, 2048);
+    if (plain > 0) report.note("against the plain one", graded / plain, "times");
+  }
+  setting.period_axis = -1;
   setting.cells = 32;
   setting.is_graded = true;
   add("gyroid, 32^3 cells, graded level", setting, 2048);

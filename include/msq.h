@@ -398,6 +398,32 @@ typedef struct msq_neighbourhood {
 MSQ_API msq_status msq_neighbourhood_placed(const msq_neighbourhood* grid, const double matrix[12],
                                             msq_neighbourhood* placed);
 
+/** A graded period: cells whose size varies along one axis of a structure's grid, for example to
+ * vary the spacing of walls that are printed with lines of constant width.
+ *
+ * The number of cells per unit length, 1 / size, is linear between positions and constant before
+ * the first and beyond the last. So the map from the coordinate to the number of cells from the
+ * grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not
+ * fold. The size of the grid along this axis is ignored; its origin is a corner of cells. The
+ * largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit
+ * for bit. The arrays are copied. Since 0.2. */
+typedef struct msq_period_def {
+  uint32_t struct_size;
+  /** Axis of the grid, 0 to 2. Default 2. */
+  int32_t axis;
+  /** count coordinates along that axis, in model units from the grid's origin. Ascending,
+   * neighbours at least 1e-6 of the smaller of their two cell sizes apart. No default. */
+  const double* positions;
+  /** Size of the cells at each position, in model units, 1e-75 to 1e75; the largest is at most 1024
+   * times the smallest. No default. */
+  const double* cell_sizes;
+  /** 1 to 4096. */
+  uint64_t count;
+} msq_period_def;
+
+/** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+MSQ_API msq_status msq_period_def_init(msq_period_def* def, size_t size);
+
 /** Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about
  * 1/7 byte per value in addition. */
 typedef struct msq_image {
@@ -1171,8 +1197,10 @@ typedef struct msq_functional_def {
   /** At most 1024. */
   uint64_t parameter_count;
   /** SHEET, instead of level: mean wall thickness in model units. A constant must be > 0, a field
-   * >= 0 and not 0 everywhere. Default 0: level is used. */
+   * >= 0 and not 0 everywhere. With a period it must be a constant. Default 0: level is used. */
   msq_param thickness;
+  /** Cells of varying size. NULL (default): all cells have the size of the grid. Since 0.2. */
+  const msq_period_def* period;
 } msq_functional_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -1196,14 +1224,23 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * thicker where the function is flatter. A field of thickness selects at each point the level of
  * that thickness.
  *
+ * With a period, the function is that of the position in a cell of varying size. A level applies to
+ * cells of all sizes, so walls grow with the cells. A thickness selects at each position along the
+ * axis the level of walls that thick in cells of the size there: the thickness stays, the spacing
+ * varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only
+ * structures without a period. Slices along the axes of the grid cost what those of a structure do
+ * whose cells hold no whole number of samples.
+ *
  * Functions use IEEE operations only, not the C library, so their bits are equal on every machine.
  * Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by
  * default, seconds for the longest expressions); a thickness takes tens of milliseconds at
- * construction. Errors: ARGUMENT (also: thickness for a network, together with a level, above what
- * fills the cell, or of a function without a zero or nowhere above 1e-300; for expressions the
- * message gives the position, from 1, and the reason), LIMIT (limits of expressions), MEMORY.
- * Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and
- * Nesper 1991. */
+ * construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network,
+ * together with a level, above what fills the cell, or of a function without a zero or nowhere
+ * above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits,
+ * with the index; for expressions the message gives the position, from 1, and the reason), LIMIT
+ * (limits of expressions; more than 2^24 cells between the grid's origin and a position of the
+ * period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section
+ * "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and Nesper 1991. */
 MSQ_API msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def,
                                             msq_structure** structure);
 
@@ -1987,10 +2024,11 @@ typedef struct msq_calibration_report {
  * ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of
  * radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2
  * points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells
- * (foams), from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices
- * 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context.
- * Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host
- * structures and functions, beams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.
+ * (foams; with a period, of the smallest size), from the origin of the grid. job NULL: no job.
+ * Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes
+ * per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices
+ * with two or more unit cells, host structures and functions, beams), CANCELLED, LIMIT (target
+ * above max_fraction; memory), MEMORY.
  */
 MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_structure* structure,
                                            const msq_points_def* sample, double target,

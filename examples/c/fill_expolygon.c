@@ -3,7 +3,9 @@
  * holes in whole nanometres for each layer, a line width and a density, and wants open and closed
  * polylines. Prints the density of a stack of layers; draws one as SVG.
  *
- *   fill_expolygon foam|gyroid [density [layer.svg]]
+ *   fill_expolygon foam|gyroid|graded [density [layer.svg]]
+ *
+ * graded: a gyroid whose cells grow to twice their length from the left to the right.
  */
 #include <msq.h>
 #include <stdio.h>
@@ -24,9 +26,11 @@ typedef struct infill {
   msq_structure* pattern;
 } infill;
 
-static msq_structure* make_pattern(msq_context* context, int is_foam, const double cell[3]) {
+enum pattern { foam, gyroid, graded };
+
+static msq_structure* make_pattern(msq_context* context, enum pattern kind, const double cell[3]) {
   msq_structure* pattern;
-  if (is_foam) {
+  if (kind == foam) {
     msq_foam_def def;
     check(msq_foam_def_init(&def, sizeof def));
     memcpy(def.grid.cell_size, cell, sizeof def.grid.cell_size);
@@ -39,12 +43,20 @@ static msq_structure* make_pattern(msq_context* context, int is_foam, const doub
     def.function = MSQ_FUNCTION_GYROID;
     def.kind = MSQ_FUNCTIONAL_SHEET;
     def.level.value = 0.1; /* no matter for lines */
+    const double positions[2] = {0, 60}, sizes[2] = {cell[0], 2 * cell[0]};
+    msq_period_def period;
+    check(msq_period_def_init(&period, sizeof period));
+    period.axis = 0;
+    period.positions = positions;
+    period.cell_sizes = sizes;
+    period.count = 2;
+    if (kind == graded) def.period = &period;
     check(msq_structure_functional(context, &def, &pattern));
   }
   return pattern;
 }
 
-static infill make_infill(int is_foam, double line_width, double density) {
+static infill make_infill(enum pattern kind, double line_width, double density) {
   infill made;
   msq_context_def def;
   check(msq_context_def_init(&def, sizeof def));
@@ -52,10 +64,10 @@ static infill make_infill(int is_foam, double line_width, double density) {
   check(msq_context_create(&def, &made.context));
 
   double cell[3] = {1, 1, 1}; /* of any size: calibration gives that of the density */
-  msq_structure* unit = make_pattern(made.context, is_foam, cell);
+  msq_structure* unit = make_pattern(made.context, kind == foam ? foam : gyroid, cell);
   check(msq_fill_calibrate(made.context, unit, line_width, density, cell, NULL));
   msq_structure_release(unit);
-  made.pattern = make_pattern(made.context, is_foam, cell);
+  made.pattern = make_pattern(made.context, kind, cell);
   printf("cells of %.3f mm\n", cell[0]);
   return made;
 }
@@ -107,7 +119,10 @@ static void draw(const char* file, const msq_fill_report* paths, double line_wid
 }
 
 int main(int argc, char** argv) {
-  const int is_foam = argc < 2 || strcmp(argv[1], "gyroid") != 0;
+  const enum pattern kind = argc < 2                         ? foam
+                            : strcmp(argv[1], "gyroid") == 0 ? gyroid
+                            : strcmp(argv[1], "graded") == 0 ? graded
+                                                             : foam;
   const double density = argc > 2 ? atof(argv[2]) : 0.15, line_width = 0.45, layer_height = 0.2;
   /* 60 x 40 mm with a hole. Rings may run either way, and may be where the slicer keeps them. */
   static const int64_t contour[4][2] = {{0, 0}, {60000000, 0}, {60000000, 40000000}, {0, 40000000}};
@@ -116,7 +131,7 @@ int main(int argc, char** argv) {
   const msq_ring expolygon[2] = {{contour, 4}, {hole, 4}};
   const double area = 60 * 40 - 280; /* mm^2 */
 
-  infill infill = make_infill(is_foam, line_width, density);
+  infill infill = make_infill(kind, line_width, density);
   double length = 0, travel = 0;
   uint64_t count = 0;
   const int layers = 200;

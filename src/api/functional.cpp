@@ -8,6 +8,7 @@
 #include "api/neighbourhood.h"
 #include "expression/parser.h"
 #include "field/map.h"
+#include "structure/functional/graded_walls.h"
 #include "structure/functional/presets.h"
 #include "structure/functional/wall_thickness.h"
 
@@ -22,6 +23,27 @@ msq_functional_def functional_defaults() {
   def.kind = MSQ_FUNCTIONAL_NETWORK;
   def.grid = neighbourhood_defaults();
   return def;
+}
+
+msq_period_def period_defaults() {
+  msq_period_def def{};
+  def.axis = 2;
+  return def;
+}
+
+std::optional<GradedPeriod> read_period(const msq_period_def* def) {
+  if (!def) return {};
+  const msq_period_def known = read_def(def, period_defaults(), "period");
+  require_range(known.axis, 0, 2, "period.axis");
+  if (known.count < 1 || known.count > GradedPeriod::max_knots)
+    fail(Status::argument, "period.count is %llu; it must be from 1 to %zu",
+         static_cast<unsigned long long>(known.count), GradedPeriod::max_knots);
+  if (!known.positions) fail(Status::argument, "period.positions is NULL");
+  if (!known.cell_sizes) fail(Status::argument, "period.cell_sizes is NULL");
+  std::vector<GradedPeriod::Knot> knots;
+  for (uint64_t i = 0; i < known.count; ++i)
+    knots.push_back({known.positions[i], known.cell_sizes[i]});
+  return GradedPeriod(known.axis, knots);
 }
 
 Tape read_function(const msq_functional_def& def) {
@@ -42,7 +64,7 @@ bool is_given(const msq_param& parameter) {
 
 /// The level of walls as thick as that.
 Parameter read_thickness(const msq_functional_def& def, FunctionalKind kind, const Tape& function,
-                         Vec3 cell_size) {
+                         const Neighbourhood& grid, const std::optional<GradedPeriod>& period) {
   if (kind != FunctionalKind::sheet)
     fail(Status::argument, "thickness is given, but kind is %d: only sheets have walls", def.kind);
   if (is_given(def.level))
@@ -53,7 +75,13 @@ Parameter read_thickness(const msq_functional_def& def, FunctionalKind kind, con
     fail(Status::argument,
          "thickness runs from %g to %g; it must not be negative, nor 0 everywhere", range.low,
          range.high);
-  const WallThickness walls(function, cell_size);
+  if (period) {
+    if (!thickness.is_constant())
+      fail(Status::unsupported,
+           "thickness is a field; with a period it must be a number. A level may be a field");
+    return graded_wall_level(function, grid, *period, range.high);
+  }
+  const WallThickness walls(function, grid.cell_size);
   if (range.high > walls.most())
     fail(Status::argument, "thickness runs to %g; walls of %g fill all of the cell", range.high,
          walls.most());
@@ -66,6 +94,10 @@ Parameter read_thickness(const msq_functional_def& def, FunctionalKind kind, con
 
 msq_status msq_functional_def_init(msq_functional_def* def, size_t size) {
   return guard([&] { set_defaults(def, size, functional_defaults(), "msq_functional_def"); });
+}
+
+msq_status msq_period_def_init(msq_period_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, period_defaults(), "msq_period_def"); });
 }
 
 msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def,
@@ -81,10 +113,12 @@ msq_status msq_structure_functional(msq_context* context, const msq_functional_d
       fail(Status::argument, "clusters is %u; it must be from 0 to %d", known.clusters,
            max_clusters);
     const Tape function = read_function(known);
+    std::optional<GradedPeriod> period = read_period(known.period);
     Parameter level = is_given(known.thickness)
-                          ? read_thickness(known, kind, function, grid.cell_size)
+                          ? read_thickness(known, kind, function, grid, period)
                           : read_level(known.level, known.kind);
-    *structure = new_handle<msq_structure>(Ref<Structure>(make_ref<Functional>(
-        grid, function, kind, std::move(level), static_cast<int>(known.clusters))));
+    *structure = new_handle<msq_structure>(
+        Ref<Structure>(make_ref<Functional>(grid, function, kind, std::move(level),
+                                            static_cast<int>(known.clusters), std::move(period))));
   });
 }

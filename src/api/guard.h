@@ -123,6 +123,8 @@ inline constexpr size_t first_size<msq_cache_report> = offsetof(msq_cache_report
 template <>
 inline constexpr size_t first_size<msq_foam_def> = offsetof(msq_foam_def, density);
 template <>
+inline constexpr size_t first_size<msq_functional_def> = offsetof(msq_functional_def, period);
+template <>
 inline constexpr size_t first_size<msq_lattice_def> = offsetof(msq_lattice_def, strut_factors);
 template <>
 inline constexpr size_t first_size<msq_query_def> = offsetof(msq_query_def, critical_count);

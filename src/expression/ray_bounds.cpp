@@ -343,6 +343,7 @@ RayBatch::Bounds RayBatch::run(const Pieces& pieces, size_t count) {
     std::copy_n(pieces.coordinates[axis], lanes, arrays[0]);
     std::copy_n(pieces.rates[axis], lanes, arrays[1]);
     std::copy_n(pieces.rates[axis], lanes, arrays[2]);
+    std::copy_n(pieces.bends[axis], lanes, arrays[3]);
     std::copy_n(pieces.error, lanes, arrays[4]);
   }
   HWY_DYNAMIC_DISPATCH(run_ray_program)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bounds of the value of a tape along pieces of rays: proven bounds, for many rays at once.
 //
-// Coordinates change in proportion to s, which runs from 0 to the piece's span. Each node is
-// enclosed by
+// Coordinates change in proportion to s, which runs from 0 to the piece's span, or nearly so. Each
+// node is enclosed by
 //   value + [low, high] s  +-  bend s^2  +-  error:
 // its value at the start, its slope there (an interval only near kinks), its maximum deviation from
 // that line, and its rounding error. Near a simple zero the slope dominates. So steps up to the
@@ -51,11 +51,13 @@ class RayBatch {
 
   explicit RayBatch(const RayProgram& program);
 
-  /// For each piece: the coordinates at its start, their rates of change with s, their maximum
-  /// error anywhere on it, and its span, which is positive. Lanes beyond the number of pieces are
-  /// read, too, and must be finite.
+  /// For each piece: the coordinates at its start, their rates of change with s, how much they bend
+  /// (their maximum deviation from that line, over s^2), their maximum error anywhere on it, and
+  /// its span, which is positive. Lanes beyond the number of pieces are read, too, and must be
+  /// finite.
   struct alignas(64) Pieces {
-    double coordinates[3][lanes] = {}, rates[3][lanes] = {}, error[lanes] = {}, span[lanes] = {};
+    double coordinates[3][lanes] = {}, rates[3][lanes] = {}, bends[3][lanes] = {};
+    double error[lanes] = {}, span[lanes] = {};
   };
   /// For each piece. `value` equals evaluate() to the last bit. If nothing is known, `bend` is
   /// infinite or NaN.

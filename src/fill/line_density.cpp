@@ -35,7 +35,7 @@ double mean_line_density(const Structure& structure) {
   if (structure.thin_walls() == ThinWalls::varying)
     fail(Status::unsupported,
          "the walls of the structure are denser in some places; calibrate it without the field "
-         "that does so");
+         "or period that does so");
   const Neighbourhood& grid = structure.neighbourhood();
   const std::array<int, 3> axes = grid.sample_axes();
   const bool is_turned = axes[0] < 0, repeats = structure.is_periodic() && !is_turned;

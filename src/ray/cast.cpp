@@ -330,7 +330,7 @@ CellIndex cell_of(const Scales& all, const RayHit& hit) {
   const Scales& resolved = all.regions.empty() ? all : all.regions[hit.region];
   if (resolved.empty()) return {};
   const Structure& finest = *resolved.back()->structure;
-  return finest.is_on_grid() ? finest.neighbourhood().locate(hit.point).cell : CellIndex{};
+  return finest.is_on_grid() ? finest.cell_of(hit.point) : CellIndex{};
 }
 
 uint32_t material_id(const Model& model, const Scales& resolved, const RayHit& hit,

@@ -32,13 +32,17 @@ class Structure : public RefCounted {
   explicit Structure(const Neighbourhood& neighbourhood)
       : neighbourhood_(neighbourhood), characteristic_length_(cell_length()) {}
 
-  /// The grid. For kinds without a grid, cubes by which points are grouped.
+  /// The grid. For kinds without a grid, cubes by which points are grouped. If cells vary in size,
+  /// the grid of the smallest ones.
   const Neighbourhood& neighbourhood() const { return neighbourhood_; }
   /// If false, cells have no meaning: their indices are not limited, and hits name no cell.
   bool is_on_grid() const { return is_on_grid_; }
-  /// The largest cell size: the unit of tolerances and steps.
+  /// The cell that contains a point, for kinds on a grid.
+  virtual CellIndex cell_of(Vec3 p) const { return neighbourhood_.locate(p).cell; }
+  /// The largest cell size of the grid: the unit of tolerances and steps.
   double cell_length() const { return max_component(neighbourhood_.cell_size); }
-  /// The largest cell size; for kinds without a grid, the length given at construction.
+  /// The largest cell size; for kinds without a grid, or with cells of varying size, the length
+  /// given at construction.
   double characteristic_length() const { return characteristic_length_; }
 
   /// Membership of a point. The boundary is inside. Kinds on a grid take points whose cell index is
@@ -143,6 +147,9 @@ class Structure : public RefCounted {
   virtual void keep_rows(const RowBlock& block, const Job* job) const;
 
  protected:
+  /// A kind whose cells vary in size.
+  Structure(const Neighbourhood& smallest, double characteristic_length)
+      : neighbourhood_(smallest), characteristic_length_(characteristic_length) {}
   /// A kind without a grid. The cubes have a side about as long as the kind's parts.
   Structure(Vec3 origin, double side, double characteristic_length)
       : neighbourhood_{origin, {side, side, side}, {}},

@@ -33,6 +33,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_null(def.expression);
   assert_null(def.parameters);
   assert_int_equal(def.parameter_count, 0);
+  assert_null(def.period);
 }
 
 /* ---- the solid, against the C library's functions */

@@ -18,7 +18,8 @@
   DO(unit_cell_def, sizeof(msq_unit_cell_def))                       \
   DO(lattice_def, offsetof(msq_lattice_def, strut_factors))          \
   DO(foam_def, offsetof(msq_foam_def, density))                      \
-  DO(functional_def, sizeof(msq_functional_def))                     \
+  DO(functional_def, offsetof(msq_functional_def, period))           \
+  DO(period_def, sizeof(msq_period_def))                             \
   DO(beams_def, sizeof(msq_beams_def))                               \
   DO(host_structure_def, sizeof(msq_host_structure_def))             \
   DO(host_function_def, sizeof(msq_host_function_def))               \

@@ -128,6 +128,18 @@ Factory functional_factory(const char* expression, FunctionalKind kind, int clus
   };
 }
 
+Factory graded_functional_factory(const char* expression, FunctionalKind kind, int axis) {
+  const Tape tape = parse_expression(expression, {});
+  return [=](const Neighbourhood& grid, Parameter level) {
+    const double size = grid.cell_size[axis];
+    std::vector<GradedPeriod::Knot> knots = {
+        {-1.7, 1}, {-0.45, 1.5}, {0.3, 0.5}, {0.4, 0.7}, {1.9, 1.2}};
+    for (auto& knot : knots) knot = {knot.position * size, knot.cell_size * size};
+    return Ref<const Structure>(
+        make_ref<Functional>(grid, tape, kind, std::move(level), 0, GradedPeriod(axis, knots)));
+  };
+}
+
 UnitCell skew_unit_cell() {
   UnitCell cell;
   cell.nodes = {{0, 0.25, 0.75},   {1, 0.5, 0.125}, {0.3, 0, 1},     {0.7, 1, 0},  {0, 0, 0},
@@ -262,6 +274,12 @@ std::vector<Kind> kinds() {
   kinds.push_back({"functional", "choice", 0.05, 1, functional_factory(choice, network, 0)});
   kinds.push_back(
       {"functional", "choice sheet, few clusters", 0.1, 1, functional_factory(choice, sheet, 3)});
+  kinds.push_back({"graded period", "gyroid along z", 0.2, 1,
+                   graded_functional_factory(preset_expressions[0], network, 2)});
+  kinds.push_back({"graded period", "split P sheet along x", 0.1, 1,
+                   graded_functional_factory(preset_expressions[7], sheet, 0)});
+  kinds.push_back(
+      {"graded period", "choice along y", 0.05, 1, graded_functional_factory(choice, network, 1)});
   for (bool by_cell : {false, true})
     kinds.push_back({"host", by_cell ? "lattice by cells" : "lattice by points", 0.12, 1,
                      [=](const Neighbourhood& grid, Parameter radius) {

@@ -89,6 +89,8 @@ Factory foam_factory(FoamMethod method, double jitter);
 Parameter rising_density(const Neighbourhood& grid);
 /// The radius of the suite stands for the level.
 Factory functional_factory(const char* expression, FunctionalKind kind, int clusters);
+/// The same in cells whose size varies along an axis of the grid, from half to 1.5 of the grid's.
+Factory graded_functional_factory(const char* expression, FunctionalKind kind, int axis);
 /// Skew struts that start and end on faces, edges and corners of the cell, one that joins two
 /// cells' worth of nodes, and one alone in the middle.
 UnitCell skew_unit_cell();

@@ -11,7 +11,7 @@ Lengths are in the model's unit, millimetres with files. What the words mean exa
 docs/concepts.md of msq; msq.h says the rest. Objects are immutable, and any thread may use them;
 calls let other Python threads run. Failures are exceptions with the library's message: see Error.
 """
-from ._grid import Grid
+from ._grid import Grid, Period
 from ._host import HostPoints
 from .camera import Camera
 from .context import (BuildInfo, CacheInfo, Context, Job, JobInfo, MemoryInfo, build_info)
@@ -40,7 +40,7 @@ __all__ = [
     "Grid", "HostError",
     "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",
     "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "MeshError", "Model",
-    "OutOfMemoryError", "Param", "Picture", "PointGrid", "PointSet", "RenderPass", "Scale", "Shape",
-    "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
+    "OutOfMemoryError", "Param", "Period", "Picture", "PointGrid", "PointSet", "RenderPass", "Scale",
+    "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
     "UnsupportedError", "build_info",
 ]

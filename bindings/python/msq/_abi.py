@@ -192,6 +192,11 @@ class msq_neighbourhood(Structure):
     _fields_ = [("origin", c_double * 3), ("cell_size", c_double * 3), ("rotation", c_double * 9)]
 
 
+class msq_period_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("axis", c_int32), ("positions", POINTER(c_double)),
+                ("cell_sizes", POINTER(c_double)), ("count", c_uint64)]
+
+
 class msq_image(Structure):
     _fields_ = [("values", c_void_p), ("value_type", c_int32), ("reserved", c_uint32),
                 ("size", c_uint64 * 3), ("row_stride", c_uint64), ("layer_stride", c_uint64),
@@ -307,7 +312,8 @@ class msq_functional_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("function", c_int32), ("kind", c_int32),
                 ("clusters", c_uint32), ("grid", msq_neighbourhood), ("level", msq_param),
                 ("expression", c_char_p), ("parameters", POINTER(msq_named_value)),
-                ("parameter_count", c_uint64), ("thickness", msq_param)]
+                ("parameter_count", c_uint64), ("thickness", msq_param),
+                ("period", POINTER(msq_period_def))]
 
 
 class msq_beams_def(Structure):
@@ -555,6 +561,7 @@ FUNCTIONS = {
     "msq_job_info": [c_int32, POINTER(msq_job), POINTER(msq_job_report)],
     "msq_neighbourhood_placed": [c_int32, POINTER(msq_neighbourhood), POINTER(c_double),
                                  POINTER(msq_neighbourhood)],
+    "msq_period_def_init": [c_int32, POINTER(msq_period_def), c_size_t],
     "msq_file_def_init": [c_int32, POINTER(msq_file_def), c_size_t],
     "msq_shape_from_file": [c_int32, POINTER(msq_context), c_char_p, POINTER(msq_file_def),
                             POINTER(POINTER(msq_shape)), POINTER(msq_job)],

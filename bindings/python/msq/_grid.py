@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _abi
 from ._arrays import address_of, vector
-from ._library import lib
+from ._library import defaults, lib
 from .context import triple, unsigned
 
 Cell = Union[float, Sequence[float]]  #: size of a cell: one number, or one for each axis
@@ -43,6 +43,35 @@ def set_window(definition: _abi.msq_window, window: Optional[Window]) -> None:
         to[:] = [unsigned(number, 64, "window") for number in numbers]
     if not any(definition.first) and not any(definition.count):
         raise ValueError("the window's counts are 0; they must be at least 1")
+
+
+class Period(NamedTuple):
+    """Cells whose size varies along one axis of the grid: cell_sizes at positions, in model units from
+    the grid's origin. The number of cells per unit length is linear between positions, and constant
+    beyond them."""
+
+    positions: Any
+    cell_sizes: Any
+    axis: int = 2
+
+
+def set_period(definition: Any, period: Optional[Period]) -> Any:
+    """Writes a period; returns what must be kept until the call is made. None: cells of one size."""
+    if period is None:
+        return None
+    period = Period(*period)
+    positions = np.ascontiguousarray(period.positions, dtype=np.float64)
+    cell_sizes = np.ascontiguousarray(period.cell_sizes, dtype=np.float64)
+    if positions.ndim != 1 or positions.shape != cell_sizes.shape:
+        raise ValueError(f"period has positions of shape {positions.shape} and cell_sizes of shape "
+                         f"{cell_sizes.shape}; they must be (n,) both")
+    graded = defaults(_abi.msq_period_def)
+    graded.axis = period.axis
+    graded.positions = positions.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+    graded.cell_sizes = cell_sizes.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+    graded.count = len(positions)
+    definition.period = ctypes.pointer(graded)
+    return graded, positions, cell_sizes
 
 
 class Grid(NamedTuple):

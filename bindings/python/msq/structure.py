@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _abi, statistics
 from ._arrays import Elements, elements, output, pointer, triples
-from ._grid import Cell, set_grid
+from ._grid import Cell, Period, set_grid, set_period
 from ._handle import Handle
 from ._host import HostPoints, create
 from ._interrupt import build, interruptible
@@ -273,13 +273,14 @@ class Functional(Structure):
     function: a name (`gyroid`, `schwarz_p`, `diamond`, `i_wp`, `neovius`, `f_rd`, `lidinoid`,
     `split_p`); or give an expression in x, y, z (angles, 0 to 2 pi) with the values of its
     parameters. Of sheets thickness, the mean one of the walls, may be given instead of level.
+    period: a Period, for cells whose size varies along an axis; cell_size along it is ignored.
     """
 
     def __init__(self, function: Optional[str] = None, *, expression: Optional[str] = None,
                  parameters: Optional[Mapping[str, float]] = None, kind: str = "network",
                  level: Param = 0.0, thickness: Param = 0.0, cell_size: Cell = 1.0,
                  clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 context: Optional[Context] = None) -> None:
+                 period: Optional[Period] = None, context: Optional[Context] = None) -> None:
         if (function is None) == (expression is None):
             raise TypeError("Functional takes a function's name or an expression, one of the two")
         definition = defaults(_abi.msq_functional_def)
@@ -294,7 +295,9 @@ class Functional(Structure):
             definition.function = _abi.MSQ_FUNCTION_EXPRESSION
             definition.expression = expression.encode()
         set_parameters(definition, parameters)
+        kept = set_period(definition, period)
         self._make(context_of(context, level, thickness), lib.msq_structure_functional, definition)
+        del kept  # the call copies it
 
 
 class HostStructure(Structure):

@@ -18,6 +18,29 @@ def length_of(path, is_closed):
     return np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
 
 
+class GradedPeriod(unittest.TestCase):
+    def test_lines_are_denser_where_cells_are_smaller(self):
+        period = msq.Period(positions=(0, 30), cell_sizes=(2, 8), axis=0)
+        graded = msq.Functional("gyroid", kind="sheet", thickness=0.2, cell_size=4, period=period)
+        left, right = SQUARE // (3, 1), SQUARE // (3, 1) + (20_000_000, 0)
+        lengths = [graded.fill_lines(part, 1.3, tolerance=0.01).length for part in (left, right)]
+        self.assertGreater(lengths[0], 1.3 * lengths[1])
+
+    def test_one_position_is_a_grid(self):
+        points = np.random.default_rng(1).uniform(-5, 5, (2000, 3))
+        plain = msq.Functional("gyroid", level=0.2, cell_size=(2, 4, 4))
+        graded = msq.Functional("gyroid", level=0.2, cell_size=4, period=msq.Period([3], [2], 0))
+        np.testing.assert_array_equal(plain.onset(points) <= 0.2, graded.onset(points) <= 0.2)
+
+    def test_refusals(self):
+        with self.assertRaisesRegex(ValueError, r"positions of shape \(2,\)"):
+            msq.Functional("gyroid", period=msq.Period([1, 2], [1]))
+        with self.assertRaisesRegex(msq.ArgumentError, r"positions\[1\] is 1, not above"):
+            msq.Functional("gyroid", period=msq.Period([1, 1], [1, 2]))
+        with self.assertRaisesRegex(msq.ArgumentError, "period.axis is 3"):
+            msq.Functional("gyroid", period=msq.Period([1], [1], axis=3))
+
+
 class FillLines(unittest.TestCase):
     def test_paths_are_arrays(self):
         for structure in (msq.Foam(radius=0.1, cell_size=4), msq.Functional("gyroid", kind="sheet",

@@ -53,8 +53,10 @@ std::vector<RowPlan> row_plans(const Clusters& clusters, const std::array<int, 3
 }  // namespace
 
 Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
-                       FunctionalKind kind, Parameter level, int clusters)
-    : Structure(neighbourhood),
+                       FunctionalKind kind, Parameter level, int clusters,
+                       std::optional<GradedPeriod> period)
+    : Structure(smallest_cells(neighbourhood, period), largest_cell(neighbourhood, period)),
+      angles_(this->neighbourhood(), std::move(period)),
       level_(std::move(level)),
       kind_(kind),
       function_(function),
@@ -64,7 +66,11 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       sample_axis_(neighbourhood.sample_axes()),
       side_(clusters ? clusters : automatic_clusters(onset_)),
       repeats_(msq::repeats(onset_)) {
-  if (sample_axis_[0] < 0) form_ = TrigonometricForm::of(onset_);
+  // Steps of rows have the same angles only in cells of one size.
+  if (sample_axis_[0] < 0 && !angles_.period()) form_ = TrigonometricForm::of(onset_);
+  while (slopes_ < slope_.size() && angles_.period() &&
+         frequency(slopes_ - 1) < angles_.period()->most() * (1 + 0x1p-45))
+    ++slopes_;
 }
 
 const Functional::Prepared& Functional::prepared() const {
@@ -77,9 +83,7 @@ const Functional::Prepared& Functional::prepared() const {
 }
 
 double Functional::value(Vec3 p) const {
-  const Vec3 fraction = neighbourhood().locate(p).fraction;
-  const Vec3 angles{angle_of(fraction.x), angle_of(fraction.y), angle_of(fraction.z)};
-  return evaluate(onset_, angles);
+  return evaluate(onset_, angles_.at(p));
 }
 
 double Functional::onset(Vec3 p) const {
@@ -91,20 +95,26 @@ bool Functional::inside(Vec3 p) const {
   return value(p) <= level_.at(p);
 }
 
-const Slope& Functional::slope() const {
-  return slope_.get([&] {
+double Functional::frequency(size_t n) const {
+  const double whole = std::ldexp(angles_.period()->least(), static_cast<int>(n / 2));
+  return whole * (n % 2 ? std::sqrt(2.0) : 1.0) * (1 + 0x1p-40);
+}
+
+const Slope& Functional::slope(size_t n) const {
+  return slope_[n].get([&] {
     const Neighbourhood& grid = neighbourhood();
     // Angles are rounded, and so is two_pi.
     const Interval cell{0, two_pi};
-    const Vec3 angles_per_unit{two_pi / grid.cell_size.x, two_pi / grid.cell_size.y,
-                               two_pi / grid.cell_size.z};
+    Vec3 angles_per_unit{two_pi / grid.cell_size.x, two_pi / grid.cell_size.y,
+                         two_pi / grid.cell_size.z};
+    if (angles_.period()) angles_per_unit[angles_.period()->axis()] = two_pi * frequency(n);
     return std::make_unique<const Slope>(
         bound_slope(onset_, {cell, cell, cell}, angles_per_unit * (1 + 0x1p-50), 0x1p-49));
   });
 }
 
 double Functional::min_ray_step() const {
-  return std::isfinite(slope().most)
+  return std::isfinite(steepest().most)
              ? ray_tolerance()
              : FunctionalRays::max_blind_step * min_component(neighbourhood().cell_size);
 }
@@ -127,27 +137,47 @@ Vec3 Functional::normal(const Ray& ray, double t) const {
   return dot(search.normal, search.normal) > 0 ? search.normal : ray.direction * -1.0;
 }
 
+/// Where cells vary in size, each frequency has a slope that holds as far as cells have at most
+/// that frequency: the smaller of that distance and the gap over the slope. That is 0 where such
+/// cells end, so it changes by at most the points' distance. The largest of these bounds is taken.
+double Functional::steady_distance_of(double gap, Vec3 p) const {
+  if (!angles_.period()) return steady_distance(gap, steepest().most, 1, level_, p);
+  const GradedPeriod& period = *angles_.period();
+  const double s = angles_.position(p), far = 0x1p30 * characteristic_length();
+  double best = 0;
+  for (size_t n = 0; n < slopes_ && gap > 0; ++n) {
+    const double reach = period.distance_to(s, frequency(n), far);
+    if (reach == 0) continue;
+    const double steady = steady_distance(gap, slope(n).most, 1, level_, p);
+    best = std::max(best, std::min(reach, steady));
+    if (steady <= reach) break;  // larger frequencies have larger slopes
+  }
+  return best;
+}
+
 double Functional::distance_bound(Vec3 p) const {
   const Neighbourhood& grid = neighbourhood();
-  const Slope& slope = this->slope();
+  const Slope& slope = steepest();
   if (!std::isfinite(slope.most)) return 0;
-  const Vec3 fraction = grid.locate(p).fraction;
-  const Vec3 angles{angle_of(fraction.x), angle_of(fraction.y), angle_of(fraction.z)};
-  const double onset = evaluate(onset_, angles);
+  const Vec3 fraction = angles_.fraction(p);
+  const double onset = evaluate(onset_, angles_of(fraction));
   const Interval level = level_.range(Box3{p, p});
   // The error of the level there, and the same at the boundary.
   const double rounding = 2 * (level.high - level.low) + 2 * slope.error;
   const double gap = std::max(onset - level.high, level.low - onset) - rounding;
   // The grid's rotation may stretch distances in the last bits. A constant function has no
   // boundary.
-  double distance_bound = std::min(steady_distance((1 - 0x1p-40) * gap, slope.most, 1, level_, p),
-                                   0x1p30 * characteristic_length());
+  double distance_bound =
+      std::min(steady_distance_of((1 - 0x1p-40) * gap, p), 0x1p30 * characteristic_length());
   for (int axis = 0; axis < 3; ++axis)
     if (!repeats_[static_cast<size_t>(axis)])
       distance_bound = std::min(
           distance_bound, std::min(fraction[axis], 1 - fraction[axis]) * grid.cell_size[axis]);
   if (!(distance_bound > 0)) return 0;
-  return std::max(0.0, distance_bound - 2 * locating_slack(p - grid.origin, distance_bound));
+  double slack = 2 * locating_slack(p - grid.origin, distance_bound);
+  // In cells, of which the largest is the longest.
+  if (angles_.period()) slack += 4 * angles_.error(p, distance_bound) * angles_.period()->largest();
+  return std::max(0.0, distance_bound - slack);
 }
 
 void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
@@ -164,8 +194,8 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
       index[size++] = next;
     }
     level_.values(asked, size, levels);
-    find_angles(neighbourhood(), {coordinates[0], false}, {coordinates[1], false},
-                {coordinates[2], false}, size, {angles[0], angles[1], angles[2]});
+    angles_.find({coordinates[0], false}, {coordinates[1], false}, {coordinates[2], false}, size,
+                 {angles[0], angles[1], angles[2]});
     batch.run(size);
     uint64_t bits[batch_points / 64 + 1];
     compare_values(batch.output(0), {levels, false}, size, bits);

@@ -14,6 +14,7 @@
 #include "expression/slope.h"
 #include "field/field.h"
 #include "structure/common/max_clusters.h"
+#include "structure/functional/cell_angles.h"
 #include "structure/functional/clusters.h"
 #include "structure/functional/row_plan.h"
 #include "structure/functional/trigonometric_form.h"
@@ -25,14 +26,17 @@ enum class FunctionalKind : int32_t { network = 1, sheet = 2 };
 
 class Functional final : public Structure {
  public:
-  /// `clusters`: number along an axis of the cell; 1: none, 0: the most efficient number.
+  /// `clusters`: number along an axis of the cell; 1: none, 0: the most efficient number. The
+  /// period takes the place of the cell size along its axis.
   Functional(const Neighbourhood& neighbourhood, const Tape& function, FunctionalKind kind,
-             Parameter level, int clusters);
+             Parameter level, int clusters, std::optional<GradedPeriod> period = {});
 
   bool inside(Vec3 p) const override;
+  CellIndex cell_of(Vec3 p) const override { return angles_.cell_of(p); }
   bool is_concurrent() const override { return level_.is_concurrent(); }
   /// The difference of onset and level over the sum of their Lipschitz constants. The onset's
-  /// constant is that of the whole cell. Along axes on which the function is not periodic by
+  /// constant is that of the whole cell; in cells of varying size, of all cells that are as near as
+  /// the distance. Along axes on which the function is not periodic by
   /// itself, at most the distance to the cell's border. 0 everywhere if the slope is unbounded.
   double distance_bound(Vec3 p) const override;
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
@@ -47,9 +51,10 @@ class Functional final : public Structure {
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return level_.at(p); }
-  bool is_periodic() const override { return true; }
+  bool is_periodic() const override { return !angles_.period(); }
   ThinWalls thin_walls() const override {
-    return is_sheet() || level_.is_constant() ? ThinWalls::uniform : ThinWalls::varying;
+    return !angles_.period() && (is_sheet() || level_.is_constant()) ? ThinWalls::uniform
+                                                                     : ThinWalls::varying;
   }
   /// Of sheets the lines where the function is 0, of networks those where it is the level.
   LineGraph wall_lines(const WallSection& section) const override;
@@ -61,6 +66,7 @@ class Functional final : public Structure {
   const Program& program() const { return program_; }
   const RayProgram& ray_program() const { return ray_program_; }
   const Parameter& level() const { return level_; }
+  const CellAngles& angles() const { return angles_; }
   /// For each axis, whether the onset is periodic along it by itself.
   const std::array<bool, 3>& repeats() const { return repeats_; }
   /// Built by the first call, on its thread.
@@ -75,7 +81,11 @@ class Functional final : public Structure {
   const std::optional<TrigonometricForm>& form() const { return form_; }
 
  private:
-  const Slope& slope() const;
+  /// In cells that have frequency(n), or less, along the period's axis.
+  const Slope& slope(size_t n) const;
+  const Slope& steepest() const { return slope(slopes_ - 1); }
+  double frequency(size_t n) const;
+  double steady_distance_of(double gap, Vec3 p) const;
   /// Data for rows along the axes.
   struct Prepared {
     Clusters clusters;
@@ -85,6 +95,7 @@ class Functional final : public Structure {
   /// The value of the onset's tape.
   double value(Vec3 p) const;
 
+  CellAngles angles_;
   Parameter level_;
   FunctionalKind kind_;
   Tape function_, onset_;
@@ -94,7 +105,9 @@ class Functional final : public Structure {
   int side_;  // of the clusters
   std::optional<TrigonometricForm> form_;
   std::array<bool, 3> repeats_;
-  Lazy<Slope> slope_;
+  // Frequencies a factor of sqrt(2) apart: 1024 is the largest ratio of cell sizes.
+  std::array<Lazy<Slope>, 21> slope_;
+  size_t slopes_ = 1;
   mutable std::once_flag once_;
   mutable std::optional<Prepared> prepared_;
 };

@@ -45,8 +45,8 @@ FunctionalRows::FunctionalRows(const Functional& structure, const RowBlock& bloc
     const Values y_or = {axis == 1 ? positions.data() : &y, axis != 1};
     const Values z_or = {axis == 2 ? positions.data() : &z, axis != 2};
     for (auto& a : angles) a.resize(count[axis] + batch_padding);
-    find_angles(cells, x_or, y_or, z_or, count[axis],
-                {angles[0].data(), angles[1].data(), angles[2].data()});
+    structure.angles().find(x_or, y_or, z_or, count[axis],
+                            {angles[0].data(), angles[1].data(), angles[2].data()});
     for (size_t a = 0; a < 3; ++a)
       if (sample_axis[a] == axis) angles_[axis] = std::move(angles[a]);
   }

@@ -61,9 +61,7 @@ LevelLines::LevelLines(const Functional& structure, const WallSection& section)
 
 double LevelLines::value(Vec2 p) const {
   const Vec3 at{p.x, p.y, section_.z};
-  const Vec3 fraction = structure_.neighbourhood().locate(at).fraction;
-  const double f =
-      msq::evaluate(function_, {angle_of(fraction.x), angle_of(fraction.y), angle_of(fraction.z)});
+  const double f = msq::evaluate(function_, structure_.angles().at(at));
   const double over = structure_.is_sheet() ? f : f - structure_.level().at(at);
   return std::isnan(over) ? std::numeric_limits<double>::infinity() : over;
 }
@@ -79,8 +77,8 @@ void LevelLines::evaluate(int64_t j, Row& row) {
         static_cast<size_t>(std::min(columns_ - begin, static_cast<int64_t>(batch_points)));
     check_cancelled();
     for (size_t i = 0; i < count; ++i) x_[i] = node(begin + static_cast<int64_t>(i), j).x;
-    find_angles(structure_.neighbourhood(), {x_.data(), false}, {&y, true}, {&z, true}, count,
-                {angles_[0].data(), angles_[1].data(), angles_[2].data()});
+    structure_.angles().find({x_.data(), false}, {&y, true}, {&z, true}, count,
+                             {angles_[0].data(), angles_[1].data(), angles_[2].data()});
     batch.run(count);
     const Values values = batch.output(0);
     const bool varies = !levels_.empty();

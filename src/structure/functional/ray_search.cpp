@@ -64,14 +64,17 @@ void FunctionalRays::start(uint32_t number, const RaySearch& search) {
   live.t = live.before = live.looked_at = search.from;
   live.least = tolerance_;
   live.span = first_span * cell_;
-  const Vec3 along = grid_.rotation.apply_inverse(search.ray.direction);
+  const Vec3 along = live.along = grid_.rotation.apply_inverse(search.ray.direction);
   const Vec3 size = grid_.cell_size;
   live.rates = {two_pi * (along.x * (cell_ / size.x)), two_pi * (along.y * (cell_ / size.y)),
                 two_pi * (along.z * (cell_ / size.z))};
   // Points of the ray, their positions in the grid and their angles are rounded, and so is two_pi.
   const Vec3 p = search.ray.at(search.from), q = search.ray.at(search.to);
   const double off = 0x1p-49 * (max_magnitude(p) + max_magnitude(q) + max_magnitude(grid_.origin));
+  live.off = off;
   live.error = two_pi * off / cell_ + 0x1p-47;
+  const CellAngles& angles = solid_.angles();
+  live.error += 2 * two_pi * angles.error(p, length(q - p));
   live_.push_back(live);
 }
 
@@ -84,7 +87,8 @@ void FunctionalRays::locate(const RaySearch* searches, const Live* live, size_t 
     y[i] = points_[i].y;
     z[i] = points_[i].z;
   }
-  find_angles(grid_, {x, false}, {y, false}, {z, false}, count, {angles[0], angles[1], angles[2]});
+  solid_.angles().find({x, false}, {y, false}, {z, false}, count,
+                       {angles[0], angles[1], angles[2]});
   for (size_t axis = 0; axis < 3; ++axis)
     std::copy_n(angles[axis], count, pieces_.coordinates[axis]);
   level_.values(points_, count, levels_);
@@ -226,12 +230,32 @@ void FunctionalRays::find(bool wanted, RaySearch* searches, size_t count) {
   }
 }
 
-void FunctionalRays::set_piece(const RaySearch& search, const Live& live, size_t lane) {
+/// Where cells vary in size, the angle along the period's axis bends within a piece, and its rate
+/// differs from piece to piece.
+void FunctionalRays::grade(const RaySearch& search, Live& live, size_t lane) {
+  const GradedPeriod& period = *solid_.angles().period();
+  const int axis = period.axis();
+  const double s = solid_.angles().position(search.ray.at(live.t));
+  const double span = pieces_.span[lane] * cell_, change = live.along[axis] * span;
+  const GradedPeriod::Bounds bounds =
+      period.over({s + std::min(0.0, change) - live.off, s + std::max(0.0, change) + live.off});
+  const double along = live.along[axis] * cell_;  // per smallest cell size
+  live.rates[axis] = two_pi * (period.frequency(s) * along);
+  pieces_.bends[static_cast<size_t>(axis)][lane] = two_pi * bounds.bend * along * along;
+  // The rate is that of a position that is off.
+  pieces_.error[lane] += 2 * two_pi * bounds.bend * live.off * span;
+  max_rate_[lane] = two_pi * bounds.most * std::abs(along);
+}
+
+void FunctionalRays::set_piece(const RaySearch& search, Live& live, size_t lane) {
   pieces_.span[lane] = std::max(std::min(live.span, search.to - live.t), tolerance_) / cell_;
   pieces_.error[lane] = live.error;
   border_[lane] = infinity;
   border_axis_[lane] = -1;
   is_clear_[lane] = true;
+  const std::optional<GradedPeriod>& period = solid_.angles().period();
+  if (period) grade(search, live, lane);
+  const double error = pieces_.error[lane];
   for (int axis = 0; axis < 3; ++axis) {
     const double rate = live.rates[axis];
     pieces_.rates[static_cast<size_t>(axis)][lane] = rate;
@@ -239,9 +263,11 @@ void FunctionalRays::set_piece(const RaySearch& search, const Live& live, size_t
     if (rate == 0 && grid_.sample_axes()[0] >= 0) continue;  // then rounding is the same all along
     const double angle = pieces_.coordinates[static_cast<size_t>(axis)][lane];
     const double behind = rate > 0 ? angle : two_pi - angle;
-    const double ahead = two_pi - behind - live.error;
-    if (behind < live.error) is_clear_[lane] = false;  // points may still be before the border
-    const double until = cell_ * std::max(0.0, ahead / std::abs(rate));
+    const double ahead = two_pi - behind - error;
+    if (behind < error) is_clear_[lane] = false;  // points may still be before the border
+    const bool is_graded = period && period->axis() == axis;
+    const double until =
+        cell_ * std::max(0.0, ahead / (is_graded ? max_rate_[lane] : std::abs(rate)));
     if (ahead <= 0) is_clear_[lane] = false;
     if (!(until < border_[lane])) continue;
     border_[lane] = until;
@@ -265,6 +291,7 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
       pieces_.span[i] = tolerance_ / cell_;
       pieces_.error[i] = live[i].error;
     }
+    for (auto& bends : pieces_.bends) std::fill_n(bends, size, 0);
     for (int along = 0; along < 3; ++along) {
       for (int axis = 0; axis < 3; ++axis)
         std::fill_n(pieces_.rates[axis], size, axis == along ? 1 : 0);
@@ -273,7 +300,7 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
         gradients[i][along] = 0.5 * (bounds.low[i] + bounds.high[i]);
     }
     for (size_t i = 0; i < size; ++i) {
-      const Vec3 size_of_cell = grid_.cell_size, g = gradients[i];
+      const Vec3 size_of_cell = solid_.angles().sizes(points_[i]), g = gradients[i];
       const Vec3 in_grid{two_pi * g.x / size_of_cell.x, two_pi * g.y / size_of_cell.y,
                          two_pi * g.z / size_of_cell.z};
       const Vec3 away =

@@ -47,9 +47,10 @@ class FunctionalRays {
     int border = -1;  // axis of the cell's border that the last step crossed
     double t, span;
     double before;            // membership may have changed between that and t
-    double error;             // of angles
+    double error, off;        // of angles; of positions
     double least, looked_at;  // the minimum step, and the ray's t when that was chosen
-    Vec3 rates;               // of angles, per smallest cell size
+    Vec3 along;               // the direction in the grid
+    Vec3 rates;               // of angles at t, per smallest cell size
   };
   /// The level over a piece: value + [low, high] s, + above or - below.
   struct Level {
@@ -64,7 +65,8 @@ class FunctionalRays {
   /// Returns whether the search continues.
   bool advance(bool wanted, RaySearch& search, Live& live, size_t lane,
                const RayBatch::Bounds& bounds);
-  void set_piece(const RaySearch& search, const Live& live, size_t lane);
+  void set_piece(const RaySearch& search, Live& live, size_t lane);
+  void grade(const RaySearch& search, Live& live, size_t lane);
   void locate(const RaySearch* searches, const Live* live, size_t count);
   Level level_over(const Ray& ray, double t, double span, double value) const;
 
@@ -83,6 +85,7 @@ class FunctionalRays {
   int border_axis_[lanes];  // its axis
   bool is_clear_[lanes];    // of borders, rounding included
   double levels_[lanes];
+  double max_rate_[lanes];  // of the angle along the period's axis
 };
 
 }  // namespace msq

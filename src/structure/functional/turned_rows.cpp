@@ -169,8 +169,8 @@ void keep_turned_rows(const Functional& structure, const RowBlock& block, const 
             if (!level.is_constant()) levels[size] = level.at({x[size], y, z});
           }
         }
-        find_angles(structure.neighbourhood(), {x, false}, {&y, true}, {&z, true}, size,
-                    {angles[0], angles[1], angles[2]});
+        structure.angles().find({x, false}, {&y, true}, {&z, true}, size,
+                                {angles[0], angles[1], angles[2]});
         batch.run(size);
         uint64_t bits[batch_points / bits_per_word];
         compare_values(batch.output(0), {levels, level.is_constant()}, size, bits);
