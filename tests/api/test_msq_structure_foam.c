@@ -35,6 +35,8 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_true(def.density.value == 1);
   assert_null(def.wall_thickness.field);
   assert_true(def.wall_thickness.value == 0);
+  assert_null(def.vent_radius.field);
+  assert_true(def.vent_radius.value == 0);
 }
 
 static void create_honours_every_struct_size(void** state) {
@@ -376,6 +378,78 @@ static void wrong_wall_thicknesses_are_refused(void** state) {
   msq_context_release(context);
 }
 
+/* Seeds at the cells' centres: holes are about the lines between them. */
+static void vents_open_the_walls(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {4, 0, 0};
+  uint8_t closed[samples], open[samples], graded[samples];
+  msq_foam_def def = foam_def();
+  msq_context* context = make_context();
+  msq_structure* foam;
+  msq_field* field;
+  (void)state;
+  def.radius.value = 0;
+  def.wall_thickness.value = 0.25;
+  sample_foam(&def, closed);
+  def.vent_radius.value = 0.25;
+  sample_foam(&def, open);
+  assert_ok(msq_field_gradient(context, from, 0, to, 0.25, &field));
+  def.vent_radius.field = field;
+  sample_foam(&def, graded);
+  def.vent_radius.field = NULL;
+  msq_field_release(field);
+  /* A smaller hole may be in a wall that is too small for a larger one. */
+  for (int i = 0; i < samples; ++i) assert_true(open[i] <= closed[i] && graded[i] <= closed[i]);
+  assert_true(count_of(open) < count_of(closed) && count_of(graded) < count_of(closed));
+  assert_memory_not_equal(open, graded, samples);
+  def.jitter = 0;
+  assert_ok(msq_structure_foam(context, &def, &foam));
+  msq_model* model = make_model(context, make_box(context), foam, NULL);
+  assert_false(is_inside(model, 2, 1.5, 1.5));
+  assert_false(is_inside(model, 2.1, 1.7, 1.5));
+  assert_true(is_inside(model, 2, 1.8, 1.5));
+  double distance;
+  const double middle[3] = {2, 1.5, 1.5};
+  assert_ok(msq_point_distance(model, middle, NULL, &distance));
+  assert_true(distance > 0.24 && distance <= 0.25);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+static void wrong_vents_are_refused(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {1, 0, 0};
+  const double refused[] = {-0.25, NAN, INFINITY, -INFINITY};
+  const double low[] = {-0.25, 0, 0}, high[] = {0.25, 0, 1};
+  const char* texts[] = {"-0.25", "0 everywhere", "the limit is 0.5"};
+  msq_context* context = make_context();
+  msq_foam_def def = foam_def();
+  (void)state;
+  def.grid.cell_size[2] = 0.5;
+  def.wall_thickness.value = 0.1;
+  for (int i = 0; i < 4; ++i) {
+    def.vent_radius.value = refused[i];
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "vent_radius is ");
+  }
+  def.vent_radius.value = 0.5;
+  assert_ok(create(context, &def));
+  def.vent_radius.value = 0.515625;
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "vent_radius reaches 0.515625");
+  assert_message_has("the limit is 0.5");
+  for (int i = 0; i < 3; ++i) {
+    msq_field* field;
+    assert_ok(msq_field_gradient(context, from, low[i], to, high[i], &field));
+    def.vent_radius.field = field;
+    assert_refused(create(context, &def), i < 2 ? MSQ_E_ARGUMENT : MSQ_E_LIMIT, texts[i]);
+    assert_message_has("vent_radius");
+    msq_field_release(field);
+    def.vent_radius.field = NULL;
+  }
+  def.vent_radius.value = 0.125;
+  def.wall_thickness.value = 0;
+  assert_refused(create(context, &def), MSQ_E_ARGUMENT, "vent_radius reaches 0.125");
+  assert_message_has("wall_thickness");
+  msq_context_release(context);
+}
+
 static void other_methods_refuse_walls(void** state) {
   const int methods[] = {MSQ_FOAM_POINT, MSQ_FOAM_METHOD_1};
   msq_context* context = make_context();
@@ -488,6 +562,8 @@ int main(void) {
       cmocka_unit_test(struts_and_walls_are_joined),
       cmocka_unit_test(field_thickens_the_walls),
       cmocka_unit_test(wrong_wall_thicknesses_are_refused),
+      cmocka_unit_test(vents_open_the_walls),
+      cmocka_unit_test(wrong_vents_are_refused),
       cmocka_unit_test(other_methods_refuse_walls),
       cmocka_unit_test(null_arguments_are_refused),
       cmocka_unit_test(unknown_methods_are_refused),
