@@ -123,17 +123,21 @@ void bench_slices(bench::Report& report, uint32_t largest) {
     }
 }
 
-/// Closed cells.
+/// Closed cells, and cells with holes.
 void bench_walls(bench::Report& report, uint32_t resolution) {
-  for (int cells : {32, 128}) {
-    bench::FoamSetup setup{cells, MSQ_FOAM_DIRECT};
-    setup.wall = 0.1;
-    double peak;
-    const double seconds = bench::foam_slice_seconds(setup, resolution, UINT64_MAX, peak);
-    report.add("walls of 0.1 cell, " + bench::foam_work(resolution, cells), seconds,
-               std::pow(double(resolution), 3), "sample");
-    report.note("  peak memory", peak / 1e6, "MB");
-  }
+  for (int cells : {32, 128})
+    for (double vent : {0.0, 0.15}) {
+      bench::FoamSetup setup{cells, MSQ_FOAM_DIRECT};
+      setup.wall = 0.1;
+      setup.vent = vent;
+      double peak;
+      const double seconds = bench::foam_slice_seconds(setup, resolution, UINT64_MAX, peak);
+      const std::string name =
+          vent > 0 ? "walls of 0.1 cell, holes of 0.15, " : "walls of 0.1 cell, ";
+      report.add(name + bench::foam_work(resolution, cells), seconds,
+                 std::pow(double(resolution), 3), "sample");
+      report.note("  peak memory", peak / 1e6, "MB");
+    }
 }
 
 /// What fields of r, and AVX2 in place of wider vectors, cost.

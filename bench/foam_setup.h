@@ -18,6 +18,7 @@ struct FoamSetup {
   double extent = 1;       ///< the shape: a cube from the origin with such sides
   bool is_graded = false;  ///< r from 0.05 cell at one corner of the cube to 0.15 at the other
   double wall = 0;         ///< thickness in cells, in place of struts; 0: struts
+  double vent = 0;         ///< radius of holes in walls, in cells
   uint64_t samples = 0;    ///< of a radius that waves so, along each axis; 0: none
 };
 
@@ -35,6 +36,7 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
   check(msq_foam_def_init(&def, sizeof def));
   def.method = setup.method;
   for (double& size : def.grid.cell_size) size = 1.0 / setup.cells;
+  def.vent_radius.value = setup.vent / setup.cells;
   if (setup.wall > 0)
     def.wall_thickness.value = setup.wall / setup.cells;
   else

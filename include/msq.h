@@ -1121,6 +1121,11 @@ typedef struct msq_foam_def {
   /** Whole thickness of the walls between the cells of the foam, in model units, >= 0. The constant
    * 0 (default): no walls. */
   msq_param wall_thickness;
+  /** Radius of the hole through the middle of each wall, in model units, >= 0. A field is evaluated
+   * at the middle of the wall. Walls with less area than their hole stay whole. Radii below 1/512
+   * of the largest cell size count as 0. The constant 0 (default): no holes. Otherwise
+   * wall_thickness must not be the constant 0. */
+  msq_param vent_radius;
 } msq_foam_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -1135,11 +1140,11 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
  * with struts and walls have none (msq_structure_calibrate). Seeds are a function of the cell index
  * and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2,
  * recursively, with one jittered seed per leaf, to that density on average (docs/concepts.md).
- * Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius or wall_thickness
- * above the smallest cell size; cell sizes that differ by a factor above 4; density above 32768),
- * UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other than AUTO and
- * DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and
- * Lefebvre 2016. */
+ * Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness
+ * or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; density
+ * above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other
+ * than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams";
+ * Martinez, Dumas and Lefebvre 2016. */
 MSQ_API msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
                                       msq_structure** structure);
 

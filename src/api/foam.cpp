@@ -46,6 +46,31 @@ Parameter read_wall_thickness(const msq_param& thickness, const Neighbourhood& g
   return read;
 }
 
+Parameter read_vent_radius(const msq_foam_def& def, const Neighbourhood& grid) {
+  const msq_param& radius = def.vent_radius;
+  Parameter read;
+  if (radius.field) {
+    read = Parameter(Ref<const Field>(&object(radius.field, "vent_radius.field")));
+    const Interval range = read.range();
+    if (!(range.low >= 0) || !(range.high > 0))
+      fail(Status::argument,
+           "the field of vent_radius runs from %g to %g; it must not be negative, nor 0 everywhere",
+           range.low, range.high);
+  } else {
+    if (!(radius.value >= 0) || !std::isfinite(radius.value))
+      fail(Status::argument, "vent_radius is %g; it must be finite and not negative", radius.value);
+    read = Parameter(radius.value);
+  }
+  const double most = min_component(grid.cell_size);
+  if (read.range().high > most)
+    fail(Status::limit, "vent_radius reaches %g; the limit is %g (the smallest cell size)",
+         read.range().high, most);
+  if (!is_none(radius) && is_none(def.wall_thickness))
+    fail(Status::argument, "vent_radius reaches %g; without wall_thickness it must be 0",
+         read.range().high);
+  return read;
+}
+
 Parameter read_density(const msq_param& density) {
   Parameter read;
   if (density.field) {
@@ -100,9 +125,10 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            "wall_thickness reaches %g; with walls, the method of a foam must be MSQ_FOAM_AUTO or "
            "MSQ_FOAM_DIRECT",
            thickness.range().high);
+    const Parameter vent_radius = read_vent_radius(known, grid);
     const auto make_walls = [&] {
       return make_ref<FoamWalls>(Ref<Context>(&owner), grid, thickness, known.jitter, known.seed,
-                                 density);
+                                 density, vent_radius);
     };
     if (has_walls && is_none(known.radius)) {
       *structure = new_handle<msq_structure>(Ref<Structure>(make_walls()));

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_period_def_init, and msq_functional_def.period. */
-#include "structures.h"
+#include "definitions.h"
 
-DEFINE_INIT(period_def)
 DEFINE_CREATE(structure, structure_functional, functional_def)
 
 static const double positions[4] = {-1, 0.5, 0.75, 2}, sizes[4] = {1, 0.6, 0.75, 0.5};
@@ -22,11 +21,6 @@ static msq_functional_def functional_def(const msq_period_def* period) {
   def.level.value = 0.25;
   def.period = period;
   return def;
-}
-
-static void def_init_honours_every_size(void** state) {
-  (void)state;
-  check_def_init(init_period_def, sizeof(msq_period_def));
 }
 
 static void defaults_are_those_of_the_header(void** state) {
@@ -212,7 +206,6 @@ static void cells_have_their_sizes(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(def_init_honours_every_size),
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(create_honours_every_struct_size),
       cmocka_unit_test(what_makes_no_map_is_refused),

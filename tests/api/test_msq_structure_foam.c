@@ -28,6 +28,8 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_true(def.density.value == 1);
   assert_null(def.wall_thickness.field);
   assert_true(def.wall_thickness.value == 0);
+  assert_null(def.vent_radius.field);
+  assert_true(def.vent_radius.value == 0);
 }
 
 /* Samples of a foam in the box, as a grid. */
@@ -275,6 +277,43 @@ static void field_thickens_the_walls(void** state) {
   msq_context_release(context);
 }
 
+/* Seeds at the cells' centres: holes are about the lines between them. */
+static void vents_open_the_walls(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {4, 0, 0};
+  uint8_t closed[samples], open[samples], graded[samples];
+  msq_foam_def def = foam_def();
+  msq_context* context = make_context();
+  msq_structure* foam;
+  msq_field* field;
+  (void)state;
+  def.radius.value = 0;
+  def.wall_thickness.value = 0.25;
+  sample_foam(&def, closed);
+  def.vent_radius.value = 0.25;
+  sample_foam(&def, open);
+  assert_ok(msq_field_gradient(context, from, 0, to, 0.25, &field));
+  def.vent_radius.field = field;
+  sample_foam(&def, graded);
+  def.vent_radius.field = NULL;
+  msq_field_release(field);
+  /* A smaller hole may be in a wall that is too small for a larger one. */
+  for (int i = 0; i < samples; ++i) assert_true(open[i] <= closed[i] && graded[i] <= closed[i]);
+  assert_true(count_of(open) < count_of(closed) && count_of(graded) < count_of(closed));
+  assert_memory_not_equal(open, graded, samples);
+  def.jitter = 0;
+  assert_ok(msq_structure_foam(context, &def, &foam));
+  msq_model* model = make_model(context, make_box(context), foam, NULL);
+  assert_false(is_inside(model, 2, 1.5, 1.5));
+  assert_false(is_inside(model, 2.1, 1.7, 1.5));
+  assert_true(is_inside(model, 2, 1.8, 1.5));
+  double distance;
+  const double middle[3] = {2, 1.5, 1.5};
+  assert_ok(msq_point_distance(model, middle, NULL, &distance));
+  assert_true(distance > 0.24 && distance <= 0.25);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void method_2_needs_cgal(void** state) {
   msq_context* context = make_context();
   msq_foam_def def = foam_def();
@@ -300,6 +339,7 @@ int main(void) {
       cmocka_unit_test(walls_without_jitter_are_those_of_the_grid),
       cmocka_unit_test(struts_and_walls_are_joined),
       cmocka_unit_test(field_thickens_the_walls),
+      cmocka_unit_test(vents_open_the_walls),
       cmocka_unit_test(method_2_needs_cgal),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

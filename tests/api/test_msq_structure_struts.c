@@ -2,8 +2,6 @@
  * msq_structure_struts. What struts must be like: tests/contract/test_struts.cpp. */
 #include "struts.h"
 
-DEFINE_INIT(struts_def)
-
 /* What a callback saw. */
 typedef struct taken {
   msq_strut first[8];
@@ -203,93 +201,11 @@ static void references_may_go_in_callbacks(void** state) {
   }
 }
 
-static msq_status use(void* env, void* def) {
-  void** handles = (void**)env;
-  taken all;
-  memset(&all, 0, sizeof all);
-  const msq_status status =
-      msq_structure_struts((msq_context*)handles[0], (msq_structure*)handles[1],
-                           (const msq_struts_def*)def, take, &all, NULL);
-  if (status != MSQ_OK) assert_int_equal(all.calls, 0);
-  return status;
-}
-
-static void definitions_honour_every_size(void** state) {
-  msq_context* context = make_context();
-  void* handles[2] = {context, make_lattice(context)};
-  const msq_struts_def def = struts_def(0, 2);
-  (void)state;
-  check_def_init(init_struts_def, sizeof(msq_struts_def));
-  check_def_sizes(&def, sizeof def, use, handles);
-  msq_structure_release((msq_structure*)handles[1]);
-  msq_context_release(context);
-}
-
-static void wrong_arguments_are_refused(void** state) {
-  msq_context* context = make_context();
-  msq_structure *lattice = make_lattice(context), *gyroid = make_gyroid(context),
-                *walls = make_foam_with(context, 0, 0.05), *foam = make_foam_with(context, 0.1, 0);
-  void* handles[2] = {context, lattice};
-  const msq_struts_def good = struts_def(0, 2);
-  msq_struts_def def = good;
-  taken all;
-  (void)state;
-  memset(&all, 0, sizeof all);
-  assert_refused(msq_structure_struts(NULL, lattice, &def, take, &all, NULL), MSQ_E_ARGUMENT,
-                 "context is NULL");
-  assert_refused(msq_structure_struts(context, NULL, &def, take, &all, NULL), MSQ_E_ARGUMENT,
-                 "structure is NULL");
-  assert_refused(msq_structure_struts(context, lattice, NULL, take, &all, NULL), MSQ_E_ARGUMENT,
-                 "def is NULL");
-  assert_refused(msq_structure_struts(context, lattice, &def, NULL, &all, NULL), MSQ_E_ARGUMENT,
-                 "callback is NULL");
-  def.selection = 2;
-  assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "selection is 2");
-  def.selection = -1;
-  assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "selection is -1");
-  def = good;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int which = 0; which < 3; ++which) {
-      def.min[axis] = not_finite(which);
-      assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "min is (");
-      def = good;
-      def.max[axis] = not_finite(which);
-      assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "max is (");
-      def = good;
-    }
-    def.min[axis] = 2.5;
-    assert_refused(use(handles, &def), MSQ_E_ARGUMENT, "min is 2.5 and max is 2");
-    def = good;
-    def.max[axis] = 1e8;
-    assert_refused(use(handles, &def), MSQ_E_LIMIT, "1.67772e+07");
-    def.max[axis] = 1e300;
-    assert_refused(use(handles, &def), MSQ_E_LIMIT, "the limit is");
-    handles[1] = foam;
-    assert_refused(use(handles, &def), MSQ_E_LIMIT, "the limit is");
-    handles[1] = lattice;
-    def = good;
-  }
-  handles[1] = gyroid;
-  assert_refused(use(handles, &def), MSQ_E_UNSUPPORTED, "no struts");
-  handles[1] = walls;
-  assert_refused(use(handles, &def), MSQ_E_UNSUPPORTED, "no struts");
-  msq_structure_release(foam);
-  msq_structure_release(walls);
-  msq_structure_release(gyroid);
-  msq_structure_release(lattice);
-  msq_context_release(context);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(lattices_have_struts),
-      cmocka_unit_test(beams_are_struts),
-      cmocka_unit_test(struts_are_cut_to_a_shape),
-      cmocka_unit_test(foams_have_struts),
-      cmocka_unit_test(callbacks_stop_the_call),
-      cmocka_unit_test(references_may_go_in_callbacks),
-      cmocka_unit_test(definitions_honour_every_size),
-      cmocka_unit_test(wrong_arguments_are_refused),
+      cmocka_unit_test(lattices_have_struts),      cmocka_unit_test(beams_are_struts),
+      cmocka_unit_test(struts_are_cut_to_a_shape), cmocka_unit_test(foams_have_struts),
+      cmocka_unit_test(callbacks_stop_the_call),   cmocka_unit_test(references_may_go_in_callbacks),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include "hosts.h" /* before headers of the system */
 
 #include "beams.h"
+#include "struts.h"
 #include "wrong_values.h"
 
 static msq_context* context;
@@ -81,6 +82,23 @@ static void foams(void** state) {
           def->wall_thickness.value = 0.1;
           def->method = MSQ_FOAM_METHOD_1);
     RIGHT(def->wall_thickness.value = 0.1; def->method = MSQ_FOAM_DIRECT);
+    if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
+  }
+  REFUSALS("msq_structure_foam") { /* vents */
+    msq_foam_def* def = foam_of();
+    msq_structure** structure = (msq_structure**)output(0);
+    def->grid.cell_size[2] = 0.5;
+    def->wall_thickness.value = 0.1;
+    for (int i = 0; i < 4; ++i)
+      WRONG(ARGUMENT, "vent_radius is ", def->vent_radius.value = numbers[i]);
+    RIGHT(def->vent_radius.value = 0.5);
+    WRONG(LIMIT, "vent_radius reaches 0.515625|the limit is 0.5",
+          def->vent_radius.value = 0.515625);
+    WRONG(ARGUMENT, "vent_radius|-0.25", def->vent_radius.field = fields[0]);
+    WRONG(ARGUMENT, "vent_radius|0 everywhere", def->vent_radius.field = fields[1]);
+    WRONG(LIMIT, "vent_radius|the limit is 0.5", def->vent_radius.field = fields[2]);
+    WRONG(ARGUMENT, "vent_radius reaches 0.125|wall_thickness", def->vent_radius.value = 0.125;
+          def->wall_thickness.value = 0);
     if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
   }
   release_fields(fields);
@@ -355,12 +373,90 @@ static void beam_structures(void** state) {
   }
 }
 
+static int32_t take_no_struts(void* user, const msq_strut* struts, uint64_t count) {
+  (void)user, (void)struts, (void)count;
+  return 0;
+}
+
+static msq_struts_def* struts_of(double low, double high) {
+  msq_struts_def* def = (msq_struts_def*)definition(0);
+  assert_ok(msq_struts_def_init(def, sizeof *def));
+  *def = struts_def(low, high);
+  return def;
+}
+
+/* Of a structure with cells of size 1. */
+static void wrong_struts(refusals* table, msq_struts_def* def) {
+  wrong_sizes(table, def, sizeof *def, sizeof *def);
+  wrong_enum(table, &def->selection, "selection", 0, 1);
+  wrong_vector(table, def->min, "min is (");
+  wrong_vector(table, def->max, "max is (");
+  for (int axis = 0; axis < 3; ++axis) {
+    WRONG(ARGUMENT, "min is 2.5 and max is 2", def->min[axis] = 2.5);
+    WRONG(LIMIT, "1.67772e+07", def->max[axis] = 1e8);
+    WRONG(LIMIT, "the limit is", def->max[axis] = 1e300);
+  }
+}
+
+static void struts(void** state) {
+  msq_structure *lattice = make_lattice(context), *gyroid = make_gyroid(context),
+                *walls = make_foam_with(context, 0, 0.05), *foam = make_foam_with(context, 0.1, 0);
+  (void)state;
+  REFUSALS("msq_structure_struts") {
+    msq_context* in = context;
+    msq_structure* structure = lattice;
+    msq_struts_def* def = struts_of(0, 2);
+    msq_struts_fn callback = take_no_struts;
+    wrong_struts(table, def);
+    RIGHT(structure = foam);
+    WRONG(LIMIT, "the limit is", structure = foam; def->max[1] = 1e300);
+    WRONG(UNSUPPORTED, "no struts", structure = gyroid);
+    WRONG(UNSUPPORTED, "no struts", structure = walls);
+    WRONG(ARGUMENT, "context is NULL", in = NULL);
+    WRONG(ARGUMENT, "structure is NULL", structure = NULL);
+    WRONG(ARGUMENT, "callback is NULL", callback = NULL);
+    WRONG(ARGUMENT, "def is NULL", def = NULL);
+    TRY(msq_structure_struts(in, structure, def, callback, NULL, NULL));
+  }
+  REFUSALS("msq_structure_strut_graph") {
+    msq_context* in = context;
+    msq_structure* structure = lattice;
+    msq_struts_def* def = struts_of(0, 2);
+    msq_strut_graph** graph = (msq_strut_graph**)output(0);
+    msq_job* job = NULL;
+    wrong_struts(table, def);
+    WRONG(UNSUPPORTED, "no struts", structure = gyroid);
+    WRONG(CANCELLED, "cancelled", job = cancelled_job());
+    WRONG(ARGUMENT, "context is NULL", in = NULL);
+    WRONG(ARGUMENT, "structure is NULL", structure = NULL);
+    WRONG(ARGUMENT, "graph is NULL", graph = NULL);
+    WRONG(ARGUMENT, "def is NULL", def = NULL);
+    if (TRY(msq_structure_strut_graph(in, structure, def, graph, job)))
+      msq_strut_graph_release(*graph);
+  }
+  msq_strut_graph* made;
+  const msq_struts_def whole = struts_def(0, 2);
+  assert_ok(msq_structure_strut_graph(context, lattice, &whole, &made, NULL));
+  REFUSALS("msq_strut_graph_info") {
+    msq_strut_graph* graph = made;
+    msq_strut_graph_report* report = (msq_strut_graph_report*)output(0);
+    report->struct_size = sizeof *report;
+    WRONG(ARGUMENT, "struct_size", report->struct_size = 4);
+    WRONG(ARGUMENT, "graph is NULL", graph = NULL);
+    WRONG(ARGUMENT, "report is NULL", report = NULL);
+    TRY(msq_strut_graph_info(graph, report));
+  }
+  msq_strut_graph_release(made);
+  msq_structure_release(foam);
+  msq_structure_release(walls);
+  msq_structure_release(gyroid);
+  msq_structure_release(lattice);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(foams),
-      cmocka_unit_test(functions),
-      cmocka_unit_test(host_kinds),
-      cmocka_unit_test(beam_structures),
+      cmocka_unit_test(foams),      cmocka_unit_test(struts),          cmocka_unit_test(functions),
+      cmocka_unit_test(host_kinds), cmocka_unit_test(beam_structures),
   };
   context = make_context();
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

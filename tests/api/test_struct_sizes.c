@@ -3,6 +3,7 @@
  * far as the caller's struct reaches. Functions that take definitions: wrong_sizes(). */
 #include "definitions.h"
 #include "fills.h"
+#include "struts.h"
 
 #define FOR_EACH_DEFINITION(DO)                                      \
   DO(context_def, offsetof(msq_context_def, cache_policy))           \
@@ -21,6 +22,7 @@
   DO(functional_def, offsetof(msq_functional_def, period))           \
   DO(period_def, sizeof(msq_period_def))                             \
   DO(beams_def, sizeof(msq_beams_def))                               \
+  DO(struts_def, sizeof(msq_struts_def))                             \
   DO(host_structure_def, sizeof(msq_host_structure_def))             \
   DO(host_function_def, sizeof(msq_host_function_def))               \
   DO(material_def, sizeof(msq_material_def))                         \
@@ -98,6 +100,7 @@ static struct {
   msq_slicer* slicer;
   msq_contours* contours;
   msq_fill* fill;
+  msq_strut_graph* graph;
   msq_job* job;
 } of;
 
@@ -148,6 +151,7 @@ DEFINE_READ(lattice_faces_report, msq_lattice_faces(of.lattice, low, high, repor
 DEFINE_READ(slicer_report, msq_slicer_info(of.slicer, report))
 DEFINE_READ(contours_report, msq_contours_info(of.contours, report))
 DEFINE_READ(fill_report, msq_fill_info(of.fill, report))
+DEFINE_READ(strut_graph_report, msq_strut_graph_info(of.graph, report))
 
 #define REPORT(type, first) \
   { #type, read_##type, first, sizeof(msq_##type) }
@@ -167,6 +171,7 @@ static void reports_are_filled(void** state) {
       REPORT(slicer_report, offsetof(msq_slicer_report, window)),
       REPORT(contours_report, sizeof(msq_contours_report)),
       REPORT(fill_report, sizeof(msq_fill_report)),
+      REPORT(strut_graph_report, sizeof(msq_strut_graph_report)),
   };
   (void)state;
   for (size_t i = 0; i < sizeof reports / sizeof reports[0]; ++i) {
@@ -201,6 +206,7 @@ static void reports_of_calibrations_are_filled(void** state) {
 static int make_all(void** state) {
   const msq_slicer_def plan = slicer_def(MSQ_LAYER_BITS, 8, 8, 0.5);
   const msq_fill_def square = square_def(1);
+  const msq_struts_def box = struts_def(0, 2);
   msq_contours_def contours;
   (void)state;
   of.context = make_context();
@@ -214,6 +220,7 @@ static int make_all(void** state) {
   contours.tolerance = 0.1;
   assert_ok(msq_layer_contours(of.model, 1, &contours, &of.contours, NULL));
   of.fill = make_fill(of.context, of.foam, &square);
+  assert_ok(msq_structure_strut_graph(of.context, of.lattice, &box, &of.graph, NULL));
   assert_ok(msq_job_create(&of.job));
   return 0;
 }
@@ -221,6 +228,7 @@ static int make_all(void** state) {
 static int release_all(void** state) {
   (void)state;
   msq_job_release(of.job);
+  msq_strut_graph_release(of.graph);
   msq_fill_release(of.fill);
   msq_contours_release(of.contours);
   msq_slicer_release(of.slicer);

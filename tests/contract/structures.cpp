@@ -65,6 +65,20 @@ Factory walls_factory(double jitter, bool has_density = false) {
   };
 }
 
+/// Walls with holes of 0.2 of a cell, or in places less.
+Factory vented_factory(double jitter, bool is_even = true, bool has_density = false) {
+  return [=](const Neighbourhood& grid, Parameter thickness) {
+    const Parameter density = has_density ? rising_density(grid) : Parameter(1);
+    const double radius = (has_density ? 0.06 : 0.2) * min_component(grid.cell_size);
+    const Vec3 reach = Vec3{2, 2, 2} * max_component(grid.cell_size);
+    const Parameter radii = is_even ? Parameter(radius)
+                                    : Parameter(Ref<const Field>(make_ref<GradientField>(
+                                          grid.origin - reach, 0.0, grid.origin + reach, radius)));
+    return Ref<const Structure>(make_ref<FoamWalls>(shared_context(), grid, std::move(thickness),
+                                                    jitter, uint64_t{7}, density, radii));
+  };
+}
+
 /// It stands for the thickness of the walls and for the radius of the struts.
 Factory walled_factory(double jitter) {
   return [=](const Neighbourhood& grid, Parameter size) {
@@ -330,6 +344,10 @@ std::vector<Kind> kinds() {
       kinds.push_back({"foam walls", name, thickness, jitter, walls_factory(jitter)});
     }
   kinds.push_back({"foam walls", "density 1 to 30", 0.06, 1, walls_factory(1, true)});
+  kinds.push_back({"foam walls", "holes", 0.1, 1, vented_factory(1)});
+  kinds.push_back({"foam walls", "holes, jitter 0", 0.1, 0, vented_factory(0)});
+  kinds.push_back({"foam walls", "holes by a field", 0.3, 1, vented_factory(1, false)});
+  kinds.push_back({"foam walls", "holes, density 1 to 30", 0.06, 1, vented_factory(1, true, true)});
   kinds.push_back({"foam walls", "and struts", 0.09, 1, walled_factory(1)});
   kinds.push_back({"foam walls", "and struts, jitter 0", 0.09, 0, walled_factory(0)});
   kinds.push_back({"beams", "capsules", 0.1, 1, beams_factory(BeamSort::capsules)});

@@ -69,10 +69,11 @@ MakeStructure foam(World& world, int32_t method, msq_param radius, msq_param den
       [&world, def](msq_structure** made) { return msq_structure_foam(world.context, &def, made); };
 }
 
-MakeStructure closed_foam(World& world, double radius, double thickness) {
+MakeStructure closed_foam(World& world, double radius, double thickness, double vent_radius = 0) {
   msq_foam_def def = make_def(msq_foam_def_init);
   def.radius.value = radius;
   def.wall_thickness.value = thickness;
+  def.vent_radius.value = vent_radius;
   return
       [&world, def](msq_structure** made) { return msq_structure_foam(world.context, &def, made); };
 }
@@ -348,6 +349,7 @@ const std::vector<Kind>& kinds() {
         {"mixed lattice", mixed_lattice, false},
         {"foam", [=](World& w) { return foam(w, MSQ_FOAM_AUTO, constant); }},
         {"foam of walls", [=](World& w) { return closed_foam(w, 0, 0.1); }},
+        {"foam of walls with holes", [=](World& w) { return closed_foam(w, 0, 0.1, 0.2); }},
         {"foam of struts and walls", [=](World& w) { return closed_foam(w, 0.2, 0.1); }, false},
         {"foam of flat cells",
          [=](World& w) {

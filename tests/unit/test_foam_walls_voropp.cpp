@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walls against voro++ 0.4.6: membership by the distance to the polygons of the cell that holds a
-// point. Built only where voro++ is found.
+// point; and holes by the areas and centroids of these polygons. Built only where voro++ is found.
 //
 // voro++ is given the seeds of a box of cells and of all cells within twice the empty radius of it.
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include "msq_test.h"
 #include "random.h"
-#include "structure/foam/walls/wall_point.h"
+#include "structure/foam/walls/vents.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -135,6 +135,90 @@ void check_foam(const char* name, double jitter, Vec3 scale) {
   assert_true(inside > 0 && inside < asked && near < 5 && worst < 1e-8);
 }
 
+/// A polygon's area, centroid and normal.
+struct Polygon {
+  double area = 0;
+  Vec3 middle, normal;
+
+  explicit Polygon(const std::vector<Vec3>& face) {
+    for (size_t i = 2; i < face.size(); ++i)
+      normal = normal + cross(face[i - 1] - face[0], face[i] - face[0]) * 0.5;
+    area = length(normal);
+    if (!(area > 0)) return;
+    normal = normal * (1 / area);
+    for (size_t i = 2; i < face.size(); ++i)
+      middle =
+          middle + (face[0] + face[i - 1] + face[i]) *
+                       (dot(cross(face[i - 1] - face[0], face[i] - face[0]), normal) / (6 * area));
+  }
+};
+
+/// Solid is what is within half the thickness of the plane of a face of its cell, but in its hole.
+void check_vents(const char* name, double jitter, Vec3 scale) {
+  Random random(9);
+  size_t asked = 0, inside = 0, in_holes = 0, wrong = 0, near = 0;
+  for (uint64_t number = 0; number < 4; ++number) {
+    const FoamSeeds foam(number, jitter, scale);
+    const NearSeeds seeds(foam, nullptr);
+    const CellIndex corner{static_cast<int32_t>(random.below(2000)) - 1000, 40, -3};
+    Neighbourhood grid;
+    grid.cell_size = scale;
+    const std::vector<Cell> cells = ask_voropp(foam, corner);
+    std::vector<std::vector<Polygon>> walls(cells.size());
+    for (size_t i = 0; i < cells.size(); ++i)
+      for (const auto& face : cells[i].faces) walls[i].emplace_back(face);
+    for (size_t i = 0; i < test_count(40000) / 4 + 1; ++i) {
+      const Vec3 f = random.in_box({{2.5, 2.5, 2.5}, {3.5, 3.5, 3.5}});
+      const Vec3 p = f * scale;
+      size_t own = 0;
+      for (size_t c = 0; c < cells.size(); ++c)
+        if (length(p - cells[c].seed) < length(p - cells[own].seed)) own = c;
+      const double thickness = random.below(2) ? 0.1 : random.between(0, 0.5),
+                   radius = random.below(2) ? 0.15 : random.between(0.01, 0.5);
+      const Vec3 x = p - cells[own].seed;
+      bool is_solid = false, is_near = false, is_plain = false;
+      for (const Polygon& wall : walls[own]) {
+        const double away = 2 * std::abs(dot(x - wall.middle, wall.normal));
+        if (wall.area < 1e-8) {
+          is_near = is_near || (wall.area > 1e-9 && away <= thickness);
+          continue;
+        }
+        is_near = is_near || std::abs(away - thickness) < 1e-8;
+        if (away > thickness) continue;
+        is_plain = true;
+        const double least_area = 3.14159265358979323846 * radius * radius;
+        const double from_axis = length(cross(x - wall.middle, wall.normal));
+        is_near = is_near || std::abs(wall.area - least_area) < 1e-8 ||
+                  std::abs(from_axis - radius) < 1e-6;
+        is_solid = is_solid || wall.area < least_area || from_axis >= radius;
+      }
+      int home[3];
+      for (int axis = 0; axis < 3; ++axis) home[axis] = static_cast<int>(std::floor(f[axis]));
+      const CellIndex cell{corner.x + home[0], corner.y + home[1], corner.z + home[2]};
+      const Vec3 q = (f - Vec3{double(home[0]), double(home[1]), double(home[2])}) * scale;
+      const Vents vents(grid, 1, Parameter(radius));
+      const bool is_inside = is_in_vented_wall(seeds, vents, cell, q, thickness);
+      ++asked;
+      inside += is_inside;
+      in_holes += is_plain && !is_solid;
+      if (is_near)
+        ++near;
+      else
+        wrong += is_inside != is_solid;
+    }
+  }
+  print_message("%s: %zu points, %zu inside, %zu in holes, %zu wrong, %zu near the boundary\n",
+                name, asked, inside, in_holes, wrong, near);
+  assert_int_equal(wrong, 0);
+  assert_true(inside > 0 && in_holes > 0 && near < 5 + asked / 1000);
+}
+
+void test_vents(void**) {
+  check_vents("holes", 1, {1, 1, 1});
+  check_vents("holes, jitter 0.2", 0.2, {1, 1, 1});
+  check_vents("holes, unlike sides", 1, {1, 0.8, 0.5});
+}
+
 void test_cubes(void**) {
   check_foam("cubes", 1, {1, 1, 1});
 }
@@ -151,6 +235,6 @@ void test_unlike_sides(void**) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(test_cubes), cmocka_unit_test(test_little_jitter),
-                              cmocka_unit_test(test_unlike_sides)};
+                              cmocka_unit_test(test_unlike_sides), cmocka_unit_test(test_vents)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

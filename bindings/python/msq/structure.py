@@ -170,23 +170,27 @@ class Foam(Structure):
     """Voronoi foam of one jittered seed per cell: the points within radius of the edges of the
     Voronoi diagram (struts), and those within half of wall_thickness of its faces (walls).
 
-    radius may be 0 (no struts) where wall_thickness is not (no walls: open cells). jitter: 0, seeds at cell centres, to 1, anywhere in their cells. density: seeds in a cell's
-    volume. method: how sets and slices are answered, `auto` the fastest.
+    radius may be 0 (no struts) where wall_thickness is not (no walls: open cells). vent_radius: of a
+    hole through the middle of each wall; 0: none. jitter: 0, seeds at cell centres, to 1, anywhere in
+    their cells. density: seeds in a cell's volume. method: how sets and slices are answered, `auto` the fastest.
     """
 
     def __init__(self, *, radius: Param = 0.0, cell_size: Cell = 1.0, jitter: float = 1.0,
                  seed: int = 0, density: Param = 1.0, method: str = "auto",
                  origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 wall_thickness: Param = 0.0, context: Optional[Context] = None) -> None:
+                 wall_thickness: Param = 0.0, vent_radius: Param = 0.0,
+                 context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_foam_def)
         set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.radius, radius)
         set_param(definition.density, density)
         set_param(definition.wall_thickness, wall_thickness)
+        set_param(definition.vent_radius, vent_radius)
         definition.jitter = jitter
         definition.seed = unsigned(seed, 64, "seed")
         definition.method = constant("MSQ_FOAM_", method, "method")
-        self._make(context_of(context, radius, density, wall_thickness), lib.msq_structure_foam, definition)
+        self._make(context_of(context, radius, density, wall_thickness, vent_radius),
+                   lib.msq_structure_foam, definition)
 
 
 class Beams(Structure):

@@ -48,6 +48,8 @@ class Exceptions(unittest.TestCase):
             (msq.LimitError, "radius", lambda: msq.Foam(radius=3)),
             (msq.ArgumentError, "radius", msq.Foam),
             (msq.LimitError, "wall_thickness reaches 3", lambda: msq.Foam(wall_thickness=3)),
+            (msq.ArgumentError, "without wall_thickness",
+             lambda: msq.Foam(radius=0.1, vent_radius=0.1)),
         ]
         if not msq.build_info().with_assimp:
             cases = [case for case in cases if case[0] not in (msq.FileError, OSError)]
@@ -96,6 +98,7 @@ class Exceptions(unittest.TestCase):
         steel = msq.Material(1, density=field)
         for make in (lambda: msq.Lattice(radius=field), lambda: msq.Foam(radius=field, density=field),
                      lambda: msq.Foam(wall_thickness=field),
+                     lambda: msq.Foam(wall_thickness=0.1, vent_radius=field),
                      lambda: msq.Functional("gyroid", level=field),
                      lambda: msq.Functional("gyroid", kind="sheet", thickness=field),
                      lambda: msq.Lattice(["bcc", "cubic"], cell_choice=field, radius=0.1),
@@ -119,6 +122,9 @@ class Exceptions(unittest.TestCase):
                           {"radius": 0.12, "wall_thickness": 0.1}))
         self.assertTrue(np.array_equal(both, struts | walls))
         self.assertTrue(walls.any() and (struts & ~walls).any() and not both.all())
+        open_walls = msq.Foam(wall_thickness=0.1, vent_radius=0.2)
+        vented = np.asarray(msq.Model(box, [open_walls]).contains(points)).astype(bool)
+        self.assertTrue((walls & ~vented).any() and not (vented & ~walls).any())
 
     def test_triangles_of_any_whole_type_are_one_mesh(self):
         for dtype in (np.uint32, np.int64, np.uint8, np.float64):

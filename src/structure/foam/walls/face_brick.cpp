@@ -23,8 +23,9 @@ namespace {
 
 class FaceBuilder {
  public:
+  /// `areas`: null where they are not wanted.
   void build(const FoamSeeds& seeds, CellIndex corner, std::vector<FaceBrick::Cell>& cells,
-             std::vector<FaceBrick::Face>& faces) {
+             std::vector<FaceBrick::Face>& faces, std::vector<WallFace>* areas) {
     constexpr int side = FaceBrick::side;
     first_squared_ = EdgeBuilder::first_squared(seeds.scale());
     block_.move_to(seeds, corner, side, first_squared_);
@@ -41,6 +42,7 @@ class FaceBuilder {
           high_ = low_ * -1.0;
           if (!find_by_walk(own) && !find_by_cuts(own)) take_all();
           add(block_.position(own), cells, faces);
+          if (areas) add_areas(*areas);
         }
       }
   }
@@ -136,10 +138,22 @@ class FaceBuilder {
     cells.push_back(cell);
   }
 
+  void add_areas(std::vector<WallFace>& areas) {
+    for (const Vec3& face : planes_) {
+      polygon_.start({}, face, empty_radius_ * (1 + 1e-9));
+      for (const Vec3& other : planes_) {
+        if (polygon_.is_empty()) break;
+        if (!(other == face)) polygon_.cut(other);
+      }
+      areas.push_back(polygon_.face());
+    }
+  }
+
   BrickSeeds block_;
   SharedVertices shared_;
   VoronoiCell cell_;
   ClippedCell clipped_;
+  FacePolygon polygon_;
   std::vector<Neighbour> neighbours_;
   std::vector<bool> used_;
   std::vector<Vec3> planes_;  // of the cell at hand: neighbours, from the own seed
@@ -151,11 +165,12 @@ class FaceBuilder {
 
 }  // namespace
 
-FaceBrick::FaceBrick(const FoamSeeds& seeds, CellIndex corner) {
+FaceBrick::FaceBrick(const FoamSeeds& seeds, CellIndex corner, bool with_areas) {
   const Borrowed<FaceBuilder> builder;
   cells_.reserve(size_t{side} * side * side);
   faces_.reserve(size_t{side} * side * side * 17);
-  builder->build(seeds, corner, cells_, faces_);
+  if (with_areas) areas_.reserve(faces_.capacity());
+  builder->build(seeds, corner, cells_, faces_, with_areas ? &areas_ : nullptr);
 }
 
 }  // namespace msq

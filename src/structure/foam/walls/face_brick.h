@@ -6,6 +6,7 @@
 
 #include "cell/cache.h"
 #include "structure/foam/seeds/seeds.h"
+#include "structure/foam/walls/wall_face.h"
 
 namespace msq {
 
@@ -29,18 +30,22 @@ class FaceBrick final : public CellData {
   static constexpr double box_slack = 1e-6;
 
   /// The brick whose first cell is `corner`.
-  FaceBrick(const FoamSeeds& seeds, CellIndex corner);
+  FaceBrick(const FoamSeeds& seeds, CellIndex corner, bool with_areas);
 
   /// Each is bounded by its faces; there may be planes among them that only touch it.
   const std::vector<Cell>& cells() const { return cells_; }
   const Face* faces(const Cell& cell) const { return faces_.data() + cell.first; }
+  /// Areas and centroids, from the seed, of the faces; if they were wanted.
+  const WallFace* areas(const Cell& cell) const { return areas_.data() + cell.first; }
   uint64_t bytes() const override {
-    return sizeof *this + cells_.capacity() * sizeof(Cell) + faces_.capacity() * sizeof(Face);
+    return sizeof *this + cells_.capacity() * sizeof(Cell) + faces_.capacity() * sizeof(Face) +
+           areas_.capacity() * sizeof(WallFace);
   }
 
  private:
   std::vector<Cell> cells_;
   std::vector<Face> faces_;
+  std::vector<WallFace> areas_;
 };
 
 }  // namespace msq

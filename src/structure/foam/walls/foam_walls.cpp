@@ -6,6 +6,7 @@
 #include "structure/common/group_by_cell.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/foam/section/section_lines.h"
+#include "structure/foam/walls/vent_distance.h"
 #include "structure/foam/walls/void_rows.h"
 #include "structure/foam/walls/wall_ray.h"
 
@@ -23,14 +24,16 @@ NearSeeds make_seeds(const Neighbourhood& grid, double unit, double jitter, uint
 }  // namespace
 
 FoamWalls::FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
-                     double jitter, uint64_t seed, Parameter density)
+                     double jitter, uint64_t seed, Parameter density, Parameter vent_radius)
     : Structure(neighbourhood),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
       thickness_(std::move(thickness)),
       unit_(max_component(neighbourhood.cell_size)),
       seeds_(make_seeds(neighbourhood, unit_, jitter, seed, density)),
-      is_concurrent_(thickness_.is_concurrent() && density.is_concurrent()) {}
+      vents_(neighbourhood, unit_, std::move(vent_radius)),
+      is_concurrent_(thickness_.is_concurrent() && density.is_concurrent() &&
+                     vents_.radius().is_concurrent()) {}
 
 FoamWalls::~FoamWalls() {
   context_->cache.drop(id_);
@@ -38,7 +41,9 @@ FoamWalls::~FoamWalls() {
 
 bool FoamWalls::inside(const Neighbourhood::Located& located, Vec3 p) const {
   const Vec3 q = located.fraction * seeds_.seeds().scale();
-  return is_in_wall(seeds_, located.cell, q, thickness_.at(p) / unit_);
+  const double thickness = thickness_.at(p) / unit_;
+  return vents_.exist() ? is_in_vented_wall(seeds_, vents_, located.cell, q, thickness)
+                        : is_in_wall(seeds_, located.cell, q, thickness);
 }
 
 bool FoamWalls::inside(Vec3 p) const {
@@ -47,7 +52,9 @@ bool FoamWalls::inside(Vec3 p) const {
 
 NearFace FoamWalls::face_near(Vec3 p) const {
   const Neighbourhood::Located located = neighbourhood().locate(p);
-  return find_nearest_face(seeds_, located.cell, located.fraction * seeds_.seeds().scale());
+  const Vec3 q = located.fraction * seeds_.seeds().scale();
+  return vents_.exist() ? find_nearest_vented_face(seeds_, vents_, located.cell, q)
+                        : find_nearest_face(seeds_, located.cell, q);
 }
 
 double FoamWalls::onset(Vec3 p) const {
@@ -59,7 +66,9 @@ double FoamWalls::slack(Vec3 p, double distance) const {
   // and the normal of a face by that over their distance: room for seeds down to 1e-6 of a cell
   // from each other.
   const Vec3 scale = seeds_.seeds().scale();
-  const double of_faces = scale == Vec3{1, 1, 1} ? 0x1p-47 : 1e-9;
+  double of_faces = scale == Vec3{1, 1, 1} ? 0x1p-47 : 1e-9;
+  if (vents_.exist())
+    of_faces += vent_error(std::max(min_vent_radius, vents_.radius().range().low / unit_));
   return of_faces * unit_ + locating_slack(p - neighbourhood().origin, distance);
 }
 
@@ -67,8 +76,15 @@ double FoamWalls::slack(Vec3 p, double distance) const {
 // more than half its Lipschitz constant times that. In the void of a cell, the face's wall is as
 // near as the face less half the thickness, as cells are convex.
 double FoamWalls::distance_bound(Vec3 p) const {
-  const double distance = 0.5 * onset(p);
   const Interval t = thickness_.range(Box3{p, p});
+  if (vents_.exist()) {
+    const Neighbourhood::Located located = neighbourhood().locate(p);
+    const double bound = unit_ * vented_distance(seeds_, vents_, located.cell,
+                                                 located.fraction * seeds_.seeds().scale(),
+                                                 {t.low / unit_, t.high / unit_});
+    return std::max(0.0, (bound - slack(p, bound)) / (1 + 0.5 * thickness_.lipschitz()));
+  }
+  const double distance = 0.5 * onset(p);
   const double gap = std::max(distance - 0.5 * t.high, 0.5 * t.low - distance) - slack(p, distance);
   return std::max(0.0, gap / (1 + 0.5 * thickness_.lipschitz()));
 }
@@ -88,6 +104,14 @@ void FoamWalls::keep_rows(const RowBlock& block, const Job* job) const {
 
 BoxClass FoamWalls::classify(const Box3& box) const {
   const Vec3 centre = (box.min + box.max) * 0.5;
+  if (vents_.exist()) {
+    // distance_bound() allows for its rounding; this does for that of the box's points.
+    const double half = 0.5 * length(box.extent());
+    const double around =
+        half * (1 + 1e-9) + 2 * slack(centre, half) + 0x1p-50 * max_magnitude(centre);
+    if (!(distance_bound(centre) > around)) return BoxClass::mixed;
+    return inside(centre) ? BoxClass::inside : BoxClass::outside;
+  }
   const double distance = 0.5 * onset(centre);
   const double half = 0.5 * length(box.extent());
   const double around = half * (1 + 1e-9) + 2 * slack(centre, distance + half) +
@@ -125,6 +149,7 @@ void FoamWalls::enter(RaySearch& search, const Job* job) const {
     search.t = search.from;
     return;
   }
+  if (vents_.exist()) return enter_vented(search, job);
   const WallRay wall{seeds_, neighbourhood(), unit_, thickness_.at({}) / unit_};
   double from = search.from;
   // A ray that all but slides along a wall may come out of rounding's reach only after some tries.
@@ -148,11 +173,43 @@ void FoamWalls::enter(RaySearch& search, const Job* job) const {
   search.t = rest.t;
 }
 
+void FoamWalls::enter_vented(RaySearch& search, const Job* job) const {
+  const Ray& ray = search.ray;
+  const double tolerance = ray_tolerance(ray, search.to), thickness = thickness_.at({});
+  const WallRay wall{seeds_, neighbourhood(), unit_, thickness / unit_};
+  // Holes are crossed in steps of the distance, a piece of the ray at a time.
+  const double piece = std::max(thickness, 0.25 * vents_.max_radius() * unit_);
+  double from = search.from;
+  do {
+    const Neighbourhood::Located located = neighbourhood().locate(ray.at(from));
+    double t = from;
+    if (!is_in_wall(seeds_, located.cell, located.fraction * seeds_.seeds().scale(),
+                    thickness / unit_)) {
+      const WallRay::Way way = wall.find(ray, from, search.to, tolerance, t);
+      if (way == WallRay::Way::passes) return;
+      // The void up to there is that of a cell.
+      t = way == WallRay::Way::meets ? std::max(from, t - tolerance) : from;
+    }
+    RaySearch rest = search;
+    rest.from = t;
+    rest.to = std::min(search.to, t + piece);
+    Structure::enter(&rest, 1, job);
+    if (rest.found) {
+      search.found = true;
+      search.t = rest.t;
+      return;
+    }
+    from = rest.to;
+  } while (from < search.to);
+}
+
 Vec3 FoamWalls::normal(const Ray& ray, double t) const {
   const Vec3 p = ray.at(t);
   const NearFace face = face_near(p);
   const double apart = length(face.across);
-  if (face.onset > 0 && apart > 0) {
+  // In a hole of the nearest wall, the ray may meet the hole's side.
+  const bool is_plane = !vents_.exist() || std::abs(face.onset - thickness_.at(p) / unit_) <= 1e-6;
+  if (face.onset > 0 && apart > 0 && is_plane) {
     // Against the direction in which the onset less the thickness falls.
     const Vec3 outward = neighbourhood().rotation.apply(face.across) * (-2 / apart) -
                          thickness_.gradient(p, normal_distance());
@@ -163,6 +220,7 @@ Vec3 FoamWalls::normal(const Ray& ray, double t) const {
 }
 
 LineGraph FoamWalls::wall_lines(const WallSection& section) const {
+  if (vents_.exist()) return Structure::wall_lines(section);
   return foam_section({*context_, neighbourhood(), seeds_.seeds(), seeds_.graded(), unit_},
                       section);
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The walls of a closed-cell Voronoi foam: the points that are within half a thickness of a face of
-// the Voronoi diagram of all seeds. Onset of a point: twice its distance to the nearest face.
+// the Voronoi diagram of all seeds, except in holes (vents.h). Onset of a point: twice its distance
+// to the nearest face whose hole does not hold it.
 #pragma once
 
 #include "cell/context.h"
 #include "field/field.h"
 #include "structure/foam/walls/near_seeds.h"
+#include "structure/foam/walls/vents.h"
 #include "structure/foam/walls/wall_point.h"
 #include "structure/structure.h"
 
@@ -13,14 +15,15 @@ namespace msq {
 
 class FoamWalls final : public Structure {
  public:
-  /// `density`: as in GradedSeeds.
+  /// `density`: as in GradedSeeds. `vent_radius`: of the holes.
   FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
-            double jitter, uint64_t seed, Parameter density = Parameter(1));
+            double jitter, uint64_t seed, Parameter density = Parameter(1),
+            Parameter vent_radius = Parameter(0));
   ~FoamWalls() override;
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return is_concurrent_; }
-  /// Exact in the voids where the thickness is constant.
+  /// Exact in the voids where the thickness is constant and there are no holes.
   double distance_bound(Vec3 p) const override;
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
@@ -37,13 +40,16 @@ class FoamWalls final : public Structure {
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 
+  /// None with holes: the lines would close them.
   ThinWalls thin_walls() const override {
+    if (vents_.exist()) return ThinWalls::none;
     return seeds_.graded() ? ThinWalls::varying : ThinWalls::uniform;
   }
   LineGraph wall_lines(const WallSection& section) const override;
 
   const NearSeeds& seeds() const { return seeds_; }
   const Parameter& thickness() const { return thickness_; }
+  const Vents& vents() const { return vents_; }
   /// Length of a foam unit in model units.
   double unit() const { return unit_; }
   Context& context() const { return *context_; }
@@ -56,12 +62,15 @@ class FoamWalls final : public Structure {
   /// By how much distances may be off, in model units.
   double slack(Vec3 p, double distance) const;
   void enter(RaySearch& search, const Job* job) const;
+  /// The same with holes: from void to void.
+  void enter_vented(RaySearch& search, const Job* job) const;
 
   const Ref<Context> context_;
   const uint64_t id_;
   const Parameter thickness_;
   const double unit_;
   const NearSeeds seeds_;
+  const Vents vents_;
   const bool is_concurrent_;
 };
 

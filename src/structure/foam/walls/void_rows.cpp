@@ -9,6 +9,7 @@
 #include "base/simd.h"
 #include "structure/common/grid_boxes.h"
 #include "structure/foam/walls/face_brick.h"
+#include "structure/foam/walls/vent_rows.h"
 #include "structure/foam/walls/void_spans.h"
 
 namespace msq {
@@ -25,6 +26,8 @@ struct Workspace {
   std::vector<DoubtfulSamples> doubts;
   std::vector<double> y, z;
   std::vector<float> near_y, near_z;
+  std::vector<VentPlane> vents;
+  std::vector<double> vent_y, vent_z;
 
   size_t bytes() const { return doubts.capacity() * sizeof(DoubtfulSamples); }
 };
@@ -112,7 +115,7 @@ class BlockVoids {
     Box3 around{{cell.low[0], cell.low[1], cell.low[2]},
                 {cell.high[0], cell.high[1], cell.high[2]}};
     around = turned(around);
-    Box3 reach{seed + around.min * unit_, seed + around.max * unit_};
+    const Box3 reach{seed + around.min * unit_, seed + around.max * unit_};
     if (!reach.overlaps(box_)) return;
 
     // The thickness: at_seed + gradient . x, off by `off` at most.
@@ -131,24 +134,6 @@ class BlockVoids {
         off = 0.5 * (range.high - range.low) / unit_ * (1 + 1e-9) + 1e-9 * range.high / unit_;
       }
     }
-    // A ball of half the thickness about a point of the void lies in the cell.
-    const double inwards = 0.5 * range.low / unit_ - margin_;
-    around = around.grown(-inwards);
-    if (!(around.min.x < around.max.x && around.min.y < around.max.y &&
-          around.min.z < around.max.z))
-      return;
-    reach = {seed + around.min * unit_, seed + around.max * unit_};
-    const auto part = [](const std::vector<double>& v, double low, double high, size_t& first) {
-      const auto begin = std::lower_bound(v.begin(), v.end(), low),
-                 end = std::upper_bound(begin, v.end(), high);
-      first = static_cast<size_t>(begin - v.begin());
-      return static_cast<size_t>(end - begin);
-    };
-    size_t row, layer;
-    const size_t rows = part(w_.y, reach.min.y, reach.max.y, row),
-                 layers = part(w_.z, reach.min.z, reach.max.z, layer);
-    if (rows == 0 || layers == 0) return;
-
     w_.planes.clear();
     const FaceBrick::Face* faces = brick.faces(cell);
     const float plane_margin = static_cast<float>((margin_ + 0.5 * off) * (1 + 1e-6));
@@ -161,6 +146,35 @@ class BlockVoids {
            static_cast<float>(face.distance - 0.5 * at_seed),
            plane_margin});
     }
+    const double place = (seed.x - block_.grid->x(0)) / block_.grid->spacing.x;
+    if (!(std::abs(place) < 0x1p52)) return;  // no sample is near
+    clear_spans(around, seed, place, 0.5 * range.low / unit_);
+    if (walls_.vents().exist())
+      clear_holes(brick, cell, seed, reach, place, 0.5 * range.high / unit_);
+  }
+
+  /// How many of ascending numbers are in [low, high], and the first.
+  static size_t part(const std::vector<double>& v, double low, double high, size_t& first) {
+    const auto begin = std::lower_bound(v.begin(), v.end(), low),
+               end = std::upper_bound(begin, v.end(), high);
+    first = static_cast<size_t>(begin - v.begin());
+    return static_cast<size_t>(end - begin);
+  }
+
+  /// Of the void within the planes at hand. `around`: about the cell, from the seed along the axes
+  /// of the samples. `place`: of the seed along x, in samples. `half`: half the thickness at least.
+  void clear_spans(Box3 around, Vec3 seed, double place, double half) {
+    // A ball of half the thickness about a point of the void lies in the cell.
+    around = around.grown(margin_ - half);
+    if (!(around.min.x < around.max.x && around.min.y < around.max.y &&
+          around.min.z < around.max.z))
+      return;
+    const Box3 reach{seed + around.min * unit_, seed + around.max * unit_};
+    size_t row, layer;
+    const size_t rows = part(w_.y, reach.min.y, reach.max.y, row),
+                 layers = part(w_.z, reach.min.z, reach.max.z, layer);
+    if (rows == 0 || layers == 0) return;
+
     const size_t room = 2 * max_simd_doubles;
     w_.near_y.assign(rows + room, 0);
     w_.near_z.resize(layers);
@@ -170,8 +184,7 @@ class BlockVoids {
     for (size_t k = 0; k < layers; ++k)
       w_.near_z[k] = static_cast<float>((w_.z[layer + k] - seed.z) * per_unit);
     const SampleGrid& samples = *block_.grid;
-    const double place = (seed.x - samples.x(0)) / samples.spacing.x, base = std::floor(place);
-    if (!(std::abs(base) < 0x1p52)) return;  // no sample is near
+    const double base = std::floor(place);
     const uint64_t j = j0_ + row, k = k0_ + layer;
     const VoidRows target{w_.near_y.data(),
                           w_.near_z.data(),
@@ -187,6 +200,48 @@ class BlockVoids {
                           static_cast<int64_t>(base),
                           static_cast<int64_t>(samples.nx) - 1};
     clear_void(w_.planes, target, w_.doubts);
+  }
+
+  /// In holes. `reach`: about the cell. `half`: half the thickness at most.
+  void clear_holes(const FaceBrick& brick, const FaceBrick::Cell& cell, Vec3 seed,
+                   const Box3& reach, double place, double half) {
+    const Parameter& radius = walls_.vents().radius();
+    w_.vents.clear();
+    for (uint32_t i = 0; i < cell.count; ++i) {
+      const FaceBrick::Face& face = brick.faces(cell)[i];
+      const WallFace& area = brick.areas(cell)[i];
+      const Vec3 n = grid_.rotation.apply({face.normal[0], face.normal[1], face.normal[2]}),
+                 middle = grid_.rotation.apply(area.middle), at = seed + middle * unit_;
+      const Interval range = radius.range(Box3{at, at}.grown(1e-6 * unit_));
+      w_.vents.push_back({w_.planes[i], n * (1 / length(n)), face.distance, area.area, middle,
+                          Interval{range.low / unit_, range.high / unit_}});
+    }
+    const auto from_seed = [&](const std::vector<double>& v, size_t first, size_t count, double at,
+                               std::vector<double>& near) {
+      near.resize(count);
+      for (size_t i = 0; i < count; ++i) near[i] = (v[first + i] - at) / unit_;
+    };
+    size_t row, layer;
+    const size_t row_count = part(w_.y, reach.min.y, reach.max.y, row),
+                 layer_count = part(w_.z, reach.min.z, reach.max.z, layer);
+    if (row_count == 0 || layer_count == 0) return;
+    from_seed(w_.y, row, row_count, seed.y, w_.vent_y);
+    from_seed(w_.z, layer, layer_count, seed.z, w_.vent_z);
+    const uint64_t j = j0_ + row, k = k0_ + layer;
+    const SampleGrid& samples = *block_.grid;
+    const VentRows rows{w_.vent_y.data(),
+                        w_.vent_z.data(),
+                        row_count,
+                        layer_count,
+                        static_cast<uint32_t>(j - block_.y0),
+                        static_cast<uint32_t>(k - block_.z0),
+                        block_.row(j, k),
+                        block_.row_stride,
+                        block_.layer_stride,
+                        unit_ / samples.spacing.x,
+                        place,
+                        static_cast<int64_t>(samples.nx) - 1};
+    clear_vents(w_.vents, half, margin_, rows, w_.doubts);
   }
 
   /// About a box that is given along the grid's axes, along those of the samples.
@@ -228,17 +283,18 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
   // Without jitter, one brick serves for all.
   const bool are_equal = seeds.jitter() == 0;
   CellCache::Data brick;
-  for_each_brick_near(grid, voids.box(), around, FaceBrick::side, FaceBrick::lead,
-                      [&](CellIndex corner, const Box3&) {
-                        check_cancelled(job);
-                        if (!are_equal) brick.reset();
-                        if (!brick)
-                          brick = walls.context().cache.fetch(
-                              walls.id(), are_equal ? CellIndex{} : corner,
-                              [&] { return std::make_shared<const FaceBrick>(seeds, corner); });
-                        voids.take(static_cast<const FaceBrick&>(*brick), corner);
-                        if (voids.has_many_doubts()) voids.decide(job);
-                      });
+  for_each_brick_near(
+      grid, voids.box(), around, FaceBrick::side, FaceBrick::lead,
+      [&](CellIndex corner, const Box3&) {
+        check_cancelled(job);
+        if (!are_equal) brick.reset();
+        if (!brick)
+          brick = walls.context().cache.fetch(walls.id(), are_equal ? CellIndex{} : corner, [&] {
+            return std::make_shared<const FaceBrick>(seeds, corner, walls.vents().exist());
+          });
+        voids.take(static_cast<const FaceBrick&>(*brick), corner);
+        if (voids.has_many_doubts()) voids.decide(job);
+      });
   voids.decide(job);
   return true;
 }
