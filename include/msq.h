@@ -2093,7 +2093,8 @@ typedef struct msq_slicer_def {
    * and region_max must be 0. 1: the region below. A model of all space needs 1. */
   int32_t has_region;
   /** Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at
-   * most 32 MiB, or 2 MiB per thread for structures that do not gain by more. Does not change
+   * most 32 MiB, or 2 MiB per thread for structures that do not gain by more. The first slab of a run
+   * has an eighth of the layers, so that the host has its first layer soon. Does not change
    * results. */
   uint32_t slab_layers;
   /** Corner of pixel (0, 0) and bottom of layer 0. */
@@ -2140,7 +2141,7 @@ MSQ_API void msq_slicer_release(msq_slicer* slicer);
 /** The plan of a slicer. */
 typedef struct msq_slicer_report {
   uint32_t struct_size;
-  /** Layers computed at once. */
+  /** Layers computed at once, except in the first slab of a run. */
   uint32_t slab_layers;
   /** Pixels in x and y of the layers that the host receives: exchanged with TRANSPOSE. */
   uint32_t width, height;

@@ -12,7 +12,7 @@ namespace msq {
 namespace {
 
 /// Samples per cell above which spans are faster than the point query, on turned grids. BCC, r =
-/// 0.1 cell: 13 samples per cell cost the same either way, 4 cost 2.7 times as much as spans.
+/// 0.1 cell: with 13 samples per cell both cost the same, with 4 spans cost 2.7 times as much.
 constexpr double critical_samples = 12;
 
 /// Number along an axis of the cell.
