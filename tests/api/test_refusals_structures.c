@@ -122,7 +122,7 @@ static void functions(void** state) {
     msq_context* in = context;
     msq_functional_def* def = functional_of(MSQ_FUNCTION_GYROID, 0.1);
     msq_structure** structure = (msq_structure**)output(0);
-    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    wrong_sizes(table, def, offsetof(msq_functional_def, period), sizeof *def);
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "structure is NULL", structure = NULL);
     WRONG(ARGUMENT, "function", def->function = -1);

