@@ -41,35 +41,34 @@ void check_tilings(const Structure& structure, const Box3& box, Random& random,
                    const std::vector<Strut>& whole) {
   for (size_t i = 1; i < whole.size(); ++i)
     if (whole[i - 1].id == whole[i].id) fail_msg("a strut comes twice");
-  for (int trial = 0; trial < 2; ++trial) {
-    // Cut in two or three along each axis, sometimes at the middle of a strut.
-    std::vector<double> cuts[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      cuts[axis] = {box.min[axis], box.max[axis]};
-      for (uint64_t n = 1 + random.below(2); n > 0; --n) {
-        double cut = random.between(box.min[axis], box.max[axis]);
-        if (random.below(2) && !whole.empty()) {
-          const Strut& s = whole[random.below(whole.size())];
-          cut = ((s.a + s.b) * 0.5)[axis];
-        }
-        cuts[axis].push_back(cut);
+  // Cut along two axes, in two and in three, sometimes at the middle of a strut.
+  std::vector<double> cuts[3];
+  const uint64_t uncut = random.below(3);
+  for (int axis = 0; axis < 3; ++axis) {
+    cuts[axis] = {box.min[axis], box.max[axis]};
+    for (uint64_t n = (axis + 3 - uncut) % 3; n > 0; --n) {
+      double cut = random.between(box.min[axis], box.max[axis]);
+      if (random.below(2) && !whole.empty()) {
+        const Strut& s = whole[random.below(whole.size())];
+        cut = ((s.a + s.b) * 0.5)[axis];
       }
-      std::sort(cuts[axis].begin(), cuts[axis].end());
+      cuts[axis].push_back(cut);
     }
-    std::vector<Strut> all;
-    for (size_t k = 1; k < cuts[2].size(); ++k)
-      for (size_t j = 1; j < cuts[1].size(); ++j)
-        for (size_t i = 1; i < cuts[0].size(); ++i) {
-          const Box3 tile{{cuts[0][i - 1], cuts[1][j - 1], cuts[2][k - 1]},
-                          {cuts[0][i], cuts[1][j], cuts[2][k]}};
-          const std::vector<Strut> part = list_of(structure, tile, true).struts;
-          all.insert(all.end(), part.begin(), part.end());
-        }
-    all = sorted(std::move(all));
-    assert_int_equal(all.size(), whole.size());
-    for (size_t i = 0; i < all.size(); ++i)
-      if (!is_same(all[i], whole[i])) fail_msg("strut %zu of the tiles is another", i);
+    std::sort(cuts[axis].begin(), cuts[axis].end());
   }
+  std::vector<Strut> all;
+  for (size_t k = 1; k < cuts[2].size(); ++k)
+    for (size_t j = 1; j < cuts[1].size(); ++j)
+      for (size_t i = 1; i < cuts[0].size(); ++i) {
+        const Box3 tile{{cuts[0][i - 1], cuts[1][j - 1], cuts[2][k - 1]},
+                        {cuts[0][i], cuts[1][j], cuts[2][k]}};
+        const std::vector<Strut> part = list_of(structure, tile, true).struts;
+        all.insert(all.end(), part.begin(), part.end());
+      }
+  all = sorted(std::move(all));
+  assert_int_equal(all.size(), whole.size());
+  for (size_t i = 0; i < all.size(); ++i)
+    if (!is_same(all[i], whole[i])) fail_msg("strut %zu of the tiles is another", i);
 }
 
 void check_nodes(const std::vector<Strut>& struts) {
@@ -115,9 +114,10 @@ void test_row(void** state) {
   const StrutList near = list_of(*structure, box, false);
   check_nodes(near.struts);
   const std::vector<Strut> by_id = sorted(near.struts);
-  const double longest = 4 * row.unit();
+  // No strut is longer than four cells, and its middle decides who owns it.
+  const double half_length = 2 * row.unit();
   const std::vector<Strut> around =
-      sorted(list_of(*structure, box.grown(longest + row.radius()), true).struts);
+      sorted(list_of(*structure, box.grown(half_length + row.radius()), true).struts);
   const auto is_among = [](const std::vector<Strut>& all, const Strut& s) {
     const auto at = std::lower_bound(all.begin(), all.end(), s, is_before);
     return at != all.end() && is_same(*at, s);
@@ -164,6 +164,9 @@ int main() {
     const bool has_other = row.kind.name.find("and struts") != std::string::npos;
     const bool is_wanted = row.kind.family == "foam DIRECT" && row.kind.radius == 0.1;
     if (is_foam ? !(is_wanted || has_density || has_other) : row.kind.radius > 0.2) continue;
+    // A row of a foam takes seconds. With few samples, or octrees of seeds, a fourth of them is asked.
+    const bool is_sampled = has_density || (is_foam && test_count(1000) < 1000);
+    if (is_sampled && row.index % 4 != 1) continue;
     rows.push_back(row);
   }
   return run_for_each("struts", rows, test_row);
