@@ -234,8 +234,8 @@ static void ask_all(uint32_t threads, enum kind kind, int of_shape, int of_field
 /* The answers of all environments are those of the first. */
 static void compare_states(uint32_t threads, enum kind kind, int of_shape, int of_field) {
   host_thread = pthread_self();
-  /* The paper's method takes its time. */
-  const int step = kind == foam_point ? state_count - 1 : 1;
+  /* The paper's method takes its time, and so do slow builds. */
+  const int step = kind == foam_point ? state_count - 1 : test_scale() < 1 ? 4 : 1;
   for (host_state = 0; host_state < state_count; host_state += step) {
     is_other = host_state > 0;
     answer_bytes[is_other] = 0;

@@ -31,7 +31,7 @@ void test_row(void** state) {
       model_in(make_ref<BoxShape>(Box3{middle - far, middle + far})).get());
   const Scales of_all = all->resolved(0), of_boxed = boxed->resolved(0);
 
-  const size_t count = row.samples(200000);
+  const size_t count = row.samples(50000);
   std::vector<Vec3> points(count);
   for (Vec3& p : points) p = random.in_box({middle - near, middle + near});
   const ArrayPoints array(PointArray{reinterpret_cast<const unsigned char*>(points.data()), count,
