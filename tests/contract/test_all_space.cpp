@@ -95,6 +95,8 @@ void test_row(void** state) {
 }  // namespace
 
 int main() {
-  std::vector<StructureRow> rows = structures();
+  std::vector<StructureRow> rows;
+  for (const StructureRow& row : structures())
+    if (test_scale() == 1 || row.index % 4 == 1) rows.push_back(row);  // in slow builds, fewer
   return run_for_each("models of all space", rows, test_row);
 }
