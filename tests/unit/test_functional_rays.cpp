@@ -72,7 +72,8 @@ void rays_along_surfaces_end(void**) {
     const Ref<Functional> solid = make(c.text, FunctionalKind::network, c.level);
     size_t outside = 0;
     double x = 3 / two_pi;
-    for (int i = 0; i < 40; ++i, x = std::nextafter(x, 1.0)) {
+    const int rays = test_scale() < 1 ? 10 : 40;
+    for (int i = 0; i < rays; ++i, x = std::nextafter(x, 1.0)) {
       RaySearch search{{{x, 0.1, 0.2}, {0, 0.8, 0.6}}, 0, 50};
       solid->enter(&search, 1, nullptr);
       const bool inside = solid->inside(search.ray.at(0));
@@ -133,7 +134,7 @@ void steep_functions_end(void**) {
   solid->enter(&search, 1, nullptr);
   assert_true(search.found && solid->inside(search.ray.at(search.t)));
   const Ref<Functional> none = make("sin(1e5*sin(1e5*sin(1e5*x)))+1.5", FunctionalKind::network, 0);
-  search.to = 0.05;
+  search.to = test_scale() < 1 ? 0.005 : 0.05;
   none->enter(&search, 1, nullptr);
   assert_false(search.found);
 }
