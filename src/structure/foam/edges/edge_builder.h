@@ -10,21 +10,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "structure/foam/edges/brick_seeds.h"
-#include "structure/foam/edges/clipped_cell.h"
-#include "structure/foam/edges/shared_vertices.h"
-#include "structure/foam/edges/voronoi_cell.h"
+#include "structure/foam/edges/brick_cells.h"
 
 namespace msq {
 
 /// Works for one brick after another and reuses its memory.
 class EdgeBuilder {
  public:
-  /// The square of the distance D within which a cell's neighbours are first looked for. It goes
-  /// with the volume of the grid's cells, so that flat and long cells have as many seeds within D
-  /// as cubes have.
-  static double first_squared(Vec3 scale);
-
   /// Finds the edges owned by the brick of side^3 cells whose first is `corner`. wants_seeds: also
   /// fills seeds().
   void build(const FoamSeeds& seeds, CellIndex corner, int side, bool wants_seeds = false);
@@ -32,8 +24,8 @@ class EdgeBuilder {
   // Results for the last brick.
 
   /// Vertices, relative to the brick's corner; a few belong to no edge.
-  size_t vertex_count() const { return shared_.count(); }
-  Vec3 vertex(uint32_t number) const { return shared_.position(number); }
+  size_t vertex_count() const { return cells_.shared().count(); }
+  Vec3 vertex(uint32_t number) const { return cells_.shared().position(number); }
   /// The vertices that each edge joins, in the order of their owners' cells.
   const std::vector<std::array<uint32_t, 2>>& ends() const { return ends_; }
   /// Where the edges that each row of cells along x owns begin.
@@ -41,22 +33,15 @@ class EdgeBuilder {
   /// The three seeds to which each edge is equally near: the owner first, by numbers in block(). If
   /// they are not known, since more than three may be equally near, the owner three times.
   const std::vector<std::array<uint32_t, 3>>& seeds() const { return triples_; }
-  const BrickSeeds& block() const { return block_; }
+  const BrickSeeds& block() const { return cells_.block(); }
 
   /// Approximate memory.
-  size_t bytes() const { return sizeof *this + block_.bytes() + shared_.bytes(); }
+  size_t bytes() const { return sizeof *this - sizeof cells_ + cells_.bytes(); }
 
  private:
-  struct Neighbour {
-    Vec3 position;  // relative to the own seed
-    double distance_squared;
-    bool after;
-  };
-
   void add_owned_edges(size_t own);
   /// Returns false, and appends nothing, if the walk fails.
   bool add_by_walk(size_t own);
-  void find_neighbours(size_t own);
   bool add_by_cuts(size_t own);
   void add_by_definition(size_t own);
   void add_unknown(size_t own) {
@@ -64,14 +49,10 @@ class EdgeBuilder {
     if (wants_seeds_) triples_.push_back({number, number, number});
   }
 
-  BrickSeeds block_;
-  SharedVertices shared_;
-  VoronoiCell cell_;
-  ClippedCell clipped_;
-  std::vector<Neighbour> neighbours_;
-  double first_squared_ = 0;
-  double empty_radius_ = 0;
-  double max_squared_ = 0;  // twice that, squared
+  /// The number of a vertex.
+  uint32_t take(Vec3 vertex) { return cells_.shared().take(vertex); }
+
+  BrickCells cells_;
   std::vector<std::array<uint32_t, 2>> ends_;
   std::vector<uint32_t> starts_;
   bool has_jitter_ = false;
