@@ -8,6 +8,9 @@ namespace msq {
 
 struct Vec2 {
   double x = 0, y = 0;
+
+  double operator[](int axis) const { return axis == 0 ? x : y; }
+  friend bool operator==(Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; }
 };
 
 inline Vec2 operator+(Vec2 a, Vec2 b) {
@@ -22,6 +25,7 @@ inline Vec2 operator*(Vec2 a, double s) {
 inline double dot(Vec2 a, Vec2 b) {
   return a.x * b.x + a.y * b.y;
 }
+/// Positive where b lies to the left of a.
 inline double cross(Vec2 a, Vec2 b) {
   return a.x * b.y - a.y * b.x;
 }

@@ -11,17 +11,17 @@ namespace {
 /// Halvings of a piece.
 constexpr int max_depth = 4;
 
-LayerPoint unit(LayerPoint d) {
+Vec2 unit(Vec2 d) {
   const double size = length(d);
-  return size > 0 ? d * (1 / size) : LayerPoint{};
+  return size > 0 ? d * (1 / size) : Vec2{};
 }
-LayerPoint left_of(LayerPoint d) {
-  return {-d.v, d.u};
+Vec2 left_of(Vec2 d) {
+  return {-d.y, d.x};
 }
 
 /// Curvature of the circle through three points, positive where they turn left.
-double curvature(LayerPoint a, LayerPoint b, LayerPoint c) {
-  const LayerPoint ab = b - a, bc = c - b, ac = c - a;
+double curvature(Vec2 a, Vec2 b, Vec2 c) {
+  const Vec2 ab = b - a, bc = c - b, ac = c - a;
   const double sizes = dot(ab, ab) * dot(bc, bc) * dot(ac, ac);
   return sizes > 0 ? 2 * cross(ab, bc) / std::sqrt(sizes) : 0;
 }
@@ -29,8 +29,7 @@ double curvature(LayerPoint a, LayerPoint b, LayerPoint c) {
 /// How far an arc from a to b is from its chord, to the right, where the six points lie on a curve
 /// that bends about evenly; 0 where they do not. At a corner between a and b the curvature of
 /// triples that hold both is far above that of the outer ones.
-double bend_of(LayerPoint before_p, LayerPoint p, LayerPoint a, LayerPoint b, LayerPoint q,
-               LayerPoint behind_q) {
+double bend_of(Vec2 before_p, Vec2 p, Vec2 a, Vec2 b, Vec2 q, Vec2 behind_q) {
   constexpr double evenly = 1.6;
   const double k0 = curvature(before_p, p, a), k1 = curvature(p, a, b), k2 = curvature(a, b, q),
                k3 = curvature(b, q, behind_q);
@@ -41,14 +40,14 @@ double bend_of(LayerPoint before_p, LayerPoint p, LayerPoint a, LayerPoint b, La
 }
 
 /// Whether segments ab and cd have a point in common.
-bool do_meet(LayerPoint a, LayerPoint b, LayerPoint c, LayerPoint d) {
-  const auto side = [](LayerPoint p, LayerPoint q, LayerPoint r) {
+bool do_meet(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+  const auto side = [](Vec2 p, Vec2 q, Vec2 r) {
     const double s = cross(q - p, r - p);
     return s > 0 ? 1 : s < 0 ? -1 : 0;
   };
-  const auto holds = [](LayerPoint p, LayerPoint q, LayerPoint r) {  // r, on the line through p, q
-    return std::min(p.u, q.u) <= r.u && r.u <= std::max(p.u, q.u) && std::min(p.v, q.v) <= r.v &&
-           r.v <= std::max(p.v, q.v);
+  const auto holds = [](Vec2 p, Vec2 q, Vec2 r) {  // r, on the line through p, q
+    return std::min(p.x, q.x) <= r.x && r.x <= std::max(p.x, q.x) && std::min(p.y, q.y) <= r.y &&
+           r.y <= std::max(p.y, q.y);
   };
   const int s1 = side(a, b, c), s2 = side(a, b, d), s3 = side(c, d, a), s4 = side(c, d, b);
   if (s1 != s2 && s3 != s4) return true;
@@ -57,7 +56,7 @@ bool do_meet(LayerPoint a, LayerPoint b, LayerPoint c, LayerPoint d) {
 }
 
 /// Whether a polyline touches itself.
-bool is_tangled(std::span<const LayerPoint> p) {
+bool is_tangled(std::span<const Vec2> p) {
   for (size_t i = 0; i + 1 < p.size(); ++i) {
     if (p[i] == p[i + 1]) return true;
     if (i + 2 < p.size() && cross(p[i + 1] - p[i], p[i + 2] - p[i + 1]) == 0 &&
@@ -108,17 +107,17 @@ void ContourDetails::find_suspects(const Job* job) {
       if (comes_in) is_saddle[id] = true;
     }
   const double close = section_.grid().pitch() / 16;
-  const auto is_in_cell = [&](uint32_t id, LayerPoint x) {
+  const auto is_in_cell = [&](uint32_t id, Vec2 p) {
     const Cell cell = cell_of(id);
     const double margin = section_.margin();
-    return x.u >= cell.low.u + margin && x.u <= cell.high.u - margin &&
-           x.v >= cell.low.v + margin && x.v <= cell.high.v - margin;
+    return p.x >= cell.low.x + margin && p.x <= cell.high.x - margin &&
+           p.y >= cell.low.y + margin && p.y <= cell.high.y - margin;
   };
   for (uint32_t id = 0; id < section_.count(); ++id) {
     if (id % 65536 == 0) check_cancelled(job);
     const uint32_t next = section_.next(id);
     if (section_.is_beyond(id) || section_.is_beyond(next) || is_saddle[id]) continue;
-    const LayerPoint a = section_.at(id), b = section_.at(next), ab = b - a;
+    const Vec2 a = section_.at(id), b = section_.at(next), ab = b - a;
     if (dot(ab, ab) <= tolerance_ * tolerance_) continue;
     uint32_t p = before[id], q = section_.next(next);
     Piece piece{id, 0, 0, false, false, a, b, {}, 0, 1};
@@ -128,7 +127,7 @@ void ContourDetails::find_suspects(const Job* job) {
       continue;
     }
     // A crossing that is very near tells little about the direction.
-    LayerPoint d1 = a - section_.at(p), d2 = section_.at(q) - b;
+    Vec2 d1 = a - section_.at(p), d2 = section_.at(q) - b;
     if (dot(d1, d1) < close * close && !section_.is_beyond(before[p])) {
       p = before[p];
       d1 = a - section_.at(p);
@@ -155,7 +154,7 @@ void ContourDetails::find_suspects(const Job* job) {
     if (const double bend = bend_of(section_.at(before[p]), section_.at(p), a, b, section_.at(q),
                                     section_.at(section_.next(q)))) {
       if (std::abs(bend) <= tolerance_) continue;
-      const LayerPoint middle = piece.middle() - left_of(unit(ab)) * bend;
+      const Vec2 middle = piece.middle() - left_of(unit(ab)) * bend;
       if (std::abs(bend) <= 4 * tolerance_ && is_in_cell(id, middle)) {
         details_.push_back({id, 0.5, middle});
         continue;
@@ -173,7 +172,7 @@ void ContourDetails::keep_bent(ContourPoints& points) {
     return left_of(unit(piece.b - piece.a)) * tolerance_;
   };
   for (const Piece& piece : pieces_) {
-    const LayerPoint m = piece.middle(), aside = aside_of(piece);
+    const Vec2 m = piece.middle(), aside = aside_of(piece);
     if (piece.turn == 0) points.add(m);
     if (piece.turn <= 0) points.add(m + aside);
     if (piece.turn >= 0) points.add(m - aside);
@@ -181,7 +180,7 @@ void ContourDetails::keep_bent(ContourPoints& points) {
   const std::vector<uint8_t>& inside = points.find_inside();
   size_t kept = 0, n = 0;
   for (Piece& piece : pieces_) {
-    const LayerPoint m = piece.middle(), aside = aside_of(piece);
+    const Vec2 m = piece.middle(), aside = aside_of(piece);
     piece.is_inside = piece.turn == 0 ? inside[n++] != 0 : piece.turn > 0;
     // Along the edges of a window, what is beyond does not count.
     bool is_left = false, is_right = false;
@@ -196,21 +195,21 @@ void ContourDetails::keep_bent(ContourPoints& points) {
   pieces_.resize(kept);
 }
 
-bool ContourDetails::is_in_window(LayerPoint p) const {
+bool ContourDetails::is_in_window(Vec2 p) const {
   const ContourGrid& grid = section_.grid();
-  return p.u >= grid.u(ContourGrid::left_edge) && p.u <= grid.u(grid.right_edge()) &&
-         p.v >= grid.v(grid.bottom_edge()) && p.v <= grid.v(grid.top_edge());
+  return p.x >= grid.u(ContourGrid::left_edge) && p.x <= grid.u(grid.right_edge()) &&
+         p.y >= grid.v(grid.bottom_edge()) && p.y <= grid.v(grid.top_edge());
 }
 
 void ContourDetails::take_corners(ContourPoints& points) {
   points.clear();
-  const auto both_sides = [&](LayerPoint p, LayerPoint towards_inside) {
+  const auto both_sides = [&](Vec2 p, Vec2 towards_inside) {
     points.add(p + towards_inside * tolerance_);
     points.add(p - towards_inside * tolerance_);
   };
   for (const Piece& piece : pieces_) {
     if (!piece.has_corner) continue;
-    const LayerPoint x = piece.corner;
+    const Vec2 x = piece.corner;
     both_sides((piece.a + x) * 0.5, left_of(unit(x - piece.a)));
     both_sides((x + piece.b) * 0.5, left_of(unit(piece.b - x)));
     const bool is_concave = cross(piece.b - piece.a, x - piece.a) > 0;
@@ -237,14 +236,14 @@ void ContourDetails::take_corners(ContourPoints& points) {
 void ContourDetails::split(ContourPoints& points) {
   struct Search {
     size_t piece;
-    LayerPoint same, other;  // membership as at the piece's middle, and not
+    Vec2 same, other;  // membership as at the piece's middle, and not
   };
   std::vector<Search> searches;
   points.clear();
   for (size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
-    const LayerPoint m = piece.middle();
-    const LayerPoint d = left_of(unit(piece.b - piece.a)) * (piece.is_inside ? -1.0 : 1.0);
+    const Vec2 m = piece.middle();
+    const Vec2 d = left_of(unit(piece.b - piece.a)) * (piece.is_inside ? -1.0 : 1.0);
     // To where the normal leaves the cell.
     const Cell cell = cell_of(piece.id);
     double reach = std::numeric_limits<double>::infinity();
@@ -272,7 +271,7 @@ void ContourDetails::split(ContourPoints& points) {
   constexpr int max_halvings = 24;
   for (int round = 0; round < max_halvings; ++round) {
     std::erase_if(open, [&](const Search* s) {
-      const LayerPoint d = s->other - s->same;
+      const Vec2 d = s->other - s->same;
       return dot(d, d) <= tolerance_ * tolerance_ / 64;
     });
     if (open.empty()) break;
@@ -288,7 +287,7 @@ void ContourDetails::split(ContourPoints& points) {
   std::vector<Piece> halves;
   for (const Search& s : searches) {
     const Piece& piece = pieces_[s.piece];
-    const LayerPoint at = (s.same + s.other) * 0.5;
+    const Vec2 at = (s.same + s.other) * 0.5;
     const double order = 0.5 * (piece.begin + piece.end);
     details_.push_back({piece.id, order, at});
     // A half as short as that is near enough.
@@ -302,14 +301,14 @@ void ContourDetails::split(ContourPoints& points) {
   pieces_ = std::move(halves);
 }
 
-LayerPoint ContourDetails::rounded(LayerPoint p) const {
+Vec2 ContourDetails::rounded(Vec2 p) const {
   if (units_ == 0) return p;
-  return {std::nearbyint(p.u * units_), std::nearbyint(p.v * units_)};
+  return {std::nearbyint(p.x * units_), std::nearbyint(p.y * units_)};
 }
 
 /// Drops the points of pieces that would touch themselves.
 void ContourDetails::drop_tangles() {
-  std::vector<LayerPoint> line;
+  std::vector<Vec2> line;
   size_t kept = 0;
   for (size_t first = 0, end; first < details_.size(); first = end) {
     const uint32_t id = details_[first].id;

@@ -27,7 +27,7 @@ namespace msq {
 struct DetailPoint {
   uint32_t id;
   double order;
-  LayerPoint at;
+  Vec2 at;
 };
 
 class ContourDetails {
@@ -50,12 +50,12 @@ class ContourDetails {
     int depth;
     int turn;  // where known: 1: the boundary turns left between its ends, -1: right; else 0
     bool has_corner, is_inside;
-    LayerPoint a, b, corner;
+    Vec2 a, b, corner;
     double begin, end;  // orders of a and b
-    LayerPoint middle() const { return (a + b) * 0.5; }
+    Vec2 middle() const { return (a + b) * 0.5; }
   };
   struct Cell {
-    LayerPoint low, high;
+    Vec2 low, high;
   };
 
   void find_suspects(const Job* job);
@@ -64,8 +64,8 @@ class ContourDetails {
   void split(ContourPoints& points);
   void drop_tangles();
   Cell cell_of(uint32_t id) const;
-  bool is_in_window(LayerPoint p) const;
-  LayerPoint rounded(LayerPoint p) const;
+  bool is_in_window(Vec2 p) const;
+  Vec2 rounded(Vec2 p) const;
 
   const ContourSection& section_;
   const double tolerance_, units_;

@@ -7,14 +7,14 @@ namespace {
 
 /// Directions between two, less than half a turn apart.
 struct Cone {
-  LayerPoint right, left;
+  Vec2 right, left;
 
-  bool holds(LayerPoint d) const { return cross(right, d) >= 0 && cross(d, left) >= 0; }
+  bool holds(Vec2 d) const { return cross(right, d) >= 0 && cross(d, left) >= 0; }
 };
 
 }  // namespace
 
-void simplify_ring(const std::vector<LinePoint>& ring, std::vector<LayerPoint>& out) {
+void simplify_ring(const std::vector<LinePoint>& ring, std::vector<Vec2>& out) {
   /// Points that are looked at beyond the last that fits.
   constexpr size_t max_look_ahead = 64;
   out.clear();
@@ -28,7 +28,7 @@ void simplify_ring(const std::vector<LinePoint>& ring, std::vector<LayerPoint>& 
     return ring[at < count ? at : at - count];
   };
   for (size_t from = 0; from < count;) {
-    const LayerPoint a = point(from).at;
+    const Vec2 a = point(from).at;
     out.push_back(a);
     size_t last = from + 1;
     Cone cone{};

@@ -24,12 +24,12 @@
 namespace msq {
 
 struct LinePoint {
-  LayerPoint at;
-  bool is_fixed;           ///< it stays
-  LayerPoint left, right;  ///< ends of its gate, of points that are not fixed
+  Vec2 at;
+  bool is_fixed;     ///< it stays
+  Vec2 left, right;  ///< ends of its gate, of points that are not fixed
 };
 
 /// The points of a closed ring that remain.
-void simplify_ring(const std::vector<LinePoint>& ring, std::vector<LayerPoint>& out);
+void simplify_ring(const std::vector<LinePoint>& ring, std::vector<Vec2>& out);
 
 }  // namespace msq

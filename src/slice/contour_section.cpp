@@ -42,8 +42,7 @@ void ContourSection::place() {
   places_.resize(crossings_.size());
   for (uint32_t id = 0; id < count(); ++id) {
     const Crossing& c = crossings_[id];
-    places_[id] =
-        is_horizontal(id) ? LayerPoint{c.at, grid_.v(c.row)} : LayerPoint{grid_.u(c.column), c.at};
+    places_[id] = is_horizontal(id) ? Vec2{c.at, grid_.v(c.row)} : Vec2{grid_.u(c.column), c.at};
   }
 }
 
@@ -195,7 +194,7 @@ void ContourSection::locate_some(ContourPoints& points, const uint32_t* ids, siz
   std::vector<uint32_t> open;
   const auto along = [&](uint32_t id, double at) {
     const Crossing& c = crossings_[id];
-    return is_horizontal(id) ? LayerPoint{at, grid_.v(c.row)} : LayerPoint{grid_.u(c.column), at};
+    return is_horizontal(id) ? Vec2{at, grid_.v(c.row)} : Vec2{grid_.u(c.column), at};
   };
   for (size_t i = 0; i < count; ++i) {
     const double a = low(ids[i]), b = high(ids[i]);

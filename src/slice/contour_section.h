@@ -54,7 +54,7 @@ class ContourSection {
     return is_horizontal(id) ? c.row == grid_.bottom_edge() || c.row == grid_.top_edge()
                              : c.column == ContourGrid::left_edge || c.column == grid_.right_edge();
   }
-  LayerPoint at(uint32_t id) const { return places_[id]; }
+  Vec2 at(uint32_t id) const { return places_[id]; }
   /// Whether the first node of its edge is inside.
   bool starts_inside(uint32_t id) const {
     return grid_.inside(crossings_[id].column, crossings_[id].row);
@@ -77,8 +77,7 @@ class ContourSection {
   };
   const std::vector<Saddle>& saddles() const { return saddles_; }
 
-  static constexpr uint64_t bytes_of_crossing =
-      sizeof(Crossing) + sizeof(LayerPoint) + sizeof(uint32_t);
+  static constexpr uint64_t bytes_of_crossing = sizeof(Crossing) + sizeof(Vec2) + sizeof(uint32_t);
 
  private:
   void list_crossings(const Job* job);
@@ -119,7 +118,7 @@ class ContourSection {
   std::vector<uint32_t> horizontal_start_, vertical_start_;  // by row
   std::vector<uint32_t> horizontal_index_, vertical_index_;  // first of each word
   std::vector<Crossing> crossings_;
-  std::vector<LayerPoint> places_;
+  std::vector<Vec2> places_;
   std::vector<uint32_t> next_;
   std::vector<Saddle> saddles_;
 };

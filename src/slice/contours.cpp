@@ -76,7 +76,7 @@ class RingBuilder {
     }
     if (is_next_fixed) line_.front().is_fixed = true;
     simplify_ring(line_, points_);
-    for (LayerPoint& p : points_) p = p * units_;
+    for (Vec2& p : points_) p = p * units_;
     const int64_t index = static_cast<int64_t>(out_.ring_count());
     // What cannot be drawn stands for what is around it.
     ring.index = out_.add_ring(points_, ring.parent, ring.is_hole) ? index : ring.parent;
@@ -84,7 +84,7 @@ class RingBuilder {
   }
 
   void add_crossing(uint32_t id, bool is_fixed) {
-    const LayerPoint at = section_.at(id);
+    const Vec2 at = section_.at(id);
     if (section_.is_beyond(id)) {
       // Of these only the corners of the window count: once, though two crossings lie there.
       if (section_.is_horizontal(id) && section_.is_on_seam(id))
@@ -98,9 +98,9 @@ class RingBuilder {
     const double middle = section_[id].at;
     const double low = std::max(middle - tolerance_, section_.low(id) + section_.margin());
     const double high = std::min(middle + tolerance_, section_.high(id) - section_.margin());
-    LayerPoint first = at, second = at;
-    (section_.is_horizontal(id) ? first.u : first.v) = low;
-    (section_.is_horizontal(id) ? second.u : second.v) = high;
+    Vec2 first = at, second = at;
+    (section_.is_horizontal(id) ? first.x : first.y) = low;
+    (section_.is_horizontal(id) ? second.x : second.y) = high;
     if (section_.starts_inside(id))
       line_.push_back({at, false, first, second});
     else
@@ -128,7 +128,7 @@ class RingBuilder {
   std::vector<bool> has_details_;
   std::vector<Ring> rings_;
   std::vector<LinePoint> line_;
-  std::vector<LayerPoint> points_;
+  std::vector<Vec2> points_;
 };
 
 /// The window, no larger than what is around the model. False if there is nothing in it.
@@ -177,7 +177,7 @@ const void* Contours::points() const {
   }
 }
 
-bool Contours::add_ring(const std::vector<LayerPoint>& ring, int64_t parent, bool is_hole) {
+bool Contours::add_ring(const std::vector<Vec2>& ring, int64_t parent, bool is_hole) {
   const auto add = [&]<class T>(std::vector<T>& out) {
     const size_t first = out.size();
     const auto put = [&](T u, T v) {
@@ -185,11 +185,11 @@ bool Contours::add_ring(const std::vector<LayerPoint>& ring, int64_t parent, boo
       out.push_back(u);
       out.push_back(v);
     };
-    for (const LayerPoint p : ring) {
+    for (const Vec2 p : ring) {
       if constexpr (std::is_integral_v<T>)
-        put(static_cast<T>(std::nearbyint(p.u)), static_cast<T>(std::nearbyint(p.v)));
+        put(static_cast<T>(std::nearbyint(p.x)), static_cast<T>(std::nearbyint(p.y)));
       else
-        put(p.u, p.v);
+        put(p.x, p.y);
     }
     while (out.size() >= first + 4 && out[first] == out[out.size() - 2] &&
            out[first + 1] == out.back())
@@ -242,7 +242,7 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   const double part = 0.5 * plan.tolerance;
   ContourSection section(grid, margin);
   constexpr uint64_t bytes = ContourSection::bytes_of_crossing + 4 * sizeof(uint32_t) +
-                             sizeof(LinePoint) + 2 * sizeof(LayerPoint);
+                             sizeof(LinePoint) + 2 * sizeof(Vec2);
   const Reservation crossings(budget, section.count_crossings(job) * bytes,
                               "the crossings of a layer");
   ContourPoints points(model, resolved, plan.plane, job);

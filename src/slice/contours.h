@@ -44,7 +44,7 @@ class Contours final : public RefCounted {
   void set_pitch(double pitch) { pitch_ = pitch; }
 
   /// Adds a ring of points in units; false if fewer than three remain when they are rounded.
-  bool add_ring(const std::vector<LayerPoint>& ring, int64_t parent, bool is_hole);
+  bool add_ring(const std::vector<Vec2>& ring, int64_t parent, bool is_hole);
   /// Gives back memory that no ring needs.
   void close();
 
