@@ -46,11 +46,11 @@ struct Entry {
 struct Reference {
   Assembly* owner;  ///< the constellation
   std::string id;
-  Placement placement;
+  Transform transform;
 };
 
 /// Turned about x, then y, then z, then moved.
-Placement parse_placement(const pugi::xml_node& instance) {
+Transform parse_transform(const pugi::xml_node& instance) {
   const auto number = [&](const char* name) {
     const pugi::xml_node node = instance.child(name);
     return node ? parse_real(word_in(node), "AMF: instance") : 0;
@@ -66,11 +66,11 @@ Placement parse_placement(const pugi::xml_node& instance) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     axes[u][u] = c, axes[u][v] = s;
     axes[v][u] = -s, axes[v][v] = c;
-    return Placement{axes[0], axes[1], axes[2], {}};
+    return Transform{axes[0], axes[1], axes[2], {}};
   };
-  Placement placement = turn("rz", 2).after(turn("ry", 1)).after(turn("rx", 0));
-  placement.origin = {number("deltax"), number("deltay"), number("deltaz")};
-  return placement;
+  Transform transform = turn("rz", 2).after(turn("ry", 1)).after(turn("rx", 0));
+  transform.origin = {number("deltax"), number("deltay"), number("deltaz")};
+  return transform;
 }
 
 class Reader {
@@ -91,7 +91,7 @@ class Reader {
       if (found == entries_.end())
         fail(Status::io, "AMF: there is no object of id \"%s\"", Quoted(reference.id).text);
       found->second.is_used = true;
-      reference.owner->instances.push_back({&found->second.assembly, reference.placement});
+      reference.owner->instances.push_back({&found->second.assembly, reference.transform});
     }
     // All are counted, since constellations that contain one another are all in use.
     for (auto& [id, entry] : entries_) count_triangles(entry.assembly);
@@ -116,7 +116,7 @@ class Reader {
 
   void read_constellation(const pugi::xml_node& node, Assembly& owner) {
     for (const pugi::xml_node& child : node.children("instance"))
-      references_.push_back({&owner, child.attribute("objectid").value(), parse_placement(child)});
+      references_.push_back({&owner, child.attribute("objectid").value(), parse_transform(child)});
   }
 
   void read_mesh(const pugi::xml_node& object, TriangleSoup& mesh) const {

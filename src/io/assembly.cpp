@@ -40,10 +40,10 @@ uint64_t count_triangles(Assembly& assembly, int depth) {
   return assembly.triangles;
 }
 
-void place(const Assembly& assembly, const Placement& placement, SoupBuilder& soup) {
-  if (!assembly.mesh.triangles.empty()) soup.add_instance(assembly.mesh, placement);
+void place(const Assembly& assembly, const Transform& transform, SoupBuilder& soup) {
+  if (!assembly.mesh.triangles.empty()) soup.add_instance(assembly.mesh, transform);
   for (const Instance& instance : assembly.instances)
-    place(*instance.assembly, placement.after(instance.placement), soup);
+    place(*instance.assembly, transform.after(instance.transform), soup);
 }
 
 }  // namespace msq

@@ -13,7 +13,7 @@ struct Assembly;
 
 struct Instance {
   Assembly* assembly;
-  Placement placement;
+  Transform transform;
 };
 
 struct Assembly {
@@ -34,6 +34,6 @@ uint64_t count_triangles(Assembly& assembly, int depth = 0);
 uint64_t saturating_sum(uint64_t a, uint64_t b);
 
 /// Adds a counted assembly and all that it contains.
-void place(const Assembly& assembly, const Placement& placement, SoupBuilder& soup);
+void place(const Assembly& assembly, const Transform& transform, SoupBuilder& soup);
 
 }  // namespace msq

@@ -57,7 +57,7 @@ void require_room(size_t file_bytes) {
   std::free(room);
 }
 
-Placement placement_of(const aiMatrix4x4& m) {
+Transform transform_of(const aiMatrix4x4& m) {
   return {{m.a1, m.b1, m.c1}, {m.a2, m.b2, m.c2}, {m.a3, m.b3, m.c3}, {m.a4, m.b4, m.c4}};
 }
 
@@ -77,14 +77,14 @@ TriangleSoup triangles_of(const aiMesh& mesh, uint64_t max_triangles) {
   return soup.take();
 }
 
-void add_node(const aiScene& scene, const aiNode& node, const Placement& parent,
+void add_node(const aiScene& scene, const aiNode& node, const Transform& parent,
               SoupBuilder& soup) {
-  const Placement placement = parent.after(placement_of(node.mTransformation));
+  const Transform transform = parent.after(transform_of(node.mTransformation));
   for (unsigned i = 0; i < node.mNumMeshes; ++i)
     soup.add_instance(triangles_of(*scene.mMeshes[node.mMeshes[i]], soup.max_triangles()),
-                      placement);
+                      transform);
   for (unsigned i = 0; i < node.mNumChildren; ++i)
-    add_node(scene, *node.mChildren[i], placement, soup);
+    add_node(scene, *node.mChildren[i], transform, soup);
 }
 
 }  // namespace

@@ -56,16 +56,16 @@ void SoupBuilder::add_triangle(const Vec3 (&corners)[3]) {
   soup_.triangles.push_back({first, first + 1, first + 2});
 }
 
-void SoupBuilder::add_instance(const TriangleSoup& mesh, const Placement& placement) {
+void SoupBuilder::add_instance(const TriangleSoup& mesh, const Transform& transform) {
   expect_triangles(mesh.triangles.size());
   expect_vertices(mesh.vertices.size());
   const auto first = static_cast<uint32_t>(soup_.vertices.size());
   CancelPoll poll(part_.job);
   for (const Vec3& vertex : mesh.vertices) {
     poll();
-    soup_.vertices.push_back(placement.apply(vertex));
+    soup_.vertices.push_back(transform.apply(vertex));
   }
-  const bool mirrored = placement.determinant() < 0;
+  const bool mirrored = transform.determinant() < 0;
   for (Triangle triangle : mesh.triangles) {
     poll();
     if (mirrored) std::swap(triangle[1], triangle[2]);

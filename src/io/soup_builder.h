@@ -8,7 +8,7 @@
 
 #include "base/job.h"
 #include "base/triangle_soup.h"
-#include "io/placement.h"
+#include "io/transform.h"
 
 namespace msq {
 
@@ -42,8 +42,8 @@ class SoupBuilder {
   void add_triangle(const Vec3 (&corners)[3]);
   /// Faces of one or two vertices are dropped. Throws Error(mesh) on an index out of range.
   void add_polygon(std::span<const int64_t> indices);
-  /// Adds a whole mesh; reverses its triangles if the placement mirrors it.
-  void add_instance(const TriangleSoup& mesh, const Placement& placement);
+  /// Adds a whole mesh; reverses its triangles if the transform mirrors it.
+  void add_instance(const TriangleSoup& mesh, const Transform& transform);
 
   /// Everything gathered, unchanged.
   TriangleSoup take() { return std::move(soup_); }

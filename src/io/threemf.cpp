@@ -55,7 +55,7 @@ void check_extensions(const pugi::xml_node& model) {
   }
 }
 
-Placement parse_transform(const char* text) {
+Transform parse_transform(const char* text) {
   TextCursor words(text);
   double m[12];
   for (double& number : m) {
@@ -77,7 +77,7 @@ using Id = std::pair<std::string, uint64_t>;
 struct Reference {
   Assembly* owner;  ///< the object, or the build
   Id id;
-  Placement placement;
+  Transform transform;
 };
 
 class Package {
@@ -99,7 +99,7 @@ class Package {
       if (found == objects_.end())
         fail(Status::io, "3MF: there is no object of id %llu",
              static_cast<Count>(reference.id.second));
-      reference.owner->instances.push_back({&found->second, reference.placement});
+      reference.owner->instances.push_back({&found->second, reference.transform});
     }
     soup_.expect_triangles(count_triangles(build_));
     place(build_, {}, soup_);
@@ -195,15 +195,15 @@ class Package {
 
   void add_reference(Assembly& owner, const pugi::xml_node& node, std::string part) {
     const uint64_t number = parse_count(node.attribute("objectid").value(), "3MF: objectid");
-    Placement placement;
+    Transform transform;
     for (const pugi::xml_attribute& attribute : node.attributes()) {
       const std::string_view name = attribute.name();
-      if (name == "transform") placement = parse_transform(attribute.value());
+      if (name == "transform") transform = parse_transform(attribute.value());
       if (name.find(':') != std::string_view::npos && local_name(name) == "path")
         part = part_name(attribute.value());
     }
     if (!parts_.contains(part)) waiting_.push_back(part);
-    references_.push_back({&owner, {std::move(part), number}, placement});
+    references_.push_back({&owner, {std::move(part), number}, transform});
   }
 
   ZipPackage zip_;

@@ -15,11 +15,11 @@ namespace {
 
 /// Memory for the rows of a layer.
 struct LayerWorkspace {
-  std::vector<Crossing> crossings, sorted;
+  std::vector<RowCrossing> crossings, sorted;
   std::vector<uint32_t> row_ends;
 
   size_t bytes() const {
-    return (crossings.capacity() + sorted.capacity()) * sizeof(Crossing) +
+    return (crossings.capacity() + sorted.capacity()) * sizeof(RowCrossing) +
            row_ends.capacity() * sizeof(uint32_t);
   }
 };
@@ -112,10 +112,11 @@ void Mesh::fill_layer(const RowBlock& block, uint64_t k) const {
   for (uint64_t r = 0; r < block.rows(); ++r) {
     const double y = grid.y(block.y0 + r);
     if (y < box.min.y || y > box.max.y) continue;
-    Crossing* const row_begin = sorted.data() + (r ? row_ends[r - 1] : 0);
-    Crossing* const row_end = sorted.data() + row_ends[r];
+    RowCrossing* const row_begin = sorted.data() + (r ? row_ends[r - 1] : 0);
+    RowCrossing* const row_end = sorted.data() + row_ends[r];
     if (row_begin == row_end) continue;
-    std::sort(row_begin, row_end, [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
+    std::sort(row_begin, row_end,
+              [](const RowCrossing& a, const RowCrossing& b) { return a.x < b.x; });
     fill_between(row_begin, row_end, grid, first, end, block.row(block.y0 + r, k),
                  [this](int64_t winding) { return solid(winding); });
   }

@@ -125,7 +125,7 @@ void Mesh::fill_open_rows(const RowBlock& block) const {
   const uint64_t end_row = row_from(grid.first_y_from<true>(box.max.y));
   if (first >= end || first_row >= end_row) return;
 
-  std::vector<Crossing> crossings, sorted;
+  std::vector<RowCrossing> crossings, sorted;
   std::vector<uint32_t> row_ends;
   for (uint64_t k = block.z0; k < block.z1; ++k) {
     const double z = grid.z(k);
@@ -140,9 +140,10 @@ void Mesh::fill_open_rows(const RowBlock& block) const {
     for (uint64_t j = first_row; j < end_row; ++j) {
       if ((j - first_row) % band == 0) parts.set({first, end, j, std::min(end_row, j + band)});
       const uint64_t r = j - block.y0;
-      Crossing* const row_begin = sorted.data() + (r ? row_ends[r - 1] : 0);
-      Crossing* const row_end = sorted.data() + row_ends[r];
-      std::sort(row_begin, row_end, [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
+      RowCrossing* const row_begin = sorted.data() + (r ? row_ends[r - 1] : 0);
+      RowCrossing* const row_end = sorted.data() + row_ends[r];
+      std::sort(row_begin, row_end,
+                [](const RowCrossing& a, const RowCrossing& b) { return a.x < b.x; });
       uint64_t* const row = block.row(j, k);
       for (uint64_t i = first, next; i < end; i = next) {
         const int64_t whole = parts.run(i, j, next);

@@ -39,7 +39,7 @@ int64_t OpenMesh::correction(Vec3 p) const {
     for (const double opening : {4.0, 12.0, 36.0}) {
       const Caps::View view = caps_.view(p, opening);
       if (view.margin() > 0) return caps_.count_beyond(p) - view.whole();
-      if (loops_.edges() <= 64 * opening * opening) break;
+      if (static_cast<double>(loops_.edges()) <= 64 * opening * opening) break;
     }
   return -loops_.turns(p);
 }

@@ -86,7 +86,7 @@ RowWinding count_crossings(const TriangleSoup& soup, const Numbers& triangles, V
   return winding;
 }
 
-struct Crossing {
+struct RowCrossing {
   double x;
   uint32_t row;  // of the block
   int32_t sign;
@@ -95,7 +95,7 @@ struct Crossing {
 /// Adds the crossings of the rows of a block, in layer k, with some triangles.
 template <class Numbers>
 void add_crossings(const TriangleSoup& soup, const Numbers& triangles, const RowBlock& block,
-                   uint64_t k, std::vector<Crossing>& crossings) {
+                   uint64_t k, std::vector<RowCrossing>& crossings) {
   const SampleGrid& grid = *block.grid;
   const double z = grid.z(k);
   const auto first_row = [&](double y) {
@@ -115,19 +115,19 @@ void add_crossings(const TriangleSoup& soup, const Numbers& triangles, const Row
 }
 
 /// Counting sort by row: the crossings of row r end at row_ends[r].
-inline void sort_by_row(const std::vector<Crossing>& crossings, uint64_t rows,
-                        std::vector<uint32_t>& row_ends, std::vector<Crossing>& sorted) {
+inline void sort_by_row(const std::vector<RowCrossing>& crossings, uint64_t rows,
+                        std::vector<uint32_t>& row_ends, std::vector<RowCrossing>& sorted) {
   row_ends.assign(rows + 1, 0);
-  for (const Crossing& c : crossings) ++row_ends[c.row + 1];
+  for (const RowCrossing& c : crossings) ++row_ends[c.row + 1];
   for (size_t r = 1; r < row_ends.size(); ++r) row_ends[r] += row_ends[r - 1];
   sorted.resize(crossings.size());
-  for (const Crossing& c : crossings) sorted[row_ends[c.row]++] = c;
+  for (const RowCrossing& c : crossings) sorted[row_ends[c.row]++] = c;
 }
 
 /// Sets the bits of the samples [first, end) of a row for which solid(winding number) is true just
 /// left or right of them. The crossings of the row are sorted by x.
 template <class Solid>
-void fill_between(const Crossing* row_begin, const Crossing* row_end, const SampleGrid& grid,
+void fill_between(const RowCrossing* row_begin, const RowCrossing* row_end, const SampleGrid& grid,
                   uint64_t first, uint64_t end, uint64_t* row, Solid&& solid) {
   int64_t winding = 0;
   for (auto c = row_begin; c != row_end; ++c) winding += c->sign;

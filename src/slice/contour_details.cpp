@@ -152,7 +152,8 @@ void ContourDetails::find_suspects(const Job* job) {
       piece.has_corner = is_in_cell(id, piece.corner);
     }
     if (const double bend = bend_of(section_.at(before[p]), section_.at(p), a, b, section_.at(q),
-                                    section_.at(section_.next(q)))) {
+                                    section_.at(section_.next(q)));
+        bend != 0) {
       if (std::abs(bend) <= tolerance_) continue;
       const Vec2 middle = piece.middle() - left_of(unit(ab)) * bend;
       if (std::abs(bend) <= 4 * tolerance_ && is_in_cell(id, middle)) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The placement of an instance: an affine map.
+// An affine map that places an instance of a file.
 #pragma once
 
 #include "base/vec.h"
 
 namespace msq {
 
-struct Placement {
+struct Transform {
   Vec3 x_axis{1, 0, 0}, y_axis{0, 1, 0}, z_axis{0, 0, 1};  ///< images of the unit vectors
   Vec3 origin;                                             ///< image of the origin
 
@@ -15,7 +15,7 @@ struct Placement {
   double determinant() const { return dot(x_axis, cross(y_axis, z_axis)); }
 
   /// First `inner`, then this.
-  Placement after(const Placement& inner) const {
+  Transform after(const Transform& inner) const {
     return {turned(inner.x_axis), turned(inner.y_axis), turned(inner.z_axis), apply(inner.origin)};
   }
 };
