@@ -30,8 +30,8 @@ msq_scale_def read_scale(const msq_model_def& def, uint32_t i) {
 
 /// Throws Error(argument) unless it is a length nowhere negative.
 Parameter read_skin(const msq_param& skin, uint32_t scale) {
-  const Parameter thickness = skin.field ? Parameter(Ref<const Field>(&object(skin.field, "field")))
-                                         : Parameter(require_finite(skin.value, "skin"));
+  Parameter thickness = skin.field ? Parameter(Ref<const Field>(&object(skin.field, "field")))
+                                   : Parameter(require_finite(skin.value, "skin"));
   if (thickness.range().low < 0)
     fail(Status::argument, "the skin of scale %u is %g%s; it must not be negative", scale,
          thickness.range().low, skin.field ? " somewhere" : "");

@@ -52,8 +52,8 @@ Image sample_distance(const Shape& shape, double step, const Executor& executor,
   const auto fill = [&](uint64_t k) {
     for (uint64_t at = 0; at < layer; ++at) {
       check_cancelled(job);  // distances computed by the host may take long
-      const Vec3 index{static_cast<double>(at % source.size[0]),
-                       static_cast<double>(at / source.size[0]), static_cast<double>(k)};
+      const uint64_t i = at % source.size[0], j = at / source.size[0];
+      const Vec3 index{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
       values[k * layer + at] = static_cast<float>(shape.distance(frame.origin + index * step));
     }
   };

@@ -102,7 +102,7 @@ void import_with_assimp(std::string_view file, const char* extension, SoupBuilde
   const aiScene* scene = importer.ReadFile(name, 0);
   if (!scene) {
     try {
-      if (const std::exception_ptr cause = importer.GetException()) std::rethrow_exception(cause);
+      if (const std::exception_ptr& cause = importer.GetException()) std::rethrow_exception(cause);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception&) {

@@ -155,9 +155,9 @@ void Slicer::plan_slabs() {
   for (const Scale* scale : resolved_)
     if (scale->structure->gains_by_layers() || !scale->skin.is_none())
       max_bytes = automatic_slab_bytes;
-  const double fit = static_cast<double>(max_bytes / layer_bytes);
-  slab_layers_ =
-      static_cast<uint64_t>(std::clamp(std::min(layers, fit), 1.0, static_cast<double>(grid_.nz)));
+  const uint64_t fit = max_bytes / layer_bytes;
+  slab_layers_ = static_cast<uint64_t>(
+      std::clamp(std::min(layers, static_cast<double>(fit)), 1.0, static_cast<double>(grid_.nz)));
 }
 
 void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const Layer&)>& take,

@@ -161,7 +161,8 @@ static void hits_what_begins_at_its_end(void** state) {
     def.t_max = t_max;
     for (int by = -1; by <= 1; ++by) {
       for (int i = 0; i < rays; ++i)
-        t_max[i] = by ? nextafter(ends[!has_struts][i], by * INFINITY) : ends[!has_struts][i];
+        t_max[i] =
+            by ? nextafter(ends[!has_struts][i], (float)by * INFINITY) : ends[!has_struts][i];
       assert_ok(msq_ray_cast(model, &def, NULL, hits, rays, NULL));
       for (int i = 0; i < rays; ++i) {
         /* With struts, the first two rays meet none at the face. */

@@ -168,14 +168,14 @@ static void slabs_are_whole_cells_high_unless_told(void** state) {
 static void slabs_are_no_more_than_32_mib(void** state) {
   msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 8192, 8192, 0.03125); /* 8 MiB a layer */
   msq_model* const others = model;
-  msq_context* context = make_context();
+  msq_context* own = make_context();
   (void)state;
-  model = make_foam_model(context, MSQ_FOAM_AUTO);
+  model = make_foam_model(own, MSQ_FOAM_AUTO);
   assert_int_equal(plan_for(def).slab_layers, 4);
   def = slicer_def(MSQ_LAYER_BITS, 1 << 20, 1 << 20, 0.03125);
   assert_int_equal(plan_for(def).slab_layers, 1);
   msq_model_release(model);
-  msq_context_release(context);
+  msq_context_release(own);
   model = others;
 }
 
@@ -183,15 +183,15 @@ static void slabs_of_one_thread_are_no_more_than_2_mib(void** state) {
   const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 4096, 1024, 0.03125); /* 512 KiB a layer */
   msq_model* const others = model;
   msq_context_def context_def;
-  msq_context* context;
+  msq_context* own;
   (void)state;
   assert_ok(msq_context_def_init(&context_def, sizeof context_def));
   context_def.threads = 1;
-  assert_ok(msq_context_create(&context_def, &context));
-  model = make_box_model(context);
+  assert_ok(msq_context_create(&context_def, &own));
+  model = make_box_model(own);
   assert_int_equal(plan_for(def).slab_layers, 4);
   msq_model_release(model);
-  msq_context_release(context);
+  msq_context_release(own);
   model = others;
 }
 

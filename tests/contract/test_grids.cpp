@@ -51,9 +51,10 @@ SampleGrid make_grid(const StructureRow& row, const GridCase& c, size_t samples,
   grid.origin = n.from_grid(c.corner_cell * n.cell_size);
   if (!c.on_borders) grid.origin = grid.origin + size * random.in_box({{}, {1, 1, 1}});
   // Few samples or cells for the methods that they are dear to.
-  grid.nx = row.has_dear_points()  ? 8
-            : row.has_dear_cells() ? std::min(70.0, 2 * c.samples_per_cell + 1)
-                                   : 70 + random.below(70);
+  grid.nx = row.has_dear_points() ? 8
+            : row.has_dear_cells()
+                ? static_cast<uint64_t>(std::min(70.0, 2 * c.samples_per_cell + 1))
+                : 70 + random.below(70);
   const double rest = std::sqrt(static_cast<double>(samples) / static_cast<double>(grid.nx));
   grid.ny = std::max<uint64_t>(2, static_cast<uint64_t>(rest));
   grid.nz = grid.ny;

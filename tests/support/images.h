@@ -11,15 +11,15 @@
 namespace msq::test {
 
 template <class T>
-constexpr Image::Type image_type = Image::Type::float64;
+inline constexpr Image::Type image_type = Image::Type::float64;
 template <>
-constexpr Image::Type image_type<float> = Image::Type::float32;
+inline constexpr Image::Type image_type<float> = Image::Type::float32;
 template <>
-constexpr Image::Type image_type<uint8_t> = Image::Type::uint8;
+inline constexpr Image::Type image_type<uint8_t> = Image::Type::uint8;
 template <>
-constexpr Image::Type image_type<int16_t> = Image::Type::int16;
+inline constexpr Image::Type image_type<int16_t> = Image::Type::int16;
 template <>
-constexpr Image::Type image_type<uint16_t> = Image::Type::uint16;
+inline constexpr Image::Type image_type<uint16_t> = Image::Type::uint16;
 
 struct ImageSize {
   uint64_t x, y, z;

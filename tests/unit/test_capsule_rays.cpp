@@ -249,7 +249,7 @@ void parts_find_what_the_whole_does(void**) {
     seen.clear();
     for (int part = 0; part < 8; ++part) {
       // Beyond the ends by what rays differ in; the last ones again.
-      packet.rays.near = std::min(part, 6) * 0.4f - 0.3f;
+      packet.rays.near = static_cast<float>(std::min(part, 6)) * 0.4f - 0.3f;
       packet.rays.far = packet.rays.near + 0.9f;
       meet_capsules(list.view, radius, corner, packet.rays, &seen, parts);
     }

@@ -88,7 +88,8 @@ void test_row(void** state) {
       }
     }
   }
-  if (!(known >= row.min_part * asked)) fail_msg("%s: %zu of %zu", row.name.c_str(), known, asked);
+  if (!(static_cast<double>(known) >= row.min_part * static_cast<double>(asked)))
+    fail_msg("%s: %zu of %zu", row.name.c_str(), known, asked);
 }
 
 }  // namespace

@@ -32,8 +32,9 @@ class EdgeGrid {
       const Vec3 low = min(edges[e].a, edges[e].b), high = max(edges[e].a, edges[e].b);
       int from[3], to[3];
       for (int axis = 0; axis < 3; ++axis) {
-        from[axis] = std::max(0.0, std::floor(2 * (low[axis] - reach + middle)));
-        to[axis] = std::min(size - 1.0, std::floor(2 * (high[axis] + reach + middle)));
+        from[axis] = static_cast<int>(std::max(0.0, std::floor(2 * (low[axis] - reach + middle))));
+        to[axis] =
+            static_cast<int>(std::min(size - 1.0, std::floor(2 * (high[axis] + reach + middle))));
       }
       for (int z = from[2]; z <= to[2]; ++z)
         for (int y = from[1]; y <= to[1]; ++y)

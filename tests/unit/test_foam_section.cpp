@@ -144,7 +144,7 @@ void check(const Row& row) {
     ++crossed;
   }
   if (row.jitter == 1 && max_magnitude(row.grid.origin) < 1e3)
-    assert_true(crossed > 0.8 * static_cast<double>(graph.lines.size()));
+    assert_true(static_cast<double>(crossed) > 0.8 * static_cast<double>(graph.lines.size()));
   // Wherever the nearest seed changes there is a line.
   size_t changes = 0;
   for (size_t i = 0; i < test_count(12); ++i) {

@@ -162,9 +162,9 @@ void reads_what_assimp_reads_wrong(void**) {
     for (const double x : {first, 2.0, 3.0, 4.0, 5.0, 1.0 / 3, 0.0, 0.0, 0.0}) put(file, x);
     put(file, uint8_t{3});
     for (const uint32_t index : {0u, 1u, 2u}) put(file, index);
-    const TriangleSoup soup = read(file, options_for(MeshFormat::ply));
-    assert_true(soup.vertices[0].x == first);
-    assert_true(soup.vertices[1].z == 1.0 / 3);
+    const TriangleSoup read_back = read(file, options_for(MeshFormat::ply));
+    assert_true(read_back.vertices[0].x == first);
+    assert_true(read_back.vertices[1].z == 1.0 / 3);
   }
   // Upper-case ASCII STL with a byte order mark and more than one solid.
   std::string upper = stl_ascii();

@@ -44,7 +44,8 @@ double fraction(const UnitCell& cell, double radius, double samples) {
 }
 
 void check_fraction(const char* name, UnitCell cell, double radius, double expected) {
-  const double samples = test_count(10000000), got = fraction(cell, radius, samples);
+  const double samples = static_cast<double>(test_count(10000000)),
+               got = fraction(cell, radius, samples);
   const double error = std::sqrt(expected * (1 - expected) / samples);
   print_message("%s, r %g: %.6f, expected %.6f, standard error below %.6f\n", name, radius, got,
                 expected, error);
@@ -85,7 +86,8 @@ void test_thin_lattices(void**) {
         Thin{"diamond", diamond_unit_cell(), 4 * root3},
         Thin{"rhombic dodecahedron", rhombic_dodecahedron_unit_cell(), 8 * root3},
         Thin{"re-entrant", reentrant_unit_cell(), 3 + 4 * root5}}) {
-    const double count = test_count(10000000 / 6), cylinders = pi * r * r * thin.length;
+    const double count = static_cast<double>(test_count(10000000 / 6)),
+                 cylinders = pi * r * r * thin.length;
     const double once = fraction(thin.cell, r, count) / cylinders;
     const double twice = fraction(thin.cell, 2 * r, count) / (4 * cylinders);
     const double got = 2 * once - twice;
@@ -154,8 +156,8 @@ void test_thin_foam(void**) {
         for (uint64_t y = 0; y < grid.ny; ++y)
           for (size_t w = 0; w < block.row_words(); ++w) held += std::popcount(block.row(y, z)[w]);
     }
-    const double count = static_cast<double>(grid.nx) * grid.ny * grid.nz;
-    const double ratio = held / count / (pi * r * r * length_per_volume);
+    const double count = static_cast<double>(grid.nx * grid.ny * grid.nz);
+    const double ratio = static_cast<double>(held) / count / (pi * r * r * length_per_volume);
     // Hits are random samples at worst.
     const double error = 4 / std::sqrt(static_cast<double>(held));
     print_message("foam r %g: %llu of %.0f samples, pi r^2 L_V times %.4f (within %.4f)\n", r,
@@ -232,7 +234,7 @@ void test_cubes(void**) {
         for (const FoamEdge& e : brick.edges()) {
           std::array<int64_t, 3> a, b;
           const int corner[3] = {x, y, z};
-          for (size_t axis = 0; axis < 3; ++axis) {
+          for (int axis = 0; axis < 3; ++axis) {
             a[axis] = std::llround((e.a[axis] + corner[axis]) * part);
             b[axis] = std::llround((e.b[axis] + corner[axis]) * part);
           }

@@ -241,24 +241,24 @@ const msq_structure* functional(Kit* kit, const msq_functional_def* def) {
 }
 
 const msq_structure* beams(Kit* kit) {
-  enum { nodes = 40, beams = 60 };
-  static double at[nodes][3], radii[beams][2];
-  static uint32_t ends[beams][2];
-  static uint8_t caps[beams][2];
-  for (int i = 0; i < nodes; ++i)
+  enum { node_total = 40, beam_total = 60 };
+  static double at[node_total][3], radii[beam_total][2];
+  static uint32_t ends[beam_total][2];
+  static uint8_t caps[beam_total][2];
+  for (int i = 0; i < node_total; ++i)
     for (int axis = 0; axis < 3; ++axis) at[i][axis] = (i * (7 + 6 * axis) + 3 * axis) % 41 * 0.5;
-  for (int i = 0; i < beams; ++i)
+  for (int i = 0; i < beam_total; ++i)
     for (int end = 0; end < 2; ++end) {
-      ends[i][end] = (uint32_t)((i + end * (1 + i % 5)) % nodes);
+      ends[i][end] = (uint32_t)((i + end * (1 + i % 5)) % node_total);
       radii[i][end] = 0.2 + (i * 3 + end * 5) % 7 * 0.13;
       caps[i][end] = (uint8_t)((i + end) % 3);
     }
   msq_beams_def def;
   must(msq_beams_def_init(&def, sizeof def));
   def.nodes = at;
-  def.node_count = nodes;
+  def.node_count = node_total;
   def.beams = &ends[0][0];
-  def.beam_count = beams;
+  def.beam_count = beam_total;
   def.radii = radii;
   def.caps = &caps[0][0];
   msq_structure* structure;
