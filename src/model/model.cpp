@@ -58,6 +58,7 @@ std::vector<Ref<const Model>> flattened(const std::vector<Ref<const Model>>& reg
 
 Ref<const Shape> union_of(const std::vector<Ref<const Model>>& regions) {
   std::vector<Ref<const Shape>> shapes;
+  shapes.reserve(regions.size());
   for (const Ref<const Model>& region : regions) shapes.emplace_back(&region->shape());
   return make_ref<BooleanShape>(BooleanShape::Operation::united, std::move(shapes));
 }
