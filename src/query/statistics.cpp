@@ -76,6 +76,7 @@ std::vector<Estimate> estimate(const StatisticsOf& of, size_t count, Job* job,
     for (size_t i = 0; i < count; ++i) total[i].add(tallies[i]);
   });
   std::vector<Estimate> estimates;
+  estimates.reserve(total.size());
   const Strata& strata = of.sample.strata();
   for (const StrataTally& tally : total)
     estimates.push_back(tally.estimate(strata.cells(), strata.per_cell));

@@ -46,7 +46,7 @@ struct Beams::Parts {
 };
 
 Ref<Beams> Beams::make(const BeamSource& source, double length_scale, const Executor& executor,
-                       std::shared_ptr<MemoryBudget> budget, Job* job) {
+                       const std::shared_ptr<MemoryBudget>& budget, Job* job) {
   Reservation working(budget, BeamOrder::bytes(source.count), "the ordering of beams");
   BeamOrder order = order_beams(source, executor, job, {0.1, 0.6});
   const size_t count = order.numbers.size();

@@ -19,7 +19,7 @@ class Beams final : public Structure {
   /// are 0 or at least 1e-100. `length_scale`: the characteristic length; 0: the maximum length or
   /// diameter of a beam. The memory is taken from the budget.
   static Ref<Beams> make(const BeamSource& source, double length_scale, const Executor& executor,
-                         std::shared_ptr<MemoryBudget> budget, Job* job);
+                         const std::shared_ptr<MemoryBudget>& budget, Job* job);
 
   bool inside(Vec3 p) const override;
   /// Exact outside.

@@ -21,7 +21,7 @@
 namespace msq {
 
 Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-           double jitter, uint64_t seed, FoamMethod method, Parameter density)
+           double jitter, uint64_t seed, FoamMethod method, const Parameter& density)
     : FoamData(std::move(context), neighbourhood, std::move(radius), jitter, seed, density),
       method_(method == FoamMethod::automatic ? FoamMethod::direct : method),
       is_concurrent_(this->radius().is_concurrent() && density.is_concurrent()) {}

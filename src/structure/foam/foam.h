@@ -26,7 +26,7 @@ class Foam final : public FoamData {
  public:
   /// `density`: as in GradedSeeds. If it exceeds 1 anywhere, the method is `direct`.
   Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius, double jitter,
-       uint64_t seed, FoamMethod method, Parameter density = Parameter(1));
+       uint64_t seed, FoamMethod method, const Parameter& density = Parameter(1));
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return is_concurrent_; }

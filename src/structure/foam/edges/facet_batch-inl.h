@@ -137,13 +137,13 @@ HWY_INLINE void find_lines(const FacetState& s, Batch& batch) {
       hn::Store(normal, d, batch.normal[k] + i);
       hn::Store(middle, d, batch.middle[k] + i);
       const VF at = hn::Add(hn::Div(hn::MulAdd(far, normal, middle), scale[k]),
-                            hn::Set(d, FacetState::width / 2 + 0.5f - FacetState::patch / 2));
+                            hn::Set(d, FacetState::half_width + 0.5f - FacetState::half_patch));
       // Also where rounding has made it infinite or no number.
       const VF small = hn::IfThenElseZero(hn::Lt(hn::Abs(at), hn::Set(d, 1000.0f)), at);
       first[k] = hn::Min(hn::Max(hn::ConvertTo(di, small), hn::Zero(di)),
                          hn::Set(di, FacetState::width - FacetState::patch));
       hn::Store(
-          hn::Mul(hn::Sub(hn::ConvertTo(d, first[k]), hn::Set(d, float(FacetState::width / 2))),
+          hn::Mul(hn::Sub(hn::ConvertTo(d, first[k]), hn::Set(d, float(FacetState::half_width))),
                   scale[k]),
           d, batch.low[k] + i);
     }

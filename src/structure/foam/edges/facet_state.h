@@ -13,13 +13,15 @@ struct FacetState {
   /// Cells on either side of the brick whose seeds are known.
   static constexpr int halo = 3;
   static constexpr int width = side + 2 * halo;  // cells along each axis
-  static constexpr int stride = 16;              // of rows of cells
+  static constexpr int half_width = width / 2;
+  static constexpr int stride = 16;  // of rows of cells
   static constexpr uint32_t seeds_in_brick = side * side * side;
   static constexpr uint32_t max_tetrahedra = 12 * seeds_in_brick;
   static constexpr uint32_t buckets = 3 * seeds_in_brick;
   static constexpr uint32_t bucket_room = 64;
   static constexpr int batch = 16;  // facets handled together, at any width of vectors
   static constexpr int patch = 4;   // cells along each axis that are searched first
+  static constexpr int half_patch = patch / 2;
   static constexpr int patches_in_row = width - patch + 1;
 
   // Positions of seeds in cells, from the middle of the brick: multiples of 2^-21 below 8.

@@ -253,7 +253,7 @@ void FacetWalk::place(const FoamSeeds& seeds, CellIndex corner) {
   const auto sx = static_cast<float>(scale.x), sy = static_cast<float>(scale.y),
              sz = static_cast<float>(scale.z);
   // Positions in foam units, in rows of `stride`.
-  const auto middle = static_cast<float>(width / 2);
+  const auto middle = static_cast<float>(FacetState::half_width);
   float x[width][stride], y[width][stride], z[width][stride];
   for (int cz = 0; cz < width; ++cz) {
     for (int cy = 0; cy < width; ++cy) {

@@ -57,6 +57,7 @@ std::vector<Vec3> seeds_that_matter(const std::vector<Vec3>& halo, Vec3 scale, d
   std::sort(kept.begin(), kept.end(),
             [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
   std::vector<Vec3> found;
+  found.reserve(kept.size());
   for (const Candidate& s : kept) found.push_back(halo[s.index]);
   return found;
 }

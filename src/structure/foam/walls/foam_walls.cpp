@@ -24,7 +24,7 @@ NearSeeds make_seeds(const Neighbourhood& grid, double unit, double jitter, uint
 }  // namespace
 
 FoamWalls::FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
-                     double jitter, uint64_t seed, Parameter density, Parameter vent_radius)
+                     double jitter, uint64_t seed, const Parameter& density, Parameter vent_radius)
     : Structure(neighbourhood),
       context_(std::move(context)),
       id_(context_->new_structure_id()),

@@ -17,7 +17,7 @@ class FoamWalls final : public Structure {
  public:
   /// `density`: as in GradedSeeds. `vent_radius`: of the holes.
   FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
-            double jitter, uint64_t seed, Parameter density = Parameter(1),
+            double jitter, uint64_t seed, const Parameter& density = Parameter(1),
             Parameter vent_radius = Parameter(0));
   ~FoamWalls() override;
 

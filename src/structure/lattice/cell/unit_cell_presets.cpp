@@ -12,6 +12,7 @@ namespace {
 
 std::vector<Vec3> cube_corners() {
   std::vector<Vec3> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i)
     corners.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2)});
   return corners;
