@@ -166,6 +166,32 @@ enum msq_cache_policy {
   MSQ_CACHE_SEGMENTED = 1
 };
 
+/** What a warning is about. */
+enum msq_warning_code {
+  /** A mesh is not closed, and MSQ_WINDING_AUTO reads it by its generalised winding number. Once
+   * per shape, by the function that creates it. */
+  MSQ_WARNING_OPEN_MESH = 1,
+  /** The smallest cells of a structure have fewer than 4 pixels or layers across. Once per slicer,
+   * by msq_slicer_create. */
+  MSQ_WARNING_COARSE_PITCH = 2,
+  /** Cells were built for one use, because the cache had no room for them. Once per context, by
+   * a set query, msq_slicer_run, msq_slice_layer, msq_printability, msq_ray_cast or msq_render. Not
+   * with cache_bytes = 0. */
+  MSQ_WARNING_SMALL_CACHE = 3,
+  /** Unit cells of a lattice have nodes on their faces that the next cell, or another one of the
+   * library, does not have. Once per structure, by msq_structure_lattice. msq_unit_cell_info and
+   * msq_lattice_faces tell where. */
+  MSQ_WARNING_UNMATCHED_CELLS = 4
+};
+
+/** Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may
+ * add some. message: in UTF-8, with the values, valid until the callback returns.
+ *
+ * It is called on the thread that called msq, when the work of the function that gives the warning
+ * is done and before it returns; never with a lock held, so it may call msq. A constructor has not
+ * written its handle yet. Exceptions of the host's language must not leave it. Since 0.2. */
+typedef void (*msq_warning_fn)(void* user, int32_t code, const char* message);
+
 /** Definition of a context. */
 typedef struct msq_context_def {
   uint32_t struct_size;
@@ -183,6 +209,11 @@ typedef struct msq_context_def {
   int32_t cache_policy;
   /** Must be 0. */
   uint32_t reserved;
+  /** Receives warnings about objects of this context. NULL (default): none. Must be valid as long
+   * as the context. */
+  msq_warning_fn warning;
+  /** Passed to warning. */
+  void* warning_user;
 } msq_context_def;
 
 /** Sets the defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */

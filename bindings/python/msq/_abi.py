@@ -19,6 +19,10 @@ MSQ_E_LIMIT = -8
 MSQ_E_INTERNAL = -9
 MSQ_CACHE_FIFO = 0
 MSQ_CACHE_SEGMENTED = 1
+MSQ_WARNING_OPEN_MESH = 1
+MSQ_WARNING_COARSE_PITCH = 2
+MSQ_WARNING_SMALL_CACHE = 3
+MSQ_WARNING_UNMATCHED_CELLS = 4
 MSQ_WINDING_NONZERO = 0
 MSQ_WINDING_EVEN_ODD = 1
 MSQ_WINDING_POSITIVE = 2
@@ -151,9 +155,13 @@ class msq_build_report(Structure):
                 ("with_cgal", c_int32), ("licence", c_char_p), ("simd", c_char_p)]
 
 
+msq_warning_fn = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
+
+
 class msq_context_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("threads", c_uint32), ("cache_bytes", c_uint64),
-                ("memory_limit", c_uint64), ("cache_policy", c_int32), ("reserved", c_uint32)]
+                ("memory_limit", c_uint64), ("cache_policy", c_int32), ("reserved", c_uint32),
+                ("warning", msq_warning_fn), ("warning_user", c_void_p)]
 
 
 class msq_memory_report(Structure):
