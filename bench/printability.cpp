@@ -19,12 +19,12 @@ msq_structure* make_structure(msq_context* context, const std::string& kind) {
     bench::check(msq_foam_def_init(&def, sizeof def));
     (kind == "foam of walls" ? def.wall_thickness : def.radius).value = 0.12;
     bench::check(msq_structure_foam(context, &def, &structure));
-  } else if (kind == "lattice") {
+  } else if (kind == "lattice" || kind == "turned lattice") {
     msq_lattice_def def;
     bench::check(msq_lattice_def_init(&def, sizeof def));
     def.unit_cell = MSQ_UNIT_CELL_OCTET;
     def.radius.value = 0.08;
-    bench::turn(def.grid);
+    if (kind == "turned lattice") bench::turn(def.grid);
     bench::check(msq_structure_lattice(context, &def, &structure));
   } else if (kind == "gyroid") {
     msq_functional_def def;
@@ -94,7 +94,8 @@ void measure(bench::Report& report, const std::string& kind, uint32_t threads) {
 int main(int count, char** arguments) try {
   bench::Report report("printability of 128 layers of 1024^2 pixels");
   for (const uint32_t threads : {1u, 2u})
-    for (const char* kind : {"foam of struts", "foam of walls", "lattice", "gyroid", "solid"})
+    for (const char* kind :
+         {"foam of struts", "foam of walls", "lattice", "turned lattice", "gyroid", "solid"})
       measure(report, kind, threads);
   report.write(count, arguments);
   return 0;

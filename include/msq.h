@@ -2415,8 +2415,8 @@ typedef struct msq_printability_report {
  * do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 16
  * bits per pixel of a layer, and runs and totals of what is not part of the main body, for any
  * height of the stack; of these, runs and totals are not accounted to the context. Cost: 1.3 to 1.8
- * times that of msq_slicer_run for bits, up to 3 times with thousands of enclosed voids in a layer;
- * THIN costs once to twice the bits in addition. All but the bits runs on the calling thread.
+ * times that of msq_slicer_run for bits, up to 3 times with thousands of enclosed voids in a layer.
+ * THIN adds 0.2 to 1.5 ns per sample. All but the bits runs on the calling thread.
  * Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer),
  * MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2. */
 MSQ_API msq_status msq_printability(const msq_slicer* slicer, const msq_printability_def* def,

@@ -5,7 +5,7 @@
 #include <bit>
 #include <tuple>
 
-#include "base/status.h"
+#include "base/job.h"
 #include "printability/bit_row.h"
 
 namespace msq {
@@ -117,7 +117,9 @@ void Components::flood(const uint64_t* rows) {
     std::fill(has_rest_.begin(), has_rest_.end(), uint8_t{0});
     return;
   }
+  CancelPoll poll(current_job());
   for (uint64_t j = 0; j < ny_; ++j) {
+    poll();
     const uint64_t* row = rows + j * words_;
     if (rules_.anchors_sides && (j == 0 || j + 1 == ny_)) {
       std::copy_n(row, words_, known_.row(j));
@@ -144,7 +146,9 @@ void Components::flood(const uint64_t* rows) {
 /// The runs that are not known, each a node.
 void Components::list_runs() {
   runs_.runs.clear();
+  CancelPoll poll(current_job());
   for (uint64_t j = 0; j < ny_; ++j) {
+    poll();
     runs_.begin[j] = runs_.runs.size();
     if (!has_rest_[j]) continue;
     for_each_run(rest_.row(j), words_, [&](uint64_t first, uint64_t last) {

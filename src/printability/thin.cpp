@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/job.h"
 #include "printability/bit_row.h"
 
 namespace msq {
@@ -62,8 +63,7 @@ std::vector<ThinSamples::Span> ThinSamples::spans_of(const unsigned across[2], d
 }
 
 ThinSamples::ThinSamples(uint64_t nx, uint64_t ny, const unsigned across[2])
-    : nx_(nx),
-      ny_(ny),
+    : ny_(ny),
       words_(words_for(nx)),
       disc_(spans_of(across, 1)),
       wide_(spans_of(across, 2)),
@@ -75,7 +75,9 @@ ThinSamples::ThinSamples(uint64_t nx, uint64_t ny, const unsigned across[2])
 void ThinSamples::fit(const uint64_t* rows) {
   std::fill(fits_.begin(), fits_.end(), ~uint64_t{0});
   uint64_t* const runs = runs_.data() + 1;
+  CancelPoll poll(current_job());
   for (uint64_t j = 0; j < ny_; ++j) {
+    poll();
     std::copy_n(rows + j * words_, words_, runs);
     runs[words_] = 0;
     unsigned length = 1;
@@ -101,7 +103,9 @@ void ThinSamples::fit(const uint64_t* rows) {
 void ThinSamples::cover() {
   std::fill(found_.begin(), found_.end(), uint64_t{0});
   uint64_t* const runs = runs_.data() + 1;
+  CancelPoll poll(current_job());
   for (uint64_t j = 0; j < ny_; ++j) {
+    poll();
     const uint64_t* fits = fits_.data() + j * words_;
     if (!any_word(fits, words_)) continue;
     std::copy_n(fits, words_, runs);

@@ -40,7 +40,7 @@ class ThinSamples {
   void fit(const uint64_t* rows);
   void cover();
 
-  const uint64_t nx_, ny_;
+  const uint64_t ny_;
   const size_t words_;
   const std::vector<Span> disc_, wide_;
   std::vector<uint64_t> fits_;   ///< where the block of a disc that fits begins
