@@ -29,9 +29,11 @@ msq_status msq_context_create(const msq_context_def* def, msq_context** context)
     const int32_t policy =
         require_range(known.cache_policy, MSQ_CACHE_FIFO, MSQ_CACHE_SEGMENTED, "cache_policy");
     require_reserved(known.reserved, "reserved");
-    *context = new_handle<msq_context>(make_ref<Context>(known.threads, known.cache_bytes,
-                                                         known.memory_limit, false,
-                                                         static_cast<CachePolicy>(policy)));
+    Ref<Context> made = make_ref<Context>(known.threads, known.cache_bytes, known.memory_limit,
+                                          false, static_cast<CachePolicy>(policy));
+    made->warnings.fn = known.warning;
+    made->warnings.user = known.warning_user;
+    *context = new_handle<msq_context>(std::move(made));
   });
 }
 

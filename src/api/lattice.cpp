@@ -6,6 +6,7 @@
 #include "api/neighbourhood.h"
 #include "api/strut_radius.h"
 #include "api/unit_cell.h"
+#include "api/warnings.h"
 #include "structure/common/max_clusters.h"
 #include "structure/lattice/mixed/mixed_lattice.h"
 
@@ -84,7 +85,7 @@ msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size) {
 msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* def,
                                  msq_structure** structure) {
   return guard([&] {
-    object(context, "context");
+    const Ref<const Context> owner(&object(context, "context"));
     require(structure, "structure");
     const msq_lattice_def known = read_def(def, lattice_defaults(), "def");
     if (known.clusters > uint32_t{max_clusters})
@@ -98,12 +99,14 @@ msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* de
         max_factor = std::max(max_factor, cell.factor(s));
     const Parameter choice = read_choice(known.cell_choice);
     Parameter radius = read_radius(known.radius, grid, max_radius, max_factor);
+    Ref<Structure> made;
     if (library.size() == 1)
-      *structure = new_handle<msq_structure>(Ref<Structure>(make_ref<Lattice>(
-          grid, library[0], std::move(radius), static_cast<int>(known.clusters))));
+      made =
+          make_ref<Lattice>(grid, library[0], std::move(radius), static_cast<int>(known.clusters));
     else
-      *structure = new_handle<msq_structure>(Ref<Structure>(
-          make_ref<MixedLattice>(grid, std::move(library), choice, std::move(radius))));
+      made = make_ref<MixedLattice>(grid, library, choice, std::move(radius));
+    warn_of_faces(*owner, library);
+    *structure = new_handle<msq_structure>(std::move(made));
   });
 }
 

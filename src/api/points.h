@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/guard.h"
+#include "api/warnings.h"
 #include "query/ask_group.h"
 #include "query/reach.h"
 #include "query/stratified_points.h"
@@ -57,6 +58,7 @@ void ask_set(const msq_model* model, const msq_points_def* points, const msq_que
   JobScope scope(work);
   ask(known, resolved, *set, options.plan, values, work);
   scope.done();
+  warn_of_cache(known.context());
 }
 
 }  // namespace msq::api

@@ -4,6 +4,7 @@
 
 #include "api/guard.h"
 #include "api/points.h"
+#include "api/warnings.h"
 #include "ray/search.h"
 
 using namespace msq;
@@ -148,5 +149,6 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
         },
         work);
     scope.done();
+    warn_of_cache(known.context());
   });
 }

@@ -267,5 +267,6 @@ msq_status msq_render(const msq_model* model, const msq_camera* camera, const ms
                       code);
       };
     render(*known, resolved, view, plan, pixels, on_pass, work.get());
+    warn_of_cache(known->context());
   });
 }

@@ -2,6 +2,7 @@
 #include "api/guard.h"
 #include "api/image.h"
 #include "api/shape_size.h"
+#include "api/warnings.h"
 #include "io/mesh_file.h"
 #include "shape/all_space.h"
 #include "shape/mesh.h"
@@ -62,9 +63,15 @@ FileRequest file_request(const msq_file_def* def, const Context& owner) {
   return request;
 }
 
+/// A handle to a new mesh.
+msq_shape* mesh_handle(const Context& owner, Ref<Shape> mesh, WindingRule rule) {
+  if (rule == WindingRule::automatic) warn_of_open_mesh(owner, *mesh);
+  return new_handle<msq_shape>(std::move(mesh));
+}
+
 /// The mesh of what read(options) returns.
 template <class Read>
-msq_shape* make_mesh(FileRequest request, msq_job* job, Read&& read) {
+msq_shape* make_mesh(const Context& owner, FileRequest request, msq_job* job, Read&& read) {
   Job* work = job ? &object(job, "job") : nullptr;
   JobScope scope(work);
   constexpr double reading = 0.4;  // of the call
@@ -72,7 +79,7 @@ msq_shape* make_mesh(FileRequest request, msq_job* job, Read&& read) {
   Ref<Shape> mesh = make_ref<Mesh>(read(request.options), request.rule, request.options.budget,
                                    JobPart{work, reading, 1});
   scope.done();
-  return new_handle<msq_shape>(std::move(mesh));
+  return mesh_handle(owner, std::move(mesh), request.rule);
 }
 
 }  // namespace
@@ -85,10 +92,11 @@ msq_status msq_shape_from_file(msq_context* context, const char* path, const msq
                                msq_shape** shape, msq_job* job) {
   return guard([&] {
     Context& owner = object(context, "context");
+    const Ref<const Context> keep(&owner);  // the callback may release the host's last reference
     require(path, "path");
     require(shape, "shape");
     const FileRequest request = file_request(def, owner);
-    *shape = make_mesh(request, job, [&](const MeshFileOptions& options) {
+    *shape = make_mesh(owner, request, job, [&](const MeshFileOptions& options) {
       return read_mesh_file(path, options);
     });
   });
@@ -98,10 +106,11 @@ msq_status msq_shape_from_memory(msq_context* context, const void* data, uint64_
                                  const msq_file_def* def, msq_shape** shape, msq_job* job) {
   return guard([&] {
     Context& owner = object(context, "context");
+    const Ref<const Context> keep(&owner);  // the callback may release the host's last reference
     if (!data) fail(Status::argument, "data is NULL");
     require(shape, "shape");
     const FileRequest request = file_request(def, owner);
-    *shape = make_mesh(request, job, [&](const MeshFileOptions& options) {
+    *shape = make_mesh(owner, request, job, [&](const MeshFileOptions& options) {
       return read_mesh_memory(data, bytes, options);
     });
   });
@@ -114,6 +123,7 @@ msq_status msq_mesh_def_init(msq_mesh_def* def, size_t size) {
 msq_status msq_shape_from_mesh(msq_context* context, const msq_mesh_def* def, msq_shape** shape) {
   return guard([&] {
     Context& owner = object(context, "context");
+    const Ref<const Context> keep(&owner);  // the callback may release the host's last reference
     require(shape, "shape");
     const msq_mesh_def known = read_def(def, mesh_defaults(), "def");
     require_reserved(known.reserved, "reserved");
@@ -135,7 +145,7 @@ msq_status msq_shape_from_mesh(msq_context* context, const msq_mesh_def* def, ms
     soup.triangles.resize(known.triangle_count);
     std::memcpy(soup.triangles.data(), known.triangles, known.triangle_count * sizeof(Triangle));
     staging = {};  // the mesh takes its own
-    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<Mesh>(std::move(soup), rule, owner.budget)));
+    *shape = mesh_handle(owner, make_ref<Mesh>(std::move(soup), rule, owner.budget), rule);
   });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/guard.h"
+#include "api/warnings.h"
 #include "api/window.h"
 
 using namespace msq;
@@ -107,7 +108,9 @@ msq_status msq_slicer_create(const msq_model* model, const msq_slicer_def* def,
     const Model& known = object(model, "model");
     require(slicer, "slicer");
     SlicePlan plan = read_plan(read_def(def, slicer_defaults(), "def"));
-    *slicer = new_handle<msq_slicer>(make_ref<Slicer>(Ref<const Model>(&known), std::move(plan)));
+    Ref<Slicer> made = make_ref<Slicer>(Ref<const Model>(&known), std::move(plan));
+    warn_of_pitch(*made);
+    *slicer = new_handle<msq_slicer>(std::move(made));
   });
 }
 
@@ -184,6 +187,7 @@ msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t cou
                     code);
     };
     known.run(first, last, take, work.get());
+    warn_of_cache(known.model().context());
   });
 }
 
@@ -199,5 +203,6 @@ msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* bu
            static_cast<unsigned long long>(buffer_bytes),
            static_cast<unsigned long long>(known.layer_bytes()));
     known.slice_layer(index, buffer, job ? &object(job, "job") : nullptr);
+    warn_of_cache(known.model().context());
   });
 }

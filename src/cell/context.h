@@ -13,6 +13,13 @@
 
 namespace msq {
 
+/// The host's function for warnings; the functions of src/api call it.
+struct WarningHook {
+  void (*fn)(void* user, int32_t code, const char* message) = nullptr;
+  void* user = nullptr;
+  std::atomic<bool> has_warned_of_cache{false};
+};
+
 class Context : public RefCounted {
  public:
   Context(unsigned threads, uint64_t cache_bytes, uint64_t memory_limit, bool beyond_cores = false,
@@ -40,6 +47,8 @@ class Context : public RefCounted {
   const Executor serial{1};
   const std::shared_ptr<MemoryBudget> budget;
   CellCache cache;
+  /// Set before the context is shared.
+  WarningHook warnings;
 
  private:
   const KeepsMemory keeps_memory_;

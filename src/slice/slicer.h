@@ -43,6 +43,8 @@ class Slicer final : public RefCounted {
 
   const Model& model() const { return *model_; }
   double length_scale() const { return plan_.length_scale; }
+  /// As completed by the constructor; a slicer of it has the same grid.
+  const SlicePlan& plan() const { return plan_; }
   /// Of the window. Layers are counted in it.
   const SampleGrid& grid() const { return grid_; }
   /// Pixels along x and y, and layers, of the whole plan.

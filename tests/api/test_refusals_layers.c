@@ -187,6 +187,53 @@ static msq_contours_def* contours_of(int32_t type) {
   return def;
 }
 
+static int32_t refuse_findings(void* user, const msq_finding* findings, uint64_t count) {
+  (void)user, (void)findings, (void)count;
+  return -9;
+}
+
+static void printability(void** state) {
+  const msq_slicer_def plan = slicer_def(MSQ_LAYER_BITS, 70, 45, 0.5);
+  const msq_slicer_def large = slicer_def(MSQ_LAYER_BITS, 300, 300, 0.5);
+  msq_slicer *known = make_slicer(plain, &plan), *of_small = make_slicer(plain_of_small, &large);
+  (void)state;
+  REFUSALS("msq_printability") {
+    const msq_slicer* slicer = known;
+    msq_printability_def* def = (msq_printability_def*)definition(0);
+    msq_findings_fn fn = NULL;
+    msq_printability_report* report = (msq_printability_report*)output(0);
+    msq_job* job = NULL;
+    assert_ok(msq_printability_def_init(def, sizeof *def));
+    report->struct_size = sizeof *report;
+    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
+    WRONG(ARGUMENT, "report is NULL", report = NULL);
+    WRONG(ARGUMENT, "struct_size of report is 4", report->struct_size = 4);
+    WRONG(ARGUMENT, "kinds is 0", def->kinds = 0);
+    WRONG(ARGUMENT, "kinds is 16", def->kinds = 16);
+    WRONG(ARGUMENT, "kinds is 4294967295", def->kinds = UINT32_MAX);
+    wrong_enum(table, &def->has_plate, "has_plate", 0, 1);
+    WRONG(ARGUMENT, "reserved is 3", def->reserved = 3);
+    WRONG(ARGUMENT, "width is -1", def->width = -1);
+    wrong_number(table, &def->width, "width is ");
+    WRONG(ARGUMENT, "width is 0.5, and kinds", def->width = 0.5);
+    WRONG(ARGUMENT, "width is 0, 0 pixels along x|2 to 32", def->kinds = MSQ_FINDING_THIN);
+    WRONG(ARGUMENT, "width is 0.11, 1.925 pixels along x", def->kinds = 15; def->width = 0.11);
+    WRONG(ARGUMENT, "width is 0.17, 1.9125 pixels along y", def->kinds = 15; def->width = 0.17);
+    WRONG(ARGUMENT, "width is 1.9, 33.25 pixels along x", def->kinds = 15; def->width = 1.9);
+    RIGHT(def->kinds = 15; def->width = 1.85);
+    WRONG(ARGUMENT, "min_volume is -1", def->min_volume = -1);
+    wrong_number(table, &def->min_volume, "min_volume is ");
+    WRONG(LIMIT, "memory_limit", slicer = of_small);
+    WRONG(HOST, "-9", fn = refuse_findings; def->kinds = MSQ_FINDING_THIN; def->width = 0.5);
+    WRONG(CANCELLED, "cancelled", job = cancelled_job());
+    RIGHT(def = NULL);
+    TRY(msq_printability(slicer, def, fn, NULL, report, job));
+  }
+  msq_slicer_release(of_small);
+  msq_slicer_release(known);
+}
+
 static void contours(void** state) {
   const msq_slicer_def plan = slicer_def(MSQ_LAYER_BITS, 70, 45, 0.25);
   msq_slicer* known = make_slicer(plain, &plan);
@@ -279,6 +326,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(slicers),
       cmocka_unit_test(layers),
+      cmocka_unit_test(printability),
       cmocka_unit_test(contours),
   };
   msq_shape* all;

@@ -32,6 +32,7 @@
   DO(segments_def, sizeof(msq_segments_def))                         \
   DO(slicer_def, offsetof(msq_slicer_def, window))                   \
   DO(contours_def, sizeof(msq_contours_def))                         \
+  DO(printability_def, sizeof(msq_printability_def))                 \
   DO(fill_def, sizeof(msq_fill_def))                                 \
   DO(rays_def, sizeof(msq_rays_def))                                 \
   DO(camera, sizeof(msq_camera))                                     \
@@ -150,6 +151,7 @@ DEFINE_READ(unit_cell_report, msq_unit_cell_info(&of.cell, report, NULL, 0))
 DEFINE_READ(lattice_faces_report, msq_lattice_faces(of.lattice, low, high, report, NULL))
 DEFINE_READ(slicer_report, msq_slicer_info(of.slicer, report))
 DEFINE_READ(contours_report, msq_contours_info(of.contours, report))
+DEFINE_READ(printability_report, msq_printability(of.slicer, NULL, NULL, NULL, report, NULL))
 DEFINE_READ(fill_report, msq_fill_info(of.fill, report))
 DEFINE_READ(strut_graph_report, msq_strut_graph_info(of.graph, report))
 
@@ -170,6 +172,7 @@ static void reports_are_filled(void** state) {
       REPORT(lattice_faces_report, sizeof(msq_lattice_faces_report)),
       REPORT(slicer_report, offsetof(msq_slicer_report, window)),
       REPORT(contours_report, sizeof(msq_contours_report)),
+      REPORT(printability_report, sizeof(msq_printability_report)),
       REPORT(fill_report, sizeof(msq_fill_report)),
       REPORT(strut_graph_report, sizeof(msq_strut_graph_report)),
   };

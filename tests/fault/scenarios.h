@@ -8,17 +8,18 @@
 
 namespace msq::test {
 
-std::vector<Scenario> small_scenarios();      ///< contexts, jobs, definitions, cameras
-std::vector<Scenario> create_scenarios();     ///< shapes, fields, structures, materials, models
-std::vector<Scenario> file_scenarios();       ///< meshes from files
-std::vector<Scenario> point_scenarios();      ///< queries of single points
-std::vector<Scenario> set_scenarios();        ///< queries of sets
-std::vector<Scenario> slice_scenarios();      ///< layers
-std::vector<Scenario> ray_scenarios();        ///< rays and pictures
-std::vector<Scenario> statistic_scenarios();  ///< statistics and calibration
-std::vector<Scenario> fill_scenarios();       ///< fill lines
-std::vector<Scenario> contour_scenarios();    ///< contours
-std::vector<Scenario> strut_scenarios();      ///< struts
+std::vector<Scenario> small_scenarios();         ///< contexts, jobs, definitions, cameras
+std::vector<Scenario> create_scenarios();        ///< shapes, fields, structures, materials, models
+std::vector<Scenario> file_scenarios();          ///< meshes from files
+std::vector<Scenario> point_scenarios();         ///< queries of single points
+std::vector<Scenario> set_scenarios();           ///< queries of sets
+std::vector<Scenario> slice_scenarios();         ///< layers
+std::vector<Scenario> ray_scenarios();           ///< rays and pictures
+std::vector<Scenario> statistic_scenarios();     ///< statistics and calibration
+std::vector<Scenario> fill_scenarios();          ///< fill lines
+std::vector<Scenario> contour_scenarios();       ///< contours
+std::vector<Scenario> strut_scenarios();         ///< struts
+std::vector<Scenario> printability_scenarios();  ///< printability
 
 /// All of these.
 std::vector<Scenario> all_scenarios();

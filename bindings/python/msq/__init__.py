@@ -24,6 +24,7 @@ from .material import Material
 from .model import Model, Scale
 from .picture import Picture, RenderPass
 from .points import PointGrid, PointSet, Stratified
+from .printability import Printability
 from .shape import Shape, ShapeInfo
 from .slicer import Layer, Slicer
 from .statistics import Calibration, Estimate
@@ -40,7 +41,8 @@ __all__ = [
     "Grid", "HostError",
     "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",
     "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "MeshError", "Model",
-    "OutOfMemoryError", "Param", "Period", "Picture", "PointGrid", "PointSet", "RenderPass", "Scale",
+    "OutOfMemoryError", "Param", "Period", "Picture", "PointGrid", "PointSet",
+    "Printability", "RenderPass", "Scale",
     "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
     "UnsupportedError", "build_info",
 ]

@@ -19,6 +19,10 @@ MSQ_E_LIMIT = -8
 MSQ_E_INTERNAL = -9
 MSQ_CACHE_FIFO = 0
 MSQ_CACHE_SEGMENTED = 1
+MSQ_WARNING_OPEN_MESH = 1
+MSQ_WARNING_COARSE_PITCH = 2
+MSQ_WARNING_SMALL_CACHE = 3
+MSQ_WARNING_UNMATCHED_CELLS = 4
 MSQ_WINDING_NONZERO = 0
 MSQ_WINDING_EVEN_ODD = 1
 MSQ_WINDING_POSITIVE = 2
@@ -94,6 +98,10 @@ MSQ_LAYER_MATERIAL = 5
 MSQ_LAYER_MIRROR_X = 1
 MSQ_LAYER_MIRROR_Y = 2
 MSQ_LAYER_TRANSPOSE = 4
+MSQ_FINDING_ISLAND = 1
+MSQ_FINDING_LOOSE = 2
+MSQ_FINDING_VOID = 4
+MSQ_FINDING_THIN = 8
 MSQ_CAMERA_ORTHOGRAPHIC = 0
 MSQ_CAMERA_PERSPECTIVE = 1
 MSQ_COLOUR_PLAIN = 0
@@ -151,9 +159,13 @@ class msq_build_report(Structure):
                 ("with_cgal", c_int32), ("licence", c_char_p), ("simd", c_char_p)]
 
 
+msq_warning_fn = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
+
+
 class msq_context_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("threads", c_uint32), ("cache_bytes", c_uint64),
-                ("memory_limit", c_uint64), ("cache_policy", c_int32), ("reserved", c_uint32)]
+                ("memory_limit", c_uint64), ("cache_policy", c_int32), ("reserved", c_uint32),
+                ("warning", msq_warning_fn), ("warning_user", c_void_p)]
 
 
 class msq_memory_report(Structure):
@@ -479,6 +491,28 @@ class msq_contours_report(Structure):
                 ("unresolved_count", c_uint64), ("pitch", c_double)]
 
 
+class msq_printability_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("kinds", c_uint32), ("has_plate", c_int32),
+                ("reserved", c_uint32), ("width", c_double), ("min_volume", c_double)]
+
+
+class msq_finding(Structure):
+    _fields_ = [("kind", c_int32), ("reserved", c_uint32), ("first_layer", c_uint64),
+                ("last_layer", c_uint64), ("sample_count", c_uint64), ("volume", c_double),
+                ("point", c_double * 3), ("min", c_double * 3), ("max", c_double * 3)]
+
+
+msq_findings_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_finding), c_uint64)
+
+
+class msq_printability_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("layer_count", c_uint64),
+                ("solid_count", c_uint64), ("solid_volume", c_double), ("island_count", c_uint64),
+                ("loose_count", c_uint64), ("void_count", c_uint64), ("thin_count", c_uint64),
+                ("island_volume", c_double), ("loose_volume", c_double), ("void_volume", c_double),
+                ("thin_volume", c_double)]
+
+
 class msq_ring(Structure):
     _fields_ = [("points", c_void_p), ("count", c_uint64)]
 
@@ -726,6 +760,10 @@ FUNCTIONS = {
     "msq_contours_retain": [None, POINTER(msq_contours)],
     "msq_contours_release": [None, POINTER(msq_contours)],
     "msq_contours_info": [c_int32, POINTER(msq_contours), POINTER(msq_contours_report)],
+    "msq_printability_def_init": [c_int32, POINTER(msq_printability_def), c_size_t],
+    "msq_printability": [c_int32, POINTER(msq_slicer), POINTER(msq_printability_def),
+                         msq_findings_fn, c_void_p, POINTER(msq_printability_report),
+                         POINTER(msq_job)],
     "msq_fill_def_init": [c_int32, POINTER(msq_fill_def), c_size_t],
     "msq_fill_lines": [c_int32, POINTER(msq_context), POINTER(msq_structure), POINTER(msq_fill_def),
                        POINTER(POINTER(msq_fill)), POINTER(msq_job)],

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
+import itertools
 import numbers
 import operator
 import threading
-from typing import Any, Optional, Tuple, Type, TypeVar
+import weakref
+from typing import Any, Callable, Dict, Optional, Tuple, Type, TypeVar
 
 from . import _abi
 from ._handle import Handle
@@ -86,6 +88,21 @@ def build_info() -> BuildInfo:
     return record(BuildInfo, filled)
 
 
+# The functions of contexts that are alive, by the number that C has for them.
+_on_warning: Dict[int, Callable[[str, str], Any]] = {}
+_numbers = itertools.count(1)
+
+
+@_abi.msq_warning_fn
+def _take_warning(user: int, code: int, message: bytes) -> None:
+    function = _on_warning.get(user)
+    if function is None:  # what the context made outlives it
+        return
+    kinds = {value: label[len("MSQ_WARNING_"):].lower() for label, value in vars(_abi).items()
+             if label.startswith("MSQ_WARNING_")}
+    function(kinds.get(code, str(code)), message.decode())
+
+
 class Context(Handle):
     """Threads, cell cache and memory limit that objects share.
 
@@ -94,18 +111,31 @@ class Context(Handle):
     cache_policy: `fifo`, or `segmented`, which rather keeps cells that are asked for again. Results
     never depend on them. Objects made without a context share that of what they are made from, or
     one of defaults.
+
+    on_warning(kind, message): called, on the thread that calls msq, with what is legal but doubtful,
+    once for each object: `open_mesh`, `coarse_pitch`, `small_cache`, `unmatched_cells`. It must not
+    raise. Not called once the Context is garbage.
     """
 
     _kind = "context"
 
     def __init__(self, *, threads: int = 0, cache_bytes: Optional[int] = None,
-                 memory_limit: int = 0, cache_policy: str = "fifo") -> None:
+                 memory_limit: int = 0, cache_policy: str = "fifo",
+                 on_warning: Optional[Callable[[str, str], Any]] = None) -> None:
         definition = defaults(_abi.msq_context_def)
         definition.threads = unsigned(threads, 32, "threads")
         if cache_bytes is not None:
             definition.cache_bytes = unsigned(cache_bytes, 64, "cache_bytes")
         definition.memory_limit = unsigned(memory_limit, 64, "memory_limit")
         definition.cache_policy = constant("MSQ_CACHE_", cache_policy, "cache_policy")
+        if on_warning is not None:
+            if not callable(on_warning):
+                raise TypeError(f"on_warning is a {type(on_warning).__name__}; it must be a function")
+            number = next(_numbers)
+            _on_warning[number] = on_warning
+            weakref.finalize(self, _on_warning.pop, number, None)
+            definition.warning = _take_warning
+            definition.warning_user = number
         self._reference = self._create(lib.msq_context_create, ctypes.byref(definition))
 
     @property

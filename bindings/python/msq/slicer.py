@@ -20,6 +20,7 @@ from ._signals import HeldSignals
 from .context import Job, job_reference, triple, unsigned
 from .contours import Contours, Window
 from .errors import HostError
+from .printability import Printability, inspect
 
 if TYPE_CHECKING:
     from .model import Model
@@ -207,6 +208,17 @@ class Slicer(Handle):
         Contours."""
         return Contours(self, self._index(index), tolerance, axis=2, window=window, pitch=pitch,
                         type=type, units=units, length_scale=0.0, job=job)
+
+    def printability(self, kinds: Sequence[str] = ("island", "loose", "void"), *,
+                     has_plate: bool = True, width: float = 0.0, min_volume: float = 0.0,
+                     job: Optional[Job] = None) -> Printability:
+        """Inspects all layers for what is doubtful about printing them.
+
+        kinds: of `island`, `loose`, `void` and `thin`, which needs a width in model units, 2 to 32
+        pixels. has_plate: the first layer lies on a build plate. Findings of less than min_volume
+        are ignored. Costs about twice as much as the layers.
+        """
+        return inspect(self, kinds, has_plate, width, min_volume, job)
 
     def layers(self, first: int = 0, count: Optional[int] = None, *,
                job: Optional[Job] = None) -> Iterator[Layer]:

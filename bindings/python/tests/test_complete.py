@@ -20,7 +20,8 @@ NOT_YET = set()
 REPORTS = {"msq_build_report": msq.BuildInfo, "msq_memory_report": msq.MemoryInfo,
            "msq_cache_report": msq.CacheInfo, "msq_shape_report": msq.ShapeInfo,
            "msq_unit_cell_report": msq.UnitCellInfo, "msq_lattice_faces_report": msq.LatticeFaces,
-           "msq_job_report": msq.JobInfo, "msq_calibration_report": msq.Calibration}
+           "msq_job_report": msq.JobInfo, "msq_calibration_report": msq.Calibration,
+           "msq_printability_report": msq.Printability}
 # Reports that objects hold, as attributes and arrays.
 ARRAYS = {"msq_slicer_report", "msq_contours_report", "msq_fill_report",
           "msq_strut_graph_report"}

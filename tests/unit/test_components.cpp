@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: Apache-2.0
+// Components of stacks of layers, and thin samples, against flood fills and loops over samples.
+#include "printability/components.h"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <tuple>
+
+#include "msq_test.h"
+#include "printability/bit_row.h"
+#include "printability/thin.h"
+#include "random.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+using Index = std::array<int, 3>;
+
+/// A stack of samples.
+struct Volume {
+  Volume(int nx, int ny, int nz)
+      : n{nx, ny, nz}, samples(static_cast<size_t>(nx) * static_cast<size_t>(ny * nz)) {}
+
+  bool holds(const Index& p) const {
+    for (size_t axis = 0; axis < 3; ++axis)
+      if (p[axis] < 0 || p[axis] >= n[axis]) return false;
+    return true;
+  }
+  size_t at(const Index& p) const {
+    return static_cast<size_t>(p[0]) +
+           static_cast<size_t>(n[0]) *
+               (static_cast<size_t>(p[1]) + static_cast<size_t>(n[1]) * static_cast<size_t>(p[2]));
+  }
+  bool get(const Index& p) const { return holds(p) && samples[at(p)]; }
+
+  std::vector<uint64_t> layer(int k) const {
+    const size_t words = words_for(static_cast<uint64_t>(n[0]));
+    std::vector<uint64_t> rows(words * static_cast<size_t>(n[1]));
+    for (int j = 0; j < n[1]; ++j)
+      for (int i = 0; i < n[0]; ++i)
+        if (get({i, j, k}))
+          rows[static_cast<size_t>(j) * words + static_cast<size_t>(i) / 64] |= uint64_t{1}
+                                                                                << i % 64;
+    return rows;
+  }
+
+  Index n;
+  std::vector<uint8_t> samples;
+};
+
+/// What a component must be found as.
+using Found = std::tuple<uint64_t, uint64_t, uint64_t, std::array<uint32_t, 6>>;
+
+Found found_of(const ComponentTotals& totals) {
+  return {totals.first_layer,
+          totals.last_layer,
+          totals.samples,
+          {totals.place[0], totals.place[1], totals.low[0], totals.low[1], totals.high[0],
+           totals.high[1]}};
+}
+
+struct FoundBoth {
+  std::vector<Found> ended, islands;
+};
+
+/// Neighbours of a sample; within its layer alone if `flat`.
+std::vector<Index> neighbours(const Index& p, bool joins_corners, bool flat) {
+  std::vector<Index> all;
+  for (int dj = -1; dj <= 1; ++dj)
+    for (int di = -1; di <= 1; ++di)
+      if ((di || dj) && (joins_corners || !(di && dj))) all.push_back({p[0] + di, p[1] + dj, p[2]});
+  if (flat) return all;
+  all.push_back({p[0], p[1], p[2] - 1});
+  all.push_back({p[0], p[1], p[2] + 1});
+  return all;
+}
+
+template <class Take>
+void flood(const Volume& volume, bool joins_corners, bool flat, Take&& take) {
+  std::vector<uint8_t> seen(volume.samples.size());
+  for (int k = 0; k < volume.n[2]; ++k)
+    for (int j = 0; j < volume.n[1]; ++j)
+      for (int i = 0; i < volume.n[0]; ++i) {
+        const Index start{i, j, k};
+        if (!volume.get(start) || seen[volume.at(start)]) continue;
+        std::vector<Index> all;
+        std::deque<Index> queue{start};
+        seen[volume.at(start)] = 1;
+        while (!queue.empty()) {
+          const Index p = queue.front();
+          queue.pop_front();
+          all.push_back(p);
+          for (const Index& q : neighbours(p, joins_corners, flat))
+            if (volume.get(q) && !seen[volume.at(q)]) {
+              seen[volume.at(q)] = 1;
+              queue.push_back(q);
+            }
+        }
+        take(start, all);
+      }
+}
+
+Found found_of(const Index& start, const std::vector<Index>& all) {
+  ComponentTotals totals;
+  totals.first_layer = totals.last_layer = static_cast<uint64_t>(start[2]);
+  totals.place[0] = static_cast<uint32_t>(start[0]);
+  totals.place[1] = static_cast<uint32_t>(start[1]);
+  for (const Index& p : all) {
+    totals.add_run(static_cast<uint32_t>(p[0]), static_cast<uint32_t>(p[0]),
+                   static_cast<uint32_t>(p[1]));
+    totals.last_layer = std::max(totals.last_layer, static_cast<uint64_t>(p[2]));
+  }
+  return found_of(totals);
+}
+
+FoundBoth by_flood(const Volume& volume, const Components::Rules& rules) {
+  FoundBoth result;
+  flood(volume, rules.joins_corners, false, [&](const Index& start, const std::vector<Index>& all) {
+    for (const Index& p : all) {
+      if (rules.anchors_first_layer && p[2] == 0) return;
+      if (rules.anchors_sides &&
+          (p[0] == 0 || p[1] == 0 || p[0] == volume.n[0] - 1 || p[1] == volume.n[1] - 1))
+        return;
+    }
+    result.ended.push_back(found_of(start, all));
+  });
+  if (rules.finds_islands)
+    flood(volume, rules.joins_corners, true,
+          [&](const Index& start, const std::vector<Index>& all) {
+            if (start[2] == 0) return;
+            for (const Index& p : all)
+              if (volume.get({p[0], p[1], p[2] - 1})) return;
+            result.islands.push_back(found_of(start, all));
+          });
+  return result;
+}
+
+FoundBoth by_layers(const Volume& volume, const Components::Rules& rules) {
+  FoundBoth result;
+  double heights = 0, samples = 0;
+  Components components(
+      static_cast<uint64_t>(volume.n[0]), static_cast<uint64_t>(volume.n[1]), rules,
+      [&](const ComponentTotals& totals) {
+        result.ended.push_back(found_of(totals));
+        heights += totals.height_sum;
+        samples += static_cast<double>(totals.samples);
+      },
+      [&](const ComponentTotals& totals) { result.islands.push_back(found_of(totals)); });
+  for (int k = 0; k < volume.n[2]; ++k) components.add_layer(volume.layer(k).data(), 0.5);
+  components.end();
+  assert_true(heights == 0.5 * samples);
+  return result;
+}
+
+void assert_same(std::vector<Found> got, std::vector<Found> wanted, const char* what) {
+  std::sort(got.begin(), got.end());
+  std::sort(wanted.begin(), wanted.end());
+  if (got != wanted) fail_msg("%s: %zu found, %zu wanted", what, got.size(), wanted.size());
+}
+
+void check(const Volume& volume) {
+  for (int bits = 0; bits < 16; ++bits) {
+    Components::Rules rules;
+    rules.joins_corners = bits & 1;
+    rules.anchors_sides = bits & 2;
+    rules.anchors_first_layer = bits & 4;
+    rules.finds_islands = bits & 8;
+    // Anchored samples at a side have nothing below them.
+    if (rules.anchors_sides && rules.finds_islands) continue;
+    const FoundBoth got = by_layers(volume, rules), wanted = by_flood(volume, rules);
+    assert_same(got.ended, wanted.ended, "components");
+    assert_same(got.islands, wanted.islands, "islands");
+  }
+}
+
+void test_random_volumes(void**) {
+  Random random(1);
+  const size_t count = std::max<size_t>(test_count(400), 40);
+  for (size_t n = 0; n < count; ++n) {
+    // Now and then rows of several words.
+    const bool is_wide = n % 4 == 0;
+    Volume volume(1 + static_cast<int>(random.below(is_wide ? 200 : 12)),
+                  1 + static_cast<int>(random.below(is_wide ? 6 : 12)),
+                  1 + static_cast<int>(random.below(6)));
+    const double density = random.unit();
+    for (uint8_t& sample : volume.samples) sample = random.unit() < density;
+    check(volume);
+  }
+}
+
+/// Long corridors: walls of a maze, in which floods by rows do not see everything.
+void test_mazes(void**) {
+  Random random(2);
+  const size_t count = std::max<size_t>(test_count(60), 12);
+  for (size_t n = 0; n < count; ++n) {
+    Volume volume(9 + 2 * static_cast<int>(random.below(60)),
+                  9 + 2 * static_cast<int>(random.below(6)), 3);
+    for (int k = 0; k < volume.n[2]; ++k)
+      for (int j = 0; j < volume.n[1]; ++j)
+        for (int i = 0; i < volume.n[0]; ++i) {
+          const bool is_wall = (i % 2 == 0 && j % 2 == 0) || (i % 2 == 0 && random.unit() < 0.6) ||
+                               (j % 2 == 0 && random.unit() < 0.6);
+          volume.samples[volume.at({i, j, k})] = is_wall != (n % 2 == 0);
+        }
+    check(volume);
+  }
+}
+
+/// Sticks of random directions, as structures have them.
+void test_sticks(void**) {
+  Random random(3);
+  const size_t count = std::max<size_t>(test_count(16), 4);
+  for (size_t n = 0; n < count; ++n) {
+    Volume volume(90, 30, 24);
+    for (int stick = 0; stick < 40; ++stick) {
+      double p[3], step[3];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        p[axis] = random.unit() * volume.n[axis];
+        step[axis] = random.between(-1, 1);
+      }
+      for (int at = 0; at < 30; ++at) {
+        const Index index{static_cast<int>(p[0]), static_cast<int>(p[1]), static_cast<int>(p[2])};
+        if (volume.holds(index)) volume.samples[volume.at(index)] = 1;
+        for (size_t axis = 0; axis < 3; ++axis) p[axis] += step[axis];
+      }
+    }
+    if (n % 2)
+      for (uint8_t& sample : volume.samples) sample = !sample;
+    check(volume);
+  }
+}
+
+/// A spiral, which no flood by rows follows to its end, on a stick at its inner end.
+void test_spiral(void**) {
+  Volume volume(70, 19, 2);
+  int low[2] = {0, 0}, high[2] = {69, 18};
+  Index p{0, 0, 1};
+  const auto go = [&](int axis, int to) {
+    const auto a = static_cast<size_t>(axis);
+    while (p[a] != to) {
+      volume.samples[volume.at(p)] = 1;
+      p[a] += to > p[a] ? 1 : -1;
+    }
+    volume.samples[volume.at(p)] = 1;
+  };
+  while (low[1] + 4 <= high[1]) {
+    go(0, high[0]);
+    go(1, high[1]);
+    go(0, low[0]);
+    low[0] += 2, low[1] += 2;
+    go(1, low[1]);
+    high[0] -= 2, high[1] -= 2;
+  }
+  check(volume);
+  volume.samples[volume.at({p[0], p[1], 0})] = 1;
+  check(volume);
+}
+
+bool is_thin(const Volume& volume, int i, int j, const unsigned across[2]) {
+  const int nx = static_cast<int>(across[0]), ny = static_cast<int>(across[1]);
+  const auto square = [](int index, int count) {
+    const double offset = (2.0 * index + 1) / count - 1;
+    return offset * offset;
+  };
+  // Discs whose block begins at (x, y).
+  for (int y = j - 2 * ny; y <= j + ny; ++y)
+    for (int x = i - 2 * nx; x <= i + nx; ++x) {
+      if (square(i - x, nx) + square(j - y, ny) > 2 * (1 + 1e-9)) continue;
+      bool fits = true;
+      for (int b = 0; b < ny && fits; ++b)
+        for (int a = 0; a < nx && fits; ++a)
+          if (square(a, nx) + square(b, ny) <= 1 + 1e-9) fits = volume.get({x + a, y + b, 0});
+      if (fits) return false;
+    }
+  return true;
+}
+
+void test_thin(void**) {
+  Random random(4);
+  const size_t count = std::max<size_t>(test_count(80), 12);
+  for (size_t n = 0; n < count; ++n) {
+    Volume volume(1 + static_cast<int>(random.below(150)), 1 + static_cast<int>(random.below(20)),
+                  1);
+    // Boxes and noise, so that some discs fit.
+    for (int box = 0; box < 6; ++box) {
+      const int x = static_cast<int>(random.below(150)), y = static_cast<int>(random.below(20));
+      const int w = static_cast<int>(random.below(40)), h = static_cast<int>(random.below(20));
+      for (int j = y; j < y + h; ++j)
+        for (int i = x; i < x + w; ++i)
+          if (volume.holds({i, j, 0}) && random.unit() < 0.995)
+            volume.samples[volume.at({i, j, 0})] = 1;
+    }
+    unsigned across[2];
+    for (unsigned& a : across) a = 2 + static_cast<unsigned>(random.below(n % 20 ? 6 : 30));
+    ThinSamples thin(static_cast<uint64_t>(volume.n[0]), static_cast<uint64_t>(volume.n[1]),
+                     across);
+    const std::vector<uint64_t> rows = volume.layer(0);
+    for (int times = 0; times < 2; ++times) {
+      const uint64_t* found = thin.find(rows.data());
+      const size_t words = words_for(static_cast<uint64_t>(volume.n[0]));
+      for (int j = 0; j < volume.n[1]; ++j)
+        for (int i = 0; i < static_cast<int>(words * 64); ++i) {
+          const bool got =
+              found[static_cast<size_t>(j) * words + static_cast<size_t>(i) / 64] >> i % 64 & 1;
+          if (got != (volume.get({i, j, 0}) && is_thin(volume, i, j, across)))
+            fail_msg("%d x %d, disc of %u x %u: sample %d, %d is wrong", volume.n[0], volume.n[1],
+                     across[0], across[1], i, j);
+        }
+    }
+  }
+}
+
+/// Strips in any direction and at any place: those more than 1.5 pixels wider than the width are
+/// never thin, those 2.5 pixels narrower are all over.
+void test_width_of_strips(void**) {
+  Random random(5);
+  const size_t count = std::max<size_t>(test_count(400), 30);
+  for (size_t n = 0; n < count; ++n) {
+    const double width = random.between(3, 12), angle = random.between(0, 3.1416);
+    const bool is_wide = n % 2;
+    const double own = is_wide ? width + 1.5 : width - 2.5;
+    const double offset = random.between(-1, 1);
+    Volume volume(100, 100, 1);
+    for (int j = 0; j < 100; ++j)
+      for (int i = 0; i < 100; ++i) {
+        const double across = (i - 50) * std::cos(angle) + (j - 50) * std::sin(angle) - offset;
+        volume.samples[volume.at({i, j, 0})] = std::abs(across) <= own / 2;
+      }
+    const unsigned count_across[2] = {static_cast<unsigned>(width), static_cast<unsigned>(width)};
+    ThinSamples thin(100, 100, count_across);
+    const std::vector<uint64_t> rows = volume.layer(0);
+    const uint64_t* found = thin.find(rows.data());
+    for (int j = 25; j < 75; ++j)
+      for (int i = 25; i < 75; ++i)
+        if (volume.get({i, j, 0}))
+          if ((found[static_cast<size_t>(j) * 2 + static_cast<size_t>(i) / 64] >> i % 64 & 1) ==
+              is_wide)
+            fail_msg("a strip of %g pixels at %g, width %g: sample %d, %d is wrong", own, angle,
+                     width, i, j);
+  }
+}
+
+void test_rows_of_bits(void**) {
+  Random random(6);
+  const size_t count = std::max<size_t>(test_count(20000), 1000);
+  for (size_t n = 0; n < count; ++n) {
+    constexpr size_t words = 3;
+    uint64_t row[words], seeds[words], wanted[words] = {};
+    for (size_t w = 0; w < words; ++w) {
+      row[w] = random.bits() | (n % 3 ? random.bits() : 0) | (n % 7 ? 0 : ~uint64_t{0});
+      seeds[w] =
+          row[w] & random.bits() & random.bits() & (n % 2 ? random.bits() & random.bits() : 0);
+    }
+    bool has_rest = false;
+    uint64_t runs = 0;
+    for_each_run(row, words, [&](uint64_t first, uint64_t last) {
+      runs += last - first + 1;
+      for (uint64_t i = first; i <= last; ++i) assert_true(row[i / 64] >> i % 64 & 1);
+      if (any_bit(seeds, first, last))
+        set_bits(wanted, first, last);
+      else
+        has_rest = true;
+    });
+    uint64_t set = 0;
+    for (const uint64_t word : row) set += static_cast<uint64_t>(std::popcount(word));
+    assert_int_equal(runs, set);
+    uint64_t rest[words];
+    assert_int_equal(fill_runs(row, words, seeds, rest), has_rest);
+    assert_memory_equal(seeds, wanted, sizeof wanted);
+    for (size_t w = 0; w < words; ++w) assert_true(rest[w] == (row[w] & ~wanted[w]));
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(test_rows_of_bits),    cmocka_unit_test(test_random_volumes),
+      cmocka_unit_test(test_mazes),           cmocka_unit_test(test_sticks),
+      cmocka_unit_test(test_spiral),          cmocka_unit_test(test_thin),
+      cmocka_unit_test(test_width_of_strips),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
