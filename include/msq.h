@@ -2573,7 +2573,7 @@ typedef struct msq_surface_slab {
   /** vertex_count triples x, y, z. */
   const double* vertices;
   /** vertex_count triples: outward, of length 1. The normal of the surface at the vertex, as in
-   * msq_ray_hit; on an edge, that of one of its sides. */
+   * msq_ray_hit; on an edge, that of one of its sides or their mean. */
   const float* normals;
   /** Number of triangles in the parts before this one. */
   uint64_t first_triangle;
@@ -2599,10 +2599,10 @@ typedef int32_t (*msq_surface_fn)(void* user, const msq_surface_slab* slab);
  * Callbacks run on the calling thread, from low z to high z. The parts together do not depend on
  * slab_layers, threads or calls. A model without a point at a node yields no callback. def must not
  * be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory:
- * about 250 bytes per vertex of a part and one layer, accounted to the context. Errors: ARGUMENT
- * (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes along an
- * axis; 2^32 vertices; memory), MEMORY. Since 0.2. Source: Schaefer, Ju and Warren, "Manifold dual
- * contouring", 2007. */
+ * about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors:
+ * ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes
+ * along an axis; 2^32 vertices; memory), MEMORY. Since 0.2. Source: Schaefer, Ju and Warren,
+ * "Manifold dual contouring", 2007. */
 MSQ_API msq_status msq_surface_mesh(const msq_model* model, const msq_surface_def* def,
                                     msq_surface_fn fn, void* user, msq_job* job);
 

@@ -36,8 +36,8 @@ Box3 MeshGrid::cell(uint32_t i, uint32_t j, uint32_t k) const {
   Box3 cell;
   for (int axis = 0; axis < 3; ++axis) {
     const uint32_t n = index[axis];
-    cell.min[axis] = at(axis, n) + (n == 0 ? 0 : margin);
-    cell.max[axis] = at(axis, n + 1) - (n + 2 == nodes(axis) ? 0 : margin);
+    cell.min[axis] = at(axis, n) + margin;
+    cell.max[axis] = at(axis, n + 1) - margin;
   }
   return cell;
 }

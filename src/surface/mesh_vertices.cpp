@@ -54,6 +54,7 @@ void MeshVertices::find_seeds(const MeshTopology& topology, MeshEdges& edges, ui
                               uint32_t end, const Job* job) {
   const MeshGrid& grid = nodes_.grid();
   const uint32_t rows = grid.nodes(1) - 1;
+  const double snap = 0x1p-20 * grid.pitch();
   model_.executor().for_each(uint64_t{end - first} * rows, [&](uint64_t n) {
     check_cancelled(job);
     const uint32_t k = first + static_cast<uint32_t>(n / rows);
@@ -67,20 +68,31 @@ void MeshVertices::find_seeds(const MeshTopology& topology, MeshEdges& edges, ui
         Vec3 points[12], normals[12], normal;
         size_t count = 0;
         Seed& seed = seeds_[vertex - first_];
-        seed = {{i, j, k}, static_cast<uint8_t>(corners), 0};
+        seed = {{i, j, k}, static_cast<uint8_t>(corners), 0, 0, 0};
         for (unsigned e = 0; e < 12; ++e) {
           if (loops.of_edge[e] != loop) continue;
           Crossing& crossing = *crossings[e];
           crossing.vertices[place_around_edge(e)] = static_cast<uint32_t>(vertex);
           seed.edges = static_cast<uint16_t>(seed.edges | 1u << e);
-          points[count] = edges.point(axis_of_edge(e), k + offset_of_edge(e)[2], crossing);
+          const int along = axis_of_edge(e);
+          points[count] = edges.point(along, k + offset_of_edge(e)[2], crossing);
+          if (crossing.at < grid.box().min[along] + snap ||
+              crossing.at > grid.box().max[along] - snap)
+            seed.onto = static_cast<uint16_t>(seed.onto | 1u << e);
           normals[count] = crossing.normal;
           normal = normal + crossing.normal;
           ++count;
         }
         const Box3 whole{{grid.at(0, i), grid.at(1, j), grid.at(2, k)},
                          {grid.at(0, i + 1), grid.at(1, j + 1), grid.at(2, k + 1)}};
-        places_[vertex - first_] = clamped(nearest_to_planes(points, normals, count, whole), cell);
+        const Vec3 place = nearest_to_planes(points, normals, count, whole);
+        for (unsigned e = 0; e < 12; ++e) {
+          const int along = axis_of_edge(e);
+          if ((seed.onto >> e & 1) && (place[along] < grid.box().min[along] + snap ||
+                                       place[along] > grid.box().max[along] - snap))
+            seed.faces = static_cast<uint8_t>(seed.faces | 1u << along);
+        }
+        places_[vertex - first_] = clamped(place, cell);
         normals_[vertex - first_] = unit(normal);
       }
     };
@@ -88,42 +100,65 @@ void MeshVertices::find_seeds(const MeshTopology& topology, MeshEdges& edges, ui
   });
 }
 
-/// Whether a point lies on a face of the box that looks outward as the direction does.
-bool MeshVertices::is_on_face(Vec3 at, Vec3 outward, Vec3& normal) const {
-  const Box3& box = nodes_.grid().box();
+/// A point of the vertex's cell, with the coordinates of the faces that the vertex lies on.
+Vec3 MeshVertices::on_faces(const Seed& seed, Vec3 at) const {
+  const MeshGrid& grid = nodes_.grid();
+  for (int axis = 0; axis < 3; ++axis)
+    if (seed.faces >> axis & 1)
+      at[axis] = seed.cell[axis] == 0 ? grid.box().min[axis] : grid.box().max[axis];
+  return at;
+}
+
+/// Of the face that looks most into a direction.
+Vec3 MeshVertices::face_normal(const Seed& seed, Vec3 outward) {
+  int most = -1;
+  for (int axis = 0; axis < 3; ++axis)
+    if ((seed.faces >> axis & 1) && (most < 0 || std::abs(outward[axis]) > std::abs(outward[most])))
+      most = axis;
+  Vec3 normal;
+  normal[most] = seed.cell[most] == 0 ? -1 : 1;
+  return normal;
+}
+
+/// Whether a ray begins next to a face of the box, and comes through it: the vertex lies there.
+bool MeshVertices::comes_from_face(const Ray& ray, Seed& seed) const {
+  const MeshGrid& grid = nodes_.grid();
+  const Box3 cell = grid.cell(seed.cell[0], seed.cell[1], seed.cell[2]);
+  const double snap = 0x1p-20 * grid.pitch();
   for (int axis = 0; axis < 3; ++axis) {
-    const double side = at[axis] == box.min[axis] ? -1 : at[axis] == box.max[axis] ? 1 : 0;
-    if (!(side * outward[axis] > 0)) continue;
-    normal = {};
-    normal[axis] = side;
-    return true;
+    const uint32_t n = seed.cell[axis];
+    const double at = ray.origin[axis], along = ray.direction[axis];
+    if ((along > 0 && n == 0 && at < cell.min[axis] + snap) ||
+        (along < 0 && n + 2 == grid.nodes(axis) && at > cell.max[axis] - snap)) {
+      seed.faces = static_cast<uint8_t>(1u << axis);
+      return true;
+    }
   }
   return false;
 }
 
+// A vertex on a face of the box is searched next to the face, within the box: on the face itself
+// rounding may decide, where the model ends there too.
 void MeshVertices::place_on_boundary(uint64_t from, Job* job) {
   const MeshGrid& grid = nodes_.grid();
-  const double snap = 0x1p-20 * grid.pitch(), far = reach * grid.pitch();
-  /// Along the mean normal, within the cell; on a face of the box within that.
+  const double far = reach * grid.pitch();
+  /// Along the mean normal, within the cell; along the face if the vertex is on an edge there.
+  /// False if it is on the face alone.
   const auto ray_of = [&](uint64_t vertex, RaySearch& search) {
     const Seed& seed = seeds_[vertex];
-    Vec3& at = places_[vertex];
-    Vec3 out = normals_[vertex];
+    const Vec3 at = places_[vertex];
+    Vec3 out = normals_[vertex], within = out;
     search.from = 0;
     search.to = -1;
     search.ray = {at, {1, 0, 0}};
-    if (seed.edges == 0) return;
+    if (seed.edges == 0) return false;
     const Box3 cell = grid.cell(seed.cell[0], seed.cell[1], seed.cell[2]);
-    Vec3 within = out;
     for (int axis = 0; axis < 3; ++axis)
-      for (const double face : {grid.box().min[axis], grid.box().max[axis]})
-        if (std::abs(at[axis] - face) < snap) {
-          at[axis] = face;
-          within[axis] = 0;
-        }
-    constexpr double along_face = 0.05;  // less: the vertex is on the face and no edge
-    if (length(within) > along_face) out = unit(within);
-    if (!(dot(out, out) > 0)) return;
+      if (seed.faces >> axis & 1) within[axis] = 0;
+    constexpr double along_face = 0.05;
+    const bool may_move = seed.faces == 0 || length(within) > along_face;
+    if (may_move) out = unit(within);
+    if (!(dot(out, out) > 0)) return false;
     double back = far, ahead = far;
     for (int axis = 0; axis < 3; ++axis) {
       if (out[axis] == 0) continue;
@@ -134,6 +169,7 @@ void MeshVertices::place_on_boundary(uint64_t from, Job* job) {
     }
     search.ray = {clamped(at + out * back, cell), out * -1.0};
     search.to = back + ahead;
+    return may_move;
   };
   const auto fill = [&](std::span<const uint64_t> rays, RaySearch* searches) {
     for (size_t n = 0; n < rays.size(); ++n) ray_of(from + rays[n], searches[n]);
@@ -145,19 +181,22 @@ void MeshVertices::place_on_boundary(uint64_t from, Job* job) {
   const auto take = [&](std::span<const uint64_t> rays, const RayHit* hits) {
     for (size_t n = 0; n < rays.size(); ++n) {
       const uint64_t vertex = from + rays[n];
-      const Seed& seed = seeds_[vertex];
+      Seed& seed = seeds_[vertex];
       found[rays[n]] = places_[vertex];
       if (seed.edges == 0) continue;
       const RayHit& hit = hits[n];
       RaySearch search;
-      ray_of(vertex, search);
-      if (hit.scale >= 0 && !hit.starts_inside) {
+      const bool may_move = ray_of(vertex, search);
+      if (hit.scale >= 0 && !hit.starts_inside && may_move) {
         const Box3 cell = grid.cell(seed.cell[0], seed.cell[1], seed.cell[2]);
-        found[rays[n]] = clamped(search.ray.at(hit.t), cell);
+        found[rays[n]] = on_faces(seed, clamped(search.ray.at(hit.t), cell));
         normals_[vertex] = hit.normal;
-      } else if (hit.scale >= 0 &&
-                 is_on_face(search.ray.origin, search.ray.direction * -1.0, normals_[vertex])) {
-        found[rays[n]] = search.ray.origin;
+      } else if (hit.scale >= 0 && hit.starts_inside && !may_move) {
+        found[rays[n]] = on_faces(seed, places_[vertex]);
+        normals_[vertex] = face_normal(seed, normals_[vertex]);
+      } else if (hit.scale >= 0 && hit.starts_inside && comes_from_face(search.ray, seed)) {
+        found[rays[n]] = on_faces(seed, search.ray.origin);
+        normals_[vertex] = face_normal(seed, search.ray.direction * -1.0);
       } else {
         const std::lock_guard lock(mutex);
         left.push_back(vertex);
@@ -171,7 +210,8 @@ void MeshVertices::place_on_boundary(uint64_t from, Job* job) {
   place_by_membership(left, job);
 }
 
-// There is a node of the other kind on an edge of the loop; the boundary lies between.
+// There is a node of the other kind on an edge of the loop; the boundary lies between. For a vertex
+// on a face the crossing of an edge with that face is such a point.
 void MeshVertices::place_by_membership(const std::vector<uint64_t>& left, const Job* job) {
   const MeshGrid& grid = nodes_.grid();
   std::vector<Vec3> points;
@@ -181,26 +221,16 @@ void MeshVertices::place_by_membership(const std::vector<uint64_t>& left, const 
   std::vector<BoundaryWay> ways;
   std::vector<uint64_t> moved;
   for (size_t n = 0; n < left.size(); ++n) {
-    const Seed& seed = seeds_[left[n]];
-    Vec3 face;
-    if (inside[n] && is_on_face(points[n], normals_[left[n]], face)) {
-      normals_[left[n]] = face;
+    Seed& seed = seeds_[left[n]];
+    if (inside[n] && seed.faces) {
+      places_[left[n]] = on_faces(seed, points[n]);
+      normals_[left[n]] = face_normal(seed, normals_[left[n]]);
       continue;
     }
     Vec3 nearest;
-    double nearest_way = std::numeric_limits<double>::infinity();
-    for (unsigned e = 0; e < 12; ++e) {
-      if (!(seed.edges >> e & 1)) continue;
-      const unsigned first = first_corner(e), second = second_corner(e);
-      const unsigned corner = (seed.corners >> first & 1) != inside[n] ? first : second;
-      Vec3 at;
-      for (int axis = 0; axis < 3; ++axis)
-        at[axis] = grid.at(axis, seed.cell[axis] + (corner >> axis & 1));
-      const double way = dot(at - points[n], at - points[n]);
-      if (way < nearest_way) {
-        nearest = at;
-        nearest_way = way;
-      }
+    if (!find_other(seed, points[n], inside[n] != 0, nearest)) {
+      seed.faces = 0;
+      find_other(seed, points[n], inside[n] != 0, nearest);
     }
     ways.push_back(inside[n] ? BoundaryWay{points[n], nearest} : BoundaryWay{nearest, points[n]});
     moved.push_back(left[n]);
@@ -208,9 +238,36 @@ void MeshVertices::place_by_membership(const std::vector<uint64_t>& left, const 
   halve(model_, resolved_, ways, rounds, job);
   for (size_t n = 0; n < moved.size(); ++n) {
     const Seed& seed = seeds_[moved[n]];
-    places_[moved[n]] =
-        clamped(ways[n].middle(), grid.cell(seed.cell[0], seed.cell[1], seed.cell[2]));
+    const Box3 cell = grid.cell(seed.cell[0], seed.cell[1], seed.cell[2]);
+    places_[moved[n]] = on_faces(seed, clamped(ways[n].middle(), cell));
+    if (seed.faces) normals_[moved[n]] = face_normal(seed, normals_[moved[n]]);
   }
+}
+
+/// The nearest end, of the other kind, of an edge of the loop. For a vertex on faces of the box,
+/// which is outside, the nearest crossing on one of them: the vertex stays on that one. False if
+/// there is none.
+bool MeshVertices::find_other(Seed& seed, Vec3 place, bool is_inside, Vec3& other) const {
+  const MeshGrid& grid = nodes_.grid();
+  double nearest = std::numeric_limits<double>::infinity();
+  const unsigned faces = seed.faces;
+  for (unsigned e = 0; e < 12; ++e) {
+    if (!(seed.edges >> e & 1)) continue;
+    const int along = axis_of_edge(e);
+    if (faces && !((seed.onto >> e & 1) && (faces >> along & 1))) continue;
+    const unsigned first = first_corner(e);
+    const unsigned corner = (seed.corners >> first & 1) != is_inside ? first : second_corner(e);
+    Vec3 at;
+    for (int axis = 0; axis < 3; ++axis)
+      at[axis] = faces && axis == along ? place[axis]
+                                        : grid.at(axis, seed.cell[axis] + (corner >> axis & 1));
+    const double way = dot(at - place, at - place);
+    if (!(way < nearest)) continue;
+    other = at;
+    nearest = way;
+    if (faces) seed.faces = static_cast<uint8_t>(1u << along);
+  }
+  return nearest > 0 && std::isfinite(nearest);
 }
 
 // Between a corner of the face and its middle membership differs, or the face would not be

@@ -35,7 +35,8 @@ class MeshVertices {
   struct Seed {
     uint32_t cell[3];
     uint8_t corners;
-    uint16_t edges;  // of the loop, as bits
+    uint8_t faces;         // of the box, on which it lies: by axis, as bits
+    uint16_t edges, onto;  // of the loop, as bits; of these, those that cross on faces of the box
   };
   void find_seeds(const MeshTopology& topology, MeshEdges& edges, uint32_t first, uint32_t end,
                   const Job* job);
@@ -43,7 +44,10 @@ class MeshVertices {
   void place_by_membership(const std::vector<uint64_t>& left, const Job* job);
   void place_others(const MeshTopology& topology, const MeshEdges& edges, uint32_t k,
                     const Job* job);
-  bool is_on_face(Vec3 at, Vec3 outward, Vec3& normal) const;
+  Vec3 on_faces(const Seed& seed, Vec3 at) const;
+  bool comes_from_face(const Ray& ray, Seed& seed) const;
+  bool find_other(Seed& seed, Vec3 place, bool is_inside, Vec3& other) const;
+  static Vec3 face_normal(const Seed& seed, Vec3 outward);
 
   const Model& model_;
   const Scales& resolved_;

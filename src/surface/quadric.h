@@ -10,8 +10,10 @@
 
 namespace msq {
 
-/// Planes through points[i] with unit normals[i], 1 to 12 of them. Returns a point of the box,
-/// which must hold the points. Uses as many directions of the quadric as keep the point in the box.
+/// Planes through points[i] with unit normals[i], 1 to 12 of them. Returns the point of a box,
+/// which must hold the points, with the least sum of squared distances from the planes; the one
+/// nearest to the mean of the points where they do not determine it. Where the planes meet outside
+/// of the box, a point on the way there from the mean.
 Vec3 nearest_to_planes(const Vec3* points, const Vec3* normals, size_t count, const Box3& box);
 
 }  // namespace msq
