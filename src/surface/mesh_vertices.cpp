@@ -215,6 +215,7 @@ void MeshVertices::place_on_boundary(uint64_t from, Job* job) {
 void MeshVertices::place_by_membership(const std::vector<uint64_t>& left, const Job* job) {
   const MeshGrid& grid = nodes_.grid();
   std::vector<Vec3> points;
+  points.reserve(left.size());
   std::vector<uint8_t> inside;
   for (const uint64_t vertex : left) points.push_back(places_[vertex]);
   find_inside(model_, resolved_, points, inside, job);
