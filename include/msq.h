@@ -2534,6 +2534,118 @@ MSQ_API msq_status msq_fill_calibrate(msq_context* context, const msq_structure*
                                       double line_width, double density, double cell_size[3],
                                       msq_job* job);
 
+/* ---- Preview meshes ---------------------------------------------------------------------------
+ */
+
+/** Definition of a mesh. */
+typedef struct msq_surface_def {
+  uint32_t struct_size;
+  /** 0 (default): the bounding box of the model; min and max must be 0. 1: the box below. A model
+   * of all space needs 1. */
+  int32_t has_box;
+  /** Corners of the box, in model units. The mesh is closed where its faces cut the model. */
+  double min[3];
+  double max[3];
+  /** Distance of the nodes at which the model is sampled, in model units. Positive; there is no
+   * default. Walls and struts narrower than sqrt(3) * pitch may break or be lost. */
+  double pitch;
+  /** As in msq_query_def. */
+  double length_scale;
+  /** Layers of nodes per callback, at most. 0 (default): as many as fit 32 MiB of nodes and about
+   * 2^18 crossings. Does not change the mesh. */
+  uint32_t slab_layers;
+  /** Must be 0. */
+  uint32_t reserved;
+} msq_surface_def;
+
+/** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+MSQ_API msq_status msq_surface_def_init(msq_surface_def* def, size_t size);
+
+/** A part of a mesh. The arrays are valid until the callback returns. The parts, one behind the
+ * other, are the mesh. */
+typedef struct msq_surface_slab {
+  /** Out: sizeof(msq_surface_slab) of the library. */
+  uint32_t struct_size;
+  uint32_t reserved;
+  /** Number of vertices in the parts before this one. */
+  uint64_t first_vertex;
+  uint64_t vertex_count;
+  /** vertex_count triples x, y, z. */
+  const double* vertices;
+  /** vertex_count triples: outward, of length 1. The normal of the surface at the vertex, as in
+   * msq_ray_hit; on an edge, that of one of its sides or their mean. */
+  const float* normals;
+  /** Number of triangles in the parts before this one. */
+  uint64_t first_triangle;
+  uint64_t triangle_count;
+  /** triangle_count triples of vertices, counter-clockwise seen from outside. Vertices are numbered
+   * from the first of the mesh on: they are of this part or of parts before it. */
+  const uint32_t* triangles;
+} msq_surface_slab;
+
+/** Receives a part of a mesh. Return 0 to continue, or the host's code, preferably negative, to
+ * stop. Exceptions of the host's language must not leave it. */
+typedef int32_t (*msq_surface_fn)(void* user, const msq_surface_slab* slab);
+
+/** Computes triangles of the boundary of a model within a box, to look at and to hand on to
+ * programs that take nothing else. Layers, contours, rays and distances come from the model itself,
+ * faster and exactly.
+ *
+ * The mesh is closed, and a manifold: each edge has two triangles, which run through it in opposite
+ * directions, and the triangles around a vertex are one ring. Each vertex is within pitch / 1000 of
+ * the boundary of the model cut with the box. Edges and corners of the model that are wider apart
+ * than the pitch are kept. Triangles may intersect where the boundary is bent within a pitch.
+ *
+ * Callbacks run on the calling thread, from low z to high z. The parts together do not depend on
+ * slab_layers, threads or calls. A model without a point at a node yields no callback. def must not
+ * be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory:
+ * about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors:
+ * ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes
+ * along an axis; 2^32 vertices; memory), MEMORY. Since 0.2. Source: Schaefer, Ju and Warren,
+ * "Manifold dual contouring", 2007. */
+MSQ_API msq_status msq_surface_mesh(const msq_model* model, const msq_surface_def* def,
+                                    msq_surface_fn fn, void* user, msq_job* job);
+
+/** Formats of mesh files. */
+enum msq_surface_format {
+  /** Binary STL: triangles without common vertices, coordinates as float32. */
+  MSQ_SURFACE_STL = 1,
+  /** Binary PLY, low bytes first: vertices with normals, as float32, and triangles. */
+  MSQ_SURFACE_PLY = 2
+};
+
+/** Some bytes of a file. Valid until the callback returns. */
+typedef struct msq_file_part {
+  /** Out: sizeof(msq_file_part) of the library. */
+  uint32_t struct_size;
+  uint32_t reserved;
+  /** Where the bytes belong in the file. */
+  uint64_t offset;
+  /** Number of bytes, at least 1. */
+  uint64_t size;
+  /** Size of the whole file, the same in all parts. */
+  uint64_t total;
+  const uint8_t* bytes;
+} msq_file_part;
+
+/** Receives some bytes of a file. Return 0 to continue, or the host's code, preferably negative, to
+ * stop. Exceptions of the host's language must not leave it. */
+typedef int32_t (*msq_file_fn)(void* user, const msq_file_part* part);
+
+/** Computes the mesh of msq_surface_mesh as the bytes of a file. format: an msq_surface_format.
+ *
+ * Each byte of the file is in one part. Parts of MSQ_SURFACE_STL come in the order of the file. In
+ * MSQ_SURFACE_PLY vertices come before triangles, so its parts alternate between two places: seek
+ * to offset, or copy to it in memory of total bytes. The bytes of the file do not depend on
+ * slab_layers or threads. Coordinates are rounded to float32: far from the origin, vertices closer
+ * together than that may coincide.
+ *
+ * Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is
+ * written. A model without a point at a node yields a file without triangles. Errors: as
+ * msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices. Since 0.2. */
+MSQ_API msq_status msq_surface_file(const msq_model* model, const msq_surface_def* def,
+                                    int32_t format, msq_file_fn fn, void* user, msq_job* job);
+
 /* ---- Rays ------------------------------------------------------------------------------------ */
 
 /** An array of rays: origin + t * direction. */

@@ -34,6 +34,7 @@
   DO(contours_def, sizeof(msq_contours_def))                         \
   DO(printability_def, sizeof(msq_printability_def))                 \
   DO(fill_def, sizeof(msq_fill_def))                                 \
+  DO(surface_def, sizeof(msq_surface_def))                           \
   DO(rays_def, sizeof(msq_rays_def))                                 \
   DO(camera, sizeof(msq_camera))                                     \
   DO(render_def, sizeof(msq_render_def))                             \

@@ -20,6 +20,7 @@ std::vector<Scenario> fill_scenarios();          ///< fill lines
 std::vector<Scenario> contour_scenarios();       ///< contours
 std::vector<Scenario> strut_scenarios();         ///< struts
 std::vector<Scenario> printability_scenarios();  ///< printability
+std::vector<Scenario> surface_scenarios();       ///< preview meshes
 
 /// All of these.
 std::vector<Scenario> all_scenarios();

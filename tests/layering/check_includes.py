@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["api", "printability", "slice", "fill", "ray", "query", "model", "structure", "cell", "field", "expression", "shape", "io",
+ROOMS = ["api", "printability", "slice", "fill", "surface", "ray", "query", "model", "structure", "cell", "field", "expression", "shape", "io",
          "strut", "base"]  # from the top down
 
 # Rooms within a kind of structure, from the top down. A file of a room includes its own room and those

@@ -31,6 +31,7 @@ from .statistics import Calibration, Estimate
 from .structure import (Beams, Foam, Functional, HostFunctional, HostStructure, Lattice,
                         LatticeFaces, Structure)
 from .strut_graph import StrutGraph
+from .surface import Mesh
 from .unit_cell import UnitCell, UnitCellInfo
 
 __version__ = "0.1.0"
@@ -40,7 +41,8 @@ __all__ = [
     "Context", "Contours", "Error", "Estimate", "Field", "FileError", "Fill", "Foam", "Functional",
     "Grid", "HostError",
     "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",
-    "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "MeshError", "Model",
+    "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "Mesh", "MeshError",
+    "Model",
     "OutOfMemoryError", "Param", "Period", "Picture", "PointGrid", "PointSet",
     "Printability", "RenderPass", "Scale",
     "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",

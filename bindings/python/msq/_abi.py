@@ -102,6 +102,8 @@ MSQ_FINDING_ISLAND = 1
 MSQ_FINDING_LOOSE = 2
 MSQ_FINDING_VOID = 4
 MSQ_FINDING_THIN = 8
+MSQ_SURFACE_STL = 1
+MSQ_SURFACE_PLY = 2
 MSQ_CAMERA_ORTHOGRAPHIC = 0
 MSQ_CAMERA_PERSPECTIVE = 1
 MSQ_COLOUR_PLAIN = 0
@@ -531,6 +533,30 @@ class msq_fill_report(Structure):
                 ("travel", c_double)]
 
 
+class msq_surface_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("has_box", c_int32), ("min", c_double * 3),
+                ("max", c_double * 3), ("pitch", c_double), ("length_scale", c_double),
+                ("slab_layers", c_uint32), ("reserved", c_uint32)]
+
+
+class msq_surface_slab(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("first_vertex", c_uint64),
+                ("vertex_count", c_uint64), ("vertices", POINTER(c_double)),
+                ("normals", POINTER(c_float)), ("first_triangle", c_uint64),
+                ("triangle_count", c_uint64), ("triangles", POINTER(c_uint32))]
+
+
+msq_surface_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_surface_slab))
+
+
+class msq_file_part(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("offset", c_uint64),
+                ("size", c_uint64), ("total", c_uint64), ("bytes", POINTER(c_uint8))]
+
+
+msq_file_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_file_part))
+
+
 class msq_rays_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("coordinate_type", c_int32), ("count", c_uint64),
                 ("origins", c_void_p), ("directions", c_void_p), ("origin_stride", c_uint64),
@@ -772,6 +798,11 @@ FUNCTIONS = {
     "msq_fill_info": [c_int32, POINTER(msq_fill), POINTER(msq_fill_report)],
     "msq_fill_calibrate": [c_int32, POINTER(msq_context), POINTER(msq_structure), c_double,
                            c_double, POINTER(c_double), POINTER(msq_job)],
+    "msq_surface_def_init": [c_int32, POINTER(msq_surface_def), c_size_t],
+    "msq_surface_mesh": [c_int32, POINTER(msq_model), POINTER(msq_surface_def), msq_surface_fn,
+                         c_void_p, POINTER(msq_job)],
+    "msq_surface_file": [c_int32, POINTER(msq_model), POINTER(msq_surface_def), c_int32,
+                         msq_file_fn, c_void_p, POINTER(msq_job)],
     "msq_rays_def_init": [c_int32, POINTER(msq_rays_def), c_size_t],
     "msq_ray_cast": [c_int32, POINTER(msq_model), POINTER(msq_rays_def), POINTER(msq_query_def),
                      POINTER(msq_ray_hit), c_uint64, POINTER(msq_job)],

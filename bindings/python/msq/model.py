@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
-from typing import Any, Callable, Optional, Sequence, Tuple, Union
+import os
+from typing import Any, BinaryIO, Callable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from . import _abi, picture, statistics
+from . import _abi, picture, statistics, surface
 from ._arrays import output, pointer, triples
 from ._handle import Handle
 from ._interrupt import interruptible
@@ -25,6 +26,7 @@ from .shape import Shape
 from .slicer import Slicer
 from .statistics import Estimate
 from .structure import Structure
+from .surface import Box, Mesh
 
 # Sets of fewer points are not worth the thread that makes them interruptible: some 0.1 ms.
 _LONG = 1 << 15
@@ -294,6 +296,26 @@ class Model(Handle):
         """The section with a plane normal to the axis, as rings: see Contours."""
         return Contours(self, height, tolerance, axis=axis, window=window, pitch=pitch, type=type,
                         units=units, length_scale=length_scale, job=job)
+
+    def mesh(self, pitch: float, *, box: Optional[Box] = None, length_scale: float = 0.0,
+             slab_layers: int = 0, job: Optional[Job] = None) -> Mesh:
+        """The boundary of the model within a box as triangles: (vertices, normals, triangles).
+
+        The mesh is closed and a manifold, also where the box cuts the model. pitch: the distance of
+        the nodes at which the model is sampled. box: (min, max), else the model's bounds.
+        """
+        return surface.mesh(self, surface.definition_of(pitch, box, length_scale, slab_layers), job)
+
+    def save_mesh(self, file: Union[str, "os.PathLike[str]", BinaryIO], pitch: float, *,
+                  format: Optional[str] = None, box: Optional[Box] = None,
+                  length_scale: float = 0.0, slab_layers: int = 0,
+                  job: Optional[Job] = None) -> None:
+        """Writes the mesh of mesh() to a path or a binary file, without holding it whole.
+
+        format: `stl` or `ply`; None: by the path's ending. A file for `ply` must be able to seek.
+        """
+        surface.save_mesh(self, file, format,
+                          surface.definition_of(pitch, box, length_scale, slab_layers), job)
 
     def _contains_point(self, point: Any, query: Any) -> bool:
         inside = ctypes.c_int32()
