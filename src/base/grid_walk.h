@@ -22,15 +22,17 @@ inline int64_t walked_index(double coordinate, double size) {
 }
 
 /// Calls visit(index, from, to) for each grid cell that a ray crosses in [from, to], with the part
-/// of the ray in that cell, until visit returns false. The ray is in the grid's frame. `start` and
-/// `end` are its points at `from` and `to`. Stops early, by Error(cancelled), with the job.
+/// of the ray in that cell, until visit returns false. The ray is in the grid's frame. `start` is
+/// its point at `from`, and end() returns that at `to`. Stops early, by Error(cancelled), with the
+/// job.
 /// Source: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", 1987. Each
 /// crossing is computed from its plane, so that errors do not add up.
 ///
 /// Rounding may put a crossing and the cells of start and end on different sides of a plane. So the
-/// steps along each axis are at most two more than the difference of the two cells' indices.
-template <class Visit>
-void walk_grid(const Ray& ray, Vec3 start, Vec3 end, Vec3 size, double from, double to,
+/// steps along each axis are at most two more than the difference of the two cells' indices. Most
+/// rays end sooner, so that difference is computed after as many steps as all rays may take.
+template <class End, class Visit>
+void walk_grid(const Ray& ray, Vec3 start, End&& end, Vec3 size, double from, double to,
                const Job* job, Visit&& visit) {
   const Vec3 along = ray.direction;
   int64_t index[3];
@@ -40,14 +42,28 @@ void walk_grid(const Ray& ray, Vec3 start, Vec3 end, Vec3 size, double from, dou
     return along[axis] == 0 ? std::numeric_limits<double>::infinity()
                             : (plane - ray.origin[axis]) / along[axis];
   };
-  int64_t steps = 0;
   for (int axis = 0; axis < 3; ++axis) {
     index[axis] = walked_index(start[axis], size[axis]);
-    steps += std::abs(walked_index(end[axis], size[axis]) - index[axis]) + 2;
     next[axis] = crossing(axis);
   }
+  const auto difference = [&] {
+    const Vec3 last = end();
+    int64_t cells = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      cells +=
+          std::abs(walked_index(last[axis], size[axis]) - walked_index(start[axis], size[axis]));
+    return cells;
+  };
+  int64_t steps = 3 * 2;
+  bool knows_end = false;
   JobPoll poll(job);
-  for (; steps >= 0; --steps) {
+  for (;; --steps) {
+    if (steps < 0) {
+      if (knows_end) return;
+      knows_end = true;
+      steps += difference();
+      if (steps < 0) return;
+    }
     poll();
     const int axis = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
     const double until = std::max(from, std::min(next[axis], to));

@@ -16,12 +16,15 @@ namespace msq {
 constexpr size_t max_simd_doubles = 32;
 
 /// Aligned to vectors; uninitialised.
-using AlignedFloats = hwy::AlignedFreeUniquePtr<float[]>;
-inline AlignedFloats allocate_aligned(size_t floats) {
-  AlignedFloats made = hwy::AllocateAligned<float>(floats);
+template <class T>
+using AlignedArray = hwy::AlignedFreeUniquePtr<T[]>;
+template <class T = float>
+AlignedArray<T> allocate_aligned(size_t count) {
+  AlignedArray<T> made = hwy::AllocateAligned<T>(count ? count : 1);
   if (!made) throw std::bad_alloc();
   return made;
 }
+using AlignedFloats = AlignedArray<float>;
 
 /// Name of the instruction set that the kernels use on this machine; static storage.
 const char* simd_target_name();

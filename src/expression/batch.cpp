@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "expression/batch.cpp"
+#include <algorithm>
+
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -78,14 +80,15 @@ template <class T>
 BatchOf<T>::BatchOf(const Program& program)
     : program_(program),
       constants_(program.constants.begin(), program.constants.end()),
-      temporaries_(program.temporaries * stride<T>),
+      temporaries_(allocate_aligned<T>(program.temporaries * stride<T>)),
       registers_(program.registers()),
       targets_(program.registers()) {
+  std::fill_n(temporaries_.get(), program.temporaries * stride<T>, T{0});
   for (size_t i = 0; i < constants_.size(); ++i)
     registers_[program.inputs + i] = {&constants_[i], true};
   const size_t first = program.inputs + constants_.size();
   for (size_t i = 0; i < program.temporaries; ++i) {
-    targets_[first + i] = temporaries_.data() + i * stride<T>;
+    targets_[first + i] = temporaries_.get() + i * stride<T>;
     registers_[first + i] = {targets_[first + i], false};
   }
 }

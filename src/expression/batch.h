@@ -45,7 +45,8 @@ class BatchOf {
 
  private:
   const Program& program_;
-  std::vector<T> constants_, temporaries_;
+  std::vector<T> constants_;
+  AlignedArray<T> temporaries_;  // so that no vector crosses a cache line
   std::vector<ValuesOf<T>> registers_;
   std::vector<T*> targets_;  // of the temporaries, by register
 };

@@ -23,7 +23,8 @@ struct Begin {
 struct CastMemory {
   std::vector<RaySearch> batch;
   std::vector<double> ends;      // ray by ray
-  std::vector<PartSteps> steps;  // likewise
+  std::vector<PartSteps> steps;  // likewise; new where has_steps is 0
+  std::vector<uint8_t> has_steps;
   std::vector<Begin> begins;
   std::vector<std::vector<uint32_t>> waiting;  // by level
   std::vector<uint32_t> rays, without_normal;
@@ -33,8 +34,11 @@ struct CastMemory {
       batch.resize(count);
       begins.resize(count);
     }
-    if (ends.size() < count * levels) ends.resize(count * levels);
-    steps.assign(count * levels, {});
+    if (ends.size() < count * levels) {
+      ends.resize(count * levels);
+      steps.resize(count * levels);
+    }
+    has_steps.assign(count * levels, 0);
     if (waiting.size() < levels) waiting.resize(levels);
     for (std::vector<uint32_t>& level : waiting) level.clear();
     without_normal.clear();
@@ -60,6 +64,7 @@ class Caster {
         hits_(hits),
         ends_(memory.ends.data()),
         steps_(memory.steps.data()),
+        has_steps_(memory.has_steps.data()),
         begins_(memory.begins.data()),
         batch_(memory.batch.data()),
         waiting_(memory.waiting),
@@ -101,7 +106,13 @@ class Caster {
     double low = s.from, high = s.to + beyond;
     if (!clip_to_box(s.ray, bounds_, low, high)) return;
     begins_[i] = {s.from, s.to, s.ray.at(s.to), low};
-    if (!move_to_box(bounds_, near_, low, high, beyond, s, begins_[i].offset, end(i, 0))) return;
+    const Vec3 place = s.ray.at(low);
+    if (near_.contains(place)) {  // as move_to_box(), without a call
+      s.ray.origin = place;
+      end(i, 0) = high - low;
+    } else if (!move_to_box(bounds_, near_, low, high, beyond, s, begins_[i].offset, end(i, 0))) {
+      return;
+    }
     s.from = 0;
     hits_[i].scale = 0;
     waiting_[0].push_back(i);
@@ -201,10 +212,19 @@ class Caster {
 
   /// 64 parts within so much of a ray are noise: 2^-18 of the shape, and no more than a quarter of
   /// a cell.
-  double slow_of(uint32_t i, size_t level) {
-    const double slow = 0x1p18 * tolerance_of(i, level);
+  double slow_of(size_t level, double tolerance) const {
+    const double slow = 0x1p18 * tolerance;
     return level == 0 ? slow
                       : std::min(slow, 0.25 * resolved_[level - 1]->structure->cell_length());
+  }
+
+  PartSteps& steps_of(uint32_t i, size_t level) {
+    const size_t n = i * levels_ + level;
+    if (!has_steps_[n]) {
+      has_steps_[n] = 1;
+      steps_[n] = {};
+    }
+    return steps_[n];
   }
 
   /// Nothing at this level up to where the level above ends: on behind that.
@@ -216,9 +236,9 @@ class Caster {
     }
     // Past the end by the tolerance, so that the level above is left even where rounding has not.
     const double end_above = std::max(end(i, level), searches_[i].from);
+    const double tolerance = tolerance_of(i, level - 1);
     searches_[i].from =
-        end_above + steps_[i * levels_ + level].behind(end_above, tolerance_of(i, level - 1),
-                                                       slow_of(i, level - 1));
+        end_above + steps_of(i, level).behind(end_above, tolerance, slow_of(level - 1, tolerance));
     hits_[i].scale = static_cast<int32_t>(level);  // that comes in next, if none above it does
     hits_[i].normal = {};
     if (searches_[i].from > end(i, level - 1)) {
@@ -279,6 +299,7 @@ class Caster {
   RayHit* const hits_;
   double* const ends_;
   PartSteps* const steps_;
+  uint8_t* const has_steps_;
   Begin* const begins_;
   RaySearch* const batch_;
   std::vector<std::vector<uint32_t>>& waiting_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slice/slicer.h"
 
+#include <algorithm>
 #include <cstring>
 #include <optional>
 
@@ -20,7 +21,8 @@ constexpr uint64_t shallow_slab_bytes = uint64_t{2} << 20;
 /// Of an automatic slab: of less, each slab would redo much of what the one before it found about
 /// the cells that both reach.
 constexpr double automatic_slab_layers = 64;
-/// The first slab of a run has this part of the layers of a slab: 1 / 8.
+/// The first slab of a run has this part of the layers of a slab, 1 / 8, unless the slabs of
+/// structures are shallow already: each slab has a cost of its own.
 constexpr uint64_t first_slab_part = 8;
 
 /// Samples of a pitch that cover an extent; a remainder of rounding does not make one more.
@@ -33,6 +35,11 @@ uint64_t checked_count(double count, const char* what) {
     fail(Status::limit, "%g %s; the limit is %llu", count, what,
          static_cast<unsigned long long>(max_samples));
   return static_cast<uint64_t>(count);
+}
+
+/// Whether slabs are as deep as memory allows.
+bool gains_by_layers(const Scale& scale) {
+  return scale.structure->gains_by_layers() || !scale.skin.is_none();
 }
 
 }  // namespace
@@ -153,8 +160,7 @@ void Slicer::plan_slabs() {
   uint64_t max_bytes =
       std::min(automatic_slab_bytes, shallow_slab_bytes * model_->executor().threads());
   for (const Scale* scale : resolved_)
-    if (scale->structure->gains_by_layers() || !scale->skin.is_none())
-      max_bytes = automatic_slab_bytes;
+    if (gains_by_layers(*scale)) max_bytes = automatic_slab_bytes;
   const uint64_t fit = max_bytes / layer_bytes;
   slab_layers_ = static_cast<uint64_t>(
       std::clamp(std::min(layers, static_cast<double>(fit)), 1.0, static_cast<double>(grid_.nz)));
@@ -168,7 +174,10 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   const uint64_t layer_words = words_for(samples_.nx) * samples_.ny;
   const uint64_t deep = std::min(slab_layers_, last - first);
   // The host waits for the first slab, and workers fill the second one while it takes the first.
-  const uint64_t shallow = (deep + first_slab_part - 1) / first_slab_part;
+  const bool are_shallow = plan_.slab_layers == 0 && !resolved_.empty() &&
+                           std::none_of(resolved_.begin(), resolved_.end(),
+                                        [](const Scale* scale) { return gains_by_layers(*scale); });
+  const uint64_t shallow = are_shallow ? deep : (deep + first_slab_part - 1) / first_slab_part;
   const bool is_one_slab = deep == last - first;
   const uint64_t room[2] = {is_one_slab ? shallow : deep, is_one_slab ? deep - shallow : deep};
   const uint64_t scratch = std::max(fill_slab_scratch_words(*model_, resolved_, samples_, shallow),

@@ -114,6 +114,10 @@ class Structure : public RefCounted {
   /// The same for a ray up to `to`: larger if the coordinates are so large that their rounding is.
   /// Membership rounds them in the model's frame, and then relative to the grid's origin.
   double ray_tolerance(const Ray& ray, double to) const {
+    // Most rays: no coordinate exceeds this sum, which is rounded by far less than a factor of 2.
+    const double reach =
+        max_magnitude(ray.origin) + std::abs(to) + max_magnitude(neighbourhood_.origin);
+    if (coordinate_rounding(2 * reach) <= ray_tolerance()) return ray_tolerance();
     const double max =
         std::max(max_coordinate(ray, to), max_coordinate(ray, to, neighbourhood_.origin));
     return std::max(ray_tolerance(), coordinate_rounding(max));

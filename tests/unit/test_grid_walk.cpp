@@ -25,23 +25,23 @@ struct Walk {
 /// more than rounding.
 Walk walk(const Ray& ray, Vec3 size, double from, double to) {
   Walk walked;
-  walk_grid(ray, ray.at(from), ray.at(to), size, from, to, nullptr,
-            [&](const int64_t(&index)[3], double begin, double end) {
-              if (walked.cells > 0 && begin != walked.end) fail_msg("a gap at %.17g", begin);
-              if (walked.cells == 0 && begin != from) fail_msg("it begins at %.17g", begin);
-              const Vec3 middle = ray.at(0.5 * (begin + end));
-              const double room =
-                  0x1p-48 * (max_magnitude(ray.at(from)) + max_magnitude(ray.at(to)));
-              for (int axis = 0; axis < 3; ++axis) {
-                const double low = static_cast<double>(index[axis]) * size[axis];
-                if (middle[axis] < low - room || middle[axis] > low + size[axis] + room)
-                  fail_msg("%.17g is not in cell %lld", middle[axis],
-                           static_cast<long long>(index[axis]));
-              }
-              ++walked.cells;
-              walked.end = end;
-              return true;
-            });
+  walk_grid(
+      ray, ray.at(from), [&] { return ray.at(to); }, size, from, to, nullptr,
+      [&](const int64_t(&index)[3], double begin, double end) {
+        if (walked.cells > 0 && begin != walked.end) fail_msg("a gap at %.17g", begin);
+        if (walked.cells == 0 && begin != from) fail_msg("it begins at %.17g", begin);
+        const Vec3 middle = ray.at(0.5 * (begin + end));
+        const double room = 0x1p-48 * (max_magnitude(ray.at(from)) + max_magnitude(ray.at(to)));
+        for (int axis = 0; axis < 3; ++axis) {
+          const double low = static_cast<double>(index[axis]) * size[axis];
+          if (middle[axis] < low - room || middle[axis] > low + size[axis] + room)
+            fail_msg("%.17g is not in cell %lld", middle[axis],
+                     static_cast<long long>(index[axis]));
+        }
+        ++walked.cells;
+        walked.end = end;
+        return true;
+      });
   return walked;
 }
 
@@ -85,19 +85,21 @@ void ends_wherever_it_begins(void**) {
         Vec3 d = random.in_box({{-1, -1, -1}, {1, 1, 1}});
         if (sign > 0) d = {0, 0, 1};
         const Ray ray{{sign * x, y, 0.5}, d * (1 / length(d))};
-        walk_grid(ray, ray.at(0), ray.at(50), {1, 1, 1}, 0, 50, nullptr,
-                  [&](const int64_t(&)[3], double, double) {
-                    ++cells;
-                    return true;
-                  });
+        walk_grid(
+            ray, ray.at(0), [&] { return ray.at(50); }, {1, 1, 1}, 0, 50, nullptr,
+            [&](const int64_t(&)[3], double, double) {
+              ++cells;
+              return true;
+            });
       }
   assert_true(cells > 0);
   // Cells no wider than the rounding of coordinates.
   for (const double size : {1e-20, 1e-3}) {
     const Ray ray{{1e13, 1e13, -1e13}, {1, 0, 0}};
     size_t count = 0;
-    walk_grid(ray, ray.at(0), ray.at(1), {size, size, size}, 0, 1, nullptr,
-              [&](const int64_t(&)[3], double, double) { return ++count < 10000; });
+    walk_grid(
+        ray, ray.at(0), [&] { return ray.at(1); }, {size, size, size}, 0, 1, nullptr,
+        [&](const int64_t(&)[3], double, double) { return ++count < 10000; });
     assert_true(count > 0);
   }
 }
@@ -107,11 +109,12 @@ void stops_with_its_job(void**) {
   const Ray ray{{0.5, 0.5, 0.5}, {1, 0, 0}};
   size_t cells = 0;
   try {
-    walk_grid(ray, ray.at(0), ray.at(infinity), {1, 1, 1}, 0, infinity, &job,
-              [&](const int64_t(&)[3], double, double) {
-                if (++cells == 1000) job.cancel();
-                return true;
-              });
+    walk_grid(
+        ray, ray.at(0), [&] { return ray.at(infinity); }, {1, 1, 1}, 0, infinity, &job,
+        [&](const int64_t(&)[3], double, double) {
+          if (++cells == 1000) job.cancel();
+          return true;
+        });
     fail_msg("it ended after %zu cells", cells);
   } catch (const Error& error) {
     assert_true(error.status == Status::cancelled);

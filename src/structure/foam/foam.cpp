@@ -86,7 +86,7 @@ std::unique_ptr<StrutParts> Foam::struts(const StrutSelection& selection) const 
 
 void Foam::enter(RaySearch* searches, size_t count, const Job* job) const {
   const auto fits = [this](const RaySearch& s) { return fits_struts(s.ray, s.to); };
-  if (!std::all_of(searches, searches + count, fits)) {
+  if (!all_fit_struts(searches, count) && !std::all_of(searches, searches + count, fits)) {
     for (size_t i = 0; i < count; ++i)
       fits(searches[i]) ? enter(&searches[i], 1, job) : Structure::enter(&searches[i], 1, job);
     return;
@@ -120,8 +120,24 @@ bool Foam::enter_by_steps(RaySearch& search, const Job* job) const {
   return !creeps && (!search.found || sharpen_entry(*this, search));
 }
 
+namespace {
+
+constexpr double max_rounding = 0x1p-23;  // foam units
+
+}  // namespace
+
 bool Foam::fits_struts(const Ray& ray, double to) const {
-  return ray_tolerance(ray, to) <= 0x1p-23 * unit();
+  return ray_tolerance(ray, to) <= max_rounding * unit();
+}
+
+// No coordinate of a ray exceeds the sum of its origin's and of its length, which is rounded by far
+// less than the factor of 2 here.
+bool Foam::all_fit_struts(const RaySearch* searches, size_t count) const {
+  double reach = 0;
+  for (size_t i = 0; i < count; ++i)
+    reach = std::max(reach, max_magnitude(searches[i].ray.origin) + std::abs(searches[i].to));
+  const double max = 2 * (reach + max_magnitude(neighbourhood().origin));
+  return std::max(ray_tolerance(), coordinate_rounding(max)) <= max_rounding * unit();
 }
 
 double Foam::leave(const Ray& ray, double from, double to, const Job* job) const {

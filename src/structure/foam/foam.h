@@ -64,6 +64,8 @@ class Foam final : public FoamData {
   bool inside(const Neighbourhood::Located& located, Vec3 p) const;
   /// Whether the coordinates of a ray are so small that their rounding fits the lists of struts.
   bool fits_struts(const Ray& ray, double to) const;
+  /// Whether it is clear that this holds for all of these rays.
+  bool all_fit_struts(const RaySearch* searches, size_t count) const;
   /// Finds the entry by marching. Returns false if it may have missed struts, or if its result may
   /// differ from that of walk_cells(). Then the caller searches by cells.
   bool enter_by_steps(RaySearch& search, const Job* job) const;

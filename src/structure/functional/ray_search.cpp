@@ -54,28 +54,28 @@ FunctionalRays::FunctionalRays(const Functional& solid, const Job* job)
       level_(solid.level()),
       tolerance_(solid.ray_tolerance()),
       cell_(min_component(grid_.cell_size)),
+      cells_{cell_ / grid_.cell_size.x, cell_ / grid_.cell_size.y, cell_ / grid_.cell_size.z},
       batch_(solid.ray_program()) {
   std::fill(std::begin(pieces_.span), std::end(pieces_.span), 1);
 }
 
 void FunctionalRays::start(uint32_t number, const RaySearch& search) {
-  Live live;
+  Live& live = live_.emplace_back();
   live.search = number;
   live.t = live.before = live.looked_at = search.from;
+  live.tolerance = solid_.ray_tolerance(search.ray, search.to);
   live.least = tolerance_;
   live.span = first_span * cell_;
   const Vec3 along = live.along = grid_.rotation.apply_inverse(search.ray.direction);
-  const Vec3 size = grid_.cell_size;
-  live.rates = {two_pi * (along.x * (cell_ / size.x)), two_pi * (along.y * (cell_ / size.y)),
-                two_pi * (along.z * (cell_ / size.z))};
+  live.rates = {two_pi * (along.x * cells_.x), two_pi * (along.y * cells_.y),
+                two_pi * (along.z * cells_.z)};
   // Points of the ray, their positions in the grid and their angles are rounded, and so is two_pi.
   const Vec3 p = search.ray.at(search.from), q = search.ray.at(search.to);
   const double off = 0x1p-49 * (max_magnitude(p) + max_magnitude(q) + max_magnitude(grid_.origin));
   live.off = off;
   live.error = two_pi * off / cell_ + 0x1p-47;
   const CellAngles& angles = solid_.angles();
-  live.error += 2 * two_pi * angles.error(p, length(q - p));
-  live_.push_back(live);
+  if (angles.period()) live.error += 2 * two_pi * angles.error(p, length(q - p));
 }
 
 void FunctionalRays::locate(const RaySearch* searches, const Live* live, size_t count) {
@@ -149,7 +149,7 @@ double FunctionalRays::step_unproven(Live& live, bool is_known, bool is_apart, b
 bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t lane,
                              const RayBatch::Bounds& bounds) {
   const double value = bounds.value[lane];
-  const double tolerance = solid_.ray_tolerance(search.ray, search.to);
+  const double tolerance = live.tolerance;
   count_round(live);
   const double least = std::max(tolerance, live.least);
   if ((value <= levels_[lane]) == wanted) {

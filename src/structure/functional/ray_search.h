@@ -16,6 +16,7 @@
 
 #include <vector>
 
+#include "base/borrowed.h"
 #include "expression/ray_bounds.h"
 #include "structure/functional/functional.h"
 
@@ -48,6 +49,7 @@ class FunctionalRays {
     double t, span;
     double before;            // membership may have changed between that and t
     double error, off;        // of angles; of positions
+    double tolerance;         // of the ray
     double least, looked_at;  // the minimum step, and the ray's t when that was chosen
     Vec3 along;               // the direction in the grid
     Vec3 rates;               // of angles at t, per smallest cell size
@@ -76,9 +78,12 @@ class FunctionalRays {
   const Parameter& level_;
   const double tolerance_;
   const double cell_;  // the smallest size
+  const Vec3 cells_;   // that over the size along each axis
   RayBatch batch_;
   RayBatch::Pieces pieces_;
-  std::vector<Live> live_;
+  // Of a batch; kept, because the system would clear as much memory for each.
+  const Borrowed<std::vector<Live>> borrowed_;
+  std::vector<Live>& live_ = *borrowed_;
   // By lane:
   Vec3 points_[lanes];
   double border_[lanes];    // distance to the next border across which the function is not periodic

@@ -28,9 +28,10 @@ TurnedRows::TurnedRows(const Functional& structure, const RowBlock& block)
   const size_t waves = form_.waves().size();
   find_angle_error();
   find_steps();
-  waves_.resize(2 * waves * (single_points + batch_padding));
+  waves_ = allocate_aligned(2 * waves * (single_points + batch_padding));
+  std::fill_n(waves_.get(), 2 * waves * (single_points + batch_padding), 0.0f);
   for (size_t i = 0; i < 2 * waves; ++i)
-    values_.set_input(i, {waves_.data() + i * (single_points + batch_padding), false});
+    values_.set_input(i, {waves_.get() + i * (single_points + batch_padding), false});
   at_first_.resize(2 * waves * padded_words());
   if (structure.level().is_constant()) bounds_.set(structure.level().range(), slack_);
 }
@@ -51,6 +52,8 @@ void TurnedRows::find_angle_error() {
 
 void TurnedRows::find_steps() {
   const Neighbourhood& cells = structure_.neighbourhood();
+  steps_ = allocate_aligned(2 * form_.waves().size() * bits_per_word);
+  float* to = steps_.get();
   for (const TrigonometricForm::Wave& wave : form_.waves()) {
     // The row's direction along the grid's axis, in cells per sample.
     const double along = cells.rotation.m[static_cast<size_t>(wave.axis)] * grid_.spacing.x /
@@ -61,7 +64,7 @@ void TurnedRows::find_steps() {
       return apply(op, angle_of(turns - std::round(turns)), 0);
     };
     for (Op op : {Op::cosine, Op::sine}) {
-      for (size_t i = 0; i < bits_per_word; ++i) steps_.push_back(static_cast<float>(step(op, i)));
+      for (size_t i = 0; i < bits_per_word; ++i) *to++ = static_cast<float>(step(op, i));
       for (size_t w = 0; w < padded_words(); ++w)
         word_steps_.push_back(w < block_.row_words() ? step(op, w * bits_per_word) : 0);
     }
@@ -119,9 +122,9 @@ void TurnedRows::find_starts(uint64_t j, uint64_t k) {
 void TurnedRows::decide(const RowGroup& group, size_t row, size_t first, size_t count) {
   constexpr size_t stride = single_points + batch_padding;
   for (size_t wave = 0; wave < form_.waves().size(); ++wave) {
-    const float* steps = steps_.data() + 2 * wave * bits_per_word;
+    const float* steps = steps_.get() + 2 * wave * bits_per_word;
     const float* from = at_first_.data() + 2 * wave * padded_words() + first;
-    float* to = waves_.data() + 2 * wave * stride;
+    float* to = waves_.get() + 2 * wave * stride;
     turn_angles(from, from + padded_words(), count, steps, steps + bits_per_word, to, to + stride);
   }
   values_.run(count * bits_per_word);

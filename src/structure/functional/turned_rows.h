@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/simd.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/level_bounds.h"
 
@@ -34,10 +35,10 @@ class TurnedRows {
   BatchOf<float> values_;
   // Per wave: the cosines, then the sines, of two sets of angles: from a word's first sample to
   // each of its samples, and from the first of the listed words to each of them.
-  std::vector<float> steps_;
+  AlignedFloats steps_;
   std::vector<double> word_steps_;
   std::vector<float> at_first_;  // per wave: sines, then cosines, at the first sample of each word
-  std::vector<float> waves_;     // per wave: sines, then cosines, of a batch of words
+  AlignedFloats waves_;          // per wave: sines, then cosines, of a batch of words
   std::vector<uint32_t> words_;  // of a group's rows, from the first to the last with samples alive
 };
 

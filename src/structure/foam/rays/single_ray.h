@@ -19,7 +19,8 @@ class SingleRay {
   /// Continues from `from`; the ray meets nothing before.
   void walk(const FoamRay& ray, double from, RaySearch& search) {
     first_.clear();
-    walk_grid({ray.origin, ray.direction}, ray.at(from), ray.at(ray.to), scale_, from, ray.to, job_,
+    const auto at_end = [&ray] { return ray.at(ray.to); };
+    walk_grid({ray.origin, ray.direction}, ray.at(from), at_end, scale_, from, ray.to, job_,
               [&](const int64_t(&index)[3], double in, double out) {
                 const CellIndex cell{static_cast<int32_t>(index[0]), static_cast<int32_t>(index[1]),
                                      static_cast<int32_t>(index[2])};

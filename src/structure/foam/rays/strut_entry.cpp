@@ -69,7 +69,11 @@ bool comes_before(const StrutEntry& entry, const StrutEntry& other) {
 }
 
 StrutEntries::StrutEntries(const FoamData& foam)
-    : foam_(foam), radius_(foam.max_radius()), inverse_radius_(1 / radius_) {}
+    : foam_(foam),
+      radius_(foam.max_radius()),
+      inverse_radius_(1 / radius_),
+      to_foam_(1 / foam.unit()),
+      tolerance_(foam.ray_tolerance() / foam.unit()) {}
 
 bool StrutEntries::inside(const FoamRay& ray, double t) const {
   return foam_.inside(ray.model_point(t, foam_.unit()));
@@ -164,20 +168,19 @@ StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutLine& strut
 
 FoamRay StrutEntries::ray(const RaySearch& search) const {
   const Neighbourhood& grid = foam_.neighbourhood();
-  const double to_foam = 1 / foam_.unit();
-  FoamRay ray{grid.to_grid(search.ray.origin) * to_foam,
+  FoamRay ray{grid.to_grid(search.ray.origin) * to_foam_,
               grid.rotation.apply_inverse(search.ray.direction),
-              search.from * to_foam,
-              search.to * to_foam,
+              search.from * to_foam_,
+              search.to * to_foam_,
               0,
               0,
               &search};
   // The error of points' coordinates is a few units of 2^-53 of their magnitude: here, and in
   // membership, which computes them in the model's frame first.
   const double max = std::max(max_coordinate({ray.origin, ray.direction}, ray.to),
-                              to_foam * max_coordinate(search.ray, search.to));
+                              to_foam_ * max_coordinate(search.ray, search.to));
   ray.error = 0x1p-51 * (8 + max);
-  ray.tolerance = std::max(foam_.ray_tolerance() / foam_.unit(), coordinate_rounding(max));
+  ray.tolerance = std::max(tolerance_, coordinate_rounding(max));
   return ray;
 }
 

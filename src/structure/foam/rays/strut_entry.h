@@ -113,6 +113,8 @@ class StrutEntries {
 
   const FoamData& foam_;
   const double radius_, inverse_radius_;  // foam units
+  const double to_foam_;                  // of lengths, from model units
+  const double tolerance_;                // of rays with small coordinates, foam units
 };
 
 }  // namespace msq

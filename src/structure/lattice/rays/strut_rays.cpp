@@ -34,9 +34,9 @@ template <class Visit>
 void StrutRays::walk(const Ray& ray, double from, double to, Visit&& visit) const {
   const Ray in_grid{grid_.to_grid(ray.origin), grid_.rotation.apply_inverse(ray.direction)};
   const int parts = lists_.parts();
-  walk_grid(in_grid, grid_.to_grid(ray.at(from)), grid_.to_grid(ray.at(to)),
-            grid_.cell_size * (1.0 / parts), from, to, job_,
-            [&](const int64_t(&index)[3], double begin, double end) {
+  const auto at_end = [&] { return grid_.to_grid(ray.at(to)); };
+  walk_grid(in_grid, grid_.to_grid(ray.at(from)), at_end, grid_.cell_size * (1.0 / parts), from, to,
+            job_, [&](const int64_t(&index)[3], double begin, double end) {
               Part part;
               int32_t cell[3];
               for (int i = 0; i < 3; ++i) {
