@@ -2317,9 +2317,9 @@ typedef struct msq_contours_report {
   const int64_t* parents;
   /** 1: a hole. 0: an outer ring. */
   const uint8_t* holes;
-  /** Places where the rings may be wrong at the scale of the pitch: where one sample decided which
-   * parts are connected, or where the boundary does not come within the tolerance. Features
-   * narrower than the pitch that no node or crossing meets are not counted. */
+  /** Places where the rings may be wrong at the scale of the pitch: where one sample decided what
+   * is connected, where the boundary is not within the tolerance, and cells that a strut passes
+   * with no node in it. Other features that no node or crossing meets are not counted. */
   uint64_t unresolved_count;
   /** Distance of the nodes, as rounded. */
   double pitch;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slice/nearest_unit.h"
+
 namespace msq {
 
 namespace {
@@ -71,7 +73,6 @@ bool is_tangled(std::span<const Vec2> p) {
 }  // namespace
 
 void ContourDetails::find(ContourPoints& points) {
-  unresolved_ = section_.saddles().size();
   find_suspects(points.job());
   while (!pieces_.empty()) {
     keep_bent(points);
@@ -84,85 +85,114 @@ void ContourDetails::find(ContourPoints& points) {
   drop_tangles();
 }
 
-/// Of the piece that begins at a crossing.
-ContourDetails::Cell ContourDetails::cell_of(uint32_t id) const {
-  const ContourGrid& grid = section_.grid();
-  Crossing c = section_[id];
-  const bool is_horizontal = section_.is_horizontal(id), inside = section_.starts_inside(id);
-  if (is_horizontal && !inside) --c.row;     // it comes down
-  if (!is_horizontal && inside) --c.column;  // it comes from the right
-  return {{grid.u(c.column), grid.v(c.row)}, {grid.u(c.column + 1), grid.v(c.row + 1)}};
+bool ContourDetails::is_in_cell(uint32_t id, Vec2 p) const {
+  const Cell cell = rings_.cell_of(id);
+  const double margin = rings_.margin();
+  return p.x >= cell.low.x + margin && p.x <= cell.high.x - margin && p.y >= cell.low.y + margin &&
+         p.y <= cell.high.y - margin;
 }
 
 void ContourDetails::find_suspects(const Job* job) {
-  std::vector<uint32_t> before(section_.count());
-  for (uint32_t id = 0; id < section_.count(); ++id) before[section_.next(id)] = id;
-  std::vector<bool> is_saddle(section_.count());
-  for (const ContourSection::Saddle& s : section_.saddles())
-    for (const uint32_t id : s.ids) {
-      const Crossing& c = section_[id];
-      const bool comes_in = section_.is_horizontal(id)
-                                ? (c.row == s.row) == section_.starts_inside(id)
-                                : (c.column == s.column) != section_.starts_inside(id);
-      if (comes_in) is_saddle[id] = true;
-    }
-  const double close = section_.grid().pitch() / 16;
-  const auto is_in_cell = [&](uint32_t id, Vec2 p) {
-    const Cell cell = cell_of(id);
-    const double margin = section_.margin();
-    return p.x >= cell.low.x + margin && p.x <= cell.high.x - margin &&
-           p.y >= cell.low.y + margin && p.y <= cell.high.y - margin;
-  };
-  for (uint32_t id = 0; id < section_.count(); ++id) {
-    if (id % 65536 == 0) check_cancelled(job);
-    const uint32_t next = section_.next(id);
-    if (section_.is_beyond(id) || section_.is_beyond(next) || is_saddle[id]) continue;
-    const Vec2 a = section_.at(id), b = section_.at(next), ab = b - a;
-    if (dot(ab, ab) <= tolerance_ * tolerance_) continue;
-    uint32_t p = before[id], q = section_.next(next);
-    Piece piece{id, 0, 0, false, false, a, b, {}, 0, 1};
-    if (section_.is_beyond(p) || section_.is_beyond(q)) {
-      // The direction of the boundary at the edge of a window is not known.
-      pieces_.push_back(piece);
-      continue;
-    }
-    // A crossing that is very near tells little about the direction.
-    Vec2 d1 = a - section_.at(p), d2 = section_.at(q) - b;
-    if (dot(d1, d1) < close * close && !section_.is_beyond(before[p])) {
-      p = before[p];
-      d1 = a - section_.at(p);
-    }
-    if (dot(d2, d2) < close * close && !section_.is_beyond(section_.next(q))) {
-      q = section_.next(q);
-      d2 = section_.at(q) - b;
-    }
-    const double turn1 = cross(d1, ab), turn2 = cross(ab, d2), turn = cross(d1, d2);
-    const double size2 = dot(ab, ab), limit2 = tolerance_ * tolerance_;
-    if (turn1 * turn2 <= 0) {  // an inflection: of an arc, less than a quarter of this
-      if (turn1 * turn1 > 4 * limit2 * dot(d1, d1) || turn2 * turn2 > 4 * limit2 * dot(d2, d2))
-        pieces_.push_back(piece);
-      continue;
-    }
-    piece.turn = turn1 > 0 ? 1 : -1;
-    if (turn * turn1 > 0) {
-      // The height of the triangle is turn1 * turn2 / (turn * size).
-      const double area = turn1 * turn2;
-      if (area * area <= limit2 * turn * turn * size2) continue;
-      piece.corner = a + d1 * (turn2 / turn);
-      piece.has_corner = is_in_cell(id, piece.corner);
-    }
-    if (const double bend = bend_of(section_.at(before[p]), section_.at(p), a, b, section_.at(q),
-                                    section_.at(section_.next(q)));
-        bend != 0) {
-      if (std::abs(bend) <= tolerance_) continue;
-      const Vec2 middle = piece.middle() - left_of(unit(ab)) * bend;
-      if (std::abs(bend) <= 4 * tolerance_ && is_in_cell(id, middle)) {
-        details_.push_back({id, 0.5, middle});
-        continue;
-      }
-    }
-    pieces_.push_back(piece);
+  for (const ContourRings::Ring& ring : rings_.rings()) {
+    check_cancelled(job);
+    if (ring.is_closed)
+      look_along(ring, job);
+    else
+      for (uint32_t id = ring.first; id < ring.end; ++id) suspect(ring, id);
   }
+}
+
+/// suspect() for all crossings, but without a call where it would return at once: most pieces are
+/// short, or nearly straight. Each piece takes over what the one before it computed.
+void ContourDetails::look_along(const ContourRings::Ring& ring, const Job* job) {
+  const double limit2 = tolerance_ * tolerance_, close2 = close() * close();
+  const uint32_t count = ring.end - ring.first;
+  const auto at = [&](uint32_t i) { return rings_[ring.first + (i < count ? i : i - count)].at; };
+  if (count < 4) {
+    for (uint32_t id = ring.first; id < ring.end; ++id) suspect(ring, id);
+    return;
+  }
+  Vec2 b = at(1), d1 = at(0) - at(count - 1), ab = b - at(0);
+  double size1 = dot(d1, d1), size = dot(ab, ab), turn1 = cross(d1, ab);
+  CancelPoll poll(job);
+  for (uint32_t i = 0; i < count; ++i) {
+    poll();
+    const Vec2 q = at(i + 2), d2 = q - b;
+    const double size2 = dot(d2, d2), turn2 = cross(ab, d2);
+    const auto is_suspect = [&] {
+      if (size <= limit2) return false;
+      if (size1 < close2 || size2 < close2) return true;
+      if (turn1 * turn2 <= 0)
+        return turn1 * turn1 > 4 * limit2 * size1 || turn2 * turn2 > 4 * limit2 * size2;
+      const double turn = cross(d1, d2), area = turn1 * turn2;
+      return !(turn * turn1 > 0 && area * area <= limit2 * turn * turn * size);
+    };
+    if (is_suspect()) suspect(ring, ring.first + i);
+    b = q;
+    d1 = ab;
+    ab = d2;
+    size1 = size;
+    size = size2;
+    turn1 = turn2;
+  }
+}
+
+/// The piece that begins at crossing `id`.
+void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
+  const auto behind = [&](uint32_t i) { return i + 1 < ring.end ? i + 1 : ring.first; };
+  const auto before = [&](uint32_t i) { return i > ring.first ? i - 1 : ring.end - 1; };
+  const double close2 = close() * close();
+  const uint32_t next = behind(id);
+  if (rings_.is_beyond(id) || rings_.is_beyond(next) || rings_.is_before_saddle(id)) return;
+  const Vec2 a = rings_[id].at, b = rings_[next].at, ab = b - a;
+  if (dot(ab, ab) <= tolerance_ * tolerance_) return;
+  uint32_t p = before(id), q = behind(next);
+  const auto make_piece = [&] { return Piece{id, next, 0, 0, false, false, a, b, {}, 0, 1}; };
+  if (rings_.is_beyond(p) || rings_.is_beyond(q)) {
+    // The direction of the boundary at the edge of a window is not known.
+    pieces_.push_back(make_piece());
+    return;
+  }
+  // A crossing that is very near tells little about the direction.
+  Vec2 d1 = a - rings_[p].at, d2 = rings_[q].at - b;
+  if (dot(d1, d1) < close2 && !rings_.is_beyond(before(p))) {
+    p = before(p);
+    d1 = a - rings_[p].at;
+  }
+  if (dot(d2, d2) < close2 && !rings_.is_beyond(behind(q))) {
+    q = behind(q);
+    d2 = rings_[q].at - b;
+  }
+  const double turn1 = cross(d1, ab), turn2 = cross(ab, d2);
+  const double size2 = dot(ab, ab), limit2 = tolerance_ * tolerance_;
+  if (turn1 * turn2 <= 0) {  // an inflection: of an arc, less than a quarter of this
+    if (turn1 * turn1 > 4 * limit2 * dot(d1, d1) || turn2 * turn2 > 4 * limit2 * dot(d2, d2))
+      pieces_.push_back(make_piece());
+    return;
+  }
+  const double turn = cross(d1, d2);
+  const bool has_triangle = turn * turn1 > 0;
+  // The height of the triangle is turn1 * turn2 / (turn * size).
+  if (const double area = turn1 * turn2;
+      has_triangle && area * area <= limit2 * turn * turn * size2)
+    return;
+  Piece piece = make_piece();
+  piece.turn = turn1 > 0 ? 1 : -1;
+  if (has_triangle) {
+    piece.corner = a + d1 * (turn2 / turn);
+    piece.has_corner = is_in_cell(id, piece.corner);
+  }
+  if (const double bend =
+          bend_of(rings_[before(p)].at, rings_[p].at, a, b, rings_[q].at, rings_[behind(q)].at);
+      bend != 0) {
+    if (std::abs(bend) <= tolerance_) return;
+    const Vec2 middle = piece.middle() - left_of(unit(ab)) * bend;
+    if (std::abs(bend) <= 4 * tolerance_ && is_in_cell(id, middle)) {
+      details_.push_back({id, next, 0.5, middle});
+      return;
+    }
+  }
+  pieces_.push_back(piece);
 }
 
 /// Drops pieces whose middle is within the tolerance of the boundary. Where the boundary turns
@@ -197,7 +227,7 @@ void ContourDetails::keep_bent(ContourPoints& points) {
 }
 
 bool ContourDetails::is_in_window(Vec2 p) const {
-  const ContourGrid& grid = section_.grid();
+  const ContourGrid& grid = rings_.grid();
   return p.x >= grid.u(ContourGrid::left_edge) && p.x <= grid.u(grid.right_edge()) &&
          p.y >= grid.v(grid.bottom_edge()) && p.y <= grid.v(grid.top_edge());
 }
@@ -225,7 +255,7 @@ void ContourDetails::take_corners(ContourPoints& points) {
         is_corner = is_corner && inside[n] && !inside[n + 1];
       first += 6;
       if (is_corner) {
-        details_.push_back({piece.id, 0.5 * (piece.begin + piece.end), piece.corner});
+        details_.push_back({piece.id, piece.next, 0.5 * (piece.begin + piece.end), piece.corner});
         continue;
       }
     }
@@ -246,11 +276,11 @@ void ContourDetails::split(ContourPoints& points) {
     const Vec2 m = piece.middle();
     const Vec2 d = left_of(unit(piece.b - piece.a)) * (piece.is_inside ? -1.0 : 1.0);
     // To where the normal leaves the cell.
-    const Cell cell = cell_of(piece.id);
+    const Cell cell = rings_.cell_of(piece.id);
     double reach = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 2; ++axis) {
-      const double room = d[axis] > 0 ? cell.high[axis] - section_.margin() - m[axis]
-                                      : m[axis] - section_.margin() - cell.low[axis];
+      const double room = d[axis] > 0 ? cell.high[axis] - rings_.margin() - m[axis]
+                                      : m[axis] - rings_.margin() - cell.low[axis];
       if (d[axis] != 0) reach = std::min(reach, std::max(0.0, room) / std::abs(d[axis]));
     }
     if (!std::isfinite(reach)) reach = 0;
@@ -290,21 +320,39 @@ void ContourDetails::split(ContourPoints& points) {
     const Piece& piece = pieces_[s.piece];
     const Vec2 at = (s.same + s.other) * 0.5;
     const double order = 0.5 * (piece.begin + piece.end);
-    details_.push_back({piece.id, order, at});
+    details_.push_back({piece.id, piece.next, order, at});
     // A half as short as that is near enough.
     if (length(at - piece.a) > tolerance_)
-      halves.push_back(
-          {piece.id, piece.depth + 1, 0, false, false, piece.a, at, {}, piece.begin, order});
+      halves.push_back({piece.id,
+                        piece.next,
+                        piece.depth + 1,
+                        0,
+                        false,
+                        false,
+                        piece.a,
+                        at,
+                        {},
+                        piece.begin,
+                        order});
     if (length(piece.b - at) > tolerance_)
-      halves.push_back(
-          {piece.id, piece.depth + 1, 0, false, false, at, piece.b, {}, order, piece.end});
+      halves.push_back({piece.id,
+                        piece.next,
+                        piece.depth + 1,
+                        0,
+                        false,
+                        false,
+                        at,
+                        piece.b,
+                        {},
+                        order,
+                        piece.end});
   }
   pieces_ = std::move(halves);
 }
 
 Vec2 ContourDetails::rounded(Vec2 p) const {
   if (units_ == 0) return p;
-  return {std::nearbyint(p.x * units_), std::nearbyint(p.y * units_)};
+  return {nearest_unit(p.x * units_), nearest_unit(p.y * units_)};
 }
 
 /// Drops the points of pieces that would touch themselves.
@@ -313,10 +361,10 @@ void ContourDetails::drop_tangles() {
   size_t kept = 0;
   for (size_t first = 0, end; first < details_.size(); first = end) {
     const uint32_t id = details_[first].id;
-    line.assign(1, rounded(section_.at(id)));
+    line.assign(1, rounded(rings_[id].at));
     for (end = first; end < details_.size() && details_[end].id == id; ++end)
       line.push_back(rounded(details_[end].at));
-    line.push_back(rounded(section_.at(section_.next(id))));
+    line.push_back(rounded(rings_[details_[first].next].at));
     if (is_tangled(line)) {
       ++unresolved_;
       continue;

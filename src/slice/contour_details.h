@@ -19,13 +19,15 @@
 #include <span>
 #include <vector>
 
-#include "slice/contour_section.h"
+#include "slice/contour_points.h"
+#include "slice/contour_rings.h"
 
 namespace msq {
 
-/// A point that follows crossing `id`, before the next crossing. `order` is between 0 and 1.
+/// A point that follows crossing `id` of a ring, before the next crossing. `order` is between 0
+/// and 1.
 struct DetailPoint {
-  uint32_t id;
+  uint32_t id, next;  ///< `next`: the next crossing
   double order;
   Vec2 at;
 };
@@ -33,20 +35,19 @@ struct DetailPoint {
 class ContourDetails {
  public:
   /// `units`: coordinates will be multiplied by it and rounded; 0: they will not be rounded.
-  ContourDetails(const ContourSection& section, double tolerance, double units)
-      : section_(section), tolerance_(tolerance), units_(units) {}
+  ContourDetails(const ContourRings& rings, double tolerance, double units)
+      : rings_(rings), tolerance_(tolerance), units_(units) {}
 
   void find(ContourPoints& points);
 
   /// In the order of crossings, and of points between two crossings.
   const std::vector<DetailPoint>& points() const { return details_; }
-  /// Cells where the boundary is farther than the tolerance from what was found, or where one
-  /// sample decided what belongs together.
+  /// Cells where the boundary is farther than the tolerance from what was found.
   uint64_t unresolved() const { return unresolved_; }
 
  private:
   struct Piece {
-    uint32_t id;
+    uint32_t id, next;  // crossings
     int depth;
     int turn;  // where known: 1: the boundary turns left between its ends, -1: right; else 0
     bool has_corner, is_inside;
@@ -54,20 +55,22 @@ class ContourDetails {
     double begin, end;  // orders of a and b
     Vec2 middle() const { return (a + b) * 0.5; }
   };
-  struct Cell {
-    Vec2 low, high;
-  };
+  using Cell = ContourRings::Cell;
 
   void find_suspects(const Job* job);
+  void look_along(const ContourRings::Ring& ring, const Job* job);
+  void suspect(const ContourRings::Ring& ring, uint32_t id);
   void keep_bent(ContourPoints& points);
   void take_corners(ContourPoints& points);
   void split(ContourPoints& points);
   void drop_tangles();
-  Cell cell_of(uint32_t id) const;
+  /// A crossing that is nearer than that to another tells little about the direction.
+  double close() const { return rings_.grid().pitch() / 16; }
+  bool is_in_cell(uint32_t id, Vec2 p) const;
   bool is_in_window(Vec2 p) const;
   Vec2 rounded(Vec2 p) const;
 
-  const ContourSection& section_;
+  const ContourRings& rings_;
   const double tolerance_, units_;
   std::vector<Piece> pieces_;
   std::vector<DetailPoint> details_;

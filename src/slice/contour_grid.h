@@ -53,16 +53,22 @@ class ContourAxis {
     const double i = (at - first_) * inverse_pitch_;
     return i < 0 ? 0 : static_cast<uint32_t>(std::min(i + 1, static_cast<double>(inner_)));
   }
+  double pitch() const { return pitch_; }
+  double inverse_pitch() const { return inverse_pitch_; }
+  /// Which nodes of the lattice lie in a range, as whole numbers; false if none does.
+  bool inner_between(double low, double high, double& first, double& last) const {
+    if (inner_ == 0) return false;
+    first = std::max(0.0, std::ceil((low - first_) * inverse_pitch_));
+    last = std::min(static_cast<double>(inner_ - 1), std::floor((high - first_) * inverse_pitch_));
+    return first <= last;
+  }
   /// Calls visit(n, position) for the nodes from low to high: node 0 is the lower end.
   template <class Visit>
   void for_nodes(double low, double high, Visit&& visit) const {
     if (low <= low_ && low_ <= high) visit(0, low_);
-    if (inner_ > 0) {
-      const double from = std::max(0.0, std::ceil((low - first_) * inverse_pitch_));
-      const double to =
-          std::min(static_cast<double>(inner_ - 1), std::floor((high - first_) * inverse_pitch_));
+    double from, to;
+    if (inner_between(low, high, from, to))
       for (double i = from; i <= to; ++i) visit(static_cast<uint32_t>(i) + 1, first_ + i * pitch_);
-    }
     if (low <= high_ && high_ <= high) visit(static_cast<uint32_t>(inner_ + 1), high_);
   }
   double inner_at(uint64_t i) const { return first_ + static_cast<double>(i) * pitch_; }
@@ -82,8 +88,9 @@ class ContourGrid {
 
   /// Columns are bits of a row's words. The inner ones begin with a word.
   static constexpr uint32_t first_inner = 64, left_edge = 63, left_beyond = 62;
+  static constexpr uint32_t bottom_row = 1, first_inner_row = 2;
   uint32_t right_edge() const { return static_cast<uint32_t>(first_inner + u_.inner()); }
-  uint32_t bottom_edge() const { return 1; }
+  uint32_t bottom_edge() const { return bottom_row; }
   uint32_t top_edge() const { return static_cast<uint32_t>(2 + v_.inner()); }
   uint32_t rows() const { return top_edge() + 2; }
   size_t row_words() const { return row_words_; }

@@ -43,14 +43,20 @@ void simplify_ring(const std::vector<LinePoint>& ring, std::vector<Vec2>& out) {
         cone = gate;
         continue;
       }
-      const Cone before = cone;
-      if (before.holds(gate.left))
+      // Each side of the cone moves to the gate's where that lies within the cone, stays where it
+      // lies within the gate, and else the two have no direction in common. Of two crosses with
+      // the factors exchanged, one is the other's negative to the last bit.
+      const double right_left = cross(cone.right, gate.left);
+      const double left_left = cross(gate.left, cone.left);
+      const double right_right = cross(cone.right, gate.right);
+      const double right_behind = cross(gate.right, cone.left);
+      if (right_left >= 0 && left_left >= 0)
         cone.left = gate.left;
-      else if (!gate.holds(before.left))
+      else if (!(right_behind >= 0 && left_left <= 0))
         break;
-      if (before.holds(gate.right))
+      if (right_right >= 0 && right_behind >= 0)
         cone.right = gate.right;
-      else if (!gate.holds(before.right))
+      else if (!(right_right <= 0 && right_left >= 0))
         break;
       if (!(cross(cone.right, cone.left) > 0)) break;
     }

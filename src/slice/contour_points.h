@@ -9,6 +9,7 @@
 #include "base/vec2.h"
 #include "model/model.h"
 #include "slice/contour_grid.h"
+#include "slice/contour_struts.h"
 
 namespace msq {
 
@@ -22,19 +23,29 @@ class ContourPoints {
   const LayerPlane& plane() const { return plane_; }
   const Job* job() const { return job_; }
 
+  /// From now on, struts tell first where points are. They are those of the only structure, and
+  /// outlive this.
+  void use_struts(const PlaneStruts& struts) { struts_ = &struts; }
+
   void clear() { points_.clear(); }
-  void add(Vec2 p) { points_.push_back(plane_.at(p.x, p.y)); }
+  void add(Vec2 p) { points_.push_back(p); }
   size_t count() const { return points_.size(); }
   /// Of the points added since clear().
   const std::vector<uint8_t>& find_inside();
 
  private:
+  void ask(const Scales& scales, std::vector<uint8_t>& inside);
+  void ask_some(const std::vector<uint32_t>& some, const Scales& scales);
+
   const Model& model_;
   const Scales& resolved_;
   LayerPlane plane_;
   const Job* job_;
-  std::vector<Vec3> points_;
-  std::vector<uint8_t> inside_;
+  const PlaneStruts* struts_ = nullptr;
+  std::vector<Vec2> points_;
+  std::vector<Vec3> asked_;
+  std::vector<uint8_t> inside_, answers_;
+  std::vector<uint32_t> held_, doubtful_;
 };
 
 }  // namespace msq

@@ -8,7 +8,10 @@
 #include "base/status.h"
 #include "slice/contour_details.h"
 #include "slice/contour_line.h"
+#include "slice/contour_points.h"
+#include "slice/contour_rings.h"
 #include "slice/contour_section.h"
+#include "slice/nearest_unit.h"
 
 namespace msq {
 
@@ -26,53 +29,43 @@ double three_digits(double x) {
   return std::ldexp(std::floor(mantissa * 8), exponent - 3);
 }
 
-/// Joins the crossings of a section to rings.
+/// Writes the rings, with no more points than needed.
 class RingBuilder {
  public:
-  RingBuilder(const ContourSection& section, const ContourDetails& details, double tolerance,
+  RingBuilder(const ContourRings& rings, const ContourDetails& details, double tolerance,
               double units, Contours& out)
-      : section_(section),
-        details_(details),
+      : rings_(rings),
+        detail_(details.points().data()),
+        end_(detail_ + details.points().size()),
         tolerance_(tolerance),
         units_(units),
-        out_(out),
-        ring_of_(section.count(), none),
-        has_details_(section.count()) {
-    for (const DetailPoint& p : details.points()) has_details_[p.id] = true;
-  }
+        out_(out) {}
 
   void build(const Job* job) {
     JobPoll poll(job);
-    for (uint32_t id = 0; id < section_.horizontal_count(); ++id) {
-      if (ring_of_[id] != none) continue;
+    for (const ContourRings::Ring& ring : rings_.rings()) {
       poll();
-      add_ring(id);
+      add_ring(ring);
     }
   }
 
  private:
-  static constexpr uint32_t none = UINT32_MAX;
-  struct Ring {
+  struct Written {
     int64_t index, parent;  // of the rings that are returned; -1: none
     bool is_hole;
   };
 
-  /// `start` is the leftmost crossing on the ring's lowest row, so what is to its left is around
-  /// the ring. The crossing before it on the row, if any, is of a ring that borders on the same.
-  void add_ring(uint32_t start) {
-    Ring ring{-1, -1, section_.starts_inside(start)};
-    if (start > section_.row_start(section_[start].row)) {
-      const Ring& before = rings_[ring_of_[start - 1]];
-      ring.parent = before.is_hole != ring.is_hole ? before.index : before.parent;
+  void add_ring(const ContourRings::Ring& from) {
+    Written ring{-1, -1, from.is_hole};
+    if (from.beside != ContourRings::none) {
+      const Written& beside = written_[from.beside];
+      ring.parent = beside.is_hole != ring.is_hole ? beside.index : beside.parent;
     }
-    const uint32_t number = static_cast<uint32_t>(rings_.size());
     line_.clear();
     bool is_next_fixed = false;
-    for (uint32_t id = start; ring_of_[id] == none; id = section_.next(id)) {
-      ring_of_[id] = number;
+    for (uint32_t id = from.first; id < from.end; ++id) {
       add_crossing(id, is_next_fixed);
-      is_next_fixed = false;
-      if (has_details_[id]) is_next_fixed = add_details(id);
+      is_next_fixed = detail_ != end_ && detail_->id == id && add_details();
     }
     if (is_next_fixed) line_.front().is_fixed = true;
     simplify_ring(line_, points_);
@@ -80,53 +73,49 @@ class RingBuilder {
     const int64_t index = static_cast<int64_t>(out_.ring_count());
     // What cannot be drawn stands for what is around it.
     ring.index = out_.add_ring(points_, ring.parent, ring.is_hole) ? index : ring.parent;
-    rings_.push_back(ring);
+    written_.push_back(ring);
   }
 
   void add_crossing(uint32_t id, bool is_fixed) {
-    const Vec2 at = section_.at(id);
-    if (section_.is_beyond(id)) {
+    const Vec2 at = rings_[id].at;
+    if (rings_.is_beyond(id)) {
       // Of these only the corners of the window count: once, though two crossings lie there.
-      if (section_.is_horizontal(id) && section_.is_on_seam(id))
-        line_.push_back({at, true, {}, {}});
+      if (rings_.is_horizontal(id) && rings_.is_on_seam(id)) line_.push_back({at, true, {}, {}});
       return;
     }
-    if (is_fixed || section_.is_on_seam(id)) {
+    if (is_fixed || rings_.is_on_seam(id)) {
       line_.push_back({at, true, {}, {}});
       return;
     }
-    const double middle = section_[id].at;
-    const double low = std::max(middle - tolerance_, section_.low(id) + section_.margin());
-    const double high = std::min(middle + tolerance_, section_.high(id) - section_.margin());
+    const bool is_horizontal = rings_.is_horizontal(id);
+    const double middle = is_horizontal ? at.x : at.y;
+    const double low = std::max(middle - tolerance_, rings_.low(id) + rings_.margin());
+    const double high = std::min(middle + tolerance_, rings_.high(id) - rings_.margin());
     Vec2 first = at, second = at;
-    (section_.is_horizontal(id) ? first.x : first.y) = low;
-    (section_.is_horizontal(id) ? second.x : second.y) = high;
-    if (section_.starts_inside(id))
+    (is_horizontal ? first.x : first.y) = low;
+    (is_horizontal ? second.x : second.y) = high;
+    if (rings_.starts_inside(id))
       line_.push_back({at, false, first, second});
     else
       line_.push_back({at, false, second, first});
   }
 
-  /// Whether the next crossing must stay.
-  bool add_details(uint32_t id) {
-    const std::vector<DetailPoint>& all = details_.points();
-    auto p = std::lower_bound(all.begin(), all.end(), id,
-                              [](const DetailPoint& d, uint32_t of) { return d.id < of; });
-    const auto first = p;
+  /// The points that follow the last crossing. Whether the next crossing must stay.
+  bool add_details() {
+    const DetailPoint* const first = detail_;
     const size_t before = line_.size() - 1;
-    for (; p != all.end() && p->id == id; ++p) line_.push_back({p->at, true, {}, {}});
-    if (p - first < 2) return false;
+    for (; detail_ != end_ && detail_->id == first->id; ++detail_)
+      line_.push_back({detail_->at, true, {}, {}});
+    if (detail_ - first < 2) return false;
     line_[before].is_fixed = true;
     return true;
   }
 
-  const ContourSection& section_;
-  const ContourDetails& details_;
+  const ContourRings& rings_;
+  const DetailPoint *detail_, *const end_;
   const double tolerance_, units_;
   Contours& out_;
-  std::vector<uint32_t> ring_of_;  // by crossing
-  std::vector<bool> has_details_;
-  std::vector<Ring> rings_;
+  std::vector<Written> written_;
   std::vector<LinePoint> line_;
   std::vector<Vec2> points_;
 };
@@ -187,7 +176,7 @@ bool Contours::add_ring(const std::vector<Vec2>& ring, int64_t parent, bool is_h
     };
     for (const Vec2 p : ring) {
       if constexpr (std::is_integral_v<T>)
-        put(static_cast<T>(std::nearbyint(p.x)), static_cast<T>(std::nearbyint(p.y)));
+        put(static_cast<T>(nearest_unit(p.x)), static_cast<T>(nearest_unit(p.y)));
       else
         put(p.x, p.y);
     }
@@ -241,18 +230,21 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   // out.
   const double part = 0.5 * plan.tolerance;
   ContourSection section(grid, margin);
-  constexpr uint64_t bytes = ContourSection::bytes_of_crossing + 4 * sizeof(uint32_t) +
+  constexpr uint64_t bytes = ContourSection::bytes_of_crossing + ContourRings::bytes_of_crossing +
                              sizeof(LinePoint) + 2 * sizeof(Vec2);
-  const Reservation crossings(budget, section.count_crossings(job) * bytes,
-                              "the crossings of a layer");
+  const Reservation crossings(
+      budget, section.count_crossings(job) * bytes + 2 * sizeof(uint32_t) * grid.words(),
+      "the crossings of a layer");
   ContourPoints points(model, resolved, plan.plane, job);
-  section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch));
+  section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch),
+                2 * plan.tolerance);
   if (job) job->set_progress(0.75);
-  ContourDetails details(section, part, is_integer ? plan.units : 0);
+  const ContourRings rings(section, job);
+  ContourDetails details(rings, part, is_integer ? plan.units : 0);
   details.find(points);
   if (job) job->set_progress(0.9);
-  RingBuilder(section, details, part, plan.units, *out).build(job);
-  out->set_unresolved(details.unresolved());
+  RingBuilder(rings, details, part, plan.units, *out).build(job);
+  out->set_unresolved(section.unresolved() + details.unresolved());
   out->close();
   scope.done();
   return out;

@@ -8,7 +8,7 @@
 #include "base/job.h"
 #include "base/ref.h"
 #include "model/model.h"
-#include "slice/contour_points.h"
+#include "slice/contour_grid.h"
 
 namespace msq {
 

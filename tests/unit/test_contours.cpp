@@ -11,10 +11,12 @@
 #include "expression/parser.h"
 #include "field/gradient.h"
 #include "meshes.h"
+#include "query/membership.h"
 #include "random.h"
 #include "rings.h"
 #include "shape/mesh.h"
 #include "shape/primitive.h"
+#include "slice/contour_struts.h"
 #include "structure/foam/foam.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
@@ -342,6 +344,199 @@ void test_threads(void**) {
   for (const auto& bytes : all) assert_true(bytes == all[0]);
 }
 
+/// Struts tell where points of a plane are as the structure does, also next to the boundary.
+void test_struts_tell_membership(void**) {
+  const LayerPlane planes[] = {{2, 1.5}, {0, 1.15}, {1, 2.2}};
+  const std::function<Ref<const Structure>()> structures[] = {
+      [] { return foam(1.0, Parameter(0.1)); }, [] { return foam(0.4, Parameter(0.15)); },
+      [] { return lattice(0.2); }};
+  Random random(17);
+  for (const auto& make : structures)
+    for (const LayerPlane& plane : planes) {
+      const Ref<const Structure> structure = make();
+      const double low[2] = {1.1, 0.7}, high[2] = {4.3, 3.1}, around = 0.05;
+      const ContourGrid grid(plane, low, high, 0.0625);
+      const PlaneStruts struts(*structure, grid, around, context()->budget, nullptr);
+      uint64_t doubtful = 0, inside = 0;
+      const int samples = 200 + static_cast<int>(3000 * test_scale());
+      const auto check = [&](Vec2 p) {
+        const bool wanted = structure->inside(plane.at(p.x, p.y));
+        const PlaneStruts::Found found = struts.find(p);
+        doubtful += found == PlaneStruts::Found::doubtful;
+        inside += wanted;
+        if (found != PlaneStruts::Found::doubtful &&
+            (found == PlaneStruts::Found::inside) != wanted)
+          fail_msg("(%.17g, %.17g) is not where the struts say", p.x, p.y);
+        return wanted;
+      };
+      for (int n = 0; n < samples; ++n) {
+        const auto point = [&] {
+          return Vec2{random.between(low[0] - around, high[0] + around),
+                      random.between(low[1] - around, high[1] + around)};
+        };
+        Vec2 p = point(), q = point();
+        const bool is_inside = check(p);
+        if (n % 8 != 0 || check(q) == is_inside) continue;
+        for (int i = 0; i < 40; ++i) {
+          const Vec2 m = (p + q) * 0.5;
+          (check(m) == is_inside ? p : q) = m;
+        }
+      }
+      assert_true(inside > 0);
+      // Those of bisection, from 1e-6 of a cell on.
+      assert_true(doubtful > 0);
+      assert_true(doubtful < static_cast<uint64_t>(6 * samples));
+      assert_int_equal(static_cast<int>(struts.find({low[0] - 2 * around, low[1]})),
+                       static_cast<int>(PlaneStruts::Found::doubtful));
+    }
+}
+
+/// Where struts leave the part, the corners lie on its wall and where the wall leaves the struts.
+void test_corners_at_walls(void**) {
+  const Ref<Model> model = model_of(box(), {lattice(0.3)});
+  const Scales resolved = model->resolved(0);
+  ContourPlan plan;
+  plan.plane.height = 0.5;
+  plan.tolerance = 0.02;
+  plan.pitch = 0.05;
+  const Rings all = contours(*model, plan);
+  const auto inside = [&](double v) { return model->inside({0, v, plan.plane.height}, resolved); };
+  int corners = 0;
+  const double step = 0.01;
+  for (double v = 0.5 * step; v + step < 6; v += step) {
+    if (inside(v) == inside(v + step)) continue;
+    double a = v, b = v + step;
+    for (int i = 0; i < 40; ++i) (inside(0.5 * (a + b)) == inside(v) ? a : b) = 0.5 * (a + b);
+    double nearest = HUGE_VAL;
+    for (const auto& ring : all.rings)
+      for (const RingPoint p : ring) nearest = std::min(nearest, std::hypot(p.u, p.v - a));
+    // Of the tolerance, half is for leaving out points; corners stay.
+    if (!(nearest <= 0.1 * plan.tolerance))
+      fail_msg("the corner at v = %g is off by %g", a, nearest);
+    ++corners;
+  }
+  assert_true(corners >= 4);
+}
+
+/// No more points than needed: not many more than the fewest on the circle whose lines are within
+/// half of the tolerance. The other half is for what lies between crossings.
+void test_points_of_disc(void**) {
+  const double r = 2;
+  const Ref<Model> model = model_of(make_ref<SphereShape>(Vec3{0.3, -0.2, 0}, r));
+  ContourPlan plan;
+  plan.plane.height = 0;
+  plan.pitch = 0.05;
+  for (const double tolerance : {0.0005, 0.002, 0.01, 0.05}) {
+    plan.tolerance = tolerance;
+    const Rings all = contours(*model, plan);
+    const double fewest = pi / std::acos(1 - 0.5 * tolerance / r);
+    if (!(static_cast<double>(all.points()) <= 2 * fewest))
+      fail_msg("%zu points, where %g would do", all.points(), fewest);
+  }
+}
+
+/// Numbers of the parts of the solid and of the enclosed parts of the void of a mask of samples. Of
+/// each part that holds a square of so many samples, the middle of such a square.
+struct Parts {
+  uint64_t solid = 0, enclosed = 0;
+  std::vector<size_t> wide_solid, wide_void;
+};
+Parts parts_of(const std::vector<uint8_t>& inside, size_t across, size_t up, size_t wide) {
+  // The side of the largest square of alike samples that ends with a sample.
+  std::vector<size_t> side(inside.size(), 1);
+  for (size_t at = across; at < inside.size(); ++at) {
+    if (at % across == 0) continue;
+    const size_t before[3] = {at - 1, at - across, at - across - 1};
+    size_t least = SIZE_MAX;
+    for (const size_t b : before) least = std::min(least, inside[b] == inside[at] ? side[b] : 0);
+    side[at] = least + 1;
+  }
+  Parts parts;
+  std::vector<bool> seen(inside.size());
+  std::vector<size_t> stack;
+  for (size_t first = 0; first < inside.size(); ++first) {
+    if (seen[first]) continue;
+    const uint8_t kind = inside[first];
+    bool is_enclosed = true;
+    size_t widest = first;
+    stack.assign(1, first);
+    seen[first] = true;
+    while (!stack.empty()) {
+      const size_t at = stack.back(), i = at % across, j = at / across;
+      stack.pop_back();
+      if (side[at] > side[widest]) widest = at;
+      if (i == 0 || j == 0 || i + 1 == across || j + 1 == up) is_enclosed = false;
+      const auto visit = [&](size_t next) {
+        if (seen[next] || inside[next] != kind) return;
+        seen[next] = true;
+        stack.push_back(next);
+      };
+      if (i > 0) visit(at - 1);
+      if (i + 1 < across) visit(at + 1);
+      if (j > 0) visit(at - across);
+      if (j + 1 < up) visit(at + across);
+    }
+    ++(kind ? parts.solid : parts.enclosed);
+    if (!kind && !is_enclosed) --parts.enclosed;
+    if (side[widest] >= wide)
+      (kind ? parts.wide_solid : parts.wide_void)
+          .push_back(widest - side[widest] / 2 * (across + 1));
+  }
+  return parts;
+}
+
+/// Against a mask of 16 samples to a pitch: no part that holds a disc of the diameter sqrt(2) *
+/// pitch is lost, and no more rings than parts appear, but for places that are counted. Parts
+/// closer to each other than the pitch may be one.
+void test_topology(void** state) {
+  const Case& c = *static_cast<const Case*>(*state);
+  const Ref<Model> model = c.model();
+  const Scales resolved = model->resolved(0);
+  ContourPlan plan = plan_of(c);
+  const int u = plan.plane.u_axis(), v = plan.plane.v_axis();
+  const Box3& box = model->bounds();
+  plan.has_window = true;
+  const double pitch = contours(*model, plan_of(c)).pitch;
+  const double side =
+      std::min(40 * pitch, 0.8 * std::min(box.max[u] - box.min[u], box.max[v] - box.min[v]));
+  Random random(29);
+  for (int i = 0; i < 2; ++i) {
+    const int axis = i == 0 ? u : v;
+    plan.window_min[i] = random.between(box.min[axis], box.max[axis] - side);
+    plan.window_max[i] = plan.window_min[i] + side;
+  }
+  const Rings rings = contours(*model, plan);
+  SampleGrid fine;
+  const double spacing = pitch / 16;
+  const uint64_t count = static_cast<uint64_t>(side / spacing);
+  fine.spacing = {spacing, spacing, spacing};
+  fine.origin =
+      plan.plane.at(plan.window_min[0] + 0.5 * spacing, plan.window_min[1] + 0.5 * spacing);
+  fine.nx = u == 0 ? count : 1;
+  fine.ny = u == 1 ? count : v == 1 ? count : 1;
+  fine.nz = v == 2 ? count : 1;
+  std::vector<uint8_t> inside(count * count);
+  grid_membership(*model, resolved, fine, inside.data(), nullptr);
+  const Parts parts = parts_of(inside, count, count, 25);
+  uint64_t outer = 0, holes = 0;
+  for (const uint8_t is_hole : rings.holes) (is_hole ? holes : outer) += 1;
+  if (outer > parts.solid + rings.unresolved || holes > parts.enclosed + rings.unresolved)
+    fail_msg("%llu outer rings of %llu parts, %llu holes of %llu; %llu unresolved",
+             static_cast<unsigned long long>(outer), static_cast<unsigned long long>(parts.solid),
+             static_cast<unsigned long long>(holes),
+             static_cast<unsigned long long>(parts.enclosed),
+             static_cast<unsigned long long>(rings.unresolved));
+  const auto check_all = [&](const std::vector<size_t>& places, int winding) {
+    for (const size_t at : places) {
+      const RingPoint p{plan.window_min[0] + (static_cast<double>(at % count) + 0.5) * spacing,
+                        plan.window_min[1] + (static_cast<double>(at / count) + 0.5) * spacing};
+      if (rings.winding(p) != winding) fail_msg("the part about (%g, %g) is lost", p.u, p.v);
+    }
+  };
+  check_all(parts.wide_solid, 1);
+  check_all(parts.wide_void, 0);
+}
+
 }  // namespace
 
 }  // namespace msq::test
@@ -353,8 +548,12 @@ int main() {
       cmocka_unit_test(test_disc),
       cmocka_unit_test(test_square),
       cmocka_unit_test(test_threads),
+      cmocka_unit_test(test_struts_tell_membership),
+      cmocka_unit_test(test_corners_at_walls),
+      cmocka_unit_test(test_points_of_disc),
   };
   return cmocka_run_group_tests(single, nullptr, nullptr) +
          run_for_each("contours against membership", rows, test_against_membership) +
-         run_for_each("seams of contours", rows, test_seams);
+         run_for_each("seams of contours", rows, test_seams) +
+         run_for_each("topology of contours", rows, test_topology);
 }

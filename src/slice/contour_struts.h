@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The struts that meet the plane of a layer. They give crossings in closed form, and membership of
+// points of the plane.
+//
+// Crossings: where lines of nodes enter and leave capsules. An edge between a node outside and one
+// inside is entered first where the nearest of all capsules begins, and left last where the
+// farthest ends: the least and the greatest of what the capsules propose, in any order.
+//
+// Membership: squares of the plane list the struts whose section may reach into them, about one for
+// each strut. Struts are known within a margin. A point that a strut holds by more than the margin
+// is inside, one that all struts miss by more is outside, and the structure decides the few others.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/job.h"
+#include "base/memory.h"
+#include "base/vec2.h"
+#include "slice/contour_grid.h"
+#include "structure/structure.h"
+
+namespace msq {
+
+/// On an edge of the grid between a node inside and one outside.
+struct EdgeCrossing {
+  double at;  ///< u or v
+  uint32_t
+      next;      ///< the next one along the boundary; after rings were made: the number of its ring
+  uint32_t way;  ///< see contour_section.cpp
+};
+
+/// A strut in coordinates u, v and along the normal of the plane, from its end a. One
+/// cache line, since points meet them in any order.
+struct alignas(64) PlaneStrut {
+  double a_u, a_v, w;  ///< w: of the plane, from a
+  double d_u, d_v, d_w;
+  double radius;
+  double inverse_length_squared;  ///< 0 for a point
+};
+/// The part of a strut's axis within the radius of the plane, in [0, 1].
+struct AxisPart {
+  double from, to;
+};
+
+/// Where crossings are, by edge.
+struct CrossingTable {
+  const uint64_t* bits;  ///< nodes inside
+  size_t row_words;
+  const uint32_t *horizontal, *vertical;  ///< the first crossing of each word of edges
+  EdgeCrossing* crossings;
+};
+
+class PlaneStruts {
+ public:
+  /// Finds the struts that may hold points of the grid's window or within `around` of it.
+  PlaneStruts(const Structure& structure, const ContourGrid& grid, double around,
+              std::shared_ptr<MemoryBudget> budget, const Job* job);
+
+  /// Lowers the crossings where struts are entered, and raises those where struts are left.
+  void propose(const ContourGrid& grid, const CrossingTable& table, const Job* job) const;
+
+  /// A point that a strut holds, in a cell whose nodes are all outside.
+  struct Unseen {
+    uint32_t column, row;  ///< of the cell's first node
+    Vec2 at;
+  };
+  /// Such points in the window, where a strut's section is about as wide as it gets: what the grid
+  /// misses. Cell by cell, in the order of rows; a cell may have several.
+  std::vector<Unseen> find_unseen(const ContourGrid& grid, const Job* job) const;
+
+  enum class Found : uint8_t { outside, inside, doubtful };
+  /// Whether any strut holds a point of the plane.
+  Found find(Vec2 p) const;
+
+ private:
+  struct Squares {
+    double low, high, inverse_side;
+    uint32_t count;
+    uint32_t at(double x) const {
+      const double i = (x - low) * inverse_side;
+      return i > 0 ? static_cast<uint32_t>(std::min(i, static_cast<double>(count - 1))) : 0;
+    }
+  };
+
+  void collect(const Structure& structure, const LayerPlane& plane, const Job* job);
+  void add(const LayerPlane& plane, Vec3 a, Vec3 b, double radius);
+  void set_squares(double min_side);
+  void sort(const Job* job);
+  void list_by_square(const Job* job);
+
+  std::shared_ptr<MemoryBudget> budget_;
+  Reservation held_, held_lists_;
+  std::vector<PlaneStrut> struts_;  // by the square of their section's middle
+  std::vector<AxisPart> parts_;
+  Squares u_, v_;
+  double margin_;
+  std::vector<uint32_t> starts_, lists_;  // by square: numbers of struts
+};
+
+}  // namespace msq
