@@ -144,6 +144,9 @@ typedef struct msq_build_report {
   const char* licence;
   /** Instruction set that the kernels use on this machine, for example "AVX3". Static. */
   const char* simd;
+  /** 1 if msq_shape_hash and its like are available. Since 0.2. */
+  int32_t with_xxhash;
+  uint32_t reserved;
 } msq_build_report;
 
 /** Reports how the loaded library was built. Errors: ARGUMENT. */
@@ -352,7 +355,12 @@ typedef struct msq_window {
  * except on an object that they are part of.
  *
  * Points and boxes belong to msq and are valid until the callback returns. A batch has at most 4096
- * points, as triples x, y, z. docs/hosts.md shows the smallest example. */
+ * points, as triples x, y, z. docs/hosts.md shows the smallest example.
+ *
+ * Hashes. msq cannot see what callbacks compute. hash_key, 128 bits that the host chooses, stands
+ * for it in msq_shape_hash and its like: the host changes the key whenever results of the callbacks
+ * change, in any of its runs. Both words 0 (default): no key, and such hashes are refused. Other
+ * results do not depend on the key. Since 0.2. */
 
 /** Called once when an object is freed. */
 typedef void (*msq_release_fn)(void* user);
@@ -610,6 +618,8 @@ typedef struct msq_host_shape_def {
   msq_release_fn release;
   /** Bounding box, with the limits of msq_shape_from_box. No default. */
   double min[3], max[3];
+  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  uint64_t hash_key[2];
 } msq_host_shape_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -753,6 +763,23 @@ typedef struct msq_shape_report {
  * Errors: ARGUMENT. */
 MSQ_API msq_status msq_shape_info(const msq_shape* shape, msq_shape_report* report);
 
+/** Hashes a shape: 16 bytes that are equal for equal definitions with equal inputs and differ
+ * otherwise, for a host to know whether what it computed from the shape is still valid.
+ *
+ * They are the same in each run and on each machine, with any number of threads and in all builds
+ * of a version of msq; another version may change them. What results do not depend on does not
+ * count: names of files, the context, options that say "Does not change results". All other fields
+ * of a definition count, so do the vertices and triangles of a mesh after welding, in their order,
+ * the values of images with their type, and the operations of an expression, not its spaces and
+ * names. 0 and -0 are equal numbers. Shapes, fields, structures and materials within an object
+ * count by their hashes. docs/howto/caching.md says more.
+ *
+ * It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash
+ * by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per
+ * second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without
+ * a hash_key in it; a build without xxHash), MEMORY. Since 0.2. */
+MSQ_API msq_status msq_shape_hash(const msq_shape* shape, uint8_t hash[16]);
+
 /** Counts the pairs of triangles in which a mesh intersects itself. Other shapes: 0.
  *
  * A pair counts if its triangles cross, touch, overlap in a plane or are duplicates; a shared
@@ -830,6 +857,8 @@ typedef struct msq_host_field_def {
   double low, high;
   /** Lipschitz constant of the values. Infinity (default): unknown. */
   double lipschitz;
+  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  uint64_t hash_key[2];
 } msq_host_field_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -931,6 +960,9 @@ MSQ_API msq_status msq_field_shape_distance(msq_context* context,
                                             const msq_shape_distance_field_def* def,
                                             msq_field** field, msq_job* job);
 
+/** Hashes a field, as msq_shape_hash does. A field by the distance to a shape that was sampled with
+ * a step is hashed from its samples. Errors: as msq_shape_hash. Since 0.2. */
+MSQ_API msq_status msq_field_hash(const msq_field* field, uint8_t hash[16]);
 /** Adds a reference. */
 MSQ_API void msq_field_retain(msq_field* field);
 /** Drops a reference. */
@@ -1419,6 +1451,8 @@ typedef struct msq_host_structure_def {
   void* user;
   /** May be NULL. */
   msq_release_fn release;
+  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  uint64_t hash_key[2];
 } msq_host_structure_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -1459,6 +1493,8 @@ typedef struct msq_host_function_def {
   msq_release_fn release;
   /** Lipschitz constant of the values with respect to the angles. Infinity (default): unknown. */
   double lipschitz;
+  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  uint64_t hash_key[2];
 } msq_host_function_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -1474,6 +1510,9 @@ MSQ_API msq_status msq_structure_host_function(msq_context* context,
                                                const msq_host_function_def* def,
                                                msq_structure** structure);
 
+/** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count.
+ * Errors: as msq_shape_hash. Since 0.2. */
+MSQ_API msq_status msq_structure_hash(const msq_structure* structure, uint8_t hash[16]);
 /** Adds a reference. */
 MSQ_API void msq_structure_retain(msq_structure* structure);
 /** Drops a reference. */
@@ -1654,6 +1693,9 @@ MSQ_API msq_status msq_material_create(msq_context* context, const msq_material_
 MSQ_API msq_status msq_material_blend(msq_context* context, uint32_t id, const msq_material* a,
                                       const msq_material* b, const msq_param* fraction,
                                       msq_material** material);
+/** Hashes a material, as msq_shape_hash does: its id, and its channels in their order. Errors: as
+ * msq_shape_hash. Since 0.2. */
+MSQ_API msq_status msq_material_hash(const msq_material* material, uint8_t hash[16]);
 /** Adds a reference. */
 MSQ_API void msq_material_retain(msq_material* material);
 /** Drops a reference. */
@@ -1724,6 +1766,9 @@ MSQ_API msq_status msq_model_create(msq_context* context, const msq_model_def* d
  * region of all space), MEMORY. Since 0.2. */
 MSQ_API msq_status msq_model_regions(msq_context* context, const msq_model* const* regions,
                                      uint64_t count, msq_model** model);
+/** Hashes a model, as msq_shape_hash does: its shape, and the structure, skin and materials of each
+ * scale; or its regions in their order. Errors: as msq_shape_hash. Since 0.2. */
+MSQ_API msq_status msq_model_hash(const msq_model* model, uint8_t hash[16]);
 /** Adds a reference. */
 MSQ_API void msq_model_retain(msq_model* model);
 /** Drops a reference. */

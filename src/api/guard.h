@@ -119,6 +119,18 @@ inline constexpr size_t first_size = sizeof(T);
 template <>
 inline constexpr size_t first_size<msq_context_def> = offsetof(msq_context_def, cache_policy);
 template <>
+inline constexpr size_t first_size<msq_build_report> = offsetof(msq_build_report, with_xxhash);
+template <>
+inline constexpr size_t first_size<msq_host_shape_def> = offsetof(msq_host_shape_def, hash_key);
+template <>
+inline constexpr size_t first_size<msq_host_field_def> = offsetof(msq_host_field_def, hash_key);
+template <>
+inline constexpr size_t first_size<msq_host_structure_def> = offsetof(msq_host_structure_def,
+                                                                      hash_key);
+template <>
+inline constexpr size_t first_size<msq_host_function_def> = offsetof(msq_host_function_def,
+                                                                     hash_key);
+template <>
 inline constexpr size_t first_size<msq_cache_report> = offsetof(msq_cache_report, building_bytes);
 template <>
 inline constexpr size_t first_size<msq_foam_def> = offsetof(msq_foam_def, density);

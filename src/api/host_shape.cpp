@@ -34,6 +34,7 @@ msq_status msq_shape_from_host(msq_context* context, const msq_host_shape_def* d
     if (known.distance) calls.distance = values_call(known.distance, known.user, "distance");
     Ref<HostShape> made =
         make_ref<HostShape>(std::move(calls), read_box(known.min, known.max), is_concurrent);
+    made->user().set_key(known.hash_key);
     made->user().own(known.user, known.release);
     *shape = new_handle<msq_shape>(Ref<Shape>(std::move(made)));
   });

@@ -112,6 +112,7 @@ msq_status msq_structure_host(msq_context* context, const msq_host_structure_def
       fail(Status::argument, "inside and build_cell are NULL; one must be there");
     Ref<HostStructure> made =
         make_ref<HostStructure>(Ref<Context>(&owner), grid, calls_of(known), is_concurrent);
+    made->user().set_key(known.hash_key);
     made->user().own(known.user, known.release);
     *structure = new_handle<msq_structure>(Ref<Structure>(std::move(made)));
   });
@@ -140,6 +141,7 @@ msq_status msq_structure_host_function(msq_context* context, const msq_host_func
                           range_call(known.range, known.user, "range")},
         known.kind == MSQ_FUNCTIONAL_SHEET, read_level(known.level, known.kind),
         static_cast<int>(known.clusters), require_lipschitz(known.lipschitz), is_concurrent);
+    made->user().set_key(known.hash_key);
     made->user().own(known.user, known.release);
     *structure = new_handle<msq_structure>(Ref<Structure>(std::move(made)));
   });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/guard.h"
+#include "base/digest.h"
 #include "base/simd.h"
 #include "io/mesh_file.h"
 #include "structure/foam/paper/delaunay.h"
@@ -17,8 +18,9 @@ msq_status msq_build_info(msq_build_report* report) {
     known.version = MSQ_VERSION;
     known.with_assimp = can_read_all_mesh_files();
     known.with_cgal = can_triangulate();
-    // Assimp, pugixml, minizip, oneTBB and Highway are under licences that ask for no more than
-    // Apache-2.0 does; CGAL's triangulations are under the GPL.
+    known.with_xxhash = can_hash();
+    // Assimp, pugixml, minizip, oneTBB, Highway and xxHash are under licences that ask for no more
+    // than Apache-2.0 does; CGAL's triangulations are under the GPL.
     known.licence = can_triangulate() ? "GPL-3.0-or-later" : "Apache-2.0";
     known.simd = simd_target_name();
     write_report(report, known, "report");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/call.h"
+#include "base/hash_input.h"
 #include "base/status.h"
 #include "base/vec.h"
 
@@ -27,10 +28,25 @@ class HostUser {
     user_ = user;
     release_ = release;
   }
+  /// Two words that stand for what the callbacks compute; both 0: none.
+  void set_key(const uint64_t (&key)[2]) {
+    key_[0] = key[0];
+    key_[1] = key[1];
+  }
+  /// Throws Error(unsupported) if there is no key. `what` the host computes is for the message.
+  void describe(HashInput& input, const char* what) const {
+    if (!key_[0] && !key_[1])
+      fail(Status::unsupported,
+           "a %s that the host computes has no hash_key; only the host knows when it changes",
+           what);
+    input.integer(key_[0]);
+    input.integer(key_[1]);
+  }
 
  private:
   void* user_ = nullptr;
   void (*release_)(void* user) = nullptr;
+  uint64_t key_[2] = {0, 0};
 };
 
 /// Maximum number of points per callback.

@@ -129,4 +129,13 @@ double GradedPeriod::distance_to(double s, double limit, double most) const {
   return most;
 }
 
+void GradedPeriod::describe(HashInput& input) const {
+  input.integer(static_cast<uint64_t>(axis_));
+  input.integer(pieces_.size());
+  for (const Piece& piece : pieces_) {
+    input.number(piece.start);
+    input.number(piece.frequency);
+  }
+}
+
 }  // namespace msq

@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/hash_input.h"
 #include "base/interval.h"
 
 namespace msq {
@@ -40,6 +41,7 @@ class GradedPeriod {
 
   /// Of the grid.
   int axis() const { return axis_; }
+  void describe(HashInput& input) const;
   double smallest() const { return 1 / most_; }
   double largest() const { return 1 / least_; }
   /// Of the frequencies.

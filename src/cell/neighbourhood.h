@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/hash_input.h"
 #include "base/vec.h"
 
 namespace msq {
@@ -27,6 +28,12 @@ struct Neighbourhood {
   Vec3 origin;
   Vec3 cell_size{1, 1, 1};
   Rotation rotation;
+
+  void describe(HashInput& input) const {
+    input.point(origin);
+    input.point(cell_size);
+    input.rotation(rotation);
+  }
 
   struct Located {
     CellIndex cell;

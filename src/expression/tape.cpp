@@ -48,4 +48,59 @@ Tape TapeBuilder::finish(uint32_t root) const {
   return tape;
 }
 
+namespace {
+
+/// Names that outlive a new order of the operations.
+const char* name_of(Op op) {
+  switch (op) {
+    case Op::constant:
+      return "constant";
+    case Op::x:
+      return "x";
+    case Op::y:
+      return "y";
+    case Op::z:
+      return "z";
+    case Op::add:
+      return "+";
+    case Op::subtract:
+      return "-";
+    case Op::multiply:
+      return "*";
+    case Op::divide:
+      return "/";
+    case Op::minimum:
+      return "min";
+    case Op::maximum:
+      return "max";
+    case Op::negate:
+      return "negate";
+    case Op::absolute:
+      return "abs";
+    case Op::square_root:
+      return "sqrt";
+    case Op::sine:
+      return "sin";
+    case Op::cosine:
+      return "cos";
+    case Op::exponential:
+      return "exp";
+    case Op::logarithm:
+      return "log";
+  }
+  return "";
+}
+
+}  // namespace
+
+void Tape::describe(HashInput& input) const {
+  input.integer(nodes.size());
+  for (const Node& node : nodes) {
+    input.text(name_of(node.op));
+    if (node.op == Op::constant) input.exact_number(node.value);
+    if (node.op >= Op::add) input.integer(node.a);
+    if (has_two_operands(node.op)) input.integer(node.b);
+  }
+}
+
 }  // namespace msq

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/hash_input.h"
 #include "base/pi.h"
 #include "base/vec.h"
 
@@ -54,6 +55,9 @@ struct Node {
 /// The last node is the value. Equal operations on equal operands are one node.
 struct Tape {
   std::vector<Node> nodes;
+
+  /// The operations by name. Constants have their sign: 1 / -0 is not 1 / 0.
+  void describe(HashInput& input) const;
 };
 
 constexpr uint32_t max_tape_nodes = 1024;

@@ -50,4 +50,9 @@ Interval Curve::range(Interval over) const {
   return range;
 }
 
+void Curve::describe(HashInput& input) const {
+  static_assert(sizeof(Knot) == 2 * sizeof(double));
+  input.list(&knots_[0].at, 2 * knots_.size());
+}
+
 }  // namespace msq

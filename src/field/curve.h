@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/hash_input.h"
 #include "base/interval.h"
 
 namespace msq {
@@ -26,6 +27,7 @@ class Curve {
   double lipschitz() const { return lipschitz_; }
   /// The same for arguments in an interval.
   double lipschitz(Interval over) const;
+  void describe(HashInput& input) const;
 
  private:
   /// The slope of the piece that ends at knot i.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/borrowed.h"
+#include "base/hash_input.h"
 #include "expression/enclosure.h"
 #include "expression/slope.h"
 
@@ -35,6 +36,13 @@ double ExpressionField::lipschitz(const Box3& box) const {
                     {1, 1, 1}, 0);
   const double size = std::max(std::abs(range_.low), std::abs(range_.high));
   return slope.error <= max_error * size ? slope.most : std::numeric_limits<double>::infinity();
+}
+
+void ExpressionField::describe(HashInput& input) const {
+  input.kind("field: expression");
+  tape_.describe(input);
+  input.number(range_.low);
+  input.number(range_.high);
 }
 
 }  // namespace msq

@@ -23,6 +23,7 @@ class ExpressionField final : public Field {
   using Field::lipschitz;
 
  private:
+  void describe(HashInput& input) const override;
   double cut(double v) const { return v > range_.low ? std::min(v, range_.high) : range_.low; }
 
   Tape tape_;

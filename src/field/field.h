@@ -6,13 +6,14 @@
 #include <cstddef>
 #include <limits>
 
+#include "base/hash_input.h"
 #include "base/interval.h"
 #include "base/ref.h"
 #include "base/vec.h"
 
 namespace msq {
 
-class Field : public RefCounted {
+class Field : public Described {
  public:
   virtual double at(Vec3 p) const = 0;
   /// Sets values[i] to at(points[i]), to the last bit.
@@ -54,6 +55,10 @@ class Parameter {
   explicit Parameter(Ref<const Field> field) : field_(std::move(field)) {}
 
   bool is_constant() const { return !field_; }
+  void describe(HashInput& input) const {
+    input.optional(field_.get());
+    if (!field_) input.number(value_);
+  }
   double at(Vec3 p) const { return field_ ? field_->at(p) : value_; }
   void values(const Vec3* points, size_t count, double* values) const {
     if (field_)

@@ -60,4 +60,12 @@ Interval GradientField::range(const Box3& box) const {
           std::min(all.high, std::max(a, b) + rounding)};
 }
 
+void GradientField::describe(HashInput& input) const {
+  input.kind("field: gradient");
+  input.point(from_);
+  input.point(axis_);
+  input.number(from_value_);
+  input.number(to_value_);
+}
+
 }  // namespace msq

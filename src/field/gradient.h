@@ -17,6 +17,7 @@ class GradientField final : public Field {
   double lipschitz() const override;
 
  private:
+  void describe(HashInput& input) const override;
   double parameter(Vec3 p) const { return dot(p - from_, axis_) / axis_squared_; }
   /// The ramp parameter over a box: its middle, and the half width of its interval.
   struct Parameters {

@@ -25,6 +25,11 @@ class GridField final : public Field {
   double lipschitz(const Box3& box) const override { return image_.lipschitz(box); }
 
  private:
+  void describe(HashInput& input) const override {
+    input.kind("field: grid");
+    image_.describe(input);
+  }
+
   Image image_;
 };
 

@@ -50,4 +50,12 @@ Interval HostField::range(const Box3& box) const {
   return range;
 }
 
+void HostField::describe(HashInput& input) const {
+  input.kind("field: host");
+  user_.describe(input, "field");
+  input.number(range_.low);
+  input.number(range_.high);
+  input.number(lipschitz_);
+}
+
 }  // namespace msq

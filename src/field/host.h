@@ -33,6 +33,7 @@ class HostField final : public Field {
   HostUser& user() { return user_; }
 
  private:
+  void describe(HashInput& input) const override;
   HostUser user_;
   HostFieldCalls calls_;
   Interval range_;

@@ -39,6 +39,11 @@ class MapField final : public Field {
   unsigned depth() const override { return depth_; }
 
  private:
+  void describe(HashInput& input) const override {
+    input.kind("field: map");
+    input.object(*argument_);
+    curve_.describe(input);
+  }
   static double product_of(double of_curve, double of_argument) {
     // If one of them is constant, so is the field, even if the other is steep.
     return of_curve > 0 && of_argument > 0 ? of_curve * of_argument * (1 + 0x1p-50) : 0;

@@ -72,4 +72,14 @@ double RadialField::lipschitz() const {
          (1 + 0x1p-48);
 }
 
+void RadialField::describe(HashInput& input) const {
+  input.kind("field: radial");
+  input.point(centre_);
+  input.point(axis_);
+  input.number(ramp_.from_radius);
+  input.number(ramp_.from_value);
+  input.number(ramp_.to_radius);
+  input.number(ramp_.to_value);
+}
+
 }  // namespace msq

@@ -22,6 +22,7 @@ class RadialField final : public Field {
   double lipschitz() const override;
 
  private:
+  void describe(HashInput& input) const override;
   double distance(Vec3 p) const;
   double value(double distance) const;
 

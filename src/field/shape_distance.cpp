@@ -65,4 +65,9 @@ Image sample_distance(const Shape& shape, double step, const Executor& executor,
   return Image(source, frame, budget, job);
 }
 
+void ShapeDistanceField::describe(HashInput& input) const {
+  input.kind("field: distance");
+  input.object(*shape_);
+}
+
 }  // namespace msq

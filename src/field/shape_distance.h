@@ -25,6 +25,7 @@ class ShapeDistanceField final : public Field {
   double lipschitz() const override;
 
  private:
+  void describe(HashInput& input) const override;
   Ref<const Shape> shape_;
 };
 

@@ -34,4 +34,24 @@ void MaterialBlend::values(size_t channel, const Vec3* points, size_t count, dou
     values[i] = (1 - fraction[i]) * values[i] + fraction[i] * of_b[i];
 }
 
+void Material::describe_channels(HashInput& input) const {
+  input.integer(id_);
+  input.integer(channels_.size());
+  for (const std::string& channel : channels_) input.text(channel);
+}
+
+void PlainMaterial::describe(HashInput& input) const {
+  input.kind("material");
+  describe_channels(input);
+  for (const Parameter& parameter : parameters_) parameter.describe(input);
+}
+
+void MaterialBlend::describe(HashInput& input) const {
+  input.kind("material: blend");
+  describe_channels(input);
+  input.object(*a_);
+  input.object(*b_);
+  fraction_.describe(input);
+}
+
 }  // namespace msq

@@ -9,9 +9,11 @@
 
 #include "field/field.h"
 
+#include "base/described.h"
+
 namespace msq {
 
-class Material : public RefCounted {
+class Material : public Described {
  public:
   uint32_t id() const { return id_; }
   /// The channel with the name, if there is one.
@@ -27,6 +29,8 @@ class Material : public RefCounted {
   virtual uint64_t terms() const { return 1; }
 
  protected:
+  void describe_channels(HashInput& input) const;
+
   Material(uint32_t id, std::vector<std::string> channels)
       : id_(id), channels_(std::move(channels)) {}
 
@@ -47,6 +51,7 @@ class PlainMaterial final : public Material {
   bool is_concurrent() const override;
 
  private:
+  void describe(HashInput& input) const override;
   std::vector<Parameter> parameters_;
 };
 
@@ -63,6 +68,7 @@ class MaterialBlend final : public Material {
   uint64_t terms() const override { return terms_; }
 
  private:
+  void describe(HashInput& input) const override;
   Ref<const Material> a_, b_;
   Parameter fraction_;
   bool is_concurrent_;

@@ -215,4 +215,23 @@ void Model::prepare_skins(const Scales& resolved, const Job* job) const {
     if (!scale->skin.is_none()) return shape_->prepare_distance(job);
 }
 
+void Model::describe(HashInput& input) const {
+  if (!regions_.empty()) {
+    input.kind("model of regions");
+    input.integer(regions_.size());
+    for (const Ref<const Model>& region : regions_) input.object(*region);
+    return;
+  }
+  input.kind("model");
+  input.object(*shape_);
+  input.optional(material_.get());
+  input.integer(scales_.size());
+  for (const Scale& scale : scales_) {
+    input.object(*scale.structure);
+    scale.skin.thickness().describe(input);
+    input.optional(scale.material.get());
+    input.optional(scale.skin_material.get());
+  }
+}
+
 }  // namespace msq

@@ -13,9 +13,11 @@
 #include "model/scale.h"
 #include "shape/shape.h"
 
+#include "base/described.h"
+
 namespace msq {
 
-class Model final : public RefCounted {
+class Model final : public Described {
  public:
   /// What a scale but the coarsest is made of.
   struct ScaleParts {
@@ -89,6 +91,7 @@ class Model final : public RefCounted {
   void prepare_skins(const Scales& resolved, const Job* job) const;
 
  private:
+  void describe(HashInput& input) const override;
   /// Membership of a point of the shape.
   bool scales_hold(Vec3 p, const Scales& resolved) const;
   double distance_of_regions(Vec3 p, const Scales& resolved) const;

@@ -2,6 +2,7 @@
 // The shape of models that are structures alone: every point is inside, and there is no boundary.
 #pragma once
 
+#include "base/hash_input.h"
 #include "shape/shape.h"
 
 namespace msq {
@@ -31,6 +32,7 @@ class AllSpace final : public Shape {
  protected:
   /// Distances are finite.
   double distance_bound(Vec3) const override { return std::numeric_limits<double>::max(); }
+  void describe(HashInput& input) const override { input.kind("shape: all space"); }
 };
 
 }  // namespace msq

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "base/hash_input.h"
 #include "base/ray_normal.h"
 #include "base/status.h"
 
@@ -242,6 +243,13 @@ void BooleanShape::fill_rows(const RowBlock& block) const {
         }
       }
     }
+}
+
+void BooleanShape::describe(HashInput& input) const {
+  input.kind("shape: boolean");
+  input.integer(static_cast<uint64_t>(operation_));
+  input.integer(members_.size());
+  for (const Ref<const Shape>& member : members_) input.object(*member);
 }
 
 }  // namespace msq

@@ -42,6 +42,7 @@ class BooleanShape final : public Shape {
   double distance_bound(Vec3 p) const override;
 
  private:
+  void describe(HashInput& input) const override;
   /// Whether a point that a member holds can be inside.
   bool is_wanted(size_t member) const { return member == 0 || operation_ != Operation::subtracted; }
   /// Of a member, as the composition has it: that of a subtracted one is its complement's.

@@ -143,4 +143,12 @@ void HostShape::find_normals(RaySearch* searches, size_t count) const {
       searches, count, normal_distance(), [](const RaySearch&) { return true; });
 }
 
+void HostShape::describe(HashInput& input) const {
+  input.kind("shape: host");
+  user_.describe(input, "shape");
+  input.point(bounds().min);
+  input.point(bounds().max);
+  input.integer(calls_.distance ? 1 : 0);
+}
+
 }  // namespace msq

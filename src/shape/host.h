@@ -39,6 +39,7 @@ class HostShape final : public Shape {
   double distance_bound(Vec3 p) const override;
 
  private:
+  void describe(HashInput& input) const override;
   /// Sets bounds[i] to distance_bound(points[i]).
   void find_distance_bounds(const Vec3* points, size_t count, double* bounds) const;
   /// As RayMarch::find() for each search.

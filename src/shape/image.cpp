@@ -239,4 +239,13 @@ Image::Spread Image::spread_of(const T* values, const VoxelRange& cells) const {
       {static_cast<double>(x_slope), static_cast<double>(y_slope), static_cast<double>(z_slope)}};
 }
 
+void Image::describe(HashInput& input) const {
+  input.integer(static_cast<uint64_t>(type_));
+  for (uint64_t size : size_) input.integer(size);
+  input.point(frame_.origin);
+  input.point(frame_.spacing);
+  input.rotation(frame_.rotation);
+  visit([&](const auto* values) { input.list(values, size_[0] * size_[1] * size_[2]); });
+}
+
 }  // namespace msq

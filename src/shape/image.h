@@ -11,6 +11,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/hash_input.h"
 #include "base/job.h"
 #include "base/memory.h"
 #include "base/vec.h"
@@ -50,6 +51,7 @@ class Image {
   const ImageBounds& bounds() const { return bounds_; }
   /// Minimum and maximum sample.
   Interval range() const { return range_; }
+  void describe(HashInput& input) const;
   /// Bound of the rounding error of value(), at the same coordinates.
   double value_slack() const { return value_slack_; }
   /// Lipschitz constant in model units, of the function without rounding.

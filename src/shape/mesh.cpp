@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "base/borrowed.h"
+#include "base/hash_input.h"
 #include "base/status.h"
 #include "shape/mesh_diagnosis.h"
 #include "shape/self_intersections.h"
@@ -120,6 +121,16 @@ void Mesh::fill_layer(const RowBlock& block, uint64_t k) const {
     fill_between(row_begin, row_end, grid, first, end, block.row(block.y0 + r, k),
                  [this](int64_t winding) { return solid(winding); });
   }
+}
+
+void Mesh::describe(HashInput& input) const {
+  input.kind("shape: mesh");
+  // Of closed meshes `automatic` is `nonzero`.
+  const bool is_nonzero = rule_ == WindingRule::automatic && facts_.closed;
+  input.integer(static_cast<uint64_t>(is_nonzero ? WindingRule::nonzero : rule_));
+  input.points(soup_.vertices);
+  static_assert(sizeof(Triangle) == 3 * sizeof(uint32_t));
+  input.list(soup_.triangles[0].data(), 3 * soup_.triangles.size());
 }
 
 }  // namespace msq

@@ -62,6 +62,7 @@ class Mesh final : public Shape {
   }
 
  private:
+  void describe(HashInput& input) const override;
   const MeshBoundary& boundary(const Job* job = nullptr) const;
   bool solid(int64_t winding) const {
     return rule_ == WindingRule::even_odd   ? (winding & 1) != 0

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "base/hash_input.h"
 #include "base/status.h"
 #include "shape/row_boxes.h"
 
@@ -56,6 +57,12 @@ void OffsetShape::fill_rows(const RowBlock& block) const {
       [this](const Vec3* points, size_t count, uint8_t* inside) {
         find_inside(points, count, inside);
       });
+}
+
+void OffsetShape::describe(HashInput& input) const {
+  input.kind("shape: offset");
+  input.object(*original_);
+  input.number(offset_);
 }
 
 }  // namespace msq

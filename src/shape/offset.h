@@ -34,6 +34,7 @@ class OffsetShape final : public Shape {
   double distance_bound(Vec3 p) const override;
 
  private:
+  void describe(HashInput& input) const override;
   Ref<const Shape> original_;
   double offset_;
   double error_;  // of the original's distances, in bounds()

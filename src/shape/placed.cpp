@@ -6,6 +6,8 @@
 
 #include "shape/row_boxes.h"
 
+#include "base/hash_input.h"
+
 namespace msq {
 
 PlacedShape::PlacedShape(Ref<const Shape> original, const Placement& placement)
@@ -143,6 +145,12 @@ void PlacedShape::fill_rows(const RowBlock& block) const {
       [this](const Vec3* points, size_t count, uint8_t* inside) {
         find_inside(points, count, inside);
       });
+}
+
+void PlacedShape::describe(HashInput& input) const {
+  input.kind("shape: placed");
+  input.object(*original_);
+  placement_.describe(input);
 }
 
 }  // namespace msq

@@ -51,6 +51,7 @@ class PlacedShape final : public Shape, private BoundarySearch {
   double distance_bound(Vec3 p) const override;
 
  private:
+  void describe(HashInput& input) const override;
   Foot nearest(Vec3 p, uint32_t start) const override;
   Range compare(Vec3 p, double low, double high, uint32_t& part) const override;
   bool follow(const Ray& ray, double from, double to, double first, double& t,

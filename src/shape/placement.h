@@ -12,6 +12,7 @@
 
 #include <array>
 
+#include "base/hash_input.h"
 #include "base/ray.h"
 #include "base/vec.h"
 
@@ -43,6 +44,10 @@ class Placement {
   double scale() const { return scale_; }
   double deviation() const { return deviation_; }
   double determinant() const { return determinant_; }
+  void describe(HashInput& input) const {
+    input.list(linear_.data(), linear_.size());
+    input.point(offset_);
+  }
   /// How far a point may be from where its original is placed, both exactly.
   double rounding(Vec3 p) const { return rounding_ * max_magnitude(p - offset_); }
   /// The same of any two points, of which one is p and the other no farther from it than that,

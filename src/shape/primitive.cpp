@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/hash_input.h"
 #include "base/pi.h"
 
 namespace msq {
@@ -253,6 +254,25 @@ double CylinderShape::distance_bound(Vec3 p) const {
   const double slack =
       0x1p-47 * (length(w) + height_ + radius_ + max_magnitude(from_) + max_magnitude(p));
   return std::max(0.0, distance - slack);
+}
+
+void BoxShape::describe(HashInput& input) const {
+  input.kind("shape: box");
+  input.point(bounds().min);
+  input.point(bounds().max);
+}
+
+void SphereShape::describe(HashInput& input) const {
+  input.kind("shape: sphere");
+  input.point(centre_);
+  input.number(radius_);
+}
+
+void CylinderShape::describe(HashInput& input) const {
+  input.kind("shape: cylinder");
+  input.point(from_);
+  input.point(axis_);
+  input.number(radius_);
 }
 
 }  // namespace msq

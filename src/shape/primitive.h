@@ -41,6 +41,7 @@ class BoxShape final : public Primitive {
     return clip_to_box(ray, bounds().grown(grow), from, to);
   }
   double distance_bound(Vec3 p) const override;
+  void describe(HashInput& input) const override;
 };
 
 class SphereShape final : public Primitive {
@@ -52,6 +53,7 @@ class SphereShape final : public Primitive {
  protected:
   bool section(const Ray& ray, double grow, double& from, double& to) const override;
   double distance_bound(Vec3 p) const override;
+  void describe(HashInput& input) const override;
 
  private:
   Vec3 centre_;
@@ -68,6 +70,7 @@ class CylinderShape final : public Primitive {
  protected:
   bool section(const Ray& ray, double grow, double& from, double& to) const override;
   double distance_bound(Vec3 p) const override;
+  void describe(HashInput& input) const override;
 
  private:
   Vec3 from_, axis_;  // axis_ leads from one end to the other

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/described.h"
 #include "base/job.h"
 #include "base/ray.h"
 #include "base/ref.h"
@@ -30,7 +31,7 @@ struct ShapeFacts {
 
 class BoundarySearch;
 
-class Shape : public RefCounted {
+class Shape : public Described {
  public:
   /// No point outside this box is inside the shape.
   const Box3& bounds() const { return facts_.bounds; }

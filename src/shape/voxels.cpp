@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "base/hash_input.h"
 #include "base/status.h"
 #include "shape/nearest_cell.h"
 
@@ -227,6 +228,13 @@ void Voxels::fill_part(const RowBlock& block, const Part& part) const {
   lower.high[longest] = upper.low[longest] = part.low[longest] + part.count(longest) / 2;
   fill_part(block, lower);
   fill_part(block, upper);
+}
+
+void Voxels::describe(HashInput& input) const {
+  input.kind("shape: voxels");
+  image_.describe(input);
+  input.number(threshold_);
+  input.integer(static_cast<uint64_t>(solid_));
 }
 
 }  // namespace msq

@@ -32,6 +32,7 @@ class Voxels final : public Shape {
   double distance_bound(Vec3 p) const override;
 
  private:
+  void describe(HashInput& input) const override;
   /// Points this far beyond the outermost samples, in voxels, still belong to the image: rounding
   /// does not open its border.
   static constexpr double border = 1e-9;

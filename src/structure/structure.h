@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 
+#include "base/described.h"
 #include "base/job.h"
 #include "base/ray.h"
 #include "base/ref.h"
@@ -27,7 +28,7 @@ enum class BoxClass { mixed, outside, inside };
 class StrutParts;
 struct StrutSelection;
 
-class Structure : public RefCounted {
+class Structure : public Described {
  public:
   explicit Structure(const Neighbourhood& neighbourhood)
       : neighbourhood_(neighbourhood), characteristic_length_(cell_length()) {}

@@ -9,10 +9,10 @@
   DO(context_def, offsetof(msq_context_def, cache_policy))           \
   DO(file_def, sizeof(msq_file_def))                                 \
   DO(mesh_def, sizeof(msq_mesh_def))                                 \
-  DO(host_shape_def, sizeof(msq_host_shape_def))                     \
+  DO(host_shape_def, offsetof(msq_host_shape_def, hash_key))         \
   DO(voxels_def, sizeof(msq_voxels_def))                             \
   DO(radial_field_def, sizeof(msq_radial_field_def))                 \
-  DO(host_field_def, sizeof(msq_host_field_def))                     \
+  DO(host_field_def, offsetof(msq_host_field_def, hash_key))         \
   DO(grid_field_def, sizeof(msq_grid_field_def))                     \
   DO(expression_field_def, sizeof(msq_expression_field_def))         \
   DO(shape_distance_field_def, sizeof(msq_shape_distance_field_def)) \
@@ -23,8 +23,8 @@
   DO(period_def, sizeof(msq_period_def))                             \
   DO(beams_def, sizeof(msq_beams_def))                               \
   DO(struts_def, sizeof(msq_struts_def))                             \
-  DO(host_structure_def, sizeof(msq_host_structure_def))             \
-  DO(host_function_def, sizeof(msq_host_function_def))               \
+  DO(host_structure_def, offsetof(msq_host_structure_def, hash_key)) \
+  DO(host_function_def, offsetof(msq_host_function_def, hash_key))   \
   DO(material_def, sizeof(msq_material_def))                         \
   DO(model_def, sizeof(msq_model_def))                               \
   DO(query_def, offsetof(msq_query_def, critical_count))             \
@@ -164,7 +164,7 @@ static void reports_are_filled(void** state) {
     use_fn read;
     size_t first, known;
   } reports[] = {
-      REPORT(build_report, sizeof(msq_build_report)),
+      REPORT(build_report, offsetof(msq_build_report, with_xxhash)),
       REPORT(memory_report, sizeof(msq_memory_report)),
       REPORT(cache_report, offsetof(msq_cache_report, building_bytes)),
       REPORT(job_report, sizeof(msq_job_report)),

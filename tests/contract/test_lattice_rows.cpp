@@ -33,6 +33,7 @@ class Bumps final : public Field {
     const double reach = length(box.extent()) / length_ * (high_ - low_), middle = at(box.min);
     return {std::max(low_, middle - reach - 1e-9), std::min(high_, middle + reach + 1e-9)};
   }
+  void describe(HashInput&) const override {}
 
  private:
   double low_, high_, length_;
@@ -171,6 +172,7 @@ class RadiusOfPoint final : public Field {
   double at(Vec3 p) const override { return radii_.at({p.x, p.y, p.z}); }
   Interval range() const override { return {0, most_}; }
   Interval range(const Box3&) const override { return range(); }
+  void describe(HashInput&) const override {}
 
  private:
   double most_;

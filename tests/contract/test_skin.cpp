@@ -31,6 +31,7 @@ class StepField final : public Field {
     const Vec3 p = box.min;
     return box.min == box.max ? Interval{at(p), at(p)} : range();
   }
+  void describe(HashInput&) const override {}
 
  private:
   double low_, high_;

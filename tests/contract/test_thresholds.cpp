@@ -22,6 +22,7 @@ class RadiusOfPoint final : public Field {
   double at(Vec3 p) const override { return radii_.at({p.x, p.y, p.z}); }
   Interval range() const override { return {0, most_}; }
   Interval range(const Box3&) const override { return range(); }
+  void describe(HashInput&) const override {}
 
  private:
   double most_;

@@ -186,6 +186,66 @@ std::vector<Scenario> small_scenarios() {
                            return msq_shape_info(shape, &report);
                          });
                        }});
+#if MSQ_WITH_XXHASH
+  scenarios.push_back(
+      {"msq_shape_hash, msq_field_hash, msq_structure_hash, msq_material_hash, "
+       "msq_model_hash",
+       [](Stage& stage) {
+         World world(stage);
+         msq_shape* shape = world.mesh();
+         const msq_field* field = world.gradient();
+         const msq_material* material = world.material(3);
+         const auto& all = kinds();
+         const auto beams =
+             std::find_if(all.begin(), all.end(), [](const Kind& k) { return k.name == "beams"; });
+         msq_structure* structure = beams->make(world);
+         const msq_model* model = world.model(shape, structure);
+         std::vector<uint8_t> hashes(5 * 16);
+         stage.watch_part(hashes);
+         stage.call([&] {
+           uint8_t* hash = hashes.data();
+           msq_status status = msq_shape_hash(shape, hash);
+           if (status == MSQ_OK) status = msq_field_hash(field, hash + 16);
+           if (status == MSQ_OK) status = msq_structure_hash(structure, hash + 32);
+           if (status == MSQ_OK) status = msq_material_hash(material, hash + 48);
+           if (status == MSQ_OK) status = msq_model_hash(model, hash + 64);
+           return status;
+         });
+       }});
+  // The depth that constructors allow: 64 blends of a field that is 64 maps over 64 placed shapes.
+  scenarios.push_back(
+      {"msq_material_hash of objects within each other", [](Stage& stage) {
+         World world(stage);
+         const double matrix[12] = {1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0};
+         msq_shape* shape = world.box();
+         for (int depth = 0; depth < 64; ++depth) {
+           require_ok(msq_shape_placed(shape, matrix, &shape));
+           world.keep(shape);
+         }
+         const double curve[4] = {-1, 0, 1, 1};
+         msq_shape_distance_field_def def = make_def(msq_shape_distance_field_def_init);
+         def.shape = shape;
+         def.curve = curve;
+         def.curve_count = 2;
+         msq_field* field;
+         require_ok(msq_field_shape_distance(world.context, &def, &field, nullptr));
+         world.keep(field);
+         for (int depth = 1; depth < 64; ++depth) {
+           require_ok(msq_field_map(world.context, field, curve, 2, &field));
+           world.keep(field);
+         }
+         msq_material* material = world.material(3);
+         const msq_material* plain = material;
+         const msq_param fraction = {0, field};
+         for (uint32_t depth = 0; depth < 64; ++depth) {
+           require_ok(msq_material_blend(world.context, 4, plain, material, &fraction, &material));
+           world.keep(material);
+         }
+         std::vector<uint8_t> hash(16);
+         stage.watch(hash);
+         stage.call([&] { return msq_material_hash(material, hash.data()); });
+       }});
+#endif
 #if MSQ_WITH_CGAL
   scenarios.push_back({"msq_shape_self_intersections", [](Stage& stage) {
                          stage.needs_stack = true;

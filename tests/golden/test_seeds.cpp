@@ -83,6 +83,7 @@ class TestField final : public Field {
   double at(Vec3 p) const override { return at_(constants_.data(), p); }
   Interval range() const override { return range_; }
   Interval range(const Box3&) const override { return range_; }
+  void describe(HashInput&) const override {}
 
  private:
   double (*at_)(const double* constants, Vec3 p);

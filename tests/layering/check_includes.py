@@ -37,6 +37,7 @@ OUTSIDE = [
                                 "slice/*.cpp", "expression/*.cpp"]),
     (r"hwy/.*", ["base/simd.h", "base/simd.cpp"]),
     (r"(oneapi/)?tbb/.*", ["base/parallel.cpp"]),
+    (r"xxh.*\.h", ["base/digest_xxhash.cpp"]),
     (r"pthread\.h|windows\.h", ["api/last_error.cpp"]),  # a key whose values are freed with their threads
     (r"__msvc_int128\.hpp", ["base/int128.h"]),
     (r"execution", ["base/parallel.cpp"]),  # libstdc++ builds it upon TBB

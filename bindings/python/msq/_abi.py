@@ -158,7 +158,8 @@ class msq_fill(Structure):
 
 class msq_build_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("version", c_uint32), ("with_assimp", c_int32),
-                ("with_cgal", c_int32), ("licence", c_char_p), ("simd", c_char_p)]
+                ("with_cgal", c_int32), ("licence", c_char_p), ("simd", c_char_p),
+                ("with_xxhash", c_int32), ("reserved", c_uint32)]
 
 
 msq_warning_fn = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
@@ -236,7 +237,7 @@ msq_inside_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(c_double), c_uint64, POINTE
 class msq_host_shape_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("concurrent", c_int32), ("inside", msq_inside_fn),
                 ("distance", msq_values_fn), ("user", c_void_p), ("release", msq_release_fn),
-                ("min", c_double * 3), ("max", c_double * 3)]
+                ("min", c_double * 3), ("max", c_double * 3), ("hash_key", c_uint64 * 2)]
 
 
 class msq_voxels_def(Structure):
@@ -262,7 +263,8 @@ class msq_radial_field_def(Structure):
 class msq_host_field_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("concurrent", c_int32), ("evaluate", msq_values_fn),
                 ("range", msq_range_fn), ("user", c_void_p), ("release", msq_release_fn),
-                ("low", c_double), ("high", c_double), ("lipschitz", c_double)]
+                ("low", c_double), ("high", c_double), ("lipschitz", c_double),
+                ("hash_key", c_uint64 * 2)]
 
 
 class msq_grid_field_def(Structure):
@@ -372,14 +374,14 @@ class msq_host_structure_def(Structure):
                 ("inside", msq_points_inside_fn), ("build_cell", msq_build_cell_fn),
                 ("evaluate_cell", msq_evaluate_cell_fn), ("free_cell", msq_free_cell_fn),
                 ("box", msq_box_fn), ("distance", msq_points_distance_fn), ("user", c_void_p),
-                ("release", msq_release_fn)]
+                ("release", msq_release_fn), ("hash_key", c_uint64 * 2)]
 
 
 class msq_host_function_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("concurrent", c_int32), ("kind", c_int32),
                 ("clusters", c_uint32), ("grid", msq_neighbourhood), ("level", msq_param),
                 ("evaluate", msq_values_fn), ("range", msq_range_fn), ("user", c_void_p),
-                ("release", msq_release_fn), ("lipschitz", c_double)]
+                ("release", msq_release_fn), ("lipschitz", c_double), ("hash_key", c_uint64 * 2)]
 
 
 class msq_strut(Structure):
@@ -651,6 +653,7 @@ FUNCTIONS = {
     "msq_shape_retain": [None, POINTER(msq_shape)],
     "msq_shape_release": [None, POINTER(msq_shape)],
     "msq_shape_info": [c_int32, POINTER(msq_shape), POINTER(msq_shape_report)],
+    "msq_shape_hash": [c_int32, POINTER(msq_shape), POINTER(c_uint8)],
     "msq_shape_self_intersections": [c_int32, POINTER(msq_shape), POINTER(c_uint64),
                                      POINTER(msq_job)],
     "msq_field_gradient": [c_int32, POINTER(msq_context), POINTER(c_double), c_double,
@@ -673,6 +676,7 @@ FUNCTIONS = {
     "msq_field_shape_distance": [c_int32, POINTER(msq_context),
                                  POINTER(msq_shape_distance_field_def), POINTER(POINTER(msq_field)),
                                  POINTER(msq_job)],
+    "msq_field_hash": [c_int32, POINTER(msq_field), POINTER(c_uint8)],
     "msq_field_retain": [None, POINTER(msq_field)],
     "msq_field_release": [None, POINTER(msq_field)],
     "msq_unit_cell_def_init": [c_int32, POINTER(msq_unit_cell_def), c_size_t],
@@ -700,6 +704,7 @@ FUNCTIONS = {
     "msq_host_function_def_init": [c_int32, POINTER(msq_host_function_def), c_size_t],
     "msq_structure_host_function": [c_int32, POINTER(msq_context), POINTER(msq_host_function_def),
                                     POINTER(POINTER(msq_structure))],
+    "msq_structure_hash": [c_int32, POINTER(msq_structure), POINTER(c_uint8)],
     "msq_structure_retain": [None, POINTER(msq_structure)],
     "msq_structure_release": [None, POINTER(msq_structure)],
     "msq_struts_def_init": [c_int32, POINTER(msq_struts_def), c_size_t],
@@ -717,6 +722,7 @@ FUNCTIONS = {
     "msq_material_blend": [c_int32, POINTER(msq_context), c_uint32, POINTER(msq_material),
                            POINTER(msq_material), POINTER(msq_param),
                            POINTER(POINTER(msq_material))],
+    "msq_material_hash": [c_int32, POINTER(msq_material), POINTER(c_uint8)],
     "msq_material_retain": [None, POINTER(msq_material)],
     "msq_material_release": [None, POINTER(msq_material)],
     "msq_model_def_init": [c_int32, POINTER(msq_model_def), c_size_t],
@@ -724,6 +730,7 @@ FUNCTIONS = {
                          POINTER(POINTER(msq_model))],
     "msq_model_regions": [c_int32, POINTER(msq_context), POINTER(POINTER(msq_model)), c_uint64,
                           POINTER(POINTER(msq_model))],
+    "msq_model_hash": [c_int32, POINTER(msq_model), POINTER(c_uint8)],
     "msq_model_retain": [None, POINTER(msq_model)],
     "msq_model_release": [None, POINTER(msq_model)],
     "msq_model_bounds": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(c_double)],

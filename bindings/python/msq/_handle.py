@@ -100,3 +100,10 @@ class Handle:
 
     def __exit__(self, *_exception: Any) -> None:
         self.close()
+
+
+def hash_of(call: Any, handle: Handle) -> str:
+    """What a function such as msq_shape_hash writes, as hexadecimal digits."""
+    digest = (ctypes.c_uint8 * 16)()
+    call(handle._ref, digest)
+    return bytes(digest).hex()

@@ -8,10 +8,12 @@ releases it.
 from __future__ import annotations
 
 import ctypes
+import hashlib
 import itertools
+import operator
 import sys
 import weakref
-from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -166,9 +168,26 @@ def _trampoline(definition: Any, name: str) -> Any:
     return _TRAMPOLINES[dict(definition._fields_)[name], name]
 
 
-def create(make: Callable[[], Any], definition: Any, concurrent: bool,
+HashKey = Union[int, str, bytes, None]
+
+
+def _set_key(definition: Any, key: HashKey) -> None:
+    """Writes what stands for the functions in hashes: 128 bits, or the BLAKE2b hash of a text."""
+    if key is None:
+        return
+    if isinstance(key, (str, bytes)):
+        text = key.encode() if isinstance(key, str) else key
+        key = int.from_bytes(hashlib.blake2b(text, digest_size=16).digest(), "little")
+    number = operator.index(key)
+    if not 0 < number < 1 << 128:
+        raise ValueError(f"hash_key is {number}; it must be from 1 to 2**128 - 1")
+    definition.hash_key[:] = number & (1 << 64) - 1, number >> 64
+
+
+def create(make: Callable[[], Any], definition: Any, concurrent: bool, hash_key: HashKey = None,
            **functions: Optional[Callable[..., Any]]) -> Any:
     """Sets the callbacks of a definition and calls make(), which passes it to msq."""
+    _set_key(definition, hash_key)
     given = {name: function for name, function in functions.items() if function is not None}
     for name, function in given.items():
         if not callable(function):

@@ -42,6 +42,7 @@ class BuildInfo:
     with_cgal: bool  #: foam method 2 and Shape.self_intersections are there
     licence: str  #: effective SPDX licence of the binary
     simd: str  #: instruction set that the kernels use on this machine
+    with_xxhash: bool  #: shapes, fields, structures, materials and models have a hash
 
 
 @dataclasses.dataclass(frozen=True)

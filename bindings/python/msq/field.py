@@ -11,8 +11,8 @@ import numpy as np
 from . import _abi
 from ._arrays import output, pointer, vector
 from ._grid import Cell, set_image
-from ._handle import Handle
-from ._host import create
+from ._handle import Handle, hash_of
+from ._host import HashKey, create
 from ._interrupt import build, interruptible
 from ._library import defaults, lib
 from .context import Context, Job, context_of, doubles, triple
@@ -69,7 +69,8 @@ class Field(Handle):
     @classmethod
     def host(cls, evaluate: Callable[[np.ndarray], Any], low: float, high: float, *,
              lipschitz: float = math.inf, range: Optional[Callable[[Any, Any], Any]] = None,
-             concurrent: bool = False, context: Optional[Context] = None) -> Field:
+             concurrent: bool = False, hash_key: HashKey = None,
+             context: Optional[Context] = None) -> Field:
         """A function of Python: evaluate(points) answers points (n, 3) by n values, low to high.
 
         The same point must always have the same value. The array of points is valid until evaluate
@@ -77,12 +78,15 @@ class Field(Handle):
         points; or range(min, max) gives bounds of the values in a box: without either, slices are
         slow. Long calls from the main thread call it on another thread, one at a time, and on
         several with concurrent=True.
+
+        hash_key: stands for the function in hashes, a number or a text; to be changed whenever the
+        values change. None: what has the field in it has no hash.
         """
         definition = defaults(_abi.msq_host_field_def)
         definition.low, definition.high, definition.lipschitz = low, high, lipschitz
         context = context_of(context)
         return create(lambda: cls._make(context, lib.msq_field_host, ctypes.byref(definition)),
-                      definition, concurrent, evaluate=evaluate, range=range)
+                      definition, concurrent, hash_key, evaluate=evaluate, range=range)
 
     @classmethod
     def expression(cls, expression: str, low: float, high: float, *,
@@ -119,6 +123,11 @@ class Field(Handle):
         return self._make(context_of(context, self), lib.msq_field_map, self._ref,
                           pointer(pairs, ctypes.c_double), len(pairs))
 
+    @property
+    def hash(self) -> str:
+        """32 hexadecimal digits: equal for equal definitions with equal inputs, on every machine,
+        and different otherwise (docs/howto/caching.md)."""
+        return hash_of(lib.msq_field_hash, self)
 
     def evaluate(self, points: Any, *, out: Optional[np.ndarray] = None,
                  job: Optional[Job] = None) -> Any:

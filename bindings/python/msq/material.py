@@ -6,7 +6,7 @@ import ctypes
 from typing import Any, Optional, Sequence
 
 from . import _abi
-from ._handle import Handle
+from ._handle import Handle, hash_of
 from ._library import defaults, lib
 from .context import Context, context_of, unsigned
 from .field import Param, set_param
@@ -53,6 +53,12 @@ class Material(Handle):
                                      ctypes.byref(part)))
         made.id, made.context = number, context
         return made
+
+    @property
+    def hash(self) -> str:
+        """32 hexadecimal digits: equal for equal definitions with equal inputs, on every machine,
+        and different otherwise (docs/howto/caching.md)."""
+        return hash_of(lib.msq_material_hash, self)
 
 
 def pointer_of(material: Optional[Material], name: str) -> Any:

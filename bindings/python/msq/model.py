@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _abi, picture, statistics, surface
 from ._arrays import output, pointer, triples
-from ._handle import Handle
+from ._handle import Handle, hash_of
 from ._interrupt import interruptible
 from ._library import defaults, lib
 from ._signals import held
@@ -98,6 +98,12 @@ class Model(Handle):
         made = cls._wrap(cls._create(lib.msq_model_regions, context._ref, pointers, len(models)))
         made.context = context
         return made
+
+    @property
+    def hash(self) -> str:
+        """32 hexadecimal digits: equal for equal definitions with equal inputs, on every machine,
+        and different otherwise (docs/howto/caching.md)."""
+        return hash_of(lib.msq_model_hash, self)
 
     @property
     def bounds(self) -> Tuple[Tuple[float, ...], Tuple[float, ...]]:

@@ -12,8 +12,8 @@ import numpy as np
 from . import _abi
 from ._arrays import pointer, triples, vector
 from ._grid import Cell, affine, set_image
-from ._handle import Handle
-from ._host import create
+from ._handle import Handle, hash_of
+from ._host import HashKey, create
 from ._interrupt import build, interruptible
 from ._library import constant, defaults, lib, report
 from .context import Context, Job, context_of, doubles, record, triple, unsigned
@@ -163,7 +163,8 @@ class Shape(Handle):
     @classmethod
     def host(cls, inside: Callable[[np.ndarray], Any], min: Sequence[float],
              max: Sequence[float], *, distance: Optional[Callable[[np.ndarray], Any]] = None,
-             concurrent: bool = False, context: Optional[Context] = None) -> Shape:
+             concurrent: bool = False, hash_key: HashKey = None,
+             context: Optional[Context] = None) -> Shape:
         """A function of Python: inside(points) answers points (n, 3), all in the box from min to
         max, by n bools; nothing is inside beyond the box.
 
@@ -175,7 +176,7 @@ class Shape(Handle):
         definition.max[:] = triple(max, "max")
         context = context_of(context)
         return create(lambda: cls._make(context, lib.msq_shape_from_host, ctypes.byref(definition)),
-                      definition, concurrent, inside=inside, distance=distance)
+                      definition, concurrent, hash_key, inside=inside, distance=distance)
 
     def placed(self, matrix: Any) -> Shape:
         """An instance of the shape, turned, scaled, mirrored, sheared and moved: its point q is at
@@ -227,6 +228,12 @@ class Shape(Handle):
         made = self._wrap(self._create(create, *arguments))
         made.context = self.context
         return made
+
+    @property
+    def hash(self) -> str:
+        """32 hexadecimal digits: equal for equal definitions with equal inputs, on every machine,
+        and different otherwise (docs/howto/caching.md)."""
+        return hash_of(lib.msq_shape_hash, self)
 
     @property
     def info(self) -> ShapeInfo:

@@ -12,8 +12,8 @@ import numpy as np
 from . import _abi, statistics
 from ._arrays import Elements, elements, output, pointer, triples
 from ._grid import Cell, Period, set_grid, set_period
-from ._handle import Handle
-from ._host import HostPoints, create
+from ._handle import Handle, hash_of
+from ._host import HashKey, HostPoints, create
 from ._interrupt import build, interruptible
 from ._library import constant, defaults, lib
 from .context import Context, Job, context_of, doubles, record, unsigned
@@ -44,6 +44,12 @@ class Structure(Handle):
     def _make(self, context: Context, create: Any, definition: ctypes.Structure) -> None:
         self._reference = self._create(create, context._ref, ctypes.byref(definition))
         self.context = context
+
+    @property
+    def hash(self) -> str:
+        """32 hexadecimal digits: equal for equal definitions with equal inputs, on every machine,
+        and different otherwise (docs/howto/caching.md)."""
+        return hash_of(lib.msq_structure_hash, self)
 
     def calibrate(self, target: float, *, sample: Optional[Stratified] = None, curve: int = 0,
                   job: Optional[Job] = None) -> Calibration:
@@ -321,11 +327,12 @@ class HostStructure(Structure):
                  box: Optional[Callable[[Any, Any], Optional[bool]]] = None,
                  distance: Optional[Callable[[HostPoints], Any]] = None, cell_size: Cell = 1.0,
                  origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 concurrent: bool = False, context: Optional[Context] = None) -> None:
+                 concurrent: bool = False, hash_key: HashKey = None,
+                 context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_host_structure_def)
         set_grid(definition.grid, cell_size, origin, rotation)
         create(lambda: self._make(context_of(context), lib.msq_structure_host, definition),
-               definition, concurrent, inside=inside, build_cell=build_cell,
+               definition, concurrent, hash_key, inside=inside, build_cell=build_cell,
                evaluate_cell=evaluate_cell, box=box, distance=distance)
 
 
@@ -337,7 +344,8 @@ class HostFunctional(Structure):
                  range: Optional[Callable[[Any, Any], Any]] = None, kind: str = "network",
                  level: Param = 0.0, cell_size: Cell = 1.0, clusters: int = 0,
                  origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 concurrent: bool = False, context: Optional[Context] = None) -> None:
+                 concurrent: bool = False, hash_key: HashKey = None,
+                 context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_host_function_def)
         set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.level, level)
@@ -346,4 +354,4 @@ class HostFunctional(Structure):
         definition.lipschitz = lipschitz
         create(lambda: self._make(context_of(context, level), lib.msq_structure_host_function,
                                   definition),
-               definition, concurrent, evaluate=evaluate, range=range)
+               definition, concurrent, hash_key, evaluate=evaluate, range=range)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/beams/beams.h"
 
+#include "base/hash_input.h"
 #include "base/run_parts.h"
 #include "structure/beams/beam_distance.h"
 #include "structure/beams/beam_order.h"
@@ -33,6 +34,16 @@ bool share_caps(const BeamSource& source, const BeamOrder& order, const Executor
     }
   });
   return is_shared;
+}
+
+/// Adds numbers of 128 bits, little-endian.
+void add(Hash& sum, const Hash& hash) {
+  unsigned carry = 0;
+  for (size_t i = 0; i < sum.size(); ++i) {
+    carry += static_cast<unsigned>(sum[i]) + hash[i];
+    sum[i] = static_cast<uint8_t>(carry);
+    carry >>= 8;
+  }
 }
 
 }  // namespace
@@ -138,6 +149,29 @@ std::unique_ptr<StrutParts> Beams::struts(const StrutSelection& selection) const
 
 Vec3 Beams::normal(const Ray& ray, double t) const {
   return BeamRays(*this).normal(ray, t);
+}
+
+// Beams are kept in the order of the tree. Their hashes, which include their numbers in the source,
+// are added, so that this order does not count. Source: Bellare and Micciancio, "A new paradigm for
+// collision-free hashing: incrementality at reduced cost", 1997 (AdHash).
+void Beams::describe(HashInput& input) const {
+  input.kind("structure: beams");
+  input.number(characteristic_length());
+  input.integer(beams_.size());
+  Hash sum{};
+  for (size_t i = 0; i < beams_.size(); ++i) {
+    const Beam beam = beams_.at(i);
+    HashInput one;
+    one.integer(numbers_[i]);
+    one.point(beam.a);
+    one.point(beam.b);
+    one.number(beam.radius_a);
+    one.number(beam.radius_b);
+    one.integer(static_cast<uint64_t>(beam.cap_a));
+    one.integer(static_cast<uint64_t>(beam.cap_b));
+    add(sum, one.finish());
+  }
+  input.hash(sum);
 }
 
 }  // namespace msq

@@ -39,6 +39,7 @@ class Beams final : public Structure {
   const BeamTree& tree() const { return tree_; }
 
  private:
+  void describe(HashInput& input) const override;
   struct Parts;
   Beams(Parts&& parts, double length_scale);
 

@@ -157,4 +157,14 @@ LineGraph Foam::wall_lines(const WallSection& section) const {
   return foam_section({context(), neighbourhood(), seeds(), graded(), unit()}, section);
 }
 
+void Foam::describe(HashInput& input) const {
+  input.kind("structure: foam of struts");
+  neighbourhood().describe(input);
+  seeds().describe(input);
+  // A density that is 1 everywhere changes nothing.
+  input.integer(graded() ? 1 : 0);
+  if (graded()) graded()->density().describe(input);
+  radius().describe(input);
+}
+
 }  // namespace msq

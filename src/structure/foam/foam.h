@@ -61,6 +61,7 @@ class Foam final : public FoamData {
   LineGraph wall_lines(const WallSection& section) const override;
 
  private:
+  void describe(HashInput& input) const override;
   bool inside(const Neighbourhood::Located& located, Vec3 p) const;
   /// Whether the coordinates of a ray are so small that their rounding fits the lists of struts.
   bool fits_struts(const Ray& ray, double to) const;

@@ -79,4 +79,10 @@ Vec3 WalledFoam::normal(const Ray& ray, double t) const {
   return by_walls ? walls_->normal(ray, t) : struts_->normal(ray, t);
 }
 
+void WalledFoam::describe(HashInput& input) const {
+  input.kind("structure: foam of struts and walls");
+  input.object(*struts_);
+  input.object(*walls_);
+}
+
 }  // namespace msq

@@ -39,6 +39,7 @@ class WalledFoam final : public Structure {
   }
 
  private:
+  void describe(HashInput& input) const override;
   const Ref<const Foam> struts_;
   const Ref<const FoamWalls> walls_;
 };

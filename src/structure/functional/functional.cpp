@@ -216,4 +216,14 @@ LineGraph Functional::wall_lines(const WallSection& section) const {
   return LevelLines(*this, section).find();
 }
 
+void Functional::describe(HashInput& input) const {
+  input.kind("structure: functional");
+  neighbourhood().describe(input);
+  input.integer(static_cast<uint64_t>(kind_));
+  function_.describe(input);
+  level_.describe(input);
+  input.integer(angles_.period() ? 1 : 0);
+  if (angles_.period()) angles_.period()->describe(input);
+}
+
 }  // namespace msq

@@ -81,6 +81,7 @@ class Functional final : public Structure {
   const std::optional<TrigonometricForm>& form() const { return form_; }
 
  private:
+  void describe(HashInput& input) const override;
   /// In cells that have frequency(n), or less, along the period's axis.
   const Slope& slope(size_t n) const;
   const Slope& steepest() const { return slope(slopes_ - 1); }

@@ -305,4 +305,13 @@ Vec3 HostFunction::normal(const Ray& ray, double t) const {
   return search.normal;
 }
 
+void HostFunction::describe(HashInput& input) const {
+  input.kind("structure: host function");
+  user_.describe(input, "function");
+  neighbourhood().describe(input);
+  input.integer(is_sheet_ ? 1 : 0);
+  level_.describe(input);
+  input.number(lipschitz_);
+}
+
 }  // namespace msq

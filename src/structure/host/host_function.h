@@ -47,6 +47,7 @@ class HostFunction final : public Structure {
   HostUser& user() { return user_; }
 
  private:
+  void describe(HashInput& input) const override;
   /// The onsets at angles.
   void evaluate(const Vec3* angles, size_t count, double* onsets) const;
   void build_clusters(double lipschitz);

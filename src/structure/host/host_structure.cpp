@@ -213,4 +213,11 @@ void HostStructure::keep_points(const Vec3* points, uint8_t* alive, size_t count
   batch.keep(alive, calls_.inside);
 }
 
+void HostStructure::describe(HashInput& input) const {
+  input.kind("structure: host");
+  user_.describe(input, "structure");
+  neighbourhood().describe(input);
+  input.integer(calls_.distance ? 1 : 0);
+}
+
 }  // namespace msq

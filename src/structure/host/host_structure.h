@@ -59,6 +59,7 @@ class HostStructure final : public Structure {
   HostUser& user() { return user_; }
 
  private:
+  void describe(HashInput& input) const override;
   class Cell;
 
   std::shared_ptr<const CellData> cell(CellIndex index) const;

@@ -27,6 +27,7 @@ constexpr size_t batch = 256;
 Lattice::Lattice(const Neighbourhood& neighbourhood, const UnitCell& cell, Parameter radius,
                  int clusters)
     : Structure(neighbourhood),
+      cell_(cell),
       radius_(std::move(radius)),
       struts_(periodic_struts(cell)),
       graph_({cell}),
@@ -223,6 +224,13 @@ void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
     s = thinner;
   }
   rows.finish(job, [this](Vec3 p) { return inside(p); });
+}
+
+void Lattice::describe(HashInput& input) const {
+  input.kind("structure: lattice");
+  neighbourhood().describe(input);
+  cell_.describe(input);
+  radius_.describe(input);
 }
 
 }  // namespace msq

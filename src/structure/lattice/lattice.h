@@ -56,9 +56,11 @@ class Lattice final : public Structure {
   static constexpr double max_radius = 4;
 
  private:
+  void describe(HashInput& input) const override;
   const StrutClusters& clusters() const;
   const CellParts& parts() const;
 
+  UnitCell cell_;
   Parameter radius_;
   std::vector<PeriodicStrut> struts_;  // in cell units, the thickest first
   LatticeGraph graph_;

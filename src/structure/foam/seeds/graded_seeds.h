@@ -54,6 +54,7 @@ class GradedSeeds {
 
   const FoamSeeds& cells() const { return cells_; }
   Vec3 scale() const { return cells_.scale(); }
+  const Parameter& density() const { return density_; }
 
   bool splits(const Node& node) const;
   /// The seed of a leaf, in its cell, whose box has size 1.

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+#include "base/hash_input.h"
 #include "base/random.h"
 #include "base/vec.h"
 #include "cell/neighbourhood.h"
@@ -31,6 +32,11 @@ class FoamSeeds {
   }
 
   Vec3 scale() const { return scale_; }
+  /// The scale follows from the grid.
+  void describe(HashInput& input) const {
+    input.integer(key_);
+    input.integer(static_cast<uint64_t>(jitter_));
+  }
   /// In units of 2^-31: 0 to 2^31.
   int64_t jitter() const { return jitter_; }
 

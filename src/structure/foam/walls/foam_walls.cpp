@@ -225,4 +225,16 @@ LineGraph FoamWalls::wall_lines(const WallSection& section) const {
                       section);
 }
 
+void FoamWalls::describe(HashInput& input) const {
+  input.kind("structure: foam of walls");
+  neighbourhood().describe(input);
+  seeds_.seeds().describe(input);
+  // A density that is 1 everywhere changes nothing.
+  input.integer(seeds_.graded() ? 1 : 0);
+  if (seeds_.graded()) seeds_.graded()->density().describe(input);
+  thickness_.describe(input);
+  input.integer(vents_.exist() ? 1 : 0);
+  if (vents_.exist()) vents_.radius().describe(input);
+}
+
 }  // namespace msq

@@ -57,6 +57,7 @@ class FoamWalls final : public Structure {
   uint64_t id() const { return id_; }
 
  private:
+  void describe(HashInput& input) const override;
   bool inside(const Neighbourhood::Located& located, Vec3 p) const;
   NearFace face_near(Vec3 p) const;
   /// By how much distances may be off, in model units.

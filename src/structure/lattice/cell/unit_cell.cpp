@@ -43,4 +43,13 @@ std::vector<PeriodicStrut> periodic_struts(const UnitCell& cell) {
   return unique;
 }
 
+void UnitCell::describe(HashInput& input) const {
+  input.points(nodes);
+  input.integer(struts.size());
+  for (size_t strut = 0; strut < struts.size(); ++strut) {
+    for (uint32_t node : struts[strut]) input.integer(node);
+    input.number(factor(strut));
+  }
+}
+
 }  // namespace msq

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/hash_input.h"
 #include "base/vec.h"
 #include "strut/segment.h"
 
@@ -21,6 +22,7 @@ struct UnitCell {
   std::vector<double> factors;  ///< of the radius, one per strut; empty: all 1
 
   double factor(size_t strut) const { return factors.empty() ? 1 : factors[strut]; }
+  void describe(HashInput& input) const;
 };
 
 // Named cells; unit_cell_presets.cpp describes them and gives their sources.

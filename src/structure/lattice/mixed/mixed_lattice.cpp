@@ -272,4 +272,13 @@ void MixedLattice::keep_rows(const RowBlock& block, const Job* job) const {
   rows.finish(job, [this](Vec3 p) { return inside(p); });
 }
 
+void MixedLattice::describe(HashInput& input) const {
+  input.kind("structure: lattice of several cells");
+  neighbourhood().describe(input);
+  input.integer(library_.size());
+  for (const UnitCell& cell : library_) cell.describe(input);
+  choice_.describe(input);
+  radius_.describe(input);
+}
+
 }  // namespace msq

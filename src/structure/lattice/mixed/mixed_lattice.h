@@ -76,6 +76,7 @@ class MixedLattice final : public Structure {
   MixedFaces faces(const CellRange& range, Job* job) const;
 
  private:
+  void describe(HashInput& input) const override;
   struct Run {
     uint32_t begin = 0, end = 0;
   };

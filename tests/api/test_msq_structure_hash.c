@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "hashes.h"
+#include "wrong_values.h"
+
+static msq_context* context;
+static msq_field *ramp, *same_ramp, *steep_ramp, *dense_ramp, *thin_ramp;
+
+static void hash_and_release(msq_structure* structure, uint8_t hash[hash_bytes]) {
+  assert_ok(msq_structure_hash(structure, hash));
+  msq_structure_release(structure);
+}
+
+static void equal_fields_are_one(const void* one, const void* other, hash_fn hash) {
+  uint8_t of_one[hash_bytes], of_other[hash_bytes];
+  hash(context, one, of_one);
+  hash(context, other, of_other);
+  assert_memory_equal(of_one, of_other, hash_bytes);
+}
+
+/* ---- lattices -------------------------------------------------------------------------------- */
+
+static void hash_lattice(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
+  msq_structure* structure;
+  assert_ok(msq_structure_lattice(in, (const msq_lattice_def*)def, &structure));
+  hash_and_release(structure, hash);
+}
+
+static double corners[3][3] = {{0, 0, 0}, {0.5, 0.5, 0.5}, {1, 0, 0.25}};
+static uint32_t pairs[2][2] = {{0, 1}, {1, 2}};
+static double factors[2] = {1, 1};
+
+static void lattices_hash_cell_grid_and_radius(void** state) {
+  msq_lattice_def def, other;
+  (void)state;
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.radius.value = 0.125;
+  HASHES(context, "msq_lattice_def", &def, sizeof def, hash_lattice) {
+    NOT_HASHED(def.struct_size);
+    for (int32_t cell = MSQ_UNIT_CELL_CUBIC; cell <= MSQ_UNIT_CELL_REENTRANT; ++cell)
+      if (cell != MSQ_UNIT_CELL_BCC) CHANGES(def.unit_cell, def.unit_cell = cell);
+    GRID_CHANGES(def.grid);
+    CHANGES(def.radius.value, def.radius.value = 0.25);
+    PARAM_CHANGES(def.radius, ramp, steep_ramp);
+    KEEPS(def.clusters, def.clusters = 5);
+    KEEPS(def.cell_choice, def.cell_choice.value = 1); /* without a library */
+    CHANGES(def.nodes, def.unit_cell = MSQ_UNIT_CELL_CUSTOM; def.nodes = corners[0];
+            def.node_count = 3; def.struts = pairs[0]; def.strut_count = 2);
+    NOT_HASHED(def.node_count);
+    NOT_HASHED(def.struts);
+    NOT_HASHED(def.strut_count);
+    NOT_HASHED(def.strut_factors);
+    NOT_HASHED(def.cells);
+    NOT_HASHED(def.cell_count);
+  }
+  other = def;
+  def.radius.field = ramp;
+  other.radius.field = same_ramp;
+  equal_fields_are_one(&def, &other, hash_lattice);
+}
+
+static void lattices_hash_custom_cells(void** state) {
+  static const double twos[2] = {2, 1};
+  msq_lattice_def def;
+  (void)state;
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.radius.value = 0.125;
+  def.unit_cell = MSQ_UNIT_CELL_CUSTOM;
+  def.nodes = corners[0];
+  def.node_count = 3;
+  def.struts = pairs[0];
+  def.strut_count = 2;
+  HASHES(context, "a custom cell", &def, sizeof def, hash_lattice) {
+    NOT_HASHED(def);
+    KEEPS(def.strut_factors, def.strut_factors = factors);
+    CHANGES(def.strut_factors, def.strut_factors = twos);
+    CHANGES(def.strut_count, def.strut_count = 1);
+    for (int i = 0; i < 3; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        CHANGES_BEHIND(double, corners[i][axis],
+                       corners[i][axis] == 1 ? 0.875 : corners[i][axis] + 0.125);
+    CHANGES_BEHIND(uint32_t, pairs[1][0], 0);
+    CHANGES_BEHIND(uint32_t, pairs[0][1], 2);
+  }
+}
+
+static void lattices_hash_libraries(void** state) {
+  msq_unit_cell_def cells[3] = {named_cell(MSQ_UNIT_CELL_BCC), named_cell(MSQ_UNIT_CELL_CUBIC),
+                                named_cell(MSQ_UNIT_CELL_OCTET)};
+  msq_lattice_def def;
+  (void)state;
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.radius.value = 0.125;
+  def.cells = cells;
+  def.cell_count = 2;
+  HASHES(context, "a library", &def, sizeof def, hash_lattice) {
+    NOT_HASHED(def);
+    CHANGES(def.cell_count, def.cell_count = 1);
+    CHANGES(def.cell_count, def.cell_count = 3);
+    CHANGES(def.cells, def.cells = cells + 1);
+    KEEPS(def.unit_cell, def.unit_cell = MSQ_UNIT_CELL_OCTET);
+    KEEPS(def.clusters, def.clusters = 5);
+    CHANGES(def.cell_choice, def.cell_choice.value = 1);
+    CHANGES(def.radius.value, def.radius.value = 0.25);
+    PARAM_CHANGES(def.cell_choice, ramp, steep_ramp);
+    CHANGES(def.radius.field, def.radius.field = ramp);
+    GRID_CHANGES(def.grid);
+  }
+}
+
+/* The fields of msq_unit_cell_def one by one. */
+static void hash_cell(msq_context* in, const void* cell, uint8_t hash[hash_bytes]) {
+  msq_lattice_def def;
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.radius.value = 0.125;
+  def.cells = (const msq_unit_cell_def*)cell;
+  def.cell_count = 1;
+  hash_lattice(in, &def, hash);
+}
+
+static void unit_cells_hash_nodes_and_struts(void** state) {
+  static const double twos[2] = {2, 1}, moved[3][3] = {{0, 0, 0}, {0.5, 0.5, 0.75}, {1, 0, 0.25}};
+  static const uint32_t others[2][2] = {{0, 1}, {0, 2}};
+  msq_unit_cell_def cell = named_cell(MSQ_UNIT_CELL_CUSTOM);
+  (void)state;
+  cell.nodes = corners[0];
+  cell.node_count = 3;
+  cell.struts = pairs[0];
+  cell.strut_count = 2;
+  HASHES(context, "msq_unit_cell_def", &cell, sizeof cell, hash_cell) {
+    NOT_HASHED(cell.struct_size);
+    CHANGES(cell.unit_cell, cell.unit_cell = MSQ_UNIT_CELL_KELVIN);
+    CHANGES(cell.nodes, cell.nodes = moved[0]);
+    CHANGES(cell.node_count, cell.node_count = 2; cell.strut_count = 1);
+    CHANGES(cell.strut_count, cell.strut_count = 1);
+    CHANGES(cell.struts, cell.struts = others[0]);
+    CHANGES(cell.strut_factors, cell.strut_factors = twos);
+  }
+}
+
+/* ---- foams ----------------------------------------------------------------------------------- */
+
+static void hash_foam(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
+  msq_structure* structure;
+  assert_ok(msq_structure_foam(in, (const msq_foam_def*)def, &structure));
+  hash_and_release(structure, hash);
+}
+
+static msq_foam_def foam_def(double radius, double thickness) {
+  msq_foam_def def;
+  assert_ok(msq_foam_def_init(&def, sizeof def));
+  def.radius.value = radius;
+  def.wall_thickness.value = thickness;
+  return def;
+}
+
+static void foams_hash_seeds_and_sizes(void** state) {
+  msq_foam_def def = foam_def(0.15, 0), other;
+  uint8_t hash[hash_bytes];
+  (void)state;
+  hash_foam(context, &def, hash);
+  assert_hash(hash, "b74b1652a7bfc9f4e825ec2c2f81e1b2");
+  HASHES(context, "msq_foam_def", &def, sizeof def, hash_foam) {
+    NOT_HASHED(def.struct_size);
+    KEEPS(def.method, def.method = MSQ_FOAM_POINT);
+    KEEPS(def.method, def.method = MSQ_FOAM_METHOD_1);
+    KEEPS(def.method, def.method = MSQ_FOAM_DIRECT);
+    GRID_CHANGES(def.grid);
+    CHANGES(def.radius.value, def.radius.value = 0.25);
+    PARAM_CHANGES(def.radius, ramp, steep_ramp);
+    CHANGES(def.jitter, def.jitter = 0.5);
+    CHANGES(def.seed, def.seed = 1);
+    CHANGES(def.seed, def.seed = UINT64_MAX);
+    KEEPS(def.density.value, def.density.value = 0.5); /* counts as 1 */
+    CHANGES(def.density.value, def.density.value = 2);
+    CHANGES(def.density.value, def.density.value = 3);
+    CHANGES(def.density.field, def.density.field = dense_ramp);
+    CHANGES(def.wall_thickness.value, def.wall_thickness.value = 0.125);
+    CHANGES(def.wall_thickness, def.wall_thickness.value = 0.125; def.radius.value = 0);
+    CHANGES(def.vent_radius, def.wall_thickness.value = 0.125; def.vent_radius.value = 0.25);
+  }
+  other = def;
+  def.density.field = other.density.field = NULL;
+  def.radius.field = ramp;
+  other.radius.field = same_ramp;
+  equal_fields_are_one(&def, &other, hash_foam);
+}
+
+static void walls_hash_seeds_and_sizes(void** state) {
+  (void)state;
+  for (int with_struts = 0; with_struts < 2; ++with_struts) {
+    msq_foam_def def = foam_def(with_struts ? 0.0625 : 0, 0.125);
+    def.vent_radius.value = 0.25;
+    HASHES(context, "msq_foam_def with walls", &def, sizeof def, hash_foam) {
+      NOT_HASHED(def);
+      KEEPS(def.method, def.method = MSQ_FOAM_DIRECT);
+      GRID_CHANGES(def.grid);
+      CHANGES(def.radius.value, def.radius.value = 0.03125);
+      CHANGES(def.jitter, def.jitter = 0.5);
+      CHANGES(def.seed, def.seed = 1);
+      CHANGES(def.density.value, def.density.value = 2);
+      CHANGES(def.density.field, def.density.field = dense_ramp);
+      CHANGES(def.wall_thickness.value, def.wall_thickness.value = 0.25);
+      PARAM_CHANGES(def.wall_thickness, ramp, steep_ramp);
+      CHANGES(def.vent_radius.value, def.vent_radius.value = 0);
+      CHANGES(def.vent_radius.value, def.vent_radius.value = 0.125);
+      PARAM_CHANGES(def.vent_radius, ramp, steep_ramp);
+    }
+  }
+}
+
+/* ---- functional structures ------------------------------------------------------------------- */
+
+static void hash_functional(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
+  msq_structure* structure;
+  assert_ok(msq_structure_functional(in, (const msq_functional_def*)def, &structure));
+  hash_and_release(structure, hash);
+}
+
+static double positions[3] = {0, 4, 8}, sizes[3] = {1, 2, 1.5};
+
+static msq_period_def period_def(void) {
+  msq_period_def def;
+  assert_ok(msq_period_def_init(&def, sizeof def));
+  def.positions = positions;
+  def.cell_sizes = sizes;
+  def.count = 3;
+  return def;
+}
+
+static void functional_structures_hash_their_function(void** state) {
+  static const msq_named_value parameter[1] = {{"a", 2}};
+  const msq_period_def period = period_def();
+  msq_functional_def def;
+  (void)state;
+  assert_ok(msq_functional_def_init(&def, sizeof def));
+  def.kind = MSQ_FUNCTIONAL_SHEET;
+  def.level.value = 0.25;
+  HASHES(context, "msq_functional_def", &def, sizeof def, hash_functional) {
+    NOT_HASHED(def.struct_size);
+    for (int32_t f = MSQ_FUNCTION_SCHWARZ_P; f <= MSQ_FUNCTION_SPLIT_P; ++f)
+      CHANGES(def.function, def.function = f);
+    CHANGES(def.kind, def.kind = MSQ_FUNCTIONAL_NETWORK);
+    KEEPS(def.clusters, def.clusters = 4);
+    GRID_CHANGES(def.grid);
+    CHANGES(def.level.value, def.level.value = 0.5);
+    PARAM_CHANGES(def.level, ramp, steep_ramp);
+    CHANGES(def.expression, def.function = MSQ_FUNCTION_EXPRESSION;
+            def.expression = "sin(x) + sin(y)");
+    KEEPS(def.expression, def.function = MSQ_FUNCTION_EXPRESSION;
+          def.expression = "sin(x)*cos(y) + sin(y)*cos(z) + sin(z)*cos(x)");
+    CHANGES(def.parameters, def.function = MSQ_FUNCTION_EXPRESSION;
+            def.expression = "a*sin(x)+sin(y)"; def.parameters = parameter;
+            def.parameter_count = 1);
+    NOT_HASHED(def.parameter_count);
+    CHANGES(def.thickness.value, def.level.value = 0; def.thickness.value = 0.125);
+    CHANGES(def.thickness.value, def.level.value = 0; def.thickness.value = 0.25);
+    CHANGES(def.thickness.field, def.level.value = 0; def.thickness.field = thin_ramp);
+    CHANGES(def.period, def.period = &period);
+  }
+}
+
+static void hash_period(msq_context* in, const void* period, uint8_t hash[hash_bytes]) {
+  msq_functional_def def;
+  assert_ok(msq_functional_def_init(&def, sizeof def));
+  def.period = (const msq_period_def*)period;
+  hash_functional(in, &def, hash);
+}
+
+static void periods_hash_axis_and_sizes(void** state) {
+  msq_period_def def = period_def();
+  (void)state;
+  HASHES(context, "msq_period_def", &def, sizeof def, hash_period) {
+    NOT_HASHED(def.struct_size);
+    NOT_HASHED(def.positions);
+    NOT_HASHED(def.cell_sizes);
+    CHANGES(def.axis, def.axis = 0);
+    CHANGES(def.axis, def.axis = 1);
+    CHANGES(def.count, def.count = 2);
+    for (int i = 0; i < 3; ++i) {
+      CHANGES_BEHIND(double, positions[i], positions[i] + 0.5);
+      CHANGES_BEHIND(double, sizes[i], sizes[i] + 0.25);
+    }
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(lattices_hash_cell_grid_and_radius),
+      cmocka_unit_test(lattices_hash_custom_cells),
+      cmocka_unit_test(lattices_hash_libraries),
+      cmocka_unit_test(unit_cells_hash_nodes_and_struts),
+      cmocka_unit_test(foams_hash_seeds_and_sizes),
+      cmocka_unit_test(walls_hash_seeds_and_sizes),
+      cmocka_unit_test(functional_structures_hash_their_function),
+      cmocka_unit_test(periods_hash_axis_and_sizes),
+  };
+  if (!MSQ_WITH_XXHASH) return 0;
+  context = make_context();
+  ramp = ramp_of(context, 0, 0.5);
+  same_ramp = ramp_of(context, 0, 0.5);
+  steep_ramp = ramp_of(context, 0.125, 1);
+  dense_ramp = ramp_of(context, 1, 4);
+  thin_ramp = ramp_of(context, 0, 0.125);
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  msq_field_release(thin_ramp);
+  msq_field_release(dense_ramp);
+  msq_field_release(steep_ramp);
+  msq_field_release(same_ramp);
+  msq_field_release(ramp);
+  msq_context_release(context);
+  return failed;
+}
