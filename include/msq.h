@@ -2504,7 +2504,9 @@ typedef struct msq_fill_def {
    * the coordinates; at least half of a unit of these. 0 (default): 1/200 of the smallest cell
    * size. */
   double tolerance;
-  /** Shorter paths are dropped, in model units. Default 0. */
+  /** In model units. Shorter paths are dropped. A shorter line between two points where an odd
+   * number of lines meet is dropped too, as this saves a path: the lines that go on at both its
+   * ends are so close that they touch if min_length is at most the width of a line. Default 0. */
   double min_length;
 } msq_fill_def;
 
@@ -2518,9 +2520,11 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  * Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it.
  * Strut lattices, beams and structures of the host have no such lines; use contours for them.
  *
- * Each line is in one path. A path goes on where walls meet: of three lines two are joined, those
- * that are most nearly straight, and one ends. Paths are in the order in which they are best
- * printed: each begins near the end of the one before; none is printed twice.
+ * Each line is in one path; none is printed twice. Paths are as few as possible: one for two of the
+ * points where a path has to end, which are the border and junctions of three, five .. lines. At a
+ * junction, lines that are most nearly straight are joined as far as this keeps paths few. Paths
+ * are in the order in which they are best printed: each begins near the end of the one before. Of
+ * lines that are connected the travel is a few percent above the least one.
  *
  * Ends at the polygon's border are rounded to whole coordinates, all else is decided exactly. Lines
  * on the border itself count as inside on one side of the polygon. The lines do not depend on the
@@ -2530,11 +2534,12 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  *
  * def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells
  * from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box.
- * Cost: on the calling thread; many threads may call at once. About 10 us per cell of a foam in the
+ * Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam in the
  * plane; about 1 us per square that a line of a function crosses and 20 ns per other square.
  * Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are on one
  * line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power
- * diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987. */
+ * diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson, "Matching,
+ * Euler tours and the Chinese postman", 1973. */
 MSQ_API msq_status msq_fill_lines(msq_context* context, const msq_structure* structure,
                                   const msq_fill_def* def, msq_fill** fill, msq_job* job);
 /** Adds a reference. */

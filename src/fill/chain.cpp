@@ -32,55 +32,32 @@ class Chains {
 
  private:
   uint32_t point_of(End end) const { return graph_.lines[end / 2][end % 2]; }
-  Vec2 direction(End end) const {
-    const Vec2 way = graph_.points[point_of(end ^ 1)] - graph_.points[point_of(end)];
-    return way * (1 / length(way));
-  }
 
   void pair_ends();
-  void pair(std::vector<End>& ends);
   Polyline follow(End end);
 
   const LineGraph& graph_;
-  std::vector<End> partner_;  // the end that a path goes on with at the same point
+  std::vector<End> partner_;  // the other of the only two ends at a point
   std::vector<bool> is_used_;
 };
 
 void Chains::pair_ends() {
-  std::vector<uint32_t> starts(graph_.points.size() + 1, 0);
-  for (End end = 0; end < partner_.size(); ++end) ++starts[point_of(end) + 1];
-  for (size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
-  std::vector<End> at(partner_.size());
-  std::vector<uint32_t> next(starts.begin(), starts.end() - 1);
-  for (End end = 0; end < partner_.size(); ++end) at[next[point_of(end)]++] = end;
-  std::vector<End> ends;
+  // The only end at a point, or one of two; then how many there are.
+  std::vector<End> first(graph_.points.size(), nothing);
+  std::vector<uint32_t> counts(graph_.points.size(), 0);
   CancelPoll poll(current_job());
-  for (size_t i = 0; i + 1 < starts.size(); ++i) {
+  for (End end = 0; end < partner_.size(); ++end) {
     poll();
-    ends.assign(at.begin() + starts[i], at.begin() + starts[i + 1]);
-    pair(ends);
-  }
-}
-
-void Chains::pair(std::vector<End>& ends) {
-  while (ends.size() > 1) {
-    size_t best_a = 0, best_b = 1;
-    if (ends.size() > 2) {
-      double best = 2;
-      for (size_t a = 0; a < ends.size(); ++a)
-        for (size_t b = a + 1; b < ends.size(); ++b) {
-          const double along = dot(direction(ends[a]), direction(ends[b]));
-          if (along < best) {
-            best = along;
-            best_a = a;
-            best_b = b;
-          }
-        }
+    const uint32_t point = point_of(end);
+    if (++counts[point] == 1) {
+      first[point] = end;
+    } else if (counts[point] == 2) {
+      partner_[end] = first[point];
+      partner_[first[point]] = end;
+    } else if (counts[point] == 3) {
+      partner_[partner_[first[point]]] = nothing;
+      partner_[first[point]] = nothing;
     }
-    partner_[ends[best_a]] = ends[best_b];
-    partner_[ends[best_b]] = ends[best_a];
-    ends.erase(ends.begin() + static_cast<ptrdiff_t>(best_b));
-    ends.erase(ends.begin() + static_cast<ptrdiff_t>(best_a));
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths along the lines of a graph.
+// Polylines between the points where lines of a graph meet.
 #pragma once
 
 #include <vector>
@@ -13,9 +13,7 @@ struct Polyline {
   bool is_closed = false;  ///< the last point is joined to the first, and is not equal to it
 };
 
-/// Paths that hold each line of a graph once. Through a point they join the two lines that go on
-/// most nearly straight, then the next two: of three lines that meet, two are joined, and one ends.
-/// So no fewer paths would do.
+/// The lines of a graph, joined where just two meet. Where three or more meet, all end.
 std::vector<Polyline> chain(const LineGraph& graph);
 
 /// Drops points of a path that are no farther than `distance` from what remains. Source: Douglas

@@ -15,18 +15,6 @@ namespace {
 /// Half of the tolerance is for how lines are found, half for what is dropped of them.
 constexpr double dropped = 0.5;
 
-double distance(IntPoint a, IntPoint b) {
-  const double x = static_cast<double>(b.x - a.x), y = static_cast<double>(b.y - a.y);
-  return std::sqrt(x * x + y * y);
-}
-
-double length_of(const IntPath& path) {
-  double sum = path.is_closed ? distance(path.points.back(), path.points.front()) : 0;
-  for (size_t i = 1; i < path.points.size(); ++i)
-    sum += distance(path.points[i - 1], path.points[i]);
-  return sum;
-}
-
 class Rounding {
  public:
   explicit Rounding(const FillPlan& plan) : plan_(plan) {}
@@ -70,22 +58,22 @@ Fill::Fill(Context& context, const Structure& structure, const FillPlan& plan)
     lines = chain(graph);
   }
   const Rounding rounding(plan);
-  std::vector<IntPath> paths;
+  std::vector<IntPath> parts;
   JobPoll poll(current_job());
   for (Polyline& line : lines) {
     poll();
     simplify(line, dropped * plan.tolerance);
-    polygon.cut(rounding.round(line), paths);
+    polygon.cut(rounding.round(line), parts);
   }
-  std::erase_if(paths, [&](const IntPath& path) {
-    return path.points.size() < 2 || length_of(path) * plan.scale < plan.min_length;
-  });
-  size_t points = 0;
-  for (const IntPath& path : paths) points += path.points.size();
-  memory_ = Reservation(context.budget, points * (is_int32_ ? 8 : 16) + paths.size() * 9,
-                        "the lines of a fill");
-  order_paths(paths, polygon.min());
-  store(paths, plan.scale);
+  std::vector<Tour> tours = find_trails(std::move(parts), plan.min_length / plan.scale);
+  size_t points = 0, count = 0;
+  for (const Tour& tour : tours) {
+    count += tour.size();
+    for (const IntPath& path : tour) points += path.points.size();
+  }
+  memory_ =
+      Reservation(context.budget, points * (is_int32_ ? 8 : 16) + count * 9, "the lines of a fill");
+  store(order_paths(std::move(tours), polygon.min()), plan.scale);
 }
 
 void Fill::store(const std::vector<IntPath>& paths, double scale) {

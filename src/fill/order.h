@@ -4,13 +4,16 @@
 
 #include <vector>
 
-#include "fill/polygon.h"
+#include "fill/trails.h"
 
 namespace msq {
 
-/// Each path is followed by the one that begins nearest to its end: open ones may be reversed,
-/// closed ones begin at any of their points. The first begins nearest to `start`. Of equally near
-/// ones the first given is taken.
-void order_paths(std::vector<IntPath>& paths, IntPoint start);
+/// The paths of all tours in one order. First each tour is followed by the one that begins nearest
+/// to its end: they may be reversed, and closed paths begin at any of their points. The first
+/// begins nearest to `start`; of equally near ones the first given is taken. Then runs of paths are
+/// reversed or moved as long as that shortens the travel (Or, "Traveling salesman-type
+/// combinatorial problems", 1976; Croes, "A method for solving traveling-salesman problems", 1958).
+/// Moves are bounded, so that the time grows about as the number of paths.
+std::vector<IntPath> order_paths(std::vector<Tour> tours, IntPoint start);
 
 }  // namespace msq

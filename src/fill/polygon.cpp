@@ -42,6 +42,18 @@ void push(std::vector<IntPoint>& points, IntPoint p) {
 
 }  // namespace
 
+double distance(IntPoint a, IntPoint b) {
+  const double x = static_cast<double>(b.x - a.x), y = static_cast<double>(b.y - a.y);
+  return std::sqrt(x * x + y * y);
+}
+
+double length_of(const IntPath& path) {
+  double sum = path.is_closed ? distance(path.points.back(), path.points.front()) : 0;
+  for (size_t i = 1; i < path.points.size(); ++i)
+    sum += distance(path.points[i - 1], path.points[i]);
+  return sum;
+}
+
 FillPolygon::FillPolygon(const std::vector<std::vector<IntPoint>>& rings)
     : min_(rings[0][0]), max_(rings[0][0]) {
   double heights = 0;

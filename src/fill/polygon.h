@@ -25,6 +25,9 @@ struct IntPath {
   bool is_closed = false;  ///< the last point is joined to the first, and differs from it
 };
 
+double distance(IntPoint a, IntPoint b);
+double length_of(const IntPath& path);
+
 class FillPolygon {
  public:
   /// In magnitude: doubles hold what is smaller, and products fit.

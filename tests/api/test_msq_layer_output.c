@@ -84,14 +84,19 @@ static const uint8_t* row_of(const taken* all, uint64_t layer, uint64_t j) {
   return all->data + layer * all->plan.layer_bytes + j * all->plan.stride;
 }
 
+/* Rows of less than a vector of samples, and of several and a part. */
 static void grey_counts_the_samples_of_a_pixel(void** state) {
+  const uint32_t widths[2] = {WIDTH, 333};
   (void)state;
   for (uint32_t k = 2; k <= 16; k *= 2)
     for (int curve = 0; curve < 2; ++curve) {
+      const uint32_t width = widths[curve];
       msq_slicer_def def = plan_def(MSQ_LAYER_GREY), fine = plan_def(MSQ_LAYER_BYTES);
       taken grey, samples;
       uint64_t between = 0;
       def.grey_samples = k;
+      def.resolution[0] = fine.resolution[0] = width;
+      if (width > WIDTH) def.pitch[0] = fine.pitch[0] = 0.125 / 8;
       def.grey_gamma = curve ? 2 : 1;
       def.grey_threshold = curve ? 30 : 0;
       for (int axis = 0; axis < 2; ++axis) {
@@ -103,7 +108,7 @@ static void grey_counts_the_samples_of_a_pixel(void** state) {
       for (uint64_t layer = 0; layer < LAYERS; ++layer) {
         uint64_t inside = 0;
         for (uint64_t j = 0; j < HEIGHT; ++j) {
-          for (uint64_t i = 0; i < WIDTH; ++i) {
+          for (uint64_t i = 0; i < width; ++i) {
             uint64_t n = 0;
             double part;
             int wanted;
@@ -117,7 +122,7 @@ static void grey_counts_the_samples_of_a_pixel(void** state) {
             if (curve && wanted < 30) wanted = 0;
             assert_int_equal(row_of(&grey, layer, j)[i], wanted);
           }
-          for (uint64_t i = WIDTH; i < grey.plan.stride; ++i)
+          for (uint64_t i = width; i < grey.plan.stride; ++i)
             assert_int_equal(row_of(&grey, layer, j)[i], 0);
         }
         assert_int_equal(grey.inside[layer], inside);

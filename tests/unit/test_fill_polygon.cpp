@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fill/order.h"
 #include "fill/polygon.h"
 #include "msq_test.h"
 #include "random.h"
@@ -15,16 +14,6 @@ using namespace msq::test;
 namespace {
 
 using Rings = std::vector<std::vector<IntPoint>>;
-
-double length_of(const IntPath& path) {
-  double sum = 0;
-  const size_t count = path.points.size();
-  for (size_t i = 1; i < count + path.is_closed; ++i) {
-    const IntPoint a = path.points[i - 1], b = path.points[i % count];
-    sum += std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y));
-  }
-  return sum;
-}
 
 /// Crossing number in long double, for points away from the sides.
 bool is_inside(const Rings& rings, long double x, long double y) {
@@ -206,50 +195,6 @@ void test_sides_of_the_border(void**) {
   assert_true((parts[0].points == std::vector<IntPoint>{{10, 7}, {5, 7}, {5, 5}, {10, 5}}));
 }
 
-void test_order_shortens_travel(void**) {
-  Random random(3);
-  std::vector<IntPath> paths;
-  for (size_t i = 0; i < 3000; ++i) {
-    const IntPoint p{static_cast<int64_t>(random.below(100000)),
-                     static_cast<int64_t>(random.below(100000))};
-    IntPath path{{p, {p.x + 700, p.y + 100}, {p.x + 300, p.y + 900}}, i % 5 == 0};
-    paths.push_back(path);
-  }
-  const auto travel = [](const std::vector<IntPath>& all) {
-    double sum = 0;
-    for (size_t i = 1; i < all.size(); ++i) {
-      const IntPoint a =
-          all[i - 1].is_closed ? all[i - 1].points.front() : all[i - 1].points.back();
-      const IntPoint b = all[i].points.front();
-      sum += std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y));
-    }
-    return sum;
-  };
-  std::vector<IntPath> ordered = paths;
-  order_paths(ordered, {0, 0});
-  assert_int_equal(ordered.size(), paths.size());
-  double before = 0, after = 0;
-  for (const IntPath& path : paths) before += length_of(path);
-  for (const IntPath& path : ordered) after += length_of(path);
-  assert_true(std::abs(before - after) < 1e-3);
-  // Each is the nearest of those left.
-  std::vector<IntPath> left = ordered;
-  IntPoint at{0, 0};
-  for (size_t n = 0; n < 200; ++n) {
-    const auto far = [&](IntPoint p) {
-      return std::hypot(static_cast<double>(p.x - at.x), static_cast<double>(p.y - at.y));
-    };
-    double least = 1e300;
-    for (size_t i = n; i < left.size(); ++i)
-      for (size_t k = 0; k < 3; ++k)
-        if (left[i].is_closed || k != 1) least = std::min(least, far(left[i].points[k]));
-    assert_true(far(left[n].points[0]) <= least * (1 + 1e-12));
-    at = left[n].is_closed ? left[n].points[0] : left[n].points[2];
-  }
-  print_message("travel %.3g, as given %.3g\n", travel(ordered), travel(paths));
-  assert_true(travel(ordered) < 0.1 * travel(paths));
-}
-
 }  // namespace
 
 int main() {
@@ -257,7 +202,6 @@ int main() {
       cmocka_unit_test(test_parts_are_what_is_inside),
       cmocka_unit_test(test_ties_are_consistent),
       cmocka_unit_test(test_sides_of_the_border),
-      cmocka_unit_test(test_order_shortens_travel),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

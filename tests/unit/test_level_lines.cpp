@@ -182,17 +182,18 @@ void test_a_jump_is_no_wall(void**) {
   }
 }
 
-void test_paths_join_what_is_straight(void**) {
-  // A T with a bend in its bar, and a triangle.
+void test_paths_end_where_lines_meet(void**) {
+  // A T with a bend in its bar and another in its stem, and a triangle.
   LineGraph graph;
-  graph.points = {{0, 0}, {1, 0.1}, {2, 0}, {1, 1}, {5, 5}, {6, 5}, {5, 6}};
-  graph.lines = {{1, 3}, {0, 1}, {1, 2}, {4, 5}, {5, 6}, {6, 4}};
+  graph.points = {{0, 0}, {1, 0.1}, {2, 0}, {1, 1}, {5, 5}, {6, 5}, {5, 6}, {1.2, 2}};
+  graph.lines = {{1, 3}, {0, 1}, {1, 2}, {4, 5}, {5, 6}, {6, 4}, {3, 7}};
   const std::vector<Polyline> paths = chain(graph);
-  assert_int_equal(paths.size(), 3);
-  assert_int_equal(paths[0].points.size(), 2);
-  assert_int_equal(paths[1].points.size(), 3);
-  assert_true(paths[2].is_closed);
-  assert_int_equal(paths[2].points.size(), 3);
+  assert_int_equal(paths.size(), 4);
+  assert_int_equal(paths[0].points.size(), 3);
+  assert_int_equal(paths[1].points.size(), 2);
+  assert_int_equal(paths[2].points.size(), 2);
+  assert_true(paths[3].is_closed);
+  assert_int_equal(paths[3].points.size(), 3);
 }
 
 void test_points_within_a_distance_are_one(void**) {
@@ -252,7 +253,7 @@ int main() {
       cmocka_unit_test(test_saddles_are_joined_as_their_middle_is),
       cmocka_unit_test(test_a_circle),
       cmocka_unit_test(test_a_jump_is_no_wall),
-      cmocka_unit_test(test_paths_join_what_is_straight),
+      cmocka_unit_test(test_paths_end_where_lines_meet),
       cmocka_unit_test(test_points_within_a_distance_are_one),
       cmocka_unit_test(test_mean_length),
   };

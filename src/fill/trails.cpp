@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fill/trails.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include "base/job.h"
+#include "base/polled_sort.h"
+#include "fill/matching.h"
+
+namespace msq {
+
+namespace {
+
+/// Ends of lines: 2 * line, and 2 * line + 1.
+using End = uint32_t;
+constexpr End nothing = UINT32_MAX;
+/// More lines meet only where coordinates are coarse. These are joined as they come.
+constexpr size_t max_compared = 16;
+
+class Trails {
+ public:
+  Trails(std::vector<IntPath> lines, double min_length)
+      : lines_(std::move(lines)), min_length_(min_length) {}
+
+  std::vector<Tour> find();
+
+ private:
+  struct Place {
+    IntPoint point;
+    End end;
+
+    friend bool operator<(const Place& a, const Place& b) {
+      if (a.point.x != b.point.x) return a.point.x < b.point.x;
+      if (a.point.y != b.point.y) return a.point.y < b.point.y;
+      return a.end < b.end;
+    }
+  };
+  /// Two pairs of ends at a point that may be exchanged, and what that costs.
+  struct Exchange {
+    double cost;
+    End a, b, c, d;  // pairs a, b and c, d; then a, c and b, d
+
+    friend bool operator<(const Exchange& p, const Exchange& q) {
+      if (p.cost != q.cost) return p.cost < q.cost;
+      return std::array{p.a, p.b, p.c, p.d} < std::array{q.a, q.b, q.c, q.d};
+    }
+  };
+
+  IntPoint point_of(End end) const {
+    const std::vector<IntPoint>& points = lines_[end / 2].points;
+    return end % 2 == 0 ? points.front() : points.back();
+  }
+  Vec2 direction(End end) const;
+  bool is_way(uint32_t line) const { return line >= printed_; }
+  /// 0: straight; 2: back again. A path ends where a way begins: the turn there does not matter.
+  double turn(End a, End b) const {
+    return is_way(a / 2) || is_way(b / 2) ? 0 : 1 + dot(directions_[a], directions_[b]);
+  }
+
+  void find_points();
+  void leave_out_short_lines();
+  void add_ways();
+  void pair_ends();
+  void pair_at(size_t begin, size_t end);
+  void pair(End a, End b);
+  void connect();
+  void connect_pairs(size_t i, size_t j, std::vector<Exchange>& exchanges) const;
+  void exchange(const Exchange& exchange);
+  uint32_t tour_of(uint32_t line);
+  Tour follow(End end);
+
+  std::vector<IntPath> lines_;  // and from number printed_ on the ways
+  double min_length_;
+  size_t printed_ = 0;
+  std::vector<Vec2> directions_;  // at each end
+  std::vector<uint32_t> starts_;  // of each point in ends_
+  std::vector<End> ends_;         // by point; then pairs follow each other
+  std::vector<End> partners_;     // the end that a tour goes on with at the same point
+  std::vector<uint32_t> parents_;
+  std::vector<bool> is_used_;
+};
+
+Vec2 Trails::direction(End end) const {
+  const std::vector<IntPoint>& points = lines_[end / 2].points;
+  const size_t last = points.size() - 1;
+  const IntPoint from = points[end % 2 ? last : 0], to = points[end % 2 ? last - 1 : 1];
+  const Vec2 way{static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y)};
+  return way * (1 / length(way));
+}
+
+void Trails::find_points() {
+  std::vector<Place> places(2 * lines_.size());
+  for (End end = 0; end < places.size(); ++end) places[end] = {point_of(end), end};
+  CancelPoll poll(current_job());
+  polled_sort(places.begin(), places.end(), std::less<>(), poll);
+  starts_.clear();
+  ends_.clear();
+  for (size_t i = 0; i < places.size(); ++i) {
+    if (i == 0 || !(places[i].point == places[i - 1].point))
+      starts_.push_back(static_cast<uint32_t>(i));
+    ends_.push_back(places[i].end);
+  }
+  starts_.push_back(static_cast<uint32_t>(places.size()));
+}
+
+void Trails::leave_out_short_lines() {
+  std::vector<uint32_t> point_of_end(2 * lines_.size()), counts(starts_.size() - 1);
+  for (uint32_t n = 0; n < counts.size(); ++n) {
+    counts[n] = starts_[n + 1] - starts_[n];
+    for (uint32_t i = starts_[n]; i < starts_[n + 1]; ++i) point_of_end[ends_[i]] = n;
+  }
+  std::vector<std::pair<double, uint32_t>> found;
+  for (uint32_t line = 0; line < lines_.size(); ++line)
+    if (const double length = length_of(lines_[line]); length < min_length_)
+      found.emplace_back(length, line);
+  CancelPoll poll(current_job());
+  polled_sort(found.begin(), found.end(), std::less<>(), poll);
+  const auto is_junction = [&](uint32_t n) { return counts[n] >= 3 && counts[n] % 2 == 1; };
+  for (const auto& [length, line] : found) {
+    const uint32_t a = point_of_end[2 * line], b = point_of_end[2 * line + 1];
+    const bool is_alone = counts[a] == 1 && counts[b] == 1;
+    if (!is_alone && (a == b || !is_junction(a) || !is_junction(b))) continue;
+    --counts[a];
+    --counts[b];
+    lines_[line].points.clear();
+  }
+  std::erase_if(lines_, [](const IntPath& line) { return line.points.empty(); });
+}
+
+void Trails::add_ways() {
+  printed_ = lines_.size();
+  if (lines_.empty()) return;
+  std::vector<Vec2> places;
+  std::vector<IntPoint> points;
+  const IntPoint origin = point_of(0);
+  for (size_t n = 0; n + 1 < starts_.size(); ++n)
+    if ((starts_[n + 1] - starts_[n]) % 2) {
+      const IntPoint p = point_of(ends_[starts_[n]]);
+      points.push_back(p);
+      places.push_back({static_cast<double>(p.x - origin.x), static_cast<double>(p.y - origin.y)});
+    }
+  const std::vector<uint32_t> partners = match(places);
+  for (uint32_t i = 0; i < partners.size(); ++i)
+    if (i < partners[i]) lines_.push_back({{points[i], points[partners[i]]}, false});
+}
+
+void Trails::pair(End a, End b) {
+  partners_[a] = b;
+  partners_[b] = a;
+  const uint32_t p = tour_of(a / 2), q = tour_of(b / 2);
+  parents_[std::max(p, q)] = std::min(p, q);
+}
+
+uint32_t Trails::tour_of(uint32_t line) {
+  while (parents_[line] != line) line = parents_[line] = parents_[parents_[line]];
+  return line;
+}
+
+void Trails::pair_ends() {
+  partners_.assign(2 * lines_.size(), nothing);
+  parents_.resize(lines_.size());
+  std::iota(parents_.begin(), parents_.end(), 0u);
+  CancelPoll poll(current_job());
+  for (size_t n = 0; n + 1 < starts_.size(); ++n) {
+    poll();
+    pair_at(starts_[n], starts_[n + 1]);
+  }
+}
+
+/// Those that are most nearly straight, then the next ones; last the one that is left with the way.
+void Trails::pair_at(size_t begin, size_t end) {
+  const auto swap_to = [this](size_t from, size_t to) { std::swap(ends_[from], ends_[to]); };
+  for (size_t i = begin; i < end; ++i)
+    if (is_way(ends_[i] / 2)) swap_to(i, end - 1);
+  for (; end - begin >= 2; begin += 2) {
+    size_t best_a = begin, best_b = begin + 1;
+    if (end - begin > 2 && end - begin <= max_compared) {
+      double best = 3;
+      for (size_t a = begin; a < end; ++a)
+        for (size_t b = a + 1; b < end && !is_way(ends_[b] / 2); ++b)
+          if (turn(ends_[a], ends_[b]) < best) {
+            best = turn(ends_[a], ends_[b]);
+            best_a = a;
+            best_b = b;
+          }
+    }
+    swap_to(begin, best_a);
+    swap_to(begin + 1, best_b);
+    pair(ends_[begin], ends_[begin + 1]);
+  }
+}
+
+void Trails::connect_pairs(size_t i, size_t j, std::vector<Exchange>& exchanges) const {
+  const End a = ends_[i], b = partners_[a], c = ends_[j], d = partners_[c];
+  const double now = turn(a, b) + turn(c, d);
+  exchanges.push_back({turn(a, c) + turn(b, d) - now, a, b, c, d});
+  exchanges.push_back({turn(a, d) + turn(b, c) - now, a, b, d, c});
+}
+
+/// Two tours through a point become one by an exchange of their pairs.
+void Trails::exchange(const Exchange& exchange) {
+  const auto& [cost, a, b, c, d] = exchange;
+  if (partners_[a] != b || partners_[c] != d || tour_of(a / 2) == tour_of(c / 2)) return;
+  pair(a, c);
+  pair(b, d);
+}
+
+/// Exchanges that cost least first, as in Kruskal's minimum spanning tree of the tours.
+void Trails::connect() {
+  std::vector<Exchange> exchanges;
+  CancelPoll poll(current_job());
+  for (size_t n = 0; n + 1 < starts_.size(); ++n) {
+    const size_t begin = starts_[n], end = starts_[n + 1];
+    if (end - begin > max_compared) continue;
+    for (size_t i = begin; i < end; i += 2)
+      for (size_t j = i + 2; j < end; j += 2) {
+        poll();
+        if (tour_of(ends_[i] / 2) != tour_of(ends_[j] / 2)) connect_pairs(i, j, exchanges);
+      }
+  }
+  polled_sort(exchanges.begin(), exchanges.end(), std::less<>(), poll);
+  for (const Exchange& one : exchanges) exchange(one);
+  // Where more than two tours met, or many lines: pairs are others now, so all ends are looked at.
+  for (size_t n = 0; n + 1 < starts_.size(); ++n)
+    for (size_t i = starts_[n] + 1; i < starts_[n + 1]; ++i) {
+      poll();
+      exchanges.clear();
+      if (tour_of(ends_[i - 1] / 2) == tour_of(ends_[i] / 2)) continue;
+      connect_pairs(i - 1, i, exchanges);
+      exchange(*std::min_element(exchanges.begin(), exchanges.end()));
+    }
+}
+
+Tour Trails::follow(End end) {
+  // The lines of the tour, each from an end.
+  std::vector<End> order;
+  size_t first = 0;
+  double longest = -1;
+  for (const End begin = end;;) {
+    is_used_[end / 2] = true;
+    order.push_back(end);
+    end = partners_[end ^ 1];
+    if (is_way(order.back() / 2)) {
+      const IntPoint a = point_of(order.back()), b = point_of(order.back() ^ 1);
+      const double x = static_cast<double>(b.x - a.x), y = static_cast<double>(b.y - a.y);
+      if (x * x + y * y > longest) {
+        longest = x * x + y * y;
+        first = order.size();
+      }
+    }
+    if (end == begin) break;
+  }
+  std::rotate(order.begin(), order.begin() + static_cast<ptrdiff_t>(first % order.size()),
+              order.end());
+  Tour tour;
+  IntPath path;
+  for (const End from : order) {
+    if (is_way(from / 2)) {
+      tour.push_back(std::move(path));
+      path = {};
+      continue;
+    }
+    std::vector<IntPoint>& points = lines_[from / 2].points;
+    if (from % 2) std::reverse(points.begin(), points.end());
+    const bool goes_on = !path.points.empty();
+    path.points.insert(path.points.end(), points.begin() + goes_on, points.end());
+    points = {};
+  }
+  if (!path.points.empty()) {  // the tour is closed; along one line and back it is no ring
+    path.is_closed = path.points.size() > 3;
+    if (path.is_closed) path.points.pop_back();
+    tour.push_back(std::move(path));
+  }
+  return tour;
+}
+
+std::vector<Tour> Trails::find() {
+  std::vector<Tour> tours;
+  const auto open = std::stable_partition(lines_.begin(), lines_.end(),
+                                          [](const IntPath& line) { return !line.is_closed; });
+  for (auto line = open; line != lines_.end(); ++line) {
+    tours.emplace_back();
+    tours.back().push_back(std::move(*line));
+  }
+  lines_.erase(open, lines_.end());
+  find_points();
+  leave_out_short_lines();
+  find_points();
+  add_ways();
+  find_points();
+  directions_.resize(2 * lines_.size());
+  for (End end = 0; end < directions_.size(); ++end) directions_[end] = direction(end);
+  pair_ends();
+  connect();
+  is_used_.assign(lines_.size(), false);
+  CancelPoll poll(current_job());
+  for (uint32_t line = 0; line < lines_.size(); ++line) {
+    poll();
+    if (!is_used_[line]) tours.push_back(follow(2 * line));
+  }
+  for (Tour& tour : tours)
+    std::erase_if(tour, [this](const IntPath& path) { return length_of(path) < min_length_; });
+  std::erase_if(tours, [](const Tour& tour) { return tour.empty(); });
+  return tours;
+}
+
+}  // namespace
+
+std::vector<Tour> find_trails(std::vector<IntPath> lines, double min_length) {
+  return Trails(std::move(lines), min_length).find();
+}
+
+}  // namespace msq
