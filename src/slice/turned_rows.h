@@ -24,7 +24,8 @@ class TurnedRows {
   /// Of the words of a part, which are more than the block's where turned rows are short.
   static constexpr uint64_t max_words = uint64_t{1} << 16, max_layers = 64;
 
-  /// Samples of the block: x, rows and layers, ends excluded.
+  /// Samples of the block: x, rows and layers, ends excluded. Along x whole words, but for the
+  /// last.
   struct Part {
     uint64_t low[3], high[3];
     uint64_t count(int axis) const { return high[axis] - low[axis]; }
@@ -37,6 +38,13 @@ class TurnedRows {
   void use_part(const Part& part, const SampleGrid& grid, Use&& use);
   void load(const Part& part, const RowBlock& turned) const;
   void store(const Part& part, const RowBlock& turned) const;
+  /// Where x stays x. Calls copy(words of the block, words of turned rows, count).
+  template <class Copy>
+  void for_each_row(const Part& part, const RowBlock& turned, Copy&& copy) const;
+  /// Otherwise. Calls copy(tile) for 64 x 64 samples along x and along what becomes x.
+  struct Tile;
+  template <class Copy>
+  void for_each_tile(const Part& part, const RowBlock& turned, Copy&& copy) const;
   /// The axis of the block that becomes this one.
   int block_axis(int turned) const {
     return static_cast<int>(std::find(axes_.begin(), axes_.end(), turned) - axes_.begin());
@@ -67,7 +75,9 @@ void TurnedRows::divide(const Part& part, Use&& use) {
   if (!is_uneven && !is_large && grid.nz <= max_layers) return use_part(part, grid, use);
   const int halved = is_uneven ? 2 : grid.nz > max_layers ? block_axis(2) : widest(part);
   Part lower = part, upper = part;
-  lower.high[halved] = upper.low[halved] = part.low[halved] + part.count(halved) / 2;
+  uint64_t half = part.count(halved) / 2;
+  if (halved == 0) half = (half + bits_per_word - 1) / bits_per_word * bits_per_word;
+  lower.high[halved] = upper.low[halved] = part.low[halved] + half;
   divide(lower, use);
   divide(upper, use);
 }
