@@ -2231,8 +2231,8 @@ typedef struct msq_slicer_def {
    * orthonormal. Left-handed axes mirror. All zeros (default): the axes of the model. For layers
    * normal to x whose pixels lie along y and z: {0, 1, 0, 0, 0, 1, 1, 0, 0}. Cost: bits of
    * layers normal to y with pixels along x and z cost what they do without a frame. Along other
-   * axes they take 10 to 15 ns per sample and thread in a box; more in meshes and host shapes, which
-   * are asked about points. */
+   * axes they take 10 to 15 ns per sample and thread in a box; more in meshes and host shapes,
+   * which are asked about points. */
   double frame_axes[9];
 } msq_slicer_def;
 
