@@ -373,6 +373,37 @@ static void all_space_is_turned(void** state) {
   msq_model_release(model);
 }
 
+/* Blocks of bits are turned in parts: more samples than a part holds, and more than 64 along each
+ * axis. */
+static void large_layers_are_turned_in_parts(void** state) {
+  static uint8_t layer[40 * 250];
+  (void)state;
+  for (int f = 0; f < 4; ++f) {
+    msq_slicer_def def = plan_def(&frames[f]);
+    def.pitch[0] = 0.013;
+    def.pitch[1] = 0.017;
+    def.resolution[0] = 300;
+    def.resolution[1] = 250;
+    msq_slicer* slicer = make_slicer(models[0], &def);
+    const msq_slicer_report plan = plan_of(slicer);
+    double w, point[3];
+    uint64_t inside = 0;
+    assert_ok(msq_slice_layer(slicer, 4, layer, sizeof layer, NULL));
+    assert_ok(msq_slicer_layer_z(slicer, 4, &w));
+    for (uint32_t j = 0; j < plan.height; ++j)
+      for (uint32_t i = 0; i < plan.width; ++i) {
+        const int got = layer[j * plan.stride + i / 8] >> (7 - i % 8) & 1;
+        inside += (uint64_t)got;
+        if (i % 64 > 2 && j % 8 && i % 7) continue;
+        to_model(&frames[f], plan.origin[0] + i * plan.pitch[0], plan.origin[1] + j * plan.pitch[1],
+                 w, point);
+        assert_int_equal(got, is_inside(models[0], point[0], point[1], point[2]));
+      }
+    assert_true(inside > 1000);
+    msq_slicer_release(slicer);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(samples_are_where_the_frame_says),
@@ -380,6 +411,7 @@ int main(void) {
       cmocka_unit_test(contours_lie_in_the_frame),
       cmocka_unit_test(the_region_is_that_of_the_frame),
       cmocka_unit_test(all_space_is_turned),
+      cmocka_unit_test(large_layers_are_turned_in_parts),
   };
   return cmocka_run_group_tests_name("msq_slicer_frame", tests, set_up, tear_down);
 }
