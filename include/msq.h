@@ -2225,7 +2225,7 @@ typedef struct msq_slicer_def {
   /** Where layers lie: coordinates u, v, w are those of the point frame_origin + u * axis 0 +
    * v * axis 1 + w * axis 2. Rows of pixels lie along u, one row follows the other along v, and
    * layers lie along w. x, y and z in the text above and of layers then mean u, v and w, also in
-   * the region, in heights and in contours. Default 0. */
+   * the region, in heights, in contours and in findings. Default 0. */
   double frame_origin[3];
   /** Three rows, the axes, orthonormal within 1e-9; msq takes the nearest axes that are
    * orthonormal. Left-handed axes mirror. All zeros (default): the axes of the model. For layers
