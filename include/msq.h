@@ -2122,7 +2122,7 @@ MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_struc
 /** A model and a plan of layers. */
 typedef struct msq_slicer msq_slicer;
 
-/** What a layer holds. Rows are padded with zeros to a multiple of 8 bytes. */
+/** What a layer holds. Rows of pixels are padded with zeros to a multiple of 8 bytes. */
 enum msq_layer_output {
   /** 1 bit per pixel, sampled at its centre. The leftmost pixel is the high bit, as in PNG and
    * PBM. */
@@ -2139,7 +2139,12 @@ enum msq_layer_output {
   MSQ_LAYER_DISTANCE = 4,
   /** 1 uint32 per pixel: the id of the material at its centre, as msq_set_material returns it. A
    * resolved scale must have a material. */
-  MSQ_LAYER_MATERIAL = 5
+  MSQ_LAYER_MATERIAL = 5,
+  /** 1 float32 per pixel: the onset of a structure at its centre, as msq_set_onset returns it,
+   * rounded to the nearest float32. The model must be of one region. */
+  MSQ_LAYER_ONSET = 6,
+  /** No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs. */
+  MSQ_LAYER_CONTOURS = 7
 };
 
 /** How layers are turned before the host receives them, as the panels of printers need it. A sum.
@@ -2152,10 +2157,68 @@ enum msq_layer_orientation {
   MSQ_LAYER_TRANSPOSE = 4
 };
 
+/** Rings of points: the section of a model with a plane. Immutable; any thread may read it. */
+typedef struct msq_contours msq_contours;
+
+/** Definition of contours. The plane is normal to an axis. Its coordinates u, v are the other two
+ * axes in their order: x, y for axis z; x, z for axis y; y, z for axis x. */
+typedef struct msq_contours_def {
+  uint32_t struct_size;
+  /** Of the coordinates: MSQ_INT32, MSQ_INT64 or MSQ_FLOAT64 (default). */
+  int32_t type;
+  /** Normal of the plane: 0 (x), 1 (y) or 2 (z, default). */
+  int32_t axis;
+  /** 0 (default): the bounding box of the model; window_min and window_max must be 0. 1: the window
+   * below. */
+  int32_t has_window;
+  /** Corners in u and v, in model units. Rings close along the edges of the window. Windows that
+   * have a whole edge in common, and the other values of this struct, have the same points on it,
+   * bit for bit. */
+  double window_min[2];
+  double window_max[2];
+  /** Greatest distance between boundary and rings, in model units, where features are wider than
+   * the pitch. Positive; there is no default. */
+  double tolerance;
+  /** Distance of the nodes at which the model is sampled. Rounded down to three binary digits.
+   * Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost;
+   * narrower ones may be. 0 (default): the tolerance. */
+  double pitch;
+  /** Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest.
+   * Then a pitch must have at least 64 units, and a tolerance 4. */
+  double units;
+  /** As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0. */
+  double length_scale;
+} msq_contours_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_contours_def_init(msq_contours_def* def, size_t size);
+
+/** Definition of one of the outputs of a slicer. */
+typedef struct msq_output_def {
+  uint32_t struct_size;
+  /** An msq_layer_output. Default MSQ_LAYER_BITS. */
+  int32_t output;
+  /** GREY: as in msq_slicer_def. Defaults 4, 0 and 1. */
+  uint32_t grey_samples;
+  uint32_t grey_threshold;
+  double grey_gamma;
+  /** ONSET: the scale whose structure it is, from 1. It must be resolved. 0 (default): the finest
+   * resolved scale. */
+  uint32_t onset_scale;
+  /** ONSET: an msq_onset_value. Default MSQ_ONSET_PLAIN. */
+  int32_t onset_value;
+  /** CONTOURS: as msq_slicer_contours takes it. Copied. Other outputs: NULL (default). */
+  const msq_contours_def* contours;
+} msq_output_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_output_def_init(msq_output_def* def, size_t size);
+
 /** Definition of a slicer. */
 typedef struct msq_slicer_def {
   uint32_t struct_size;
-  /** An msq_layer_output. Default MSQ_LAYER_BITS. */
+  /** An msq_layer_output except CONTOURS. Default MSQ_LAYER_BITS, which it must be if outputs are
+   * given. */
   int32_t output;
   /** Pixel size in x and y. 0 (default): from region and resolution. */
   double pitch[2];
@@ -2194,19 +2257,37 @@ typedef struct msq_slicer_def {
   uint32_t grey_threshold;
   /** GREY: 0.1 to 10. Default 1. */
   double grey_gamma;
-  /** A sum of msq_layer_orientation. Default 0. */
+  /** A sum of msq_layer_orientation. Default 0. It turns pixels. Contours keep the coordinates of
+   * the model. */
   uint32_t orientation;
-  /** Must be 0. */
-  uint32_t reserved;
+  /** Number of outputs: 1 to 64. 0 (default) if outputs is NULL. */
+  uint32_t output_count;
+  /** What each layer holds, in place of `output` and the values for GREY above. Copied. All
+   * elements have the same struct_size, which is the distance between them. Outputs that sample the
+   * same points share their samples: BITS and BYTES, and GREY of equal grey_samples. NULL
+   * (default): one output, as above. */
+  const msq_output_def* outputs;
+  /** Where layers lie: coordinates u, v, w are those of the point frame_origin + u * axis 0 +
+   * v * axis 1 + w * axis 2. Rows of pixels lie along u, one row follows the other along v, and
+   * layers lie along w. x, y and z in the text above and of layers then mean u, v and w, also in
+   * the region, in heights, in contours and in findings. Default 0. */
+  double frame_origin[3];
+  /** Three rows, the axes, orthonormal within 1e-9; msq takes the nearest axes that are
+   * orthonormal. Left-handed axes mirror. All zeros (default): the axes of the model. For layers
+   * normal to x whose pixels lie along y and z: {0, 1, 0, 0, 0, 1, 1, 0, 0}. Cost: bits of
+   * layers normal to y with pixels along x and z cost what they do without a frame. Along other
+   * axes they take 10 to 15 ns per sample and thread in a box; more in meshes and host shapes,
+   * which are asked about points. */
+  double frame_axes[9];
 } msq_slicer_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_slicer_def_init(msq_slicer_def* def, size_t size);
 
-/** Plans the layers of a model, normal to z. Computes nothing yet. def must not be NULL.
- * Errors: ARGUMENT (also pixels or layers that rounding makes coincide, and a window outside the
- * plan), LIMIT (more than 2^31 - 1 layers, or pixels along a side, or 2^63 pixels in total or in
- * the window), MEMORY. */
+/** Plans the layers of a model, normal to z or in a frame. Computes nothing yet. def must not be
+ * NULL. Errors: ARGUMENT (also pixels or layers that rounding makes coincide, and a window outside
+ * the plan), LIMIT (more than 2^31 - 1 layers, or pixels along a side, or 2^63 pixels in total or
+ * in the window), MEMORY. */
 MSQ_API msq_status msq_slicer_create(const msq_model* model, const msq_slicer_def* def,
                                      msq_slicer** slicer);
 /** Adds a reference. */
@@ -2222,7 +2303,7 @@ typedef struct msq_slicer_report {
   /** Pixels in x and y of the layers that the host receives: exchanged with TRANSPOSE. */
   uint32_t width, height;
   uint64_t layer_count;
-  /** Bytes from one row to the next, a multiple of 8. */
+  /** Bytes from one row to the next, a multiple of 8. Of the first output; CONTOURS: 0. */
   uint64_t stride;
   /** stride * height. */
   uint64_t layer_bytes;
@@ -2243,22 +2324,41 @@ MSQ_API msq_status msq_slicer_info(const msq_slicer* slicer, msq_slicer_report* 
 /** Returns z of the samples of a layer. Errors: ARGUMENT (index out of range). */
 MSQ_API msq_status msq_slicer_layer_z(const msq_slicer* slicer, uint64_t index, double* z);
 
+/** What one of the outputs is in a layer. Valid until the callback returns. */
+typedef struct msq_output {
+  /** Out: sizeof(msq_output) of the library. */
+  uint32_t struct_size;
+  /** An msq_layer_output. */
+  int32_t output;
+  /** height rows, row 0 at the smallest y. Bits past the width are 0. CONTOURS: NULL. */
+  const uint8_t* data;
+  /** Bytes from one row to the next. CONTOURS: 0. */
+  uint64_t stride;
+  /** Number of pixels inside. GREY: number of samples inside. ONSET, CONTOURS: 0. */
+  uint64_t inside_count;
+  /** CONTOURS: the rings of the layer, for msq_contours_info. To keep them beyond the callback,
+   * retain them. Other outputs: NULL. */
+  msq_contours* contours;
+} msq_output;
+
 /** One layer. Valid until the callback returns. */
 typedef struct msq_layer {
   /** Out: sizeof(msq_layer) of the library. */
   uint32_t struct_size;
-  /** An msq_layer_output. */
+  /** The output, data, stride and inside_count below are those of the first output. */
   int32_t output;
   /** Number of the layer, from 0; with a window, from its first layer. */
   uint64_t index;
   double z;
-  /** height rows, row 0 at the smallest y. Bits past the width are 0. */
   const uint8_t* data;
-  /** Bytes from one row to the next. */
   uint64_t stride;
+  /** Pixels of all outputs. */
   uint32_t width, height;
-  /** Number of pixels inside. GREY: number of samples inside. */
   uint64_t inside_count;
+  /** At least 1. */
+  uint64_t output_count;
+  /** output_count pointers, in the order of msq_slicer_def.outputs. */
+  const msq_output* const* outputs;
 } msq_layer;
 
 /** Receives a layer. Return 0 to continue, or the host's code, preferably negative, to stop.
@@ -2268,55 +2368,24 @@ typedef int32_t (*msq_layer_fn)(void* user, const msq_layer* layer);
 /** Computes layers first to first + count - 1 and passes each to the callback, in ascending order,
  * on the calling thread. Workers compute the next slab meanwhile and wait for the callback. count
  * UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the
- * plan is split into calls or processes. Memory: two slabs, one layer and a few tiles per thread,
- * for any height of the stack; foams keep cells in the cache in addition. Errors: ARGUMENT,
- * CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Slicing". */
+ * plan is split into calls or processes, nor on its other outputs. Memory, accounted to the
+ * context: two slabs, one layer and a few tiles per thread, for any height of the stack; foams keep
+ * cells in the cache in addition. With contours, workers compute those of as many layers at once as
+ * there are threads, and as many wait for the callback. Where memory_limit does not hold these,
+ * they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also
+ * those of msq_layer_contours, before their layer. Source: paper, section "Slicing". */
 MSQ_API msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t count,
                                   msq_layer_fn fn, void* user, msq_job* job);
 
-/** Computes one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A
- * call that fails leaves the buffer untouched. Cost: for many consecutive layers two to three times
- * that of msq_slicer_run. Errors: ARGUMENT, CANCELLED, LIMIT, MEMORY. */
+/** Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at
+ * least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer
+ * call msq_slicer_run with a count of 1. Cost: for many consecutive layers two to three times that
+ * of msq_slicer_run. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT,
+ * MEMORY. */
 MSQ_API msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* buffer,
                                    uint64_t buffer_bytes, msq_job* job);
 
 /* ---- Contours -------------------------------------------------------------------------------- */
-
-/** Rings of points: the section of a model with a plane. Immutable; any thread may read it. */
-typedef struct msq_contours msq_contours;
-
-/** Definition of contours. The plane is normal to an axis. Its coordinates u, v are the other two
- * axes in their order: x, y for axis z; x, z for axis y; y, z for axis x. */
-typedef struct msq_contours_def {
-  uint32_t struct_size;
-  /** Of the coordinates: MSQ_INT32, MSQ_INT64 or MSQ_FLOAT64 (default). */
-  int32_t type;
-  /** Normal of the plane: 0 (x), 1 (y) or 2 (z, default). */
-  int32_t axis;
-  /** 0 (default): the bounding box of the model; window_min and window_max must be 0. 1: the window
-   * below. */
-  int32_t has_window;
-  /** Corners in u and v, in model units. Rings close along the edges of the window. Windows that
-   * have a whole edge in common, and the other values of this struct, have the same points on it,
-   * bit for bit. */
-  double window_min[2];
-  double window_max[2];
-  /** Greatest distance between boundary and rings, in model units, where features are wider than
-   * the pitch. Positive; there is no default. */
-  double tolerance;
-  /** Distance of the nodes at which the model is sampled. Rounded down to three binary digits.
-   * Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost;
-   * narrower ones may be. 0 (default): the tolerance. */
-  double pitch;
-  /** Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest.
-   * Then a pitch must have at least 64 units, and a tolerance 4. */
-  double units;
-  /** As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0. */
-  double length_scale;
-} msq_contours_def;
-
-/** Sets the defaults. Errors: ARGUMENT. */
-MSQ_API msq_status msq_contours_def_init(msq_contours_def* def, size_t size);
 
 /** Computes the contours of the section of a model at a height along the axis.
  *

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slice/contours.h"
 
+#include "api/contours_def.h"
 #include "api/guard.h"
 
 using namespace msq;
@@ -58,6 +59,24 @@ ContourPlan read_plan(const msq_contours_def& def) {
 
 }  // namespace
 
+namespace msq::api {
+
+ContourPlan read_contours(const msq_contours_def* def, const char* name) {
+  return read_plan(read_def(def, contours_defaults(), name));
+}
+
+ContourPlan read_slicer_contours(const msq_contours_def* def, const char* name) {
+  const ContourPlan plan = read_contours(def, name);
+  if (plan.plane.axis != 2)
+    fail(Status::argument, "axis is %d; layers of a slicer are normal to axis 2", plan.plane.axis);
+  if (plan.length_scale != 0)
+    fail(Status::argument, "length_scale is %g; it must be 0, since the slicer has one",
+         plan.length_scale);
+  return plan;
+}
+
+}  // namespace msq::api
+
 msq_status msq_contours_def_init(msq_contours_def* def, size_t size) {
   return guard([&] { set_defaults(def, size, contours_defaults(), "msq_contours_def"); });
 }
@@ -68,7 +87,7 @@ msq_status msq_layer_contours(const msq_model* model, double height, const msq_c
     const Model& known = object(model, "model");
     const Ref<const Model> keep(&known);
     require(contours, "contours");
-    ContourPlan plan = read_plan(read_def(def, contours_defaults(), "def"));
+    ContourPlan plan = read_contours(def, "def");
     plan.plane.height = require_finite(height, "height");
     *contours =
         new_handle<msq_contours>(layer_contours(known, plan, job ? &object(job, "job") : nullptr));
@@ -82,29 +101,12 @@ msq_status msq_slicer_contours(const msq_slicer* slicer, uint64_t index,
     const Ref<const Slicer> keep(&known);
     const SampleGrid& grid = known.grid();
     require(contours, "contours");
-    ContourPlan plan = read_plan(read_def(def, contours_defaults(), "def"));
+    const ContourPlan plan = read_slicer_contours(def, "def");
     if (index >= grid.nz)
       fail(Status::argument, "layer %llu does not exist; there are %llu layers",
            static_cast<unsigned long long>(index), static_cast<unsigned long long>(grid.nz));
-    if (plan.plane.axis != 2)
-      fail(Status::argument, "axis is %d; layers of a slicer are normal to axis 2",
-           plan.plane.axis);
-    if (plan.length_scale != 0)
-      fail(Status::argument, "length_scale is %g; it must be 0, since the slicer has one",
-           plan.length_scale);
-    plan.length_scale = known.length_scale();
-    plan.plane.height = grid.z(index);
-    if (!plan.has_window) {
-      plan.has_window = true;
-      for (int i = 0; i < 2; ++i) {
-        const double first = static_cast<double>(grid.first[static_cast<size_t>(i)]);
-        const double count = static_cast<double>(i == 0 ? grid.nx : grid.ny);
-        plan.window_min[i] = grid.origin[i] + (first - 0.5) * grid.spacing[i];
-        plan.window_max[i] = grid.origin[i] + (first + count - 0.5) * grid.spacing[i];
-      }
-    }
-    *contours = new_handle<msq_contours>(
-        layer_contours(known.model(), plan, job ? &object(job, "job") : nullptr));
+    *contours =
+        new_handle<msq_contours>(known.contours(index, plan, job ? &object(job, "job") : nullptr));
   });
 }
 

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "api/contours_def.h"
 #include "api/guard.h"
+#include "api/neighbourhood.h"
 #include "api/warnings.h"
 #include "api/window.h"
 
@@ -7,6 +11,8 @@ using namespace msq;
 using namespace msq::api;
 
 namespace {
+
+constexpr uint32_t max_outputs = 64;
 
 msq_slicer_def slicer_defaults() {
   msq_slicer_def def{};
@@ -16,15 +22,72 @@ msq_slicer_def slicer_defaults() {
   return def;
 }
 
-GreyScale read_grey(const msq_slicer_def& def) {
-  if (def.grey_samples != 2 && def.grey_samples != 4 && def.grey_samples != 8 &&
-      def.grey_samples != 16)
-    fail(Status::argument, "grey_samples is %u; it must be 2, 4, 8 or 16", def.grey_samples);
-  if (!(def.grey_gamma >= 0.1 && def.grey_gamma <= 10))
-    fail(Status::argument, "grey_gamma is %g; it must be from 0.1 to 10", def.grey_gamma);
-  if (def.grey_threshold > 255)
-    fail(Status::argument, "grey_threshold is %u; it must be at most 255", def.grey_threshold);
-  return {def.grey_samples, def.grey_gamma, def.grey_threshold};
+msq_output_def output_defaults() {
+  msq_output_def def{};
+  def.output = MSQ_LAYER_BITS;
+  def.grey_samples = 4;
+  def.grey_gamma = 1;
+  def.onset_value = MSQ_ONSET_PLAIN;
+  return def;
+}
+
+GreyScale read_grey(uint32_t samples, double gamma, uint32_t threshold) {
+  if (samples != 2 && samples != 4 && samples != 8 && samples != 16)
+    fail(Status::argument, "grey_samples is %u; it must be 2, 4, 8 or 16", samples);
+  if (!(gamma >= 0.1 && gamma <= 10))
+    fail(Status::argument, "grey_gamma is %g; it must be from 0.1 to 10", gamma);
+  if (threshold > 255)
+    fail(Status::argument, "grey_threshold is %u; it must be at most 255", threshold);
+  return {samples, gamma, threshold};
+}
+
+OutputPlan read_output(const msq_output_def& def) {
+  OutputPlan plan;
+  plan.format = static_cast<LayerFormat>(
+      require_range(def.output, MSQ_LAYER_BITS, MSQ_LAYER_CONTOURS, "output"));
+  plan.grey = read_grey(def.grey_samples, def.grey_gamma, def.grey_threshold);
+  plan.onset_scale = def.onset_scale;
+  plan.is_onset_signed = require_range(def.onset_value, MSQ_ONSET_PLAIN, MSQ_ONSET_SIGNED,
+                                       "onset_value") == MSQ_ONSET_SIGNED;
+  const bool has_contours = plan.format == LayerFormat::contours;
+  if (has_contours != (def.contours != nullptr))
+    fail(Status::argument, "output is %d and contours is %s; CONTOURS (%d) needs it, and no other",
+         def.output, def.contours ? "given" : "NULL", MSQ_LAYER_CONTOURS);
+  if (has_contours) plan.contours = read_slicer_contours(def.contours, "contours");
+  return plan;
+}
+
+/// What each layer holds, by either of the two ways to say so.
+std::vector<OutputPlan> read_outputs(const msq_slicer_def& def) {
+  const GreyScale grey = read_grey(def.grey_samples, def.grey_gamma, def.grey_threshold);
+  if (!def.outputs) {
+    if (def.output_count > 0)
+      fail(Status::argument, "outputs is NULL and output_count is %u", def.output_count);
+    OutputPlan plan;
+    plan.format = static_cast<LayerFormat>(
+        require_range(def.output, MSQ_LAYER_BITS, MSQ_LAYER_ONSET, "output"));
+    plan.grey = grey;
+    return {plan};
+  }
+  if (def.output != MSQ_LAYER_BITS)
+    fail(Status::argument, "output is %d and outputs is given; it must then be %d", def.output,
+         MSQ_LAYER_BITS);
+  if (def.output_count < 1 || def.output_count > max_outputs)
+    fail(Status::argument, "output_count is %u; it must be from 1 to %u", def.output_count,
+         max_outputs);
+  const uint32_t size = def.outputs->struct_size;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(def.outputs);
+  std::vector<OutputPlan> plans;
+  for (uint32_t i = 0; i < def.output_count; ++i) {
+    const std::string name = "outputs[" + std::to_string(i) + "]";
+    const auto* element = reinterpret_cast<const msq_output_def*>(bytes + size_t{size} * i);
+    const msq_output_def read = read_def(element, output_defaults(), name.c_str());
+    if (element->struct_size != size)
+      fail(Status::argument, "the struct_size of %s is %u; it must be that of outputs[0], %u",
+           name.c_str(), element->struct_size, size);
+    plans.push_back(read_output(read));
+  }
+  return plans;
 }
 
 Orientation read_orientation(uint32_t flags) {
@@ -35,6 +98,25 @@ Orientation read_orientation(uint32_t flags) {
           (flags & MSQ_LAYER_TRANSPOSE) != 0};
 }
 
+/// Axes are all zeros, or an orthonormal matrix of either handedness.
+LayerFrame read_frame(const msq_slicer_def& def) {
+  LayerFrame frame;
+  frame.origin = require_vector(def.frame_origin, "frame_origin");
+  const double* m = def.frame_axes;
+  if (std::all_of(m, m + 9, [](double value) { return value == 0; })) return frame;
+  double rows[9];
+  std::copy_n(m, 9, rows);
+  const bool is_left_handed =
+      dot({m[0], m[1], m[2]}, cross({m[3], m[4], m[5]}, {m[6], m[7], m[8]})) < 0;
+  for (int i = 6; i < 9 && is_left_handed; ++i) rows[i] = -rows[i];
+  const Rotation nearest = read_rotation(rows, "frame_axes");
+  for (size_t i = 0; i < 3; ++i) {
+    const double sign = i == 2 && is_left_handed ? -1 : 1;
+    frame.axes[i] = Vec3{nearest.m[3 * i], nearest.m[3 * i + 1], nearest.m[3 * i + 2]} * sign;
+  }
+  return frame;
+}
+
 double require_not_negative(double value, const char* name) {
   if (!(value >= 0) || !std::isfinite(value))
     fail(Status::argument, "%s is %g; it must be finite and not negative", name, value);
@@ -43,8 +125,8 @@ double require_not_negative(double value, const char* name) {
 
 SlicePlan read_plan(const msq_slicer_def& def) {
   SlicePlan plan;
-  plan.format = static_cast<LayerFormat>(
-      require_range(def.output, MSQ_LAYER_BITS, MSQ_LAYER_MATERIAL, "output"));
+  plan.outputs = read_outputs(def);
+  plan.frame = read_frame(def);
   for (int axis = 0; axis < 2; ++axis) {
     plan.pitch[axis] = require_not_negative(def.pitch[axis], "pitch");
     plan.resolution[axis] = def.resolution[axis];
@@ -55,9 +137,7 @@ SlicePlan read_plan(const msq_slicer_def& def) {
     fail(Status::argument, "length_scale is %g; it must not be negative", def.length_scale);
   plan.length_scale = def.length_scale;
   plan.window = read_window(def.window);
-  plan.grey = read_grey(def);
   plan.orientation = read_orientation(def.orientation);
-  require_reserved(def.reserved, "reserved");
   plan.has_region = require_range(def.has_region, 0, 1, "has_region") != 0;
   for (int axis = 0; axis < 3; ++axis)
     if (!plan.has_region && (def.region_min[axis] != 0 || def.region_max[axis] != 0))
@@ -102,6 +182,10 @@ msq_status msq_slicer_def_init(msq_slicer_def* def, size_t size) {
   return guard([&] { set_defaults(def, size, slicer_defaults(), "msq_slicer_def"); });
 }
 
+msq_status msq_output_def_init(msq_output_def* def, size_t size) {
+  return guard([&] { set_defaults(def, size, output_defaults(), "msq_output_def"); });
+}
+
 msq_status msq_slicer_create(const msq_model* model, const msq_slicer_def* def,
                              msq_slicer** slicer) {
   return guard([&] {
@@ -130,8 +214,8 @@ msq_status msq_slicer_info(const msq_slicer* slicer, msq_slicer_report* report) 
     written.width = static_cast<uint32_t>(known.width());
     written.height = static_cast<uint32_t>(known.height());
     written.layer_count = grid.nz;
-    written.stride = known.stride();
-    written.layer_bytes = known.layer_bytes();
+    written.stride = known.stride(0);
+    written.layer_bytes = known.layer_bytes(0);
     for (int axis = 0; axis < 2; ++axis) {
       written.origin[axis] = grid.origin[axis];
       written.pitch[axis] = grid.spacing[axis];
@@ -168,17 +252,33 @@ msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t cou
            static_cast<unsigned long long>(first), static_cast<unsigned long long>(first),
            static_cast<unsigned long long>(count), static_cast<unsigned long long>(grid.nz));
     const uint64_t last = count == UINT64_MAX ? grid.nz : first + count;
+    std::vector<msq_output> outputs(known.output_count());
+    std::vector<const msq_output*> pointers;
+    for (const msq_output& output : outputs) pointers.push_back(&output);
     const auto take = [&](const Layer& layer) {
+      for (size_t i = 0; i < outputs.size(); ++i) {
+        const LayerPart& part = layer.parts[i];
+        msq_output& output = outputs[i];
+        output.struct_size = sizeof output;
+        output.output = static_cast<int32_t>(known.format(i));
+        output.data = part.data;
+        output.stride = known.stride(i);
+        output.inside_count = part.inside_count;
+        output.contours = reinterpret_cast<msq_contours*>(part.contours);
+      }
+      const msq_output& first_output = outputs.front();
       msq_layer view{};
       view.struct_size = sizeof view;
-      view.output = static_cast<int32_t>(known.format());
+      view.output = first_output.output;
       view.index = layer.index;
       view.z = layer.z;
-      view.data = layer.data;
-      view.stride = known.stride();
+      view.data = first_output.data;
+      view.stride = first_output.stride;
       view.width = static_cast<uint32_t>(known.width());
       view.height = static_cast<uint32_t>(known.height());
-      view.inside_count = layer.inside_count;
+      view.inside_count = first_output.inside_count;
+      view.output_count = outputs.size();
+      view.outputs = pointers.data();
       const int32_t code = call_host(fn, user, &view);
       if (code != 0)
         throw Error(Status::host,
@@ -198,10 +298,12 @@ msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* bu
     const Ref<const Slicer> keep(&known);
     require_layer(known, index);
     require(buffer, "buffer");
-    if (buffer_bytes < known.layer_bytes())
+    if (known.format(0) == LayerFormat::contours)
+      fail(Status::argument, "output 0 is contours; msq_slicer_run returns them");
+    if (buffer_bytes < known.layer_bytes(0))
       fail(Status::argument, "buffer_bytes is %llu; a layer has %llu",
            static_cast<unsigned long long>(buffer_bytes),
-           static_cast<unsigned long long>(known.layer_bytes()));
+           static_cast<unsigned long long>(known.layer_bytes(0)));
     known.slice_layer(index, buffer, job ? &object(job, "job") : nullptr);
     warn_of_cache(known.model().context());
   });

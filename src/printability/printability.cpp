@@ -18,7 +18,7 @@ constexpr size_t max_batch = 4096;
 /// The plan of the slicer's samples, one per pixel, as bits.
 SlicePlan plan_of_bits(const Slicer& slicer) {
   SlicePlan plan = slicer.plan();
-  plan.format = LayerFormat::bits;
+  plan.outputs = {OutputPlan{}};
   plan.orientation = {};
   return plan;
 }
@@ -90,11 +90,11 @@ class Inspection {
   }
 
   void add_layer(const Layer& layer) {
-    read_bits(layer.data);
+    read_bits(layer.main().data);
     const double height = layer_face(slicer_, layer.index, 1) - layer_face(slicer_, layer.index, 0);
     ++counts_.layers;
-    counts_.solid_samples += layer.inside_count;
-    counts_.solid_volume += static_cast<double>(layer.inside_count) * pixel_area() * height;
+    counts_.solid_samples += layer.main().inside_count;
+    counts_.solid_volume += static_cast<double>(layer.main().inside_count) * pixel_area() * height;
     if (solid_) solid_->add_layer(bits_.data(), height);
     if (empty_) empty_->add_layer(gaps_.data(), height);
     if (thin_) thin_->add_layer(thin_samples_->find(bits_.data()), height);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slice/layer_output.h"
 
+#include "base/status.h"
+
 namespace msq {
 
 SampleGrid divided(const SampleGrid& pixels, unsigned across) {
@@ -15,18 +17,50 @@ SampleGrid divided(const SampleGrid& pixels, unsigned across) {
   return samples;
 }
 
-std::unique_ptr<const LayerOutput> make_layer_output(LayerFormat format, const GreyScale& grey) {
-  switch (format) {
+namespace {
+
+/// The structure whose onset an output is.
+const Structure& onset_structure(const OutputPlan& plan, const Model& model,
+                                 const Scales& resolved) {
+  if (!model.regions().empty())
+    fail(Status::unsupported,
+         "the output is an onset, and the model has %zu regions; it must be one",
+         model.regions().size());
+  if (plan.onset_scale == 0 && resolved.empty())
+    fail(Status::argument, "the output is an onset, and no structure is resolved");
+  const Scale* found = plan.onset_scale == 0 ? resolved.back() : nullptr;
+  for (const Scale* scale : resolved)
+    if (model.number(*scale) == plan.onset_scale) found = scale;
+  if (!found)
+    fail(Status::argument, "onset_scale is %zu; the slicer resolves %zu scales beside the shape",
+         plan.onset_scale, resolved.size());
+  if (!found->structure->has_onset())
+    fail(Status::unsupported, "the output is an onset, and the structure of scale %zu has none",
+         model.number(*found));
+  return *found->structure;
+}
+
+}  // namespace
+
+std::unique_ptr<const LayerOutput> make_layer_output(const OutputPlan& plan, const Model& model,
+                                                     const Scales& resolved) {
+  switch (plan.format) {
     case LayerFormat::bits:
       return make_bit_output();
     case LayerFormat::bytes:
       return make_byte_output();
     case LayerFormat::grey:
-      return make_grey_output(grey);
+      return make_grey_output(plan.grey);
     case LayerFormat::distance:
       return make_distance_output();
     case LayerFormat::material:
+      if (!model.has_material(resolved))
+        fail(Status::argument, "the output is materials, and no resolved scale has a material");
       return make_material_output();
+    case LayerFormat::onset:
+      return make_onset_output(onset_structure(plan, model, resolved), plan.is_onset_signed);
+    case LayerFormat::contours:
+      break;
   }
   return nullptr;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a slicer makes of a layer. An output is one file with one line in make_layer_output().
+// What a slicer makes of a layer: pixels, or contours. An output of pixels is one file with one
+// line in make_layer_output().
 //
-// Three kinds of source serve outputs: the bits of one sample per pixel, the bits of k x k samples
-// per pixel (coverage), and no bits at all, where the output computes values itself.
+// Three kinds of source serve outputs of pixels: the bits of one sample per pixel, the bits of
+// k x k samples per pixel (coverage), and no bits at all, where the output computes values itself.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +12,20 @@
 #include "base/job.h"
 #include "base/sample_grid.h"
 #include "model/model.h"
+#include "slice/contours.h"
+#include "slice/layer_frame.h"
 
 namespace msq {
 
-enum class LayerFormat : int32_t { bits = 1, bytes = 2, grey = 3, distance = 4, material = 5 };
+enum class LayerFormat : int32_t {
+  bits = 1,
+  bytes = 2,
+  grey = 3,
+  distance = 4,
+  material = 5,
+  onset = 6,
+  contours = 7
+};
 
 /// How coverage becomes grey. See msq_slicer_def.
 struct GreyScale {
@@ -23,11 +34,22 @@ struct GreyScale {
   unsigned threshold = 0;  ///< smaller values become 0
 };
 
+/// One of the things that a slicer makes of each layer. See msq_output_def.
+struct OutputPlan {
+  LayerFormat format = LayerFormat::bits;
+  GreyScale grey;
+  size_t onset_scale = 0;  ///< 0: the finest that is resolved
+  bool is_onset_signed = false;
+  /// Plane and length scale are those of the slicer.
+  ContourPlan contours;
+};
+
 /// One layer, to be written.
 struct LayerSource {
   const Model& model;
   const Scales& resolved;
-  SampleGrid pixels;      ///< of the one layer
+  const LayerFrame& frame;
+  SampleGrid pixels;      ///< of the one layer, in the frame
   const uint64_t* words;  ///< rows of bits in words_for() words; null for outputs without samples
   Job* job;
 };
@@ -54,7 +76,10 @@ inline uint64_t layer_stride(unsigned pixel_bytes, uint64_t width) {
 /// x(i) + ((a + 1/2) / across - 1/2) * pitch, and so along y.
 SampleGrid divided(const SampleGrid& pixels, unsigned across);
 
-std::unique_ptr<const LayerOutput> make_layer_output(LayerFormat format, const GreyScale& grey);
+/// Null for contours. Throws Error(argument) and Error(unsupported) for what the resolved scales of
+/// the model do not have.
+std::unique_ptr<const LayerOutput> make_layer_output(const OutputPlan& plan, const Model& model,
+                                                     const Scales& resolved);
 
 // Of the files of outputs, for make_layer_output().
 std::unique_ptr<const LayerOutput> make_bit_output();
@@ -62,5 +87,6 @@ std::unique_ptr<const LayerOutput> make_byte_output();
 std::unique_ptr<const LayerOutput> make_grey_output(const GreyScale& grey);
 std::unique_ptr<const LayerOutput> make_distance_output();
 std::unique_ptr<const LayerOutput> make_material_output();
+std::unique_ptr<const LayerOutput> make_onset_output(const Structure& structure, bool is_signed);
 
 }  // namespace msq

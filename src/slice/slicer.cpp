@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <optional>
 
 #include "base/checked.h"
 #include "query/membership.h"
 #include "query/reach.h"
+#include "slice/contours_ahead.h"
+#include "slice/framed_model.h"
 
 namespace msq {
 
@@ -48,29 +49,38 @@ Slicer::Slicer(Ref<const Model> model, SlicePlan plan)
     : model_(std::move(model)),
       plan_(std::move(plan)),
       resolved_(model_->resolved(plan_.length_scale)),
-      output_(make_layer_output(plan_.format, plan_.grey)) {
-  if (plan_.format == LayerFormat::material && !model_->has_material(resolved_))
-    fail(Status::argument, "the output is materials, and no resolved scale has a material");
+      framed_(plan_.frame.is_that_of_model() ? model_ : make_framed_model(*model_, plan_.frame)),
+      framed_resolved_(framed_->resolved(plan_.length_scale)) {
+  for (const OutputPlan& output : plan_.outputs)
+    outputs_.push_back({output, make_layer_output(output, *model_, resolved_)});
   if (!plan_.has_region && !model_->shape().is_bounded())
     fail(Status::argument, "has_region is 0; a model of all space has no bounds, so give a region");
-  if (!plan_.has_region) plan_.region = model_->bounds();
+  if (!plan_.has_region) plan_.region = framed_->bounds();
   plan_axis(0);
   plan_axis(1);
   plan_layers();
   whole_ = {grid_.nx, grid_.ny, grid_.nz};
   grid_ = window_of(grid_, plan_.window);
-  plan_samples();
-  checked_product(checked_product(layer_stride(4, std::max(grid_.nx, samples_.nx)),
-                                  std::max(grid_.ny, samples_.ny), "a layer"),
-                  grid_.nz, "all layers");
-  require_reach(*model_, resolved_,
+  plan_outputs();
+  uint64_t nx = grid_.nx, ny = grid_.ny;
+  for (const SampleGrid& samples : samples_) {
+    nx = std::max(nx, samples.nx);
+    ny = std::max(ny, samples.ny);
+  }
+  checked_product(checked_product(layer_stride(4, nx), ny, "a layer"), grid_.nz, "all layers");
+  require_reach(*framed_, framed_resolved_,
                 {grid_.at(0, 0, 0), grid_.at(grid_.nx - 1, grid_.ny - 1, grid_.nz - 1)},
                 "the region");
   plan_slabs();
 }
 
+const char* Slicer::axis_name(int axis) const {
+  static constexpr const char* names[2][3] = {{"u", "v", "w"}, {"x", "y", "z"}};
+  return names[plan_.frame.is_that_of_model()][axis];
+}
+
 void Slicer::plan_axis(int axis) {
-  const char* name = axis == 0 ? "x" : "y";
+  const char* name = axis_name(axis);
   const double low = plan_.region.min[axis], high = plan_.region.max[axis];
   const double extent = high - low;
   double pitch = plan_.pitch[axis];
@@ -108,7 +118,8 @@ void Slicer::plan_layers() {
   const double low = plan_.region.min.z, extent = plan_.region.max.z - low;
   const double height = plan_.layer_height;
   if (plan_.layer_count == 0 && !(extent > 0))
-    fail(Status::argument, "the region's extent along z is %g; it must be positive", extent);
+    fail(Status::argument, "the region's extent along %s is %g; it must be positive", axis_name(2),
+         extent);
   grid_.nz = plan_.layer_count ? plan_.layer_count
                                : checked_count(samples_across(extent, height), "layers");
   if (grid_.nz > max_samples)
@@ -119,30 +130,43 @@ void Slicer::plan_layers() {
   const double last = static_cast<double>(grid_.nz);
   if (!std::isfinite(grid_.origin.z + last * height) ||
       grid_.origin.z + last * height == grid_.origin.z + (last - 1) * height)
-    fail(Status::argument, "a layer_height of %g is too small or too large at z = %g", height,
-         grid_.origin.z);
+    fail(Status::argument, "a layer_height of %g is too small or too large at %s = %g", height,
+         axis_name(2), grid_.origin.z);
 }
 
-void Slicer::plan_samples() {
-  const unsigned across = output_->samples_across();
-  if (across == 0) return;
-  samples_ = divided(grid_, across);
+// Outputs that need as many samples across a pixel share their bits.
+void Slicer::plan_outputs() {
+  std::vector<unsigned> across;  // of samples_
+  for (Output& output : outputs_) {
+    const unsigned wanted = output.pixels ? output.pixels->samples_across() : 0;
+    if (wanted == 0) continue;
+    output.samples =
+        static_cast<size_t>(std::find(across.begin(), across.end(), wanted) - across.begin());
+    if (output.samples < across.size()) continue;
+    across.push_back(wanted);
+    samples_.push_back(divided_pixels(wanted));
+  }
+}
+
+SampleGrid Slicer::divided_pixels(unsigned across) const {
+  const SampleGrid samples = divided(grid_, across);
   for (int axis = 0; axis < 2; ++axis) {
     const uint64_t count = whole_[static_cast<size_t>(axis)];
     if (count > max_samples / across)
       fail(Status::limit, "%llu pixels of %u samples along %s; the limit is %llu samples",
-           static_cast<unsigned long long>(count), across, axis == 0 ? "x" : "y",
+           static_cast<unsigned long long>(count), across, axis_name(axis),
            static_cast<unsigned long long>(max_samples));
     const double last =
-        samples_.origin[axis] + static_cast<double>(count * across) * samples_.spacing[axis];
-    if (!(last - samples_.spacing[axis] < last))
+        samples.origin[axis] + static_cast<double>(count * across) * samples.spacing[axis];
+    if (!(last - samples.spacing[axis] < last))
       fail(Status::argument, "%u samples across a pitch of %g along %s coincide at %g", across,
-           grid_.spacing[axis], axis == 0 ? "x" : "y", last);
+           grid_.spacing[axis], axis_name(axis), last);
   }
+  return samples;
 }
 
 void Slicer::plan_slabs() {
-  if (output_->samples_across() == 0) return;  // layer by layer
+  if (samples_.empty()) return;  // layer by layer
   if (plan_.slab_layers) {
     slab_layers_ = std::min<uint64_t>(plan_.slab_layers, grid_.nz);
     return;
@@ -150,97 +174,86 @@ void Slicer::plan_slabs() {
   const double extent = grid_.z(grid_.nz - 1) - grid_.z(0);
   const double height = grid_.nz > 1 ? extent / static_cast<double>(grid_.nz - 1) : 0;
   double layers = automatic_slab_layers;
-  if (!resolved_.empty() && height > 0) {  // whole cells, at least one
+  if (!framed_resolved_.empty() && height > 0) {  // whole cells, at least one
     // As many layers to a cell as there are in exact numbers.
-    const double cell = resolved_.back()->structure->neighbourhood().cell_size.z / height;
+    const double cell = framed_resolved_.back()->structure->neighbourhood().cell_size.z / height;
     constexpr double up = 1 + 1e-9;
     layers = std::floor(std::max(1.0, std::floor(automatic_slab_layers / cell * up)) * cell * up);
   }
-  const uint64_t layer_bytes = words_for(samples_.nx) * samples_.ny * sizeof(uint64_t);
+  uint64_t layer_bytes = 0;
+  for (const SampleGrid& samples : samples_)
+    layer_bytes += words_for(samples.nx) * samples.ny * sizeof(uint64_t);
   uint64_t max_bytes =
       std::min(automatic_slab_bytes, shallow_slab_bytes * model_->executor().threads());
-  for (const Scale* scale : resolved_)
+  for (const Scale* scale : framed_resolved_)
     if (gains_by_layers(*scale)) max_bytes = automatic_slab_bytes;
   const uint64_t fit = max_bytes / layer_bytes;
   slab_layers_ = static_cast<uint64_t>(
       std::clamp(std::min(layers, static_cast<double>(fit)), 1.0, static_cast<double>(grid_.nz)));
 }
 
+SlabsAhead::Depth Slicer::slab_depth(uint64_t layers) const {
+  const uint64_t depth = std::min(slab_layers_, layers);
+  const bool is_shallow = plan_.slab_layers == 0 && !framed_resolved_.empty() &&
+                          std::none_of(framed_resolved_.begin(), framed_resolved_.end(),
+                                       [](const Scale* scale) { return gains_by_layers(*scale); });
+  return {is_shallow ? depth : (depth + first_slab_part - 1) / first_slab_part, depth};
+}
+
 void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const Layer&)>& take,
                  Job* job) const {
   JobScope scope(job);
   if (first == last) return scope.done();
-  if (output_->samples_across() == 0) return run_by_layers(first, last, take, job);
-  const uint64_t layer_words = words_for(samples_.nx) * samples_.ny;
-  const uint64_t deep = std::min(slab_layers_, last - first);
-  // The host waits for the first slab, and workers fill the second one while it takes the first.
-  const bool are_shallow = plan_.slab_layers == 0 && !resolved_.empty() &&
-                           std::none_of(resolved_.begin(), resolved_.end(),
-                                        [](const Scale* scale) { return gains_by_layers(*scale); });
-  const uint64_t shallow = are_shallow ? deep : (deep + first_slab_part - 1) / first_slab_part;
-  const bool is_one_slab = deep == last - first;
-  const uint64_t room[2] = {is_one_slab ? shallow : deep, is_one_slab ? deep - shallow : deep};
-  const uint64_t scratch = std::max(fill_slab_scratch_words(*model_, resolved_, samples_, shallow),
-                                    fill_slab_scratch_words(*model_, resolved_, samples_, deep));
-  const Reservation reservation(model_->context().budget,
-                                ((room[0] + room[1]) * layer_words + scratch) * sizeof(uint64_t) +
-                                    layer_bytes() + plain_bytes(),
-                                "slabs of layers");
-  std::vector<uint64_t> current(room[0] * layer_words), next(room[1] * layer_words);
-  std::vector<uint8_t> bytes(layer_bytes()), plain(plain_bytes());
-
-  Job ahead_job(job);  // stops the slab ahead when a callback ends the run
-  fill_slab(*model_, resolved_, samples_, first, first + shallow, current.data(), job);
-  for (uint64_t z0 = first, z1 = first + shallow; z0 < last;) {
-    // All slabs but the first begin at a multiple of their height: what is said of whole cells in
-    // plan_slabs() holds for them.
-    const uint64_t z2 = std::min(last, first + (z1 - first) / deep * deep + deep);
-    std::optional<Executor::Task> ahead;
-    if (z1 < last)
-      ahead.emplace(model_->executor(), [&, z1, z2] {
-        const CurrentJob current(&ahead_job);
-        fill_slab(*model_, resolved_, samples_, z1, z2, next.data(), &ahead_job);
-      });
-    try {
-      for (uint64_t k = z0; k < z1; ++k) {
-        check_cancelled(job);
-        const uint64_t inside =
-            write(k, current.data() + (k - z0) * layer_words, plain.data(), bytes.data(), job);
-        take({k, grid_.z(k), bytes.data(), inside});
-        if (job)
-          job->set_progress(static_cast<double>(k + 1 - first) / static_cast<double>(last - first));
-      }
-    } catch (...) {
-      ahead_job.cancel();
-      throw;
-    }
-    if (ahead) ahead->wait();
-    std::swap(current, next);
-    z0 = z1;
-    z1 = z2;
+  uint64_t all_bytes = 0, max_plain_bytes = 0;
+  std::vector<size_t> with_contours;
+  for (size_t i = 0; i < outputs_.size(); ++i) {
+    all_bytes += layer_bytes(i);
+    max_plain_bytes = std::max(max_plain_bytes, plain_bytes(outputs_[i]));
+    if (!outputs_[i].pixels) with_contours.push_back(i);
   }
-}
-
-void Slicer::run_by_layers(uint64_t first, uint64_t last,
-                           const std::function<void(const Layer&)>& take, Job* job) const {
-  const Reservation reservation(model_->context().budget, layer_bytes() + plain_bytes(), "a layer");
-  std::vector<uint8_t> bytes(layer_bytes()), plain(plain_bytes());
+  const SlabsAhead::Depth depth = slab_depth(last - first);
+  const uint64_t slab_bytes =
+      SlabsAhead::bytes(*framed_, framed_resolved_, samples_, depth, last - first);
+  const Reservation reservation(model_->context().budget, slab_bytes + all_bytes + max_plain_bytes,
+                                samples_.empty() ? "a layer" : "slabs of layers");
+  std::vector<uint8_t> bytes(all_bytes), plain(max_plain_bytes);
+  std::vector<LayerPart> parts(outputs_.size());
+  SlabsAhead slabs(*framed_, framed_resolved_, samples_, depth, first, last, job);
+  const auto make = [&](uint64_t layer, size_t n, Job* part) {
+    return contours(layer, outputs_[with_contours[n]].plan.contours, part);
+  };
+  ContoursAhead rings(*model_, make, with_contours.size(), first, last, job);
   for (uint64_t k = first; k < last; ++k) {
     check_cancelled(job);
-    const uint64_t inside = write(k, nullptr, plain.data(), bytes.data(), job);
-    take({k, grid_.z(k), bytes.data(), inside});
+    slabs.go_to(k);
+    rings.go_to(k);
+    uint8_t* out = bytes.data();
+    for (size_t i = 0, n = 0; i < outputs_.size(); ++i) {
+      const Output& output = outputs_[i];
+      if (!output.pixels) {
+        parts[i].contours = rings.contours(n++).get();
+        continue;
+      }
+      const uint64_t* words = output.samples == no_samples ? nullptr : slabs.words(output.samples);
+      parts[i].data = out;
+      Job part(job);  // its progress is not that of the call
+      parts[i].inside_count = write(output, k, words, plain.data(), out, &part);
+      if (job) job->counts().add(part.counts());
+      out += layer_bytes(i);
+    }
+    take({k, grid_.z(k), parts});
     if (job)
       job->set_progress(static_cast<double>(k + 1 - first) / static_cast<double>(last - first));
   }
 }
 
-uint64_t Slicer::plain_bytes() const {
-  if (plan_.orientation.is_plain()) return 0;
-  return layer_stride(output_->pixel_bytes(), grid_.nx) * grid_.ny;
+uint64_t Slicer::plain_bytes(const Output& output) const {
+  if (plan_.orientation.is_plain() || !output.pixels) return 0;
+  return layer_stride(output.pixels->pixel_bytes(), grid_.nx) * grid_.ny;
 }
 
-uint64_t Slicer::write(uint64_t index, const uint64_t* words, uint8_t* plain, uint8_t* out,
-                       Job* job) const {
+uint64_t Slicer::write(const Output& output, uint64_t index, const uint64_t* words, uint8_t* plain,
+                       uint8_t* out, Job* job) const {
   SampleGrid pixels = grid_;
   pixels.nz = 1;
   pixels.origin.z = grid_.z(index);
@@ -248,31 +261,57 @@ uint64_t Slicer::write(uint64_t index, const uint64_t* words, uint8_t* plain, ui
   pixels.heights = nullptr;
   pixels.first[2] = 0;
   const bool is_plain = plan_.orientation.is_plain();
-  const uint64_t inside =
-      output_->write({*model_, resolved_, pixels, words, job}, is_plain ? out : plain);
+  const uint64_t inside = output.pixels->write(
+      {*model_, resolved_, plan_.frame, pixels, words, job}, is_plain ? out : plain);
   if (!is_plain)
-    orient_layer(plan_.orientation, output_->pixel_bytes(), plain, grid_.nx, grid_.ny, out,
+    orient_layer(plan_.orientation, output.pixels->pixel_bytes(), plain, grid_.nx, grid_.ny, out,
                  model_->context().executor);
   return inside;
 }
 
 void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
   JobScope scope(job);
-  const bool has_samples = output_->samples_across() != 0;
-  const uint64_t layer_words = words_for(samples_.nx) * samples_.ny;
-  const uint64_t scratch =
-      has_samples ? fill_slab_scratch_words(*model_, resolved_, samples_, 1) : 0;
+  const Output& output = outputs_.front();
+  const bool has_samples = output.samples != no_samples;
+  uint64_t layer_words = 0, scratch = 0;
+  if (has_samples) {
+    const SampleGrid& samples = samples_[output.samples];
+    layer_words = words_for(samples.nx) * samples.ny;
+    scratch = fill_slab_scratch_words(*framed_, framed_resolved_, samples, 1);
+  }
   // A call that fails leaves `out` as it was: values are written beside it.
-  const uint64_t beside = has_samples ? 0 : layer_bytes();
-  const Reservation reservation(model_->context().budget,
-                                (layer_words + scratch) * sizeof(uint64_t) + plain_bytes() + beside,
-                                "a layer");
+  const uint64_t beside = has_samples ? 0 : layer_bytes(0);
+  const Reservation reservation(
+      model_->context().budget,
+      (layer_words + scratch) * sizeof(uint64_t) + plain_bytes(output) + beside, "a layer");
   std::vector<uint64_t> words(layer_words);
-  std::vector<uint8_t> plain(plain_bytes()), bytes(beside);
-  if (has_samples) fill_slab(*model_, resolved_, samples_, index, index + 1, words.data(), job);
-  write(index, words.data(), plain.data(), has_samples ? out : bytes.data(), job);
+  std::vector<uint8_t> plain(plain_bytes(output)), bytes(beside);
+  if (has_samples)
+    fill_slab(*framed_, framed_resolved_, samples_[output.samples], index, index + 1, words.data(),
+              job);
+  write(output, index, words.data(), plain.data(), has_samples ? out : bytes.data(), job);
   if (!has_samples) std::memcpy(out, bytes.data(), bytes.size());
   scope.done();
+}
+
+Ref<Contours> Slicer::contours(uint64_t index, ContourPlan plan, Job* job) const {
+  plan.length_scale = plan_.length_scale;
+  plan.plane = {2, grid_.z(index)};
+  if (!plan.has_window) {
+    plan.has_window = true;
+    for (int i = 0; i < 2; ++i) {
+      const double first = static_cast<double>(grid_.first[static_cast<size_t>(i)]);
+      const double count = static_cast<double>(i == 0 ? grid_.nx : grid_.ny);
+      plan.window_min[i] = grid_.origin[i] + (first - 0.5) * grid_.spacing[i];
+      plan.window_max[i] = grid_.origin[i] + (first + count - 0.5) * grid_.spacing[i];
+    }
+  }
+  // Axes of contours are those of the model in their order.
+  const std::array<int, 3> axes = plan_.frame.model_axes();
+  if (axes != std::array<int, 3>{1, 2, 0} && axes != std::array<int, 3>{0, 2, 1})
+    return layer_contours(*framed_, plan, job);
+  plan.plane.axis = axes[2];
+  return layer_contours(*model_, plan, job);
 }
 
 }  // namespace msq

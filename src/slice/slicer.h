@@ -8,14 +8,16 @@
 #include "base/job.h"
 #include "base/sample_grid.h"
 #include "model/model.h"
+#include "slice/layer_frame.h"
 #include "slice/layer_output.h"
 #include "slice/orientation.h"
+#include "slice/slabs_ahead.h"
 
 namespace msq {
 
 /// What a host may leave open is filled in by the constructor of Slicer; see msq_slicer_def.
 struct SlicePlan {
-  LayerFormat format = LayerFormat::bits;
+  std::vector<OutputPlan> outputs = {OutputPlan{}};  ///< at least one
   double pitch[2] = {0, 0};
   uint32_t resolution[2] = {0, 0};
   double layer_height = 0;
@@ -26,15 +28,24 @@ struct SlicePlan {
   std::vector<double> heights;
   double length_scale = 0;
   SampleWindow window;
-  GreyScale grey;
   Orientation orientation;
+  /// Region, pixels, heights and layers are in its coordinates.
+  LayerFrame frame;
+};
+
+/// What one of the outputs is in a layer.
+struct LayerPart {
+  const uint8_t* data = nullptr;  ///< null: contours
+  uint64_t inside_count = 0;
+  Contours* contours = nullptr;
 };
 
 struct Layer {
   uint64_t index;
   double z;
-  const uint8_t* data;
-  uint64_t inside_count;
+  const std::vector<LayerPart>& parts;  ///< of each output
+
+  const LayerPart& main() const { return parts.front(); }
 };
 
 class Slicer final : public RefCounted {
@@ -49,43 +60,65 @@ class Slicer final : public RefCounted {
   const SampleGrid& grid() const { return grid_; }
   /// Pixels along x and y, and layers, of the whole plan.
   const std::array<uint64_t, 3>& whole() const { return whole_; }
-  LayerFormat format() const { return plan_.format; }
+  size_t output_count() const { return outputs_.size(); }
+  LayerFormat format(size_t output) const { return outputs_[output].plan.format; }
   /// Pixels of a layer that is written: those of the grid, exchanged if the plan transposes.
   uint64_t width() const { return plan_.orientation.transpose ? grid_.ny : grid_.nx; }
   uint64_t height() const { return plan_.orientation.transpose ? grid_.nx : grid_.ny; }
   uint64_t slab_layers() const { return slab_layers_; }
-  uint64_t stride() const { return layer_stride(output_->pixel_bytes(), width()); }
-  uint64_t layer_bytes() const { return stride() * height(); }
+  /// Of an output. 0: contours.
+  uint64_t stride(size_t output = 0) const {
+    const LayerOutput* pixels = outputs_[output].pixels.get();
+    return pixels ? layer_stride(pixels->pixel_bytes(), width()) : 0;
+  }
+  uint64_t layer_bytes(size_t output = 0) const { return stride(output) * height(); }
 
   /// Calls take(layer) for layers [first, last) in order, on this thread, while workers compute the
   /// next slab. What take() throws ends the run and is passed on.
   void run(uint64_t first, uint64_t last, const std::function<void(const Layer&)>& take,
            Job* job) const;
 
-  /// One layer into layer_bytes() bytes.
+  /// The first output of one layer, which must not be contours, into layer_bytes(0) bytes.
   void slice_layer(uint64_t index, uint8_t* out, Job* job) const;
 
+  /// Contours of a layer. `plan`: all but the plane and the length scale; without a window, that of
+  /// the pixels.
+  Ref<Contours> contours(uint64_t index, ContourPlan plan, Job* job) const;
+
  private:
+  static constexpr size_t no_samples = SIZE_MAX;
+  struct Output {
+    OutputPlan plan;
+    std::unique_ptr<const LayerOutput> pixels;  ///< null: contours
+    size_t samples = no_samples;                ///< which of samples_
+  };
+
+  /// Of the frame.
+  const char* axis_name(int axis) const;
   void plan_axis(int axis);
   void plan_layers();
-  void plan_samples();
+  void plan_outputs();
   void plan_slabs();
-  /// Bytes of a layer as the output writes it, before it is turned; 0 where it is not.
-  uint64_t plain_bytes() const;
+  /// Of a run of so many layers.
+  SlabsAhead::Depth slab_depth(uint64_t layers) const;
+  SampleGrid divided_pixels(unsigned across) const;
+  /// Bytes of a layer of an output as it writes it, before it is turned; 0 where it is not.
+  uint64_t plain_bytes(const Output& output) const;
   /// Writes one layer from its bits, where the output has samples. `plain`: plain_bytes().
-  uint64_t write(uint64_t index, const uint64_t* words, uint8_t* plain, uint8_t* out,
-                 Job* job) const;
-  void run_by_layers(uint64_t first, uint64_t last, const std::function<void(const Layer&)>& take,
-                     Job* job) const;
+  uint64_t write(const Output& output, uint64_t index, const uint64_t* words, uint8_t* plain,
+                 uint8_t* out, Job* job) const;
 
   Ref<const Model> model_;
   SlicePlan plan_;
   Scales resolved_;
-  const std::unique_ptr<const LayerOutput> output_;
+  /// The model in the coordinates of the frame, for bits and contours.
+  Ref<const Model> framed_;
+  Scales framed_resolved_;
   SampleGrid grid_;
-  /// What the bits are of: the pixels, or a finer grid of the same layers. Empty for outputs that
-  /// have no samples.
-  SampleGrid samples_;
+  std::vector<Output> outputs_;
+  /// What the bits of outputs are of: the pixels, or finer grids of the same layers. No two are
+  /// equal.
+  std::vector<SampleGrid> samples_;
   std::array<uint64_t, 3> whole_;
   uint64_t slab_layers_ = 1;
 };

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signed distances and materials of pixels: set queries on the grid of a layer.
+// Signed distances, materials and onsets of pixels: set queries on the grid of a layer.
 #include <cstring>
 #include <vector>
 
+#include "query/array_points.h"
 #include "query/distance.h"
 #include "query/grid_points.h"
 #include "query/material.h"
+#include "query/reach.h"
+#include "query/values.h"
 #include "slice/layer_output.h"
 
 namespace msq {
@@ -24,6 +27,7 @@ uint64_t write_values(const LayerSource& source, unsigned pixel_bytes, uint8_t* 
   const uint64_t width = pixels.nx, stride = layer_stride(pixel_bytes, width);
   const uint64_t rows = std::max<uint64_t>(1, strip_pixels / width);
   std::vector<Value> values;
+  std::vector<Vec3> mapped;
   uint64_t inside = 0;
   for (uint64_t first = 0; first < pixels.ny; first += rows) {
     SampleGrid strip = pixels;
@@ -31,7 +35,18 @@ uint64_t write_values(const LayerSource& source, unsigned pixel_bytes, uint8_t* 
     strip.first[1] += first;
     const GridPoints points(strip);
     values.resize(points.count());
-    query(points, values.data());
+    if (source.frame.is_that_of_model()) {
+      query(points, values.data());
+    } else {
+      mapped.resize(points.count());
+      points.read(0, points.count(), mapped.data());
+      for (Vec3& p : mapped) p = source.frame.to_model(p);
+      PointArray array;
+      array.data = reinterpret_cast<const unsigned char*>(mapped.data());
+      array.count = mapped.size();
+      array.stride = sizeof(Vec3);
+      query(ArrayPoints(array), values.data());
+    }
     for (uint64_t j = 0; j < strip.ny; ++j) {
       uint8_t* row = out + (first + j) * stride;
       std::memset(row + stride - 8, 0, 8);
@@ -50,7 +65,7 @@ class DistanceOutput final : public LayerOutput {
   uint64_t write(const LayerSource& source, uint8_t* out) const override {
     return write_values<double>(
         source, pixel_bytes(), out,
-        [&](const GridPoints& points, double* distances) {
+        [&](const PointSet& points, double* distances) {
           set_distance(source.model, source.resolved, points, distances, source.job);
         },
         [](double distance, uint8_t* at) {
@@ -69,7 +84,7 @@ class MaterialOutput final : public LayerOutput {
   uint64_t write(const LayerSource& source, uint8_t* out) const override {
     return write_values<uint32_t>(
         source, pixel_bytes(), out,
-        [&](const GridPoints& points, uint32_t* ids) {
+        [&](const PointSet& points, uint32_t* ids) {
           set_material(source.model, source.resolved, points, {}, {}, ids, nullptr, source.job);
         },
         [](uint32_t id, uint8_t* at) {
@@ -77,6 +92,37 @@ class MaterialOutput final : public LayerOutput {
           return id != 0;
         });
   }
+};
+
+class OnsetOutput final : public LayerOutput {
+ public:
+  OnsetOutput(const Structure& structure, bool is_signed)
+      : structure_(structure), is_signed_(is_signed) {}
+  unsigned pixel_bytes() const override { return sizeof(float); }
+  unsigned samples_across() const override { return 0; }
+
+  uint64_t write(const LayerSource& source, uint8_t* out) const override {
+    const Context& context = source.model.context();
+    return write_values<double>(
+        source, pixel_bytes(), out,
+        [&](const PointSet& points, double* onsets) {
+          require_reach(structure_, context.executor, points, 0);
+          OnsetPlan plan;
+          plan.is_signed = is_signed_;
+          plan.onsets = onsets;
+          set_onset(structure_, points, plan, context.executor_for(structure_.is_concurrent()),
+                    source.job);
+        },
+        [](double onset, uint8_t* at) {
+          const auto rounded = static_cast<float>(onset);
+          std::memcpy(at, &rounded, sizeof rounded);
+          return false;
+        });
+  }
+
+ private:
+  const Structure& structure_;  // of a scale of the slicer's model
+  const bool is_signed_;
 };
 
 }  // namespace
@@ -87,6 +133,10 @@ std::unique_ptr<const LayerOutput> make_distance_output() {
 
 std::unique_ptr<const LayerOutput> make_material_output() {
   return std::make_unique<MaterialOutput>();
+}
+
+std::unique_ptr<const LayerOutput> make_onset_output(const Structure& structure, bool is_signed) {
+  return std::make_unique<OnsetOutput>(structure, is_signed);
 }
 
 }  // namespace msq

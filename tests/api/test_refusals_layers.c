@@ -5,10 +5,45 @@
 
 static msq_context* context;
 static msq_model *plain, *plain_of_small, *everywhere; /* a lattice in a box; without bounds */
+static msq_model *regions, *beams;
 
 static msq_slicer_def* plan_of_output(int32_t kind) {
   msq_slicer_def* def = (msq_slicer_def*)definition(0);
   *def = slicer_def(kind, 32, 32, 0.25);
+  return def;
+}
+
+/* Two of the same kind. */
+static msq_model* make_regions_model(void) {
+  const msq_model* of[2] = {plain, plain};
+  msq_model* model;
+  assert_ok(msq_model_regions(context, of, 2, &model));
+  return model;
+}
+
+/* A structure without an onset. */
+static msq_model* make_beam_model(void) {
+  static const double ends[2][3] = {{1, 1, 1}, {3, 3, 3}};
+  static const uint32_t pair[2] = {0, 1};
+  static const double radii[2] = {0.5, 0.5};
+  msq_beams_def def;
+  msq_structure* beam;
+  assert_ok(msq_beams_def_init(&def, sizeof def));
+  def.nodes = ends;
+  def.node_count = 2;
+  def.beams = pair;
+  def.beam_count = 1;
+  def.radii = radii;
+  assert_ok(msq_structure_beams(context, &def, &beam, NULL));
+  return make_model(context, make_box(context), beam, NULL);
+}
+
+static msq_contours_def* contours_of(int32_t type) {
+  msq_contours_def* def = (msq_contours_def*)definition(1);
+  assert_ok(msq_contours_def_init(def, sizeof *def));
+  def->type = type;
+  def->tolerance = 0.05;
+  if (type != MSQ_FLOAT64) def->units = 1e5;
   return def;
 }
 
@@ -26,7 +61,7 @@ static void slicers(void** state) {
     wrong_sizes(table, def, offsetof(msq_slicer_def, window), sizeof *def);
     WRONG(ARGUMENT, "model is NULL", model = NULL);
     WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
-    wrong_enum(table, &def->output, "output", 1, 5);
+    wrong_enum(table, &def->output, "output", 1, 6);
     wrong_enum(table, &def->has_region, "has_region", 0, 1);
     for (int axis = 0; axis < 2; ++axis) {
       for (int i = 0; i < 3; ++i)
@@ -97,9 +132,69 @@ static void slicers(void** state) {
     wrong_number(table, &def->grey_gamma, "grey_gamma is");
     WRONG(ARGUMENT, "grey_threshold is 256", def->grey_threshold = 256);
     WRONG(ARGUMENT, "orientation is 8", def->orientation = 8);
-    WRONG(ARGUMENT, "reserved", def->reserved = 1);
+    WRONG(ARGUMENT, "outputs is NULL|output_count is 1", def->output_count = 1);
     WRONG(LIMIT, "the limit is 2147483647", def->pitch[0] = 1e-9;
           def->resolution[0] = INT32_MAX / 2);
+    if (TRY(msq_slicer_create(plain, def, slicer))) msq_slicer_release(*slicer);
+  }
+  REFUSALS("msq_slicer_create") { /* several outputs */
+    const msq_model* model = plain;
+    msq_slicer_def* def = plan_of_output(MSQ_LAYER_BITS);
+    msq_slicer** slicer = (msq_slicer**)output(0);
+    msq_contours_def* rings = contours_of(MSQ_FLOAT64);
+    static struct_bytes room[3];
+    msq_output_def* outputs = (msq_output_def*)room; /* two and a newer one's excess */
+    memset(room, 0, sizeof room);
+    for (int i = 0; i < 2; ++i) assert_ok(msq_output_def_init(&outputs[i], sizeof outputs[i]));
+    outputs[0].output = MSQ_LAYER_GREY;
+    outputs[1].output = MSQ_LAYER_CONTOURS;
+    outputs[1].contours = rings;
+    def->outputs = outputs;
+    def->output_count = 2;
+    WRONG(ARGUMENT, "output is 2|outputs", def->output = MSQ_LAYER_BYTES);
+    WRONG(ARGUMENT, "output_count is 0|64", def->output_count = 0);
+    WRONG(ARGUMENT, "output_count is 65|64", def->output_count = 65);
+    WRONG(ARGUMENT, "struct_size of outputs[0]", outputs[0].struct_size = 4);
+    WRONG(ARGUMENT, "struct_size of outputs[1]", outputs[1].struct_size = 4);
+    WRONG(ARGUMENT, "struct_size of outputs[1]|that of outputs[0]", ++outputs[1].struct_size);
+    wrong_enum(table, &outputs[0].output, "output", 1, 7);
+    WRONG(ARGUMENT, "grey_samples is 5", outputs[0].grey_samples = 5);
+    WRONG(ARGUMENT, "grey_gamma is 11", outputs[0].grey_gamma = 11);
+    WRONG(ARGUMENT, "grey_threshold is 300", outputs[0].grey_threshold = 300);
+    wrong_enum(table, &outputs[0].onset_value, "onset_value", 0, 1);
+    WRONG(ARGUMENT, "onset_scale is 2|1 scales", outputs[0].output = MSQ_LAYER_ONSET;
+          outputs[0].onset_scale = 2);
+    WRONG(ARGUMENT, "no structure is resolved", outputs[0].output = MSQ_LAYER_ONSET;
+          def->length_scale = 2);
+    WRONG(UNSUPPORTED, "2 regions", outputs[0].output = MSQ_LAYER_ONSET; model = regions);
+    WRONG(UNSUPPORTED, "scale 1 has none", outputs[0].output = MSQ_LAYER_ONSET; model = beams);
+    WRONG(ARGUMENT, "material", outputs[0].output = MSQ_LAYER_MATERIAL);
+    WRONG(ARGUMENT, "output is 3|given", outputs[0].contours = rings);
+    WRONG(ARGUMENT, "output is 7|NULL", outputs[1].contours = NULL);
+    WRONG(ARGUMENT, "axis is 0", rings->axis = 0);
+    WRONG(ARGUMENT, "length_scale is 1", rings->length_scale = 1);
+    WRONG(ARGUMENT, "tolerance is 0", rings->tolerance = 0);
+    WRONG(ARGUMENT, "type is 5", rings->type = 5);
+    WRONG(ARGUMENT, "outputs is NULL", def->outputs = NULL);
+    if (TRY(msq_slicer_create(model, def, slicer))) msq_slicer_release(*slicer);
+  }
+  REFUSALS("msq_slicer_create") { /* frames */
+    static const double axes[9] = {0.6, 0.8, 0, -0.8, 0.6, 0, 0, 0, 1};
+    msq_slicer_def* def = plan_of_output(MSQ_LAYER_BITS);
+    msq_slicer** slicer = (msq_slicer**)output(0);
+    memcpy(def->frame_axes, axes, sizeof axes);
+    wrong_vector(table, def->frame_origin, "frame_origin");
+    for (int i = 0; i < 9; ++i)
+      for (int which = 0; which < 3; ++which)
+        WRONG(ARGUMENT, "frame_axes|finite", def->frame_axes[i] = not_finite(which));
+    WRONG(ARGUMENT, "rows 0 and 0 of frame_axes", def->frame_axes[0] = 0.61);
+    WRONG(ARGUMENT, "rows 0 and 2 of frame_axes", def->frame_axes[6] = 1e-6);
+    WRONG(ARGUMENT, "rows 2 and 2 of frame_axes", def->frame_axes[8] = 0);
+    WRONG(ARGUMENT, "rows 2 and 2 of frame_axes", def->frame_axes[8] = -2);
+    RIGHT(def->frame_axes[8] = -1);
+    RIGHT(memset(def->frame_axes, 0, sizeof axes));
+    WRONG(ARGUMENT, "extent along u", def->has_region = 1;
+          def->region_max[1] = def->region_max[2] = 1);
     if (TRY(msq_slicer_create(plain, def, slicer))) msq_slicer_release(*slicer);
   }
   REFUSALS("msq_slicer_create") { /* windows; 16 layers */
@@ -157,6 +252,38 @@ static void layers(void** state) {
     WRONG(CANCELLED, "cancelled", job = cancelled_job());
     TRY(msq_slice_layer(slicer, index, layer, bytes, job));
   }
+  REFUSALS("msq_slice_layer") { /* contours have no bytes */
+    msq_slicer_def several = def;
+    msq_output_def outputs[2];
+    uint8_t* layer = (uint8_t*)output(0);
+    for (int i = 0; i < 2; ++i) assert_ok(msq_output_def_init(&outputs[i], sizeof outputs[i]));
+    several.outputs = outputs;
+    several.output_count = 2;
+    outputs[1].contours = contours_of(MSQ_FLOAT64);
+    outputs[1].output = MSQ_LAYER_CONTOURS;
+    WRONG(ARGUMENT, "output 0 is contours", outputs[0] = outputs[1]);
+    msq_slicer* slicer = make_slicer(plain, &several);
+    TRY(msq_slice_layer(slicer, 3, layer, 80, NULL));
+    msq_slicer_release(slicer);
+  }
+  REFUSALS("msq_slicer_run") { /* what contours refuse is refused at their layer */
+    msq_slicer_def several = def;
+    msq_output_def rings;
+    layer_stack stack;
+    assert_ok(msq_output_def_init(&rings, sizeof rings));
+    several.outputs = &rings;
+    several.output_count = 1;
+    rings.contours = contours_of(MSQ_INT32);
+    rings.output = MSQ_LAYER_CONTOURS;
+    WRONG(LIMIT, "the limit is 2147483647", contours_of(MSQ_INT32)->units = 1e10);
+    WRONG(ARGUMENT, "at least 64", contours_of(MSQ_INT32)->units = 100);
+    msq_slicer* slicer = make_slicer(plain, &several);
+    memset(&stack, 0, sizeof stack);
+    stack.wrong = "first";
+    stack.plan = plan_of(slicer);
+    TRY(msq_slicer_run(slicer, 2, 3, take_layer, &stack, NULL));
+    msq_slicer_release(slicer);
+  }
   REFUSALS("msq_slicer_run") {
     const msq_slicer* slicer = known;
     uint64_t from = 0, layers = 2;
@@ -176,15 +303,6 @@ static void layers(void** state) {
     free_stack(&stack);
   }
   msq_slicer_release(known);
-}
-
-static msq_contours_def* contours_of(int32_t type) {
-  msq_contours_def* def = (msq_contours_def*)definition(0);
-  assert_ok(msq_contours_def_init(def, sizeof *def));
-  def->type = type;
-  def->tolerance = 0.05;
-  if (type != MSQ_FLOAT64) def->units = 1e5;
-  return def;
 }
 
 static int32_t refuse_findings(void* user, const msq_finding* findings, uint64_t count) {
@@ -335,9 +453,13 @@ int main(void) {
   plain = make_lattice_model(context);
   plain_of_small = make_lattice_model(small);
   assert_ok(msq_shape_all_space(context, &all));
+  regions = make_regions_model();
+  beams = make_beam_model();
   everywhere = make_model(context, all, make_lattice(context), NULL);
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   msq_job_release(cancelled_job());
+  msq_model_release(beams);
+  msq_model_release(regions);
   msq_model_release(everywhere);
   msq_model_release(plain_of_small);
   msq_model_release(plain);

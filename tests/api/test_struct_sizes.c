@@ -31,6 +31,7 @@
   DO(points_def, offsetof(msq_points_def, seed))                     \
   DO(segments_def, sizeof(msq_segments_def))                         \
   DO(slicer_def, offsetof(msq_slicer_def, window))                   \
+  DO(output_def, sizeof(msq_output_def))                             \
   DO(contours_def, sizeof(msq_contours_def))                         \
   DO(printability_def, sizeof(msq_printability_def))                 \
   DO(fill_def, sizeof(msq_fill_def))                                 \

@@ -197,7 +197,7 @@ void test_grids(void** state) {
     assert_int_equal(job.counts().points, set.count());
     assert_true(job.counts().by_shape > 0 && job.counts().by_shape < set.count());
     SlicePlan plan;
-    plan.format = LayerFormat::bytes;
+    plan.outputs[0].format = LayerFormat::bytes;
     plan.pitch[0] = grid.spacing.x;
     plan.pitch[1] = grid.spacing.y;
     plan.slab_layers = 5;
@@ -213,7 +213,7 @@ void test_grids(void** state) {
         [&](const Layer& layer) {
           for (uint64_t j = 0; j < grid.ny; ++j)
             for (uint64_t i = 0; i < grid.nx; ++i)
-              differ += (layer.data[j * slicer->stride() + i] != 0) !=
+              differ += (layer.main().data[j * slicer->stride() + i] != 0) !=
                         plate.inside(slicer->grid().at(i, j, layer.index));
         },
         nullptr);

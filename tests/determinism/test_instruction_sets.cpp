@@ -42,10 +42,10 @@ uint64_t hash_of(const std::function<Ref<const Structure>(Ref<Context>)>& make) 
   const Slicer slicer(Ref<const Model>(model.get()), plan);
   uint64_t hash = 0, count = 0;
   const auto take = [&](const Layer& layer) {
-    hash = splitmix_output(hash, layer.inside_count);
+    hash = splitmix_output(hash, layer.main().inside_count);
     for (uint64_t i = 0; i < slicer.layer_bytes(); i += sizeof(uint64_t)) {
       uint64_t word;
-      std::memcpy(&word, layer.data + i, sizeof word);
+      std::memcpy(&word, layer.main().data + i, sizeof word);
       hash = splitmix_finalise(hash ^ splitmix_output(word, ++count));
     }
   };

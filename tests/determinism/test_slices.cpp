@@ -2,6 +2,7 @@
 // The layers of a model are the same bytes whatever the threads, the slab height, the cache, and
 // however the plan is split, by layers or by windows; and they are what set queries and point
 // queries answer.
+#include <bit>
 #include <functional>
 
 #include "base/random.h"
@@ -139,10 +140,10 @@ class Hash {
  public:
   void add(const Layer& layer, uint64_t bytes) {
     add(layer.index);
-    add(layer.inside_count);
+    add(layer.main().inside_count);
     for (uint64_t i = 0; i < bytes; i += sizeof(uint64_t)) {
       uint64_t word;
-      std::memcpy(&word, layer.data + i, sizeof word);
+      std::memcpy(&word, layer.main().data + i, sizeof word);
       add(word);
     }
   }
@@ -185,6 +186,44 @@ void test_settings(void** state) {
   print_message("%zu settings, the same layers\n", count);
 }
 
+/// All that layers may hold at once, by many threads: the bytes of contours and of coverage.
+uint64_t hash_of_outputs(const ModelRow& row, unsigned threads, uint32_t slab_layers,
+                         uint64_t cache) {
+  const Ref<Context> context = make_ref<Context>(threads, cache, uint64_t{0}, true);
+  const Ref<Model> model = row.make(context);
+  SlicePlan plan = plan_of(slab_layers);
+  plan.layer_height *= 3;
+  plan.outputs.resize(3);
+  plan.outputs[0].format = LayerFormat::grey;
+  plan.outputs[1].format = LayerFormat::contours;
+  plan.outputs[1].contours.tolerance = 0.02;
+  const Slicer slicer(Ref<const Model>(model.get()), plan);
+  Hash hash;
+  slicer.run(
+      0, slicer.grid().nz,
+      [&](const Layer& layer) {
+        hash.add(layer, slicer.layer_bytes());
+        const LayerPart &rings = layer.parts[1], &bits = layer.parts[2];
+        hash.add(bits.inside_count);
+        hash.add(rings.contours->ring_count());
+        const auto* points = static_cast<const double*>(rings.contours->points());
+        for (uint64_t i = 0; i < 2 * rings.contours->point_count(); ++i)
+          hash.add(std::bit_cast<uint64_t>(points[i]));
+      },
+      nullptr);
+  return hash.value();
+}
+
+void test_outputs(void** state) {
+  const ModelRow& row = *static_cast<const ModelRow*>(*state);
+  const uint64_t expected = hash_of_outputs(row, 1, 0, uint64_t{1} << 30);
+  for (unsigned threads : {2u, 3u, 8u}) {
+    if (test_scale() < 0.5 && threads == 3) continue;
+    if (hash_of_outputs(row, threads, threads, uint64_t{1} << 30) != expected)
+      fail_msg("other layers with %u threads", threads);
+  }
+}
+
 void test_split(void** state) {
   const ModelRow& row = *static_cast<const ModelRow*>(*state);
   const Ref<Model> model = row.make(make_ref<Context>(2u, uint64_t{1} << 30, uint64_t{0}));
@@ -193,7 +232,7 @@ void test_split(void** state) {
   std::vector<uint8_t> whole(layers * bytes), split(layers * bytes), single(bytes);
   const auto into = [&](std::vector<uint8_t>& out) {
     return [&](const Layer& layer) {
-      std::memcpy(out.data() + layer.index * bytes, layer.data, bytes);
+      std::memcpy(out.data() + layer.index * bytes, layer.main().data, bytes);
     };
   };
   slicer.run(0, layers, into(whole), nullptr);
@@ -213,19 +252,20 @@ void test_split(void** state) {
 void test_windows(void** state) {
   const ModelRow& row = *static_cast<const ModelRow*>(*state);
   SlicePlan plan = plan_of(0);
-  plan.format = LayerFormat::bytes;
+  plan.outputs[0].format = LayerFormat::bytes;
   const Ref<const Model> whole_model(row.make(make_ref<Context>(1u, uint64_t{1} << 30, 0u)).get());
   const Slicer whole(whole_model, plan);
   const SampleGrid& grid = whole.grid();
   std::vector<uint8_t> wanted(grid.nz * grid.ny * grid.nx);
-  const auto copy = [&](const Slicer& slicer, const Layer& layer, uint64_t k, uint8_t* to) {
+  const auto copy = [&](const Slicer& slicer, const uint8_t* layer, uint64_t k, uint8_t* to) {
     const SampleGrid& part = slicer.grid();
     for (uint64_t j = 0; j < part.ny; ++j)
       std::memcpy(to + part.first[0] + grid.nx * (part.first[1] + j + grid.ny * k),
-                  layer.data + j * slicer.stride(), part.nx);
+                  layer + j * slicer.stride(), part.nx);
   };
   whole.run(
-      0, grid.nz, [&](const Layer& layer) { copy(whole, layer, layer.index, wanted.data()); },
+      0, grid.nz,
+      [&](const Layer& layer) { copy(whole, layer.main().data, layer.index, wanted.data()); },
       nullptr);
   Random random(1);
   const auto cuts = [&](uint64_t count) {
@@ -254,14 +294,14 @@ void test_windows(void** state) {
                 0, part.nz,
                 [&](const Layer& layer) {
                   assert_true(layer.z == grid.z(z[c] + layer.index));
-                  copy(slicer, layer, z[c] + layer.index, got.data());
+                  copy(slicer, layer.main().data, z[c] + layer.index, got.data());
                 },
                 nullptr);
           } else {
             std::vector<uint8_t> single(slicer.layer_bytes());
             for (uint64_t k = 0; k < part.nz; ++k) {
               slicer.slice_layer(k, single.data(), nullptr);
-              copy(slicer, {k, part.z(k), single.data(), 0}, z[c] + k, got.data());
+              copy(slicer, single.data(), z[c] + k, got.data());
             }
           }
           asked.resize(part.nx * part.ny * part.nz);
@@ -291,7 +331,7 @@ void test_queries(void** state) {
       [&](const Layer& l) {
         for (uint64_t j = 0; j < grid.ny; ++j)
           for (uint64_t i = 0; i < grid.nx; ++i)
-            sliced.push_back(l.data[j * slicer.stride() + i / 8] >> (7 - i % 8) & 1);
+            sliced.push_back(l.main().data[j * slicer.stride() + i / 8] >> (7 - i % 8) & 1);
       },
       nullptr);
   grid_membership(*model, resolved, grid, asked.data(), nullptr);
@@ -321,6 +361,7 @@ void test_queries(void** state) {
 int main() {
   std::vector<ModelRow> rows = models();
   int failed = run_for_each("settings", rows, test_settings);
+  failed += run_for_each("outputs", rows, test_outputs);
   failed += run_for_each("split plans", rows, test_split);
   failed += run_for_each("windows", rows, test_windows);
   failed += run_for_each("slices and queries", rows, test_queries);

@@ -62,6 +62,54 @@ std::vector<Scenario> contour_scenarios() {
          stage.call([&] { return msq_slicer_contours(slicer, 1, &def, &contours, nullptr); },
                     [&] { read_points(contours, first); });
        }});
+  // Layers normal to x of bits, contours and distances.
+  const auto several = [](const msq_model* model, msq_slicer** slicer) {
+    const msq_contours_def rings = coarse();
+    msq_output_def outputs[3];
+    for (msq_output_def& output : outputs) output = make_def(msq_output_def_init);
+    outputs[1].output = MSQ_LAYER_CONTOURS;
+    outputs[1].contours = &rings;
+    outputs[2].output = MSQ_LAYER_DISTANCE;
+    msq_slicer_def def = make_def(msq_slicer_def_init);
+    def.resolution[0] = def.resolution[1] = 20;
+    def.layer_height = 0.9;
+    def.slab_layers = 2;
+    def.outputs = outputs;
+    def.output_count = 3;
+    def.frame_axes[1] = def.frame_axes[5] = def.frame_axes[6] = 1;
+    return msq_slicer_create(model, &def, slicer);
+  };
+  scenarios.push_back({"msq_slicer_create with several outputs", [=](Stage& stage) {
+                         World world(stage);
+                         msq_model* model = world.model(world.box(), kinds()[0].make(world));
+                         msq_slicer* slicer;
+                         stage.watch_handle(slicer);
+                         stage.call([&] { return several(model, &slicer); },
+                                    [&] { msq_slicer_release(slicer); });
+                       }});
+  scenarios.push_back({"msq_slicer_run of several outputs", [=](Stage& stage) {
+                         World world(stage);
+                         msq_model* model = world.model(world.box(), kinds()[0].make(world));
+                         msq_slicer* slicer;
+                         require_ok(several(model, &slicer));
+                         world.keep(slicer);
+                         std::vector<uint64_t> points(plan_of(slicer).layer_count);
+                         stage.watch_part(points);
+                         stage.call([&] {
+                           return msq_slicer_run(
+                               slicer, 0, UINT64_MAX,
+                               [](void* user, const msq_layer* layer) -> int32_t {
+                                 msq_contours_report report{};
+                                 report.struct_size = sizeof report;
+                                 if (msq_contours_info(layer->outputs[1]->contours, &report) !=
+                                     MSQ_OK)
+                                   return -1;
+                                 static_cast<uint64_t*>(user)[layer->index] = report.point_count;
+                                 return 0;
+                               },
+                               points.data(), nullptr);
+                         });
+                       }});
   return scenarios;
 }
 

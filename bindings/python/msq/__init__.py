@@ -26,7 +26,7 @@ from .picture import Picture, RenderPass
 from .points import PointGrid, PointSet, Stratified
 from .printability import Printability
 from .shape import Shape, ShapeInfo
-from .slicer import Layer, Slicer
+from .slicer import Layer, Output, Slicer
 from .statistics import Calibration, Estimate
 from .structure import (Beams, Foam, Functional, HostFunctional, HostStructure, Lattice,
                         LatticeFaces, Structure)
@@ -43,7 +43,7 @@ __all__ = [
     "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",
     "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "Mesh", "MeshError",
     "Model",
-    "OutOfMemoryError", "Param", "Period", "Picture", "PointGrid", "PointSet",
+    "OutOfMemoryError", "Output", "Param", "Period", "Picture", "PointGrid", "PointSet",
     "Printability", "RenderPass", "Scale",
     "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
     "UnsupportedError", "build_info",

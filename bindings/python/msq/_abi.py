@@ -95,6 +95,8 @@ MSQ_LAYER_BYTES = 2
 MSQ_LAYER_GREY = 3
 MSQ_LAYER_DISTANCE = 4
 MSQ_LAYER_MATERIAL = 5
+MSQ_LAYER_ONSET = 6
+MSQ_LAYER_CONTOURS = 7
 MSQ_LAYER_MIRROR_X = 1
 MSQ_LAYER_MIRROR_Y = 2
 MSQ_LAYER_TRANSPOSE = 4
@@ -455,6 +457,19 @@ class msq_calibration_report(Structure):
                 ("parameter", c_double), ("fraction", msq_estimate), ("max_fraction", c_double)]
 
 
+class msq_contours_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("type", c_int32), ("axis", c_int32),
+                ("has_window", c_int32), ("window_min", c_double * 2), ("window_max", c_double * 2),
+                ("tolerance", c_double), ("pitch", c_double), ("units", c_double),
+                ("length_scale", c_double)]
+
+
+class msq_output_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("output", c_int32), ("grey_samples", c_uint32),
+                ("grey_threshold", c_uint32), ("grey_gamma", c_double), ("onset_scale", c_uint32),
+                ("onset_value", c_int32), ("contours", POINTER(msq_contours_def))]
+
+
 class msq_slicer_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("output", c_int32), ("pitch", c_double * 2),
                 ("resolution", c_uint32 * 2), ("layer_height", c_double), ("layer_count", c_uint64),
@@ -462,7 +477,9 @@ class msq_slicer_def(Structure):
                 ("region_max", c_double * 3), ("layer_z", POINTER(c_double)),
                 ("layer_z_count", c_uint64), ("length_scale", c_double), ("window", msq_window),
                 ("grey_samples", c_uint32), ("grey_threshold", c_uint32), ("grey_gamma", c_double),
-                ("orientation", c_uint32), ("reserved", c_uint32)]
+                ("orientation", c_uint32), ("output_count", c_uint32),
+                ("outputs", POINTER(msq_output_def)), ("frame_origin", c_double * 3),
+                ("frame_axes", c_double * 9)]
 
 
 class msq_slicer_report(Structure):
@@ -472,20 +489,20 @@ class msq_slicer_report(Structure):
                 ("window", msq_window), ("whole", c_uint64 * 3)]
 
 
+class msq_output(Structure):
+    _fields_ = [("struct_size", c_uint32), ("output", c_int32), ("data", POINTER(c_uint8)),
+                ("stride", c_uint64), ("inside_count", c_uint64),
+                ("contours", POINTER(msq_contours))]
+
+
 class msq_layer(Structure):
     _fields_ = [("struct_size", c_uint32), ("output", c_int32), ("index", c_uint64),
                 ("z", c_double), ("data", POINTER(c_uint8)), ("stride", c_uint64),
-                ("width", c_uint32), ("height", c_uint32), ("inside_count", c_uint64)]
+                ("width", c_uint32), ("height", c_uint32), ("inside_count", c_uint64),
+                ("output_count", c_uint64), ("outputs", POINTER(POINTER(msq_output)))]
 
 
 msq_layer_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_layer))
-
-
-class msq_contours_def(Structure):
-    _fields_ = [("struct_size", c_uint32), ("type", c_int32), ("axis", c_int32),
-                ("has_window", c_int32), ("window_min", c_double * 2), ("window_max", c_double * 2),
-                ("tolerance", c_double), ("pitch", c_double), ("units", c_double),
-                ("length_scale", c_double)]
 
 
 class msq_contours_report(Structure):
@@ -774,6 +791,8 @@ FUNCTIONS = {
                                 POINTER(msq_points_def), c_double, POINTER(c_double),
                                 POINTER(c_double), c_uint64, POINTER(msq_calibration_report),
                                 POINTER(msq_job)],
+    "msq_contours_def_init": [c_int32, POINTER(msq_contours_def), c_size_t],
+    "msq_output_def_init": [c_int32, POINTER(msq_output_def), c_size_t],
     "msq_slicer_def_init": [c_int32, POINTER(msq_slicer_def), c_size_t],
     "msq_slicer_create": [c_int32, POINTER(msq_model), POINTER(msq_slicer_def),
                           POINTER(POINTER(msq_slicer))],
@@ -785,7 +804,6 @@ FUNCTIONS = {
                        POINTER(msq_job)],
     "msq_slice_layer": [c_int32, POINTER(msq_slicer), c_uint64, POINTER(c_uint8), c_uint64,
                         POINTER(msq_job)],
-    "msq_contours_def_init": [c_int32, POINTER(msq_contours_def), c_size_t],
     "msq_layer_contours": [c_int32, POINTER(msq_model), c_double, POINTER(msq_contours_def),
                            POINTER(POINTER(msq_contours)), POINTER(msq_job)],
     "msq_slicer_contours": [c_int32, POINTER(msq_slicer), c_uint64, POINTER(msq_contours_def),

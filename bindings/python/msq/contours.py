@@ -20,13 +20,35 @@ _DTYPES = {_abi.MSQ_INT32: np.int32, _abi.MSQ_INT64: np.int64,
            _abi.MSQ_FLOAT64: np.float64}
 
 
+def contours_definition(tolerance: float, *, axis: int, window: Optional[Window], pitch: float,
+                        type: str, units: float, length_scale: float) -> Any:
+    """An msq_contours_def."""
+    definition = defaults(_abi.msq_contours_def)
+    if type not in _TYPES:
+        raise ValueError(f"type is {type!r}; it must be one of {', '.join(map(repr, _TYPES))}")
+    definition.type = _TYPES[type]
+    definition.axis = axis
+    if window is not None:
+        low, high = (tuple(map(float, corner)) for corner in window)
+        if len(low) != 2 or len(high) != 2:
+            raise ValueError(f"window is {window!r}; it must be two pairs of numbers")
+        definition.has_window = 1
+        definition.window_min[:] = low
+        definition.window_max[:] = high
+    definition.tolerance = tolerance
+    definition.pitch = pitch
+    definition.units = units
+    definition.length_scale = length_scale
+    return definition
+
+
 class Contours(Handle):
     """The section of a model with a plane: closed rings, the inside on their left.
 
         for ring in model.contours(z, tolerance=0.01):
             draw(ring)                                   # (n, 2); outer rings counter-clockwise
 
-    Made by Model.contours and Slicer.contours. tolerance: the greatest distance between boundary and
+    Made by Model.contours, Slicer.contours and Layer.contours. tolerance: the greatest distance between boundary and
     rings, where features are wider than the pitch. pitch 0: the tolerance. axis: the plane's normal;
     its coordinates are the other two axes, in order. window: (min, max), else the model's bounds.
     type: `int32`, `int64` or `float64`; coordinates are the model's times units, rounded for integers.
@@ -40,22 +62,8 @@ class Contours(Handle):
     def __init__(self, subject: Any, place: Any, tolerance: float, *, axis: int,
                  window: Optional[Window], pitch: float, type: str, units: float,
                  length_scale: float, job: Optional[Job]) -> None:
-        definition = defaults(_abi.msq_contours_def)
-        if type not in _TYPES:
-            raise ValueError(f"type is {type!r}; it must be one of {', '.join(map(repr, _TYPES))}")
-        definition.type = _TYPES[type]
-        definition.axis = axis
-        if window is not None:
-            low, high = (tuple(map(float, corner)) for corner in window)
-            if len(low) != 2 or len(high) != 2:
-                raise ValueError(f"window is {window!r}; it must be two pairs of numbers")
-            definition.has_window = 1
-            definition.window_min[:] = low
-            definition.window_max[:] = high
-        definition.tolerance = tolerance
-        definition.pitch = pitch
-        definition.units = units
-        definition.length_scale = length_scale
+        definition = contours_definition(tolerance, axis=axis, window=window, pitch=pitch, type=type,
+                                         units=units, length_scale=length_scale)
         function = (lib.msq_slicer_contours if subject._kind == "slicer"
                     else lib.msq_layer_contours)
         made = ctypes.POINTER(_abi.msq_contours)()
@@ -66,6 +74,17 @@ class Contours(Handle):
 
         interruptible(call, job)
         self._reference = Reference(made, lib.msq_contours_release)
+        self._read()
+
+    @classmethod
+    def _of_layer(cls, pointer: Any) -> Contours:
+        """Those of a layer that a callback has: another reference to them."""
+        lib.msq_contours_retain(pointer)
+        made = cls._wrap(Reference(pointer, lib.msq_contours_release))
+        made._read()
+        return made
+
+    def _read(self) -> None:
         held = report(_abi.msq_contours_report, lib.msq_contours_info, self._ref)
         count = held.ring_count
         self.unresolved_count: int = held.unresolved_count  #: see msq_contours_report

@@ -23,7 +23,7 @@ from .material import Material, encoded, pointer_of
 from .picture import Picture, RenderPass
 from .points import PointSet, Stratified, definition_of, query_of
 from .shape import Shape
-from .slicer import Slicer
+from .slicer import Output, Slicer
 from .statistics import Estimate
 from .structure import Structure
 from .surface import Box, Mesh
@@ -284,16 +284,18 @@ class Model(Handle):
 
     def slicer(self, *, layer_height: Optional[float] = None, pitch: Any = None,
                resolution: Any = None, layer_count: int = 0, region: Any = None,
-               layer_z: Any = None, output: str = "bits", slab_layers: int = 0,
+               layer_z: Any = None, output: Union[str, Sequence[Output]] = "bits",
+               slab_layers: int = 0,
                length_scale: float = 0.0, window: Any = None, grey_samples: int = 4,
                grey_gamma: float = 1.0, grey_threshold: int = 0, mirror: str = "",
-               transpose: bool = False) -> Slicer:
-        """Plans layers normal to z: see Slicer."""
+               transpose: bool = False, axis: int = 2, frame: Any = None) -> Slicer:
+        """Plans layers normal to an axis, or in a frame: see Slicer."""
         return Slicer(self, layer_height=layer_height, pitch=pitch, resolution=resolution,
                       layer_count=layer_count, region=region, layer_z=layer_z, output=output,
                       slab_layers=slab_layers, length_scale=length_scale, window=window,
                       grey_samples=grey_samples, grey_gamma=grey_gamma,
-                      grey_threshold=grey_threshold, mirror=mirror, transpose=transpose)
+                      grey_threshold=grey_threshold, mirror=mirror, transpose=transpose,
+                      axis=axis, frame=frame)
 
     def contours(self, height: float, tolerance: float, *, axis: int = 2,
                  window: Optional[Window] = None, pitch: float = 0.0, type: str = "float64",

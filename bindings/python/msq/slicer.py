@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import operator
 import weakref
-from typing import TYPE_CHECKING, Any, Callable, Iterator, List, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Callable, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ._interrupt import interruptible
 from ._library import constant, defaults, keep_exception, lib, report
 from ._signals import HeldSignals
 from .context import Job, job_reference, triple, unsigned
-from .contours import Contours, Window
+from .contours import Contours, Window, contours_definition
 from .errors import HostError
 from .printability import Printability, inspect
 
@@ -28,28 +28,92 @@ if TYPE_CHECKING:
 _STOPPED = 1  # the callback's code for "enough"; exceptions have negative ones
 _MOST_AHEAD_BYTES = 64 << 20  # of layers that an iterator holds
 
-_PIXELS = {"bytes": np.uint8, "grey": np.uint8, "distance": np.float32, "material": np.uint32}
+# Axes u, v, w of layers normal to an axis, as Model.contours has them.
+_AXES = {0: (0, 1, 0, 0, 0, 1, 1, 0, 0), 1: (1, 0, 0, 0, 0, 1, 0, 1, 0), 2: ()}
+_PIXELS = {"bytes": np.uint8, "grey": np.uint8, "distance": np.float32, "material": np.uint32,
+           "onset": np.float32}
 
 Region = Tuple[Sequence[float], Sequence[float]]
+
+
+class Output:
+    """One of the things that each layer of a Slicer holds.
+
+    kind: `bits`, `bytes`, `grey`, `distance`, `material`, `onset` or `contours`. grey_samples,
+    grey_gamma, grey_threshold: of grey. scale, signed: of the onset: the scale whose structure it is,
+    0: the finest resolved, and whether the radius or level is subtracted. tolerance, pitch, window,
+    type, units: of contours, as in Slicer.contours.
+    """
+
+    def __init__(self, kind: str, *, grey_samples: int = 4, grey_gamma: float = 1.0,
+                 grey_threshold: int = 0, scale: int = 0, signed: bool = False,
+                 tolerance: Optional[float] = None, pitch: float = 0.0,
+                 window: Optional[Window] = None, type: str = "float64",
+                 units: float = 1.0) -> None:
+        if kind not in ("bits", *_PIXELS, "contours"):
+            raise ValueError(f"output is {kind!r}; it must be one of bits, {', '.join(_PIXELS)}, "
+                             "contours")
+        if (kind == "contours") != (tolerance is not None):
+            raise ValueError(f"output is {kind!r} and tolerance is {tolerance}; contours need one, "
+                             "and no other")
+        self._kind = kind
+        definition = defaults(_abi.msq_output_def)
+        definition.output = constant("MSQ_LAYER_", kind, "output")
+        definition.grey_samples = unsigned(grey_samples, 32, "grey_samples")
+        definition.grey_gamma = grey_gamma
+        definition.grey_threshold = unsigned(grey_threshold, 32, "grey_threshold")
+        definition.onset_scale = unsigned(scale, 32, "scale")
+        definition.onset_value = _abi.MSQ_ONSET_SIGNED if signed else _abi.MSQ_ONSET_PLAIN
+        if tolerance is not None:
+            self._contours = contours_definition(tolerance, axis=2, window=window, pitch=pitch,
+                                                 type=type, units=units, length_scale=0.0)
+            definition.contours = ctypes.pointer(self._contours)
+        self._definition = definition
+
+    @property
+    def kind(self) -> str:
+        """As given."""
+        return self._kind
+
+    def __repr__(self) -> str:
+        return f"<msq.Output {self._kind}>"
 
 
 class Layer:
     """One layer: `data` has its bytes, `pixels` a bool for each pixel.
 
-    Row 0 is the one of smallest y, so pictures shown with row 0 on top are mirrored.
+    Row 0 is the one of smallest y, so pictures shown with row 0 on top are mirrored. If the slicer
+    has several outputs, `outputs` has each, and the layer itself is the first.
     """
 
-    __slots__ = ("index", "z", "output", "width", "height", "inside_count", "rows")
+    __slots__ = ("index", "z", "output", "width", "height", "inside_count", "rows", "_outputs")
 
     def __init__(self, index: int, z: float, output: str, width: int, height: int,
-                 inside_count: int, rows: np.ndarray) -> None:
+                 inside_count: int, rows: np.ndarray,
+                 outputs: Tuple[Union[Layer, Contours], ...] = ()) -> None:
         self.index = index  #: in the plan
         self.z = z
-        self.output = output  #: as in Slicer
+        self.output = output  #: kind of the first output
         self.width = width  #: pixels in x
         self.height = height  #: pixels in y
-        self.inside_count = inside_count  #: pixels inside; samples inside where output is `grey`
-        self.rows = rows  #: (height, stride) of uint8, with what pads the rows: 0
+        #: pixels inside; samples inside where output is `grey`; 0 where it is `onset` or `contours`
+        self.inside_count = inside_count
+        #: (height, stride) of uint8, with what pads the rows: 0; of `contours`: (0, 0)
+        self.rows = rows
+        self._outputs = outputs
+
+    @property
+    def outputs(self) -> Tuple[Union[Layer, Contours], ...]:
+        """In the order of the slicer's: a Layer of one output for pixels, or Contours."""
+        return self._outputs or (self,)
+
+    def contours(self, number: int = 0) -> Contours:
+        """The first of the outputs that is contours, or the one after so many others."""
+        found = [output for output in self.outputs if isinstance(output, Contours)]
+        if not 0 <= number < len(found):
+            raise IndexError(f"contours {number} do not exist; {len(found)} of the layer's outputs "
+                             "are contours")
+        return found[number]
 
     @property
     def data(self) -> np.ndarray:
@@ -57,23 +121,29 @@ class Layer:
 
         bits: uint8 (height, (width + 7) // 8), leftmost pixel in the high bit, as PNG and PBM have
         them. bytes: uint8 (height, width), 255 inside and 0 outside. grey: uint8 (height, width),
-        coverage. distance: float32 (height, width). material: uint32 (height, width).
+        coverage. distance, onset: float32 (height, width). material: uint32 (height, width).
         """
+        if self.output == "contours":
+            raise ValueError("the first output is contours, which has no pixels: see contours()")
         if self.output == "bits":
             return self.rows[:, :(self.width + 7) // 8]
         return self.rows.view(_PIXELS[self.output])[:, :self.width]
 
     @property
     def pixels(self) -> np.ndarray:
-        """A new array of bools, (height, width): inside, with any coverage, or of a material."""
+        """A new array of bools, (height, width): inside, with any coverage, or of a material. Onsets:
+        at most 0."""
         if self.output == "bits":
             return np.unpackbits(self.data, axis=1, count=self.width).view(np.bool_)
-        return self.data <= 0 if self.output == "distance" else self.data != 0
+        return self.data <= 0 if self.output in ("distance", "onset") else self.data != 0
 
     def copy(self) -> Layer:
         """A layer of its own memory, to keep beyond the callback of Slicer.run."""
+        outputs = tuple(output.copy() if isinstance(output, Layer) else output
+                        for output in self._outputs)
+        first = outputs[0] if outputs else None
         return Layer(self.index, self.z, self.output, self.width, self.height, self.inside_count,
-                     self.rows.copy())
+                     first.rows if isinstance(first, Layer) else self.rows.copy(), outputs)
 
     def __repr__(self) -> str:
         return (f"<msq.Layer {self.index} at z = {self.z:g}: {self.width} x {self.height}, "
@@ -81,7 +151,7 @@ class Layer:
 
 
 class Slicer(Handle):
-    """A plan of layers normal to z; one sample a pixel, at its centre.
+    """A plan of layers normal to z, or in a frame; one sample a pixel, at its centre.
 
         for layer in model.slicer(layer_height=0.1, pitch=0.05):
             save(layer.index, layer.data)
@@ -90,11 +160,15 @@ class Slicer(Handle):
     follows from the other and the region. region: (min, max), else the model's bounding box.
     layer_height, or layer_z: heights, strictly ascending. layer_count 0: as many as cover the region.
     output: `bits`, `bytes`, `grey` (coverage by grey_samples x grey_samples samples per pixel, to the
-    power of grey_gamma, and 0 below grey_threshold), `distance` or `material` (ids). mirror: `x`, `y`
+    power of grey_gamma, and 0 below grey_threshold), `distance`, `material` (ids) or `onset`; or a
+    list of Output for several at once, which come in Layer.outputs. mirror: `x`, `y`
     or `xy`, and transpose: how layers are turned, for the panels of printers. slab_layers: computed
     at once, 0: as many as pay. length_scale: as in
     Model.contains. window: ((i, j, k), (nx, ny, nz)), the first pixel and layer and the numbers of
-    pixels and layers of a part of the plan, which then has the bytes of the whole there.
+    pixels and layers of a part of the plan, which then has the bytes of the whole there. axis: 0 (x),
+    1 (y) or 2 (z), the normal of the layers; pixels lie along the other two in their order. frame: (origin,
+    (u, v, w)), orthonormal axes along which pixels and layers lie. With either, region, heights and
+    contours are in the coordinates of the layers, and x, y, z of pixels and layers mean these.
 
     Slicers are sequences: len(slicer), slicer[i] (one layer, by itself) and iteration (slab by
     slab, faster).
@@ -104,15 +178,45 @@ class Slicer(Handle):
 
     def __init__(self, model: Model, *, layer_height: Optional[float] = None, pitch: Any = None,
                  resolution: Any = None, layer_count: int = 0, region: Optional[Region] = None,
-                 layer_z: Any = None, output: str = "bits", slab_layers: int = 0,
+                 layer_z: Any = None, output: Union[str, Sequence[Output]] = "bits",
+                 slab_layers: int = 0,
                  length_scale: float = 0.0, window: Optional[Window] = None,
                  grey_samples: int = 4, grey_gamma: float = 1.0, grey_threshold: int = 0,
-                 mirror: str = "", transpose: bool = False) -> None:
+                 mirror: str = "", transpose: bool = False, axis: int = 2,
+                 frame: Optional[Tuple[Sequence[float], Any]] = None) -> None:
         definition = defaults(_abi.msq_slicer_def)
+        if axis not in _AXES:
+            raise ValueError(f"axis is {axis!r}; it must be 0, 1 or 2")
+        if frame is not None:
+            if axis != 2:
+                raise ValueError(f"axis is {axis!r} and frame is given; only one of them can be")
+            origin, axes = frame
+            definition.frame_origin[:] = triple(origin, "frame")
+            rows = [triple(row, "frame") for row in axes]
+            if len(rows) != 3:
+                raise ValueError(f"frame has {len(rows)} axes; it must have 3")
+            definition.frame_axes[:] = [number for row in rows for number in row]
+        elif axis != 2:
+            definition.frame_axes[:] = _AXES[axis]
         set_window(definition.window, window)
-        if output not in ("bits", *_PIXELS):
-            raise ValueError(f"output is {output!r}; it must be one of bits, {', '.join(_PIXELS)}")
-        definition.output = constant("MSQ_LAYER_", output, "output")
+        if isinstance(output, str):
+            if output not in ("bits", *_PIXELS):
+                raise ValueError(f"output is {output!r}; it must be one of bits, "
+                                 f"{', '.join(_PIXELS)}, or a list of Output")
+            definition.output = constant("MSQ_LAYER_", output, "output")
+            self._kinds: Tuple[str, ...] = (output,)
+        else:
+            several = tuple(output)
+            for one in several:
+                if not isinstance(one, Output):
+                    raise TypeError(f"output has {one!r}; it must be a name or a list of Output")
+            if not several:
+                raise ValueError("output is empty; it must have at least one Output")
+            definitions = (_abi.msq_output_def * len(several))(*(one._definition for one in several))
+            definition.outputs = definitions
+            definition.output_count = len(several)
+            self._kinds = tuple(one.kind for one in several)
+            output = several
         definition.grey_samples = unsigned(grey_samples, 32, "grey_samples")
         definition.grey_gamma = grey_gamma
         definition.grey_threshold = unsigned(grey_threshold, 32, "grey_threshold")
@@ -158,7 +262,7 @@ class Slicer(Handle):
         self.whole: Tuple[int, int, int] = tuple(plan.whole)  #: pixels and layers of the whole plan
 
     @property
-    def output(self) -> str:
+    def output(self) -> Union[str, Tuple[Output, ...]]:
         """As given."""
         return self._output
 
@@ -181,24 +285,28 @@ class Slicer(Handle):
               job: Optional[Job] = None) -> Layer:
         """Computes one layer; for many in order, iteration is two to three times as fast.
 
-        out: uint8 (height, stride), contiguous, to write to; else memory of its own.
+        out: uint8 (height, stride), contiguous, to write the first output to; else memory of its own.
         """
         index = self._index(index)
         rows = output_array(out, (self.height, self.stride), (np.uint8,))
-        if self._output == "grey":  # samples inside are counted by a run
-            def copy(layer: Layer) -> None:
-                rows[:] = layer.rows
-                inside.append(layer.inside_count)
-
-            inside: List[int] = []
-            self.run(copy, index, 1, job=job)
-            return Layer(index, self.z(index), self._output, self.width, self.height, inside[0], rows)
+        kind = self._kinds[0]
+        # Samples inside are counted by a run, which also has all outputs.
+        if kind in ("grey", "contours") or len(self._kinds) > 1:
+            found: List[Layer] = []
+            self.run(lambda layer: found.append(layer.copy()), index, 1, job=job)
+            layer = found[0]
+            if out is None or kind == "contours":
+                return layer
+            rows[:] = layer.rows
+            return Layer(index, layer.z, kind, self.width, self.height, layer.inside_count, rows,
+                         layer._outputs)
         reference = self._ref
         interruptible(lambda work: lib.msq_slice_layer(
             reference, index, pointer(rows, ctypes.c_uint8), rows.nbytes, work), job, is_long=False)
-        layer = Layer(index, self.z(index), self._output, self.width, self.height, 0, rows)
-        layer.inside_count = (_count_bits(rows) if self._output == "bits"
-                              else int(np.count_nonzero(layer.pixels)))
+        layer = Layer(index, self.z(index), kind, self.width, self.height, 0, rows)
+        if kind != "onset":
+            layer.inside_count = (_count_bits(rows) if kind == "bits"
+                                  else int(np.count_nonzero(layer.pixels)))
         return layer
 
     def contours(self, index: int, tolerance: float, *, window: Optional[Window] = None,
@@ -229,7 +337,10 @@ class Slicer(Handle):
         the slab in work. job: its progress is that of a slab.
         """
         first, last = self._range(first, count)
-        deep = max(1, min(self.slab_layers, _MOST_AHEAD_BYTES // max(1, self.layer_bytes)))
+        values = sum(0 if kind in ("bits", "contours") else np.dtype(_PIXELS[kind]).itemsize
+                     for kind in self._kinds)
+        bytes_ahead = max(self.layer_bytes, values * self.width * self.height)
+        deep = max(1, min(self.slab_layers, _MOST_AHEAD_BYTES // max(1, bytes_ahead)))
         for at in range(first, last, deep):
             slab: List[Layer] = []
 
@@ -257,24 +368,27 @@ class Slicer(Handle):
 
     def _run(self, take: Callable[[Layer], Any], first: int, count: int, job: Any,
              signals: HeldSignals) -> bool:
-        byte_array = ctypes.c_uint8 * self.layer_bytes
-
         def take_layer(_user: Any, pointer_to_layer: Any) -> int:
             try:
                 signals.raise_held()
                 signals.allowed = True
                 given = pointer_to_layer.contents
-                memory = np.frombuffer(
-                    byte_array.from_address(ctypes.addressof(given.data.contents)), np.uint8)
-                memory.flags.writeable = False
-                is_kept = weakref.ref(memory)  # every view refers to it
-                layer = Layer(given.index, given.z, self._output, given.width, given.height,
-                              given.inside_count, memory.reshape(given.height, given.stride))
-                del memory
+                kept: List[Any] = []
+                outputs = tuple(self._read_output(given, number, kept)
+                                for number in range(len(self._kinds)))
+                first = outputs[0]
+                if len(outputs) == 1 and isinstance(first, Layer):
+                    layer = first
+                else:
+                    rows = first.rows if isinstance(first, Layer) else np.empty((0, 0), np.uint8)
+                    layer = Layer(given.index, given.z, self._kinds[0], given.width, given.height,
+                                  given.inside_count, rows, outputs)
+                    del rows
+                del outputs, first
                 goes_on = take(layer) is not False
                 index = layer.index
                 del layer
-                if is_kept() is not None:
+                if any(is_kept() is not None for is_kept in kept):
                     raise BufferError(f"a view of layer {index} is kept beyond the callback, and "
                                       "its memory is not: keep layer.copy()")
                 signals.allowed = False
@@ -290,6 +404,20 @@ class Slicer(Handle):
                 return False
             raise
         return True
+
+    def _read_output(self, given: Any, number: int, kept: List[Any]) -> Union[Layer, Contours]:
+        """One output of a layer that the callback has; `kept` gets a reference to its memory."""
+        output = given.outputs[number].contents
+        if output.contours:
+            # A pointer of its own: that of the field is gone with the layer.
+            return Contours._of_layer(
+                ctypes.cast(output.contours, ctypes.POINTER(_abi.msq_contours)))
+        memory = np.frombuffer((ctypes.c_uint8 * (output.stride * given.height)).from_address(
+            ctypes.addressof(output.data.contents)), np.uint8)
+        memory.flags.writeable = False
+        kept.append(weakref.ref(memory))  # every view refers to it
+        return Layer(given.index, given.z, self._kinds[number], given.width, given.height,
+                     output.inside_count, memory.reshape(given.height, output.stride))
 
     def _index(self, index: int) -> int:
         index = operator.index(index)

@@ -84,6 +84,102 @@ class Layers(unittest.TestCase):
             for layer, picture in zip(slicer, pictures):
                 self.assertTrue(np.array_equal(layer.pixels, read_png(picture)[::-1]), picture.name)
 
+    def test_holds_several_outputs(self):
+        model = reference_model()
+        plan = {"layer_height": 1.5, "pitch": 0.25}
+        kinds = [msq.Output("bits"), msq.Output("contours", tolerance=0.03),
+                 msq.Output("grey", grey_samples=8), msq.Output("distance"),
+                 msq.Output("onset", scale=1, signed=True),
+                 msq.Output("contours", tolerance=0.05, type="int32", units=1e5)]
+        slicer = model.slicer(output=kinds, slab_layers=3, **plan)
+        self.assertEqual(slicer.output, tuple(kinds))
+        kept = []
+
+        def take(layer):
+            kept.append((layer.contours(), layer.contours(1), layer.copy(), layer.data.copy()))
+
+        self.assertTrue(slicer.run(take))
+        grey = model.slicer(output="grey", grey_samples=8, **plan)
+        single = {kind: model.slicer(output=kind, **plan)
+                  for kind in ("bits", "distance", "onset")}
+        self.assertEqual(len(kept), len(slicer))
+        for index, (layer, ways) in enumerate(zip(slicer, kept)):
+            rings, coarse, copied, data = ways
+            alone = slicer[index]
+            for layer in (layer, copied, alone):
+                self.assertEqual((layer.index, layer.output), (index, "bits"))
+                self.assertTrue(np.array_equal(layer.data, data))
+                self.assertTrue(np.array_equal(layer.data, single["bits"][index].data))
+                self.assertEqual(layer.inside_count, single["bits"][index].inside_count)
+                self.assertEqual(len(layer.outputs), len(kinds))
+                self.assertTrue(np.array_equal(layer.outputs[2].rows, grey[index].rows))
+                self.assertEqual(layer.outputs[2].inside_count, grey[index].inside_count)
+                self.assertTrue(np.array_equal(layer.outputs[3].rows,
+                                               single["distance"][index].rows))
+                self.assertTrue(np.array_equal(layer.contours().points, rings.points))
+            wanted = slicer.contours(index, 0.03)
+            for label in ("points", "starts", "parents", "holes"):
+                self.assertTrue(np.array_equal(getattr(rings, label), getattr(wanted, label)))
+            self.assertEqual(coarse.points.dtype, np.int32)
+            self.assertGreater(len(coarse), 0)
+        onset = np.concatenate([layer.data for layer in single["onset"]])
+        signed = np.concatenate([layer.outputs[4].data for layer in slicer])
+        self.assertTrue((signed <= onset).all() and (signed < 0).any())
+
+    def test_lies_in_a_frame(self):
+        model = box_model()
+        plan = {"layer_height": 0.5, "pitch": 0.25}
+        for axis, order in ((0, (1, 2, 0)), (1, (0, 2, 1)), (2, (0, 1, 2))):
+            slicer = model.slicer(axis=axis, **plan)
+            sides = np.array((8, 6, 4))[list(order)]
+            self.assertEqual((slicer.width, slicer.height, len(slicer)),
+                             (4 * sides[0], 4 * sides[1], 2 * sides[2]))
+            rows = np.zeros((3, 3))
+            rows[range(3), order] = 1
+            framed = model.slicer(frame=((0, 0, 0), rows), **plan)
+            for k in (0, 3, 5):
+                u, v = np.meshgrid(slicer.origin[0] + 0.25 * np.arange(slicer.width),
+                                   slicer.origin[1] + 0.25 * np.arange(slicer.height))
+                points = np.empty((u.size, 3))
+                for n, values in enumerate((u, v, np.full(u.shape, slicer.z(k)))):
+                    points[:, order[n]] = values.ravel()
+                inside = model.contains(points).reshape(u.shape)
+                self.assertTrue(np.array_equal(slicer[k].pixels, inside))
+                self.assertTrue(np.array_equal(framed[k].pixels, inside))
+        turned = model.slicer(frame=((1, 2, 3), ((0.6, 0.8, 0), (-0.8, 0.6, 0), (0, 0, 1))), **plan)
+        self.assertGreater(turned[3].inside_count, 0)
+        for words, arguments in (("axis is 3", {"axis": 3}), ("3", {"frame": ((0, 0, 0), [])}),
+                                 ("only one", {"axis": 0, "frame": ((0, 0, 0), np.eye(3))})):
+            with self.assertRaisesRegex(ValueError, words):
+                model.slicer(**arguments, **plan)
+
+    def test_refuses_outputs(self):
+        model = box_model()
+        plan = {"layer_height": 0.5, "pitch": 0.25}
+        with self.assertRaisesRegex(ValueError, "it must be one of bits"):
+            msq.Output("pixels")
+        with self.assertRaisesRegex(ValueError, "contours need one"):
+            msq.Output("contours")
+        with self.assertRaisesRegex(ValueError, "contours need one"):
+            msq.Output("bits", tolerance=1.0)
+        with self.assertRaisesRegex(ValueError, "at least one"):
+            model.slicer(output=[], **plan)
+        with self.assertRaisesRegex(TypeError, "list of Output"):
+            model.slicer(output=["bits"], **plan)
+        with self.assertRaisesRegex(ValueError, "it must be one of bits"):
+            model.slicer(output="contours", **plan)
+        slicer = model.slicer(output=[msq.Output("contours", tolerance=0.1)], **plan)
+        layer = slicer[0]
+        self.assertEqual(len(layer.contours()), len(slicer.contours(0, 0.1)))
+        with self.assertRaisesRegex(ValueError, "no pixels"):
+            layer.data
+        with self.assertRaisesRegex(IndexError, "1 of the layer's outputs"):
+            layer.contours(1)
+        kept = []
+        with self.assertRaises(BufferError):
+            model.slicer(output=[msq.Output("bytes"), msq.Output("bits")], **plan).run(
+                lambda layer: kept.append(layer.outputs[1].data))
+
     def test_plans_as_asked(self):
         model = box_model(foam=False)
         slicer = model.slicer(region=((-1, -1, 0), (9, 7, 4)), resolution=(20, 16),

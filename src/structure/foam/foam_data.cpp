@@ -30,6 +30,7 @@ FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Par
       ray_bricks_id_(context_->new_structure_id()),
       cell_lists_id_(context_->new_structure_id()),
       ray_demand_id_(context_->new_structure_id()),
+      paper_cells_id_(context_->new_structure_id()),
       radius_(std::move(radius)),
       unit_(max_component(neighbourhood.cell_size)),
       seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
@@ -37,7 +38,7 @@ FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Par
       graph_(make_graph(seeds_, graded_)) {}
 
 FoamData::~FoamData() {
-  for (const uint64_t id : {id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_})
+  for (const uint64_t id : {id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_, paper_cells_id_})
     context_->cache.drop(id);
 }
 

@@ -30,11 +30,12 @@ class FoamData : public Structure {
   double max_radius(CellIndex cell, double margin) const;
   Context& context() const { return *context_; }
   /// Ids in the cache: of edges for slices, of edges for rays, of the struts of a cell if seeds are
-  /// graded, and of the count of rays.
+  /// graded, of the count of rays, and of cells of the paper's methods.
   uint64_t id() const { return id_; }
   uint64_t ray_bricks_id() const { return ray_bricks_id_; }
   uint64_t cell_lists_id() const { return cell_lists_id_; }
   uint64_t ray_demand_id() const { return ray_demand_id_; }
+  uint64_t paper_cells_id() const { return paper_cells_id_; }
   /// Whether struts are capsules of one radius, and each cell has exactly one seed.
   bool has_capsules() const { return !graded_ && radius_.is_constant(); }
 
@@ -47,7 +48,7 @@ class FoamData : public Structure {
 
  private:
   const Ref<Context> context_;
-  const uint64_t id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_;
+  const uint64_t id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_, paper_cells_id_;
   const Parameter radius_;
   const double unit_;
   const FoamSeeds seeds_;

@@ -18,7 +18,7 @@ void keep_points_by_cell(const FoamData& foam, const Vec3* points, uint8_t* aliv
   const double max_radius = foam.max_radius();
   const auto grouped = group_by_cell(foam.neighbourhood(), points, alive, count);
   for_each_cell(grouped, [&](CellIndex cell, std::span<const LocatedPoint> group) {
-    const auto data = foam.context().cache.fetch(foam.id(), cell, [&] {
+    const auto data = foam.context().cache.fetch(foam.paper_cells_id(), cell, [&] {
       return std::make_shared<const Data>(foam.seeds(), cell, max_radius);
     });
     const auto& known = static_cast<const Data&>(*data);
