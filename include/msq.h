@@ -38,8 +38,9 @@
  *
  * Threads. Every function may be called from any thread. Callbacks run on the thread that called
  * msq and may call msq. Only callbacks of objects defined with concurrent = 1 may run on other
- * threads. If threads cannot be started, a call uses those that there are. Working memory is kept
- * for the next call and freed with the last context of the process.
+ * threads: those of msq, or those of the host's parallel_for. If threads cannot be started, a call
+ * uses those that there are. Working memory is kept for the next call and freed with the last
+ * context of the process.
  *
  * Stack. A thread of the host with a stack of 64 KiB may call every function: large working memory
  * is on the heap, and thread-local storage takes less than 1 KiB. Exceptions: calls that read
@@ -192,11 +193,32 @@ enum msq_warning_code {
  * written its handle yet. Exceptions of the host's language must not leave it. Since 0.2. */
 typedef void (*msq_warning_fn)(void* user, int32_t code, const char* message);
 
+/** Called once when an object is freed. */
+typedef void (*msq_release_fn)(void* user);
+
+/** One task of a loop of msq. It returns when its work is done and throws nothing. i: its number.
+ */
+typedef void (*msq_task_fn)(void* task, uint64_t i);
+
+/** Shares the tasks of a loop among threads of the host: calls body(task, i) once for each i from 0
+ * to count - 1 and returns when all these calls have returned. task is that of msq, to be passed
+ * on.
+ *
+ * The calls may run on any threads, in any order, at once or one after the other on the calling
+ * thread. Several threads may call this function at the same time, also from within a task. Such a
+ * call must not wait for a thread to become free: where all are busy, the calling thread runs the
+ * tasks itself.
+ *
+ * Return 0 for success. Any other code, preferably negative, stops the call of msq with MSQ_E_HOST;
+ * tasks that were not begun may then be left out. Exceptions of the host's language must not leave
+ * the function. */
+typedef int32_t (*msq_parallel_for_fn)(void* user, uint64_t count, msq_task_fn body, void* task);
+
 /** Definition of a context. */
 typedef struct msq_context_def {
   uint32_t struct_size;
   /** Threads per call, including the caller. 0 (default): one per core; larger values are clamped
-   * to that. 1: the calling thread only. */
+   * to that. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024. */
   uint32_t threads;
   /** Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.
    */
@@ -214,13 +236,26 @@ typedef struct msq_context_def {
   msq_warning_fn warning;
   /** Passed to warning. */
   void* warning_user;
+
+  /* Threads of the host. */
+
+  /** Runs the loops of msq on threads of the host. msq then starts no thread of its own. NULL
+   * (default): threads of msq. Does not change results. */
+  msq_parallel_for_fn parallel_for;
+  /** First argument of parallel_for. */
+  void* parallel_for_user;
+  /** NULL, or called with parallel_for_user when the context is freed: after the last object that
+   * was made in it, on the thread that drops the last reference. It is not called if
+   * msq_context_create fails. */
+  msq_release_fn parallel_for_release;
 } msq_context_def;
 
 /** Sets the defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */
 MSQ_API msq_status msq_context_def_init(msq_context_def* def, size_t size);
 
 /** Creates a context. def NULL: defaults. Results never depend on the context. No thread is started
- * before the first call that needs one. Errors: ARGUMENT, MEMORY. */
+ * before the first call that needs one. Errors: ARGUMENT, MEMORY. Calls that use a context with
+ * parallel_for: HOST. */
 MSQ_API msq_status msq_context_create(const msq_context_def* def, msq_context** context);
 /** Adds a reference. */
 MSQ_API void msq_context_retain(msq_context* context);
@@ -339,7 +374,7 @@ typedef struct msq_window {
  * Threads. concurrent = 0 (default): callbacks run on the thread that called msq, one at a time,
  * and msq computes models with such an object on that thread alone. If several host threads call
  * msq, each receives its own callbacks. concurrent = 1: callbacks may run on any thread, several at
- * once.
+ * once. With parallel_for these are the threads that it calls its tasks on.
  *
  * Failure. A callback returns 0 for success. Any other code, preferably negative, stops the call
  * with MSQ_E_HOST. A value that is not a number, or outside the range that the definition promises,
@@ -353,9 +388,6 @@ typedef struct msq_window {
  *
  * Points and boxes belong to msq and are valid until the callback returns. A batch has at most 4096
  * points, as triples x, y, z. docs/hosts.md shows the smallest example. */
-
-/** Called once when an object is freed. */
-typedef void (*msq_release_fn)(void* user);
 
 /** Writes values[i], the value at point i, for i < count. */
 typedef int32_t (*msq_values_fn)(void* user, const double* points, uint64_t count, double* values);
@@ -2221,11 +2253,12 @@ typedef struct msq_layer {
 typedef int32_t (*msq_layer_fn)(void* user, const msq_layer* layer);
 
 /** Computes layers first to first + count - 1 and passes each to the callback, in ascending order,
- * on the calling thread. Workers compute the next slab meanwhile and wait for the callback. count
- * UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the
- * plan is split into calls or processes. Memory: two slabs, one layer and a few tiles per thread,
- * for any height of the stack; foams keep cells in the cache in addition. Errors: ARGUMENT,
- * CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Slicing". */
+ * on the calling thread. Workers compute the next slab meanwhile and wait for the callback (with
+ * the host's parallel_for, it is computed after the callbacks of the slab). count UINT64_MAX: to
+ * the last layer. job NULL: no job. The bytes of a layer do not depend on how the plan is split
+ * into calls or processes. Memory: two slabs, one layer and a few tiles per thread, for any height
+ * of the stack; foams keep cells in the cache in addition. Errors: ARGUMENT, CANCELLED, HOST,
+ * LIMIT, MEMORY. Source: paper, section "Slicing". */
 MSQ_API msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t count,
                                   msq_layer_fn fn, void* user, msq_job* job);
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/borrowed.h"
+#include "base/host.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/ref.h"
@@ -23,8 +24,8 @@ struct WarningHook {
 class Context : public RefCounted {
  public:
   Context(unsigned threads, uint64_t cache_bytes, uint64_t memory_limit, bool beyond_cores = false,
-          CachePolicy policy = CachePolicy::fifo)
-      : executor(threads, beyond_cores),
+          CachePolicy policy = CachePolicy::fifo, const HostLoop& loop = {})
+      : executor(loop.parallel_for ? Executor(threads, loop) : Executor(threads, beyond_cores)),
         budget(std::make_shared<MemoryBudget>(memory_limit)),
         cache(cache_bytes, budget, policy) {
     // Cached cells make room for memory that a call requires. So the success of a call does not
@@ -42,6 +43,8 @@ class Context : public RefCounted {
   /// cache.
   uint64_t new_structure_id() { return next_id_.fetch_add(1, std::memory_order_relaxed); }
 
+  /// Of the host's loop. It is released when all else is gone.
+  HostUser loop_user;
   const Executor executor;
   /// The calling thread alone.
   const Executor serial{1};
