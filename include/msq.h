@@ -2263,8 +2263,11 @@ MSQ_API msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint
                                   msq_layer_fn fn, void* user, msq_job* job);
 
 /** Computes one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A
- * call that fails leaves the buffer untouched. Cost: for many consecutive layers two to three times
- * that of msq_slicer_run. Errors: ARGUMENT, CANCELLED, LIMIT, MEMORY. */
+ * call that fails leaves the buffer untouched. Cost: for a layer after one that any thread asked
+ * for lately, about that of msq_slicer_run, as such layers are filled together, by all threads that
+ * ask for them; for others up to three times that. Memory: one layer and a few tiles per thread;
+ * layers that are filled ahead take at most two slabs until the slicer is freed or a call needs the
+ * memory. Errors: ARGUMENT, CANCELLED, LIMIT, MEMORY. */
 MSQ_API msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* buffer,
                                    uint64_t buffer_bytes, msq_job* job);
 

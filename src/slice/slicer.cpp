@@ -60,6 +60,8 @@ Slicer::Slicer(Ref<const Model> model, SlicePlan plan)
                 {grid_.at(0, 0, 0), grid_.at(grid_.nx - 1, grid_.ny - 1, grid_.nz - 1)},
                 "the region");
   plan_slabs();
+  if (slab_layers_ > 1 && LayersAhead::pays(*model_, resolved_))
+    ahead_ = std::make_unique<LayersAhead>(*model_, resolved_, samples_, slab_layers_);
 }
 
 void Slicer::plan_axis(int axis) {
@@ -260,7 +262,8 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
                                 "a layer");
   std::vector<uint64_t> words(layer_words);
   std::vector<uint8_t> plain(plain_bytes()), bytes(beside);
-  if (has_samples) fill_slab(*model_, resolved_, samples_, index, index + 1, words.data(), job);
+  if (has_samples && !(ahead_ && ahead_->take(index, words.data(), job)))
+    fill_slab(*model_, resolved_, samples_, index, index + 1, words.data(), job);
   write(index, words.data(), plain.data(), has_samples ? out : bytes.data(), job);
   if (!has_samples) std::memcpy(out, bytes.data(), bytes.size());
   scope.done();

@@ -9,6 +9,7 @@
 #include "base/sample_grid.h"
 #include "model/model.h"
 #include "slice/layer_output.h"
+#include "slice/layers_ahead.h"
 #include "slice/orientation.h"
 
 namespace msq {
@@ -88,6 +89,7 @@ class Slicer final : public RefCounted {
   SampleGrid samples_;
   std::array<uint64_t, 3> whole_;
   uint64_t slab_layers_ = 1;
+  std::unique_ptr<LayersAhead> ahead_;  ///< null where single layers cost no more
 };
 
 }  // namespace msq
