@@ -2156,9 +2156,9 @@ typedef struct msq_slicer_def {
    * and region_max must be 0. 1: the region below. A model of all space needs 1. */
   int32_t has_region;
   /** Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at
-   * most 32 MiB, or 2 MiB per thread for structures that do not gain by more. The first slab of a
-   * run has an eighth of the layers, so that the host has its first layer soon. Does not change
-   * results. */
+   * most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures
+   * that do not gain by more; at least one. The first slab of a run has an eighth of the layers, so
+   * that the host has its first layer soon. Does not change results. */
   uint32_t slab_layers;
   /** Corner of pixel (0, 0) and bottom of layer 0. */
   double region_min[3];

@@ -68,7 +68,7 @@ struct LayersAhead::Block {
   bool wait(const Job* job) {
     using std::chrono::milliseconds;
     std::unique_lock lock(mutex);
-    const Clock::time_point latest = Clock::now() + 4 * longest + milliseconds(5);
+    const Clock::time_point latest = Clock::now() + 4 * longest + milliseconds(50);
     while (done < parts && left.empty() && Clock::now() < latest) {
       is_part_done.wait_for(lock, milliseconds(5));
       check_cancelled(job);
@@ -93,10 +93,7 @@ LayersAhead::~LayersAhead() {
 }
 
 bool LayersAhead::pays(const Model& model, const Scales& resolved) {
-  if (!model.regions().empty()) return false;
-  return std::any_of(resolved.begin(), resolved.end(), [](const Scale* scale) {
-    return scale->structure->gains_by_layers() || !scale->skin.is_none();
-  });
+  return model.regions().empty() && !resolved.empty();
 }
 
 bool LayersAhead::take(uint64_t layer, uint64_t* words, const Job* job) {
@@ -108,7 +105,10 @@ bool LayersAhead::take(uint64_t layer, uint64_t* words, const Job* job) {
     std::atomic<bool> has_failed{false};
     executor.for_each(std::min<uint64_t>(executor.threads(), block->parts),
                       [&](uint64_t) { fill(*block, has_failed, job); });
-    if (!block->wait(job)) return false;
+    if (!block->wait(job)) {
+      note_taken(block);
+      return false;
+    }
   }
   std::memcpy(words, block->words.data() + (layer - block->first) * layer_words_,
               layer_words_ * sizeof(uint64_t));
@@ -206,6 +206,7 @@ void LayersAhead::drop_old() {
                 [&](const BlockRef& block) { return calls_ - block->last_call > max_idle_calls; });
 }
 
+/// A layer of the block is not asked for any more.
 void LayersAhead::note_taken(const BlockRef& block) {
   const std::lock_guard lock(mutex_);
   if (++block->taken == block->layers()) std::erase(blocks_, block);

@@ -42,7 +42,8 @@ class LayersAhead final : public SpareMemory {
               uint64_t slab_layers);
   ~LayersAhead() override;
 
-  /// Whether single layers of a model cost more than those of a slab.
+  /// Whether single layers of a model cost more than those of a slab, as they do with structures.
+  /// Not of regions, which are not filled in parts.
   static bool pays(const Model& model, const Scales& resolved);
 
   /// Writes the bits of a layer, as fill_slab() does. Returns false if the layer is to be filled by

@@ -157,6 +157,9 @@ void Slicer::plan_slabs() {
   for (const Scale* scale : resolved_)
     if (scale->structure->gains_by_layers() || !scale->skin.is_none())
       max_bytes = automatic_slab_bytes;
+  // Two slabs, and as much for cells, meshes and other calls.
+  if (const uint64_t limit = model_->context().budget->limit())
+    max_bytes = std::min(max_bytes, limit / 4);
   const uint64_t fit = max_bytes / layer_bytes;
   slab_layers_ = static_cast<uint64_t>(
       std::clamp(std::min(layers, static_cast<double>(fit)), 1.0, static_cast<double>(grid_.nz)));
