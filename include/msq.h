@@ -38,8 +38,9 @@
  *
  * Threads. Every function may be called from any thread. Callbacks run on the thread that called
  * msq and may call msq. Only callbacks of objects defined with concurrent = 1 may run on other
- * threads. If threads cannot be started, a call uses those that there are. Working memory is kept
- * for the next call and freed with the last context of the process.
+ * threads: those of msq, or those of the host's parallel_for. If threads cannot be started, a call
+ * uses those that there are. Working memory is kept for the next call and freed with the last
+ * context of the process.
  *
  * Stack. A thread of the host with a stack of 64 KiB may call every function: large working memory
  * is on the heap, and thread-local storage takes less than 1 KiB. Exceptions: calls that read
@@ -195,11 +196,32 @@ enum msq_warning_code {
  * written its handle yet. Exceptions of the host's language must not leave it. Since 0.2. */
 typedef void (*msq_warning_fn)(void* user, int32_t code, const char* message);
 
+/** Called once when an object is freed. */
+typedef void (*msq_release_fn)(void* user);
+
+/** One task of a loop of msq. It returns when its work is done and throws nothing. i: its number.
+ */
+typedef void (*msq_task_fn)(void* task, uint64_t i);
+
+/** Shares the tasks of a loop among threads of the host: calls body(task, i) once for each i from 0
+ * to count - 1 and returns when all these calls have returned. task is that of msq, to be passed
+ * on.
+ *
+ * The calls may run on any threads, in any order, at once or one after the other on the calling
+ * thread. Several threads may call this function at the same time, also from within a task. Such a
+ * call must not wait for a thread to become free: where all are busy, the calling thread runs the
+ * tasks itself.
+ *
+ * Return 0 for success. Any other code, preferably negative, stops the call of msq with MSQ_E_HOST;
+ * tasks that were not begun may then be left out. Exceptions of the host's language must not leave
+ * the function. */
+typedef int32_t (*msq_parallel_for_fn)(void* user, uint64_t count, msq_task_fn body, void* task);
+
 /** Definition of a context. */
 typedef struct msq_context_def {
   uint32_t struct_size;
   /** Threads per call, including the caller. 0 (default): one per core; larger values are clamped
-   * to that. 1: the calling thread only. */
+   * to that. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024. */
   uint32_t threads;
   /** Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.
    */
@@ -217,13 +239,26 @@ typedef struct msq_context_def {
   msq_warning_fn warning;
   /** Passed to warning. */
   void* warning_user;
+
+  /* Threads of the host. */
+
+  /** Runs the loops of msq on threads of the host. msq then starts no thread of its own. NULL
+   * (default): threads of msq. Does not change results. */
+  msq_parallel_for_fn parallel_for;
+  /** First argument of parallel_for. */
+  void* parallel_for_user;
+  /** NULL, or called with parallel_for_user when the context is freed: after the last object that
+   * was made in it, on the thread that drops the last reference. It is not called if
+   * msq_context_create fails. */
+  msq_release_fn parallel_for_release;
 } msq_context_def;
 
 /** Sets the defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */
 MSQ_API msq_status msq_context_def_init(msq_context_def* def, size_t size);
 
 /** Creates a context. def NULL: defaults. Results never depend on the context. No thread is started
- * before the first call that needs one. Errors: ARGUMENT, MEMORY. */
+ * before the first call that needs one. Errors: ARGUMENT, MEMORY. Calls that use a context with
+ * parallel_for: HOST. */
 MSQ_API msq_status msq_context_create(const msq_context_def* def, msq_context** context);
 /** Adds a reference. */
 MSQ_API void msq_context_retain(msq_context* context);
@@ -342,7 +377,7 @@ typedef struct msq_window {
  * Threads. concurrent = 0 (default): callbacks run on the thread that called msq, one at a time,
  * and msq computes models with such an object on that thread alone. If several host threads call
  * msq, each receives its own callbacks. concurrent = 1: callbacks may run on any thread, several at
- * once.
+ * once. With parallel_for these are the threads that it calls its tasks on.
  *
  * Failure. A callback returns 0 for success. Any other code, preferably negative, stops the call
  * with MSQ_E_HOST. A value that is not a number, or outside the range that the definition promises,
@@ -361,9 +396,6 @@ typedef struct msq_window {
  * for it in msq_shape_hash and its like: the host changes the key whenever results of the callbacks
  * change, in any of its runs. Both words 0 (default): no key, and such hashes are refused. Other
  * results do not depend on the key. Since 0.2. */
-
-/** Called once when an object is freed. */
-typedef void (*msq_release_fn)(void* user);
 
 /** Writes values[i], the value at point i, for i < count. */
 typedef int32_t (*msq_values_fn)(void* user, const double* points, uint64_t count, double* values);
@@ -2232,9 +2264,9 @@ typedef struct msq_slicer_def {
    * and region_max must be 0. 1: the region below. A model of all space needs 1. */
   int32_t has_region;
   /** Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at
-   * most 32 MiB, or 2 MiB per thread for structures that do not gain by more. Except for these, the
-   * first slab of a run has an eighth of the layers, so that the host has its first layer soon.
-   * Does not change results. */
+   * most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures
+   * that do not gain by more; at least one. Except for these, the first slab of a run has an eighth
+   * of the layers, so that the host has its first layer soon. Does not change results. */
   uint32_t slab_layers;
   /** Corner of pixel (0, 0) and bottom of layer 0. */
   double region_min[3];
@@ -2366,7 +2398,8 @@ typedef struct msq_layer {
 typedef int32_t (*msq_layer_fn)(void* user, const msq_layer* layer);
 
 /** Computes layers first to first + count - 1 and passes each to the callback, in ascending order,
- * on the calling thread. Workers compute the next slab meanwhile and wait for the callback. count
+ * on the calling thread. Workers compute the next slab meanwhile and wait for the callback. (With
+ * the host's parallel_for, the next slab is computed after the callbacks of the slab.) count
  * UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the
  * plan is split into calls or processes, nor on its other outputs. Memory, accounted to the
  * context: two slabs, one layer and a few tiles per thread, for any height of the stack; foams keep
@@ -2379,9 +2412,11 @@ MSQ_API msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint
 
 /** Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at
  * least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer
- * call msq_slicer_run with a count of 1. Cost: for many consecutive layers two to three times that
- * of msq_slicer_run. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT,
- * MEMORY. */
+ * call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for
+ * lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask
+ * for them; for others up to three times that. Memory: one layer and a few tiles per thread; layers
+ * that are filled ahead take at most two slabs until the slicer is freed or a call needs the
+ * memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY. */
 MSQ_API msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* buffer,
                                    uint64_t buffer_bytes, msq_job* job);
 

@@ -29,8 +29,13 @@ msq_status msq_context_create(const msq_context_def* def, msq_context** context)
     const int32_t policy =
         require_range(known.cache_policy, MSQ_CACHE_FIFO, MSQ_CACHE_SEGMENTED, "cache_policy");
     require_reserved(known.reserved, "reserved");
+    if (!known.parallel_for && (known.parallel_for_user || known.parallel_for_release))
+      fail(Status::argument, "parallel_for is NULL, and %s is not",
+           known.parallel_for_user ? "parallel_for_user" : "parallel_for_release");
     Ref<Context> made = make_ref<Context>(known.threads, known.cache_bytes, known.memory_limit,
-                                          false, static_cast<CachePolicy>(policy));
+                                          false, static_cast<CachePolicy>(policy),
+                                          HostLoop{known.parallel_for, known.parallel_for_user});
+    made->loop_user.own(known.parallel_for_user, known.parallel_for_release);
     made->warnings.fn = known.warning;
     made->warnings.user = known.warning_user;
     *context = new_handle<msq_context>(std::move(made));

@@ -62,6 +62,16 @@ class MemoryBudget {
   uint64_t held_ = 0, peak_ = 0;
 };
 
+/// Memory that only saves time and goes when a call needs it.
+class SpareMemory {
+ public:
+  /// Gives some back. Returns whether there was any.
+  virtual bool give_way() = 0;
+
+ protected:
+  virtual ~SpareMemory() = default;
+};
+
 /// Bytes taken from a budget for as long as this lives.
 class Reservation {
  public:
@@ -69,6 +79,13 @@ class Reservation {
   Reservation(std::shared_ptr<MemoryBudget> budget, uint64_t bytes, const char* what)
       : budget_(std::move(budget)), bytes_(bytes) {
     budget_->take(bytes_, what);
+  }
+  /// Of bytes that try_take() has taken.
+  static Reservation adopt(std::shared_ptr<MemoryBudget> budget, uint64_t bytes) {
+    Reservation made;
+    made.budget_ = std::move(budget);
+    made.bytes_ = bytes;
+    return made;
   }
   Reservation(Reservation&& other) noexcept
       : budget_(std::move(other.budget_)), bytes_(std::exchange(other.bytes_, 0)) {

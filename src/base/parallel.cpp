@@ -12,12 +12,34 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <string>
+#include <thread>
 #include <utility>
 
 #include "base/call.h"
+#include "base/status.h"
 #include "base/work_shares.h"
 
 namespace msq {
+
+namespace {
+
+/// Maximum number of tasks that a loop of the host gets.
+constexpr unsigned max_host_tasks = 1024;
+
+/// A task of the host's loop: a part of the call's work, on any thread of the host.
+struct HostTask {
+  WorkShares& shares;
+  const CallState call;
+
+  static void run(void* task, uint64_t i) noexcept {
+    auto& of = *static_cast<HostTask*>(task);
+    const TaskScope scope(of.call);
+    of.shares.work(i % of.shares.shares());
+  }
+};
+
+}  // namespace
 
 class Executor::Arena {
  public:
@@ -55,21 +77,29 @@ Executor::Executor(unsigned threads, bool beyond_cores) : threads_(threads) {
   if (threads_ > 1) arena_ = std::make_unique<Arena>(static_cast<int>(threads_), beyond_cores);
 }
 
+Executor::Executor(unsigned threads, const HostLoop& host)
+    : threads_(threads ? std::min(threads, max_host_tasks)
+                       : std::max(1u, std::thread::hardware_concurrency())),
+      host_(host) {}
+
 Executor::~Executor() = default;
 
 void Executor::for_each(uint64_t count, const std::function<void(uint64_t)>& body) const {
-  if (!arena_ || count < 2) {
+  if (threads_ == 1 || count < 2) {
     for (uint64_t i = 0; i < count; ++i) body(i);
     return;
   }
-  const CallState call;
   WorkShares shares(count, threads_, body);
+  // There are fewer shares than threads on a machine of many cores.
+  const uint64_t tasks = std::min<uint64_t>(count, threads_);
+  if (host_.parallel_for) return share_by_host(shares, tasks);
+  const CallState call;
   const auto share_out = [&] {
     tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, shares.shares(), 1),
-        [&](const tbb::blocked_range<size_t>& range) {
+        tbb::blocked_range<uint64_t>(0, tasks, 1),
+        [&](const tbb::blocked_range<uint64_t>& range) {
           const TaskScope scope(call);
-          for (size_t s = range.begin(); s != range.end(); ++s) shares.work(s);
+          for (uint64_t s = range.begin(); s != range.end(); ++s) shares.work(s % shares.shares());
         },
         tbb::simple_partitioner());
   };
@@ -87,6 +117,18 @@ void Executor::for_each(uint64_t count, const std::function<void(uint64_t)>& bod
     });
   } catch (...) {
   }
+  shares.work(0);
+  shares.rethrow();
+}
+
+void Executor::share_by_host(WorkShares& shares, uint64_t tasks) const {
+  HostTask task{shares, CallState()};
+  const int32_t code =
+      call_host(host_.parallel_for, host_.user, tasks, &HostTask::run, static_cast<void*>(&task));
+  shares.rethrow();
+  if (code != 0)
+    throw Error(Status::host, "the callback parallel_for returned " + std::to_string(code), code);
+  // Nothing is left unless the host left out all tasks.
   shares.work(0);
   shares.rethrow();
 }

@@ -8,6 +8,13 @@
 
 namespace msq {
 
+/// The host's own way to run the tasks of a loop; see msq_parallel_for_fn.
+struct HostLoop {
+  int32_t (*parallel_for)(void* user, uint64_t count, void (*body)(void* task, uint64_t i),
+                          void* task) = nullptr;
+  void* user = nullptr;
+};
+
 /// A bounded set of threads. With one thread, everything runs on the caller and the thread library
 /// is not used. Otherwise the count is clamped to the machine's cores, since oneTBB warns on stderr
 /// if an arena asks for more. Bodies run in msq's floating-point environment. The host's callbacks
@@ -16,16 +23,20 @@ class Executor {
  public:
   /// `beyond_cores`: do not clamp. For tests of many threads on few cores.
   explicit Executor(unsigned threads, bool beyond_cores = false);
+  /// Threads of the host, `threads` at once, 0 for one per core. The thread library is not used.
+  Executor(unsigned threads, const HostLoop& host);
   ~Executor();
 
   unsigned threads() const { return threads_; }
 
   /// Calls body(i) for i in [0, count), in any order, on up to threads() threads, including the
   /// caller's; on fewer if threads cannot be started. Rethrows the first exception, after all
-  /// running bodies have ended.
+  /// running bodies have ended. Throws Error(host) if the host's loop fails.
   void for_each(uint64_t count, const std::function<void(uint64_t)>& body) const;
 
-  /// Work that runs beside the caller, until wait().
+  /// Work that runs beside the caller, until wait(). With one thread, and with a loop of the host,
+  /// which runs nothing beside its caller, wait() does all of it: the work is a sequence of loops,
+  /// and each of them is shared by all threads then.
   class Task {
    public:
     Task(const Executor& executor, std::function<void()> body);
@@ -45,7 +56,10 @@ class Executor {
 
  private:
   class Arena;
+  void share_by_host(class WorkShares& shares, uint64_t tasks) const;
+
   unsigned threads_;
+  HostLoop host_;
   std::unique_ptr<Arena> arena_;
 };
 

@@ -4,8 +4,11 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
+#include <vector>
 
 #include "base/borrowed.h"
+#include "base/host.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/ref.h"
@@ -23,13 +26,13 @@ struct WarningHook {
 class Context : public RefCounted {
  public:
   Context(unsigned threads, uint64_t cache_bytes, uint64_t memory_limit, bool beyond_cores = false,
-          CachePolicy policy = CachePolicy::fifo)
-      : executor(threads, beyond_cores),
+          CachePolicy policy = CachePolicy::fifo, const HostLoop& loop = {})
+      : executor(loop.parallel_for ? Executor(threads, loop) : Executor(threads, beyond_cores)),
         budget(std::make_shared<MemoryBudget>(memory_limit)),
         cache(cache_bytes, budget, policy) {
-    // Cached cells make room for memory that a call requires. So the success of a call does not
-    // depend on earlier calls.
-    budget->set_reserve([this] { return cache.drop_oldest(); });
+    // What is kept to save time, cached cells last, makes room for memory that a call requires. So
+    // the success of a call does not depend on earlier calls.
+    budget->set_reserve([this] { return spares_give_way() || cache.drop_oldest(); });
   }
   ~Context() override { budget->set_reserve(nullptr); }
 
@@ -42,6 +45,18 @@ class Context : public RefCounted {
   /// cache.
   uint64_t new_structure_id() { return next_id_.fetch_add(1, std::memory_order_relaxed); }
 
+  /// Memory that goes before cached cells do. It is removed before it ends.
+  void add_spare(SpareMemory& spare) {
+    const std::lock_guard lock(spares_mutex_);
+    spares_.push_back(&spare);
+  }
+  void remove_spare(SpareMemory& spare) {
+    const std::lock_guard lock(spares_mutex_);
+    std::erase(spares_, &spare);
+  }
+
+  /// Of the host's loop. It is released when all else is gone.
+  HostUser loop_user;
   const Executor executor;
   /// The calling thread alone.
   const Executor serial{1};
@@ -51,7 +66,16 @@ class Context : public RefCounted {
   WarningHook warnings;
 
  private:
+  bool spares_give_way() {
+    const std::lock_guard lock(spares_mutex_);
+    for (SpareMemory* spare : spares_)
+      if (spare->give_way()) return true;
+    return false;
+  }
+
   const KeepsMemory keeps_memory_;
+  std::mutex spares_mutex_;
+  std::vector<SpareMemory*> spares_;
   std::atomic<uint64_t> next_id_{1};
 };
 

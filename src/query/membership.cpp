@@ -19,8 +19,10 @@ constexpr uint64_t tile_words = uint64_t{1} << 17, tile_layers = 64, min_tile_ro
 /// both build them. Then one tile for each thread, even if it exceeds a core's cache, costs less.
 constexpr uint64_t min_cache_of_tiles = uint64_t{2} << 20;
 
-uint64_t tile_rows(const Model& model, const Scales& scales, const SampleGrid& grid,
-                   uint64_t layers) {
+}  // namespace
+
+uint64_t rows_of_tile(const Model& model, const Scales& scales, const SampleGrid& grid,
+                      uint64_t layers) {
   const unsigned threads = model.executor().threads();
   const bool shares_cells = std::any_of(scales.begin(), scales.end(), [](const Scale* scale) {
     return scale->structure->gains_by_layers();
@@ -33,6 +35,8 @@ uint64_t tile_rows(const Model& model, const Scales& scales, const SampleGrid& g
   return std::clamp<uint64_t>(std::min(fit, balanced), min_tile_rows,
                               std::max(min_tile_rows, grid.ny));
 }
+
+namespace {
 
 /// The number of set bits.
 uint64_t samples_of(const RowBlock& block) {
@@ -57,7 +61,7 @@ uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, con
   }
   if (resolved.empty()) return 0;
   const unsigned threads = model.executor().threads();
-  const uint64_t rows = std::min(grid.ny, tile_rows(model, resolved, grid, layers));
+  const uint64_t rows = std::min(grid.ny, rows_of_tile(model, resolved, grid, layers));
   uint64_t tiles = 1;
   for (const Scale* scale : resolved)
     if (!scale->skin.is_none()) tiles = 2;
@@ -105,7 +109,7 @@ bool has_samples(const RowBlock& block) {
 template <class Visit>
 void for_each_tile(const Model& model, const Scales& scales, const RowBlock& block, const Job* job,
                    Visit&& visit) {
-  const uint64_t rows = tile_rows(model, scales, *block.grid, block.layers());
+  const uint64_t rows = rows_of_tile(model, scales, *block.grid, block.layers());
   const uint64_t across = (block.rows() + rows - 1) / rows;
   const uint64_t deep = (block.layers() + tile_layers - 1) / tile_layers;
   model.executor().for_each(across * deep, [&](uint64_t n) {
@@ -212,6 +216,29 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
       scale->keep_rows(block, job);
     }
   });
+}
+
+void fill_rows_of_slab(const Model& model, const Scales& resolved, const SampleGrid& grid,
+                       uint64_t z0, uint64_t z1, uint64_t y0, uint64_t y1, uint64_t* words,
+                       const Job* job) {
+  for (uint64_t begin = z0; begin < z1; begin += tile_layers) {
+    RowBlock tile = slab_of(grid, z0, z1, words);
+    tile.words = tile.row(y0, begin);
+    tile.y0 = y0;
+    tile.y1 = y1;
+    tile.z0 = begin;
+    tile.z1 = std::min(z1, begin + tile_layers);
+    for (uint64_t k = tile.z0; k < tile.z1; ++k) {
+      RowBlock layer = tile;
+      layer.words = tile.row(y0, k);
+      layer.z0 = k;
+      layer.z1 = k + 1;
+      std::memset(layer.words, 0, layer.rows() * layer.row_stride * sizeof(uint64_t));
+      model.shape().fill_rows(layer);
+    }
+    for (const Scale* scale : resolved) scale->keep_rows(tile, job);
+    check_cancelled(job);
+  }
 }
 
 void grid_membership(const Model& model, const Scales& resolved, const SampleGrid& grid,

@@ -72,6 +72,10 @@ Slicer::Slicer(Ref<const Model> model, SlicePlan plan)
                 {grid_.at(0, 0, 0), grid_.at(grid_.nx - 1, grid_.ny - 1, grid_.nz - 1)},
                 "the region");
   plan_slabs();
+  const size_t samples = outputs_.front().samples;
+  if (samples != no_samples && slab_layers_ > 1 && LayersAhead::pays(*framed_, framed_resolved_))
+    ahead_ =
+        std::make_unique<LayersAhead>(*framed_, framed_resolved_, samples_[samples], slab_layers_);
 }
 
 const char* Slicer::axis_name(int axis) const {
@@ -187,6 +191,9 @@ void Slicer::plan_slabs() {
       std::min(automatic_slab_bytes, shallow_slab_bytes * model_->executor().threads());
   for (const Scale* scale : framed_resolved_)
     if (gains_by_layers(*scale)) max_bytes = automatic_slab_bytes;
+  // Two slabs, and as much for cells, meshes and other calls.
+  if (const uint64_t limit = model_->context().budget->limit())
+    max_bytes = std::min(max_bytes, limit / 4);
   const uint64_t fit = max_bytes / layer_bytes;
   slab_layers_ = static_cast<uint64_t>(
       std::clamp(std::min(layers, static_cast<double>(fit)), 1.0, static_cast<double>(grid_.nz)));
@@ -286,7 +293,7 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
       (layer_words + scratch) * sizeof(uint64_t) + plain_bytes(output) + beside, "a layer");
   std::vector<uint64_t> words(layer_words);
   std::vector<uint8_t> plain(plain_bytes(output)), bytes(beside);
-  if (has_samples)
+  if (has_samples && !(ahead_ && ahead_->take(index, words.data(), job)))
     fill_slab(*framed_, framed_resolved_, samples_[output.samples], index, index + 1, words.data(),
               job);
   write(output, index, words.data(), plain.data(), has_samples ? out : bytes.data(), job);

@@ -10,6 +10,7 @@
 #include "model/model.h"
 #include "slice/layer_frame.h"
 #include "slice/layer_output.h"
+#include "slice/layers_ahead.h"
 #include "slice/orientation.h"
 #include "slice/slabs_ahead.h"
 
@@ -121,6 +122,7 @@ class Slicer final : public RefCounted {
   std::vector<SampleGrid> samples_;
   std::array<uint64_t, 3> whole_;
   uint64_t slab_layers_ = 1;
+  std::unique_ptr<LayersAhead> ahead_;  ///< null where single layers cost no more
 };
 
 }  // namespace msq

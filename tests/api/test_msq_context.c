@@ -11,6 +11,9 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.memory_limit, 0);
   assert_int_equal(def.cache_policy, MSQ_CACHE_FIFO);
   assert_int_equal(def.reserved, 0);
+  assert_true(def.parallel_for == NULL);
+  assert_null(def.parallel_for_user);
+  assert_true(def.parallel_for_release == NULL);
 }
 
 static void no_definition_means_defaults(void** state) {

@@ -179,6 +179,35 @@ static void slabs_are_no_more_than_32_mib(void** state) {
   model = others;
 }
 
+static int32_t add_inside(void* user, const msq_layer* layer) {
+  *(uint64_t*)user += layer->inside_count;
+  return 0;
+}
+
+/* So a small limit does not refuse a run that has room for lower slabs. */
+static void slabs_are_no_more_than_a_quarter_of_the_memory_limit(void** state) {
+  const uint64_t limits[] = {0, 64u << 20, 8u << 20, 4u << 20}, layer_bytes = 1024 / 8 * 1024;
+  const uint32_t wanted[] = {64, 64, 16, 8};
+  uint64_t pixels = 0;
+  (void)state;
+  for (int i = 0; i < 4; ++i) {
+    msq_context* own = make_context_of(2, 1 << 16, limits[i]);
+    msq_model* foam = make_foam_model(own, MSQ_FOAM_AUTO);
+    const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 1024, 1024, 4.0 / 64);
+    msq_slicer* slicer = make_slicer(foam, &def);
+    uint64_t inside = 0;
+    assert_int_equal(plan_of(slicer).layer_bytes, layer_bytes);
+    assert_int_equal(plan_of(slicer).slab_layers, wanted[i]);
+    assert_ok(msq_slicer_run(slicer, 0, UINT64_MAX, add_inside, &inside, NULL));
+    if (i == 0) pixels = inside;
+    assert_int_equal(inside, pixels);
+    if (i > 0) assert_in_range(memory_of(own).peak_bytes, 2 * layer_bytes, limits[i]);
+    msq_slicer_release(slicer);
+    msq_model_release(foam);
+    msq_context_release(own);
+  }
+}
+
 static void slabs_of_one_thread_are_no_more_than_2_mib(void** state) {
   const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 4096, 1024, 0.03125); /* 512 KiB a layer */
   msq_model* const others = model;
@@ -208,6 +237,7 @@ int main(void) {
       cmocka_unit_test(listed_heights_are_the_layers),
       cmocka_unit_test(slabs_are_whole_cells_high_unless_told),
       cmocka_unit_test(slabs_are_no_more_than_32_mib),
+      cmocka_unit_test(slabs_are_no_more_than_a_quarter_of_the_memory_limit),
       cmocka_unit_test(slabs_of_one_thread_are_no_more_than_2_mib),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);

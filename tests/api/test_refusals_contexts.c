@@ -4,6 +4,15 @@
 
 static msq_context* context;
 
+static int32_t run_no_loop(void* user, uint64_t count, msq_task_fn body, void* task) {
+  (void)user, (void)count, (void)body, (void)task;
+  return 0;
+}
+
+static void release_nothing(void* user) {
+  (void)user;
+}
+
 static void contexts(void** state) {
   (void)state;
   REFUSALS("msq_context_create") {
@@ -13,7 +22,11 @@ static void contexts(void** state) {
     wrong_sizes(table, def, offsetof(msq_context_def, cache_policy), sizeof *def);
     wrong_enum(table, &def->cache_policy, "cache_policy", 0, 1);
     WRONG(ARGUMENT, "reserved is 7", def->reserved = 7);
+    WRONG(ARGUMENT, "parallel_for is NULL|parallel_for_user", def->parallel_for_user = table);
+    WRONG(ARGUMENT, "parallel_for is NULL|parallel_for_release",
+          def->parallel_for_release = release_nothing);
     WRONG(ARGUMENT, "context is NULL", made = NULL);
+    RIGHT(def->parallel_for = run_no_loop);
     RIGHT(def->cache_policy = MSQ_CACHE_SEGMENTED);
     RIGHT(def = NULL);
     if (TRY(msq_context_create(def, made))) msq_context_release(*made);

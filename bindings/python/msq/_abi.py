@@ -167,10 +167,21 @@ class msq_build_report(Structure):
 msq_warning_fn = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 
 
+msq_release_fn = CFUNCTYPE(None, c_void_p)
+
+
+msq_task_fn = CFUNCTYPE(None, c_void_p, c_uint64)
+
+
+msq_parallel_for_fn = CFUNCTYPE(c_int32, c_void_p, c_uint64, msq_task_fn, c_void_p)
+
+
 class msq_context_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("threads", c_uint32), ("cache_bytes", c_uint64),
                 ("memory_limit", c_uint64), ("cache_policy", c_int32), ("reserved", c_uint32),
-                ("warning", msq_warning_fn), ("warning_user", c_void_p)]
+                ("warning", msq_warning_fn), ("warning_user", c_void_p),
+                ("parallel_for", msq_parallel_for_fn), ("parallel_for_user", c_void_p),
+                ("parallel_for_release", msq_release_fn)]
 
 
 class msq_memory_report(Structure):
@@ -193,9 +204,6 @@ class msq_job_report(Structure):
 
 class msq_window(Structure):
     _fields_ = [("first", c_uint64 * 3), ("count", c_uint64 * 3)]
-
-
-msq_release_fn = CFUNCTYPE(None, c_void_p)
 
 
 msq_values_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(c_double), c_uint64, POINTER(c_double))

@@ -110,7 +110,8 @@ class Context(Handle):
     threads: of a call, the caller's included; 0: one a core. cache_bytes: of cell data, default
     1 GiB. memory_limit: bytes that meshes, slabs and cached cells may hold; 0: no limit.
     cache_policy: `fifo`, or `segmented`, which rather keeps cells that are asked for again. Results
-    never depend on them. Objects made without a context share that of what they are made from, or
+    never depend on them. The `parallel_for` of msq_context_def is not offered: a task of Python would
+    take the interpreter lock, so threads of msq are quicker. Objects made without a context share that of what they are made from, or
     one of defaults.
 
     on_warning(kind, message): called, on the thread that calls msq, with what is legal but doubtful,
