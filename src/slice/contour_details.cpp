@@ -298,6 +298,7 @@ void ContourDetails::split(ContourPoints& points) {
   searches.resize(kept);
   // Each by itself, so that no window changes what another one finds.
   std::vector<Search*> open;
+  open.reserve(searches.size());
   for (Search& s : searches) open.push_back(&s);
   constexpr int max_halvings = 24;
   for (int round = 0; round < max_halvings; ++round) {

@@ -208,7 +208,7 @@ void Contours::close() {
 Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* job) {
   JobScope scope(job);
   const double pitch = three_digits(plan.pitch > 0 ? plan.pitch : plan.tolerance);
-  const Ref<Contours> out = make_ref<Contours>(plan.format);
+  Ref<Contours> out = make_ref<Contours>(plan.format);
   out->set_pitch(pitch);
   double low[2], high[2];
   const bool is_empty = !find_window(model, plan, pitch, low, high);
