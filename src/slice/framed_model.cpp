@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/hash_input.h"
 #include "shape/row_boxes.h"
 #include "slice/turned_rows.h"
 
@@ -16,6 +17,11 @@ std::vector<Vec3> mapped(const LayerFrame& frame, const Vec3* points, size_t cou
   return out;
 }
 
+void describe_frame(const LayerFrame& frame, HashInput& input) {
+  input.point(frame.origin);
+  for (const Vec3& axis : frame.axes) input.point(axis);
+}
+
 class FramedField final : public Field {
  public:
   FramedField(Parameter original, const LayerFrame& frame)
@@ -27,6 +33,13 @@ class FramedField final : public Field {
   bool is_concurrent() const override { return original_.is_concurrent(); }
   Interval range() const override { return original_.range(); }
   Interval range(const Box3& box) const override { return original_.range(frame_.to_model(box)); }
+
+ protected:
+  void describe(HashInput& input) const override {
+    input.kind("field: framed");
+    original_.describe(input);
+    describe_frame(frame_, input);
+  }
 
  private:
   const Parameter original_;
@@ -75,6 +88,11 @@ class FramedShape final : public Shape {
   double distance_bound(Vec3 p) const override {
     const double bound = std::abs(shape_->distance(frame_.to_model(p)));
     return std::max(0.0, bound * (1 - 0x1p-50) - 2 * frame_.rounding(p));
+  }
+  void describe(HashInput& input) const override {
+    input.kind("shape: framed");
+    input.object(*shape_);
+    describe_frame(frame_, input);
   }
 
  private:
@@ -128,6 +146,13 @@ class FramedStructure final : public Structure {
       check_cancelled(job);
       structure_->keep_rows(turned, job);
     });
+  }
+
+ protected:
+  void describe(HashInput& input) const override {
+    input.kind("structure: framed");
+    input.object(*structure_);
+    describe_frame(frame_, input);
   }
 
  private:
