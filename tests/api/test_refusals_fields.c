@@ -142,7 +142,7 @@ static void host_fields(void** state) {
     def->release = note_release;
     def->low = 0.25;
     def->high = 0.75;
-    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    wrong_sizes(table, def, offsetof(msq_host_field_def, hash_key), sizeof *def);
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "field is NULL", field = NULL);
     WRONG(ARGUMENT, "evaluate is NULL", def->evaluate = NULL);

@@ -247,7 +247,7 @@ static void host_shapes(void** state) {
       def->min[axis] = 0;
       def->max[axis] = 4;
     }
-    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    wrong_sizes(table, def, offsetof(msq_host_shape_def, hash_key), sizeof *def);
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "shape is NULL", shape = NULL);
     WRONG(ARGUMENT, "inside is NULL", def->inside = NULL);

@@ -230,7 +230,7 @@ static void host_kinds(void** state) {
     def->free_cell = free_cell;
     def->user = &log;
     def->release = note_release;
-    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    wrong_sizes(table, def, offsetof(msq_host_structure_def, hash_key), sizeof *def);
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "structure is NULL", structure = NULL);
     WRONG(ARGUMENT, "build_cell is NULL", def->build_cell = NULL);
@@ -256,7 +256,7 @@ static void host_kinds(void** state) {
     def->user = &log;
     def->release = note_release;
     def->level.value = 0.25;
-    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    wrong_sizes(table, def, offsetof(msq_host_function_def, hash_key), sizeof *def);
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "structure is NULL", structure = NULL);
     WRONG(ARGUMENT, "evaluate is NULL", def->evaluate = NULL);
