@@ -5,7 +5,7 @@
 
 #include "base/hash_input.h"
 #include "shape/row_boxes.h"
-#include "slice/turned_rows.h"
+#include "slice/frame_rows.h"
 
 namespace msq {
 
@@ -73,7 +73,7 @@ class FramedShape final : public Shape {
           [this](const Vec3* points, size_t count, uint8_t* inside) {
             find_inside(points, count, inside);
           });
-    TurnedRows(block, model_axes_).for_each_part([this](const RowBlock& turned) {
+    FrameRows(block, model_axes_).for_each_part([this](const RowBlock& turned) {
       RowBlock layer = turned;
       for (uint64_t k = turned.z0; k < turned.z1; ++k) {
         layer.z0 = k;
@@ -142,7 +142,7 @@ class FramedStructure final : public Structure {
   bool gains_by_layers() const override { return structure_->gains_by_layers(); }
   void keep_rows(const RowBlock& block, const Job* job) const override {
     if (model_axes_[0] < 0) return Structure::keep_rows(block, job);
-    TurnedRows(block, model_axes_).for_each_part([&](const RowBlock& turned) {
+    FrameRows(block, model_axes_).for_each_part([&](const RowBlock& turned) {
       check_cancelled(job);
       structure_->keep_rows(turned, job);
     });

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slice/turned_rows.h"
+#include "slice/frame_rows.h"
 
 #include <algorithm>
 
 namespace msq {
 
-SampleGrid TurnedRows::turned_grid(const Part& part) const {
+SampleGrid FrameRows::turned_grid(const Part& part) const {
   const SampleGrid& grid = *block_.grid;
   SampleGrid out;
   uint64_t counts[3];
@@ -46,7 +46,7 @@ void transpose(uint64_t (&words)[64]) {
 }  // namespace
 
 template <class Copy>
-void TurnedRows::for_each_row(const Part& part, const RowBlock& turned, Copy&& copy) const {
+void FrameRows::for_each_row(const Part& part, const RowBlock& turned, Copy&& copy) const {
   const uint64_t first = part.low[0] / bits_per_word;
   uint64_t at[3] = {};
   for (uint64_t k = part.low[2]; k < part.high[2]; ++k)
@@ -57,14 +57,14 @@ void TurnedRows::for_each_row(const Part& part, const RowBlock& turned, Copy&& c
     }
 }
 
-struct TurnedRows::Tile {
+struct FrameRows::Tile {
   uint64_t* rows[64];    // words of the block's rows, those that there are
   uint64_t* turned[64];  // words of the turned rows
   uint64_t row_count, turned_count;
 };
 
 template <class Copy>
-void TurnedRows::for_each_tile(const Part& part, const RowBlock& turned, Copy&& copy) const {
+void FrameRows::for_each_tile(const Part& part, const RowBlock& turned, Copy&& copy) const {
   const int across = block_axis(0), other = 3 - across;  // of rows and layers
   Tile tile;
   uint64_t at[3], index[3] = {};
@@ -86,7 +86,7 @@ void TurnedRows::for_each_tile(const Part& part, const RowBlock& turned, Copy&& 
       }
 }
 
-void TurnedRows::load(const Part& part, const RowBlock& turned) const {
+void FrameRows::load(const Part& part, const RowBlock& turned) const {
   if (axes_[0] == 0)
     return for_each_row(part, turned, [](const uint64_t* from, uint64_t* to, size_t count) {
       std::copy_n(from, count, to);
@@ -100,7 +100,7 @@ void TurnedRows::load(const Part& part, const RowBlock& turned) const {
   });
 }
 
-void TurnedRows::store(const Part& part, const RowBlock& turned) const {
+void FrameRows::store(const Part& part, const RowBlock& turned) const {
   if (axes_[0] == 0)
     return for_each_row(part, turned, [](uint64_t* to, const uint64_t* from, size_t count) {
       std::copy_n(from, count, to);

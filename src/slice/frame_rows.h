@@ -10,10 +10,10 @@
 
 namespace msq {
 
-class TurnedRows {
+class FrameRows {
  public:
   /// `axes`: for each axis of the block, the axis that it becomes.
-  TurnedRows(const RowBlock& block, std::array<int, 3> axes) : block_(block), axes_(axes) {}
+  FrameRows(const RowBlock& block, std::array<int, 3> axes) : block_(block), axes_(axes) {}
 
   /// Calls use(turned) for parts of the block, which together are the whole: bits are those of the
   /// block on entry, and become those of the block.
@@ -24,7 +24,7 @@ class TurnedRows {
   /// Of the words of a part, which are more than the block's where turned rows are short.
   static constexpr uint64_t max_words = uint64_t{1} << 16, max_layers = 64;
 
-  /// Samples of the block: x, rows and layers, ends excluded. Along x whole words, but for the
+  /// Samples of the block: x, rows and layers, ends excluded. Along x whole words, except the
   /// last.
   struct Part {
     uint64_t low[3], high[3];
@@ -62,12 +62,12 @@ class TurnedRows {
 };
 
 template <class Use>
-void TurnedRows::for_each_part(Use&& use) {
+void FrameRows::for_each_part(Use&& use) {
   divide({{0, block_.y0, block_.z0}, {block_.grid->nx, block_.y1, block_.z1}}, use);
 }
 
 template <class Use>
-void TurnedRows::divide(const Part& part, Use&& use) {
+void FrameRows::divide(const Part& part, Use&& use) {
   // Listed heights are those of layers alone: along rows and columns there is one at a time.
   const bool is_uneven = block_.grid->heights && axes_[2] != 2 && part.count(2) > 1;
   const SampleGrid grid = turned_grid(part);
@@ -83,7 +83,7 @@ void TurnedRows::divide(const Part& part, Use&& use) {
 }
 
 template <class Use>
-void TurnedRows::use_part(const Part& part, const SampleGrid& grid, Use&& use) {
+void FrameRows::use_part(const Part& part, const SampleGrid& grid, Use&& use) {
   RowBlock turned;
   turned.grid = &grid;
   turned.y1 = grid.ny;
