@@ -83,8 +83,8 @@ msq_status msq_surface_file(const msq_model* model, const msq_surface_def* def, 
                             msq_file_fn fn, void* user, msq_job* job) {
   return guard([&] {
     const Call call(model, def, job);
-    const MeshFormat known =
-        static_cast<MeshFormat>(require_range(format, MSQ_SURFACE_STL, MSQ_SURFACE_PLY, "format"));
+    const SurfaceFormat known = static_cast<SurfaceFormat>(
+        require_range(format, MSQ_SURFACE_STL, MSQ_SURFACE_PLY, "format"));
     if (!fn) fail(Status::argument, "fn is NULL");
     JobScope scope(call.job);
     write_mesh(

@@ -122,7 +122,7 @@ void write_ply(const Model& model, const MeshPlan& plan, MeshSize size,
 
 }  // namespace
 
-void write_mesh(const Model& model, const MeshPlan& plan, MeshFormat format,
+void write_mesh(const Model& model, const MeshPlan& plan, SurfaceFormat format,
                 const std::function<void(const FilePart&)>& take, Job* job) {
   const MeshSize size = count_mesh(model, plan, {job, 0, part_of_count});
   // PLY counts vertices in numbers with a sign.
@@ -131,8 +131,8 @@ void write_mesh(const Model& model, const MeshPlan& plan, MeshFormat format,
          static_cast<unsigned long long>(size.triangles),
          static_cast<unsigned long long>(size.vertices),
          static_cast<unsigned long long>(UINT32_MAX), static_cast<unsigned long long>(INT32_MAX));
-  (format == MeshFormat::stl ? write_stl : write_ply)(model, plan, size, take,
-                                                      {job, part_of_count, 1});
+  (format == SurfaceFormat::stl ? write_stl : write_ply)(model, plan, size, take,
+                                                         {job, part_of_count, 1});
 }
 
 }  // namespace msq

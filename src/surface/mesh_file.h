@@ -11,7 +11,7 @@
 
 namespace msq {
 
-enum class MeshFormat : int32_t { stl = 1, ply = 2 };
+enum class SurfaceFormat : int32_t { stl = 1, ply = 2 };
 
 /// Some bytes of a file of a known size.
 struct FilePart {
@@ -22,7 +22,7 @@ struct FilePart {
 /// Calls take(part) on this thread: each byte of the file is in one part. Those of binary STL are
 /// in order; of PLY, vertices and triangles are two runs that grow in turn. Throws Error(limit) for
 /// 2^32 triangles.
-void write_mesh(const Model& model, const MeshPlan& plan, MeshFormat format,
+void write_mesh(const Model& model, const MeshPlan& plan, SurfaceFormat format,
                 const std::function<void(const FilePart&)>& take, Job* job);
 
 }  // namespace msq
