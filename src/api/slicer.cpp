@@ -254,6 +254,7 @@ msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t cou
     const uint64_t last = count == UINT64_MAX ? grid.nz : first + count;
     std::vector<msq_output> outputs(known.output_count());
     std::vector<const msq_output*> pointers;
+    pointers.reserve(outputs.size());
     for (const msq_output& output : outputs) pointers.push_back(&output);
     const auto take = [&](const Layer& layer) {
       for (size_t i = 0; i < outputs.size(); ++i) {

@@ -177,7 +177,7 @@ LayersAhead::BlockRef LayersAhead::make_block(uint64_t layer) {
   // The cells of the cache are worth more than layers ahead.
   if (budget->limit() && bytes > (budget->limit() - std::min(budget->limit(), budget->held())) / 4)
     return nullptr;
-  const auto block = std::make_shared<Block>();
+  auto block = std::make_shared<Block>();
   block->first = layer;
   block->end = layer + count;
   const uint64_t rows = rows_of_tile(model_, resolved_, samples_, count);
