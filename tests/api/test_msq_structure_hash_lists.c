@@ -173,10 +173,6 @@ static int32_t empty_box(void* user, const double min[3], const double max[3], i
   return 0;
 }
 
-static void no_release(void* user) {
-  (void)user;
-}
-
 static void hash_host(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
   msq_structure* structure;
   assert_ok(msq_structure_host(in, (const msq_host_structure_def*)def, &structure));
@@ -185,7 +181,6 @@ static void hash_host(msq_context* in, const void* def, uint8_t hash[hash_bytes]
 
 static void host_structures_hash_their_key(void** state) {
   msq_host_structure_def def;
-  int other;
   (void)state;
   assert_ok(msq_host_structure_def_init(&def, sizeof def));
   def.inside = none_inside;
@@ -201,27 +196,8 @@ static void host_structures_hash_their_key(void** state) {
           def.free_cell = free_nothing);
     KEEPS(def.box, def.box = empty_box);
     CHANGES(def.distance, def.distance = no_distance);
-    KEEPS(def.user, def.user = &other);
-    KEEPS(def.release, def.release = no_release);
-    CHANGES(def.hash_key[0], def.hash_key[0] = 8);
-    CHANGES(def.hash_key[1], def.hash_key[1] = 8);
+    HOST_ROWS(def);
   }
-}
-
-static int32_t a_half(void* user, const double* points, uint64_t count, double* values) {
-  (void)user;
-  (void)points;
-  for (uint64_t i = 0; i < count; ++i) values[i] = 0.5;
-  return 0;
-}
-
-static int32_t range_of_half(void* user, const double min[3], const double max[3], double* low,
-                             double* high) {
-  (void)user;
-  (void)min;
-  (void)max;
-  *low = *high = 0.5;
-  return 0;
 }
 
 static void hash_function(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
@@ -232,10 +208,9 @@ static void hash_function(msq_context* in, const void* def, uint8_t hash[hash_by
 
 static void host_functions_hash_their_key(void** state) {
   msq_host_function_def def;
-  int other;
   (void)state;
   assert_ok(msq_host_function_def_init(&def, sizeof def));
-  def.evaluate = a_half;
+  def.evaluate = half;
   def.kind = MSQ_FUNCTIONAL_SHEET;
   def.level.value = 0.25;
   def.hash_key[0] = def.hash_key[1] = 7;
@@ -249,11 +224,8 @@ static void host_functions_hash_their_key(void** state) {
     CHANGES(def.level.value, def.level.value = 0.5);
     PARAM_CHANGES(def.level, ramp, steep_ramp);
     KEEPS(def.range, def.range = range_of_half);
-    KEEPS(def.user, def.user = &other);
-    KEEPS(def.release, def.release = no_release);
+    HOST_ROWS(def);
     CHANGES(def.lipschitz, def.lipschitz = 1);
-    CHANGES(def.hash_key[0], def.hash_key[0] = 8);
-    CHANGES(def.hash_key[1], def.hash_key[1] = 8);
   }
 }
 
