@@ -34,7 +34,6 @@ class ContourPoints {
   const std::vector<uint8_t>& find_inside();
 
  private:
-  void ask(const Scales& scales, std::vector<uint8_t>& inside);
   void ask_some(const std::vector<uint32_t>& some, const Scales& scales);
 
   const Model& model_;

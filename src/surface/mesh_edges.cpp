@@ -6,7 +6,7 @@
 
 #include "base/ray_normal.h"
 #include "ray/cast.h"
-#include "surface/inside_points.h"
+#include "surface/boundary_ways.h"
 
 namespace msq {
 

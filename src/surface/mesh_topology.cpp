@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/status.h"
-#include "surface/inside_points.h"
+#include "query/inside_points.h"
 
 namespace msq {
 

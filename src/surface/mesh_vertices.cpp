@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <mutex>
 
+#include "query/inside_points.h"
 #include "ray/cast.h"
-#include "surface/inside_points.h"
+#include "surface/boundary_ways.h"
 #include "surface/quadric.h"
 
 namespace msq {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/inside_points.h"
+#include "query/inside_points.h"
 
 #include "query/array_points.h"
 #include "query/membership.h"
@@ -13,7 +13,7 @@ void find_inside(const Model& model, const Scales& resolved, const std::vector<V
   inside.resize(points.size());
   if (points.empty()) return;
   check_cancelled(job);
-  Job part(job);  // the progress of the call is another
+  Job part(job);
   if (points.size() < few) {
     ask_points(model, resolved, {}, points.data(), inside.data(), points.size(), &part);
     return;
@@ -23,18 +23,6 @@ void find_inside(const Model& model, const Scales& resolved, const std::vector<V
   array.count = points.size();
   array.stride = sizeof(Vec3);
   set_membership(model, resolved, ArrayPoints(array), {}, inside.data(), &part);
-}
-
-void halve(const Model& model, const Scales& resolved, std::vector<BoundaryWay>& ways, int rounds,
-           const Job* job) {
-  std::vector<Vec3> points(ways.size());
-  std::vector<uint8_t> inside;
-  for (int round = 0; round < rounds && !ways.empty(); ++round) {
-    for (size_t i = 0; i < ways.size(); ++i) points[i] = ways[i].middle();
-    find_inside(model, resolved, points, inside, job);
-    for (size_t i = 0; i < ways.size(); ++i)
-      (inside[i] ? ways[i].inside : ways[i].outside) = points[i];
-  }
 }
 
 }  // namespace msq

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Membership of points that a mesh asks for one by one, and places between them where it changes.
+// Ways across the boundary of a model, and places on them where membership changes.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "base/job.h"
 #include "model/model.h"
 
 namespace msq {
-
-/// inside[i] becomes 0 or 1. Points must be finite.
-void find_inside(const Model& model, const Scales& resolved, const std::vector<Vec3>& points,
-                 std::vector<uint8_t>& inside, const Job* job);
 
 /// A way from a point inside to one outside; neither is asked about.
 struct BoundaryWay {
