@@ -34,7 +34,8 @@
  * byte past that size, and zeroes the bytes that it does not know.
  *
  * Inputs. A constructor copies the arrays and strings that it is given. NULL is refused unless the
- * comment gives it a meaning. Numbers that are not finite are refused.
+ * comment gives it a meaning. A job may be NULL everywhere: the call then has none. Numbers that
+ * are not finite are refused.
  *
  * Threads. Every function may be called from any thread. Callbacks run on the thread that called
  * msq and may call msq. Only callbacks of objects defined with concurrent = 1 may run on other
@@ -235,7 +236,7 @@ typedef struct msq_context_def {
   /** Must be 0. */
   uint32_t reserved;
   /** Receives warnings about objects of this context. NULL (default): none. Must be valid as long
-   * as the context. */
+   * as the context, which objects made in it keep alive. */
   msq_warning_fn warning;
   /** Passed to warning. */
   void* warning_user;
@@ -251,6 +252,13 @@ typedef struct msq_context_def {
    * was made in it, on the thread that drops the last reference. It is not called if
    * msq_context_create fails. */
   msq_release_fn parallel_for_release;
+
+  /* Life of what warning uses. */
+
+  /** NULL, or called with warning_user when the context is freed: after the last object that was
+   * made in it, on the thread that drops the last reference. It is not called if msq_context_create
+   * fails. */
+  msq_release_fn warning_release;
 } msq_context_def;
 
 /** Sets the defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */

@@ -32,10 +32,13 @@ msq_status msq_context_create(const msq_context_def* def, msq_context** context)
     if (!known.parallel_for && (known.parallel_for_user || known.parallel_for_release))
       fail(Status::argument, "parallel_for is NULL, and %s is not",
            known.parallel_for_user ? "parallel_for_user" : "parallel_for_release");
+    if (!known.warning && known.warning_release)
+      fail(Status::argument, "warning is NULL, and warning_release is not");
     Ref<Context> made = make_ref<Context>(known.threads, known.cache_bytes, known.memory_limit,
                                           false, static_cast<CachePolicy>(policy),
                                           HostLoop{known.parallel_for, known.parallel_for_user});
     made->loop_user.own(known.parallel_for_user, known.parallel_for_release);
+    made->warning_user.own(known.warning_user, known.warning_release);
     made->warnings.fn = known.warning;
     made->warnings.user = known.warning_user;
     *context = new_handle<msq_context>(std::move(made));

@@ -57,6 +57,8 @@ class Context : public RefCounted {
 
   /// Of the host's loop. It is released when all else is gone.
   HostUser loop_user;
+  /// Of the host's function for warnings.
+  HostUser warning_user;
   const Executor executor;
   /// The calling thread alone.
   const Executor serial{1};

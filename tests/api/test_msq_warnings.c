@@ -202,6 +202,38 @@ static void unmatched_cells(void** state) {
   msq_context_release(context);
 }
 
+static int released;
+
+static void count_release(void* user) {
+  assert_ptr_equal(user, &list);
+  ++released;
+}
+
+static void hooks_live_as_long_as_the_context(void** state) {
+  msq_context_def def;
+  msq_context* context;
+  msq_structure* lattice;
+  (void)state;
+  memset(&list, 0, sizeof list);
+  list.thread = pthread_self();
+  released = 0;
+  assert_ok(msq_context_def_init(&def, sizeof def));
+  assert_true(def.warning_release == NULL);
+  def.warning = take_warning;
+  def.warning_user = &list;
+  def.warning_release = count_release;
+  def.cache_policy = 7;
+  assert_int_equal(msq_context_create(&def, &context), MSQ_E_ARGUMENT);
+  assert_int_equal(released, 0); /* the host still owns it */
+  def.cache_policy = MSQ_CACHE_FIFO;
+  assert_ok(msq_context_create(&def, &context));
+  lattice = make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 1, 0.1);
+  msq_context_release(context);
+  assert_int_equal(released, 0);
+  msq_structure_release(lattice);
+  assert_int_equal(released, 1);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(open_meshes),
@@ -210,6 +242,7 @@ int main(void) {
       cmocka_unit_test(coarse_pitches),
       cmocka_unit_test(small_caches),
       cmocka_unit_test(unmatched_cells),
+      cmocka_unit_test(hooks_live_as_long_as_the_context),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,6 +25,7 @@ static void contexts(void** state) {
     WRONG(ARGUMENT, "parallel_for is NULL|parallel_for_user", def->parallel_for_user = table);
     WRONG(ARGUMENT, "parallel_for is NULL|parallel_for_release",
           def->parallel_for_release = release_nothing);
+    WRONG(ARGUMENT, "warning is NULL|warning_release", def->warning_release = release_nothing);
     WRONG(ARGUMENT, "context is NULL", made = NULL);
     RIGHT(def->parallel_for = run_no_loop);
     RIGHT(def->cache_policy = MSQ_CACHE_SEGMENTED);

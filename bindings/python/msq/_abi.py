@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The declarations of msq.h. Made from it by make_abi.py: change those."""
+"""The declarations of msq.h. Made from it by make_bindings.py: change those."""
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, c_int32, c_int64,
                     c_size_t, c_uint32, c_uint64, c_uint8, c_void_p)
 
@@ -181,7 +181,7 @@ class msq_context_def(Structure):
                 ("memory_limit", c_uint64), ("cache_policy", c_int32), ("reserved", c_uint32),
                 ("warning", msq_warning_fn), ("warning_user", c_void_p),
                 ("parallel_for", msq_parallel_for_fn), ("parallel_for_user", c_void_p),
-                ("parallel_for_release", msq_release_fn)]
+                ("parallel_for_release", msq_release_fn), ("warning_release", msq_release_fn)]
 
 
 class msq_memory_report(Structure):

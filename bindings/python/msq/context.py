@@ -8,7 +8,6 @@ import itertools
 import numbers
 import operator
 import threading
-import weakref
 from typing import Any, Callable, Dict, Optional, Tuple, Type, TypeVar
 
 from . import _abi
@@ -96,12 +95,15 @@ _numbers = itertools.count(1)
 
 @_abi.msq_warning_fn
 def _take_warning(user: int, code: int, message: bytes) -> None:
-    function = _on_warning.get(user)
-    if function is None:  # what the context made outlives it
-        return
+    function = _on_warning[user]
     kinds = {value: label[len("MSQ_WARNING_"):].lower() for label, value in vars(_abi).items()
              if label.startswith("MSQ_WARNING_")}
     function(kinds.get(code, str(code)), message.decode())
+
+
+@_abi.msq_release_fn
+def _forget_warning(user: int) -> None:
+    _on_warning.pop(user, None)
 
 
 class Context(Handle):
@@ -116,7 +118,7 @@ class Context(Handle):
 
     on_warning(kind, message): called, on the thread that calls msq, with what is legal but doubtful,
     once for each object: `open_mesh`, `coarse_pitch`, `small_cache`, `unmatched_cells`. It must not
-    raise. Not called once the Context is garbage.
+    raise. It is kept as long as anything that was made in the context.
     """
 
     _kind = "context"
@@ -135,10 +137,15 @@ class Context(Handle):
                 raise TypeError(f"on_warning is a {type(on_warning).__name__}; it must be a function")
             number = next(_numbers)
             _on_warning[number] = on_warning
-            weakref.finalize(self, _on_warning.pop, number, None)
             definition.warning = _take_warning
             definition.warning_user = number
-        self._reference = self._create(lib.msq_context_create, ctypes.byref(definition))
+            definition.warning_release = _forget_warning
+        try:
+            self._reference = self._create(lib.msq_context_create, ctypes.byref(definition))
+        except BaseException:
+            if on_warning is not None:
+                del _on_warning[number]
+            raise
 
     @property
     def memory(self) -> MemoryInfo:
