@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the declarations of msq.h with their comments.
 
-Reads the C that msq.h is written in, as bindings/python/make_abi.py does, and keeps what that drops:
-comments, names of arguments, sections. An error names the declaration that it does not understand.
+Reads the C that msq.h is written in, as bindings/abi/header.py does, and keeps what that drops: comments
+and sections. An error names the declaration that it does not understand.
 """
 import pathlib
 import re

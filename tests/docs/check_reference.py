@@ -13,8 +13,8 @@ import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-sys.path[:0] = [str(ROOT / "docs" / "site"), str(ROOT / "bindings" / "python")]
-import make_abi  # noqa: E402
+sys.path[:0] = [str(ROOT / "docs" / "site"), str(ROOT / "bindings" / "abi")]
+import header as abi_header  # noqa: E402
 import reference as header  # noqa: E402
 import uses  # noqa: E402
 
@@ -43,18 +43,20 @@ def problems_of_comments(found):
 
 def problems_of_reading(found):
     """Two readers of the header see the same symbols."""
-    abi = make_abi.read_header(header.HEADER)
+    abi = abi_header.read_header(header.HEADER)
     kinds = {"function": abi.functions, "struct": abi.structs, "callback": abi.callbacks,
-             "handle": abi.opaque}
-    for kind, others in kinds.items():
+             "enum": abi.enums}
+    names = {kind: {one.name for one in ones} for kind, ones in kinds.items()}
+    names["handle"] = set(abi.handles)
+    for kind, others in names.items():
         mine = {symbol.name for symbol in found.symbols.values() if symbol.kind == kind}
-        for name in sorted(mine ^ set(others)):
-            yield f"{name}: docs/site and make_abi.py disagree whether msq.h declares this {kind}"
+        for name in sorted(mine ^ others):
+            yield f"{name}: docs/site and bindings/abi disagree whether msq.h declares this {kind}"
     members = {name for symbol in found.symbols.values() if symbol.kind == "enum"
                for member in symbol.members for name in member.names}
     members |= {symbol.name for symbol in found.symbols.values() if symbol.kind == "macro"}
-    for name in sorted(members ^ set(abi.constants)):
-        yield f"{name}: docs/site and make_abi.py disagree whether msq.h has this constant"
+    for name in sorted(members ^ set(abi_header.constants_of(abi))):
+        yield f"{name}: docs/site and bindings/abi disagree whether msq.h has this constant"
 
 
 def not_shown(found):

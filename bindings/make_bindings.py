@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes what bindings are made from: the declarations of msq.h in other languages.
+
+    python3 bindings/make_bindings.py [--check] [--header msq.h] [--output folder]
+
+--check writes nothing, and fails where a file is not what the header makes.
+"""
+import argparse
+import difflib
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(HERE / "abi"))
+import ctypes_module  # noqa: E402
+import json_file  # noqa: E402
+import lua_module  # noqa: E402
+import rust_crate  # noqa: E402
+from header import HeaderError, read_header  # noqa: E402
+
+WRITERS = {
+    "abi.json": json_file.write,
+    "luajit/msq_cdef.lua": lua_module.write,
+    "python/msq/_abi.py": ctypes_module.write,
+    "rust/msq-sys/src/lib.rs": rust_crate.write,
+}
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--header", type=pathlib.Path, default=HERE.parent / "include" / "msq.h")
+    parser.add_argument("--output", type=pathlib.Path, default=HERE)
+    arguments = parser.parse_args()
+    try:
+        header = read_header(arguments.header)
+    except HeaderError as error:
+        sys.exit(f"{arguments.header}: make_bindings.py does not read this: {error}")
+    stale = 0
+    for name, write in WRITERS.items():
+        path, text = arguments.output / name, write(header)
+        if not arguments.check:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+            continue
+        committed = path.read_text(encoding="utf-8") if path.exists() else ""
+        if committed != text:
+            stale += 1
+            sys.stdout.writelines(difflib.unified_diff(
+                committed.splitlines(True), text.splitlines(True), str(path), "of the header"))
+            print(f"{name} is not what msq.h declares; run: python3 bindings/make_bindings.py")
+    return 1 if stale else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
