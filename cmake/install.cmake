@@ -1,4 +1,4 @@
-# Installs the library, its one C header, the CMake package and the pkg-config file. A shared msq
+# Installs the library, its C header, the C++ header over it, the CMake package and the pkg-config file. A shared msq
 # keeps its dependencies to itself; a static one hands them on to whoever links it.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -22,7 +22,7 @@ install(TARGETS msq EXPORT msqTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(FILES include/msq.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES include/msq.h bindings/cpp/msq.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 # Not CMAKE_INSTALL_DOCDIR, which is the host's where msq is a part of another project.
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/msq)
 install(EXPORT msqTargets NAMESPACE msq:: DESTINATION ${MSQ_CMAKE_DIR})

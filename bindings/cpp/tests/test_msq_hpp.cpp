@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: Apache-2.0
+// msq.hpp against msq.h: lives of objects, errors, callbacks that throw, ranges.
+#include <msq.hpp>
+
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <vector>
+
+extern "C" {
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+}
+
+namespace {
+
+msq::Shape cube(const msq::Context& context) {
+  return msq::Shape::box(context, {0, 0, 0}, {10, 10, 10});
+}
+
+msq::Structure foam(const msq::Context& context, msq_param radius) {
+  msq::FoamDef def;
+  for (double& size : def.grid.cell_size) size = 2;
+  def.radius = radius;
+  return msq::Structure::foam(context, def);
+}
+
+msq::Model foam_model(const msq::Context& context) {
+  return {context, {cube(context), foam(context, msq::param(0.3))}};
+}
+
+msq::Slicer slicer(const msq::Model& model, double pitch = 0.25) {
+  msq::SlicerDef def;
+  def.output = MSQ_LAYER_BYTES;
+  def.pitch[0] = def.pitch[1] = pitch;
+  def.layer_height = 0.5;
+  return {model, def};
+}
+
+/// The message of what a call throws.
+template <class Call>
+std::string thrown_by(Call&& call) {
+  try {
+    call();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  fail_msg("nothing was thrown");
+  return "";
+}
+
+void handles_count_references(void**) {
+  msq::Shape kept;
+  assert_false(static_cast<bool>(kept));
+  {
+    const msq::Context context;
+    const msq::Shape shape = cube(context);
+    msq::Shape copy = shape, moved = std::move(copy);
+    assert_true(copy.get() == nullptr);
+    assert_ptr_equal(moved.get(), shape.get());
+    kept = moved;
+    kept = kept;
+  }
+  assert_true(std::abs(kept.info().volume - 1000) < 1e-9);
+}
+
+void errors_have_status_and_message(void**) {
+  const msq::Context context;
+  try {
+    msq::Shape::sphere(context, {0, 0, 0}, -1);
+    fail_msg("a radius of -1 was taken");
+  } catch (const msq::Error& error) {
+    assert_int_equal(error.status(), MSQ_E_ARGUMENT);
+    assert_non_null(std::strstr(error.what(), "-1"));
+  }
+  const msq::Job job = msq::Job::create();
+  job.cancel();
+  std::vector<uint8_t> inside(1);
+  const double point[3] = {1, 1, 1};
+  bool is_cancelled = false;
+  try {
+    foam_model(context).membership(msq::points(point), inside, msq::QueryDef(), job);
+  } catch (const msq::Cancelled&) {
+    is_cancelled = true;
+  }
+  assert_true(is_cancelled);
+  assert_true(job.progress() < 1);
+}
+
+void sets_points_and_layers_agree(void**) {
+  const msq::Context context;
+  const msq::Model model = foam_model(context);
+  const msq::Slicer layers = slicer(model);
+  const msq_slicer_report info = layers.info();
+  std::vector<uint8_t> all;
+  std::vector<double> heights;
+  layers.run([&](const msq_layer& layer) {
+    all.insert(all.end(), layer.data, layer.data + layer.stride * layer.height);
+    heights.push_back(layer.z);
+  });
+  std::vector<uint8_t> ranged;
+  for (const msq::Layer& layer : layers.layers()) {
+    assert_true(layer.z == heights[layer.index]);
+    ranged.insert(ranged.end(), layer.bytes.begin(), layer.bytes.end());
+  }
+  assert_true(all == ranged);
+  assert_int_equal(heights.size(), info.layer_count);
+
+  const msq::PointsDef grid =
+      msq::grid({info.origin[0], info.origin[1], heights[0]}, {info.pitch[0], info.pitch[1], 1},
+                {info.width, info.height, 1});
+  std::vector<uint8_t> inside(info.width * info.height);
+  model.membership(grid, inside);
+  const std::vector<double> triples = msq::generate(grid, 0, inside.size());
+  for (uint32_t j = 0; j < info.height; ++j)
+    for (uint32_t i = 0; i < info.width; ++i) {
+      const size_t at = j * info.width + i;
+      assert_int_equal(inside[at], all[j * info.stride + i] != 0);
+      if (at % 17 == 0)
+        assert_int_equal(model.inside({triples[3 * at], triples[3 * at + 1], triples[3 * at + 2]}),
+                         inside[at]);
+    }
+}
+
+struct Odd : std::exception {
+  const char* what() const noexcept override { return "odd"; }
+};
+
+void exceptions_of_callbacks_come_through(void**) {
+  const msq::Context context;
+  const msq::Slicer layers = slicer(foam_model(context));
+  assert_string_equal(thrown_by([&] {
+                        layers.run([](const msq_layer& layer) {
+                          if (layer.index == 2) throw Odd();
+                        });
+                      }).c_str(),
+                      "odd");
+  // An own code, and the next run is whole.
+  try {
+    layers.run([](const msq_layer&) -> int32_t { return -7; });
+    fail_msg("a code of -7 was ignored");
+  } catch (const msq::Error& error) {
+    assert_int_equal(error.status(), MSQ_E_HOST);
+    assert_int_equal(error.host_code(), -7);
+  }
+  uint64_t count = 0;
+  layers.run([&](const msq_layer&) { ++count; });
+  assert_int_equal(count, layers.info().layer_count);
+}
+
+void exceptions_of_objects_come_through(void**) {
+  const msq::Context context;
+  msq::HostFieldDef def;
+  def.low = 0.1;
+  def.high = 0.5;
+  def.lipschitz = 0.1;
+  def.concurrent = 1;
+  std::atomic<bool> throws{false};
+  const msq::Field radius =
+      msq::Field::host(context, def, [&](const double*, uint64_t count, double* values) {
+        if (throws) throw Odd();
+        std::fill(values, values + count, 0.3);
+      });
+  const msq::Model model(context, {cube(context), foam(context, msq::param(radius))});
+  const msq::Model same = foam_model(context);
+  const std::vector<uint8_t> layer = slicer(model).layer(3);
+  assert_true(layer == slicer(same).layer(3));
+  throws = true;
+  for (int i = 0; i < 3; ++i)
+    assert_string_equal(thrown_by([&] { slicer(model, 0.1).layer(3); }).c_str(), "odd");
+  // On each thread its own.
+  std::vector<std::thread> threads;
+  std::atomic<int> odd{0};
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      try {
+        model.inside({1, 1, 1});
+      } catch (const Odd&) {
+        ++odd;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  assert_int_equal(odd.load(), 4);
+  throws = false;
+  assert_true(layer == slicer(model).layer(3));
+}
+
+void callbacks_are_freed_with_their_object(void**) {
+  const auto count = std::make_shared<int>(0);
+  {
+    const msq::Context context;
+    msq::HostShapeDef def;
+    for (size_t axis = 0; axis < 3; ++axis) def.min[axis] = 0, def.max[axis] = 1;
+    const msq::Shape shape =
+        msq::Shape::host(context, def, [count](const double*, uint64_t n, uint8_t* inside) {
+          std::fill(inside, inside + n, uint8_t{1});
+        });
+    assert_int_equal(count.use_count(), 2);
+    def.max[0] = -1;
+    thrown_by(
+        [&] { msq::Shape::host(context, def, [count](const double*, uint64_t, uint8_t*) {}); });
+    assert_int_equal(count.use_count(), 2);
+    assert_true(msq::Model(context, {shape}).inside({0.5, 0.5, 0.5}));
+  }
+  assert_int_equal(count.use_count(), 1);
+}
+
+void structures_of_the_host(void**) {
+  const msq::Context context;
+  msq::HostStructureDef def;
+  for (double& size : def.grid.cell_size) size = 1;
+  msq::StructureCallbacks callbacks;
+  callbacks.build_cell = [](const int32_t* cell, void** data, uint64_t* bytes) {
+    *data = new int32_t(cell[0]);
+    *bytes = sizeof(int32_t);
+  };
+  callbacks.evaluate_cell = [](const void* data, const msq_host_points& points, uint8_t* inside) {
+    for (uint64_t i = 0; i < points.count; ++i)
+      inside[i] = *static_cast<const int32_t*>(data) % 2 == 0;
+  };
+  callbacks.free_cell = [](void* data) { delete static_cast<int32_t*>(data); };
+  callbacks.box = [](const double*, const double*) -> int32_t { return MSQ_BOX_MIXED; };
+  const msq::Model model(context, {cube(context), msq::Structure::host(context, def, callbacks)});
+  assert_true(model.inside({0.5, 0.5, 0.5}));
+  assert_false(model.inside({1.5, 0.5, 0.5}));
+
+  msq::HostFunctionDef function;
+  function.kind = MSQ_FUNCTIONAL_NETWORK;
+  for (double& size : function.grid.cell_size) size = 10;
+  function.level = msq::param(3);  // of angles from 0 to 2 pi
+  function.lipschitz = 1;
+  const msq::Model half(
+      context, {cube(context),
+                msq::Structure::host_function(
+                    context, function, [](const double* points, uint64_t count, double* values) {
+                      for (uint64_t i = 0; i < count; ++i) values[i] = points[3 * i];
+                    })});
+  assert_true(half.inside({4, 1, 1}) != half.inside({6, 1, 1}));
+}
+
+void contexts_have_lambdas(void**) {
+  const auto warned = std::make_shared<int>(0);
+  std::atomic<uint64_t> tasks{0};
+  {
+    msq::ContextDef def;
+    def.threads = 4;
+    const msq::Context context(
+        def,
+        [warned](int32_t code, const char*) {
+          if (code == MSQ_WARNING_COARSE_PITCH) ++*warned;
+          throw Odd();  // dropped
+        },
+        [&](uint64_t count, const std::function<void(uint64_t)>& body) {
+          for (uint64_t i = 0; i < count; ++i) body(i);
+          tasks += count;
+        });
+    const msq::Slicer layers = slicer(foam_model(context), 1);
+    assert_int_equal(*warned, 1);
+    layers.run([](const msq_layer&) {});
+    assert_true(tasks > 0);
+    assert_true(context.memory().peak_bytes > 0);
+  }
+  assert_int_equal(warned.use_count(), 1);
+}
+
+void everything_else_is_reached(void**) {
+  const msq::Context context;
+  const msq::Model model = foam_model(context);
+  msq::ContoursDef contours;
+  contours.tolerance = 0.05;
+  contours.pitch = 0.25;
+  const msq_contours_report outline = model.contours(5.1, contours).info();
+  assert_true(outline.ring_count > 0);
+
+  double volume = 0;
+  std::vector<double> vertices;
+  msq::SurfaceDef surface;
+  surface.pitch = 1;
+  msq::Model(context, {cube(context)}).surface_mesh(surface, [&](const msq_surface_slab& slab) {
+    vertices.insert(vertices.end(), slab.vertices, slab.vertices + 3 * slab.vertex_count);
+    for (uint64_t t = 0; t < slab.triangle_count; ++t) {
+      const double* p[3];
+      for (int k = 0; k < 3; ++k) p[k] = &vertices[3 * size_t{slab.triangles[3 * t + k]}];
+      for (int k = 0; k < 3; ++k)
+        volume += p[0][k] *
+                  (p[1][(k + 1) % 3] * p[2][(k + 2) % 3] - p[1][(k + 2) % 3] * p[2][(k + 1) % 3]);
+    }
+  });
+  assert_true(std::abs(volume / 6 - 1000) < 1);
+
+  const msq::PointsDef sample = msq::stratified({0, 0, 0}, {1, 1, 1}, {10, 10, 10}, 2, 1);
+  const msq_estimate fraction = model.volume_fraction(sample);
+  const auto calibrated = foam(context, msq::param(0.3)).calibrate(context, fraction.value, 16);
+  assert_true(std::abs(calibrated.report.parameter - 0.3) < 0.05);
+  assert_int_equal(calibrated.parameters.size(), 16);
+
+  uint64_t struts = 0;
+  msq::StrutsDef def;
+  for (double& max : def.max) max = 10;
+  const msq::Structure structure = foam(context, msq::param(0.3));
+  structure.struts(context, def, [&](const msq_strut*, uint64_t count) { struts += count; });
+  assert_int_equal(structure.strut_graph(context, def).info().strut_count, struts);
+  assert_true(struts > 1000);
+
+  const msq::UnitCell cell([] {
+    msq::UnitCellDef named;
+    named.unit_cell = MSQ_UNIT_CELL_BCC;
+    return named;
+  }());
+  assert_int_equal(cell.nodes.size(), 27);
+  assert_int_equal(cell.struts.size(), 16);
+
+  const msq::Camera camera = model.fit_camera({1, 1, -1}, {0, 0, 1}, 16, 16);
+  const auto [origin, direction] = msq::camera_ray(camera, 16, 16, {8, 8});
+  msq::RaysDef rays;
+  rays.coordinate_type = MSQ_FLOAT64;
+  rays.count = 1;
+  rays.origins = origin.data();
+  rays.directions = direction.data();
+  std::vector<msq_ray_hit> hits(1);
+  model.cast(rays, hits);
+  assert_true(hits[0].t > 0);
+  if (msq::build_info().with_xxhash) assert_true(model.hash() == foam_model(context).hash());
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(handles_count_references),
+      cmocka_unit_test(errors_have_status_and_message),
+      cmocka_unit_test(sets_points_and_layers_agree),
+      cmocka_unit_test(exceptions_of_callbacks_come_through),
+      cmocka_unit_test(exceptions_of_objects_come_through),
+      cmocka_unit_test(callbacks_are_freed_with_their_object),
+      cmocka_unit_test(structures_of_the_host),
+      cmocka_unit_test(contexts_have_lambdas),
+      cmocka_unit_test(everything_else_is_reached),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,2308 @@
+// SPDX-License-Identifier: Apache-2.0
+// Made from msq.h by bindings/make_bindings.py: change those.
+//! The C ABI of msq. The crate `msq` wraps it safely.
+#![allow(non_camel_case_types)]
+// The comments are those of the C header.
+#![allow(rustdoc::all)]
+
+use std::os::raw::{c_char, c_void};
+
+pub type msq_status = i32;
+
+pub const MSQ_VERSION_MAJOR: u32 = 0;
+
+pub const MSQ_VERSION_MINOR: u32 = 1;
+
+pub const MSQ_VERSION_PATCH: u32 = 0;
+
+pub const MSQ_VERSION: u32 = 100;
+
+pub const MSQ_OK: i32 = 0;
+
+/// An argument is NULL, not finite, out of range, or inconsistent with another.
+pub const MSQ_E_ARGUMENT: i32 = -1;
+
+/// An allocation failed.
+pub const MSQ_E_MEMORY: i32 = -2;
+
+/// The job was cancelled.
+pub const MSQ_E_CANCELLED: i32 = -3;
+
+/// A host callback failed, see msq_error_host_code(), or returned an invalid value (host code 0).
+pub const MSQ_E_HOST: i32 = -4;
+
+/// A file cannot be opened or read, is truncated, or is malformed.
+pub const MSQ_E_IO: i32 = -5;
+
+/// This build lacks the feature, or msq does not read the file format.
+pub const MSQ_E_UNSUPPORTED: i32 = -6;
+
+/// Malformed mesh arrays. Dirty meshes are not an error.
+pub const MSQ_E_MESH: i32 = -7;
+
+/// A documented limit would be exceeded, for example the memory limit of the context.
+pub const MSQ_E_LIMIT: i32 = -8;
+
+/// A defect in msq. Please report it.
+pub const MSQ_E_INTERNAL: i32 = -9;
+
+/// The oldest cell first. Best for slicing from one end to the other.
+pub const MSQ_CACHE_FIFO: i32 = 0;
+
+/// Cells that were used once first (S3-FIFO). Best for frames and sets that return to more cells than fit.
+pub const MSQ_CACHE_SEGMENTED: i32 = 1;
+
+/// A mesh is not closed, and MSQ_WINDING_AUTO reads it by its generalised winding number. Once per shape, by the function that creates it.
+pub const MSQ_WARNING_OPEN_MESH: i32 = 1;
+
+/// The smallest cells of a structure have fewer than 4 pixels or layers across. Once per slicer, by msq_slicer_create.
+pub const MSQ_WARNING_COARSE_PITCH: i32 = 2;
+
+/// Cells were built for one use, because the cache had no room for them. Once per context, by a set query, msq_slicer_run, msq_slice_layer, msq_printability, msq_ray_cast or msq_render. Not with cache_bytes = 0.
+pub const MSQ_WARNING_SMALL_CACHE: i32 = 3;
+
+/// Unit cells of a lattice have nodes on their faces that the next cell, or another one of the library, does not have. Once per structure, by msq_structure_lattice. msq_unit_cell_info and msq_lattice_faces tell where.
+pub const MSQ_WARNING_UNMATCHED_CELLS: i32 = 4;
+
+/// All except 0. Overlapping and inverted parts are solid.
+pub const MSQ_WINDING_NONZERO: i32 = 0;
+
+pub const MSQ_WINDING_EVEN_ODD: i32 = 1;
+
+/// Only parts whose normals point outwards are solid.
+pub const MSQ_WINDING_POSITIVE: i32 = 2;
+
+/// Default. NONZERO; for meshes that are not closed, NONZERO of the generalised winding number, rounded half up to a whole number.
+pub const MSQ_WINDING_AUTO: i32 = 3;
+
+pub const MSQ_FLOAT32: i32 = 1;
+
+pub const MSQ_FLOAT64: i32 = 2;
+
+pub const MSQ_UINT8: i32 = 3;
+
+pub const MSQ_INT16: i32 = 4;
+
+pub const MSQ_UINT16: i32 = 5;
+
+pub const MSQ_INT32: i32 = 6;
+
+pub const MSQ_INT64: i32 = 7;
+
+/// By the extension of the file.
+pub const MSQ_FORMAT_AUTO: i32 = 0;
+
+/// Binary or ASCII.
+pub const MSQ_FORMAT_STL: i32 = 1;
+
+pub const MSQ_FORMAT_OBJ: i32 = 2;
+
+pub const MSQ_FORMAT_PLY: i32 = 3;
+
+pub const MSQ_FORMAT_OFF: i32 = 4;
+
+pub const MSQ_FORMAT_3MF: i32 = 5;
+
+pub const MSQ_FORMAT_AMF: i32 = 6;
+
+pub const MSQ_SOLID_ABOVE: i32 = 0;
+
+pub const MSQ_SOLID_BELOW: i32 = 1;
+
+/// Points in any of the shapes.
+pub const MSQ_BOOLEAN_UNION: i32 = 1;
+
+/// Points in all of the shapes.
+pub const MSQ_BOOLEAN_INTERSECTION: i32 = 2;
+
+/// Points of the first shape that are in no other. The boundary of a subtracted shape is outside.
+pub const MSQ_BOOLEAN_DIFFERENCE: i32 = 3;
+
+/// Nodes and struts of the definition.
+pub const MSQ_UNIT_CELL_CUSTOM: i32 = 0;
+
+/// Edges of the cube: 3 struts.
+pub const MSQ_UNIT_CELL_CUBIC: i32 = 1;
+
+/// Centre to the 8 corners.
+pub const MSQ_UNIT_CELL_BCC: i32 = 2;
+
+/// Corners to face centres, and the octahedron of the face centres: 24 struts.
+pub const MSQ_UNIT_CELL_OCTET: i32 = 3;
+
+/// Diagonals of the faces: 12 struts.
+pub const MSQ_UNIT_CELL_FCC: i32 = 4;
+
+/// Edges of space-filling truncated octahedra: 24 struts.
+pub const MSQ_UNIT_CELL_KELVIN: i32 = 5;
+
+/// Bonds of the diamond crystal: 16 struts.
+pub const MSQ_UNIT_CELL_DIAMOND: i32 = 6;
+
+/// Edges of space-filling rhombic dodecahedra: 32 struts.
+pub const MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON: i32 = 7;
+
+/// Auxetic: widens in x and y when pulled along z. Uprights along z, 3/4 of the cell high, every second one half a cell higher, and slanted struts between the ends of neighbours: 22 struts.
+pub const MSQ_UNIT_CELL_REENTRANT: i32 = 8;
+
+/// The fastest method; now DIRECT.
+pub const MSQ_FOAM_AUTO: i32 = 0;
+
+/// The paper's naive query per point: gather seeds, form triplets with the nearest seed, project, validate.
+pub const MSQ_FOAM_POINT: i32 = 1;
+
+/// Per cell: edges of a Delaunay triangulation (CGAL), kept in the cache.
+pub const MSQ_FOAM_METHOD_2: i32 = 2;
+
+/// Each Voronoi edge is built once, kept in the cache, and rasterised as spans. Arrays of points, and grids with few samples per cell, use the seeds near each point, grouped by cell, with SIMD.
+pub const MSQ_FOAM_DIRECT: i32 = 3;
+
+/// Per cell: lines of seed triplets, kept in the cache and validated per point.
+pub const MSQ_FOAM_METHOD_1: i32 = 4;
+
+/// The expression of the definition.
+pub const MSQ_FUNCTION_EXPRESSION: i32 = 0;
+
+/// sin x cos y + sin y cos z + sin z cos x
+pub const MSQ_FUNCTION_GYROID: i32 = 1;
+
+/// cos x + cos y + cos z
+pub const MSQ_FUNCTION_SCHWARZ_P: i32 = 2;
+
+/// sin x sin y sin z + sin x cos y cos z + cos x sin y cos z + cos x cos y sin z
+pub const MSQ_FUNCTION_DIAMOND: i32 = 3;
+
+/// 2 (cos x cos y + cos y cos z + cos z cos x) - (cos 2x + cos 2y + cos 2z)
+pub const MSQ_FUNCTION_I_WP: i32 = 4;
+
+/// 3 (cos x + cos y + cos z) + 4 cos x cos y cos z
+pub const MSQ_FUNCTION_NEOVIUS: i32 = 5;
+
+/// 4 cos x cos y cos z - (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x)
+pub const MSQ_FUNCTION_F_RD: i32 = 6;
+
+/// 0.5 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) - 0.5 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) + 0.15
+pub const MSQ_FUNCTION_LIDINOID: i32 = 7;
+
+/// 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x) - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) - 0.4 (cos 2x + cos 2y + cos 2z)
+pub const MSQ_FUNCTION_SPLIT_P: i32 = 8;
+
+/// Where the function is at most the level.
+pub const MSQ_FUNCTIONAL_NETWORK: i32 = 1;
+
+/// Where the magnitude of the function is at most the level.
+pub const MSQ_FUNCTIONAL_SHEET: i32 = 2;
+
+/// With the ball of its radius there. With unlike radii the ball of the thicker end protrudes from the side of the beam.
+pub const MSQ_CAP_SPHERE: i32 = 0;
+
+/// With the half of that ball beyond the end.
+pub const MSQ_CAP_HEMISPHERE: i32 = 1;
+
+/// Flat.
+pub const MSQ_CAP_BUTT: i32 = 2;
+
+/// Unknown, or neither of the others.
+pub const MSQ_BOX_MIXED: i32 = 0;
+
+pub const MSQ_BOX_OUTSIDE: i32 = 1;
+
+pub const MSQ_BOX_INSIDE: i32 = 2;
+
+/// The struts whose middle is in the half-open box: min <= middle < max along each axis. Boxes that tile a region share no strut, and together they have those of the region. The middle is half the sum of the ends, rounded.
+pub const MSQ_STRUTS_OWNED: i32 = 0;
+
+/// All struts that come near the closed box: the centre line meets the box, grown on all sides by the greatest radius that the strut may have. Every strut with a point in the box is among them. A strut may come near several boxes.
+pub const MSQ_STRUTS_NEAR: i32 = 1;
+
+pub const MSQ_MATERIAL_VOID: i32 = 0;
+
+/// Groups of points; groups with few points one at a time.
+pub const MSQ_QUERY_AUTO: i32 = 0;
+
+/// Each point by itself.
+pub const MSQ_QUERY_POINT: i32 = 1;
+
+/// Groups of nearby points, however small.
+pub const MSQ_QUERY_SET: i32 = 2;
+
+pub const MSQ_POINTS_ARRAY: i32 = 1;
+
+pub const MSQ_POINTS_GRID: i32 = 2;
+
+pub const MSQ_POINTS_STRATIFIED: i32 = 3;
+
+/// The onset: the smallest radius or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units; with factors of struts the least of these distances over the factors. Functional structures: the function; sheets: its magnitude.
+pub const MSQ_ONSET_PLAIN: i32 = 0;
+
+/// The onset minus the structure's radius or level at the point: at most 0 inside, positive outside.
+pub const MSQ_ONSET_SIGNED: i32 = 1;
+
+pub const MSQ_PHASE_SOLID: i32 = 1;
+
+pub const MSQ_PHASE_VOID: i32 = 2;
+
+/// 1 bit per pixel, sampled at its centre. The leftmost pixel is the high bit, as in PNG and PBM.
+pub const MSQ_LAYER_BITS: i32 = 1;
+
+/// 1 byte per pixel, sampled at its centre: 255 inside, 0 outside.
+pub const MSQ_LAYER_BYTES: i32 = 2;
+
+/// 1 byte per pixel: its coverage, from 0 to 255, by k x k samples with k = grey_samples. Sample (a, b), 0 <= a, b < k, lies at the centre of the pixel + ((a, b) + 1/2) / k * pitch - pitch / 2, the centre of its part of the pixel. With n samples inside the value is floor(255 * (n / k^2)^grey_gamma + 1/2), or 0 if that is below grey_threshold.
+pub const MSQ_LAYER_GREY: i32 = 3;
+
+/// 1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it, rounded to the nearest float32. Rows have the byte order of the machine.
+pub const MSQ_LAYER_DISTANCE: i32 = 4;
+
+/// 1 uint32 per pixel: the id of the material at its centre, as msq_set_material returns it. A resolved scale must have a material.
+pub const MSQ_LAYER_MATERIAL: i32 = 5;
+
+/// 1 float32 per pixel: the onset of a structure at its centre, as msq_set_onset returns it, rounded to the nearest float32. The model must be of one region.
+pub const MSQ_LAYER_ONSET: i32 = 6;
+
+/// No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs.
+pub const MSQ_LAYER_CONTOURS: i32 = 7;
+
+pub const MSQ_LAYER_MIRROR_X: i32 = 1;
+
+pub const MSQ_LAYER_MIRROR_Y: i32 = 2;
+
+pub const MSQ_LAYER_TRANSPOSE: i32 = 4;
+
+/// A part of a layer, connected in the layer, that lies on no solid sample of the layer below.
+pub const MSQ_FINDING_ISLAND: i32 = 1;
+
+/// A connected part of the solid that does not reach the plate. Without a plate: any but that of the most samples.
+pub const MSQ_FINDING_LOOSE: i32 = 2;
+
+/// An enclosed void, which traps resin or powder: connected empty samples that reach neither a side of the grid nor its top; without a plate, nor its bottom. One that begins in layer 0 opens at the plate alone.
+pub const MSQ_FINDING_VOID: i32 = 4;
+
+/// Connected samples where the solid is thinner in its layer than a given width.
+pub const MSQ_FINDING_THIN: i32 = 8;
+
+/// Binary STL: triangles without common vertices, coordinates as float32.
+pub const MSQ_SURFACE_STL: i32 = 1;
+
+/// Binary PLY, low bytes first: vertices with normals, as float32, and triangles.
+pub const MSQ_SURFACE_PLY: i32 = 2;
+
+pub const MSQ_CAMERA_ORTHOGRAPHIC: i32 = 0;
+
+pub const MSQ_CAMERA_PERSPECTIVE: i32 = 1;
+
+/// colours[0]
+pub const MSQ_COLOUR_PLAIN: i32 = 0;
+
+/// colours[scale % colour_count]
+pub const MSQ_COLOUR_SCALE: i32 = 1;
+
+/// colours[material id % colour_count]
+pub const MSQ_COLOUR_MATERIAL: i32 = 2;
+
+/// red, green, blue = (1 + normal) / 2
+pub const MSQ_COLOUR_NORMAL: i32 = 3;
+
+/// Threads, cell cache and memory limit that objects share.
+#[repr(C)]
+pub struct msq_context {
+    _opaque: [u8; 0],
+}
+
+/// Progress and cancellation of one long call.
+#[repr(C)]
+pub struct msq_job {
+    _opaque: [u8; 0],
+}
+
+/// A coarse solid.
+#[repr(C)]
+pub struct msq_shape {
+    _opaque: [u8; 0],
+}
+
+/// A number at every point of space, with a known range.
+#[repr(C)]
+pub struct msq_field {
+    _opaque: [u8; 0],
+}
+
+/// A fine-scale structure: a solid in all space.
+#[repr(C)]
+pub struct msq_structure {
+    _opaque: [u8; 0],
+}
+
+/// Struts as arrays, joined at numbered nodes. Immutable; any thread may read it.
+#[repr(C)]
+pub struct msq_strut_graph {
+    _opaque: [u8; 0],
+}
+
+/// An id and named channels, for example density, modulus or colour.
+#[repr(C)]
+pub struct msq_material {
+    _opaque: [u8; 0],
+}
+
+/// A coarse shape and the structures that fill it, scale by scale.
+#[repr(C)]
+pub struct msq_model {
+    _opaque: [u8; 0],
+}
+
+/// A model and a plan of layers.
+#[repr(C)]
+pub struct msq_slicer {
+    _opaque: [u8; 0],
+}
+
+/// Rings of points: the section of a model with a plane. Immutable; any thread may read it.
+#[repr(C)]
+pub struct msq_contours {
+    _opaque: [u8; 0],
+}
+
+/// Lines that fill a polygon: paths for a nozzle that prints thin walls as single lines.
+#[repr(C)]
+pub struct msq_fill {
+    _opaque: [u8; 0],
+}
+
+/// How the loaded library was built.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_build_report {
+    /// In: size of the caller's struct.
+    pub struct_size: u32,
+    /// As msq_version().
+    pub version: u32,
+    /// 1 if all mesh formats are read. 0: no binary STL, 3MF and AMF.
+    pub with_assimp: i32,
+    /// 1 if MSQ_FOAM_METHOD_2 and msq_shape_self_intersections are available.
+    pub with_cgal: i32,
+    /// SPDX licence of this binary together with the libraries it is built on. Static.
+    pub licence: *const c_char,
+    /// Instruction set that the kernels use on this machine, for example "AVX3". Static.
+    pub simd: *const c_char,
+    /// 1 if msq_shape_hash and its like are available. Since 0.2.
+    pub with_xxhash: i32,
+    pub reserved: u32,
+}
+
+/// Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may add some. message: in UTF-8, with the values, valid until the callback returns.
+///
+/// It is called on the thread that called msq, when the work of the function that gives the warning is done and before it returns; never with a lock held, so it may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it. Since 0.2.
+pub type msq_warning_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, code: i32, message: *const c_char),
+>;
+
+/// Called once when an object is freed.
+pub type msq_release_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void),
+>;
+
+/// One task of a loop of msq. It returns when its work is done and throws nothing. i: its number.
+pub type msq_task_fn = Option<
+    unsafe extern "C" fn(task: *mut c_void, i: u64),
+>;
+
+/// Shares the tasks of a loop among threads of the host: calls body(task, i) once for each i from 0 to count - 1 and returns when all these calls have returned. task is that of msq, to be passed on.
+///
+/// The calls may run on any threads, in any order, at once or one after the other on the calling thread. Several threads may call this function at the same time, also from within a task. Such a call must not wait for a thread to become free: where all are busy, the calling thread runs the tasks itself.
+///
+/// Return 0 for success. Any other code, preferably negative, stops the call of msq with MSQ_E_HOST; tasks that were not begun may then be left out. Exceptions of the host's language must not leave the function.
+pub type msq_parallel_for_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, count: u64, body: msq_task_fn, task: *mut c_void) -> i32,
+>;
+
+/// Definition of a context.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_context_def {
+    pub struct_size: u32,
+    /// Threads per call, including the caller. 0 (default): one per core; larger values are clamped to that. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024.
+    pub threads: u32,
+    /// Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.
+    pub cache_bytes: u64,
+    /// Maximum number of bytes that meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file) hold at the same time. Cached cells are evicted to make room. 0 (default): no limit.
+    pub memory_limit: u64,
+    /// An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results.
+    pub cache_policy: i32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context, which objects made in it keep alive.
+    pub warning: msq_warning_fn,
+    /// Passed to warning.
+    pub warning_user: *mut c_void,
+    /// Runs the loops of msq on threads of the host. msq then starts no thread of its own. NULL (default): threads of msq. Does not change results.
+    pub parallel_for: msq_parallel_for_fn,
+    /// First argument of parallel_for.
+    pub parallel_for_user: *mut c_void,
+    /// NULL, or called with parallel_for_user when the context is freed: after the last object that was made in it, on the thread that drops the last reference. It is not called if msq_context_create fails.
+    pub parallel_for_release: msq_release_fn,
+    /// NULL, or called with warning_user when the context is freed: after the last object that was made in it, on the thread that drops the last reference. It is not called if msq_context_create fails.
+    pub warning_release: msq_release_fn,
+}
+
+/// Memory that is accounted to a context.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_memory_report {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// Bytes that meshes, images, beams, slabs and cached cells hold now.
+    pub bytes: u64,
+    /// Maximum of bytes so far.
+    pub peak_bytes: u64,
+    /// The limit of the definition. 0: no limit.
+    pub limit_bytes: u64,
+}
+
+/// Counters of the cell cache.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_cache_report {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// Number of cell lookups that found the cell, and that did not; number of evicted cells.
+    pub hits: u64,
+    /// Number of cell lookups that found the cell, and that did not; number of evicted cells.
+    pub misses: u64,
+    /// Number of cell lookups that found the cell, and that did not; number of evicted cells.
+    pub evictions: u64,
+    /// Bytes held now by cells and reserved for cells under construction. Never above limit_bytes.
+    pub bytes: u64,
+    pub peak_bytes: u64,
+    pub limit_bytes: u64,
+    /// The part of bytes that is reserved for cells under construction.
+    pub building_bytes: u64,
+    /// Number of cells held now.
+    pub cells: u64,
+    /// Misses for which two threads built the same cell at the same time.
+    pub duplicates: u64,
+    /// Misses for which no room was found: the cell served one caller and was freed.
+    pub unkept: u64,
+}
+
+/// Which parts of the engine evaluated the points of a set query.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_job_report {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// Points evaluated so far.
+    pub points: u64,
+    /// Points decided by the coarse shape alone: they are outside it, or no finer scale is resolved.
+    pub by_shape: u64,
+    /// Points that structures evaluated one at a time. A point counts once per structure.
+    pub by_point: u64,
+    /// Points that structures evaluated in groups. A point counts once per structure.
+    pub by_set: u64,
+    /// Number of these groups. On grids a group is a tile of rows.
+    pub groups: u64,
+}
+
+/// A part of a grid: the samples (i, j, k) with first <= (i, j, k) < first + count along each axis. All zeros (default): the whole grid. Otherwise each count is at least 1.
+///
+/// Positions depend on the index in the whole grid alone: origin + (i, j, k) * spacing. So windows that tile a grid have, byte for byte, the results of the whole. A smaller grid with a shifted origin does not: its positions are rounded differently.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_window {
+    /// Index of the first sample in the whole grid.
+    pub first: [u64; 3],
+    /// Number of samples along x, y and z.
+    pub count: [u64; 3],
+}
+
+/// Writes values[i], the value at point i, for i < count.
+pub type msq_values_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, points: *const f64, count: u64, values: *mut f64) -> i32,
+>;
+
+/// Writes bounds of all values in the box from min to max. The bounds include rounding.
+pub type msq_range_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, min: *const f64, max: *const f64, low: *mut f64, high: *mut f64) -> i32,
+>;
+
+/// The grid of neighbourhood cells of a structure, or the frame of an image. Cell (i, j, k) holds the points origin + rotation * ((i, j, k) + u) * cell_size with 0 <= u < 1 in each component. Source: paper, section "Multiscale Shape-Material Modeling API".
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_neighbourhood {
+    /// Default 0.
+    pub origin: [f64; 3],
+    /// Along the axes of the grid, 1e-75 to 1e75. Default 1.
+    pub cell_size: [f64; 3],
+    /// Row-major. Orthonormal within 1e-9 with determinant +1; msq takes the nearest rotation. Default identity.
+    pub rotation: [f64; 9],
+}
+
+/// A graded period: cells whose size varies along one axis of a structure's grid, for example to vary the spacing of walls that are printed with lines of constant width.
+///
+/// The number of cells per unit length, 1 / size, is linear between positions and constant before the first and beyond the last. So the map from the coordinate to the number of cells from the grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not fold. The size of the grid along this axis is ignored; its origin is a corner of cells. The largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit for bit. The arrays are copied. Since 0.2.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_period_def {
+    pub struct_size: u32,
+    /// Axis of the grid, 0 to 2. Default 2.
+    pub axis: i32,
+    /// count coordinates along that axis, in model units from the grid's origin. Ascending, neighbours at least 1e-6 of the smaller of their two cell sizes apart. No default.
+    pub positions: *const f64,
+    /// Size of the cells at each position, in model units, 1e-75 to 1e75; the largest is at most 1024 times the smallest. No default.
+    pub cell_sizes: *const f64,
+    /// 1 to 4096.
+    pub count: u64,
+}
+
+/// Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about 1/7 byte per value in addition.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_image {
+    /// size[2] layers of size[1] rows of size[0] values.
+    pub values: *const c_void,
+    /// MSQ_UINT8, INT16, UINT16, FLOAT32 or FLOAT64. No default. Floating-point values: at most 1e100 in magnitude.
+    pub value_type: i32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// Number of values along x, y and z: 1 to 2^20 each.
+    pub size: [u64; 3],
+    /// Bytes from one row to the next. 0 (default): tightly packed.
+    pub row_stride: u64,
+    /// Bytes from one layer to the next. 0 (default): size[1] rows.
+    pub layer_stride: u64,
+    /// Value (i, j, k) is at origin + rotation * ((i, j, k) * cell_size): cell_size is the spacing of the values.
+    pub grid: msq_neighbourhood,
+}
+
+/// How a mesh file is read.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_file_def {
+    pub struct_size: u32,
+    /// An msq_format. Default MSQ_FORMAT_AUTO, which needs a path.
+    pub format: i32,
+    /// An msq_winding. Default MSQ_WINDING_AUTO.
+    pub winding_rule: i32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// Length of the file's unit in mm for STL, OBJ, PLY and OFF, which name no unit. Default 1. The units of 3MF and AMF files are read and applied.
+    pub unit_mm: f64,
+    /// Maximum size in bytes of the file, and of what an archive unpacks to. 0 and default: 4 GiB.
+    pub max_bytes: u64,
+    /// Maximum number of triangles. 0 and default: 200 million.
+    pub max_triangles: u64,
+}
+
+/// A triangle mesh in arrays.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_mesh_def {
+    pub struct_size: u32,
+    /// MSQ_FLOAT32 or MSQ_FLOAT64 (default).
+    pub coordinate_type: i32,
+    /// An msq_winding. Default MSQ_WINDING_AUTO.
+    pub winding_rule: i32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// vertex_count triples x, y, z. No alignment is needed.
+    pub vertices: *const c_void,
+    pub vertex_count: u64,
+    /// Bytes from one vertex to the next. 0 (default): tightly packed.
+    pub vertex_stride: u64,
+    /// triangle_count triples of vertex indices, counter-clockwise seen from outside.
+    pub triangles: *const u32,
+    pub triangle_count: u64,
+}
+
+/// Writes inside[i]: 0 if point i is outside, any other value if it is inside or on the boundary.
+pub type msq_inside_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, points: *const f64, count: u64, inside: *mut u8) -> i32,
+>;
+
+/// A shape that the host computes.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_host_shape_def {
+    pub struct_size: u32,
+    /// 0 (default) or 1. See "Objects that the host defines".
+    pub concurrent: i32,
+    /// Membership of points in the bounding box, in model coordinates.
+    pub inside: msq_inside_fn,
+    /// Lower bound on the distance to the boundary, for any points, on either side; its sign is ignored. It must have Lipschitz constant 1. NULL (default): the distance to the bounding box, 0 inside it.
+    pub distance: msq_values_fn,
+    pub user: *mut c_void,
+    pub release: msq_release_fn,
+    /// Bounding box, with the limits of msq_shape_from_box. No default.
+    pub min: [f64; 3],
+    /// Bounding box, with the limits of msq_shape_from_box. No default.
+    pub max: [f64; 3],
+    /// Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2.
+    pub hash_key: [u64; 2],
+}
+
+/// A shape from a voxel image.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_voxels_def {
+    pub struct_size: u32,
+    /// An msq_solid_side. Default MSQ_SOLID_ABOVE.
+    pub solid: i32,
+    /// At least 2 values along each axis.
+    pub image: msq_image,
+    /// In the unit of the values. Default 0.
+    pub threshold: f64,
+}
+
+/// Bounds, size and diagnosis of a shape.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_shape_report {
+    pub struct_size: u32,
+    /// 1 for a mesh, also a placed one. 0 for other shapes; their counts below are 0.
+    pub is_mesh: i32,
+    /// Bounding box.
+    pub min: [f64; 3],
+    pub max: [f64; 3],
+    /// Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: with capped holes, except pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of the solid values. Host shapes, booleans and offsets: NaN.
+    pub volume: f64,
+    /// Square model units. NaN of shapes without a formula: voxels, host shapes, booleans, offsets, stretched shapes. Meshes: infinite or 0 if triangles are beyond 1e75 or below 1e-75.
+    pub area: f64,
+    /// Vertices after welding.
+    pub vertices: u64,
+    /// Triangles that were kept.
+    pub triangles: u64,
+    /// Triangles without area. Those with fewer than three distinct vertices are dropped. Collinear ones are kept, because they close the surface.
+    pub degenerate_triangles: u64,
+    /// Kept triangles with the same three vertices as an earlier one.
+    pub duplicate_triangles: u64,
+    /// Edges with one triangle.
+    pub open_edges: u64,
+    /// Edges with three or more triangles.
+    pub non_manifold_edges: u64,
+    /// Edges with two triangles that run along the edge in the same direction.
+    pub flipped_edges: u64,
+    /// 1 if along every edge as many triangles run one way as the other.
+    pub closed: i32,
+    pub reserved: i32,
+}
+
+/// A field by the distance from a point or a line.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_radial_field_def {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// Default 0.
+    pub center: [f64; 3],
+    /// Direction of the line through center, of any length. 0 (default): distance from the point center.
+    pub axis: [f64; 3],
+    /// At least 0. Default 0.
+    pub from_radius: f64,
+    pub from_value: f64,
+    /// Greater than from_radius. Default 1.
+    pub to_radius: f64,
+    pub to_value: f64,
+}
+
+/// A field that the host computes.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_host_field_def {
+    pub struct_size: u32,
+    /// 0 (default) or 1. See "Objects that the host defines".
+    pub concurrent: i32,
+    /// Values at points of space, anywhere, in model coordinates.
+    pub evaluate: msq_values_fn,
+    /// Bounds over a box in model coordinates. NULL (default): derived from lipschitz.
+    pub range: msq_range_fn,
+    pub user: *mut c_void,
+    pub release: msq_release_fn,
+    /// Bounds of all values. Finite. No default.
+    pub low: f64,
+    /// Bounds of all values. Finite. No default.
+    pub high: f64,
+    /// Lipschitz constant of the values. Infinity (default): unknown.
+    pub lipschitz: f64,
+    /// Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2.
+    pub hash_key: [u64; 2],
+}
+
+/// A field from an image.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_grid_field_def {
+    pub struct_size: u32,
+    /// Must be 0.
+    pub reserved: u32,
+    pub image: msq_image,
+}
+
+/// A named number in an expression.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_named_value {
+    /// Letters a to z and A to Z, digits and _; does not begin with a digit; not a name that expressions define; no name twice.
+    pub name: *const c_char,
+    pub value: f64,
+}
+
+/// A field from an expression.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_expression_field_def {
+    pub struct_size: u32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// Text in the grammar of msq_structure_functional.
+    pub expression: *const c_char,
+    /// parameter_count names that the text may use.
+    pub parameters: *const msq_named_value,
+    /// At most 1024.
+    pub parameter_count: u64,
+    /// The value is clamped to this range. Finite, low <= high. Default 0.
+    pub low: f64,
+    /// The value is clamped to this range. Finite, low <= high. Default 0.
+    pub high: f64,
+}
+
+/// A field by the signed distance to a shape.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_shape_distance_field_def {
+    pub struct_size: u32,
+    /// Must be 0.
+    pub reserved: u32,
+    pub shape: *const msq_shape,
+    /// curve_count pairs (signed distance, value), strictly ascending in the first component, as in msq_field_map. Distances inside are negative.
+    pub curve: *const f64,
+    pub curve_count: u64,
+    /// 0 (default): exact distance at every point. > 0: spacing of samples that are interpolated trilinearly.
+    pub step: f64,
+}
+
+/// A parameter: the field, or value if field is NULL. Objects retain the fields of their parameters.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_param {
+    pub value: f64,
+    pub field: *const msq_field,
+}
+
+/// A unit cell: a named one, or nodes and struts.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_unit_cell_def {
+    pub struct_size: u32,
+    /// An msq_unit_cell. Default MSQ_UNIT_CELL_BCC.
+    pub unit_cell: i32,
+    /// CUSTOM: node_count triples, in [0, 1].
+    pub nodes: *const f64,
+    /// 1 to 4096.
+    pub node_count: u64,
+    /// CUSTOM: strut_count pairs of indices of different nodes.
+    pub struts: *const u32,
+    /// 1 to 4096. A named cell needs it only with strut_factors.
+    pub strut_count: u64,
+    /// Factor of the radius for each strut, 0.001 to 1000. NULL (default): all 1.
+    pub strut_factors: *const f64,
+}
+
+/// Counts of a unit cell and the nodes that do not match their neighbours.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_unit_cell_report {
+    pub struct_size: u32,
+    /// 1 if unmatched_count is 0.
+    pub is_periodic: i32,
+    pub node_count: u64,
+    pub strut_count: u64,
+    /// Struts per cell of the tiling. Struts that coincide in neighbouring cells count once.
+    pub tiled_strut_count: u64,
+    /// Total length of these struts in a cell of size 1.
+    pub tiled_length: f64,
+    /// Nodes on the face at 0 of each axis.
+    pub low_nodes: [u64; 3],
+    /// Nodes on the face at 1 of each axis.
+    pub high_nodes: [u64; 3],
+    /// Nodes on both faces without a copy on the opposite face.
+    pub unmatched_nodes: [u64; 3],
+    /// Nodes without a copy along at least one axis.
+    pub unmatched_count: u64,
+}
+
+/// A periodic strut lattice.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_lattice_def {
+    pub struct_size: u32,
+    /// An msq_unit_cell. Default MSQ_UNIT_CELL_BCC. Ignored with a library.
+    pub unit_cell: i32,
+    pub grid: msq_neighbourhood,
+    /// Radius of the struts in model units. A constant must be > 0, a field >= 0. No default.
+    pub radius: msq_param,
+    /// CUSTOM: node_count triples, in [0, 1].
+    pub nodes: *const f64,
+    /// 1 to 4096.
+    pub node_count: u64,
+    /// CUSTOM: strut_count pairs of indices of different nodes.
+    pub struts: *const u32,
+    /// 1 to 4096. A named cell needs it only with strut_factors.
+    pub strut_count: u64,
+    /// As in msq_unit_cell_def.
+    pub strut_factors: *const f64,
+    /// Library of cell_count unit cells, all with the same struct_size, with at most 4096 nodes and 4096 struts in total. NULL (default): the unit cell above.
+    pub cells: *const msq_unit_cell_def,
+    /// 1 to 256.
+    pub cell_count: u32,
+    /// The cell is divided into this many clusters along each axis to find the struts near points of arrays. 1 (none) to 64. 0 (default): chosen by cost. Ignored with a library. Does not change results.
+    pub clusters: u32,
+    /// With a library: index of the unit cell of each neighbourhood cell. It is evaluated at the cell's centre, rounded half up, and clamped to the library.
+    pub cell_choice: msq_param,
+}
+
+/// Faces between unlike cells of a lattice.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_lattice_faces_report {
+    pub struct_size: u32,
+    /// Axis of the grid normal to the first unmatched face: 0, 1 or 2. -1: there is none, and the fields below cell are 0.
+    pub axis: i32,
+    /// Cells that were examined.
+    pub cells: u64,
+    /// Faces between two of them with different unit cells.
+    pub faces: u64,
+    /// Faces with a node on one side that has no copy on the other.
+    pub unmatched: u64,
+    /// Index of the cell below the first unmatched face. The other cell is the next one along the axis. Cells are ordered by z, then y, then x.
+    pub cell: [i32; 3],
+    pub reserved: u32,
+    /// Library indices of the unit cells in these two cells.
+    pub types: [u32; 2],
+    /// Centre of the face in model units.
+    pub point: [f64; 3],
+}
+
+/// A Voronoi foam: open-cell (struts), closed-cell (walls), or with both.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_foam_def {
+    pub struct_size: u32,
+    /// An msq_foam_method.
+    pub method: i32,
+    pub grid: msq_neighbourhood,
+    /// Radius of the struts in model units. A constant must be > 0, a field >= 0. No default. With walls, the constant 0 stands for no struts.
+    pub radius: msq_param,
+    /// 0: seeds at the cell centres. 1 (default): anywhere in their cells.
+    pub jitter: f64,
+    /// Selects the foam. Default 0.
+    pub seed: u64,
+    /// Seeds per cell volume, up to 32768. Values below 1 count as 1 (default).
+    pub density: msq_param,
+    /// Whole thickness of the walls between the cells of the foam, in model units, >= 0. The constant 0 (default): no walls.
+    pub wall_thickness: msq_param,
+    /// Radius of the hole through the middle of each wall, in model units, >= 0. A field is evaluated at the middle of the wall. Walls with less area than their hole stay whole. Radii below 1/512 of the largest cell size count as 0. The constant 0 (default): no holes. Otherwise wall_thickness must not be the constant 0.
+    pub vent_radius: msq_param,
+}
+
+/// A functional structure.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_functional_def {
+    pub struct_size: u32,
+    /// An msq_function. Default MSQ_FUNCTION_GYROID.
+    pub function: i32,
+    /// An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK.
+    pub kind: i32,
+    /// The cell is divided into this many clusters along each axis to decide whole blocks at once. 1 (none) to 64. 0 (default): chosen by cost. Does not change results.
+    pub clusters: u32,
+    /// One period per cell.
+    pub grid: msq_neighbourhood,
+    /// Value of the function, not a length. Default 0. SHEET: a constant must be > 0, a field >= 0 and not 0 everywhere; or give thickness instead.
+    pub level: msq_param,
+    /// EXPRESSION: text in the grammar below. Otherwise NULL.
+    pub expression: *const c_char,
+    /// EXPRESSION: parameter_count names that the text may use.
+    pub parameters: *const msq_named_value,
+    /// At most 1024.
+    pub parameter_count: u64,
+    /// SHEET, instead of level: mean wall thickness in model units. A constant must be > 0, a field >= 0 and not 0 everywhere. With a period it must be a constant. Default 0: level is used.
+    pub thickness: msq_param,
+    /// Cells of varying size. NULL (default): all cells have the size of the grid. Since 0.2.
+    pub period: *const msq_period_def,
+}
+
+/// A list of beams. Strides are bytes from one element to the next; 0 (default): tightly packed. No alignment is needed.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_beams_def {
+    pub struct_size: u32,
+    /// An msq_cap, of all ends unless caps is given. Default MSQ_CAP_SPHERE.
+    pub cap: i32,
+    /// Of nodes, radii and ball_radii: MSQ_FLOAT32 or MSQ_FLOAT64 (default).
+    pub coordinate_type: i32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// node_count triples x, y, z.
+    pub nodes: *const c_void,
+    pub node_count: u64,
+    pub node_stride: u64,
+    /// beam_count pairs of node indices.
+    pub beams: *const u32,
+    pub beam_count: u64,
+    pub beam_stride: u64,
+    /// beam_count pairs: radius at the first and at the second node. NULL (default): radius.
+    pub radii: *const c_void,
+    pub radius_stride: u64,
+    /// beam_count pairs of msq_cap, at the first and at the second node. NULL (default): cap.
+    pub caps: *const u8,
+    pub cap_stride: u64,
+    /// ball_count node indices: balls in addition to those of the caps.
+    pub balls: *const u32,
+    pub ball_count: u64,
+    pub ball_stride: u64,
+    /// ball_count numbers. NULL (default): ball_radius.
+    pub ball_radii: *const c_void,
+    pub ball_radius_stride: u64,
+    /// Radius of all beams if radii is NULL. No default.
+    pub radius: f64,
+    /// Radius of all balls if ball_radii is NULL. No default.
+    pub ball_radius: f64,
+    /// Shorter beams are dropped. Default 0.
+    pub min_length: f64,
+    /// Characteristic length of the scale. 0 (default): the longest beam, or the largest diameter if that is more.
+    pub length_scale: f64,
+}
+
+/// Points that a host structure evaluates. Valid until the callback returns.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_host_points {
+    /// Out: sizeof(msq_host_points) of the library.
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// At most 4096.
+    pub count: u64,
+    /// Triples x, y, z in model coordinates.
+    pub points: *const f64,
+    /// Triples: offset from the corner of the point's cell, in model units along the axes of the grid, from 0 to the cell size.
+    pub positions: *const f64,
+    /// Triples i, j, k: the cell of each point.
+    pub cells: *const i32,
+}
+
+/// Writes inside[i]: 0 if point i is outside, any other value if it is inside or on the boundary.
+pub type msq_points_inside_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, points: *const msq_host_points, inside: *mut u8) -> i32,
+>;
+
+/// Writes distances[i]: a lower bound on the distance from point i to the boundary, on either side, with Lipschitz constant 1. The sign is ignored.
+pub type msq_points_distance_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, points: *const msq_host_points, distances: *mut f64) -> i32,
+>;
+
+/// Builds the data of a cell. *data: the data, may be NULL. *bytes: its size in memory.
+pub type msq_build_cell_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, cell: *const i32, data: *mut *mut c_void, bytes: *mut u64) -> i32,
+>;
+
+/// As msq_points_inside_fn, for points in the one cell that data belongs to.
+pub type msq_evaluate_cell_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, data: *const c_void, points: *const msq_host_points, inside: *mut u8) -> i32,
+>;
+
+/// Frees data of a cell. data is not NULL.
+pub type msq_free_cell_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, data: *mut c_void),
+>;
+
+/// Writes *answer, an msq_box_answer, for the closed box from min to max in model coordinates.
+pub type msq_box_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, min: *const f64, max: *const f64, answer: *mut i32) -> i32,
+>;
+
+/// A structure that the host computes. inside, or both build_cell and evaluate_cell, must be given. If all are given, inside evaluates single points and evaluate_cell sets.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_host_structure_def {
+    pub struct_size: u32,
+    /// 0 (default) or 1. See "Objects that the host defines".
+    pub concurrent: i32,
+    pub grid: msq_neighbourhood,
+    pub inside: msq_points_inside_fn,
+    pub build_cell: msq_build_cell_fn,
+    pub evaluate_cell: msq_evaluate_cell_fn,
+    /// May be NULL.
+    pub free_cell: msq_free_cell_fn,
+    /// May be NULL. Spares evaluating the points of boxes without boundary.
+    pub r#box: msq_box_fn,
+    /// May be NULL: the distance bound is then 0, which is correct but does not help sphere tracing.
+    pub distance: msq_points_distance_fn,
+    pub user: *mut c_void,
+    /// May be NULL.
+    pub release: msq_release_fn,
+    /// Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2.
+    pub hash_key: [u64; 2],
+}
+
+/// A functional structure whose function the host computes.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_host_function_def {
+    pub struct_size: u32,
+    /// 0 (default) or 1. See "Objects that the host defines".
+    pub concurrent: i32,
+    /// An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK.
+    pub kind: i32,
+    /// As in msq_functional_def. Not used without range and lipschitz.
+    pub clusters: u32,
+    /// One period per cell.
+    pub grid: msq_neighbourhood,
+    /// As in msq_functional_def.
+    pub level: msq_param,
+    /// Values at triples of angles: 2 pi times the position in the cell, 0 to 2 pi.
+    pub evaluate: msq_values_fn,
+    /// Bounds over a box of angles, from -1e-9 to 2 pi + 1e-9. NULL (default): derived from lipschitz.
+    pub range: msq_range_fn,
+    pub user: *mut c_void,
+    pub release: msq_release_fn,
+    /// Lipschitz constant of the values with respect to the angles. Infinity (default): unknown.
+    pub lipschitz: f64,
+    /// Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2.
+    pub hash_key: [u64; 2],
+}
+
+/// A strut, or a piece of one: a segment of the centre lines of a structure. Two struts, or two nodes, are the same if and only if both numbers of their ids are equal.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_strut {
+    /// Depends on the definition of the structure alone, not on the box, threads or machine.
+    pub id: [u64; 2],
+    /// Id of the node at a. Struts that meet in a node have the same id there, and the same coordinates, bit for bit.
+    pub node_a: [u64; 2],
+    /// Id of the node at b.
+    pub node_b: [u64; 2],
+    /// First end in model units.
+    pub a: [f64; 3],
+    /// Second end.
+    pub b: [f64; 3],
+    /// Radius at a and at b, in model units. A field of radius is evaluated at the ends.
+    pub radii: [f64; 2],
+    /// Cell of the grid that owns the strut. Beams: 0.
+    pub cell: [i32; 3],
+    /// An msq_cap for each end. MSQ_CAP_SPHERE except for beams.
+    pub caps: [u8; 2],
+    /// 1: this end is where the strut leaves the shape. 0: a node of the structure.
+    pub cut: [u8; 2],
+}
+
+/// Receives count struts, valid until the callback returns. A return value other than 0 stops the call with MSQ_E_HOST.
+pub type msq_struts_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, struts: *const msq_strut, count: u64) -> i32,
+>;
+
+/// Which struts of a structure are wanted.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_struts_def {
+    pub struct_size: u32,
+    /// An msq_struts_selection. Default MSQ_STRUTS_OWNED.
+    pub selection: i32,
+    /// Corners of the box in model units, min <= max. Default 0.
+    pub min: [f64; 3],
+    pub max: [f64; 3],
+    /// Struts are cut to this shape. NULL (default): they are not. The selection goes by the whole strut, so pieces of one strut come together.
+    pub shape: *const msq_shape,
+}
+
+/// What a graph of struts holds. Pointers are valid as long as the graph is.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_strut_graph_report {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub node_count: u64,
+    pub strut_count: u64,
+    /// node_count triples x, y, z in model units.
+    pub nodes: *const f64,
+    /// node_count pairs, as in msq_strut.
+    pub node_ids: *const u64,
+    /// strut_count pairs of indices of nodes: at a and at b.
+    pub struts: *const u32,
+    /// strut_count pairs: radius at a and at b.
+    pub radii: *const f64,
+    /// strut_count pairs, as in msq_strut.
+    pub strut_ids: *const u64,
+    /// strut_count triples, as in msq_strut.
+    pub cells: *const i32,
+    /// strut_count pairs of msq_cap.
+    pub caps: *const u8,
+    /// strut_count pairs: 1 for an end where the strut leaves the shape.
+    pub cuts: *const u8,
+}
+
+/// A named channel of a material.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_channel {
+    /// 1 to 255 bytes.
+    pub name: *const c_char,
+    pub value: msq_param,
+}
+
+/// A material.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_material_def {
+    pub struct_size: u32,
+    /// Positive. Its meaning is the host's. No default.
+    pub id: u32,
+    /// channel_count channels with distinct names.
+    pub channels: *const msq_channel,
+    /// At most 256.
+    pub channel_count: u64,
+}
+
+/// One scale of a model. Zero-initialise it, then set what you need; fields may be added.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_scale_def {
+    /// Scale 0: the shape. Other scales: NULL.
+    pub shape: *const msq_shape,
+    /// Scales 1 and finer: the structure. Scale 0: NULL.
+    pub structure: *const msq_structure,
+    /// Thickness, in model units, of the solid skin that the scale leaves under the surface of the coarse shape. At least 0 everywhere. 0: none. Not for scale 0, nor in shapes without depth.
+    pub skin: msq_param,
+    /// Material of what the scale resolves. NULL: that of the next coarser scale.
+    pub material: *const msq_material,
+    /// Material of the skin. NULL: material. Not for scale 0.
+    pub skin_material: *const msq_material,
+}
+
+/// A model.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_model_def {
+    pub struct_size: u32,
+    /// 1 to 64.
+    pub scale_count: u32,
+    /// Coarsest first: a shape, then structures.
+    pub scales: *const msq_scale_def,
+    /// sizeof(msq_scale_def) of the caller. A multiple of 8. 0 (default): that of version 0.1.
+    pub scale_size: u32,
+    /// Must be 0.
+    pub reserved: u32,
+}
+
+/// Options of a query.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_query_def {
+    pub struct_size: u32,
+    /// An msq_query_method, for msq_set_membership. Default MSQ_QUERY_AUTO.
+    pub method: i32,
+    /// Scales with a characteristic length of at least this are resolved; finer ones are solid. 0 (default): all. Infinity: the coarse shape only.
+    pub length_scale: f64,
+    /// AUTO: minimum number of points in a group that is evaluated as a set. 0 (default): measured for each kind of structure.
+    pub critical_count: u64,
+    /// Arrays of points are grouped by this many parts of a cell along each axis, where parts hold hundreds of points. 1 (by cell) to 64, rounded down to a power of 2. 0 (default): measured. Does not change results.
+    pub group_parts: u32,
+    /// Must be 0.
+    pub reserved: u32,
+}
+
+/// A set of points.
+///
+/// ARRAY: count points in any order. GRID: point (i, j, k) is origin + (i, j, k) * spacing and has index i + nx * (j + ny * k). With a window, the set is the points of the window, and point window.first + (i, j, k) has index i + window.count[0] * (j + window.count[1] * k). STRATIFIED: per_cell uniformly random points in each cell of a box of nx * ny * nz cells. Cell (i, j, k) has its corner at origin + rotation * ((i, j, k) * spacing) and its size is spacing. Its point s has index s + per_cell * (i + nx * (j + ny * k)). Points are a function of their index and the seed, equal on every machine, and are never stored.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_points_def {
+    pub struct_size: u32,
+    /// An msq_points_kind. No default.
+    pub kind: i32,
+    /// ARRAY: count triples x, y, z. No alignment is needed.
+    pub coordinates: *const c_void,
+    /// ARRAY.
+    pub count: u64,
+    /// ARRAY: bytes from one point to the next. 0 (default): tightly packed.
+    pub stride: u64,
+    /// ARRAY: MSQ_FLOAT32 or MSQ_FLOAT64 (default).
+    pub coordinate_type: i32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// GRID, STRATIFIED.
+    pub origin: [f64; 3],
+    /// GRID, STRATIFIED. Positive. GRID: large enough that rounding keeps neighbours apart.
+    pub spacing: [f64; 3],
+    /// GRID, STRATIFIED: nx, ny, nz, each 1 to 2^31 - 1; fewer than 2^63 points in total, or in the window.
+    pub counts: [u64; 3],
+    /// STRATIFIED: selects the sample. Default 0.
+    pub seed: u64,
+    /// STRATIFIED: at least 1 (default). Standard errors need at least 2.
+    pub per_cell: u32,
+    /// Must be 0.
+    pub reserved2: u32,
+    /// STRATIFIED: as in msq_neighbourhood. Default identity.
+    pub rotation: [f64; 9],
+    /// GRID: the points of the set. All zeros (default): the whole grid.
+    pub window: msq_window,
+}
+
+/// An estimate of a number between 0 and 1.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_estimate {
+    pub value: f64,
+    /// From the spread within the cells of the sample.
+    pub standard_error: f64,
+    /// 95 % confidence interval (Wilson).
+    pub low: f64,
+    /// 95 % confidence interval (Wilson).
+    pub high: f64,
+}
+
+/// Segments for correlations. One segment of each length starts at each point of the sample.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_segments_def {
+    pub struct_size: u32,
+    /// An msq_phase. Default MSQ_PHASE_SOLID.
+    pub phase: i32,
+    /// Direction of all segments, of any length. 0 (default): each point has its own, uniform on the sphere, a function of its index and the seed.
+    pub direction: [f64; 3],
+    /// length_count lengths, finite, not negative, in any order.
+    pub lengths: *const f64,
+    /// 1 to 4096.
+    pub length_count: u64,
+    /// Step of msq_lineal_path in model units. 0 (default): 1/256 of the smallest characteristic length that is resolved (msq_model_scale_length), or of the longest length if that is smaller.
+    pub step: f64,
+}
+
+/// Result of a calibration.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_calibration_report {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// Points that were evaluated.
+    pub samples: u64,
+    /// Smallest parameter that holds at least the target fraction of the points.
+    pub parameter: f64,
+    /// Volume fraction at that parameter.
+    pub fraction: msq_estimate,
+    /// Volume fraction at the greatest parameter that the kind of structure allows.
+    pub max_fraction: f64,
+}
+
+/// Definition of contours. The plane is normal to an axis. Its coordinates u, v are the other two axes in their order: x, y for axis z; x, z for axis y; y, z for axis x.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_contours_def {
+    pub struct_size: u32,
+    /// Of the coordinates: MSQ_INT32, MSQ_INT64 or MSQ_FLOAT64 (default).
+    pub r#type: i32,
+    /// Normal of the plane: 0 (x), 1 (y) or 2 (z, default).
+    pub axis: i32,
+    /// 0 (default): the bounding box of the model; window_min and window_max must be 0. 1: the window below.
+    pub has_window: i32,
+    /// Corners in u and v, in model units. Rings close along the edges of the window. Windows that have a whole edge in common, and the other values of this struct, have the same points on it, bit for bit.
+    pub window_min: [f64; 2],
+    pub window_max: [f64; 2],
+    /// Greatest distance between boundary and rings, in model units, where features are wider than the pitch. Positive; there is no default.
+    pub tolerance: f64,
+    /// Distance of the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. 0 (default): the tolerance.
+    pub pitch: f64,
+    /// Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest. Then a pitch must have at least 64 units, and a tolerance 4.
+    pub units: f64,
+    /// As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0.
+    pub length_scale: f64,
+}
+
+/// Definition of one of the outputs of a slicer.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_output_def {
+    pub struct_size: u32,
+    /// An msq_layer_output. Default MSQ_LAYER_BITS.
+    pub output: i32,
+    /// GREY: as in msq_slicer_def. Defaults 4, 0 and 1.
+    pub grey_samples: u32,
+    pub grey_threshold: u32,
+    pub grey_gamma: f64,
+    /// ONSET: the scale whose structure it is, from 1. It must be resolved. 0 (default): the finest resolved scale.
+    pub onset_scale: u32,
+    /// ONSET: an msq_onset_value. Default MSQ_ONSET_PLAIN.
+    pub onset_value: i32,
+    /// CONTOURS: as msq_slicer_contours takes it. Copied. Other outputs: NULL (default).
+    pub contours: *const msq_contours_def,
+}
+
+/// Definition of a slicer.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_slicer_def {
+    pub struct_size: u32,
+    /// An msq_layer_output except CONTOURS. Default MSQ_LAYER_BITS, which it must be if outputs are given.
+    pub output: i32,
+    /// Pixel size in x and y. 0 (default): from region and resolution.
+    pub pitch: [f64; 2],
+    /// Pixels in x and y. 0 (default): from region and pitch, rounded up.
+    pub resolution: [u32; 2],
+    /// Positive, unless layer_z is given.
+    pub layer_height: f64,
+    /// 0 (default): from region and layer_height, rounded up.
+    pub layer_count: u64,
+    /// 0 (default): the region is the bounding box of the model, centred in the pixels; region_min and region_max must be 0. 1: the region below. A model of all space needs 1.
+    pub has_region: i32,
+    /// Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures that do not gain by more; at least one. Except for these, the first slab of a run has an eighth of the layers, so that the host has its first layer soon. Does not change results.
+    pub slab_layers: u32,
+    /// Corner of pixel (0, 0) and bottom of layer 0.
+    pub region_min: [f64; 3],
+    /// Needed where a count follows from it.
+    pub region_max: [f64; 3],
+    /// z of each layer, strictly ascending. NULL (default): the middle of each layer, region_min[2] + (index + 1/2) * layer_height.
+    pub layer_z: *const f64,
+    /// Number of layers in layer_z: 1 to 2^31 - 1.
+    pub layer_z_count: u64,
+    /// As in msq_query_def.
+    pub length_scale: f64,
+    /// Pixels and layers that are computed, as an index window of the plan that the fields above make. The slicer then has window.count[2] layers of window.count[0] x window.count[1] pixels, with their own indices from 0. All zeros (default): the whole plan.
+    pub window: msq_window,
+    /// GREY: samples along each side of a pixel: 2, 4 (default), 8 or 16.
+    pub grey_samples: u32,
+    /// GREY: smaller values become 0 (minimum exposure). 0 (default) to 255.
+    pub grey_threshold: u32,
+    /// GREY: 0.1 to 10. Default 1.
+    pub grey_gamma: f64,
+    /// A sum of msq_layer_orientation. Default 0. It turns pixels. Contours keep the coordinates of the model.
+    pub orientation: u32,
+    /// Number of outputs: 1 to 64. 0 (default) if outputs is NULL.
+    pub output_count: u32,
+    /// What each layer holds, in place of `output` and the values for GREY above. Copied. All elements have the same struct_size, which is the distance between them. Outputs that sample the same points share their samples: BITS and BYTES, and GREY of equal grey_samples. NULL (default): one output, as above.
+    pub outputs: *const msq_output_def,
+    /// Where layers lie: coordinates u, v, w are those of the point frame_origin + u * axis 0 + v * axis 1 + w * axis 2. Rows of pixels lie along u, one row follows the other along v, and layers lie along w. x, y and z in the text above and of layers then mean u, v and w, also in the region, in heights, in contours and in findings. Default 0.
+    pub frame_origin: [f64; 3],
+    /// Three rows, the axes, orthonormal within 1e-9; msq takes the nearest axes that are orthonormal. Left-handed axes mirror. All zeros (default): the axes of the model. For layers normal to x whose pixels lie along y and z: {0, 1, 0, 0, 0, 1, 1, 0, 0}. Cost: bits of layers normal to y with pixels along x and z cost what they do without a frame. Along other axes they take 10 to 15 ns per sample and thread in a box; more in meshes and host shapes, which are asked about points.
+    pub frame_axes: [f64; 9],
+}
+
+/// The plan of a slicer.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_slicer_report {
+    pub struct_size: u32,
+    /// Layers computed at once, except in the first slab of a run.
+    pub slab_layers: u32,
+    /// Pixels in x and y of the layers that the host receives: exchanged with TRANSPOSE.
+    pub width: u32,
+    /// Pixels in x and y of the layers that the host receives: exchanged with TRANSPOSE.
+    pub height: u32,
+    pub layer_count: u64,
+    /// Bytes from one row to the next, a multiple of 8. Of the first output; CONTOURS: 0.
+    pub stride: u64,
+    /// stride * height.
+    pub layer_bytes: u64,
+    /// x, y of the centre of pixel (0, 0) of the whole plan.
+    pub origin: [f64; 2],
+    /// Pixel (i, j) is sampled at origin + (i, j) * pitch, as in a grid of points. With a window: at origin + (window.first + (i, j)) * pitch.
+    pub pitch: [f64; 2],
+    /// The window. Without one: the whole plan.
+    pub window: msq_window,
+    /// Pixels in x and y, and layers, of the whole plan.
+    pub whole: [u64; 3],
+}
+
+/// What one of the outputs is in a layer. Valid until the callback returns.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_output {
+    /// Out: sizeof(msq_output) of the library.
+    pub struct_size: u32,
+    /// An msq_layer_output.
+    pub output: i32,
+    /// height rows, row 0 at the smallest y. Bits past the width are 0. CONTOURS: NULL.
+    pub data: *const u8,
+    /// Bytes from one row to the next. CONTOURS: 0.
+    pub stride: u64,
+    /// Number of pixels inside. GREY: number of samples inside. ONSET, CONTOURS: 0.
+    pub inside_count: u64,
+    /// CONTOURS: the rings of the layer, for msq_contours_info. To keep them beyond the callback, retain them. Other outputs: NULL.
+    pub contours: *mut msq_contours,
+}
+
+/// One layer. Valid until the callback returns.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_layer {
+    /// Out: sizeof(msq_layer) of the library.
+    pub struct_size: u32,
+    /// The output, data, stride and inside_count below are those of the first output.
+    pub output: i32,
+    /// Number of the layer, from 0; with a window, from its first layer.
+    pub index: u64,
+    pub z: f64,
+    pub data: *const u8,
+    pub stride: u64,
+    /// Pixels of all outputs.
+    pub width: u32,
+    /// Pixels of all outputs.
+    pub height: u32,
+    pub inside_count: u64,
+    /// At least 1.
+    pub output_count: u64,
+    /// output_count pointers, in the order of msq_slicer_def.outputs.
+    pub outputs: *const *const msq_output,
+}
+
+/// Receives a layer. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it.
+pub type msq_layer_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, layer: *const msq_layer) -> i32,
+>;
+
+/// What contours hold. Pointers are valid as long as the contours are.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_contours_report {
+    pub struct_size: u32,
+    /// As in the definition.
+    pub r#type: i32,
+    pub ring_count: u64,
+    /// Of all rings together. A ring does not repeat its first point.
+    pub point_count: u64,
+    /// Pairs u, v of the type.
+    pub points: *const c_void,
+    /// ring_count + 1 numbers: points starts[i] to starts[i + 1] - 1 are those of ring i.
+    pub starts: *const u64,
+    /// The ring just around ring i. -1: none. The parent of a hole is an outer ring; that of an outer ring is a hole.
+    pub parents: *const i64,
+    /// 1: a hole. 0: an outer ring.
+    pub holes: *const u8,
+    /// Places where the rings may be wrong at the scale of the pitch: where one sample decided what is connected, where the boundary is not within the tolerance, and cells that a strut passes with no node in it. Other features that no node or crossing meets are not counted.
+    pub unresolved_count: u64,
+    /// Distance of the nodes, as rounded.
+    pub pitch: f64,
+}
+
+/// What is looked for.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_printability_def {
+    pub struct_size: u32,
+    /// A sum of msq_finding_kind. Default ISLAND + LOOSE + VOID.
+    pub kinds: u32,
+    /// 1 (default): the first layer lies on a build plate, which carries it and closes voids. 0: there is nothing below.
+    pub has_plate: i32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// THIN: the width in model units, 2 to 32 pixels along x and y. Otherwise 0 (default).
+    pub width: f64,
+    /// Findings of less volume are ignored. In model units cubed, at least 0. Default 0.
+    pub min_volume: f64,
+}
+
+/// Something doubtful. A sample stands for the box of a pixel and its layer's height, which reaches half-way to the layers around it.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_finding {
+    /// An msq_finding_kind.
+    pub kind: i32,
+    pub reserved: u32,
+    /// Layers of the slicer, the first and the last one that it has samples in.
+    pub first_layer: u64,
+    pub last_layer: u64,
+    pub sample_count: u64,
+    /// In model units cubed. Of an island: in its layer.
+    pub volume: f64,
+    /// One of its samples, in model units: of its first layer, at the lowest y and there at the lowest x.
+    pub point: [f64; 3],
+    /// Box around its samples, in model units.
+    pub min: [f64; 3],
+    /// Box around its samples, in model units.
+    pub max: [f64; 3],
+}
+
+/// Receives findings, at most 4096 at a time, valid until it returns. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it.
+pub type msq_findings_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, findings: *const msq_finding, count: u64) -> i32,
+>;
+
+/// Totals of what was found. Volumes are in model units cubed.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_printability_report {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// Layers that were inspected.
+    pub layer_count: u64,
+    /// Solid samples, and their volume.
+    pub solid_count: u64,
+    pub solid_volume: f64,
+    /// Findings of each kind. 0 for kinds that were not looked for.
+    pub island_count: u64,
+    /// Findings of each kind. 0 for kinds that were not looked for.
+    pub loose_count: u64,
+    /// Findings of each kind. 0 for kinds that were not looked for.
+    pub void_count: u64,
+    /// Findings of each kind. 0 for kinds that were not looked for.
+    pub thin_count: u64,
+    pub island_volume: f64,
+    pub loose_volume: f64,
+    pub void_volume: f64,
+    pub thin_volume: f64,
+}
+
+/// A ring of a polygon.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_ring {
+    /// count pairs x, y of the definition's coordinate_type. The last point is joined to the first. No alignment is needed.
+    pub points: *const c_void,
+    /// At least 3.
+    pub count: u64,
+}
+
+/// A polygon with holes at a height, and how it is filled.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_fill_def {
+    pub struct_size: u32,
+    /// Of the rings and of the result: MSQ_INT32 or MSQ_INT64 (default).
+    pub coordinate_type: i32,
+    /// ring_count rings, outlines and holes in any order and direction. Points enclosed by an odd number of rings are filled.
+    pub rings: *const msq_ring,
+    pub ring_count: u64,
+    /// Bytes from one point of a ring to the next. 0 (default): tightly packed.
+    pub point_stride: u64,
+    /// Model units per unit of the coordinates, for example 1e-6 for nanometres in a model in millimetres. No default.
+    pub scale: f64,
+    /// x, y in the model of the coordinates 0, 0. Default 0.
+    pub origin: [f64; 2],
+    /// In model units. Slicers take the middle of the layer. Default 0.
+    pub z: f64,
+    /// Greatest distance between the lines and the walls' middle, in model units, before rounding to the coordinates; at least half of a unit of these. 0 (default): 1/200 of the smallest cell size.
+    pub tolerance: f64,
+    /// In model units. Shorter paths are dropped. A shorter line between two points where an odd number of lines meet is dropped too, as this saves a path: the lines that go on at both its ends are so close that they touch if min_length is at most the width of a line. Default 0.
+    pub min_length: f64,
+}
+
+/// The paths of a fill. The arrays belong to the fill and live as long as it does.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_fill_report {
+    pub struct_size: u32,
+    /// As in the definition.
+    pub coordinate_type: i32,
+    /// point_count pairs x, y of int32_t or int64_t.
+    pub points: *const c_void,
+    pub point_count: u64,
+    /// path_count + 1 numbers: path i has the points path_starts[i] to path_starts[i + 1] - 1.
+    pub path_starts: *const u64,
+    /// path_count bytes. 1: the last point is joined to the first; 0: it is not.
+    pub closed: *const u8,
+    pub path_count: u64,
+    /// Length of all paths in model units.
+    pub length: f64,
+    /// Length of the straight ways from each path to the next, in model units.
+    pub travel: f64,
+}
+
+/// Definition of a mesh.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_surface_def {
+    pub struct_size: u32,
+    /// 0 (default): the bounding box of the model; min and max must be 0. 1: the box below. A model of all space needs 1.
+    pub has_box: i32,
+    /// Corners of the box, in model units. The mesh is closed where its faces cut the model.
+    pub min: [f64; 3],
+    pub max: [f64; 3],
+    /// Distance of the nodes at which the model is sampled, in model units. Positive; there is no default. Walls and struts narrower than sqrt(3) * pitch may break or be lost.
+    pub pitch: f64,
+    /// As in msq_query_def.
+    pub length_scale: f64,
+    /// Layers of nodes per callback, at most. 0 (default): as many as fit 32 MiB of nodes and about 2^18 crossings. Does not change the mesh.
+    pub slab_layers: u32,
+    /// Must be 0.
+    pub reserved: u32,
+}
+
+/// A part of a mesh. The arrays are valid until the callback returns. The parts, one behind the other, are the mesh.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_surface_slab {
+    /// Out: sizeof(msq_surface_slab) of the library.
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// Number of vertices in the parts before this one.
+    pub first_vertex: u64,
+    pub vertex_count: u64,
+    /// vertex_count triples x, y, z.
+    pub vertices: *const f64,
+    /// vertex_count triples: outward, of length 1. The normal of the surface at the vertex, as in msq_ray_hit; on an edge, that of one of its sides or their mean.
+    pub normals: *const f32,
+    /// Number of triangles in the parts before this one.
+    pub first_triangle: u64,
+    pub triangle_count: u64,
+    /// triangle_count triples of vertices, counter-clockwise seen from outside. Vertices are numbered from the first of the mesh on: they are of this part or of parts before it.
+    pub triangles: *const u32,
+}
+
+/// Receives a part of a mesh. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it.
+pub type msq_surface_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, slab: *const msq_surface_slab) -> i32,
+>;
+
+/// Some bytes of a file. Valid until the callback returns.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_file_part {
+    /// Out: sizeof(msq_file_part) of the library.
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// Where the bytes belong in the file.
+    pub offset: u64,
+    /// Number of bytes, at least 1.
+    pub size: u64,
+    /// Size of the whole file, the same in all parts.
+    pub total: u64,
+    pub bytes: *const u8,
+}
+
+/// Receives some bytes of a file. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it.
+pub type msq_file_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, part: *const msq_file_part) -> i32,
+>;
+
+/// An array of rays: origin + t * direction.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_rays_def {
+    pub struct_size: u32,
+    /// Of origins and directions: MSQ_FLOAT32 or MSQ_FLOAT64 (default).
+    pub coordinate_type: i32,
+    pub count: u64,
+    /// count triples x, y, z.
+    pub origins: *const c_void,
+    /// count triples, of any length except 0.
+    pub directions: *const c_void,
+    /// Bytes from one origin to the next. 0 (default): tightly packed.
+    pub origin_stride: u64,
+    /// Bytes from one direction to the next. 0 (default): tightly packed.
+    pub direction_stride: u64,
+    /// count numbers. NULL (default): 0.
+    pub t_min: *const f64,
+    /// count numbers, may be infinity. NULL (default): infinity. A model of all space needs finite ones.
+    pub t_max: *const f64,
+}
+
+/// Where a ray first meets the solid.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_ray_hit {
+    /// The point is origin + t * direction. Infinity: no hit.
+    pub t: f64,
+    /// Outward, of length 1. Against the ray if it starts inside. 0 without a hit.
+    pub normal: [f64; 3],
+    /// Scale whose surface was hit; 0: the coarse shape; -1: no hit.
+    pub scale: i32,
+    /// 1: the ray is inside at t_min; t is t_min and scale is the finest one.
+    pub starts_inside: i32,
+    /// Cell of the finest resolved structure at the point; 0 for beams, which have no cells.
+    pub cell: [i32; 3],
+    /// Material id just inside. MSQ_MATERIAL_VOID without a hit, or if no resolved scale has a material.
+    pub material: u32,
+}
+
+/// A camera. It looks from eye to target, which is the middle of the picture. Depth is the distance from the plane through eye normal to that direction. docs/concepts.md has the formulas.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_camera {
+    pub struct_size: u32,
+    /// An msq_projection. Default MSQ_CAMERA_ORTHOGRAPHIC.
+    pub projection: i32,
+    /// PERSPECTIVE: origin of all rays. ORTHOGRAPHIC: a point of the plane of their origins. No default.
+    pub eye: [f64; 3],
+    /// Different from eye. No default.
+    pub target: [f64; 3],
+    /// Upwards in the picture. Not parallel to the view. Default 0, 0, 1.
+    pub up: [f64; 3],
+    /// ORTHOGRAPHIC: height of the picture in model units. No default.
+    pub height: f64,
+    /// PERSPECTIVE: vertical angle of view in degrees, 0.001 to 179. Default 40.
+    pub field_of_view: f64,
+    /// Depths between which the model is visible; the rest is cut away. 0 <= near < far. Defaults 0 and infinity.
+    pub clip_near: f64,
+    /// Depths between which the model is visible; the rest is cut away. 0 <= near < far. Defaults 0 and infinity.
+    pub clip_far: f64,
+}
+
+/// How a picture is rendered.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_render_def {
+    pub struct_size: u32,
+    /// Size of the whole picture in pixels, 1 to 16384. No default.
+    pub width: u32,
+    /// Size of the whole picture in pixels, 1 to 16384. No default.
+    pub height: u32,
+    /// Upper left corner of the tile to render.
+    pub tile_x: u32,
+    /// Upper left corner of the tile to render.
+    pub tile_y: u32,
+    /// Size of the tile. All four 0 (default): the whole picture. A tile has exactly the pixels of the whole picture.
+    pub tile_width: u32,
+    /// Size of the tile. All four 0 (default): the whole picture. A tile has exactly the pixels of the whole picture.
+    pub tile_height: u32,
+    /// rgba: samples along each side of a pixel, 1 (default) to 16.
+    pub samples: u32,
+    /// With a callback: 2, 4, ... 64: the first pass casts one ray per block of so many pixels a side, each further pass halves the block. 1 (default): one pass.
+    pub first_step: u32,
+    /// An msq_colour_by.
+    pub colour_by: i32,
+    /// colour_count triples red, green, blue, linear, 0 to 1. NULL (default): 8 colours of msq.
+    pub colours: *const f64,
+    /// 1 to 65536.
+    pub colour_count: u64,
+    /// Red, green, blue (linear) and opacity where nothing is hit. Default 0.
+    pub background: [f64; 4],
+    /// Direction to the light in the frame of the camera: right, up, towards the eye. Any length except 0. Default -0.4, 0.6, 1.
+    pub light: [f64; 3],
+    /// Share of ambient light, 0 to 1. Default 0.3.
+    pub ambient: f64,
+    /// 1: a shadow ray per lit sample. Default 0.
+    pub shadows: i32,
+    /// Ambient occlusion rays per sample, 0 (default) to 256, distributed by the cosine with the normal.
+    pub occlusion_rays: u32,
+    /// Length of occlusion rays in model units. 0 (default): a tenth of the diagonal of the bounding box.
+    pub occlusion_distance: f64,
+}
+
+/// Arrays that receive pixels. Pixel (i, j) of the tile, j downwards, has index j * row_pixels + i. Arrays that are NULL are skipped. All arrays except rgba hold the ray through the centre of the pixel.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_frame {
+    pub struct_size: u32,
+    /// Pixels from one row to the next. 0 (default): the width of the tile.
+    pub row_pixels: u32,
+    /// Infinity without a hit.
+    pub depth: *mut f32,
+    /// 3 per pixel, as in msq_ray_hit, in model coordinates. 0 without a hit.
+    pub normal: *mut f32,
+    /// As in msq_ray_hit. -1 without a hit.
+    pub scale: *mut i32,
+    /// As in msq_ray_hit.
+    pub material: *mut u32,
+    /// 4 per pixel: red, green, blue in sRGB, and opacity. Not premultiplied.
+    pub rgba: *mut u8,
+}
+
+/// A pass of a rendering.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_render_pass {
+    /// Out: sizeof(msq_render_pass) of the library.
+    pub struct_size: u32,
+    /// Pixels a side of the blocks that share one ray. 1: each pixel has its own.
+    pub step: u32,
+    /// rgba: samples along a side of a pixel.
+    pub samples: u32,
+    /// 1: the picture is complete.
+    pub is_last: i32,
+}
+
+/// Receives a pass. The frame holds a whole picture, to show or copy; the host must not change it before the last pass. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it.
+pub type msq_render_fn = Option<
+    unsafe extern "C" fn(user: *mut c_void, pass: *const msq_render_pass) -> i32,
+>;
+
+extern "C" {
+    /// Returns the version of the loaded library, in the form of MSQ_VERSION.
+    pub fn msq_version() -> u32;
+    /// Returns the name of a status, for example "MSQ_E_LIMIT"; "MSQ_E_UNKNOWN" for other values. The string is static.
+    pub fn msq_status_name(status: msq_status) -> *const c_char;
+    /// Returns the message of the last failure on the calling thread, in UTF-8; "" before the first failure. The string is valid until the next failure on this thread.
+    pub fn msq_error_message() -> *const c_char;
+    /// Returns the code that a host callback returned at the last MSQ_E_HOST on the calling thread; 0 before the first one.
+    pub fn msq_error_host_code() -> i32;
+    /// Reports how the loaded library was built. Errors: ARGUMENT.
+    pub fn msq_build_info(report: *mut msq_build_report) -> msq_status;
+    /// Sets the defaults. size: sizeof of the caller's struct. Errors: ARGUMENT.
+    pub fn msq_context_def_init(def: *mut msq_context_def, size: usize) -> msq_status;
+    /// Creates a context. def NULL: defaults. Results never depend on the context. No thread is started before the first call that needs one. Errors: ARGUMENT, MEMORY. Calls that use a context with parallel_for: HOST.
+    pub fn msq_context_create(def: *const msq_context_def, context: *mut *mut msq_context) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_context_retain(context: *mut msq_context);
+    /// Drops a reference.
+    pub fn msq_context_release(context: *mut msq_context);
+    /// Reports the memory accounted to the context. Errors: ARGUMENT.
+    pub fn msq_context_memory(context: *const msq_context, report: *mut msq_memory_report) -> msq_status;
+    /// Reports the counters of the cell cache since the context was created.
+    ///
+    /// Before a cell is built, msq reserves the size that recent cells of the structure had. A cell that turns out larger is counted in full from then on. Not counted: working memory of builders, unkept cells, and cells in use that msq_cache_clear or the memory limit dropped. Errors: ARGUMENT. Source: paper, section "Set Queries for Ray-Casting" (FIFO cache).
+    pub fn msq_cache_stats(context: *const msq_context, report: *mut msq_cache_report) -> msq_status;
+    /// Drops all cached cells. Running calls keep the cells that they use. The counters remain. The cells of a structure are also dropped when its last reference goes. Errors: ARGUMENT.
+    pub fn msq_cache_clear(context: *mut msq_context) -> msq_status;
+    /// Creates a job. Pass it to one long call at a time; two calls at once mix their progress. Errors: ARGUMENT, MEMORY.
+    pub fn msq_job_create(job: *mut *mut msq_job) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_job_retain(job: *mut msq_job);
+    /// Drops a reference.
+    pub fn msq_job_release(job: *mut msq_job);
+    /// Cancels the call that runs under the job. The call returns MSQ_E_CANCELLED, usually within tens of milliseconds. The job stays cancelled: later calls under it return at once. Errors: ARGUMENT.
+    pub fn msq_job_cancel(job: *mut msq_job) -> msq_status;
+    /// Returns the completed fraction, 0 to 1, of the last call under the job. It is 1 only after success. Errors: ARGUMENT.
+    pub fn msq_job_progress(job: *const msq_job, fraction: *mut f64) -> msq_status;
+    /// Reports the counters of the last set query or statistic under the job; zeros for other calls. Errors: ARGUMENT. Source: paper, section "Structured and Unstructured Set Queries" (critical number of points).
+    pub fn msq_job_info(job: *const msq_job, report: *mut msq_job_report) -> msq_status;
+    /// Moves a grid along with a part: *placed receives the grid whose cells are those of grid, placed by a matrix as in msq_shape_placed. A structure on that grid, with its radius or thickness scaled as lengths are, is the same structure at another place: seeds and unit cells go with the cells. Fields and beams are the host's to move. Without this call a structure stays fixed to the model's frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that mirrors, shears or stretches by more than 1e-9). Since 0.2.
+    pub fn msq_neighbourhood_placed(grid: *const msq_neighbourhood, matrix: *const f64, placed: *mut msq_neighbourhood) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT. Since 0.2.
+    pub fn msq_period_def_init(def: *mut msq_period_def, size: usize) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_file_def_init(def: *mut msq_file_def, size: usize) -> msq_status;
+    /// Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job. On Windows `path` is UTF-8; on other systems the bytes of it reach the system unchanged.
+    ///
+    /// All instances in the file become one shape in millimetres. msq applies transforms, triangulates polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ: vertices and faces are read. Limit: coordinates up to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a million triangles: about a second). Cancelling ends the call within tens of milliseconds, except while the XML of 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or AMF in a build without Assimp), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY, CANCELLED.
+    pub fn msq_shape_from_file(context: *mut msq_context, path: *const c_char, def: *const msq_file_def, shape: *mut *mut msq_shape, job: *mut msq_job) -> msq_status;
+    /// Reads a triangle mesh from bytes in memory. def must name the format and must not be NULL. See msq_shape_from_file.
+    pub fn msq_shape_from_memory(context: *mut msq_context, data: *const c_void, bytes: u64, def: *const msq_file_def, shape: *mut *mut msq_shape, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_mesh_def_init(def: *mut msq_mesh_def, size: usize) -> msq_status;
+    /// Creates a shape from a triangle mesh. Dirty meshes (open, self-intersecting, flipped or duplicate triangles) are accepted; msq_shape_info diagnoses them.
+    ///
+    /// Membership. A point in the bounding box of the mesh is inside if the winding number of the ray from it along +x satisfies the winding rule. Crossings are half-open in y and z, so shared edges and vertices count once. They are closed in x: a point on a crossing is inside if either side is. Points exactly on a face that is highest in y or z are therefore outside; points on the opposite face are inside. On faces that are not normal to an axis the position of the crossing is rounded, by about 1e-16 of the coordinates.
+    ///
+    /// With MSQ_WINDING_AUTO a mesh that is not closed (msq_shape_report.closed is 0) uses the generalised winding number, rounded half up to a whole number. The solid ends at the bounding box. Distances are lower bounds. A skin follows the triangles, not the holes. Additional cost: about 500 bytes per open edge; a point near a hole, or where the number is near a half, may sum over all open edges.
+    ///
+    /// Limits: coordinates up to 1e100; 2^32 - 1 vertices and triangles. Cost: linear in the number of triangles; msq keeps about 75 bytes per triangle and needs 100 during construction. Errors: ARGUMENT, MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY. Source: Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers", 2013.
+    pub fn msq_shape_from_mesh(context: *mut msq_context, def: *const msq_mesh_def, shape: *mut *mut msq_shape) -> msq_status;
+    /// Creates an axis-aligned box with its boundary. Coordinates of min, and sides: up to 1e75. Errors: ARGUMENT unless min < max along each axis; MEMORY.
+    pub fn msq_shape_from_box(context: *mut msq_context, min: *const f64, max: *const f64, shape: *mut *mut msq_shape) -> msq_status;
+    /// Creates a ball with its boundary. Coordinates and radius: up to 1e75. Errors: ARGUMENT unless radius > 0; MEMORY.
+    pub fn msq_shape_from_sphere(context: *mut msq_context, center: *const f64, radius: f64, shape: *mut *mut msq_shape) -> msq_status;
+    /// Creates a round cylinder with flat ends and its boundary. Coordinates, their differences and the radius: up to 1e75. Errors: ARGUMENT unless from and to differ and radius > 0; MEMORY.
+    pub fn msq_shape_from_cylinder(context: *mut msq_context, from: *const f64, to: *const f64, radius: f64, shape: *mut *mut msq_shape) -> msq_status;
+    /// Creates the shape that every point is inside of, for models of structures alone that the host clips itself. Its bounds are infinite, its volume is infinite, and it has no surface: no scale can leave a skin in it, and msq_field_shape_distance refuses it.
+    ///
+    /// A model of all space is queried like any other, with these differences. The limit of 2^24 cells from the origin of a structure's grid, and of 1e75 for coordinates, holds for the points of each query: LIMIT, which writes nothing. A slicer needs a region. Rays need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT, MEMORY.
+    pub fn msq_shape_all_space(context: *mut msq_context, shape: *mut *mut msq_shape) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_host_shape_def_init(def: *mut msq_host_shape_def, size: usize) -> msq_status;
+    /// Creates a shape from callbacks. It has no depth, so no scale can leave a skin in it. Slices and arrays call back with batches of points, distances with single points. def must not be NULL. Errors: ARGUMENT unless min < max along each axis; MEMORY. Calls that use the shape: HOST.
+    pub fn msq_shape_from_host(context: *mut msq_context, def: *const msq_host_shape_def, shape: *mut *mut msq_shape) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_voxels_def_init(def: *mut msq_voxels_def, size: usize) -> msq_status;
+    /// Creates a shape from a voxel image, for example a CT scan: the points where the trilinear function is on the solid side of the threshold, inside the box that the outermost values span. def must not be NULL. It has no depth, so no scale can leave a skin in it. Limits: coordinates of the origin, and the sum of the extents along the axes, up to 1e75. Cost: linear in the number of values, on the calling thread (one or two seconds for 10^8). Rows and layers then visit the cells that the surface crosses. Errors: ARGUMENT (also if no value is solid), LIMIT (memory limit of the context), MEMORY.
+    pub fn msq_shape_from_voxels(context: *mut msq_context, def: *const msq_voxels_def, shape: *mut *mut msq_shape) -> msq_status;
+    /// Creates a shape from another one by an affine map, for example an instance of a part on a plate. The two share mesh, image and trees. matrix: three rows of four numbers, row-major; a point q of the original is placed at matrix * (q, 1). Rotations, scalings, mirror images and shears are allowed.
+    ///
+    /// A point p is inside if the original holds B * (p - b), where B is the inverse of the first three columns, computed once in double precision, and b the last column. Lengths keep the unit of the model. Distance and depth are those of the original where all lengths grow alike (within 1e-6); otherwise the distance is at least the original's times the smallest growth of a length, and the shape has no depth, so no scale can leave a skin in it: transform the vertices of a mesh instead. Bounds enclose the placed bounding box of the original.
+    ///
+    /// Cost: constant. Points and rays cost what they cost in the original. Layers ask the distance at a few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. Since 0.2.
+    pub fn msq_shape_placed(original: *const msq_shape, matrix: *const f64, shape: *mut *mut msq_shape) -> msq_status;
+    /// Creates the union, intersection or difference of shapes (operation: an msq_boolean_operation) from their memberships. shapes: count shapes, 1 to 4096.
+    ///
+    /// Distance. Of a union: the smallest of the shapes' signed distances, exact outside if theirs are, a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference: as an intersection with complements. Depth, and hence skin: intersections and differences of shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY. Since 0.2.
+    pub fn msq_shape_boolean(operation: i32, shapes: *const *const msq_shape, count: u64, shape: *mut *mut msq_shape) -> msq_status;
+    /// Creates a shape from another one by moving its surface by a distance, outwards if it is positive and inwards if it is negative: the points whose signed distance to the original (msq_point_distance) is at most distance. Outwards, edges become round.
+    ///
+    /// The original's distance must be exact on the side to which the surface moves: primitives, closed meshes, uniformly placed ones of these, outwards unions, inwards intersections and differences of these, and offsets once more to the same side. Triangles of a mesh that bound nothing count as its surface. The distance of the new shape is exact beyond its surface on that side, a bound on the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not finite, an offset inwards by more than half the bounding box, coordinates above 1e75), UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as msq_shape_placed; memory), MEMORY. Since 0.2.
+    pub fn msq_shape_offset(original: *const msq_shape, distance: f64, shape: *mut *mut msq_shape) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_shape_retain(shape: *mut msq_shape);
+    /// Drops a reference.
+    pub fn msq_shape_release(shape: *mut msq_shape);
+    /// Reports bounds, volume, area and the diagnosis of a dirty mesh, as found at construction. Errors: ARGUMENT.
+    pub fn msq_shape_info(shape: *const msq_shape, report: *mut msq_shape_report) -> msq_status;
+    /// Hashes a shape: 16 bytes that are equal for equal definitions with equal inputs and differ otherwise, for a host to know whether what it computed from the shape is still valid.
+    ///
+    /// They are the same in each run and on each machine, with any number of threads and in all builds of a version of msq; another version may change them. What results do not depend on does not count: names of files, the context, options that say "Does not change results". All other fields of a definition count, so do the vertices and triangles of a mesh after welding, in their order, the values of images with their type, and the operations of an expression, not its spaces and names. 0 and -0 are equal numbers. Shapes, fields, structures and materials within an object count by their hashes. docs/howto/caching.md says more.
+    ///
+    /// It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without a hash_key in it; a build without xxHash), MEMORY. Since 0.2.
+    pub fn msq_shape_hash(shape: *const msq_shape, hash: *mut u8) -> msq_status;
+    /// Counts the pairs of triangles in which a mesh intersects itself. Other shapes: 0.
+    ///
+    /// A pair counts if its triangles cross, touch, overlap in a plane or are duplicates; a shared vertex or edge alone does not count (CGAL::Polygon_mesh_processing::self_intersections). The decision is exact, after welding, without triangles that have no area. This is a diagnosis: no result of a shape depends on it.
+    ///
+    /// job NULL: no job; progress jumps from 0 to 1 at the end. Cost: about n log^3 n for n triangles plus a test per pair of overlapping boxes, on the calling thread (about a second for 270,000 triangles), with about 100 bytes per triangle. Errors: ARGUMENT, CANCELLED, UNSUPPORTED (a mesh, in a build without CGAL), MEMORY. Source: Zomorodian and Edelsbrunner, "Fast software for box intersections", 2002.
+    pub fn msq_shape_self_intersections(shape: *const msq_shape, pairs: *mut u64, job: *mut msq_job) -> msq_status;
+    /// Creates a linear gradient: from_value in the plane through from, to_value in the plane through to, both normal to to - from; linear between the planes and constant beyond them. Errors: ARGUMENT unless from and to are 1e-140 to 1.3e154 apart and the difference of the values is finite; MEMORY.
+    pub fn msq_field_gradient(context: *mut msq_context, from: *const f64, from_value: f64, to: *const f64, to_value: f64, field: *mut *mut msq_field) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_radial_field_def_init(def: *mut msq_radial_field_def, size: usize) -> msq_status;
+    /// Creates a field that is from_value up to from_radius, to_value from to_radius on, and linear between. def must not be NULL. Errors: ARGUMENT (also if the difference of the values is not finite), MEMORY.
+    pub fn msq_field_radial(context: *mut msq_context, def: *const msq_radial_field_def, field: *mut *mut msq_field) -> msq_status;
+    /// Creates a piecewise linear curve over another field.
+    ///
+    /// curve: curve_count pairs (value of argument, value of this field), 1 to 65536, strictly ascending in the first component. The curve is constant beyond its ends. Differences of neighbours must be finite. Cost per point: that of argument plus log(curve_count). Errors: ARGUMENT, LIMIT (more than 64 nested maps), MEMORY.
+    pub fn msq_field_map(context: *mut msq_context, argument: *const msq_field, curve: *const f64, curve_count: u64, field: *mut *mut msq_field) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_host_field_def_init(def: *mut msq_host_field_def, size: usize) -> msq_status;
+    /// Creates a field from callbacks. def must not be NULL.
+    ///
+    /// msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz promise too much, results are wrong; behaviour stays defined. Cost: single points and struts call back with one point; sets and slices of functional structures with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.
+    pub fn msq_field_host(context: *mut msq_context, def: *const msq_host_field_def, field: *mut *mut msq_field) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_grid_field_def_init(def: *mut msq_grid_field_def, size: usize) -> msq_status;
+    /// Creates a field from an image: trilinear between the values; outside the image it has the value of the nearest point of its border. Its Lipschitz constant is that of the steepest pair of neighbours. def must not be NULL. Cost: linear in the number of values, on the calling thread (a second for 10^8); nanoseconds per point. Errors: ARGUMENT, LIMIT (memory limit of the context), MEMORY.
+    pub fn msq_field_grid(context: *mut msq_context, def: *const msq_grid_field_def, field: *mut *mut msq_field) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_expression_field_def_init(def: *mut msq_expression_field_def, size: usize) -> msq_status;
+    /// Creates a field from an expression in x, y and z, clamped to low and high; low where the value is not a number. x, y and z are model coordinates, not angles. def must not be NULL. Rays use a bound of the slope over each box where the expression is smooth. Distances to surfaces that depend on the field are 0, because the field has no global Lipschitz constant. Errors: ARGUMENT, LIMIT (as msq_structure_functional), MEMORY.
+    pub fn msq_field_expression(context: *mut msq_context, def: *const msq_expression_field_def, field: *mut *mut msq_field) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_shape_distance_field_def_init(def: *mut msq_shape_distance_field_def, size: usize) -> msq_status;
+    /// Creates a piecewise linear curve over the signed distance to a shape, as msq_point_distance returns it. def must not be NULL. job NULL: no job.
+    ///
+    /// With a step, msq samples the distance once over the bounding box of the shape and a step around it, on the threads of the context, in single precision. Outside, the field has the value of the nearest point of the border. The error inside is below step * sqrt(3), and far smaller away from edges and medial surfaces. Cost: without a step, that of msq_point_distance per point and strut (microseconds); with a step, that of msq_field_grid with 4-byte values. Errors: ARGUMENT (also more than 2^20 steps along an axis), LIMIT (memory limit of the context), HOST, CANCELLED, MEMORY.
+    pub fn msq_field_shape_distance(context: *mut msq_context, def: *const msq_shape_distance_field_def, field: *mut *mut msq_field, job: *mut msq_job) -> msq_status;
+    /// Hashes a field, as msq_shape_hash does. A field by the distance to a shape that was sampled with a step is hashed from its samples. Errors: as msq_shape_hash. Since 0.2.
+    pub fn msq_field_hash(field: *const msq_field, hash: *mut u8) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_field_retain(field: *mut msq_field);
+    /// Drops a reference.
+    pub fn msq_field_release(field: *mut msq_field);
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_unit_cell_def_init(def: *mut msq_unit_cell_def, size: usize) -> msq_status;
+    /// Counts the nodes and struts of a unit cell, and finds the nodes on its faces that do not meet a node of the next cell. A cell that is not periodic may be used, but its struts may end at the face.
+    ///
+    /// unmatched: receives the indices of the unmatched nodes, ascending, at most unmatched_room; NULL if unmatched_room is 0. Nodes within 1e-9 of the cell size are equal. Cost: quadratic in the numbers of nodes and struts, below a second. Errors: ARGUMENT, MEMORY.
+    pub fn msq_unit_cell_info(cell: *const msq_unit_cell_def, report: *mut msq_unit_cell_report, unmatched: *mut u32, unmatched_room: u64) -> msq_status;
+    /// Copies the nodes (node_count triples) and struts (strut_count pairs of node indices) of a unit cell, in the order of strut_factors, for example to draw or modify a named cell. The counts must equal those of msq_unit_cell_info. Errors: ARGUMENT, MEMORY.
+    pub fn msq_unit_cell_geometry(cell: *const msq_unit_cell_def, nodes: *mut f64, node_count: u64, struts: *mut u32, strut_count: u64) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_lattice_def_init(def: *mut msq_lattice_def, size: usize) -> msq_status;
+    /// Creates a periodic strut lattice: the points within radius, times the factor of the strut, of the struts of the tiled unit cell. def must not be NULL.
+    ///
+    /// Struts are capsules: circular in model units for any cell size, with round ends, and they reach across cell borders. With a library, each cell holds the struts of the unit cell that cell_choice selects. If the nodes of two different neighbours do not match (msq_lattice_faces), struts end at the face.
+    ///
+    /// Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY.
+    pub fn msq_structure_lattice(context: *mut msq_context, def: *const msq_lattice_def, structure: *mut *mut msq_structure) -> msq_status;
+    /// Counts the faces between cells of a lattice whose unit cells have nodes there that do not match, and finds the first such face.
+    ///
+    /// The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info tells whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY.
+    pub fn msq_lattice_faces(lattice: *const msq_structure, min: *const f64, max: *const f64, report: *mut msq_lattice_faces_report, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_foam_def_init(def: *mut msq_foam_def, size: usize) -> msq_status;
+    /// Creates a Voronoi foam of one jittered seed per neighbourhood cell: the points within radius of the edges of the Voronoi diagram, and those within half of wall_thickness of its faces. def must not be NULL.
+    ///
+    /// Struts are capsules, circular in model units. Walls are plane and as thick as said: their thickness is measured across the face. Foams with walls alone have an onset, the thickness; those with struts and walls have none (msq_structure_calibrate). Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2, recursively, with one jittered seed per leaf, to that density on average (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.
+    pub fn msq_structure_foam(context: *mut msq_context, def: *const msq_foam_def, structure: *mut *mut msq_structure) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_functional_def_init(def: *mut msq_functional_def, size: usize) -> msq_status;
+    /// Creates a functional structure: the points where a function of the position in the cell is at most a level. def must not be NULL.
+    ///
+    /// Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp and log (natural). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE 754-2019). Points where the value is NaN are outside. Limits: 4096 bytes; 100 nested parentheses, signs and exponents; 1024 distinct operations, numbers and variables in total.
+    ///
+    /// Thickness is the volume of the walls divided by the area of their middle surface, where the function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of the function, accurate to about 0.3 % for the named functions (docs/concepts.md). Walls are thicker where the function is flatter. A field of thickness selects at each point the level of that thickness.
+    ///
+    /// With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness selects at each position along the axis the level of walls that thick in cells of the size there: the thickness stays, the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost what those of a structure do whose cells hold no whole number of samples.
+    ///
+    /// Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and Nesper 1991.
+    pub fn msq_structure_functional(context: *mut msq_context, def: *const msq_functional_def, structure: *mut *mut msq_structure) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_beams_def_init(def: *mut msq_beams_def, size: usize) -> msq_status;
+    /// Creates a structure of beams: the points in at least one beam or ball of a list. It has no grid and is empty elsewhere. def must not be NULL. job NULL: no job.
+    ///
+    /// A beam is a conical frustum between two nodes, with a radius that is linear along its axis, and caps. A beam shorter than 1e-100 has no axis: its round caps are balls; with two flat caps it is dropped. Beams may overlap and repeat. Limits: 2^31 - 1 beams and balls in total; coordinates up to 1e75; radii 0 or from 1e-100 to 1e75. One radius of a beam may be 0; that of a ball may not. Cost: n log n, in parallel: about 0.3 us of processor time and 104 bytes per beam, of which 77 are kept, in the memory limit of the context. Queries search a tree of boxes. Errors: ARGUMENT (also, with its index: a node that is not finite; a node index, radius or cap out of range), CANCELLED, LIMIT, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Kamel and Faloutsos, "On packing R-trees", 1993.
+    pub fn msq_structure_beams(context: *mut msq_context, def: *const msq_beams_def, structure: *mut *mut msq_structure, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_host_structure_def_init(def: *mut msq_host_structure_def, size: usize) -> msq_status;
+    /// Creates a structure from callbacks. def must not be NULL. All applications work with inside alone.
+    ///
+    /// A cell is built when a point in it is evaluated, and kept as long as the cache of the context keeps it. Two threads may build the same cell at once. Evicted cells are freed when the next cell is built, or with the structure. A cell does not see its neighbours: whatever reaches across a border must be in the data of both cells. Cost: sets, grids and slices call back with batches, grouped by cell if build_cell is given. Single points and distances call back point by point. Errors: ARGUMENT, MEMORY. Calls that use the structure: HOST. Source: paper, section "Multiscale Shape-Material Modeling API".
+    pub fn msq_structure_host(context: *mut msq_context, def: *const msq_host_structure_def, structure: *mut *mut msq_structure) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_host_function_def_init(def: *mut msq_host_function_def, size: usize) -> msq_status;
+    /// Creates a functional structure from callbacks, see msq_structure_functional. def must not be NULL. The function may be infinite but not NaN. With range or lipschitz, blocks that are entirely inside or outside are decided without evaluating points. Distances to its surface are 0. Cost: clusters^3 calls of range (32768 by default), and as many points of evaluate with lipschitz. Errors: ARGUMENT, HOST, MEMORY. Calls that use the structure: HOST. Source: paper, section "Preprocessing for Repeating Structures".
+    pub fn msq_structure_host_function(context: *mut msq_context, def: *const msq_host_function_def, structure: *mut *mut msq_structure) -> msq_status;
+    /// Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. Since 0.2.
+    pub fn msq_structure_hash(structure: *const msq_structure, hash: *mut u8) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_structure_retain(structure: *mut msq_structure);
+    /// Drops a reference.
+    pub fn msq_structure_release(structure: *mut msq_structure);
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_struts_def_init(def: *mut msq_struts_def, size: usize) -> msq_status;
+    /// Passes the struts of a lattice, an open foam or beams that a box selects to a callback: for beam models of finite elements, for 3MF, or for drawing.
+    ///
+    /// Lattices: the struts of the tiled unit cell, each once, where struts coincide with the greatest factor. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the first. Foams: the edges of the Voronoi diagram. A node is a point equally far from four or more seeds; its id comes from their names. Node positions are computed from the seeds in double precision. Nodes and struts whose ids are made from more than 128 bits have a hash as id; it is taken for unique. Beams: all beams and balls, whose a and b are equal; ends at the same coordinates are one node; id[0] is the index of the beam in the definition, after which balls count on. Foams with struts and walls: the struts.
+    ///
+    /// With a shape, the parts of a strut's centre line whose points are inside the shape come instead, in the order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and coordinates of the place where membership changes on the line, found as rays find it (msq_ray_cast); parts and gaps shorter than that may be overlooked. The solid around the line is not cut. Radii at cut ends are evaluated there. The first piece has the id of the strut, others have an id and each cut end a node of its own.
+    ///
+    /// The order of struts and their bytes are the same on every call and on any number of threads. callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone: they have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991.
+    pub fn msq_structure_struts(context: *mut msq_context, structure: *const msq_structure, def: *const msq_struts_def, callback: msq_struts_fn, user: *mut c_void, job: *mut msq_job) -> msq_status;
+    /// Collects the struts that msq_structure_struts passes, in the same order, and numbers their nodes in the order in which they first occur. Cost: as msq_structure_struts, and a table of the nodes on the calling thread. Memory: 56 bytes per strut and 40 per node, accounted to the context; while the call lasts, up to four times as much. Errors: as msq_structure_struts; LIMIT also for memory or more than 2^32 - 2 nodes. Since 0.2.
+    pub fn msq_structure_strut_graph(context: *mut msq_context, structure: *const msq_structure, def: *const msq_struts_def, graph: *mut *mut msq_strut_graph, job: *mut msq_job) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_strut_graph_retain(graph: *mut msq_strut_graph);
+    /// Drops a reference.
+    pub fn msq_strut_graph_release(graph: *mut msq_strut_graph);
+    /// Reports what a graph holds. Errors: ARGUMENT. Since 0.2.
+    pub fn msq_strut_graph_info(graph: *const msq_strut_graph, report: *mut msq_strut_graph_report) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_material_def_init(def: *mut msq_material_def, size: usize) -> msq_status;
+    /// Creates a material. def must not be NULL. Errors: ARGUMENT, MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API".
+    pub fn msq_material_create(context: *mut msq_context, def: *const msq_material_def, material: *mut *mut msq_material) -> msq_status;
+    /// Creates a blend of two materials: each channel is (1 - f) * a + f * b, where f is the fraction at the point, 0 to 1 everywhere. id: positive, of the blend. Errors: ARGUMENT (also if one material has a channel that the other lacks), LIMIT (more than 64 nested blends, or more than 4096 materials in a blend, counted with repetition), MEMORY.
+    pub fn msq_material_blend(context: *mut msq_context, id: u32, a: *const msq_material, b: *const msq_material, fraction: *const msq_param, material: *mut *mut msq_material) -> msq_status;
+    /// Hashes a material, as msq_shape_hash does: its id, and its channels in their order. Errors: as msq_shape_hash. Since 0.2.
+    pub fn msq_material_hash(material: *const msq_material, hash: *mut u8) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_material_retain(material: *mut msq_material);
+    /// Drops a reference.
+    pub fn msq_material_release(material: *mut msq_material);
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_model_def_init(def: *mut msq_model_def, size: usize) -> msq_status;
+    /// Creates a model: the intersection of the shape with every structure. Where a scale leaves a skin, the union of structure and skin takes the place of the structure. def must not be NULL.
+    ///
+    /// The skin holds the points of the shape whose depth is at most the thickness at the point, where the thickness is above 0. Depth is the distance to the boundary of the shape, as in msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the origin of a structure's grid), UNSUPPORTED (a skin in a voxel image, a host shape or all space), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the skin is ours.
+    pub fn msq_model_create(context: *mut msq_context, def: *const msq_model_def, model: *mut *mut msq_model) -> msq_status;
+    /// Creates a model of several regions, for example the parts of a plate and the modifier volumes in them. regions: count models, 1 to 4096; each has its own shape, scales, skins and materials.
+    ///
+    /// A point belongs to the first region whose shape contains it, and is inside where that region is: later regions count for nothing there, also where the region is empty. A region that is itself a model of regions is replaced by these, in their order. All functions take the model: one slice, ray or query serves a whole plate. Its coarse shape is the union of those of its regions. Scales are numbered by region: hits name the scale of the region that they are in, and msq_model_scale_length returns the largest length of any region.
+    ///
+    /// Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups, so a sample costs the memberships in the shapes before its region, and its region. Two bits per sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a region of all space), MEMORY. Since 0.2.
+    pub fn msq_model_regions(context: *mut msq_context, regions: *const *const msq_model, count: u64, model: *mut *mut msq_model) -> msq_status;
+    /// Hashes a model, as msq_shape_hash does: its shape, and the structure, skin and materials of each scale; or its regions in their order. Errors: as msq_shape_hash. Since 0.2.
+    pub fn msq_model_hash(model: *const msq_model, hash: *mut u8) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_model_retain(model: *mut msq_model);
+    /// Drops a reference.
+    pub fn msq_model_release(model: *mut msq_model);
+    /// Returns the bounding box of the coarse shape, which contains the model; of regions, that of all. Infinite for msq_shape_all_space. Errors: ARGUMENT.
+    pub fn msq_model_bounds(model: *const msq_model, min: *mut f64, max: *mut f64) -> msq_status;
+    /// Returns the characteristic length of a scale: its largest cell size; the length_scale of beams, which have no cells; infinity for scale 0. Errors: ARGUMENT (no such scale).
+    pub fn msq_model_scale_length(model: *const msq_model, scale: u32, length: *mut f64) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_query_def_init(def: *mut msq_query_def, size: usize) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_points_def_init(def: *mut msq_points_def, size: usize) -> msq_status;
+    /// Writes points first to first + count - 1 of a set as count triples x, y, z: the exact numbers that queries of the set use. Cost: about 5 ns per point, on the calling thread. Errors: ARGUMENT (also past the end). Source: paper, section "Structured and Unstructured Set Queries"; Steele, Lea and Flood 2014 (SplitMix64).
+    pub fn msq_points_generate(points: *const msq_points_def, first: u64, count: u64, coordinates: *mut f64) -> msq_status;
+    /// Membership of one point: *inside receives 1 in the model or on its boundary, otherwise 0. query NULL: defaults. For the boundary of meshes see msq_shape_from_mesh.
+    ///
+    /// This function is the definition. All other queries agree with it bit for bit. The one exception is MSQ_FOAM_METHOD_2 with a jitter below 0.01, within 1e-9 of a cell of the boundary. Cost: a mesh tests the triangles in one y, z bin; a lattice the struts that can reach the cell; a foam 27 to a few hundred seeds (about a microsecond). Errors: ARGUMENT, MEMORY.
+    pub fn msq_point_membership(model: *const msq_model, point: *const f64, query: *const msq_query_def, inside: *mut i32) -> msq_status;
+    /// Membership of a set: inside[i] receives 1 or 0 for point i. inside_count must be the number of points. query NULL: defaults. job NULL: no job.
+    ///
+    /// Scales are evaluated from coarse to fine. A finer scale does not evaluate points that a coarser one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in any order, with 6 bytes per point and at most 15 MB, or less if the memory limit leaves no room. Grids cost far less per point, as slices. Stratified samples need no grouping and no memory. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
+    pub fn msq_set_membership(model: *const msq_model, points: *const msq_points_def, query: *const msq_query_def, inside: *mut u8, inside_count: u64, job: *mut msq_job) -> msq_status;
+    /// Region of one point: *region receives the index of the first region whose shape contains it, -1 if none does. The point need not be in the solid of the region. A model that is not made of regions is region 0. Regions of regions are counted in their order. Errors: ARGUMENT, MEMORY. Since 0.2.
+    pub fn msq_point_region(model: *const msq_model, point: *const f64, region: *mut i32) -> msq_status;
+    /// Regions of a set: regions[i] receives the result of msq_point_region for point i. region_count must be the number of points. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave regions partly written. Cost: in parallel, the memberships in the shapes. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Since 0.2.
+    pub fn msq_set_region(model: *const msq_model, points: *const msq_points_def, regions: *mut i32, region_count: u64, job: *mut msq_job) -> msq_status;
+    /// Material of one point. *id receives the id of its material, or MSQ_MATERIAL_VOID outside the model. values[c] receives the value of the channel named channels[c]; 0 outside, and where the material has no such channel. query NULL: defaults. channels and values may be NULL if channel_count is 0.
+    ///
+    /// The material is that of the finest resolved scale that has one, or of its skin inside the skin. Where finer scales are not resolved, the host's material stands for the mixture. Errors: ARGUMENT (also if no resolved scale has a material, or none of their materials has a channel of that name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API".
+    pub fn msq_point_material(model: *const msq_model, point: *const f64, query: *const msq_query_def, channels: *const *const c_char, channel_count: u64, id: *mut u32, values: *mut f64) -> msq_status;
+    /// Materials of a set: ids[i] and values[i * channel_count + c] receive, bit for bit, the result of msq_point_material for point i. id_count must be the number of points, value_count channel_count times that. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave the arrays partly written. Cost: msq_set_membership plus a byte per point; channels are evaluated at the points inside. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
+    pub fn msq_set_material(model: *const msq_model, points: *const msq_points_def, query: *const msq_query_def, channels: *const *const c_char, channel_count: u64, ids: *mut u32, id_count: u64, values: *mut f64, value_count: u64, job: *mut msq_job) -> msq_status;
+    /// Signed distance of one point to the boundary of the model, in model units. *distance is positive, at least 2.2e-308, where msq_point_membership returns 0, and at most 0 where it returns 1. It is always finite. query NULL: defaults.
+    ///
+    /// The magnitude never exceeds the true distance, so a step of that length along a ray crosses no surface. It is exact for primitives, clean meshes, and outside of lattices and foams with a constant radius, and a lower bound otherwise. docs/accuracy.md tells, for each kind of shape and structure, where the distance is exact and how tight the bound is. Outside the model the distance is that of the coarsest scale that the point is outside of; inside, that of the nearest boundary of any scale. Of regions it is a bound: up to where another region begins (docs/accuracy.md).
+    ///
+    /// Cost: a mesh builds a tree of its triangles on first use (n log n; seconds for millions; about 120 bytes per triangle until the shape is freed) and then visits about log n nodes. A lattice evaluates the struts that can be nearest, a foam the edges of the seeds around (microseconds). A functional structure takes about ten milliseconds on first use to bound its slope. Errors: ARGUMENT, LIMIT (tree above the memory limit), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing", 1996.
+    pub fn msq_point_distance(model: *const msq_model, point: *const f64, query: *const msq_query_def, distance: *mut f64) -> msq_status;
+    /// Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Cancelling does not interrupt the construction of a mesh's tree. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
+    pub fn msq_set_distance(model: *const msq_model, points: *const msq_points_def, query: *const msq_query_def, distance: *mut f64, distance_count: u64, job: *mut msq_job) -> msq_status;
+    /// Writes the onset of a structure, of itself and of no model, at each point of a set. value: an msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size (lattices) or is not a number. onset_count must be the number of points.
+    ///
+    /// gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central difference over 2^-17 of the smallest cell size on either side: off by about 1e-8 of the largest slope where the function is smooth, a mean of both sides along ridges, and 0 where it is not finite.
+    ///
+    /// MSQ_ONSET_SIGNED agrees in sign with membership; for lattices and foams except within 1e-9 of a cell of the boundary. job NULL: no job. ARGUMENT, LIMIT and UNSUPPORTED write nothing; CANCELLED, HOST and MEMORY may leave the arrays partly written. Cost: in parallel, lattices and functions about 0.1 us, foams 1.5 us per point, seven times that with gradients; foams less if points of a cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index), UNSUPPORTED (kinds without onset, as in msq_structure_calibrate), LIMIT (a point 2^24 cells from the origin of the grid), HOST (fields), CANCELLED, MEMORY.
+    pub fn msq_set_onset(context: *mut msq_context, structure: *const msq_structure, points: *const msq_points_def, value: i32, onsets: *mut f64, onset_count: u64, gradients: *mut f64, gradient_count: u64, job: *mut msq_job) -> msq_status;
+    /// Writes the value of a field at each point of a set: values[i] of point i, the number that msq uses there. value_count must be the number of points. job NULL: no job. ARGUMENT writes nothing; CANCELLED, HOST and MEMORY may leave values partly written. Cost: that of the field (docs/concepts.md), in parallel. Errors: ARGUMENT (also points that are not finite, with their index), HOST, CANCELLED, MEMORY.
+    pub fn msq_field_evaluate(context: *mut msq_context, field: *const msq_field, points: *const msq_points_def, values: *mut f64, value_count: u64, job: *mut msq_job) -> msq_status;
+    /// Estimates the volume fraction of a phase (msq_phase) in the box of the sample. query NULL: defaults. job NULL: no job. Cost: msq_set_membership. Errors: ARGUMENT, CANCELLED, MEMORY. Source: paper, section "Set-based queries"; Cochran, "Sampling Techniques", 1977, chapter 5.
+    pub fn msq_volume_fraction(model: *const msq_model, sample: *const msq_points_def, query: *const msq_query_def, phase: i32, estimate: *mut msq_estimate, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_segments_def_init(def: *mut msq_segments_def, size: usize) -> msq_status;
+    /// Estimates the two-point correlation S2: estimates[i] receives the probability that both ends of a segment of length i are in the phase. At length 0 this is the volume fraction. estimate_count must be length_count. query NULL: defaults. job NULL: no job. Cost: msq_set_membership of the sample, and again per length of those points that are in the phase. Errors: ARGUMENT, CANCELLED, MEMORY. Source: Torquato, "Random Heterogeneous Materials", 2002, section 2.2.
+    pub fn msq_two_point_correlation(model: *const msq_model, sample: *const msq_points_def, query: *const msq_query_def, def: *const msq_segments_def, estimates: *mut msq_estimate, estimate_count: u64, job: *mut msq_job) -> msq_status;
+    /// Estimates the lineal-path function L: estimates[i] receives the probability that a segment of length i lies entirely in the phase. Arguments as in msq_two_point_correlation.
+    ///
+    /// msq follows a segment by the steps that msq_point_distance allows, which cross no boundary, and near boundaries by the step of def. Gaps shorter than that step may be missed; longer ones never are. Ends are found within a thousandth of the step. Cost: tens of distances per point, and one per step where the distance is 0. Errors: ARGUMENT, CANCELLED, LIMIT (a length above 10^6 steps), MEMORY. Source: Torquato 2002, section 2.4; Lu and Torquato 1992.
+    pub fn msq_lineal_path(model: *const msq_model, sample: *const msq_points_def, query: *const msq_query_def, def: *const msq_segments_def, estimates: *mut msq_estimate, estimate_count: u64, job: *mut msq_job) -> msq_status;
+    /// Finds the constant parameter (radius of struts, level of a function) at which a structure has a target volume fraction, and the curve between the two. The parameter of the structure itself is ignored.
+    ///
+    /// target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20), parameters[i], in model units, has fraction fractions[i] = i / (pair_count - 1) * max_fraction. The fractions ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2 points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells (foams; with a period, of the smallest size), from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host structures and functions, beams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.
+    pub fn msq_structure_calibrate(context: *mut msq_context, structure: *const msq_structure, sample: *const msq_points_def, target: f64, parameters: *mut f64, fractions: *mut f64, pair_count: u64, report: *mut msq_calibration_report, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_contours_def_init(def: *mut msq_contours_def, size: usize) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_output_def_init(def: *mut msq_output_def, size: usize) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_slicer_def_init(def: *mut msq_slicer_def, size: usize) -> msq_status;
+    /// Plans the layers of a model, normal to z or in a frame. Computes nothing yet. def must not be NULL. Errors: ARGUMENT (also pixels or layers that rounding makes coincide, and a window outside the plan), LIMIT (more than 2^31 - 1 layers, or pixels along a side, or 2^63 pixels in total or in the window), MEMORY.
+    pub fn msq_slicer_create(model: *const msq_model, def: *const msq_slicer_def, slicer: *mut *mut msq_slicer) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_slicer_retain(slicer: *mut msq_slicer);
+    /// Drops a reference.
+    pub fn msq_slicer_release(slicer: *mut msq_slicer);
+    /// Reports the plan. Errors: ARGUMENT.
+    pub fn msq_slicer_info(slicer: *const msq_slicer, report: *mut msq_slicer_report) -> msq_status;
+    /// Returns z of the samples of a layer. Errors: ARGUMENT (index out of range).
+    pub fn msq_slicer_layer_z(slicer: *const msq_slicer, index: u64, z: *mut f64) -> msq_status;
+    /// Computes layers first to first + count - 1 and passes each to the callback, in ascending order, on the calling thread. Workers compute the next slab meanwhile and wait for the callback. (With the host's parallel_for, the next slab is computed after the callbacks of the slab.) count UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the plan is split into calls or processes, nor on its other outputs. Memory, accounted to the context: two slabs, one layer and a few tiles per thread, for any height of the stack; foams keep cells in the cache in addition. With contours, workers compute those of as many layers at once as there are threads, and as many wait for the callback. Where memory_limit does not hold these, they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section "Slicing".
+    pub fn msq_slicer_run(slicer: *const msq_slicer, first: u64, count: u64, r#fn: msq_layer_fn, user: *mut c_void, job: *mut msq_job) -> msq_status;
+    /// Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask for them; for others up to three times that. Memory: one layer and a few tiles per thread; layers that are filled ahead take at most two slabs until the slicer is freed or a call needs the memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY.
+    pub fn msq_slice_layer(slicer: *const msq_slicer, index: u64, buffer: *mut u8, buffer_bytes: u64, job: *mut msq_job) -> msq_status;
+    /// Computes the contours of the section of a model at a height along the axis.
+    ///
+    /// Rings are closed and simple, and no two of them meet. The inside is on the left: outer rings are counter-clockwise in (u, v), holes clockwise. Corners are points of the rings. Points that the tolerance does not need are left out. Rings come in the order of their lowest v, so a ring's parent has a smaller index. The same arguments yield the same bytes, on any thread.
+    ///
+    /// contours: a new handle. job NULL: no job. Any number of threads may call it at once. Memory: in proportion to the window's nodes and crossings, accounted to the context while the call lasts. The result is not accounted. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 crossings; coordinates beyond the type, for int64 beyond 2^53; memory), MEMORY. Source: marching squares; Imai and Iri 1986.
+    pub fn msq_layer_contours(model: *const msq_model, height: f64, def: *const msq_contours_def, contours: *mut *mut msq_contours, job: *mut msq_job) -> msq_status;
+    /// The same for a layer of a slicer: at the layer's z, with the slicer's length_scale. axis must be 2. has_window 0: the rectangle of the slicer's pixels. Errors: as msq_layer_contours; ARGUMENT also for an index out of range.
+    pub fn msq_slicer_contours(slicer: *const msq_slicer, index: u64, def: *const msq_contours_def, contours: *mut *mut msq_contours, job: *mut msq_job) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_contours_retain(contours: *mut msq_contours);
+    /// Drops a reference.
+    pub fn msq_contours_release(contours: *mut msq_contours);
+    /// Reports what contours hold. Errors: ARGUMENT.
+    pub fn msq_contours_info(contours: *const msq_contours, report: *mut msq_contours_report) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT. Since 0.2.
+    pub fn msq_printability_def_init(def: *mut msq_printability_def, size: usize) -> msq_status;
+    /// Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids, thin places.
+    ///
+    /// It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation of the slicer are ignored. What is smaller than a pixel may lie between samples: to find it, use a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners, empty ones across sides; samples of two layers are connected if one is on the other.
+    ///
+    /// def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 16 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack; of these, runs and totals are not accounted to the context. Cost: 1.3 to 1.8 times that of msq_slicer_run for bits, up to 3 times with thousands of enclosed voids in a layer. THIN adds 0.2 to 1.5 ns per sample. All but the bits runs on the calling thread. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2.
+    pub fn msq_printability(slicer: *const msq_slicer, def: *const msq_printability_def, r#fn: msq_findings_fn, user: *mut c_void, report: *mut msq_printability_report, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_fill_def_init(def: *mut msq_fill_def, size: usize) -> msq_status;
+    /// Computes the middle lines of a structure's thin walls at a height, within a polygon.
+    ///
+    /// Foams: the faces of the Voronoi diagram, cut by the plane. Sheets: where the function is 0. Networks, which have no walls: where the function is the level, the boundary of the solid. Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it. Strut lattices, beams and structures of the host have no such lines; use contours for them.
+    ///
+    /// Each line is in one path; none is printed twice. Paths are as few as possible: one for two of the points where a path has to end, which are the border and junctions of three, five .. lines. At a junction, lines that are most nearly straight are joined as far as this keeps paths few. Paths are in the order in which they are best printed: each begins near the end of the one before. Of lines that are connected the travel is a few percent above the least one.
+    ///
+    /// Ends at the polygon's border are rounded to whole coordinates, all else is decided exactly. Lines on the border itself count as inside on one side of the polygon. The lines do not depend on the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are followed on a grid of 1/32 of the smallest cell size: lines closer together than that may be joined, and smaller closed lines lost.
+    ///
+    /// def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box. Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam in the plane; about 1 us per square that a line of a function crosses and 20 ns per other square. Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are on one line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson, "Matching, Euler tours and the Chinese postman", 1973.
+    pub fn msq_fill_lines(context: *mut msq_context, structure: *const msq_structure, def: *const msq_fill_def, fill: *mut *mut msq_fill, job: *mut msq_job) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_fill_retain(fill: *mut msq_fill);
+    /// Drops a reference.
+    pub fn msq_fill_release(fill: *mut msq_fill);
+    /// Reports the paths. Errors: ARGUMENT.
+    pub fn msq_fill_info(fill: *const msq_fill, report: *mut msq_fill_report) -> msq_status;
+    /// Finds the cell sizes at which a structure's fill lines cover a share of the area.
+    ///
+    /// The density of lines is their length per area times their width, on average over all heights. It is inversely proportional to the cell size. cell_size receives those of the structure's grid, all times the same factor: create the structure anew with them, and the same rotation. density: more than 0, at most 1. job NULL: no job. Single layers differ, of a gyroid by a tenth. The length is measured on the structure as it is: one cell at 64 heights; 8 x 8 if the grid is turned; 32 x 32 cells of a foam at 32 heights, accurate to about 0.5 %. A foam with a field of density: calibrate it without the field; d seeds per cell volume then multiply the density of lines by about the cube root of d. Cost: up to 0.5 s for a foam. Errors: ARGUMENT, UNSUPPORTED (no thin walls; a field of density, or of the level of a network), LIMIT (no lines), CANCELLED, HOST, MEMORY.
+    pub fn msq_fill_calibrate(context: *mut msq_context, structure: *const msq_structure, line_width: f64, density: f64, cell_size: *mut f64, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT. Since 0.2.
+    pub fn msq_surface_def_init(def: *mut msq_surface_def, size: usize) -> msq_status;
+    /// Computes triangles of the boundary of a model within a box, to look at and to hand on to programs that take nothing else. Layers, contours, rays and distances come from the model itself, faster and exactly.
+    ///
+    /// The mesh is closed, and a manifold: each edge has two triangles, which run through it in opposite directions, and the triangles around a vertex are one ring. Each vertex is within pitch / 1000 of the boundary of the model cut with the box. Edges and corners of the model that are wider apart than the pitch are kept. Triangles may intersect where the boundary is bent within a pitch.
+    ///
+    /// Callbacks run on the calling thread, from low z to high z. The parts together do not depend on slab_layers, threads or calls. A model without a point at a node yields no callback. def must not be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory: about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors: ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 vertices; memory), MEMORY. Since 0.2. Source: Schaefer, Ju and Warren, "Manifold dual contouring", 2007.
+    pub fn msq_surface_mesh(model: *const msq_model, def: *const msq_surface_def, r#fn: msq_surface_fn, user: *mut c_void, job: *mut msq_job) -> msq_status;
+    /// Computes the mesh of msq_surface_mesh as the bytes of a file. format: an msq_surface_format.
+    ///
+    /// Each byte of the file is in one part. Parts of MSQ_SURFACE_STL come in the order of the file. In MSQ_SURFACE_PLY vertices come before triangles, so its parts alternate between two places: seek to offset, or copy to it in memory of total bytes. The bytes of the file do not depend on slab_layers or threads. Coordinates are rounded to float32: far from the origin, vertices closer together than that may coincide.
+    ///
+    /// Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is written. A model without a point at a node yields a file without triangles. Errors: as msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices. Since 0.2.
+    pub fn msq_surface_file(model: *const msq_model, def: *const msq_surface_def, format: i32, r#fn: msq_file_fn, user: *mut c_void, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_rays_def_init(def: *mut msq_rays_def, size: usize) -> msq_status;
+    /// Finds where each ray first meets the solid at t_min <= t <= t_max. hits[i] belongs to ray i. hit_count must be the number of rays. query NULL: defaults. job NULL: no job. What begins at t_max is hit if the rounded point there is inside.
+    ///
+    /// Membership (msq_point_membership) changes within 2^-36 of the characteristic length of the scale hit, or within 2^-50 of the largest coordinate of the ray in the shape's box, seen from the origin and from that of the grid, if that is more. Before t it does not change, except over parts of the ray shorter than that. Exceptions: shapes and structures that are known by callbacks, images or rough fields; docs/accuracy.md lists the tolerance of position and normal for each kind. A ray is known to 2^-53 of the way from its origin. Every ray ends. t is finite in each hit. Results do not depend on the order of the rays.
+    ///
+    /// Finer scales are evaluated only where the ray is inside the coarser ones. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave hits partly written. Cost: parallel. Rays that are close together share work; rays in random order are sorted first, up to 2^20 at once, with 16 bytes each and at most 1/16 of the memory limit. A mesh builds its tree first, as for msq_point_distance. Errors: ARGUMENT (also rays that are not finite and directions of length 0, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting".
+    pub fn msq_ray_cast(model: *const msq_model, rays: *const msq_rays_def, query: *const msq_query_def, hits: *mut msq_ray_hit, hit_count: u64, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_camera_init(camera: *mut msq_camera, size: usize) -> msq_status;
+    /// Sets eye, target, up and height so that the bounding box of the model fits a picture of width x height pixels (1 to 16384 each). direction: from eye to target, of any length except 0. up NULL: z, or y if z is within 2.6 degrees of the view. Other fields keep their values; a perspective camera uses field_of_view. Errors: ARGUMENT.
+    pub fn msq_camera_fit(model: *const msq_model, direction: *const f64, up: *const f64, width: u32, height: u32, camera: *mut msq_camera) -> msq_status;
+    /// Returns the ray of a position in a picture of width x height pixels. position: pixels to the right of and below the upper left corner; the centre of pixel (i, j) is (i + 0.5, j + 0.5). With the returned direction the t of msq_ray_cast is the depth, and a ray from t_min = clip_near to t_max = clip_far hits exactly what msq_render draws. For picking and for pictures of the host's own. Errors: ARGUMENT.
+    pub fn msq_camera_ray(camera: *const msq_camera, width: u32, height: u32, position: *const f64, origin: *mut f64, direction: *mut f64) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_render_def_init(def: *mut msq_render_def, size: usize) -> msq_status;
+    /// Sets the defaults: no arrays. Errors: ARGUMENT.
+    pub fn msq_frame_init(frame: *mut msq_frame, size: usize) -> msq_status;
+    /// Renders a model as a camera sees it.
+    ///
+    /// Depth, normal, scale and material of a pixel are those of msq_ray_cast for the ray through its centre. Its colour is the mean, in linear light, of its samples: the background, or
+    ///
+    /// base * (ambient * open + (1 - ambient) * max(0, normal . light) * lit)
+    ///
+    /// with the colour base from colour_by, the share open of occlusion rays that hit nothing, and lit 0 in shadow; open and lit are 1 if not requested. What the clip planes cut away casts no shadow. A pixel has the same bits for any tile, passes and threads.
+    ///
+    /// fn NULL: no callback. Otherwise fn is called on the calling thread after each pass: steps from first_step, halved each time, down to 1; then one with all samples if rgba has more than one per pixel. query NULL: defaults. job NULL: no job. ARGUMENT writes nothing; other errors may leave the frame partly written.
+    ///
+    /// Cost: one ray per pixel and samples^2 more if samples > 1, each with its shadow and occlusion rays; in parallel, in tiles of 32 x 32 rays. A mesh builds its tree first, as for msq_point_distance. Memory: about 1 MB per thread, kept for the next call. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting".
+    pub fn msq_render(model: *const msq_model, camera: *const msq_camera, def: *const msq_render_def, query: *const msq_query_def, frame: *const msq_frame, r#fn: msq_render_fn, user: *mut c_void, job: *mut msq_job) -> msq_status;
+}
+
+#[cfg(all(test, target_pointer_width = "64"))]
+#[test]
+fn structs_have_the_sizes_of_c() {
+    assert_eq!(std::mem::size_of::<msq_build_report>(), 40);
+    assert_eq!(std::mem::size_of::<msq_context_def>(), 80);
+    assert_eq!(std::mem::size_of::<msq_memory_report>(), 32);
+    assert_eq!(std::mem::size_of::<msq_cache_report>(), 88);
+    assert_eq!(std::mem::size_of::<msq_job_report>(), 48);
+    assert_eq!(std::mem::size_of::<msq_window>(), 48);
+    assert_eq!(std::mem::size_of::<msq_neighbourhood>(), 120);
+    assert_eq!(std::mem::size_of::<msq_period_def>(), 32);
+    assert_eq!(std::mem::size_of::<msq_image>(), 176);
+    assert_eq!(std::mem::size_of::<msq_file_def>(), 40);
+    assert_eq!(std::mem::size_of::<msq_mesh_def>(), 56);
+    assert_eq!(std::mem::size_of::<msq_host_shape_def>(), 104);
+    assert_eq!(std::mem::size_of::<msq_voxels_def>(), 192);
+    assert_eq!(std::mem::size_of::<msq_shape_report>(), 136);
+    assert_eq!(std::mem::size_of::<msq_radial_field_def>(), 88);
+    assert_eq!(std::mem::size_of::<msq_host_field_def>(), 80);
+    assert_eq!(std::mem::size_of::<msq_grid_field_def>(), 184);
+    assert_eq!(std::mem::size_of::<msq_named_value>(), 16);
+    assert_eq!(std::mem::size_of::<msq_expression_field_def>(), 48);
+    assert_eq!(std::mem::size_of::<msq_shape_distance_field_def>(), 40);
+    assert_eq!(std::mem::size_of::<msq_param>(), 16);
+    assert_eq!(std::mem::size_of::<msq_unit_cell_def>(), 48);
+    assert_eq!(std::mem::size_of::<msq_unit_cell_report>(), 120);
+    assert_eq!(std::mem::size_of::<msq_lattice_def>(), 216);
+    assert_eq!(std::mem::size_of::<msq_lattice_faces_report>(), 80);
+    assert_eq!(std::mem::size_of::<msq_foam_def>(), 208);
+    assert_eq!(std::mem::size_of::<msq_functional_def>(), 200);
+    assert_eq!(std::mem::size_of::<msq_beams_def>(), 168);
+    assert_eq!(std::mem::size_of::<msq_host_points>(), 40);
+    assert_eq!(std::mem::size_of::<msq_host_structure_def>(), 208);
+    assert_eq!(std::mem::size_of::<msq_host_function_def>(), 208);
+    assert_eq!(std::mem::size_of::<msq_strut>(), 128);
+    assert_eq!(std::mem::size_of::<msq_struts_def>(), 64);
+    assert_eq!(std::mem::size_of::<msq_strut_graph_report>(), 88);
+    assert_eq!(std::mem::size_of::<msq_channel>(), 24);
+    assert_eq!(std::mem::size_of::<msq_material_def>(), 24);
+    assert_eq!(std::mem::size_of::<msq_scale_def>(), 48);
+    assert_eq!(std::mem::size_of::<msq_model_def>(), 24);
+    assert_eq!(std::mem::size_of::<msq_query_def>(), 32);
+    assert_eq!(std::mem::size_of::<msq_points_def>(), 248);
+    assert_eq!(std::mem::size_of::<msq_estimate>(), 32);
+    assert_eq!(std::mem::size_of::<msq_segments_def>(), 56);
+    assert_eq!(std::mem::size_of::<msq_calibration_report>(), 64);
+    assert_eq!(std::mem::size_of::<msq_contours_def>(), 80);
+    assert_eq!(std::mem::size_of::<msq_output_def>(), 40);
+    assert_eq!(std::mem::size_of::<msq_slicer_def>(), 304);
+    assert_eq!(std::mem::size_of::<msq_slicer_report>(), 144);
+    assert_eq!(std::mem::size_of::<msq_output>(), 40);
+    assert_eq!(std::mem::size_of::<msq_layer>(), 72);
+    assert_eq!(std::mem::size_of::<msq_contours_report>(), 72);
+    assert_eq!(std::mem::size_of::<msq_printability_def>(), 32);
+    assert_eq!(std::mem::size_of::<msq_finding>(), 112);
+    assert_eq!(std::mem::size_of::<msq_printability_report>(), 96);
+    assert_eq!(std::mem::size_of::<msq_ring>(), 16);
+    assert_eq!(std::mem::size_of::<msq_fill_def>(), 80);
+    assert_eq!(std::mem::size_of::<msq_fill_report>(), 64);
+    assert_eq!(std::mem::size_of::<msq_surface_def>(), 80);
+    assert_eq!(std::mem::size_of::<msq_surface_slab>(), 64);
+    assert_eq!(std::mem::size_of::<msq_file_part>(), 40);
+    assert_eq!(std::mem::size_of::<msq_rays_def>(), 64);
+    assert_eq!(std::mem::size_of::<msq_ray_hit>(), 56);
+    assert_eq!(std::mem::size_of::<msq_camera>(), 112);
+    assert_eq!(std::mem::size_of::<msq_render_def>(), 136);
+    assert_eq!(std::mem::size_of::<msq_frame>(), 48);
+    assert_eq!(std::mem::size_of::<msq_render_pass>(), 16);
+}

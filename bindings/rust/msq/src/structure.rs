@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+//! Structures that fill a shape.
+use std::ffi::CString;
+
+use crate::context::{raw_job, Context, Job};
+use crate::field::Param;
+use crate::{check, sys, Error, Result};
+
+handle!(
+    /// What fills a shape at one scale.
+    Structure, msq_structure, msq_structure_retain, msq_structure_release
+);
+
+/// A Voronoi foam. Lengths are in model units; the defaults are those of msq.
+#[derive(Clone, Debug)]
+pub struct Foam {
+    pub origin: [f64; 3],
+    pub cell_size: [f64; 3],
+    pub radius: Param,
+    /// None: the default of msq.
+    pub jitter: Option<f64>,
+    pub seed: u64,
+    /// None: one seed per cell.
+    pub density: Option<Param>,
+    /// Thickness of walls, for closed cells. 0: struts alone.
+    pub wall_thickness: Param,
+    /// Radius of the holes in the walls. 0: none.
+    pub vent_radius: Param,
+}
+
+impl Foam {
+    /// Cells of one size on all axes.
+    pub fn new(cell_size: f64, radius: impl Into<Param>) -> Foam {
+        Foam {
+            origin: [0.0; 3],
+            cell_size: [cell_size; 3],
+            radius: radius.into(),
+            jitter: None,
+            seed: 0,
+            density: None,
+            wall_thickness: Param::default(),
+            vent_radius: Param::default(),
+        }
+    }
+}
+
+impl Structure {
+    pub fn foam(context: &Context, foam: &Foam) -> Result<Structure> {
+        let mut def = definition!(msq_foam_def_init, msq_foam_def);
+        def.grid.origin = foam.origin;
+        def.grid.cell_size = foam.cell_size;
+        def.radius = foam.radius.raw();
+        if let Some(jitter) = foam.jitter {
+            def.jitter = jitter;
+        }
+        def.seed = foam.seed;
+        if let Some(density) = &foam.density {
+            def.density = density.raw();
+        }
+        def.wall_thickness = foam.wall_thickness.raw();
+        def.vent_radius = foam.vent_radius.raw();
+        Structure::make(|raw| unsafe { sys::msq_structure_foam(context.as_ptr(), &def, raw) })
+    }
+
+    /// unit_cell: an `MSQ_UNIT_CELL_*` other than CUSTOM.
+    pub fn lattice(
+        context: &Context,
+        unit_cell: i32,
+        cell_size: f64,
+        radius: impl Into<Param>,
+    ) -> Result<Structure> {
+        let radius = radius.into();
+        let mut def = definition!(msq_lattice_def_init, msq_lattice_def);
+        def.unit_cell = unit_cell;
+        def.grid.cell_size = [cell_size; 3];
+        def.radius = radius.raw();
+        Structure::make(|raw| unsafe { sys::msq_structure_lattice(context.as_ptr(), &def, raw) })
+    }
+
+    /// A sheet of the given thickness. function: an `MSQ_FUNCTION_*` other than EXPRESSION.
+    pub fn sheet(
+        context: &Context,
+        function: i32,
+        cell_size: f64,
+        thickness: impl Into<Param>,
+    ) -> Result<Structure> {
+        let thickness = thickness.into();
+        let mut def = definition!(msq_functional_def_init, msq_functional_def);
+        def.function = function;
+        def.kind = sys::MSQ_FUNCTIONAL_SHEET;
+        def.grid.cell_size = [cell_size; 3];
+        def.thickness = thickness.raw();
+        Structure::make(|raw| unsafe { sys::msq_structure_functional(context.as_ptr(), &def, raw) })
+    }
+
+    /// The side of an expression f(x, y, z) < level, which repeats with the cells.
+    pub fn network(
+        context: &Context,
+        expression: &str,
+        cell_size: f64,
+        level: impl Into<Param>,
+    ) -> Result<Structure> {
+        let level = level.into();
+        let text = CString::new(expression)
+            .map_err(|_| Error::argument("the expression has a zero byte".to_string()))?;
+        let mut def = definition!(msq_functional_def_init, msq_functional_def);
+        def.function = sys::MSQ_FUNCTION_EXPRESSION;
+        def.kind = sys::MSQ_FUNCTIONAL_NETWORK;
+        def.expression = text.as_ptr();
+        def.grid.cell_size = [cell_size; 3];
+        def.level = level.raw();
+        Structure::make(|raw| unsafe { sys::msq_structure_functional(context.as_ptr(), &def, raw) })
+    }
+
+    /// Finite struts of one radius between nodes.
+    pub fn beams(
+        context: &Context,
+        nodes: &[[f64; 3]],
+        beams: &[[u32; 2]],
+        radius: f64,
+        job: Option<&Job>,
+    ) -> Result<Structure> {
+        let mut def = definition!(msq_beams_def_init, msq_beams_def);
+        def.coordinate_type = sys::MSQ_FLOAT64;
+        def.nodes = nodes.as_ptr() as *const _;
+        def.node_count = nodes.len() as u64;
+        def.beams = beams.as_ptr() as *const u32;
+        def.beam_count = beams.len() as u64;
+        def.radius = radius;
+        Structure::make(|raw| unsafe {
+            sys::msq_structure_beams(context.as_ptr(), &def, raw, raw_job(job))
+        })
+    }
+
+    /// The parameter (radius, level) at which the structure has a volume fraction.
+    pub fn calibrate(&self, context: &Context, target: f64, job: Option<&Job>) -> Result<f64> {
+        let report = report!(msq_calibration_report, |r| sys::msq_structure_calibrate(
+            context.as_ptr(),
+            self.as_ptr(),
+            std::ptr::null(),
+            target,
+            std::ptr::null_mut(),
+            std::ptr::null_mut(),
+            0,
+            r,
+            raw_job(job)
+        ));
+        Ok(report.parameter)
+    }
+
+    pub fn hash(&self) -> Result<[u8; 16]> {
+        let mut hash = [0; 16];
+        check(unsafe { sys::msq_structure_hash(self.as_ptr(), hash.as_mut_ptr()) })?;
+        Ok(hash)
+    }
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+//! The crate against closed forms and against itself.
+use std::panic::{catch_unwind, AssertUnwindSafe};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Arc;
+
+use msq::{sys, Context, ContextOptions, Field, Foam, Grid, Job, Model, Plan, Shape, Slicer, Structure};
+
+fn cube(context: &Context) -> Shape {
+    Shape::cuboid(context, [0.0; 3], [10.0; 3]).unwrap()
+}
+
+fn foam_model(context: &Context) -> Model {
+    let foam = Structure::foam(context, &Foam::new(2.0, 0.3)).unwrap();
+    Model::new(context, &cube(context), &[&foam]).unwrap()
+}
+
+#[test]
+fn the_library_is_the_one_of_the_declarations() {
+    assert_eq!(msq::version(), sys::MSQ_VERSION);
+}
+
+#[test]
+fn spheres_have_their_volume() {
+    let context = Context::new().unwrap();
+    let sphere = Shape::sphere(&context, [0.0; 3], 1.0).unwrap();
+    let model = Model::new(&context, &sphere, &[]).unwrap();
+    let grid = Grid { origin: [-0.99; 3], spacing: [0.02; 3], counts: [100; 3] };
+    let inside: u64 = model.grid_membership(&grid, None).unwrap().iter().map(|x| *x as u64).sum();
+    let volume = inside as f64 * 0.02f64.powi(3);
+    assert!((volume / (4.0 / 3.0 * std::f64::consts::PI) - 1.0).abs() < 0.002, "{volume}");
+    let distances = model.distance(&[[0.0; 3], [3.0, 0.0, 0.0]], None).unwrap();
+    // Bounds, a few rounding errors below the distances.
+    assert!((distances[0] + 1.0).abs() < 1e-13 && (distances[1] - 2.0).abs() < 1e-13);
+}
+
+#[test]
+fn sets_points_and_layers_agree() {
+    let context = Context::new().unwrap();
+    let model = foam_model(&context);
+    let plan = Plan { pitch: 0.25, layer_height: 0.5, output: sys::MSQ_LAYER_BYTES };
+    let slicer = Slicer::new(&model, plan).unwrap();
+    let info = slicer.info().unwrap();
+    let mut taken = Vec::new();
+    slicer
+        .run(0, info.layer_count, |layer| {
+            taken.push((layer.index, layer.z, layer.data.to_vec()));
+            Ok(())
+        }, None)
+        .unwrap();
+    assert_eq!(taken.len() as u64, info.layer_count);
+    for (layer, (index, z, data)) in slicer.layers().unwrap().zip(&taken) {
+        let layer = layer.unwrap();
+        assert_eq!((layer.index, layer.z, &layer.data), (*index, *z, data));
+    }
+    let (_, z, data) = &taken[3];
+    let mut points = Vec::new();
+    for i in 0..info.width as usize {
+        points.push([info.origin[0] + i as f64 * info.pitch[0], info.origin[1], *z]);
+    }
+    let inside = model.membership(&points, None).unwrap();
+    let row: Vec<u8> = data[..info.width as usize].iter().map(|byte| (*byte != 0) as u8).collect();
+    assert_eq!(inside, row);
+    assert_eq!(model.is_inside(points[5]).unwrap(), inside[5] != 0);
+}
+
+#[test]
+fn errors_have_status_and_message() {
+    let context = Context::new().unwrap();
+    let error = Shape::sphere(&context, [0.0; 3], -1.0).unwrap_err();
+    assert_eq!(error.status(), sys::MSQ_E_ARGUMENT);
+    assert!(error.message().contains("-1"), "{error}");
+    let error = Shape::from_file(&context, "no/such.stl", None).unwrap_err();
+    assert_eq!(error.status(), sys::MSQ_E_IO);
+}
+
+#[test]
+fn closures_evaluate_fields_and_are_freed() {
+    let freed = Arc::new(AtomicUsize::new(0));
+    struct Counted(Arc<AtomicUsize>);
+    impl Drop for Counted {
+        fn drop(&mut self) {
+            self.0.fetch_add(1, Ordering::SeqCst);
+        }
+    }
+    let counted = Counted(freed.clone());
+    let context = Context::new().unwrap();
+    let radius = Field::host(&context, 0.1, 0.5, 0.04, true, Box::new(move |points, values| {
+        let _ = &counted;
+        for (point, value) in points.iter().zip(values) {
+            *value = 0.1 + 0.04 * point[0].clamp(0.0, 10.0);
+        }
+        Ok(())
+    }))
+    .unwrap();
+    let same = Field::gradient(&context, [0.0; 3], 0.1, [10.0, 0.0, 0.0], 0.5).unwrap();
+    let grid = Grid { origin: [0.1; 3], spacing: [0.5; 3], counts: [20; 3] };
+    let mut sets = Vec::new();
+    for field in [radius, same] {
+        let lattice = Structure::lattice(&context, sys::MSQ_UNIT_CELL_BCC, 2.5, field).unwrap();
+        let model = Model::new(&context, &cube(&context), &[&lattice]).unwrap();
+        sets.push(model.grid_membership(&grid, None).unwrap());
+    }
+    let differ = sets[0].iter().zip(&sets[1]).filter(|(a, b)| a != b).count();
+    assert!(differ < 4, "{differ}");
+    drop(context);
+    assert_eq!(freed.load(Ordering::SeqCst), 1);
+}
+
+#[test]
+fn codes_and_panics_of_closures_come_through() {
+    let context = Context::new().unwrap();
+    let model = foam_model(&context);
+    let plan = Plan { pitch: 0.5, layer_height: 1.0, output: sys::MSQ_LAYER_BITS };
+    let slicer = Slicer::new(&model, plan).unwrap();
+    let error = slicer.run(0, 5, |layer| if layer.index == 2 { Err(-7) } else { Ok(()) }, None);
+    let error = error.unwrap_err();
+    assert_eq!((error.status(), error.host_code()), (sys::MSQ_E_HOST, -7));
+    let panic = catch_unwind(AssertUnwindSafe(|| {
+        let _ = slicer.run(0, 5, |layer| panic!("layer {}", layer.index), None);
+    }));
+    assert_eq!(panic.unwrap_err().downcast_ref::<String>().unwrap(), "layer 0");
+    slicer.run(0, 5, |_| Ok(()), None).unwrap();
+}
+
+#[test]
+fn jobs_cancel() {
+    let context = Context::new().unwrap();
+    let job = Job::new().unwrap();
+    job.cancel().unwrap();
+    let error = foam_model(&context).membership(&[[1.0; 3]], Some(&job)).unwrap_err();
+    assert_eq!(error.status(), sys::MSQ_E_CANCELLED);
+    assert!(job.progress().unwrap() < 1.0);
+}
+
+#[test]
+fn threads_share_handles() {
+    let context = Context::new().unwrap();
+    let model = foam_model(&context);
+    let grid = Grid { origin: [0.1; 3], spacing: [0.3; 3], counts: [30; 3] };
+    let expected = model.grid_membership(&grid, None).unwrap();
+    std::thread::scope(|scope| {
+        for _ in 0..3 {
+            scope.spawn(|| assert_eq!(model.clone().grid_membership(&grid, None).unwrap(), expected));
+        }
+    });
+}
+
+#[test]
+fn meshes_close() {
+    let context = Context::new().unwrap();
+    let model = Model::new(&context, &cube(&context), &[]).unwrap();
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    model
+        .surface_mesh(1.5, |slab| {
+            assert_eq!(slab.first_vertex as usize, vertices.len());
+            vertices.extend_from_slice(slab.vertices);
+            triangles.extend_from_slice(slab.triangles);
+            Ok(())
+        }, None)
+        .unwrap();
+    let mut six = 0.0;
+    for [a, b, c] in triangles {
+        let [a, b, c]: [[f64; 3]; 3] = [vertices[a as usize], vertices[b as usize], vertices[c as usize]];
+        six += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+            + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    assert!((six / 6.0 - 1000.0).abs() < 1.0, "{six}");
+}
+
+#[test]
+fn warnings_reach_the_closure_of_the_context() {
+    let count = Arc::new(AtomicUsize::new(0));
+    let counted = count.clone();
+    let options = ContextOptions {
+        warning: Some(Box::new(move |code, message| {
+            assert_eq!(code, sys::MSQ_WARNING_COARSE_PITCH);
+            assert!(message.contains("pixels"), "{message}");
+            counted.fetch_add(1, Ordering::SeqCst);
+        })),
+        ..ContextOptions::default()
+    };
+    let model = foam_model(&Context::with(options).unwrap());
+    let plan = Plan { pitch: 1.0, layer_height: 1.0, output: sys::MSQ_LAYER_BITS };
+    Slicer::new(&model, plan).unwrap();
+    assert_eq!(count.load(Ordering::SeqCst), 1);
+    drop(model);
+    assert_eq!(Arc::strong_count(&count), 1);
+}
