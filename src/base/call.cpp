@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/call.h"
 
+#include <exception>
 #include <utility>
+
+#include "base/status.h"
 
 namespace msq {
 
@@ -71,6 +74,16 @@ HostScope::~HostScope() {
   *host_ = FloatState::read();
   host_->enter_own();
   thread_call.host = host_;
+}
+
+void fail_thrown_by_host() {
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    fail(Status::host, "an exception left a callback of the host: %s", error.what());
+  } catch (...) {
+    fail(Status::host, "an exception left a callback of the host");
+  }
 }
 
 }  // namespace msq

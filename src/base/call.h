@@ -13,6 +13,8 @@
 // inlined.
 #pragma once
 
+#include <type_traits>
+
 #include "base/attributes.h"
 #include "base/float_state.h"
 
@@ -91,11 +93,19 @@ class HostScope {
   FloatState* host_;
 };
 
-/// Calls a function of the host.
+/// In a handler: throws Error(host) for the exception that left a callback in spite of the rules.
+[[noreturn]] void fail_thrown_by_host();
+
+/// Calls a function of the host. What functions without a result throw is dropped: nobody can be
+/// told.
 template <class Function, class... Arguments>
 MSQ_NOINLINE auto call_host(Function* function, Arguments... arguments) {
   const HostScope scope;
-  return function(arguments...);
+  try {
+    return function(arguments...);
+  } catch (...) {
+    if constexpr (!std::is_void_v<decltype(function(arguments...))>) fail_thrown_by_host();
+  }
 }
 
 }  // namespace msq

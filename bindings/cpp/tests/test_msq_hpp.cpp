@@ -10,13 +10,7 @@
 #include <thread>
 #include <vector>
 
-extern "C" {
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
-}
+#include "msq_test.h"
 
 namespace {
 
