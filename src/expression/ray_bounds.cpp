@@ -340,11 +340,11 @@ RayBatch::RayBatch(const RayProgram& program)
 RayBatch::Bounds RayBatch::run(const Pieces& pieces, size_t count) {
   for (size_t axis = 0; axis < 3; ++axis) {
     auto& arrays = registers_[axis].arrays;
-    std::copy_n(pieces.coordinates[axis], lanes, arrays[0]);
-    std::copy_n(pieces.rates[axis], lanes, arrays[1]);
-    std::copy_n(pieces.rates[axis], lanes, arrays[2]);
-    std::copy_n(pieces.bends[axis], lanes, arrays[3]);
-    std::copy_n(pieces.error, lanes, arrays[4]);
+    std::copy_n(pieces.coordinates[axis], count, arrays[0]);
+    std::copy_n(pieces.rates[axis], count, arrays[1]);
+    if (!program_.is_smooth()) std::copy_n(pieces.rates[axis], count, arrays[2]);
+    std::copy_n(pieces.bends[axis], count, arrays[3]);
+    std::copy_n(pieces.error, count, arrays[4]);
   }
   HWY_DYNAMIC_DISPATCH(run_ray_program)
   (program_, pieces.span, registers_[0].arrays[0], waves_[0].arrays[0], count);

@@ -97,6 +97,34 @@ void rays_along_surfaces_find_what_is_beyond(void**) {
   assert_true(std::abs(search.ray.at(search.t).y - 3.5 / two_pi) < 1e-9);
 }
 
+/// More rays than are searched at once, some of which have no length or are none.
+void rays_together_are_as_each_alone(void**) {
+  for (const char* text : {"sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)", "x^2+y^2+z^2-9"}) {
+    const Ref<Functional> solid = make(text, FunctionalKind::network, -0.6);
+    Random random(3);
+    for (const size_t count : {size_t{1}, size_t{31}, size_t{33}, size_t{300}}) {
+      std::vector<RaySearch> together(count);
+      for (RaySearch& s : together) {
+        const Vec3 way = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+        s.ray = {random.in_box({{-1, -1, -1}, {2, 2, 2}}), way * (1 / length(way))};
+        s.to = random.below(8) == 0 ? -1 : random.below(8) == 0 ? 0 : random.between(0, 3);
+      }
+      std::vector<RaySearch> alone = together;
+      solid->enter(together.data(), count, nullptr);
+      size_t found = 0;
+      for (size_t i = 0; i < count; ++i) {
+        const RaySearch &a = together[i], &b = alone[i];
+        solid->enter(&alone[i], 1, nullptr);
+        found += b.found;
+        if (a.found != b.found || (a.found && !(a.t == b.t && a.normal == b.normal)))
+          fail_msg("ray %zu of %zu: %d %.17g, alone %d %.17g", i, count, a.found, a.t, b.found,
+                   b.t);
+      }
+      assert_true(count < 300 || (found > count / 8 && found < count));
+    }
+  }
+}
+
 /// A search that would take hours: 10^8 bends to a cell, and nothing is inside.
 void searches_stop_with_their_job(void**) {
   const Ref<Functional> solid =
@@ -144,6 +172,7 @@ void steep_functions_end(void**) {
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(rays_along_surfaces_end),
                               cmocka_unit_test(rays_along_surfaces_find_what_is_beyond),
+                              cmocka_unit_test(rays_together_are_as_each_alone),
                               cmocka_unit_test(searches_stop_with_their_job),
                               cmocka_unit_test(steep_functions_end)};
   const int failed = cmocka_run_group_tests_name("functional_rays", tests, nullptr, nullptr);

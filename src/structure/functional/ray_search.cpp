@@ -59,9 +59,24 @@ FunctionalRays::FunctionalRays(const Functional& solid, const Job* job)
   std::fill(std::begin(pieces_.span), std::end(pieces_.span), 1);
 }
 
-void FunctionalRays::start(uint32_t number, const RaySearch& search) {
-  Live& live = live_.emplace_back();
+// Points of the ray, their positions in the grid and their angles are rounded, and so is two_pi.
+double FunctionalRays::position_error(const RaySearch& search) const {
+  const Vec3 p = search.ray.at(search.from), q = search.ray.at(search.to);
+  return 0x1p-49 * (max_magnitude(p) + max_magnitude(q) + max_magnitude(grid_.origin));
+}
+
+double FunctionalRays::angle_error(const RaySearch& search, double position_error) const {
+  const double error = two_pi * position_error / cell_ + 0x1p-47;
+  const CellAngles& angles = solid_.angles();
+  if (!angles.period()) return error;
+  const Vec3 p = search.ray.at(search.from), q = search.ray.at(search.to);
+  return error + 2 * two_pi * angles.error(p, length(q - p));
+}
+
+void FunctionalRays::start(uint32_t number, const RaySearch& search, Live& live) const {
   live.search = number;
+  live.blind_steps = live.near_steps = live.rounds = 0;
+  live.border = -1;
   live.t = live.before = live.looked_at = search.from;
   live.tolerance = solid_.ray_tolerance(search.ray, search.to);
   live.least = tolerance_;
@@ -69,20 +84,15 @@ void FunctionalRays::start(uint32_t number, const RaySearch& search) {
   const Vec3 along = live.along = grid_.rotation.apply_inverse(search.ray.direction);
   live.rates = {two_pi * (along.x * cells_.x), two_pi * (along.y * cells_.y),
                 two_pi * (along.z * cells_.z)};
-  // Points of the ray, their positions in the grid and their angles are rounded, and so is two_pi.
-  const Vec3 p = search.ray.at(search.from), q = search.ray.at(search.to);
-  const double off = 0x1p-49 * (max_magnitude(p) + max_magnitude(q) + max_magnitude(grid_.origin));
-  live.off = off;
-  live.error = two_pi * off / cell_ + 0x1p-47;
-  const CellAngles& angles = solid_.angles();
-  if (angles.period()) live.error += 2 * two_pi * angles.error(p, length(q - p));
+  live.off = position_error(search);
+  live.error = angle_error(search, live.off);
 }
 
-void FunctionalRays::locate(const RaySearch* searches, const Live* live, size_t count) {
+void FunctionalRays::locate(const RaySearch* searches, size_t count) {
   double x[lanes] = {}, y[lanes] = {}, z[lanes] = {};
   alignas(64) double angles[3][lanes + batch_padding];
   for (size_t i = 0; i < count; ++i) {
-    points_[i] = searches[live[i].search].ray.at(live[i].t);
+    points_[i] = searches[live_[i].search].ray.at(live_[i].t);
     x[i] = points_[i].x;
     y[i] = points_[i].y;
     z[i] = points_[i].z;
@@ -142,6 +152,7 @@ double FunctionalRays::step_unproven(Live& live, bool is_known, bool is_apart, b
   } else if (++live.blind_steps > short_blind_steps) {
     doublings = live.blind_steps - short_blind_steps;
   }
+  if (doublings == 0) return tolerance;
   return std::min(std::ldexp(tolerance, static_cast<int>(std::min<uint32_t>(doublings, 64))),
                   std::max(tolerance, max_blind_step * cell_));
 }
@@ -207,26 +218,35 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
   return live.t > live.before;  // otherwise steps vanish in rounding
 }
 
+// A lane whose ray ends takes the next one. So as long as there are more rays, all lanes are busy,
+// and the state of the rays stays in the fastest cache.
 void FunctionalRays::find(bool wanted, RaySearch* searches, size_t count) {
-  live_.clear();
-  for (size_t i = 0; i < count; ++i) {
-    searches[i].found = false;
-    searches[i].normal = {};
-    if (searches[i].from <= searches[i].to) start(static_cast<uint32_t>(i), searches[i]);
-  }
-  while (!live_.empty()) {
-    size_t kept = 0;
-    for (size_t first = 0; first < live_.size(); first += lanes) {
-      check_cancelled(job_);
-      const size_t size = std::min(lanes, live_.size() - first);
-      Live* const live = live_.data() + first;
-      locate(searches, live, size);
-      for (size_t i = 0; i < size; ++i) set_piece(searches[live[i].search], live[i], i);
-      const RayBatch::Bounds bounds = batch_.run(pieces_, size);
-      for (size_t i = 0; i < size; ++i)
-        if (advance(wanted, searches[live[i].search], live[i], i, bounds)) live_[kept++] = live[i];
+  size_t next = 0;
+  const auto take_next = [&](Live& live) {
+    for (; next < count; ++next) {
+      RaySearch& search = searches[next];
+      search.found = false;
+      search.normal = {};
+      if (!(search.from <= search.to)) continue;
+      start(static_cast<uint32_t>(next++), search, live);
+      return true;
     }
-    live_.resize(kept);
+    return false;
+  };
+  size_t size = 0;
+  while (size < lanes && take_next(live_[size])) ++size;
+  while (size > 0) {
+    check_cancelled(job_);
+    locate(searches, size);
+    for (size_t i = 0; i < size; ++i) set_piece(searches[live_[i].search], live_[i], i);
+    const RayBatch::Bounds bounds = batch_.run(pieces_, size);
+    bool continues[lanes];
+    for (size_t i = 0; i < size; ++i)
+      continues[i] = advance(wanted, searches[live_[i].search], live_[i], i, bounds);
+    for (size_t i = size; i-- > 0;) {
+      if (continues[i] || take_next(live_[i])) continue;
+      if (i < --size) live_[i] = live_[size];
+    }
   }
 }
 
@@ -276,21 +296,20 @@ void FunctionalRays::set_piece(const RaySearch& search, Live& live, size_t lane)
 }
 
 void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
-  live_.clear();
-  for (size_t i = 0; i < count; ++i) {
-    if (!searches[i].found || dot(searches[i].normal, searches[i].normal) > 0) continue;
-    start(static_cast<uint32_t>(i), searches[i]);
-    live_.back().t = searches[i].t;
-  }
-  for (size_t first = 0; first < live_.size(); first += lanes) {
-    const size_t size = std::min(lanes, live_.size() - first);
-    const Live* const live = live_.data() + first;
-    locate(searches, live, size);
-    Vec3 gradients[lanes];
-    for (size_t i = 0; i < size; ++i) {
-      pieces_.span[i] = tolerance_ / cell_;
-      pieces_.error[i] = live[i].error;
+  for (size_t next = 0; next < count;) {
+    size_t size = 0;
+    for (; next < count && size < lanes; ++next) {
+      const RaySearch& search = searches[next];
+      if (!search.found || dot(search.normal, search.normal) > 0) continue;
+      live_[size].search = static_cast<uint32_t>(next);
+      live_[size].t = search.t;
+      pieces_.span[size] = tolerance_ / cell_;
+      pieces_.error[size] = angle_error(search, position_error(search));
+      ++size;
     }
+    if (size == 0) return;
+    locate(searches, size);
+    Vec3 gradients[lanes];
     for (auto& bends : pieces_.bends) std::fill_n(bends, size, 0);
     for (int along = 0; along < 3; ++along) {
       for (int axis = 0; axis < 3; ++axis)
@@ -306,7 +325,7 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
       const Vec3 away =
           grid_.rotation.apply(in_grid) - level_.gradient(points_[i], 0x1p-16 * cell_);
       const double steepness = length(away);
-      searches[live[i].search].normal =
+      searches[live_[i].search].normal =
           steepness > 0 && steepness < infinity ? away * (1 / steepness) : Vec3{};
     }
   }

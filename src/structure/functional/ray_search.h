@@ -14,9 +14,6 @@
 // a cell, steps grow to that length in as many steps.
 #pragma once
 
-#include <vector>
-
-#include "base/borrowed.h"
 #include "expression/ray_bounds.h"
 #include "structure/functional/functional.h"
 
@@ -40,19 +37,20 @@ class FunctionalRays {
  private:
   static constexpr size_t lanes = RayBatch::lanes;
 
+  /// A ray in progress, in a lane.
   struct Live {
-    uint32_t search;
+    uint32_t search = 0;
     uint32_t blind_steps = 0;  // consecutive ones
     uint32_t near_steps = 0;   // consecutive ones within rounding of a surface
     uint32_t rounds = 0;
     int border = -1;  // axis of the cell's border that the last step crossed
-    double t, span;
-    double before;            // membership may have changed between that and t
-    double error, off;        // of angles; of positions
-    double tolerance;         // of the ray
-    double least, looked_at;  // the minimum step, and the ray's t when that was chosen
-    Vec3 along;               // the direction in the grid
-    Vec3 rates;               // of angles at t, per smallest cell size
+    double t = 0, span = 0;
+    double before = 0;                // membership may have changed between that and t
+    double error = 0, off = 0;        // of angles; of positions
+    double tolerance = 0;             // of the ray
+    double least = 0, looked_at = 0;  // the minimum step, and the ray's t when that was chosen
+    Vec3 along;                       // the direction in the grid
+    Vec3 rates;                       // of angles at t, per smallest cell size
   };
   /// The level over a piece: value + [low, high] s, + above or - below.
   struct Level {
@@ -60,7 +58,10 @@ class FunctionalRays {
     bool is_vague = false;  // known by ranges; shorter pieces may have narrower ones
   };
 
-  void start(uint32_t number, const RaySearch& search);
+  /// Bound on the error of the positions of points of a ray.
+  double position_error(const RaySearch& search) const;
+  double angle_error(const RaySearch& search, double position_error) const;
+  void start(uint32_t number, const RaySearch& search, Live& live) const;
   void count_round(Live& live) const;
   double step_unproven(Live& live, bool is_known, bool is_apart, bool is_vague,
                        double tolerance) const;
@@ -69,7 +70,8 @@ class FunctionalRays {
                const RayBatch::Bounds& bounds);
   void set_piece(const RaySearch& search, Live& live, size_t lane);
   void grade(const RaySearch& search, Live& live, size_t lane);
-  void locate(const RaySearch* searches, const Live* live, size_t count);
+  /// Sets points_, levels_ and the coordinates of pieces_ for the lanes below `count`.
+  void locate(const RaySearch* searches, size_t count);
   Level level_over(const Ray& ray, double t, double span, double value) const;
 
   const Functional& solid_;
@@ -81,10 +83,8 @@ class FunctionalRays {
   const Vec3 cells_;   // that over the size along each axis
   RayBatch batch_;
   RayBatch::Pieces pieces_;
-  // Of a batch; kept, because the system would clear as much memory for each.
-  const Borrowed<std::vector<Live>> borrowed_;
-  std::vector<Live>& live_ = *borrowed_;
   // By lane:
+  Live live_[lanes];
   Vec3 points_[lanes];
   double border_[lanes];    // distance to the next border across which the function is not periodic
   int border_axis_[lanes];  // its axis
