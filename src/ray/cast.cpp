@@ -13,10 +13,11 @@ namespace msq {
 
 namespace {
 
-struct Begin {
-  double from, to;  // of the search
-  Vec3 end;         // the ray's point at `to`
-  double offset;    // of the origin along the ray
+/// Where a ray is, from an origin near the shape on.
+struct Progress {
+  Vec3 origin;
+  double offset;  // of that, along the ray
+  double from;    // nothing is before, or the last entry
 };
 
 /// Memory of a batch, kept for the thread's next one.
@@ -25,14 +26,14 @@ struct CastMemory {
   std::vector<double> ends;      // ray by ray
   std::vector<PartSteps> steps;  // likewise; new where has_steps is 0
   std::vector<uint8_t> has_steps;
-  std::vector<Begin> begins;
+  std::vector<Progress> progress;
   std::vector<std::vector<uint32_t>> waiting;  // by level
   std::vector<uint32_t> rays, without_normal;
 
   void make_room(size_t count, size_t levels) {
     if (batch.size() < count) {
       batch.resize(count);
-      begins.resize(count);
+      progress.resize(count);
     }
     if (ends.size() < count * levels) {
       ends.resize(count * levels);
@@ -48,9 +49,9 @@ struct CastMemory {
 /// A batch of rays in progress. Within a scale, `end` is where a ray may leave it.
 class Caster {
  public:
-  /// Will set hits[i] to the hit of searches[i]; overwrites the searches.
+  /// Will set hits[i] to the hit of searches[i].
   Caster(const Model& model, const Scales& resolved, HitDetail detail, const Job* job,
-         CastMemory& memory, RaySearch* searches, RayHit* hits)
+         CastMemory& memory, const RaySearch* searches, RayHit* hits)
       : model_(model),
         resolved_(resolved),
         detail_(detail),
@@ -65,14 +66,20 @@ class Caster {
         ends_(memory.ends.data()),
         steps_(memory.steps.data()),
         has_steps_(memory.has_steps.data()),
-        begins_(memory.begins.data()),
+        progress_(memory.progress.data()),
         batch_(memory.batch.data()),
         waiting_(memory.waiting),
         rays_(memory.rays),
         without_normal_(memory.without_normal) {}
 
   void run(size_t count) {
-    for (uint32_t i = 0; i < count; ++i) start(i);
+    if (model_.shape().gains_by_rays()) {
+      for (uint32_t i = 0; i < count; ++i)
+        if (Vec3 origin; start(i, origin)) waiting_[0].push_back(i);
+    } else {
+      for (uint32_t i = 0; i < count; ++i)
+        if (Vec3 origin; start(i, origin)) enter_shape(i, {origin, searches_[i].ray.direction});
+    }
     while (true) {
       // The coarsest level first: rays then reach finer ones in large batches.
       size_t level = 0;
@@ -96,41 +103,52 @@ class Caster {
   }
 
   /// Rays begin where they come near the shape, so that none of their numbers is larger than the
-  /// shape's.
-  void start(uint32_t i) {
-    RaySearch& s = searches_[i];
+  /// shape's. Returns whether the ray comes near it, and the new origin, which would be waited for
+  /// if it were read as soon as it is written.
+  bool start(uint32_t i, Vec3& origin) {
+    const RaySearch& s = searches_[i];
     static constexpr RayHit nothing{};  // static: a new one would stall on its stores
     hits_[i] = nothing;
-    if (!(s.from <= s.to)) return;
+    if (!(s.from <= s.to)) return false;
     const double beyond = beyond_end(s);
     double low = s.from, high = s.to + beyond;
-    if (!clip_to_box(s.ray, bounds_, low, high)) return;
-    begins_[i] = {s.from, s.to, s.ray.at(s.to), low};
+    if (!clip_to_box(s.ray, bounds_, low, high)) return false;
+    Progress& progress = progress_[i];
     const Vec3 place = s.ray.at(low);
     if (near_.contains(place)) {  // as move_to_box(), without a call
-      s.ray.origin = place;
+      progress.origin = origin = place;
+      progress.offset = low;
       end(i, 0) = high - low;
-    } else if (!move_to_box(bounds_, near_, low, high, beyond, s, begins_[i].offset, end(i, 0))) {
-      return;
+    } else {
+      RaySearch moved = s;
+      if (!move_to_box(bounds_, near_, low, high, beyond, moved, progress.offset, end(i, 0)))
+        return false;
+      progress.origin = origin = moved.ray.origin;
     }
-    s.from = 0;
+    progress.from = 0;
     hits_[i].scale = 0;
-    waiting_[0].push_back(i);
+    return true;
   }
 
   double& end(size_t ray, size_t level) { return ends_[ray * levels_ + level]; }
 
+  Ray ray(uint32_t i) const { return {progress_[i].origin, searches_[i].ray.direction}; }
+
   void enter_shape() {
+    if (model_.shape().gains_by_rays()) return enter_shape_together();
+    for (const uint32_t i : rays_) enter_shape(i, ray(i));
+  }
+
+  void enter_shape(uint32_t i, const Ray& along) {
     const Shape& shape = model_.shape();
-    if (shape.gains_by_rays()) return enter_shape_together();
-    for (const uint32_t i : rays_) {
-      const RaySearch& s = searches_[i];
-      double t;
-      if (shape.enter(s.ray, s.from, end(i, 0), t, job_))
-        entered(i, 0, t, {});
-      else
-        leave(i, 0);
-    }
+    const double from = progress_[i].from, to = end(i, 0);
+    double t, out = 0;
+    const bool is_met = levels_ == 1 ? shape.enter(along, from, to, t, job_)
+                                     : shape.cross(along, from, to, t, out, job_);
+    if (!is_met)
+      leave(i, 0);
+    else if (come_in(i, 0, t, {}) && levels_ > 1)
+      go_deeper(i, 0, out);
   }
 
   void enter_shape_together() {
@@ -154,9 +172,8 @@ class Caster {
 
   void fill_batch(size_t level) {
     for (size_t n = 0; n < rays_.size(); ++n) {
-      const RaySearch& s = searches_[rays_[n]];
-      batch_[n].ray = s.ray;
-      batch_[n].from = s.from;
+      batch_[n].ray = ray(rays_[n]);
+      batch_[n].from = progress_[rays_[n]].from;
       batch_[n].to = end(rays_[n], level);
       batch_[n].normal = {};
     }
@@ -166,16 +183,13 @@ class Caster {
     fill_batch(level);
     resolved_[level - 1]->enter(batch_, rays_.size(), job_);
     for (size_t n = 0; n < rays_.size(); ++n) {
-      if (batch_[n].found)
-        entered(rays_[n], level, batch_[n].t, batch_[n].normal);
-      else
-        leave(rays_[n], level);
+      const uint32_t i = rays_[n];
+      if (!batch_[n].found)
+        leave(i, level);
+      else if (const double t = batch_[n].t;
+               come_in(i, level, t, batch_[n].normal) && level + 1 < levels_)
+        go_deeper(i, level, resolved_[level - 1]->leave(ray(i), t, end(i, level), job_));
     }
-  }
-
-  void entered(uint32_t i, size_t level, double t, Vec3 normal) {
-    if (come_in(i, level, t, normal) && level + 1 < levels_)
-      go_deeper(i, level, leave_of(level, searches_[i].ray, t, end(i, level)));
   }
 
   /// Returns whether the ray enters; that is a hit if this is the finest level.
@@ -185,12 +199,13 @@ class Caster {
       leave(i, level);
       return false;
     }
-    if (t > searches_[i].from) {
-      searches_[i].from = t;
+    const double last = progress_[i].from;
+    if (t > last) {
+      progress_[i].from = t;
       hits_[i].scale = static_cast<int32_t>(level);
       hits_[i].normal = normal;
     }
-    if (level + 1 == levels_) hit(i);
+    if (level + 1 == levels_) hit(i, t > last ? t : last);
     return true;
   }
 
@@ -200,14 +215,9 @@ class Caster {
     waiting_[level + 1].push_back(i);
   }
 
-  double leave_of(size_t level, const Ray& ray, double from, double to) const {
-    return level == 0 ? model_.shape().leave(ray, from, to, job_)
-                      : resolved_[level - 1]->leave(ray, from, to, job_);
-  }
-
   double tolerance_of(uint32_t i, size_t level) {
     return level == 0 ? model_.shape().ray_tolerance()
-                      : resolved_[level - 1]->structure->ray_tolerance(searches_[i].ray, end(i, 0));
+                      : resolved_[level - 1]->structure->ray_tolerance(ray(i), end(i, 0));
   }
 
   /// 64 parts within so much of a ray are noise: 2^-18 of the shape, and no more than a quarter of
@@ -235,52 +245,52 @@ class Caster {
       return;
     }
     // Past the end by the tolerance, so that the level above is left even where rounding has not.
-    const double end_above = std::max(end(i, level), searches_[i].from);
+    double& from = progress_[i].from;
+    const double end_above = std::max(end(i, level), from);
     const double tolerance = tolerance_of(i, level - 1);
-    searches_[i].from =
+    from =
         end_above + steps_of(i, level).behind(end_above, tolerance, slow_of(level - 1, tolerance));
     hits_[i].scale = static_cast<int32_t>(level);  // that comes in next, if none above it does
     hits_[i].normal = {};
-    if (searches_[i].from > end(i, level - 1)) {
+    if (from > end(i, level - 1)) {
       leave(i, level - 1);
       return;
     }
     waiting_[level - 1].push_back(i);
   }
 
-  void hit(uint32_t i) {
+  /// The ray, at t, is in the finest level.
+  void hit(uint32_t i, double t) {
     RayHit& hit = hits_[i];
-    const Begin& begin = begins_[i];
-    const Ray& ray = searches_[i].ray;
-    const double t = searches_[i].from;
-    hit.t = begin.offset + t;
-    if (hit.t > begin.to) {
+    const RaySearch& search = searches_[i];
+    hit.t = progress_[i].offset + t;
+    if (hit.t > search.to) {
       // Found past the end, at which the ray may be inside already.
-      if (detail_ == HitDetail::all && !model_.inside(begin.end, resolved_)) {
+      if (detail_ == HitDetail::all && !model_.inside(search.ray.at(search.to), resolved_)) {
         hit = {};
         return;
       }
-      hit.t = begin.to;
+      hit.t = search.to;
     }
-    hit.point = ray.at(t);
-    hit.starts_inside = hit.t == begin.from;
+    hit.point = progress_[i].origin + search.ray.direction * t;
+    hit.starts_inside = hit.t == search.from;
     if (detail_ == HitDetail::place) return;
     if (hit.starts_inside)
-      hit.normal = ray.direction * -1.0;
+      hit.normal = search.ray.direction * -1.0;
     else if (hit.scale == 0 && model_.shape().gains_by_rays())
       without_normal_.push_back(i);
     else if (dot(hit.normal, hit.normal) == 0)
-      hit.normal = hit.scale == 0 ? model_.shape().normal(ray, t)
-                                  : resolved_[static_cast<size_t>(hit.scale) - 1]->normal(ray, t);
+      hit.normal = hit.scale == 0
+                       ? model_.shape().normal(ray(i), t)
+                       : resolved_[static_cast<size_t>(hit.scale) - 1]->normal(ray(i), t);
     if (hit.starts_inside) hit.scale = static_cast<int32_t>(levels_) - 1;
   }
 
   /// Computes the shape's normals at all hits on it.
   void find_normals() {
     for (size_t n = 0; n < without_normal_.size(); ++n) {
-      const RaySearch& s = searches_[without_normal_[n]];
-      batch_[n].ray = s.ray;
-      batch_[n].t = s.from;
+      batch_[n].ray = ray(without_normal_[n]);
+      batch_[n].t = progress_[without_normal_[n]].from;
     }
     model_.shape().find_normals(batch_, without_normal_.size());
     for (size_t n = 0; n < without_normal_.size(); ++n)
@@ -295,12 +305,12 @@ class Caster {
   const Box3 bounds_, near_;
   const bool is_bounded_;
   const double beyond_;
-  RaySearch* const searches_;
+  const RaySearch* const searches_;
   RayHit* const hits_;
   double* const ends_;
   PartSteps* const steps_;
   uint8_t* const has_steps_;
-  Begin* const begins_;
+  Progress* const progress_;
   RaySearch* const batch_;
   std::vector<std::vector<uint32_t>>& waiting_;
   std::vector<uint32_t>& rays_;

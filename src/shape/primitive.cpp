@@ -33,16 +33,24 @@ bool clip_to_quadratic(double a, double b, double c, double& from, double& to) {
 }
 }  // namespace
 
-bool Primitive::enter(const Ray& ray, double from, double to, double& t, const Job*) const {
+bool Primitive::enter(const Ray& ray, double from, double to, double& t, const Job* job) const {
+  double end;
+  return cross(ray, from, to, t, end, job);
+}
+
+bool Primitive::cross(const Ray& ray, double from, double to, double& t, double& end,
+                      const Job*) const {
   const auto is_in = [this](Vec3 p) { return inside(p); };
   double low = from, high = to;
   if (!section(ray, 0, low, high)) return false;
   t = low;
-  if (settle_entry(ray, from, ray_tolerance(), is_in, t)) return true;
-  // A graze: rounding moves the ends of a section much more than its middle.
-  const double middle = 0.5 * (low + high);
-  if (!(middle > low) || !is_in(ray.at(middle))) return false;
-  t = bisect(low, middle, ray_tolerance(), [&](double at) { return is_in(ray.at(at)); });
+  if (!settle_entry(ray, from, ray_tolerance(), is_in, t)) {
+    // A graze: rounding moves the ends of a section much more than its middle.
+    const double middle = 0.5 * (low + high);
+    if (!(middle > low) || !is_in(ray.at(middle))) return false;
+    t = bisect(low, middle, ray_tolerance(), [&](double at) { return is_in(ray.at(at)); });
+  }
+  end = std::max(t, low) <= high ? high : t;  // as leave() from t on
   return true;
 }
 
@@ -203,7 +211,7 @@ bool CylinderShape::inside(Vec3 p) const {
   const Vec3 w = p - from_;
   const double t = dot(w, axis_);
   if (t < 0 || t > axis_squared_) return false;
-  const Vec3 across = cross(w, axis_);
+  const Vec3 across = msq::cross(w, axis_);
   return dot(across, across) <= radius_squared_ * axis_squared_;
 }
 
@@ -247,7 +255,7 @@ Vec3 CylinderShape::normal(const Ray& ray, double t) const {
 double CylinderShape::distance_bound(Vec3 p) const {
   const Vec3 w = p - from_;
   const double along = dot(w, unit_axis_);
-  const double across = length(cross(w, unit_axis_));
+  const double across = length(msq::cross(w, unit_axis_));
   const double distance = corner_distance(across - radius_, std::max(-along, along - height_));
   // Each of w, the axis and the products loses a few units of 2^-53 of its terms, here and in
   // inside().

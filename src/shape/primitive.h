@@ -19,12 +19,15 @@ class Primitive : public Shape {
   }
   bool enter(const Ray& ray, double from, double to, double& t, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
+  bool cross(const Ray& ray, double from, double to, double& t, double& end,
+             const Job* job) const override;
   /// Uses the sections of rows.
   void fill_rows(const RowBlock& block) const override;
 
  protected:
   /// Narrows [from, to] to the section of the shape with its surface moved outwards by `grow`,
-  /// except for rounding. Returns false if there is none.
+  /// except for rounding. Returns false if there is none. The ends of the section do not depend on
+  /// `from` and `to`.
   virtual bool section(const Ray& ray, double grow, double& from, double& to) const = 0;
 };
 

@@ -38,6 +38,13 @@ double Shape::leave(const Ray& ray, double from, double to, const Job* job) cons
   return march(false, ray, from, to, t, job) ? t : to;
 }
 
+bool Shape::cross(const Ray& ray, double from, double to, double& t, double& end,
+                  const Job* job) const {
+  if (!enter(ray, from, to, t, job)) return false;
+  end = t > to ? t : leave(ray, t, to, job);
+  return true;
+}
+
 void Shape::enter_all(RaySearch* searches, size_t count, const Job* job) const {
   for (size_t i = 0; i < count; ++i) {
     RaySearch& s = searches[i];

@@ -85,6 +85,9 @@ class Shape : public Described {
   /// A t up to which a ray that is inside at `from` stays inside: as far as is known at once, at
   /// most `to`. Default: marches by the distance.
   virtual double leave(const Ray& ray, double from, double to, const Job* job) const;
+  /// enter(), and then `end`, what leave() returns from t on; t where that is past `to`.
+  virtual bool cross(const Ray& ray, double from, double to, double& t, double& end,
+                     const Job* job) const;
   /// Whether rays are best asked about together, by the functions that take several.
   virtual bool gains_by_rays() const { return false; }
   /// As enter() for each search: found and t, where it was.

@@ -21,7 +21,15 @@ void check_together(const char* name, const Shape& shape, const std::vector<RayS
     const bool is_found = shape.enter(s.ray, s.from, s.to, t, nullptr);
     if (together[i].found != is_found || (is_found && together[i].t != t))
       fail_msg("%s: ray %zu enters at %.17g, with others at %.17g", name, i, t, together[i].t);
-    if (is_found) found.push_back({s.ray, t, s.to, true, t});
+    double first = 0, end = 0;
+    if (shape.cross(s.ray, s.from, s.to, first, end, nullptr) != is_found)
+      fail_msg("%s: ray %zu enters, or crosses, but not both", name, i);
+    if (!is_found) continue;
+    found.push_back({s.ray, t, s.to, true, t});
+    const double left = t > s.to ? t : shape.leave(s.ray, t, s.to, nullptr);
+    if (first != t || end != left)
+      fail_msg("%s: ray %zu crosses from %.17g to %.17g, but enters at %.17g and leaves at %.17g",
+               name, i, first, end, t, left);
   }
   std::vector<RaySearch> left = found;
   shape.find_normals(found.data(), found.size());
