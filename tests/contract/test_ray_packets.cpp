@@ -46,7 +46,7 @@ std::vector<RaySearch> tile(const Row& row, Random& random) {
   if (random.below(2) == 0) way[static_cast<int>(random.below(3))] = 0;
   const Vec3 across{random.normal(), random.normal(), random.normal()};
   const double spread = random.below(2) == 0 ? 0.02 : 1e-4;
-  std::vector<RaySearch> searches(16);
+  std::vector<RaySearch> searches(random.below(4) == 0 ? 50 : 16);
   for (RaySearch& s : searches) {
     const auto n = static_cast<double>(&s - searches.data());
     s.ray = {start + across * (spread * n), way * (1 / length(way))};

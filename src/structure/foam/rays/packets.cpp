@@ -33,8 +33,8 @@ namespace {
 /// Memory that a thread keeps from batch to batch; the struts are forgotten in between.
 template <class Struts>
 struct Memory {
-  std::vector<FoamRay> rays;
   Struts struts;
+  KnownLines lines;
 };
 
 template <class Struts>
@@ -47,28 +47,15 @@ class Walker {
         searches_(searches),
         job_(job),
         memory_(memory),
-        struts_(foam, memory.struts),
+        struts_(foam, memory.struts, memory.lines),
         lone_(foam, struts_, job) {
     memory_.struts.move_to(foam);
   }
   ~Walker() { memory_.struts.forget(); }
 
   void run(size_t count) {
-    std::vector<FoamRay>& rays = memory_.rays;
-    rays.clear();
-    for (size_t i = 0; i < count; ++i) {
-      searches_[i].found = false;
-      rays.push_back(struts_.ray(searches_[i]));
-      FoamRay& ray = rays.back();
-      // Larger rounding errors may hide the strut in which the ray begins.
-      if (ray.error <= max_sure_error || !(ray.from <= ray.to)) continue;
-      if (!foam_.inside(searches_[i].ray.at(searches_[i].from))) continue;
-      StrutEntry begin;
-      begin.is_met = begin.at_from = true;
-      struts_.take(begin, searches_[i]);
-      ray.to = -std::numeric_limits<double>::infinity();
-    }
     for (size_t i = 0; i < count;) {
+      for (; set_up_ < std::min(count, i + most); ++set_up_) set_up(set_up_);
       const size_t end = packet_end(i, count);
       start(i, end);
       i = end;
@@ -91,16 +78,34 @@ class Walker {
   /// Maximum number of cells across a slab for a packet; a wider packet continues ray by ray.
   static constexpr int max_across = 4;
 
+  /// Sets up ray i, in place of ray i - most.
+  void set_up(size_t i) {
+    RaySearch& search = searches_[i];
+    search.found = false;
+    FoamRay& ray = rays_[i % most];
+    struts_.set_ray(search, ray);
+    // Larger rounding errors may hide the strut in which the ray begins.
+    if (ray.error <= max_sure_error || !(ray.from <= ray.to)) return;
+    if (!foam_.inside(search.ray.at(search.from))) return;
+    StrutEntry begin;
+    begin.is_met = begin.at_from = true;
+    struts_.take(begin, search);
+    ray.to = -std::numeric_limits<double>::infinity();
+  }
+  const FoamRay& ray(size_t i) const { return rays_[i % most]; }
+  /// Ray n of the packet.
+  const FoamRay& ray_of(size_t n) const { return ray(ray_[n]); }
+
   /// The end of the packet that begins at ray i.
   size_t packet_end(size_t i, size_t count) const {
-    const FoamRay& first = memory_.rays[i];
+    const FoamRay& first = ray(i);
     const Vec3 from = first.at(first.from);
     size_t end = i + 1;
     for (; end < count && end < i + most; ++end) {
-      const FoamRay& ray = memory_.rays[end];
-      const Vec3 turned = ray.direction - first.direction;
+      const FoamRay& other = ray(end);
+      const Vec3 turned = other.direction - first.direction;
       if (dot(turned, turned) > max_turned * max_turned) break;
-      const Vec3 apart = ray.at(ray.from) - from;
+      const Vec3 apart = other.at(other.from) - from;
       const Vec3 across = apart - first.direction * dot(apart, first.direction);
       if (dot(across, across) > max_apart * max_apart) break;
     }
@@ -112,10 +117,10 @@ class Walker {
     uint32_t rays[most];
     size_t count = 0;
     for (size_t i = begin; i < end; ++i)
-      if (memory_.rays[i].from <= memory_.rays[i].to) rays[count++] = static_cast<uint32_t>(i);
+      if (ray(i).from <= ray(i).to) rays[count++] = static_cast<uint32_t>(i);
     if (count >= min_packet && take_packet(rays, count)) return walk(first_slab());
     for (size_t n = 0; n < count; ++n)
-      lone_.walk(memory_.rays[rays[n]], memory_.rays[rays[n]].from, searches_[rays[n]]);
+      lone_.walk(ray(rays[n]), ray(rays[n]).from, searches_[rays[n]]);
   }
 
   /// Returns false if the rays cross too different cells along the packet's axis.
@@ -126,11 +131,11 @@ class Walker {
     packet_.is_parallel = true;
     for (size_t n = 0; n < count; ++n) {
       ray_[n] = rays[n];
-      const FoamRay& ray = memory_.rays[rays[n]];
-      sum = sum + ray.direction;
-      room_ = std::max(room_, struts_.room(ray));
+      const FoamRay& own = ray(rays[n]);
+      sum = sum + own.direction;
+      room_ = std::max(room_, struts_.room(own));
       for (int axis = 0; axis < 3; ++axis) {
-        packet_.direction[axis][n] = static_cast<float>(ray.direction[axis]);
+        packet_.direction[axis][n] = static_cast<float>(own.direction[axis]);
         packet_.is_parallel &= packet_.direction[axis][n] == packet_.direction[axis][0];
       }
     }
@@ -142,7 +147,7 @@ class Walker {
     up_ = sum[axis_] > 0;
     const double least = 0.5 * std::abs(sum[axis_]) / static_cast<double>(count);
     for (size_t n = 0; n < count; ++n) {
-      const double d = memory_.rays[rays[n]].direction[axis_];
+      const double d = ray(rays[n]).direction[axis_];
       if (!((up_ ? d : -d) >= least)) return false;
       inverse_[n] = 1 / d;
     }
@@ -156,8 +161,8 @@ class Walker {
   int32_t first_slab() const {
     double first = 0;
     for (size_t n = 0; n < count_; ++n) {
-      const FoamRay& ray = memory_.rays[ray_[n]];
-      const double place = ray.origin[axis_] + ray.direction[axis_] * ray.from;
+      const FoamRay& own = ray_of(n);
+      const double place = own.origin[axis_] + own.direction[axis_] * own.from;
       const double at = std::floor(place / scale_[axis_]);
       first = n == 0 ? at : up_ ? std::min(first, at) : std::max(first, at);
     }
@@ -179,9 +184,9 @@ class Walker {
     const double plane = (slab + !up_) * scale_[axis_];
     for (uint32_t rest = live_; rest; rest &= rest - 1) {
       const auto n = static_cast<size_t>(std::countr_zero(rest));
-      const FoamRay& ray = memory_.rays[ray_[n]];
-      const double crossing = (plane - ray.origin[axis_]) * inverse_[n];
-      lone_.walk(ray, std::max(ray.from, crossing), searches_[ray_[n]]);
+      const FoamRay& own = ray_of(n);
+      const double crossing = (plane - own.origin[axis_]) * inverse_[n];
+      lone_.walk(own, std::max(own.from, crossing), searches_[ray_[n]]);
     }
   }
 
@@ -190,29 +195,27 @@ class Walker {
   void set_base(int32_t slab) {
     const int k = axis_, lateral[2] = {(k + 1) % 3, (k + 2) % 3};
     const double plane = (slab + !up_) * scale_[k];
-    const auto crossing = [&](size_t n) {
-      return (plane - memory_.rays[ray_[n]].origin[k]) * inverse_[n];
-    };
+    const auto crossing = [&](size_t n) { return (plane - ray_of(n).origin[k]) * inverse_[n]; };
     base_slab_ = slab;
     has_base_ = true;
     const auto first = static_cast<size_t>(std::countr_zero(live_));
-    const FoamRay& live = memory_.rays[ray_[first]];
+    const FoamRay& live = ray_of(first);
     const Vec3 place = live.at(std::max(live.from, crossing(first)));
     for (int side = 0; side < 2; ++side)
       base_[side] = static_cast<int32_t>(std::floor(place[lateral[side]] / scale_[lateral[side]]));
     for (size_t n = 0; n < count_; ++n) {
-      const FoamRay& ray = memory_.rays[ray_[n]];
+      const FoamRay& own = ray_of(n);
       const double t = crossing(n), step = scale_[k] * std::abs(inverse_[n]);
       enter_[n] = t;
       step_[n] = step;
       path_.step[n] = static_cast<float>(step);
-      path_.from[n] = static_cast<float>(ray.from - t);
-      path_.to[n] = static_cast<float>(ray.to - t);
+      path_.from[n] = static_cast<float>(own.from - t);
+      path_.to[n] = static_cast<float>(own.to - t);
       for (int side = 0; side < 2; ++side) {
         const int axis = lateral[side];
-        const double at = ray.origin[axis] + ray.direction[axis] * t - base_[side] * scale_[axis];
+        const double at = own.origin[axis] + own.direction[axis] * t - base_[side] * scale_[axis];
         path_.place[side][n] = static_cast<float>(at);
-        path_.slope[side][n] = static_cast<float>(ray.direction[axis] * step);
+        path_.slope[side][n] = static_cast<float>(own.direction[axis] * step);
       }
     }
     for (size_t n = count_; n < most; ++n) {
@@ -343,7 +346,7 @@ class Walker {
 
   /// The lists of this slab contain all struts that ray n may meet up to this t.
   double limit(size_t n) const {
-    return std::min(memory_.rays[ray_[n]].to, enter(n) + step_[n] + 0.5 * ray_list_margin);
+    return std::min(ray_of(n).to, enter(n) + step_[n] + 0.5 * ray_list_margin);
   }
 
   /// The list of a cell, for one slab.
@@ -373,7 +376,7 @@ class Walker {
   /// may meet up to `last`.
   bool settle(size_t n, double last) {
     const double second = enter_[n] + double(hits_.second[n]);
-    const StrutEntry found = struts_.entry(memory_.rays[ray_[n]], hits_.id[n]);
+    const StrutEntry found = struts_.entry(ray_of(n), hits_.id[n]);
     if (found.is_met && (found.at_from || (found.t <= second && found.t <= last))) {
       struts_.take(found, searches_[ray_[n]]);
       return true;
@@ -384,7 +387,7 @@ class Walker {
 
   /// The same from all struts that the ray may meet in the slab's cells so far.
   bool settle_all(size_t n, double last) {
-    const FoamRay& ray = memory_.rays[ray_[n]];
+    const FoamRay& own = ray_of(n);
     const float from = packet_.from[n];
     CapsuleRay alone;
     alone.to =
@@ -396,7 +399,7 @@ class Walker {
         alone.origin[axis] =
             packet_.origin[axis][n] + alone.direction[axis] * from - slot.corner[axis];
       }
-      struts_.ask(ray, slot.list, slot.radius, alone, first_);
+      struts_.ask(own, slot.list, slot.radius, alone, first_);
     }
     if (!first_.entry.is_met || first_.entry.t > last) return false;
     struts_.take(first_.entry, searches_[ray_[n]]);
@@ -414,6 +417,8 @@ class Walker {
   RayStruts<Struts> struts_;
   SingleRay<Struts> lone_;
 
+  FoamRay rays_[most];  // those from the current packet on
+  size_t set_up_ = 0;   // their end
   // The current packet.
   int axis_ = 0;
   bool up_ = true;

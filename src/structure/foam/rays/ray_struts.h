@@ -30,11 +30,34 @@ struct FirstEntry {
   }
 };
 
+/// The lines of struts found last among those whose ids have the same last bits. Neighbouring rays
+/// meet few different struts.
+class KnownLines {
+ public:
+  /// The line of a strut; find(), unless it is known since the lists were forgotten last.
+  template <class Find>
+  const StrutLine& line(uint32_t id, uint64_t era, Find&& find) {
+    Known& known = known_[id % std::size(known_)];
+    if (known.id != id || known.era != era) known = {id, era, find()};
+    return known.line;
+  }
+
+ private:
+  struct Known {
+    uint32_t id = UINT32_MAX;
+    uint64_t era = 0;
+    StrutLine line;
+  };
+  Known known_[256];
+};
+
 /// `Struts`: lists of struts for cells: CellLists, or a class with its interface.
 template <class Struts>
 class RayStruts {
  public:
-  RayStruts(const FoamData& foam, Struts& lists) : foam_(foam), entries_(foam), lists_(lists) {}
+  /// Lines that are known are those of these lists.
+  RayStruts(const FoamData& foam, Struts& lists, KnownLines& lines)
+      : foam_(foam), entries_(foam), lists_(lists), lines_(lines) {}
 
   Struts& lists() { return lists_; }
   /// Forgets all lists; call it when they are full.
@@ -42,7 +65,8 @@ class RayStruts {
     lists_.forget();
     radii_.clear();
   }
-  FoamRay ray(const RaySearch& search) const { return entries_.ray(search); }
+  /// As StrutEntries::set_ray().
+  void set_ray(const RaySearch& search, FoamRay& ray) const { entries_.set_ray(search, ray); }
 
   /// How much thicker the sieve must make struts, foam units. No entry is farther from its strut
   /// than this beyond the radius, or before the ray comes that near.
@@ -58,11 +82,8 @@ class RayStruts {
 
   /// The entry into a strut of a list.
   StrutEntry entry(const FoamRay& ray, uint32_t id) {
-    // Neighbouring rays meet few different struts.
-    Known& known = known_[id % std::size(known_)];
-    if (known.id != id || known.era != lists_.era())
-      known = {id, lists_.era(), lists_.line(entries_, id)};
-    return entries_.find(ray, known.line);
+    return entries_.find(ray,
+                         lines_.line(id, lists_.era(), [&] { return lists_.line(entries_, id); }));
   }
 
   /// Tests the struts that a ray may meet by a list of a cell, each strut once. Updates the first
@@ -93,13 +114,8 @@ class RayStruts {
   const FoamData& foam_;
   const StrutEntries entries_;
   Struts& lists_;
+  KnownLines& lines_;
   std::unordered_map<CellIndex, float, CellHash> radii_;  // if they vary
-  struct Known {
-    uint32_t id = UINT32_MAX;
-    uint64_t era = 0;
-    StrutLine line;
-  };
-  Known known_[256];
   std::vector<uint32_t> ids_;
 };
 

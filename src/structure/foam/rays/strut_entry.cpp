@@ -40,6 +40,12 @@ int64_t simplest_between(int64_t low, int64_t high) {
   return static_cast<int64_t>(static_cast<uint64_t>(last) & ~(next - 1));
 }
 
+/// Distance of a point of the ray beyond an end of a strut, along the strut's line.
+inline double beyond_ends(const FoamRay& ray, const StrutLine& strut, double t) {
+  const double s = dot(ray.at(t) - strut.corner - strut.a, strut.along);
+  return std::max(std::min(0.0, strut.length) - s, s - std::max(0.0, strut.length));
+}
+
 }  // namespace
 
 double capsule_entry(Vec3 a, Vec3 ab, Vec3 u, double radius) {
@@ -96,11 +102,6 @@ StrutEntry StrutEntries::settle(const FoamRay& ray, double before, double beyond
   // Rounding may put the point behind `beyond` outside.
   if (high == last && !inside(ray, entry.t)) entry.t = beyond;
   return entry;
-}
-
-double StrutEntries::beyond_ends(const FoamRay& ray, const StrutLine& strut, double t) const {
-  const double s = dot(ray.at(t) - strut.corner - strut.a, strut.along);
-  return std::max(std::min(0.0, strut.length) - s, s - std::max(0.0, strut.length));
 }
 
 /// By membership. `middle` is where the ray is deepest in the strut, unless an end comes before.
@@ -166,22 +167,23 @@ StrutEntry StrutEntries::find_by_ends(const FoamRay& ray, const StrutLine& strut
   return entry;
 }
 
-FoamRay StrutEntries::ray(const RaySearch& search) const {
+void StrutEntries::set_ray(const RaySearch& search, FoamRay& ray) const {
   const Neighbourhood& grid = foam_.neighbourhood();
-  FoamRay ray{grid.to_grid(search.ray.origin) * to_foam_,
-              grid.rotation.apply_inverse(search.ray.direction),
-              search.from * to_foam_,
-              search.to * to_foam_,
-              0,
-              0,
-              &search};
+  const Vec3 origin = grid.to_grid(search.ray.origin) * to_foam_;
+  const Vec3 direction = grid.rotation.apply_inverse(search.ray.direction);
+  const double to = search.to * to_foam_;
   // The error of points' coordinates is a few units of 2^-53 of their magnitude: here, and in
   // membership, which computes them in the model's frame first.
-  const double max = std::max(max_coordinate({ray.origin, ray.direction}, ray.to),
-                              to_foam_ * max_coordinate(search.ray, search.to));
+  const double max =
+      std::max(std::max(max_magnitude(origin), max_magnitude(origin + direction * to)),
+               to_foam_ * max_coordinate(search.ray, search.to));
+  ray.origin = origin;
+  ray.direction = direction;
+  ray.from = search.from * to_foam_;
+  ray.to = to;
   ray.error = 0x1p-51 * (8 + max);
   ray.tolerance = std::max(tolerance_, coordinate_rounding(max));
-  return ray;
+  ray.search = &search;
 }
 
 StrutLine StrutEntries::line(const std::array<CellIndex, 3>& cells) const {
@@ -241,7 +243,6 @@ StrutEntry StrutEntries::find(const FoamRay& ray, const StrutLine& strut) const 
   const double under = pq * pq - qq * (dot(p, p) - radius_ * radius_);
   const double error = ray.error + strut.error, tolerance = ray.tolerance;
   const double end_room = end_error + error;
-  const auto beyond = [&](double t) { return beyond_ends(ray, strut, t); };
   StrutEntry entry;
   double in = -std::numeric_limits<double>::infinity(), out = -in;
   if (qq < parallel_squared) {
@@ -251,27 +252,16 @@ StrutEntry StrutEntries::find(const FoamRay& ray, const StrutLine& strut) const 
     const double room = error * (8 * radius_ + error) * qq;
     if (under < -room) return entry;
     const double inverse = 1 / qq, middle = t0 - pq * inverse;
-    const double half = std::sqrt(std::max(under, 0.0)) * inverse;
+    const double root = std::sqrt(std::max(under, 0.0)), half = root * inverse;
     in = middle - half;
     out = middle + half;
-    if (under <= 0 || error * radius_ > 0.25 * tolerance * std::sqrt(under)) {
-      const double widest = std::sqrt(std::max(under, 0.0) + room) * inverse + tolerance;
-      // If the ray is deep in the strut, then it enters after `before` and by `after`.
-      const double before = middle - widest;
-      const double after = middle - std::sqrt(std::max(under - room, 0.0)) * inverse;
-      if (!(under > 4 * room && before > ray.from && after <= ray.to))
-        return graze(ray, strut, middle, widest);
-      if (std::max(beyond(before), beyond(after)) > -end_room)
-        return graze(ray, strut, middle, widest);
-      entry = settle(ray, before, after);
-      entry.is_sure = true;
-      return entry;
-    }
+    if (under <= 0 || error * radius_ > 0.25 * tolerance * root)
+      return find_shallow(ray, strut, {under, room, inverse, middle, end_room});
   }
   if (out < ray.from || in > ray.to) return entry;
 
   if (in > ray.from) {
-    const double by = beyond(in);
+    const double by = beyond_ends(ray, strut, in);
     if (by > end_room) return entry;
     if (by > -end_room && !inside(ray, in) && !inside(ray, in + tolerance)) return entry;
     entry.is_met = entry.is_sure = true;
@@ -279,12 +269,35 @@ StrutEntry StrutEntries::find(const FoamRay& ray, const StrutLine& strut) const 
     entry.normal = foam_.neighbourhood().rotation.apply((p + q * (in - t0)) * inverse_radius_);
     return entry;
   }
+  return begin(ray, strut, out, end_room);
+}
+
+StrutEntry StrutEntries::find_shallow(const FoamRay& ray, const StrutLine& strut,
+                                      const Section& section) const {
+  const auto [under, room, inverse, middle, end_room] = section;
+  const double widest = std::sqrt(std::max(under, 0.0) + room) * inverse + ray.tolerance;
+  // If the ray is deep in the strut, then it enters after `before` and by `after`.
+  const double before = middle - widest;
+  const double after = middle - std::sqrt(std::max(under - room, 0.0)) * inverse;
+  if (!(under > 4 * room && before > ray.from && after <= ray.to))
+    return graze(ray, strut, middle, widest);
+  if (std::max(beyond_ends(ray, strut, before), beyond_ends(ray, strut, after)) > -end_room)
+    return graze(ray, strut, middle, widest);
+  StrutEntry entry = settle(ray, before, after);
+  entry.is_sure = true;
+  return entry;
+}
+
+StrutEntry StrutEntries::begin(const FoamRay& ray, const StrutLine& strut, double out,
+                               double end_room) const {
+  const double tolerance = ray.tolerance;
+  StrutEntry entry;
   entry.t = ray.from;
   // The ball around an end is solid, too; some strut contains it.
-  const Vec3 begin = ray.at(ray.from) - strut.corner;
-  const bool is_sure = Segment(strut.a, strut.a + strut.ab).distance_squared(begin) <
+  const Vec3 place = ray.at(ray.from) - strut.corner;
+  const bool is_sure = Segment(strut.a, strut.a + strut.ab).distance_squared(place) <
                        square(std::max(0.0, radius_ - end_room));
-  if (!is_sure && beyond(ray.from) > end_room) return entry;
+  if (!is_sure && beyond_ends(ray, strut, ray.from) > end_room) return entry;
   if (is_sure || inside(ray, ray.from)) {
     entry.is_met = entry.at_from = true;
   } else if (ray.from + tolerance < out && inside(ray, ray.from + tolerance)) {

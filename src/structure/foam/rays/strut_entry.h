@@ -83,8 +83,14 @@ class StrutEntries {
   void set_ends(const std::array<float, 3>& a, const std::array<float, 3>& b, CellIndex corner,
                 StrutLine& strut) const;
 
-  /// The frame that find() works in.
-  FoamRay ray(const RaySearch& search) const;
+  /// The ray in the frame that find() works in.
+  FoamRay ray(const RaySearch& search) const {
+    FoamRay ray;
+    set_ray(search, ray);
+    return ray;
+  }
+  /// The same in place, for many: a copy would wait for the numbers just written.
+  void set_ray(const RaySearch& search, FoamRay& ray) const;
 
   /// Depends on ray and edge alone: the same bits in every query. May leave out entries into the
   /// strut where another strut covers its surface.
@@ -103,8 +109,18 @@ class StrutEntries {
  private:
   bool inside(const FoamRay& ray, double t) const;
   StrutEntry graze(const FoamRay& ray, const StrutLine& strut, double middle, double half) const;
-  /// Distance of a point of the ray beyond an end of a strut, along the strut's line.
-  double beyond_ends(const FoamRay& ray, const StrutLine& strut, double t) const;
+  /// The part of a ray within the infinite cylinder of a strut.
+  struct Section {
+    double under;     ///< what the root of its length is taken of; may be below 0
+    double room;      ///< the error of that
+    double inverse;   ///< times that root: half the length
+    double middle;    ///< along the ray
+    double end_room;  ///< the error of distances from the strut's ends
+  };
+  /// find() of a ray so shallow in the strut that rounding may move its entry too far.
+  StrutEntry find_shallow(const FoamRay& ray, const StrutLine& strut, const Section& section) const;
+  /// find() of a ray that begins within the cylinder, which it leaves at `out`.
+  StrutEntry begin(const FoamRay& ray, const StrutLine& strut, double out, double end_room) const;
   StrutEntry find_by_ends(const FoamRay& ray, const StrutLine& strut) const;
   // tapered_entry.cpp
   StrutEntry find_tapered(const FoamRay& ray, const StrutLine& strut) const;
