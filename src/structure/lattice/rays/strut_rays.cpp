@@ -34,16 +34,19 @@ template <class Visit>
 void StrutRays::walk(const Ray& ray, double from, double to, Visit&& visit) const {
   const Ray in_grid{grid_.to_grid(ray.origin), grid_.rotation.apply_inverse(ray.direction)};
   const int parts = lists_.parts();
+  Part part{};
+  int32_t cell[3] = {};
+  int64_t last[3] = {};  // in part 0 of cell 0
   const auto at_end = [&] { return grid_.to_grid(ray.at(to)); };
   walk_grid(in_grid, grid_.to_grid(ray.at(from)), at_end, grid_.cell_size * (1.0 / parts), from, to,
             job_, [&](const int64_t(&index)[3], double begin, double end) {
-              Part part;
-              int32_t cell[3];
               for (int i = 0; i < 3; ++i) {
+                if (index[i] == last[i]) continue;  // true of two axes, except in the first part
                 const int64_t n =
                     index[i] >= 0 ? index[i] / parts : -((-index[i] + parts - 1) / parts);
                 cell[i] = static_cast<int32_t>(n);
                 part.number[i] = static_cast<int>(index[i] - n * parts);
+                last[i] = index[i];
               }
               part.cell = {cell[0], cell[1], cell[2]};
               part.from = begin;
