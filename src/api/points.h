@@ -32,6 +32,13 @@ struct Query {
 /// query NULL: defaults.
 Query read_query(const msq_query_def* query);
 
+/// The scales that a query resolves: the model's own, or `some` of them.
+inline const Scales& resolve(const Model& model, const msq_query_def* query, Scales& some) {
+  const double length_scale = query ? read_query(query).length_scale : 0;
+  if (length_scale == 0) return model.all_scales();
+  return some = model.resolved(length_scale);
+}
+
 /// Throws Error(limit) where a model of all space cannot be asked about the point.
 inline void require_point(const Model& model, const Scales& resolved, Vec3 p) {
   require_reach(model, resolved, Box3{p, p}, "the point");

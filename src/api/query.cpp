@@ -43,7 +43,8 @@ msq_status msq_point_membership(const msq_model* model, const double point[3],
     const Ref<const Model> keep(&known);
     const Vec3 p = require_vector(point, "point");
     require(inside, "inside");
-    const Scales resolved = known.resolved(read_query(query).length_scale);
+    Scales some;
+    const Scales& resolved = resolve(known, query, some);
     require_point(known, resolved, p);
     *inside = known.inside(p, resolved);
   });
@@ -85,7 +86,8 @@ msq_status msq_point_distance(const msq_model* model, const double point[3],
     const Ref<const Model> keep(&known);
     const Vec3 p = require_vector(point, "point");
     require(distance, "distance");
-    const Scales resolved = known.resolved(read_query(query).length_scale);
+    Scales some;
+    const Scales& resolved = resolve(known, query, some);
     require_point(known, resolved, p);
     *distance = known.distance(p, resolved);
   });

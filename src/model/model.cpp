@@ -40,6 +40,7 @@ Model::Model(Ref<Context> context, Ref<const Shape> shape, std::vector<ScalePart
       fail(Status::unsupported, "scale %zu is to leave a skin in a shape whose depth is not known",
            scales_.size());
   }
+  all_scales_ = resolved(0);
 }
 
 namespace {
@@ -72,6 +73,7 @@ Model::Model(Ref<Context> context, const std::vector<Ref<const Model>>& regions)
       is_concurrent_(true) {
   for (const Ref<const Model>& region : regions_)
     is_concurrent_ = is_concurrent_ && region->is_concurrent_;
+  all_scales_ = resolved(0);
 }
 
 size_t Model::region_at(Vec3 p) const {

@@ -73,6 +73,8 @@ class Model final : public Described {
 
   /// The scales but the coarsest that a query at a length scale resolves.
   Scales resolved(double length_scale) const;
+  /// The same for a length scale of 0, which resolves all: for single points, without a copy.
+  const Scales& all_scales() const { return all_scales_; }
 
   /// Membership of a finite point: the definition.
   bool inside(Vec3 p, const Scales& resolved) const;
@@ -101,6 +103,7 @@ class Model final : public Described {
   Ref<const Shape> shape_;
   Ref<const Material> material_;
   std::vector<Scale> scales_;
+  Scales all_scales_;
   bool is_concurrent_;
 };
 
