@@ -148,7 +148,8 @@ typedef struct msq_build_report {
   const char* simd;
   /** 1 if msq_shape_hash and its like are available. Since 0.2. */
   int32_t with_xxhash;
-  uint32_t reserved;
+  /** 1 if documents are read and written (msq_document_from_json). Since 0.2. */
+  int32_t with_json;
 } msq_build_report;
 
 /** Reports how the loaded library was built. Errors: ARGUMENT. */
@@ -3035,6 +3036,149 @@ typedef int32_t (*msq_render_fn)(void* user, const msq_render_pass* pass);
 MSQ_API msq_status msq_render(const msq_model* model, const msq_camera* camera,
                               const msq_render_def* def, const msq_query_def* query,
                               const msq_frame* frame, msq_render_fn fn, void* user, msq_job* job);
+
+/* ---- Documents ------------------------------------------------------------------------------- */
+
+/** A model with settings for slices and pictures, read from a text in JSON. docs/model_file.md
+ * defines the format, docs/model.schema.json is its schema. Since 0.2. */
+typedef struct msq_document msq_document;
+
+/** Which files a document may name. */
+enum msq_document_files {
+  /** Relative paths below base_directory, without "..". Symbolic links there are followed. */
+  MSQ_DOCUMENT_FILES_BELOW = 0,
+  /** None. */
+  MSQ_DOCUMENT_FILES_NONE = 1,
+  /** Any: relative ones start at base_directory. For documents that the host trusts. */
+  MSQ_DOCUMENT_FILES_ANY = 2
+};
+
+/** How a document is read. The limits protect the host from hostile documents. Since 0.2. */
+typedef struct msq_document_def {
+  uint32_t struct_size;
+  /** An msq_document_files. Default MSQ_DOCUMENT_FILES_BELOW. */
+  int32_t files;
+  /** Where relative paths start. NULL (default): msq_document_from_file takes the directory of the
+   * document; a document from memory may then name no relative path. */
+  const char* base_directory;
+  /** Maximum size of the document in bytes. 0 and default: 64 MiB. */
+  uint64_t max_bytes;
+  /** Maximum number of values in the document: numbers, texts, lists and objects. 0 and default: 8
+   * million. */
+  uint64_t max_values;
+  /** Maximum depth of nested lists and objects, at most 1024. 0 and default: 64. */
+  uint32_t max_depth;
+  /** Maximum number of files that the document names. 0 and default: 256. */
+  uint32_t max_files;
+  /** Maximum size in bytes of all these files together, and of what an archive among them unpacks
+   * to. 0 and default: 4 GiB. */
+  uint64_t max_file_bytes;
+  /** Maximum number of triangles of each mesh file. 0 and default: 200 million. */
+  uint64_t max_triangles;
+} msq_document_def;
+
+/** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+MSQ_API msq_status msq_document_def_init(msq_document_def* def, size_t size);
+
+/** Reads a document from text in memory: JSON in UTF-8, of `bytes` bytes. def NULL: defaults. job
+ * NULL: no job; its progress is that of the file which is being read.
+ *
+ * msq builds every object of the document by the functions above, with their checks and their
+ * warnings. Lengths are in the model's unit. Unknown keys, keys that occur twice and definitions
+ * that contain themselves are refused. A message begins with line, column and path of the value
+ * that is at fault, for example "12:17: scales[1].structure.foam.radius: ...". Lines and columns
+ * begin at 1; columns count bytes.
+ *
+ * Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the
+ * objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path
+ * that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build
+ * without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY. Since 0.2. */
+MSQ_API msq_status msq_document_from_json(msq_context* context, const char* text, uint64_t bytes,
+                                          const msq_document_def* def, msq_document** document,
+                                          msq_job* job);
+
+/** Reads a document from a file. path: as in msq_shape_from_file. Otherwise as
+ * msq_document_from_json; the message then begins with the path. Since 0.2. */
+MSQ_API msq_status msq_document_from_file(msq_context* context, const char* path,
+                                          const msq_document_def* def, msq_document** document,
+                                          msq_job* job);
+
+/** Adds a reference. */
+MSQ_API void msq_document_retain(msq_document* document);
+/** Drops a reference. */
+MSQ_API void msq_document_release(msq_document* document);
+
+/** What a document holds. Since 0.2. */
+typedef struct msq_document_report {
+  uint32_t struct_size;
+  /** Version of the format that the document names; now 1. */
+  uint32_t version;
+  /** 1 if it has settings for slices, for pictures. */
+  int32_t has_slicing, has_view;
+  /** Number of files that it names. */
+  uint32_t files;
+  uint32_t reserved;
+  /** Its title in UTF-8, "" if it has none. Valid as long as the document. */
+  const char* title;
+} msq_document_report;
+
+/** Reports what a document holds. Errors: ARGUMENT. Since 0.2. */
+MSQ_API msq_status msq_document_info(const msq_document* document, msq_document_report* report);
+
+/** Returns the model of a document, with a reference for the caller to release. It does not need
+ * the document any more. Errors: ARGUMENT. Since 0.2. */
+MSQ_API msq_status msq_document_model(const msq_document* document, msq_model** model);
+
+/** Writes the settings for slices to *def, whose struct_size the caller has set; what the document
+ * does not say has its default. The pointers in it are valid as long as the document. The host may
+ * change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without
+ * slicing). Since 0.2. */
+MSQ_API msq_status msq_document_slicing(const msq_document* document, msq_slicer_def* def);
+
+/** Writes the settings for pictures to *camera and *render, whose struct_size the caller has set.
+ * A view along a direction is already fitted to the model, as by msq_camera_fit. The pointers in
+ * *render are valid as long as the document. Errors: ARGUMENT (also a document without view). Since
+ * 0.2. */
+MSQ_API msq_status msq_document_view(const msq_document* document, msq_camera* camera,
+                                     msq_render_def* render);
+
+/** How a model is written. Since 0.2. */
+typedef struct msq_json_def {
+  uint32_t struct_size;
+  /** Must be 0. */
+  uint32_t reserved;
+  /** Paths of files below this directory become relative to it. It is compared as text. NULL
+   * (default): paths are written as the host or the document gave them. */
+  const char* base_directory;
+  /** In UTF-8. NULL (default): none. */
+  const char* title;
+  /** Settings to write beside the model. NULL (default): none. camera and render go together. */
+  const msq_slicer_def* slicing;
+  const msq_camera* camera;
+  const msq_render_def* render;
+  /** Maximum number of values of an array that is written into the document: of the vertices and
+   * triangles of a mesh, an image, beams. 0 and default: 1 million. */
+  uint64_t max_numbers;
+} msq_json_def;
+
+/** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+MSQ_API msq_status msq_json_def_init(msq_json_def* def, size_t size);
+
+/** Writes a model as a document in JSON: its objects as they were defined, whether by the functions
+ * of this header or by a document. msq_document_from_json makes a model of it with the same
+ * msq_model_hash, as long as the files that it names are the same. def NULL: defaults.
+ *
+ * Meshes from files are written as the path of the file with its options. Other meshes, and images
+ * that no document read from a file, are written as numbers. Objects that are used more than once
+ * are written once, under a name.
+ *
+ * *bytes: receives the size of the text, without a terminating 0. text: receives it if room is
+ * enough, with a terminating 0 if room is larger; NULL if room is 0. Errors: ARGUMENT (also room
+ * that is neither 0 nor enough), UNSUPPORTED (an object of the host; beams of more than 4 MiB,
+ * whose definition msq does not keep; a path or a name that is not UTF-8; a build without
+ * nlohmann-json), LIMIT (max_numbers), MEMORY. Since 0.2. */
+MSQ_API msq_status msq_model_to_json(const msq_model* model, const msq_json_def* def, char* text,
+                                     uint64_t room, uint64_t* bytes);
 
 #ifdef __cplusplus
 }
