@@ -1,6 +1,6 @@
 # The libraries that msq stands on. Debian: libtbb-dev libhwy-dev, and for the optional parts
 # libassimp-dev libminizip-dev libpugixml-dev (binary STL, 3MF, AMF), libcgal-dev (foam method 2),
-# libxxhash-dev (hashes).
+# libxxhash-dev (hashes), nlohmann-json3-dev (documents).
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -14,6 +14,10 @@ endif()
 if(MSQ_WITH_XXHASH)
   # Used as a header alone, from version 0.8.0 on (Debian: libxxhash-dev).
   find_path(MSQ_XXHASH_INCLUDE xxhash.h REQUIRED)
+endif()
+if(MSQ_WITH_JSON)
+  # Headers alone (Debian: nlohmann-json3-dev).
+  find_path(MSQ_JSON_INCLUDE nlohmann/json.hpp REQUIRED)
 endif()
 if(MSQ_WITH_CGAL)
   # CGAL's own package file sets build flags for everything; only its headers and GMP are wanted.

@@ -45,8 +45,9 @@
  *
  * Stack. A thread of the host with a stack of 64 KiB may call every function: large working memory
  * is on the heap, and thread-local storage takes less than 1 KiB. Exceptions: calls that read
- * binary STL, by Assimp, and those that use CGAL (MSQ_FOAM_METHOD_2, msq_shape_self_intersections)
- * need the stack that these need. Callbacks of the host take theirs from the same stack.
+ * binary STL, by Assimp, those that use CGAL (MSQ_FOAM_METHOD_2, msq_shape_self_intersections) and
+ * those that read documents need the stack that these need. Callbacks of the host take theirs from
+ * the same stack.
  *
  * Process. msq never prints, exits, aborts, installs a signal handler, reads the environment, or
  * changes the locale. No C++ exception leaves it. (oneTBB, the thread library, prints its version

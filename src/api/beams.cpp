@@ -5,6 +5,7 @@
 #include <atomic>
 #include <limits>
 
+#include "api/definitions.h"
 #include "api/guard.h"
 #include "base/run_parts.h"
 
@@ -110,6 +111,40 @@ class Given {
                                  "ball_radius", "ball_radii")) {}
 
   uint64_t count() const { return def_.beam_count + def_.ball_count; }
+
+  /// Keeps the definition, packed, unless its arrays are large.
+  void keep_in(Structure& made) const {
+    constexpr uint64_t max_bytes = uint64_t{4} << 20;
+    const auto pack = [](auto& packed, const auto& column, uint64_t elements, uint64_t width) {
+      for (uint64_t i = 0; i < elements; ++i)
+        for (uint64_t k = 0; k < width; ++k) packed.push_back(column.at(i, k));
+    };
+    // No product overflows: the arrays are in memory.
+    if (24 * def_.node_count + 26 * def_.beam_count + 12 * def_.ball_count > max_bytes) return;
+    msq_beams_def def = def_;
+    std::vector<double> nodes, radii, ball_radii;
+    std::vector<uint32_t> beams, balls;
+    std::vector<uint8_t> caps;
+    for (uint64_t i = 0; i < def.node_count; ++i) {
+      const Vec3 p = nodes_.at(i);
+      nodes.insert(nodes.end(), {p.x, p.y, p.z});
+    }
+    pack(beams, beams_, def.beam_count, 2);
+    pack(balls, balls_, def.ball_count, 1);
+    if (def.radii) pack(radii, radii_, def.beam_count, 2);
+    if (def.caps) pack(caps, caps_, def.beam_count, 2);
+    if (def.ball_radii) pack(ball_radii, ball_radii_, def.ball_count, 1);
+    def.coordinate_type = MSQ_FLOAT64;
+    def.node_stride = def.beam_stride = def.radius_stride = def.cap_stride = def.ball_stride =
+        def.ball_radius_stride = 0;
+    def.nodes = nodes.data();
+    def.beams = beams.data();
+    def.balls = balls.data();
+    if (def.radii) def.radii = radii.data();
+    if (def.caps) def.caps = caps.data();
+    if (def.ball_radii) def.ball_radii = ball_radii.data();
+    keep(made, def);
+  }
 
   /// Throws Error(argument), which names the first of the nodes, beams and balls that is not
   /// right.
@@ -267,6 +302,7 @@ msq_status msq_structure_beams(msq_context* context, const msq_beams_def* def,
                             [&](uint64_t i, Beam& beam) { return given.get(i, beam); }};
     Ref<Structure> made =
         Beams::make(source, known.length_scale, owner.executor, owner.budget, work);
+    given.keep_in(*made);
     scope.done();
     *structure = new_handle<msq_structure>(std::move(made));
   });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "api/definitions.h"
 #include "api/expression.h"
 #include "api/guard.h"
 #include "api/image.h"
@@ -63,6 +64,13 @@ Curve read_curve(const double* curve, uint64_t count) {
   return Curve(std::move(knots));
 }
 
+/// A handle to a new field, which keeps its definition.
+template <class Def>
+msq_field* defined_handle(const Ref<Field>& field, const Def& def) {
+  keep(*field, def);
+  return new_handle<msq_field>(field);
+}
+
 }  // namespace
 
 msq_status msq_field_gradient(msq_context* context, const double from[3], double from_value,
@@ -81,7 +89,8 @@ msq_status msq_field_gradient(msq_context* context, const double from[3], double
            "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ, by %g at least",
            a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared), min_length);
     require_difference(from_value, to_value, "values");
-    *field = new_handle<msq_field>(Ref<Field>(make_ref<GradientField>(a, from_value, b, to_value)));
+    *field = defined_handle(make_ref<GradientField>(a, from_value, b, to_value),
+                            GradientDef{{a.x, a.y, a.z}, from_value, {b.x, b.y, b.z}, to_value});
   });
 }
 
@@ -114,7 +123,7 @@ msq_status msq_field_radial(msq_context* context, const msq_radial_field_def* de
            "from_radius is %g and to_radius is %g; they must ascend, from 0 or more",
            ramp.from_radius, ramp.to_radius);
     require_difference(ramp.from_value, ramp.to_value, "values");
-    *field = new_handle<msq_field>(Ref<Field>(make_ref<RadialField>(centre, axis, ramp)));
+    *field = defined_handle(make_ref<RadialField>(centre, axis, ramp), known);
   });
 }
 
@@ -128,8 +137,8 @@ msq_status msq_field_grid(msq_context* context, const msq_grid_field_def* def, m
     require(field, "field");
     const msq_grid_field_def known = read_def(def, grid_defaults(), "def");
     require_reserved(known.reserved, "reserved");
-    *field = new_handle<msq_field>(
-        Ref<Field>(make_ref<GridField>(read_image(known.image, 1, owner.budget))));
+    *field = defined_handle(make_ref<GridField>(read_image(known.image, 1, owner.budget)),
+                            GridDef{known, {}});
   });
 }
 
@@ -160,8 +169,7 @@ msq_status msq_field_shape_distance(msq_context* context, const msq_shape_distan
           *shape, known.step, owner.executor_for(shape->is_concurrent()), owner.budget, work));
     else
       distance = make_ref<ShapeDistanceField>(shape);
-    *field = new_handle<msq_field>(
-        Ref<Field>(make_ref<MapField>(std::move(distance), std::move(curve))));
+    *field = defined_handle(make_ref<MapField>(std::move(distance), std::move(curve)), known);
     scope.done();
   });
 }
@@ -183,7 +191,7 @@ msq_status msq_field_expression(msq_context* context, const msq_expression_field
     if (!(range.low <= range.high))
       fail(Status::argument, "low is %g and high is %g; low must be no more", range.low,
            range.high);
-    *field = new_handle<msq_field>(Ref<Field>(make_ref<ExpressionField>(std::move(tape), range)));
+    *field = defined_handle(make_ref<ExpressionField>(std::move(tape), range), known);
   });
 }
 
@@ -197,7 +205,7 @@ msq_status msq_field_map(msq_context* context, const msq_field* argument, const 
     if (known.depth() >= max_maps)
       fail(Status::limit, "%u maps would be within each other; the limit is %u", known.depth() + 1,
            max_maps);
-    *field = new_handle<msq_field>(
-        Ref<Field>(make_ref<MapField>(Ref<const Field>(&known), std::move(read))));
+    *field = defined_handle(make_ref<MapField>(Ref<const Field>(&known), std::move(read)),
+                            MapDef{argument, curve, curve_count});
   });
 }

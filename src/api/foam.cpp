@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/foam/foam.h"
+#include "api/definitions.h"
 #include "api/guard.h"
 #include "api/neighbourhood.h"
 #include "api/strut_radius.h"
@@ -131,15 +132,19 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
                                  density, vent_radius);
     };
     if (has_walls && is_none(known.radius)) {
-      *structure = new_handle<msq_structure>(Ref<Structure>(make_walls()));
+      const Ref<Structure> made = make_walls();
+      keep(*made, known);
+      *structure = new_handle<msq_structure>(made);
       return;
     }
     Ref<Foam> struts =
         make_ref<Foam>(Ref<Context>(&owner), grid, read_radius(known.radius, grid, 1), known.jitter,
                        known.seed, method, density);
-    *structure = new_handle<msq_structure>(
+    const Ref<Structure> made =
         has_walls ? Ref<Structure>(make_ref<WalledFoam>(std::move(struts), make_walls()))
-                  : Ref<Structure>(std::move(struts)));
+                  : Ref<Structure>(std::move(struts));
+    keep(*made, known);
+    *structure = new_handle<msq_structure>(made);
   });
 }
 

@@ -2,6 +2,7 @@
 // Functional structures.
 #include "structure/functional/functional.h"
 
+#include "api/definitions.h"
 #include "api/expression.h"
 #include "api/guard.h"
 #include "api/level.h"
@@ -31,9 +32,11 @@ msq_period_def period_defaults() {
   return def;
 }
 
-std::optional<GradedPeriod> read_period(const msq_period_def* def) {
+/// Replaces the definition by the one of this version.
+std::optional<GradedPeriod> read_period(const msq_period_def*& def, msq_period_def& known) {
   if (!def) return {};
-  const msq_period_def known = read_def(def, period_defaults(), "period");
+  known = read_def(def, period_defaults(), "period");
+  def = &known;
   require_range(known.axis, 0, 2, "period.axis");
   if (known.count < 1 || known.count > GradedPeriod::max_knots)
     fail(Status::argument, "period.count is %llu; it must be from 1 to %zu",
@@ -105,7 +108,7 @@ msq_status msq_structure_functional(msq_context* context, const msq_functional_d
   return guard([&] {
     object(context, "context");
     require(structure, "structure");
-    const msq_functional_def known = read_def(def, functional_defaults(), "def");
+    msq_functional_def known = read_def(def, functional_defaults(), "def");
     const Neighbourhood grid = read_neighbourhood(known.grid);
     const FunctionalKind kind = static_cast<FunctionalKind>(
         require_range(known.kind, MSQ_FUNCTIONAL_NETWORK, MSQ_FUNCTIONAL_SHEET, "kind"));
@@ -113,12 +116,15 @@ msq_status msq_structure_functional(msq_context* context, const msq_functional_d
       fail(Status::argument, "clusters is %u; it must be from 0 to %d", known.clusters,
            max_clusters);
     const Tape function = read_function(known);
-    std::optional<GradedPeriod> period = read_period(known.period);
+    msq_period_def known_period;
+    std::optional<GradedPeriod> period = read_period(known.period, known_period);
     Parameter level = is_given(known.thickness)
                           ? read_thickness(known, kind, function, grid, period)
                           : read_level(known.level, known.kind);
-    *structure = new_handle<msq_structure>(
-        Ref<Structure>(make_ref<Functional>(grid, function, kind, std::move(level),
-                                            static_cast<int>(known.clusters), std::move(period))));
+    const Ref<Structure> made =
+        make_ref<Functional>(grid, function, kind, std::move(level),
+                             static_cast<int>(known.clusters), std::move(period));
+    keep(*made, known);
+    *structure = new_handle<msq_structure>(made);
   });
 }

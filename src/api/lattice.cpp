@@ -2,6 +2,7 @@
 // Strut lattices.
 #include "structure/lattice/lattice.h"
 
+#include "api/definitions.h"
 #include "api/guard.h"
 #include "api/neighbourhood.h"
 #include "api/strut_radius.h"
@@ -76,6 +77,34 @@ Parameter read_choice(const msq_param& choice) {
   return Parameter(Ref<const Field>(&object(choice.field, "cell_choice.field")));
 }
 
+/// Without what a named cell does not read.
+template <class Def>
+void forget_unread(Def& def) {
+  if (def.unit_cell == MSQ_UNIT_CELL_CUSTOM) return;
+  def.nodes = nullptr;
+  def.struts = nullptr;
+  def.node_count = 0;
+  if (!def.strut_factors) def.strut_count = 0;
+}
+
+/// Keeps the definition as this version knows it.
+void keep_lattice(Structure& made, msq_lattice_def def) {
+  std::vector<msq_unit_cell_def> cells;
+  for (uint32_t i = 0; i < def.cell_count; ++i) {
+    const auto* bytes =
+        reinterpret_cast<const unsigned char*>(def.cells) + uint64_t{i} * def.cells->struct_size;
+    cells.push_back(
+        read_def(reinterpret_cast<const msq_unit_cell_def*>(bytes), unit_cell_defaults(), "it"));
+    forget_unread(cells.back());
+  }
+  if (def.cells) {
+    def.cells = cells.data();
+    def.unit_cell = MSQ_UNIT_CELL_BCC;
+  }
+  forget_unread(def);
+  keep(made, def);
+}
+
 }  // namespace
 
 msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size) {
@@ -105,6 +134,7 @@ msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* de
           make_ref<Lattice>(grid, library[0], std::move(radius), static_cast<int>(known.clusters));
     else
       made = make_ref<MixedLattice>(grid, library, choice, std::move(radius));
+    keep_lattice(*made, known);
     warn_of_faces(*owner, library);
     *structure = new_handle<msq_structure>(std::move(made));
   });

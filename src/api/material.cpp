@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/material.h"
 
+#include "api/definitions.h"
 #include "api/points.h"
 #include "query/material.h"
 
@@ -84,8 +85,10 @@ msq_status msq_material_create(msq_context* context, const msq_material_def* def
                                ? Parameter(Ref<const Field>(&object(channel.value.field, "field")))
                                : Parameter(require_finite(channel.value.value, name.c_str())));
     }
-    *material = new_handle<msq_material>(
-        make_ref<PlainMaterial>(known.id, std::move(names), std::move(parameters)));
+    const Ref<Material> made =
+        make_ref<PlainMaterial>(known.id, std::move(names), std::move(parameters));
+    keep(*made, known);
+    *material = new_handle<msq_material>(made);
   });
 }
 
@@ -120,7 +123,9 @@ msq_status msq_material_blend(msq_context* context, uint32_t id, const msq_mater
           "each value would be made of those of %llu materials, the same counted as often as it is "
           "asked; the limit is %llu",
           static_cast<unsigned long long>(terms), static_cast<unsigned long long>(max_terms));
-    *material = new_handle<msq_material>(make_ref<MaterialBlend>(id, first, second, part));
+    const Ref<Material> made = make_ref<MaterialBlend>(id, first, second, part);
+    keep(*made, BlendDef{id, a, b, *fraction});
+    *material = new_handle<msq_material>(made);
   });
 }
 

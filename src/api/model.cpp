@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "api/definitions.h"
 #include "api/guard.h"
 
 using namespace msq;
@@ -68,8 +69,9 @@ msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_
     Ref<const Shape> shape;
     Ref<const Material> coarse;
     std::vector<Model::ScaleParts> scales;
+    std::vector<msq_scale_def> read;
     for (uint32_t i = 0; i < known.scale_count; ++i) {
-      const msq_scale_def scale = read_scale(known, i);
+      const msq_scale_def& scale = read.emplace_back(read_scale(known, i));
       if (i == 0 ? !scale.shape || scale.structure : !scale.structure || scale.shape)
         fail(Status::argument, "scale %u must have a %s and no %s", i,
              i == 0 ? "shape" : "structure", i == 0 ? "structure" : "shape");
@@ -87,8 +89,10 @@ msq_status msq_model_create(msq_context* context, const msq_model_def* def, msq_
                           read_material(scale.skin_material)});
       }
     }
-    *model = new_handle<msq_model>(make_ref<Model>(Ref<Context>(&owner), std::move(shape),
-                                                   std::move(scales), std::move(coarse)));
+    const auto made = make_ref<Model>(Ref<Context>(&owner), std::move(shape), std::move(scales),
+                                      std::move(coarse));
+    keep(*made, ModelDef{read.data(), known.scale_count, nullptr, 0});
+    *model = new_handle<msq_model>(made);
   });
 }
 
@@ -111,7 +115,18 @@ msq_status msq_model_regions(msq_context* context, const msq_model* const* regio
              "regions[%llu] has no coarse shape; a region needs one with bounds",
              static_cast<unsigned long long>(r));
     }
-    *model = new_handle<msq_model>(make_ref<Model>(Ref<Context>(&owner), known));
+    const auto made = make_ref<Model>(Ref<Context>(&owner), known);
+    // As deep as the model itself is, not as its host has built it.
+    std::vector<const msq_model*> flat;
+    for (uint64_t r = 0; r < count; ++r) {
+      const ModelDef* of_region = kept_definition<ModelDef>(*known[r]);
+      if (of_region && of_region->regions)
+        flat.insert(flat.end(), of_region->regions, of_region->regions + of_region->region_count);
+      else
+        flat.push_back(regions[r]);
+    }
+    keep(*made, ModelDef{nullptr, 0, flat.data(), flat.size()});
+    *model = new_handle<msq_model>(made);
   });
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "api/definitions.h"
 #include "api/guard.h"
 #include "api/image.h"
 #include "api/shape_size.h"
@@ -63,15 +64,32 @@ FileRequest file_request(const msq_file_def* def, const Context& owner) {
   return request;
 }
 
+/// A handle to a new shape, which keeps its definition.
+template <class Def>
+msq_shape* defined_handle(const Ref<Shape>& shape, const Def& def) {
+  keep(*shape, def);
+  return new_handle<msq_shape>(shape);
+}
+
+/// The definition of a mesh that keeps its arrays itself.
+msq_mesh_def mesh_def(WindingRule rule) {
+  msq_mesh_def def = mesh_defaults();
+  def.winding_rule = static_cast<int32_t>(rule);
+  return def;
+}
+
 /// A handle to a new mesh.
-msq_shape* mesh_handle(const Context& owner, Ref<Shape> mesh, WindingRule rule) {
+template <class Def>
+msq_shape* mesh_handle(const Context& owner, Ref<Shape> mesh, WindingRule rule, const Def& def) {
+  keep(*mesh, def);
   if (rule == WindingRule::automatic) warn_of_open_mesh(owner, *mesh);
   return new_handle<msq_shape>(std::move(mesh));
 }
 
 /// The mesh of what read(options) returns.
-template <class Read>
-msq_shape* make_mesh(const Context& owner, FileRequest request, msq_job* job, Read&& read) {
+template <class Def, class Read>
+msq_shape* make_mesh(const Context& owner, FileRequest request, const Def& def, msq_job* job,
+                     Read&& read) {
   Job* work = job ? &object(job, "job") : nullptr;
   JobScope scope(work);
   constexpr double reading = 0.4;  // of the call
@@ -79,7 +97,7 @@ msq_shape* make_mesh(const Context& owner, FileRequest request, msq_job* job, Re
   Ref<Shape> mesh = make_ref<Mesh>(read(request.options), request.rule, request.options.budget,
                                    JobPart{work, reading, 1});
   scope.done();
-  return mesh_handle(owner, std::move(mesh), request.rule);
+  return mesh_handle(owner, std::move(mesh), request.rule, def);
 }
 
 }  // namespace
@@ -96,7 +114,8 @@ msq_status msq_shape_from_file(msq_context* context, const char* path, const msq
     require(path, "path");
     require(shape, "shape");
     const FileRequest request = file_request(def, owner);
-    *shape = make_mesh(owner, request, job, [&](const MeshFileOptions& options) {
+    const FileDef own{path, def ? read_def(def, file_defaults(), "def") : file_defaults()};
+    *shape = make_mesh(owner, request, own, job, [&](const MeshFileOptions& options) {
       return read_mesh_file(path, options);
     });
   });
@@ -110,9 +129,9 @@ msq_status msq_shape_from_memory(msq_context* context, const void* data, uint64_
     if (!data) fail(Status::argument, "data is NULL");
     require(shape, "shape");
     const FileRequest request = file_request(def, owner);
-    *shape = make_mesh(owner, request, job, [&](const MeshFileOptions& options) {
-      return read_mesh_memory(data, bytes, options);
-    });
+    *shape = make_mesh(
+        owner, request, mesh_def(request.rule), job,
+        [&](const MeshFileOptions& options) { return read_mesh_memory(data, bytes, options); });
   });
 }
 
@@ -145,7 +164,8 @@ msq_status msq_shape_from_mesh(msq_context* context, const msq_mesh_def* def, ms
     soup.triangles.resize(known.triangle_count);
     std::memcpy(soup.triangles.data(), known.triangles, known.triangle_count * sizeof(Triangle));
     staging = {};  // the mesh takes its own
-    *shape = mesh_handle(owner, make_ref<Mesh>(std::move(soup), rule, owner.budget), rule);
+    *shape = mesh_handle(owner, make_ref<Mesh>(std::move(soup), rule, owner.budget), rule,
+                         mesh_def(rule));
   });
 }
 
@@ -155,7 +175,8 @@ msq_status msq_shape_from_box(msq_context* context, const double min[3], const d
     object(context, "context");
     const Box3 box = read_box(min, max);
     require(shape, "shape");
-    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<BoxShape>(box)));
+    *shape = defined_handle(make_ref<BoxShape>(box), BoxDef{{box.min.x, box.min.y, box.min.z},
+                                                            {box.max.x, box.max.y, box.max.z}});
   });
 }
 
@@ -167,7 +188,8 @@ msq_status msq_shape_from_sphere(msq_context* context, const double center[3], d
     require_positive(radius, "radius");
     require(shape, "shape");
     check_size(radius, centre);
-    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<SphereShape>(centre, radius)));
+    *shape = defined_handle(make_ref<SphereShape>(centre, radius),
+                            SphereDef{{centre.x, centre.y, centre.z}, radius});
   });
 }
 
@@ -182,7 +204,8 @@ msq_status msq_shape_from_cylinder(msq_context* context, const double from[3], c
     check_size(max_magnitude(b - a), b);
     if (!(dot(b - a, b - a) > 0))
       fail(Status::argument, "from and to are both (%g, %g, %g); they must differ", a.x, a.y, a.z);
-    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<CylinderShape>(a, b, radius)));
+    *shape = defined_handle(make_ref<CylinderShape>(a, b, radius),
+                            CylinderDef{{a.x, a.y, a.z}, {b.x, b.y, b.z}, radius});
   });
 }
 
@@ -190,7 +213,7 @@ msq_status msq_shape_all_space(msq_context* context, msq_shape** shape) {
   return guard([&] {
     object(context, "context");
     require(shape, "shape");
-    *shape = new_handle<msq_shape>(Ref<Shape>(make_ref<AllSpace>()));
+    *shape = defined_handle(make_ref<AllSpace>(), AllSpaceDef{});
   });
 }
 
@@ -213,8 +236,8 @@ msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_def* def
     const Vec3 origin = require_vector(known.image.grid.origin, "grid.origin");
     Image image = read_image(known.image, 2, owner.budget);
     check_size(reach, origin);
-    *shape = new_handle<msq_shape>(
-        Ref<Shape>(make_ref<Voxels>(std::move(image), known.threshold, solid)));
+    *shape = defined_handle(make_ref<Voxels>(std::move(image), known.threshold, solid),
+                            VoxelsDef{known, {}});
   });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes made of other shapes.
+#include "api/definitions.h"
 #include "api/guard.h"
 #include "api/shape_size.h"
 #include "shape/boolean.h"
@@ -15,11 +16,13 @@ constexpr unsigned max_nesting = 64;
 constexpr uint64_t max_members = 4096;
 
 /// A new shape made of others, if it is not too large and these not too deep within each other.
-msq_shape* made_of_shapes(const Ref<Shape>& shape) {
+template <class Def>
+msq_shape* made_of_shapes(const Ref<Shape>& shape, const Def& def) {
   if (shape->nesting() > max_nesting)
     fail(Status::limit, "%u shapes made of shapes would be within each other; the limit is %u",
          shape->nesting(), max_nesting);
   check_size(max_magnitude(shape->bounds().extent()), shape->bounds().min);
+  keep(*shape, def);
   return new_handle<msq_shape>(shape);
 }
 
@@ -39,7 +42,10 @@ msq_status msq_shape_placed(const msq_shape* original, const double matrix[12], 
     require(shape, "shape");
     std::array<double, 12> numbers;
     std::copy_n(matrix, numbers.size(), numbers.begin());
-    *shape = made_of_shapes(make_ref<PlacedShape>(Ref<const Shape>(&known), Placement(numbers)));
+    PlacedDef def{original, {}};
+    std::copy(numbers.begin(), numbers.end(), def.matrix);
+    *shape =
+        made_of_shapes(make_ref<PlacedShape>(Ref<const Shape>(&known), Placement(numbers)), def);
   });
 }
 
@@ -60,7 +66,8 @@ msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* shapes, 
       members.emplace_back(&require_bounded(object(shapes[i], "shapes"),
                                             ("shapes[" + std::to_string(i) + "]").c_str()));
     }
-    *shape = made_of_shapes(make_ref<BooleanShape>(known, std::move(members)));
+    *shape = made_of_shapes(make_ref<BooleanShape>(known, std::move(members)),
+                            BooleanDef{operation, shapes, count});
   });
 }
 
@@ -75,6 +82,7 @@ msq_status msq_shape_offset(const msq_shape* original, double distance, msq_shap
            "the distance is %g, and that of the original is a mere bound %s of it", distance,
            distance > 0 ? "outside" : "inside");
     check_size(std::abs(distance), known.bounds().min);
-    *shape = made_of_shapes(make_ref<OffsetShape>(Ref<const Shape>(&known), distance));
+    *shape = made_of_shapes(make_ref<OffsetShape>(Ref<const Shape>(&known), distance),
+                            OffsetDef{original, distance});
   });
 }

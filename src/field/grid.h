@@ -23,6 +23,7 @@ class GridField final : public Field {
   Interval range(const Box3& box) const override { return image_.range(box); }
   double lipschitz() const override { return image_.lipschitz(); }
   double lipschitz(const Box3& box) const override { return image_.lipschitz(box); }
+  const Image& image() const { return image_; }
 
  private:
   void describe(HashInput& input) const override {

@@ -2,19 +2,15 @@
 #include "io/mesh_file.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <memory>
-#include <new>
 #include <string_view>
-#include <system_error>
 
 #include "base/status.h"
 #include "io/readers.h"
 #include "io/text_cursor.h"
+#include "io/whole_file.h"
 
 namespace msq {
 namespace {
@@ -24,15 +20,6 @@ constexpr struct {
   MeshFormat format;
 } formats[] = {{"stl", MeshFormat::stl}, {"obj", MeshFormat::obj},     {"ply", MeshFormat::ply},
                {"off", MeshFormat::off}, {"3mf", MeshFormat::threemf}, {"amf", MeshFormat::amf}};
-
-/// A path for messages: only the end of a long one, so that there is room for the reason.
-std::string shown(const std::string& path) {
-  constexpr size_t most = 200;
-  if (path.size() <= most) return path;
-  size_t first = path.size() - most;
-  while (first < path.size() && (path[first] & 0xc0) == 0x80) ++first;  // whole characters of UTF-8
-  return "..." + path.substr(first);
-}
 
 MeshFormat format_of(const std::string& path) {
   const size_t slash = path.find_last_of("/\\");
@@ -76,72 +63,6 @@ void check_size(uint64_t bytes, const MeshFileOptions& options) {
          static_cast<unsigned long long>(options.max_bytes));
 }
 
-struct Content {
-  std::unique_ptr<char[]> bytes;
-  uint64_t size;
-};
-
-namespace fs = std::filesystem;
-
-/// From UTF-8. Elsewhere than on Windows a path is bytes in no set encoding.
-fs::path system_path(const std::string& path) {
-#ifdef _WIN32
-  return fs::path(std::u8string(path.begin(), path.end()));
-#else
-  return fs::path(path);
-#endif
-}
-
-std::FILE* open_to_read(const fs::path& path) {
-#ifdef _WIN32
-  return _wfopen(path.c_str(), L"rb");
-#else
-  return std::fopen(path.c_str(), "rb");
-#endif
-}
-
-Content read_whole_file(const std::string& path, const MeshFileOptions& options,
-                        Reservation& reservation) {
-  const fs::path file_path = system_path(path);
-  const auto give_up = [&](int error) {
-    if (error == ENOMEM) throw std::bad_alloc();
-    fail(Status::io, "%s: %s", shown(path).c_str(), std::generic_category().message(error).c_str());
-  };
-  std::error_code error;
-  const fs::file_status status = fs::status(file_path, error);
-  if (status.type() == fs::file_type::not_found) give_up(ENOENT);
-  if (error) give_up(error.value());
-  if (status.type() == fs::file_type::directory) give_up(EISDIR);
-  // Pipes and devices have no size to check, and may never end.
-  if (status.type() != fs::file_type::regular)
-    fail(Status::io, "%s: not a regular file", shown(path).c_str());
-  const uint64_t bytes = fs::file_size(file_path, error);
-  if (error) give_up(error.value());
-  check_size(bytes, options);
-  reservation = reserve_reading(bytes, options);
-
-  const auto close = [](std::FILE* file) { std::fclose(file); };
-  errno = 0;
-  const std::unique_ptr<std::FILE, decltype(close)> file(open_to_read(file_path), close);
-  if (!file) give_up(errno ? errno : ENOMEM);
-  // Unbuffered, directly into memory that is not filled with zeros first.
-  std::setvbuf(file.get(), nullptr, _IONBF, 0);
-  Content content{std::make_unique_for_overwrite<char[]>(bytes), bytes};
-  constexpr uint64_t piece = 4 << 20;
-  for (uint64_t at = 0; at < bytes;) {
-    check_cancelled(options.part.job);
-    errno = 0;
-    const size_t got =
-        std::fread(content.bytes.get() + at, 1, std::min(piece, bytes - at), file.get());
-    at += got;
-    if (got > 0) continue;
-    if (std::ferror(file.get())) give_up(errno ? errno : EIO);
-    fail(Status::io, "%s: ended after %llu of %llu bytes", shown(path).c_str(),
-         static_cast<unsigned long long>(at), static_cast<unsigned long long>(bytes));
-  }
-  return content;
-}
-
 TriangleSoup read(std::string_view file, MeshFormat format, const MeshFileOptions& options) {
   SoupBuilder soup(options.max_triangles, options.part, file.size());
   double scale = options.unit_mm;
@@ -177,9 +98,12 @@ TriangleSoup read_mesh_file(const std::string& path, const MeshFileOptions& opti
   const MeshFormat format =
       options.format == MeshFormat::automatic ? format_of(path) : options.format;
   Reservation reservation;
-  const Content content = read_whole_file(path, options, reservation);
+  const FileContent content = read_whole_file(path, options.part.job, [&](uint64_t bytes) {
+    check_size(bytes, options);
+    reservation = reserve_reading(bytes, options);
+  });
   try {
-    return read({content.bytes.get(), content.size}, format, options);
+    return read(content.view(), format, options);
   } catch (const Error& error) {
     if (error.status == Status::cancelled) throw;
     throw Error(error.status, shown(path) + ": " + error.what());

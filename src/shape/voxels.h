@@ -28,6 +28,8 @@ class Voxels final : public Shape {
   bool enter(const Ray& ray, double from, double to, double& t, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
 
+  const Image& image() const { return image_; }
+
  protected:
   double distance_bound(Vec3 p) const override;
 
