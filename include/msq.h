@@ -3098,8 +3098,8 @@ MSQ_API msq_status msq_document_from_json(msq_context* context, const char* text
                                           const msq_document_def* def, msq_document** document,
                                           msq_job* job);
 
-/** Reads a document from a file. path: as in msq_shape_from_file. Otherwise as
- * msq_document_from_json; the message then begins with the path. Since 0.2. */
+/** Reads a document from a file. path: as in msq_shape_from_file. Its messages begin with the path.
+ * The rest is as in msq_document_from_json. Errors: as msq_document_from_json. Since 0.2. */
 MSQ_API msq_status msq_document_from_file(msq_context* context, const char* path,
                                           const msq_document_def* def, msq_document** document,
                                           msq_job* job);

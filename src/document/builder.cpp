@@ -148,8 +148,13 @@ Handle* make_of(Builder& builder, uint32_t value) {
   reader.finish();
   check_cancelled(builder.job() ? &object(builder.job(), "job") : nullptr);
   Handle* handle = nullptr;
-  const msq_status status = create(builder, def, &handle);
-  if (status != MSQ_OK) builder.refuse_call(value, status);
+  try {
+    const msq_status status = create(builder, def, &handle);
+    if (status != MSQ_OK) builder.refuse_call(value, status);
+  } catch (...) {
+    release(handle);
+    throw;
+  }
   return handle;
 }
 

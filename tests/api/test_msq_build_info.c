@@ -10,6 +10,7 @@ static void report_tells_how_the_library_was_built(void** state) {
   assert_int_equal(report.with_assimp, MSQ_WITH_ASSIMP);
   assert_int_equal(report.with_cgal, MSQ_WITH_CGAL);
   assert_int_equal(report.with_xxhash, MSQ_WITH_XXHASH);
+  assert_int_equal(report.with_json, MSQ_WITH_JSON);
   assert_string_equal(report.licence, MSQ_WITH_CGAL ? "GPL-3.0-or-later" : "Apache-2.0");
   assert_non_null(report.simd);
   assert_true(strlen(report.simd) > 0);

@@ -39,7 +39,9 @@
   DO(rays_def, sizeof(msq_rays_def))                                 \
   DO(camera, sizeof(msq_camera))                                     \
   DO(render_def, sizeof(msq_render_def))                             \
-  DO(frame, sizeof(msq_frame))
+  DO(frame, sizeof(msq_frame))                                       \
+  DO(document_def, sizeof(msq_document_def))                         \
+  DO(json_def, sizeof(msq_json_def))
 
 #define DEFINE_ONE(name, first)                           \
   static msq_status init_##name(void* def, size_t size) { \

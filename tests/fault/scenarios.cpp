@@ -13,7 +13,7 @@ std::vector<Scenario> all_scenarios() {
   for (auto* make :
        {small_scenarios, create_scenarios, file_scenarios, point_scenarios, set_scenarios,
         slice_scenarios, ray_scenarios, statistic_scenarios, fill_scenarios, contour_scenarios,
-        strut_scenarios, printability_scenarios, surface_scenarios})
+        strut_scenarios, printability_scenarios, surface_scenarios, document_scenarios})
     for (Scenario& scenario : make()) all.push_back(std::move(scenario));
   return all;
 }

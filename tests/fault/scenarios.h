@@ -21,6 +21,7 @@ std::vector<Scenario> contour_scenarios();       ///< contours
 std::vector<Scenario> strut_scenarios();         ///< struts
 std::vector<Scenario> printability_scenarios();  ///< printability
 std::vector<Scenario> surface_scenarios();       ///< preview meshes
+std::vector<Scenario> document_scenarios();      ///< documents
 
 /// All of these.
 std::vector<Scenario> all_scenarios();

@@ -16,6 +16,7 @@ from ._host import HostPoints
 from .camera import Camera
 from .context import (BuildInfo, CacheInfo, Context, Job, JobInfo, MemoryInfo, build_info)
 from .contours import Contours
+from .document import Document
 from .errors import (ArgumentError, CancelledError, Error, FileError, HostError, InternalError,
                      LimitError, MeshError, OutOfMemoryError, UnsupportedError)
 from .field import Field, Param
@@ -38,7 +39,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "ArgumentError", "Beams", "BuildInfo", "CacheInfo", "Calibration", "Camera", "CancelledError",
-    "Context", "Contours", "Error", "Estimate", "Field", "FileError", "Fill", "Foam", "Functional",
+    "Context", "Contours", "Document", "Error", "Estimate", "Field", "FileError", "Fill", "Foam", "Functional",
     "Grid", "HostError",
     "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",
     "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "Mesh", "MeshError",

@@ -112,6 +112,9 @@ MSQ_COLOUR_PLAIN = 0
 MSQ_COLOUR_SCALE = 1
 MSQ_COLOUR_MATERIAL = 2
 MSQ_COLOUR_NORMAL = 3
+MSQ_DOCUMENT_FILES_BELOW = 0
+MSQ_DOCUMENT_FILES_NONE = 1
+MSQ_DOCUMENT_FILES_ANY = 2
 
 
 class msq_context(Structure):
@@ -158,10 +161,14 @@ class msq_fill(Structure):
     """Opaque."""
 
 
+class msq_document(Structure):
+    """Opaque."""
+
+
 class msq_build_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("version", c_uint32), ("with_assimp", c_int32),
                 ("with_cgal", c_int32), ("licence", c_char_p), ("simd", c_char_p),
-                ("with_xxhash", c_int32), ("reserved", c_uint32)]
+                ("with_xxhash", c_int32), ("with_json", c_int32)]
 
 
 msq_warning_fn = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
@@ -626,6 +633,25 @@ class msq_render_pass(Structure):
 msq_render_fn = CFUNCTYPE(c_int32, c_void_p, POINTER(msq_render_pass))
 
 
+class msq_document_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("files", c_int32), ("base_directory", c_char_p),
+                ("max_bytes", c_uint64), ("max_values", c_uint64), ("max_depth", c_uint32),
+                ("max_files", c_uint32), ("max_file_bytes", c_uint64), ("max_triangles", c_uint64)]
+
+
+class msq_document_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("version", c_uint32), ("has_slicing", c_int32),
+                ("has_view", c_int32), ("files", c_uint32), ("reserved", c_uint32),
+                ("title", c_char_p)]
+
+
+class msq_json_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("base_directory", c_char_p),
+                ("title", c_char_p), ("slicing", POINTER(msq_slicer_def)),
+                ("camera", POINTER(msq_camera)), ("render", POINTER(msq_render_def)),
+                ("max_numbers", c_uint64)]
+
+
 # name: [result, arguments ...]
 FUNCTIONS = {
     "msq_version": [c_uint32],
@@ -849,4 +875,20 @@ FUNCTIONS = {
     "msq_render": [c_int32, POINTER(msq_model), POINTER(msq_camera), POINTER(msq_render_def),
                    POINTER(msq_query_def), POINTER(msq_frame), msq_render_fn, c_void_p,
                    POINTER(msq_job)],
+    "msq_document_def_init": [c_int32, POINTER(msq_document_def), c_size_t],
+    "msq_document_from_json": [c_int32, POINTER(msq_context), c_char_p, c_uint64,
+                               POINTER(msq_document_def), POINTER(POINTER(msq_document)),
+                               POINTER(msq_job)],
+    "msq_document_from_file": [c_int32, POINTER(msq_context), c_char_p, POINTER(msq_document_def),
+                               POINTER(POINTER(msq_document)), POINTER(msq_job)],
+    "msq_document_retain": [None, POINTER(msq_document)],
+    "msq_document_release": [None, POINTER(msq_document)],
+    "msq_document_info": [c_int32, POINTER(msq_document), POINTER(msq_document_report)],
+    "msq_document_model": [c_int32, POINTER(msq_document), POINTER(POINTER(msq_model))],
+    "msq_document_slicing": [c_int32, POINTER(msq_document), POINTER(msq_slicer_def)],
+    "msq_document_view": [c_int32, POINTER(msq_document), POINTER(msq_camera),
+                          POINTER(msq_render_def)],
+    "msq_json_def_init": [c_int32, POINTER(msq_json_def), c_size_t],
+    "msq_model_to_json": [c_int32, POINTER(msq_model), POINTER(msq_json_def), c_char_p, c_uint64,
+                          POINTER(c_uint64)],
 }

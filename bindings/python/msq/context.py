@@ -42,6 +42,7 @@ class BuildInfo:
     licence: str  #: effective SPDX licence of the binary
     simd: str  #: instruction set that the kernels use on this machine
     with_xxhash: bool  #: shapes, fields, structures, materials and models have a hash
+    with_json: bool  #: models are read from JSON and written
 
 
 @dataclasses.dataclass(frozen=True)

@@ -99,6 +99,36 @@ class Model(Handle):
         made.context = context
         return made
 
+    @classmethod
+    def from_json(cls, text: Union[str, bytes], *,
+                  base_directory: Union[None, str, "os.PathLike[str]"] = None, files: str = "below",
+                  context: Optional[Context] = None, job: Optional[Job] = None) -> Model:
+        """The model of a text in JSON (docs/model_file.md). base_directory: where the paths in it
+        start; files: which it may name: `below` that directory, `none` or `any`. See Document for
+        files, settings and limits."""
+        from .document import Document
+        return Document.from_json(text, base_directory=base_directory, files=files, context=context,
+                                  job=job).model
+
+    def to_json(self, *, title: Optional[str] = None,
+                base_directory: Union[None, str, "os.PathLike[str]"] = None,
+                max_numbers: int = 0) -> str:
+        """The model as a text in JSON, from which from_json makes one with the same hash. Paths of
+        files below base_directory become relative to it. Longer arrays than max_numbers are refused;
+        0: a million."""
+        definition = defaults(_abi.msq_json_def)
+        if title is not None:
+            definition.title = title.encode()
+        if base_directory is not None:
+            definition.base_directory = os.fsencode(base_directory)
+        definition.max_numbers = unsigned(max_numbers, 64, "max_numbers")
+        size = ctypes.c_uint64()
+        given = ctypes.byref(definition)
+        lib.msq_model_to_json(self._ref, given, None, 0, ctypes.byref(size))
+        text = ctypes.create_string_buffer(size.value + 1)
+        lib.msq_model_to_json(self._ref, given, text, len(text), ctypes.byref(size))
+        return text.value.decode()
+
     @property
     def hash(self) -> str:
         """32 hexadecimal digits: equal for equal definitions with equal inputs, on every machine,

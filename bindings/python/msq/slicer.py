@@ -244,8 +244,28 @@ class Slicer(Handle):
             definition.layer_z = pointer(heights, ctypes.c_double)
             definition.layer_z_count = len(heights)
         definition.length_scale = length_scale
-        self._reference = self._create(lib.msq_slicer_create, model._ref, ctypes.byref(definition))
         self._output = output
+        self._plan(model, definition)
+
+    @classmethod
+    def _of_definition(cls, model: Model, definition: _abi.msq_slicer_def) -> Slicer:
+        """The slicer of a definition that msq has made."""
+        names = {getattr(_abi, f"MSQ_LAYER_{name.upper()}"): name
+                 for name in ("bits", "bytes", "grey", "distance", "material", "onset",
+                              "contours")}
+        made = cls.__new__(cls)
+        if definition.output_count:
+            made._kinds = tuple(names[definition.outputs[i].output]
+                                for i in range(definition.output_count))
+            made._output = made._kinds
+        else:
+            made._output = names[definition.output]
+            made._kinds = (made._output,)
+        made._plan(model, definition)
+        return made
+
+    def _plan(self, model: Model, definition: _abi.msq_slicer_def) -> None:
+        self._reference = self._create(lib.msq_slicer_create, model._ref, ctypes.byref(definition))
         plan = report(_abi.msq_slicer_report, lib.msq_slicer_info, self._ref)
         self.width: int = plan.width  #: pixels in x
         self.height: int = plan.height  #: pixels in y

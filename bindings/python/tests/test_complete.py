@@ -15,7 +15,9 @@ NOT_NEEDED = {"msq_status_name": "exceptions have the name",
 NOT_NEEDED.update({name: "Python counts its own references" for name in _abi.FUNCTIONS
                    if name.endswith("_retain")})
 # Fields that the package has no use for. A loop on threads of Python would hold the interpreter's lock.
-FIELDS_NOT_NEEDED = {"msq_context_def.parallel_for", "msq_context_def.parallel_for_user",
+# Settings of a document are written by hand or by the command.
+FIELDS_NOT_NEEDED = {"msq_json_def.slicing", "msq_json_def.camera", "msq_json_def.render",
+                     "msq_context_def.parallel_for", "msq_context_def.parallel_for_user",
                      "msq_context_def.parallel_for_release"}
 # Functions, reports, and fields of definitions as "struct.field", still to be bound.
 NOT_YET = set()
@@ -27,7 +29,7 @@ REPORTS = {"msq_build_report": msq.BuildInfo, "msq_memory_report": msq.MemoryInf
            "msq_printability_report": msq.Printability}
 # Reports that objects hold, as attributes and arrays.
 ARRAYS = {"msq_slicer_report", "msq_contours_report", "msq_fill_report",
-          "msq_strut_graph_report"}
+          "msq_strut_graph_report", "msq_document_report"}
 DEFINITIONS = {"msq_camera"}  # beside those that end in _def
 SET_BY_NAME = {"struct_size", "reserved", "reserved2", "user", "release"}
 
