@@ -10,6 +10,8 @@
 
 namespace msq::test {
 
+#if MSQ_WITH_JSON
+
 namespace {
 
 /// Every kind of object that needs no file, and both settings.
@@ -37,8 +39,8 @@ constexpr const char* text = R"({
 
 msq_document* read(World& world) {
   msq_document* document;
-  require_ok(msq_document_from_json(world.context(), text, std::strlen(text), nullptr, &document,
-                                    nullptr));
+  require_ok(
+      msq_document_from_json(world.context, text, std::strlen(text), nullptr, &document, nullptr));
   return document;
 }
 
@@ -51,8 +53,6 @@ void require_model(msq_document* document) {
   msq_model_release(model);
   msq_document_release(document);
 }
-
-#if MSQ_WITH_JSON
 
 /// A document and a mesh that it names, for as long as this lives.
 class Files {
@@ -80,9 +80,9 @@ class Files {
   std::string folder_;
 };
 
-#endif
-
 }  // namespace
+
+#endif
 
 std::vector<Scenario> document_scenarios() {
   std::vector<Scenario> scenarios = {
@@ -105,9 +105,8 @@ std::vector<Scenario> document_scenarios() {
                          stage.watch_handle(document);
                          stage.call(
                              [&] {
-                               return msq_document_from_json(world.context(), text,
-                                                             std::strlen(text), nullptr, &document,
-                                                             nullptr);
+                               return msq_document_from_json(world.context, text, std::strlen(text),
+                                                             nullptr, &document, nullptr);
                              },
                              [&] { require_model(document); });
                        }});
@@ -120,7 +119,7 @@ std::vector<Scenario> document_scenarios() {
                          stage.watch_handle(document);
                          stage.call(
                              [&] {
-                               return msq_document_from_file(world.context(), path.c_str(), nullptr,
+                               return msq_document_from_file(world.context, path.c_str(), nullptr,
                                                              &document, nullptr);
                              },
                              [&] { require_model(document); });
