@@ -265,13 +265,22 @@ const Handle* Builder::make(uint32_t value, std::span<const KindOf<Handle>> kind
   refuse(found.first, Status::argument, "is an unknown kind; it must be one of " + names);
 }
 
+uint32_t Builder::definition(const char* section, const std::string& name) {
+  const auto [names, is_new] = names_.try_emplace(section);
+  const uint32_t definitions = is_new ? tree_.member(0, section) : 0;
+  if (definitions && tree_[definitions].kind == ValueKind::object && tree_[definitions].count > 0)
+    for (uint32_t value = tree_[definitions].first; value; value = tree_[value].next)
+      names->second.emplace(tree_.key(value), value);
+  const auto found = names->second.find(name);
+  return found == names->second.end() ? 0 : found->second;
+}
+
 template <class Handle>
 const Handle* Builder::handle(uint32_t value, const char* section,
                               std::span<const KindOf<Handle>> kinds) {
   if (tree_[value].kind != ValueKind::text) return make(value, kinds);
   const std::string& name = tree_.text(tree_[value].text);
-  const uint32_t definitions = tree_.member(0, section);
-  const uint32_t definition = definitions ? tree_.member(definitions, name) : 0;
+  const uint32_t definition = this->definition(section, name);
   if (!definition)
     refuse(value, Status::argument,
            "is " + json_quoted(name.substr(0, 100)) + ", which is not in " + section);

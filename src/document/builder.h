@@ -67,6 +67,8 @@ class Builder {
  private:
   template <class Handle>
   const Handle* handle(uint32_t value, const char* section, std::span<const KindOf<Handle>> kinds);
+  /// The definition of a name in a section; 0: none.
+  uint32_t definition(const char* section, const std::string& name);
   template <class Handle>
   const Handle* make(uint32_t value, std::span<const KindOf<Handle>> kinds);
   template <class Handle>
@@ -79,6 +81,8 @@ class Builder {
   uint64_t bytes_ = 0;
   uint32_t files_ = 0;
   unsigned depth_ = 0;  ///< definitions within each other
+  /// The names of each section that was asked for one, so that many names are found quickly.
+  std::unordered_map<std::string_view, std::unordered_map<std::string_view, uint32_t>> names_;
   /// Named definitions by their values; null: under construction.
   std::unordered_map<uint32_t, const void*> named_;
   std::vector<std::pair<void*, void (*)(void*)>> held_;  ///< with what releases them
