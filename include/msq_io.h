@@ -152,21 +152,12 @@ MSQ_IO_API void msq_io_writer_release(msq_io_writer* writer);
 
 /* ---- PNG ------------------------------------------------------------------------------------- */
 
-/** What makes PNG streams. The pixels are the same. */
-enum msq_io_png_encoder {
-  /** Differences of neighbouring rows, runs of zeros in them, and fixed codes of deflate. Several
-   * times as fast as libpng, with files one to two times as large. */
-  MSQ_IO_PNG_RUNS = 1,
-  /** libpng with the level of msq_io_png_def. */
-  MSQ_IO_PNG_LIBPNG = 2
-};
-
 /** Definition of a stack of PNG files. */
 typedef struct msq_io_png_def {
   uint32_t struct_size;
-  /** An msq_io_png_encoder. Default MSQ_IO_PNG_RUNS. */
-  int32_t encoder;
-  /** LIBPNG: level of compression, 0 to 9. Default 1. RUNS: ignored. */
+  /** 0 (default): streams are compressed by ISA-L, which is several times as fast as the other
+   * levels and nearly as dense as level 1; in a build without ISA-L as level 1. 1 to 9: by libpng,
+   * at that level of zlib. The pixels are the same. */
   int32_t level;
   /** Digits of the number of a layer in the name of its file, 1 to 20. Longer numbers have the
    * digits that they need. Default 5. */
@@ -186,16 +177,15 @@ MSQ_IO_API msq_status msq_io_png_def_init(msq_io_png_def* def, size_t size);
  * The folder is made if it does not exist; it then appears with all its files in one step. If it
  * exists, the files are added to it at the end, each in one step, and a failure removes them.
  *
- * writer_def, def NULL: defaults. The writer retains the slicer. Cost: with RUNS about 0.3 ms per
- * layer of 2048 x 2048 bits, on one thread. Errors: ARGUMENT (also an output that is neither BITS,
- * BYTES nor GREY, once layers come), IO, LIMIT (2^31 - 1 pixels along a side), MEMORY. */
+ * writer_def, def NULL: defaults. Errors: ARGUMENT (also an output that is neither BITS,
+ * BYTES nor GREY, once layers come), IO, LIMIT (a layer of 2^31 bytes or more), MEMORY. */
 MSQ_IO_API msq_status msq_io_png_create(const msq_slicer* slicer, const char* path,
                                         const msq_io_writer_def* writer_def,
                                         const msq_io_png_def* def, msq_io_writer** writer);
 
 /** Writes one picture of 8 bits per channel as a PNG file. channels: 1 (grey), 3 (RGB) or 4 (RGBA).
  * pixels: height rows from the top, stride bytes apart; stride 0: width * channels. Errors:
- * ARGUMENT, IO, LIMIT (2^31 - 1 pixels along a side), MEMORY. */
+ * ARGUMENT, IO, LIMIT (a picture of 2^31 bytes or more), MEMORY. */
 MSQ_IO_API msq_status msq_io_picture_save(const char* path, uint32_t width, uint32_t height,
                                           uint32_t channels, const uint8_t* pixels, uint64_t stride,
                                           int32_t replace);
@@ -232,9 +222,7 @@ MSQ_IO_API msq_status msq_io_panel_plan(const msq_model* model, const msq_io_pan
 /** Definition of an SL1 archive. Times are in seconds. Strings: UTF-8 without line breaks. */
 typedef struct msq_io_sl1_def {
   uint32_t struct_size;
-  /** As in msq_io_png_def. Default RUNS. */
-  int32_t encoder;
-  /** As in msq_io_png_def. Default 1. */
+  /** As in msq_io_png_def. Default 0. */
   int32_t level;
   /** faded_layers: number of layers over which the time falls from the first to the others.
    * Default 10. */
@@ -275,8 +263,8 @@ MSQ_IO_API msq_status msq_io_sl1_def_init(msq_io_sl1_def* def, size_t size);
 /** Begins an SL1 archive: config.ini and prusaslicer.ini with PrusaSlicer's keys, one PNG of 8 bits
  * per layer, and thumbnails. Layers must have the size of the panel, as msq_io_panel_plan makes
  * them, the same height each, and hold GREY or BYTES. writer_def, def NULL: defaults. job: for the
- * thumbnails; NULL: no job. The writer retains the slicer. Errors: ARGUMENT, CANCELLED, HOST, IO,
- * LIMIT, MEMORY. */
+ * thumbnails; NULL: no job. Errors: ARGUMENT, CANCELLED, HOST, IO, LIMIT (as msq_io_png_create),
+ * MEMORY. */
 MSQ_IO_API msq_status msq_io_sl1_create(const msq_slicer* slicer, const char* path,
                                         const msq_io_writer_def* writer_def,
                                         const msq_io_sl1_def* def, msq_io_writer** writer,
@@ -314,8 +302,8 @@ MSQ_IO_API msq_status msq_io_svg_def_init(msq_io_svg_def* def, size_t size);
 /** Begins an SVG file or a folder of them, from an output of CONTOURS (writer_def->output says
  * which). The picture is the rectangle of the slicer's pixels in model units, with y upwards;
  * width and height are given in millimetres. Coordinates are relative to its corner of smallest x
- * and largest y. Folders as for msq_io_png_create. writer_def, def NULL: defaults. The writer
- * retains the slicer. Errors: ARGUMENT, IO, MEMORY. */
+ * and largest y. Folders as for msq_io_png_create. writer_def, def NULL: defaults. Errors:
+ * ARGUMENT, IO, MEMORY. */
 MSQ_IO_API msq_status msq_io_svg_create(const msq_slicer* slicer, const char* path,
                                         const msq_io_writer_def* writer_def,
                                         const msq_io_svg_def* def, msq_io_writer** writer);
