@@ -1,4 +1,5 @@
-# Installs the library, its C header, the C++ header over it, the CMake package and the pkg-config file. A shared msq
+# Installs the library, its C header, the C++ header over it, the CMake package and the pkg-config file,
+# and msq_io likewise. A shared msq
 # keeps its dependencies to itself; a static one hands them on to whoever links it.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -26,6 +27,16 @@ install(FILES include/msq.h bindings/cpp/msq.hpp DESTINATION ${CMAKE_INSTALL_INC
 # Not CMAKE_INSTALL_DOCDIR, which is the host's where msq is a part of another project.
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/msq)
 install(EXPORT msqTargets NAMESPACE msq:: DESTINATION ${MSQ_CMAKE_DIR})
+
+if(MSQ_BUILD_TOOLS)
+  install(TARGETS msq_io EXPORT msqIoTargets
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+          INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(FILES include/msq_io.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT msqIoTargets NAMESPACE msq:: DESTINATION ${MSQ_CMAKE_DIR})
+endif()
 
 configure_package_config_file(cmake/msqConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/msqConfig.cmake
                               INSTALL_DESTINATION ${MSQ_CMAKE_DIR}
@@ -80,3 +91,15 @@ foreach(dir IN ITEMS LIBDIR INCLUDEDIR)
 endforeach()
 configure_file(cmake/msq.pc.in ${CMAKE_CURRENT_BINARY_DIR}/msq.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/msq.pc DESTINATION ${MSQ_PC_DIR})
+
+if(MSQ_BUILD_TOOLS)
+  set(MSQ_PC_REQUIRES_PRIVATE "")
+  if(NOT BUILD_SHARED_LIBS)
+    set(MSQ_PC_REQUIRES_PRIVATE "libpng, zlib, minizip")
+    if(MSQ_WITH_ISAL)
+      string(APPEND MSQ_PC_REQUIRES_PRIVATE ", libisal")
+    endif()
+  endif()
+  configure_file(cmake/msq_io.pc.in ${CMAKE_CURRENT_BINARY_DIR}/msq_io.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/msq_io.pc DESTINATION ${MSQ_PC_DIR})
+endif()

@@ -29,18 +29,19 @@ function(msq_compile_options target)
   endif()
 endfunction()
 
-# A shared library exports msq_* and nothing else, not even templates of the standard library. On
-# Windows only what msq.h marks is exported.
-function(msq_export_only_api target)
+# A shared library exports its functions and nothing else, not even templates of the standard
+# library: what the files `names`.map and `names`.exports list. On Windows only what its header marks
+# is exported.
+function(msq_export_only_api target names)
   get_target_property(type ${target} TYPE)
   if(NOT type STREQUAL "SHARED_LIBRARY" OR WIN32)
     return()
   endif()
   if(APPLE)
-    set(list ${CMAKE_CURRENT_SOURCE_DIR}/src/api/msq.exports)
+    set(list ${names}.exports)
     target_link_options(${target} PRIVATE "LINKER:-exported_symbols_list,${list}")
   elseif(UNIX)
-    set(list ${CMAKE_CURRENT_SOURCE_DIR}/src/api/msq.map)
+    set(list ${names}.map)
     target_link_options(${target} PRIVATE "LINKER:--version-script=${list}" "LINKER:--no-undefined")
   endif()
   set_target_properties(${target} PROPERTIES LINK_DEPENDS ${list})

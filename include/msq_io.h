@@ -104,7 +104,7 @@ typedef struct msq_io_writer_def {
   int32_t replace;
   /** Bytes of layers that wait for threads or for the disk, and of encoded ones. The thread that
    * brings more encodes layers itself or waits, which holds msq back. A single layer may be larger.
-   * Default 64 MiB. Does not change the file. */
+   * Default 16 MiB. Does not change the file. */
   uint64_t queue_bytes;
   /** Layers that will come, as in msq_slicer_run. Defaults 0 and UINT64_MAX: to the last. */
   uint64_t first_layer;
@@ -252,6 +252,9 @@ typedef struct msq_io_sl1_def {
   /** fileCreationTimestamp, in seconds since 1970-01-01 UTC, at least 315532800 (1980). 0
    * (default): that of 1980-01-01, so that the same layers make the same file. */
   int64_t created;
+  /** layer_height in millimetres. 0 (default): the distance of the layers, which are then two at
+   * least. */
+  double layer_height;
   /** Of which the two thumbnails, of 400 x 400 and 800 x 480 pixels, are rendered when the writer
    * is created. NULL (default): no thumbnails. */
   const msq_model* thumbnail_model;
@@ -262,7 +265,7 @@ MSQ_IO_API msq_status msq_io_sl1_def_init(msq_io_sl1_def* def, size_t size);
 
 /** Begins an SL1 archive: config.ini and prusaslicer.ini with PrusaSlicer's keys, one PNG of 8 bits
  * per layer, and thumbnails. Layers must have the size of the panel, as msq_io_panel_plan makes
- * them, the same height each, and hold GREY or BYTES. writer_def, def NULL: defaults. job: for the
+ * them, at even heights, and hold GREY or BYTES. writer_def, def NULL: defaults. job: for the
  * thumbnails; NULL: no job. Errors: ARGUMENT, CANCELLED, HOST, IO, LIMIT (as msq_io_png_create),
  * MEMORY. */
 MSQ_IO_API msq_status msq_io_sl1_create(const msq_slicer* slicer, const char* path,

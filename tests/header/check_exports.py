@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The shared library exports exactly the functions that msq.h declares.
+"""The shared library exports exactly the functions that its header declares.
 
 usage: check_exports.py [--nm PROGRAM] msq.h libmsq.so
 """

@@ -21,7 +21,7 @@ def declared_functions(header):
         match = re.search(r"\b(\w+)\s*\(", statement)
         if match is None:
             continue
-        (names if re.match(r"\s*MSQ_API\b", statement) else bare).append(match.group(1))
+        (names if re.match(r"\s*MSQ_(IO_)?API\b", statement) else bare).append(match.group(1))
     if bare:
         sys.exit(f"{header}: declared without MSQ_API: {', '.join(bare)}")
     if not names:

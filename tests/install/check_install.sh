@@ -19,18 +19,22 @@ mv "$work/first" "$work/moved"
 prefix=$work/moved
 pc=$(dirname "$(find "$prefix" -name msq.pc)")
 
-headers=$(find "$prefix/include" -type f -printf '%f ')
-[[ $headers == "msq.h " ]] || die "installed headers: $headers"
+headers=$(find "$prefix/include" -type f -printf '%f\n' | LC_ALL=C sort | tr '\n' ' ')
+has_io=OFF
+if [[ -e $pc/msq_io.pc ]]; then has_io=ON; fi
+if [[ $has_io == ON ]]; then wanted="msq.h msq_io.h "; else wanted="msq.h "; fi
+[[ $headers == "$wanted" ]] || die "installed headers: $headers"
 if grep -rlF -e "$work/first" -e "$build" "$prefix" --include='*.cmake' --include='*.pc'; then
   die "these files name the folder they were built or first installed in"
 fi
 
 case $way in
   cmake)
-    options=(-DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$CC" -DCMAKE_BUILD_TYPE=Release)
+    options=(-DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$CC" -DCMAKE_BUILD_TYPE=Release
+      -DCONSUMER_IO="$has_io")
     if [[ $kind == shared ]]; then
       # A host of the shared library needs none of its dependencies.
-      for name in TBB assimp pugixml CGAL PkgConfig Threads; do
+      for name in TBB assimp pugixml CGAL PkgConfig Threads PNG ZLIB; do
         options+=("-DCMAKE_DISABLE_FIND_PACKAGE_$name=ON")
       done
     else
@@ -40,6 +44,13 @@ case $way in
     configure "-DCONSUMER_WANTS=$version" || { cat "$work/log"; exit 1; }
     "$CMAKE" --build "$work/build" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
     "$work/build/consumer"
+    if [[ $has_io == ON ]]; then "$work/build/consumer_io"; fi
+    # A component that there is not.
+    rm -rf "$work/build"
+    if configure "-DCONSUMER_WANTS=$version" -DCONSUMER_COMPONENT=none; then
+      die "the package has a component that there is not"
+    fi
+    tr -s ' \n' ' ' <"$work/log" | grep -q "no component none" || { cat "$work/log"; exit 1; }
     # No request for a newer minor version is met, nor, before 0.2, one for an older version.
     major=${version%%.*} minor=${version#*.} minor=${minor%%.*}
     others=("$major.$((minor + 1))")
@@ -82,6 +93,12 @@ case $way in
     read -r -a libs <<<"$all_libs"
     "$CC" -std=c99 "${cflags[@]}" "$here/consumer/consumer.c" -o "$work/consumer" "${libs[@]}"
     LD_LIBRARY_PATH=$(dirname "$pc") "$work/consumer"
+    if [[ $has_io == ON ]]; then
+      all_flags=$("$PKG_CONFIG" "${flags[@]}" --cflags --libs msq_io)
+      read -r -a both <<<"$all_flags"
+      "$CC" -std=c99 "$here/consumer/consumer_io.c" -o "$work/consumer_io" "${both[@]}"
+      LD_LIBRARY_PATH=$(dirname "$pc") "$work/consumer_io"
+    fi
     ;;
   *) die "unknown way: $way" ;;
 esac
