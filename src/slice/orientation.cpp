@@ -38,6 +38,13 @@ void orient(const Orientation& how, const uint8_t* plan, uint64_t plan_stride, u
   const uint64_t out_height = how.transpose ? width : height;
   executor.for_each((out_height + strip_rows - 1) / strip_rows, [&](uint64_t strip) {
     const uint64_t first = strip * strip_rows, last = std::min(out_height, first + strip_rows);
+    if (!how.transpose && !how.mirror_x) {
+      for (uint64_t j = first; j < last; ++j) {
+        const uint64_t v = how.mirror_y ? out_height - 1 - j : j;
+        std::memcpy(out + j * out_stride, plan + v * plan_stride, out_stride);
+      }
+      return;
+    }
     std::memset(out + first * out_stride, 0, (last - first) * out_stride);
     // Columns of the result outside, so that reads of a transposed plan stay in one of its rows.
     for (uint64_t i = 0; i < out_width; ++i) {
