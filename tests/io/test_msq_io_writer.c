@@ -132,7 +132,7 @@ typedef struct several {
 
 static int32_t give_all(void* user, const msq_layer* layer) {
   several* all = (several*)user;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3 && all->writers[i]; ++i) {
     const int32_t code = msq_io_writer_layer(all->writers[i], layer);
     if (code != MSQ_OK) return code;
   }
@@ -187,6 +187,61 @@ static void several_writers(void** state) {
   msq_slicer_release(slicer);
 }
 
+/* Files of one name have the layers in order, by any number of threads and size of the queue. */
+static void ordered(void** state) {
+  (void)state;
+  msq_contours_def rings;
+  msq_output_def outputs[2];
+  assert_ok(msq_contours_def_init(&rings, sizeof rings));
+  rings.tolerance = 0.02;
+  for (int i = 0; i < 2; ++i) assert_ok(msq_output_def_init(&outputs[i], sizeof outputs[i]));
+  outputs[0].output = MSQ_LAYER_GREY;
+  outputs[1].output = MSQ_LAYER_CONTOURS;
+  outputs[1].contours = &rings;
+  msq_io_panel_def panel;
+  msq_slicer_def def;
+  msq_slicer* slicer;
+  assert_ok(msq_io_panel_def_init(&panel, sizeof panel));
+  panel.pixels[0] = panel.pixels[1] = 90;
+  panel.size[0] = panel.size[1] = 4.5;
+  assert_ok(msq_slicer_def_init(&def, sizeof def));
+  def.layer_height = 0.05;
+  def.outputs = outputs;
+  def.output_count = 2;
+  assert_ok(msq_io_panel_plan(model, &panel, &def));
+  assert_int_equal(def.layer_count, 80);
+  assert_ok(msq_slicer_create(model, &def, &slicer));
+  for (int k = 0; k < 2; ++k) {
+    several all = {{NULL, NULL, NULL}};
+    for (uint32_t i = 0; i < 2; ++i) {
+      msq_io_writer_def writer_def;
+      msq_io_sl1_def sl1;
+      assert_ok(msq_io_writer_def_init(&writer_def, sizeof writer_def));
+      assert_ok(msq_io_sl1_def_init(&sl1, sizeof sl1));
+      sl1.panel = &panel;
+      writer_def.output = i;
+      writer_def.threads = k ? 6 : 1;
+      if (k) writer_def.queue_bytes = 60000;
+      if (i)
+        assert_ok(msq_io_svg_create(slicer, in_folder(k ? "svg6" : "svg1"), &writer_def, NULL,
+                                    &all.writers[i]));
+      else
+        assert_ok(msq_io_sl1_create(slicer, in_folder(k ? "sl6" : "sl1"), &writer_def, &sl1,
+                                    &all.writers[i], NULL));
+    }
+    assert_ok(msq_slicer_run(slicer, 0, UINT64_MAX, give_all, &all, NULL));
+    for (int i = 0; i < 2; ++i) {
+      assert_ok(msq_io_writer_finish(all.writers[i]));
+      msq_io_writer_release(all.writers[i]);
+    }
+  }
+  assert_same_files(in_folder("svg1"), in_folder("svg6"));
+  assert_same_files(in_folder("sl1"), in_folder("sl6"));
+  const char* const names[] = {"svg1", "svg6", "sl1", "sl6"};
+  for (int i = 0; i < 4; ++i) remove(in_folder(names[i]));
+  msq_slicer_release(slicer);
+}
+
 static void meshes(void** state) {
   (void)state;
   msq_surface_def def;
@@ -220,6 +275,7 @@ static void meshes(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cancelled),    cmocka_unit_test(incomplete),      cmocka_unit_test(finished),
-      cmocka_unit_test(other_layers), cmocka_unit_test(several_writers), cmocka_unit_test(meshes)};
+      cmocka_unit_test(other_layers), cmocka_unit_test(several_writers), cmocka_unit_test(ordered),
+      cmocka_unit_test(meshes)};
   return cmocka_run_group_tests(tests, begin_tests, end_tests);
 }

@@ -64,7 +64,41 @@ bool write_image(png_structp png, png_infop info, const PngRows* image, const ui
   return true;
 }
 
+void put_be32(uint8_t* to, uint32_t value) {
+  for (int i = 0; i < 4; ++i) to[i] = static_cast<uint8_t>(value >> (24 - 8 * i));
+}
+
+void append_chunk(std::vector<uint8_t>& stream, const char* name, const uint8_t* bytes,
+                  size_t size) {
+  const size_t start = stream.size();
+  stream.resize(start + size + 12);
+  uint8_t* to = stream.data() + start;
+  put_be32(to, static_cast<uint32_t>(size));
+  std::memcpy(to + 4, name, 4);
+  if (size > 0) std::memcpy(to + 8, bytes, size);
+  put_be32(to + 8 + size, static_cast<uint32_t>(crc32_z(0, to + 4, size + 4)));
+}
+
 }  // namespace
+
+void wrap_png(const PngRows& image, const uint8_t* zlib_stream, size_t size,
+              std::vector<uint8_t>& stream) {
+  if (size > 0x7fffffff)
+    fail(MSQ_E_LIMIT, "a picture of %zu compressed bytes; the limit is 2147483647", size);
+  static constexpr uint8_t signature[8] = {137, 80, 78, 71, 13, 10, 26, 10};
+  stream.reserve(size + 64);
+  stream.resize(sizeof signature);
+  std::memcpy(stream.data(), signature, sizeof signature);
+  const int colour = image.channels == 1 ? 0 : image.channels == 3 ? 2 : 6;
+  uint8_t header[13] = {};
+  put_be32(header, image.width);
+  put_be32(header + 4, image.height);
+  header[8] = static_cast<uint8_t>(image.depth);
+  header[9] = static_cast<uint8_t>(colour);
+  append_chunk(stream, "IHDR", header, sizeof header);
+  append_chunk(stream, "IDAT", zlib_stream, size);
+  append_chunk(stream, "IEND", nullptr, 0);
+}
 
 void encode_by_libpng(const PngRows& image, const std::vector<uint8_t>& rows, int level,
                       bool is_layer, std::vector<uint8_t>& stream) {

@@ -34,6 +34,10 @@ void encode_by_libpng(const PngRows& image, const std::vector<uint8_t>& rows, in
 bool encode_fast(const PngRows& image, const std::vector<uint8_t>& rows,
                  std::vector<uint8_t>& stream);
 
+/// The PNG file around a zlib stream.
+void wrap_png(const PngRows& image, const uint8_t* zlib_stream, size_t size,
+              std::vector<uint8_t>& stream);
+
 /// Copies pixels to rows. Fails with LIMIT if that are 2^31 bytes or more.
 void copy_rows(const PngRows& image, const uint8_t* pixels, uint64_t stride,
                std::vector<uint8_t>& rows);
