@@ -454,7 +454,9 @@ enum msq_format {
   MSQ_FORMAT_PLY = 3,
   MSQ_FORMAT_OFF = 4,
   MSQ_FORMAT_3MF = 5,
-  MSQ_FORMAT_AMF = 6
+  MSQ_FORMAT_AMF = 6,
+  /** glTF 2.0, text or binary (GLB). Since 0.2. */
+  MSQ_FORMAT_GLTF = 7
 };
 
 /** The grid of neighbourhood cells of a structure, or the frame of an image. Cell (i, j, k) holds
@@ -536,7 +538,7 @@ typedef struct msq_file_def {
   /** Must be 0. */
   uint32_t reserved;
   /** Length of the file's unit in mm for STL, OBJ, PLY and OFF, which name no unit. Default 1. The
-   * units of 3MF and AMF files are read and applied. */
+   * units of 3MF and AMF files are read and applied; that of glTF is the metre. */
   double unit_mm;
   /** Maximum size in bytes of the file, and of what an archive unpacks to. 0 and default: 4 GiB. */
   uint64_t max_bytes;
@@ -553,13 +555,15 @@ MSQ_API msq_status msq_file_def_init(msq_file_def* def, size_t size);
  * All instances in the file become one shape in millimetres. msq applies transforms, triangulates
  * polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It
  * opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ:
- * vertices and faces are read. Limit: coordinates up to 1e100 in magnitude, in millimetres. Cost:
- * linear in the size of the file (a million triangles: about a second). Cancelling ends the call
- * within tens of milliseconds, except while the XML of 3MF or AMF is parsed.
- * Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and ASCII STL the message
- * names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or AMF in a build without
- * Assimp), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY,
- * CANCELLED. */
+ * vertices and faces are read. glTF: the triangles of the default scene are read from buffers in
+ * the file, with the transforms of nodes; y, which is up in glTF, becomes z. Limit: coordinates up
+ * to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a million triangles:
+ * about a second). Cancelling ends the call within tens of milliseconds, except while the XML of
+ * 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and
+ * ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or
+ * AMF in a build without Assimp, glTF in one without JSON; a 3MF file with beam lattices, see
+ * msq_beam_file_open; glTF with buffers in other files, compressed or sparse data, or skins), MESH
+ * (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY, CANCELLED. */
 MSQ_API msq_status msq_shape_from_file(msq_context* context, const char* path,
                                        const msq_file_def* def, msq_shape** shape, msq_job* job);
 
@@ -1424,6 +1428,99 @@ MSQ_API msq_status msq_beams_def_init(msq_beams_def* def, size_t size);
  * Faloutsos, "On packing R-trees", 1993. */
 MSQ_API msq_status msq_structure_beams(msq_context* context, const msq_beams_def* def,
                                        msq_structure** structure, msq_job* job);
+
+/** The beam lattices of a file, and its mesh. Immutable; any thread may read it. Since 0.2. */
+typedef struct msq_beam_file msq_beam_file;
+
+/** Reads beam lattices from a 3MF file. def NULL: defaults; format must be MSQ_FORMAT_AUTO or
+ * MSQ_FORMAT_3MF. job NULL: no job. path as in msq_shape_from_file.
+ *
+ * A file has one or more lattices, each for a structure of its own (msq_beam_file_beams). The
+ * beams and balls of the build that nothing clips are lattice 0; each placed object whose beams a
+ * mesh clips is one more. Everything is in millimetres and placed: units and transforms of items
+ * and components are applied. In the file a solid of beams is united with the triangles of its
+ * object; msq_beam_file_shape makes a shape of all triangles of the build.
+ *
+ * Read are vertices, beams, radii at the ends, caps, balls and their three modes, minlength
+ * (shorter beams are dropped) and the clipping mode with its mesh. In ball mode "all", the vertices
+ * at which beams end have balls. Beam sets, properties and representation meshes do not change the
+ * solid and are passed over. Numbers become the nearest doubles.
+ *
+ * Limits: those of def; max_triangles is also the maximum number of beams and balls, and of
+ * triangles that clip. Cost: linear in the size of the file, about 2 us per beam on one thread.
+ * Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that.
+ * Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has
+ * components or beams, and transforms that scale some directions by over 1e-4 more than others;
+ * MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses.
+ * Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0. */
+MSQ_API msq_status msq_beam_file_open(msq_context* context, const char* path,
+                                      const msq_file_def* def, msq_beam_file** file, msq_job* job);
+
+/** Reads beam lattices from bytes in memory. def must name the format and must not be NULL. See
+ * msq_beam_file_open. Errors: as msq_beam_file_open. Since 0.2. */
+MSQ_API msq_status msq_beam_file_open_memory(msq_context* context, const void* data, uint64_t bytes,
+                                             const msq_file_def* def, msq_beam_file** file,
+                                             msq_job* job);
+/** Adds a reference. Since 0.2. */
+MSQ_API void msq_beam_file_retain(msq_beam_file* file);
+/** Drops a reference. Since 0.2. */
+MSQ_API void msq_beam_file_release(msq_beam_file* file);
+
+/** Which part of the beams of a file belongs to the solid. */
+enum msq_clipping {
+  MSQ_CLIPPING_NONE = 0,
+  /** The part inside the clipping mesh. */
+  MSQ_CLIPPING_INSIDE = 1,
+  /** The part outside the clipping mesh. */
+  MSQ_CLIPPING_OUTSIDE = 2
+};
+
+/** What a lattice of a file holds. */
+typedef struct msq_beam_file_report {
+  uint32_t struct_size;
+  /** An msq_clipping. */
+  int32_t clipping;
+  /** Lattices of the file. */
+  uint64_t lattice_count;
+  /** Triangles of the build. 0: there is no mesh. */
+  uint64_t mesh_triangle_count;
+  /** The rest is of the lattice: */
+  uint64_t node_count;
+  uint64_t beam_count;
+  uint64_t ball_count;
+  /** Triangles of the clipping mesh. */
+  uint64_t clipping_triangle_count;
+  /** Corners of a box that holds all beams and balls, in millimetres. Not clipped. */
+  double min[3];
+  double max[3];
+} msq_beam_file_report;
+
+/** Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than
+ * lattice_count). Since 0.2. */
+MSQ_API msq_status msq_beam_file_info(const msq_beam_file* file, uint64_t lattice,
+                                      msq_beam_file_report* report);
+
+/** Fills in the definition of a lattice for msq_structure_beams, unclipped. The caller sets
+ * struct_size. The arrays of the definition belong to the file and are valid as long as it is; the
+ * other fields have their defaults. Errors: ARGUMENT (lattice is not less than lattice_count).
+ * Since 0.2. */
+MSQ_API msq_status msq_beam_file_beams(const msq_beam_file* file, uint64_t lattice,
+                                       msq_beams_def* def);
+
+/** A mesh of a file of beams. */
+enum msq_beam_file_mesh {
+  /** All triangles of the build: what is solid besides the beams. lattice must be 0. */
+  MSQ_BEAM_FILE_SOLID = 0,
+  /** The mesh that clips the lattice. */
+  MSQ_BEAM_FILE_CLIPPING = 1
+};
+
+/** Creates a shape from a mesh of a file of beams, in millimetres. mesh: an msq_beam_file_mesh.
+ * winding_rule: an msq_winding. Cost and errors: as msq_shape_from_mesh; ARGUMENT also for
+ * lattice; MESH if the file has no such mesh. Since 0.2. */
+MSQ_API msq_status msq_beam_file_shape(msq_context* context, const msq_beam_file* file,
+                                       uint64_t lattice, int32_t mesh, int32_t winding_rule,
+                                       msq_shape** shape);
 
 /** Points that a host structure evaluates. Valid until the callback returns. */
 typedef struct msq_host_points {

@@ -13,7 +13,7 @@
 static const char usage[] =
     "usage: slice_stl FILE [options]\n"
     "       slice_stl --block MM [options]\n"
-    "Slices FILE (STL, OBJ, PLY, OFF, 3MF or AMF), filled with a foam or a lattice.\n"
+    "Slices FILE (STL, OBJ, PLY, OFF, 3MF, AMF or glTF), filled with a foam or a lattice.\n"
     "\n"
     "  --block MM         a cube with sides of this length instead of a file\n"
     "  --foam MM          Voronoi foam with cells of this size (default: --foam 4)\n"

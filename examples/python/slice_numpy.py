@@ -35,7 +35,7 @@ def write_png(path, rows, width, depth):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("file", type=pathlib.Path, help="STL, OBJ, PLY, OFF, 3MF or AMF")
+    parser.add_argument("file", type=pathlib.Path, help="STL, OBJ, PLY, OFF, 3MF, AMF or glTF")
     parser.add_argument("-o", "--out", type=pathlib.Path, default=pathlib.Path("out"))
     parser.add_argument("--cell", type=float, default=4, help="size of the cells (default 4 mm)")
     parser.add_argument("--radius", type=float, nargs=2, default=(0.25, 0.6),

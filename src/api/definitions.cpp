@@ -8,7 +8,7 @@ namespace {
 constexpr Choice formats[] = {{"auto", MSQ_FORMAT_AUTO}, {"stl", MSQ_FORMAT_STL},
                               {"obj", MSQ_FORMAT_OBJ},   {"ply", MSQ_FORMAT_PLY},
                               {"off", MSQ_FORMAT_OFF},   {"3mf", MSQ_FORMAT_3MF},
-                              {"amf", MSQ_FORMAT_AMF}};
+                              {"amf", MSQ_FORMAT_AMF},   {"gltf", MSQ_FORMAT_GLTF}};
 constexpr Choice windings[] = {{"nonzero", MSQ_WINDING_NONZERO},
                                {"even_odd", MSQ_WINDING_EVEN_ODD},
                                {"positive", MSQ_WINDING_POSITIVE},

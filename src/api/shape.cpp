@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/definitions.h"
+#include "api/file_def.h"
 #include "api/guard.h"
 #include "api/image.h"
 #include "api/shape_size.h"
@@ -15,16 +16,6 @@ using namespace msq::api;
 
 namespace {
 
-msq_file_def file_defaults() {
-  const MeshFileOptions options;
-  msq_file_def def{};
-  def.winding_rule = MSQ_WINDING_AUTO;
-  def.unit_mm = options.unit_mm;
-  def.max_bytes = options.max_bytes;
-  def.max_triangles = options.max_triangles;
-  return def;
-}
-
 msq_mesh_def mesh_defaults() {
   msq_mesh_def def{};
   def.coordinate_type = MSQ_FLOAT64;
@@ -36,32 +27,6 @@ msq_voxels_def voxels_defaults() {
   msq_voxels_def def{};
   def.image = image_defaults();
   return def;
-}
-
-WindingRule winding_rule(int32_t rule) {
-  return static_cast<WindingRule>(
-      require_range(rule, MSQ_WINDING_NONZERO, MSQ_WINDING_AUTO, "winding_rule"));
-}
-
-struct FileRequest {
-  MeshFileOptions options;
-  WindingRule rule;
-};
-
-FileRequest file_request(const msq_file_def* def, const Context& owner) {
-  const msq_file_def known = def ? read_def(def, file_defaults(), "def") : file_defaults();
-  require_reserved(known.reserved, "reserved");
-  FileRequest request;
-  request.options.format = static_cast<MeshFormat>(
-      require_range(known.format, MSQ_FORMAT_AUTO, MSQ_FORMAT_AMF, "format"));
-  request.options.unit_mm = require_positive(known.unit_mm, "unit_mm");
-  const MeshFileOptions defaults;
-  request.options.max_bytes = known.max_bytes ? known.max_bytes : defaults.max_bytes;
-  request.options.max_triangles =
-      known.max_triangles ? known.max_triangles : defaults.max_triangles;
-  request.options.budget = owner.budget;
-  request.rule = winding_rule(known.winding_rule);
-  return request;
 }
 
 /// A handle to a new shape, which keeps its definition.

@@ -94,7 +94,7 @@ class Reader {
       reference.owner->instances.push_back({&found->second.assembly, reference.transform});
     }
     // All are counted, since constellations that contain one another are all in use.
-    for (auto& [id, entry] : entries_) count_triangles(entry.assembly);
+    for (auto& [id, entry] : entries_) count_parts(entry.assembly);
     // Entries that no instance refers to stand where they are.
     uint64_t total = 0;
     for (const Entry* entry : order_)

@@ -27,6 +27,10 @@ double read_threemf(std::string_view, uint64_t, SoupBuilder&) {
   refuse("3MF");
 }
 
+double read_threemf_beams(std::string_view, uint64_t, SoupBuilder&, std::vector<BeamLattice>&) {
+  refuse("3MF");
+}
+
 double read_amf(std::string_view, uint64_t, SoupBuilder&) {
   refuse("AMF");
 }

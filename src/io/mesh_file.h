@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/job.h"
 #include "base/memory.h"
 #include "base/triangle_soup.h"
+#include "io/beam_lattice.h"
 
 namespace msq {
 
@@ -19,7 +21,8 @@ enum class MeshFormat : int32_t {
   ply = 3,
   off = 4,
   threemf = 5,
-  amf = 6
+  amf = 6,
+  gltf = 7
 };
 
 struct MeshFileOptions {
@@ -41,5 +44,17 @@ TriangleSoup read_mesh_file(const std::string& path, const MeshFileOptions& opti
 
 /// The same from bytes; requires options.format.
 TriangleSoup read_mesh_memory(const void* data, uint64_t bytes, const MeshFileOptions& options);
+
+/// What a file of beams holds, in millimetres.
+struct BeamFile {
+  /// At least one. Those that nothing clips are one.
+  std::vector<BeamLattice> lattices;
+  /// The triangles of the build; may have none.
+  TriangleSoup mesh;
+};
+
+/// The same for files of beams, which are 3MF.
+BeamFile read_beam_file(const std::string& path, const MeshFileOptions& options);
+BeamFile read_beam_memory(const void* data, uint64_t bytes, const MeshFileOptions& options);
 
 }  // namespace msq

@@ -6,7 +6,9 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
+#include "io/beam_lattice.h"
 #include "io/soup_builder.h"
 
 namespace msq {
@@ -15,8 +17,12 @@ void read_stl(std::string_view file, SoupBuilder& soup);
 void read_obj(std::string_view file, SoupBuilder& soup);
 void read_ply(std::string_view file, SoupBuilder& soup);
 void read_off(std::string_view file, SoupBuilder& soup);
-/// These two return the file's unit in millimetres, and unpack at most max_bytes.
+/// These return the file's unit in millimetres; those of archives unpack at most max_bytes.
 double read_threemf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup);
+/// Reads beam lattices, too, in the file's unit. Those that nothing clips are one.
+double read_threemf_beams(std::string_view file, uint64_t max_bytes, SoupBuilder& soup,
+                          std::vector<BeamLattice>& lattices);
+double read_gltf(std::string_view file, SoupBuilder& soup);
 double read_amf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup);
 
 }  // namespace msq

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// 3MF packages: the core specification, version 1.3, and objects in other parts of the package
-// (production extension). msq reads them itself because Assimp 5.2.5 ignores the unit, the parts of
-// the production extension and required extensions, does not check indices, follows components that
-// contain themselves without end, and reads past the end of short transforms.
+// 3MF packages: the core specification, version 1.3, objects in other parts of the package
+// (production extension), and, where beams are wanted, beam lattices (threemf_lattice.h). msq reads
+// them itself because Assimp 5.2.5 ignores the unit, the parts of the production extension and
+// required extensions, does not check indices, follows components that contain themselves without
+// end, and reads past the end of short transforms.
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "io/assembly.h"
 #include "io/readers.h"
 #include "io/text_cursor.h"
+#include "io/threemf_lattice.h"
 #include "io/xml_document.h"
 #include "io/zip_package.h"
 
@@ -42,14 +45,19 @@ constexpr const char* known_extensions[] = {
     "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07",
 };
 
-void check_extensions(const pugi::xml_node& model) {
+void check_extensions(const pugi::xml_node& model, bool with_beams) {
   TextCursor prefixes(model.attribute("requiredextensions").value());
   for (std::string_view prefix = prefixes.word(); !prefix.empty(); prefix = prefixes.word()) {
     const std::string_view name =
         model.attribute(("xmlns:" + std::string(prefix)).c_str()).as_string("");
     bool known = false;
     for (const char* extension : known_extensions) known |= name == extension;
-    if (!known)
+    const bool is_of_beams = name == beam_extension || name == ball_extension;
+    if (is_of_beams && !with_beams)
+      fail(Status::unsupported,
+           "3MF: the file has beam lattices, which are not triangles; msq_beam_file_open reads "
+           "both");
+    if (!known && !is_of_beams)
       fail(Status::unsupported, "3MF: the file requires the extension \"%s\" (%s)",
            Quoted(prefix).text, Quoted(name).text);
   }
@@ -82,9 +90,10 @@ struct Reference {
 
 class Package {
  public:
-  Package(std::string_view file, uint64_t max_bytes, SoupBuilder& soup)
-      : zip_(file, max_bytes, soup.job()), soup_(soup) {}
+  Package(std::string_view file, uint64_t max_bytes, bool with_beams, SoupBuilder& soup)
+      : zip_(file, max_bytes, soup.job()), with_beams_(with_beams), soup_(soup) {}
 
+  /// Adds the triangles of the build. Returns the unit in millimetres.
   double read() {
     const std::string root = root_part();
     read_part(root);
@@ -101,12 +110,48 @@ class Package {
              static_cast<Count>(reference.id.second));
       reference.owner->instances.push_back({&found->second, reference.transform});
     }
-    soup_.expect_triangles(count_triangles(build_));
+    for (const auto& [assembly, id] : clipped_) assembly->clip = clipping_mesh(id);
+    count_parts(build_);
+    // Before anything is placed: instances may have been multiplied without end.
+    soup_.expect_triangles(build_.triangles);
+    expect(build_.beams, "beams and balls");
+    expect(build_.clip_triangles, "triangles that clip beams");
     place(build_, {}, soup_);
     return parts_.at(root);
   }
 
+  /// The lattices of the build, after read(). Those that nothing clips are one.
+  std::vector<BeamLattice> lattices() const {
+    std::vector<BeamLattice> made;
+    std::optional<size_t> unclipped;
+    for_each_placed(build_, {}, [&](const Assembly& part, const Transform& transform) {
+      check_cancelled(soup_.job());
+      if (!part.lattice || part.lattice->size() == 0) return;
+      const BeamLattice& lattice = *part.lattice;
+      const bool is_clipped = lattice.clipping != Clipping::none;
+      if (is_clipped || !unclipped) {
+        if (!is_clipped) unclipped = made.size();
+        made.emplace_back().clipping = lattice.clipping;
+      }
+      BeamLattice& target = is_clipped ? made.back() : made[*unclipped];
+      if (lattice.nodes.size() > UINT32_MAX - target.nodes.size())
+        fail(Status::limit, "3MF: the beams have more than %u nodes", UINT32_MAX);
+      target.append(lattice, transform, scale_of(transform));
+      if (!is_clipped) return;
+      SoupBuilder clip(soup_.max_triangles());
+      clip.add_instance(*part.clip, transform);
+      target.clip = clip.take();
+    });
+    return made;
+  }
+
  private:
+  void expect(uint64_t count, const char* what) const {
+    if (count > soup_.max_triangles())
+      fail(Status::limit, "3MF: the build has %llu %s; max_triangles is %llu",
+           static_cast<Count>(count), what, static_cast<Count>(soup_.max_triangles()));
+  }
+
   std::string root_part() {
     const std::optional<std::string> relationships = zip_.read("_rels/.rels");
     if (relationships) {
@@ -133,7 +178,7 @@ class Package {
     if (local_name(model.name()) != "model")
       fail(Status::io, "3MF: the part \"%s\" holds <%s>, not <model>", Quoted(part).text,
            Quoted(model.name()).text);
-    check_extensions(model);
+    check_extensions(model, with_beams_);
     const double unit = unit_of(model);
     if (!parts_.empty() && unit != parts_.begin()->second)
       fail(Status::unsupported, "3MF: the part \"%s\" has a unit of its own", Quoted(part).text);
@@ -156,12 +201,13 @@ class Package {
     const auto [entry, is_new] = objects_.try_emplace(Id(part, id));
     if (!is_new) fail(Status::io, "3MF: two objects have the id %llu", static_cast<Count>(id));
     Assembly& object = entry->second;
-    if (const pugi::xml_node mesh = node.child(tag("mesh").c_str())) read_mesh(mesh, object.mesh);
+    if (const pugi::xml_node mesh = node.child(tag("mesh").c_str())) read_mesh(mesh, object, part);
     for (const pugi::xml_node& component : node.child(tag("components").c_str()).children())
       if (component.name() == tag("component")) add_reference(object, component, part);
   }
 
-  void read_mesh(const pugi::xml_node& node, TriangleSoup& mesh) const {
+  void read_mesh(const pugi::xml_node& node, Assembly& object, const std::string& part) {
+    TriangleSoup& mesh = object.mesh;
     CancelPoll poll(soup_.job());
     const std::string vertex_tag = tag("vertex"), triangle_tag = tag("triangle");
     for (const pugi::xml_node& vertex : node.child(tag("vertices").c_str()).children()) {
@@ -189,8 +235,31 @@ class Package {
       soup_.expect_triangles(mesh.triangles.size() + 1);
       mesh.triangles.push_back(triangle);
     }
+    if (with_beams_) read_beams(node, object, part);
     // So that instances cannot multiply vertices out of proportion.
     drop_unused_vertices(mesh);
+  }
+
+  void read_beams(const pugi::xml_node& node, Assembly& object, const std::string& part) {
+    std::optional<ThreemfLattice> read =
+        read_lattice(node, object.mesh.vertices, soup_.max_triangles(), soup_.job());
+    if (!read) return;
+    object.lattice = std::make_unique<BeamLattice>(std::move(read->lattice));
+    if (read->clipping_mesh) clipped_.push_back({&object, Id(part, *read->clipping_mesh)});
+  }
+
+  const TriangleSoup* clipping_mesh(const Id& id) const {
+    const auto found = objects_.find(id);
+    const auto number = static_cast<Count>(id.second);
+    if (found == objects_.end())
+      fail(Status::io, "3MF: there is no object of id %llu, the clippingmesh", number);
+    const Assembly& object = found->second;
+    if (object.lattice || !object.instances.empty())
+      fail(Status::unsupported, "3MF: object %llu, the clippingmesh, has %s", number,
+           object.lattice ? "a beam lattice" : "components");
+    if (object.mesh.triangles.empty())
+      fail(Status::mesh, "3MF: object %llu, the clippingmesh, has no triangles", number);
+    return &object.mesh;
   }
 
   void add_reference(Assembly& owner, const pugi::xml_node& node, std::string part) {
@@ -207,19 +276,30 @@ class Package {
   }
 
   ZipPackage zip_;
+  const bool with_beams_;
   SoupBuilder& soup_;
   std::string prefix_;
   std::map<std::string, double> parts_;  // with their units
   std::vector<std::string> waiting_;
   std::map<Id, Assembly> objects_;
   std::vector<Reference> references_;
+  /// Objects with clipped lattices, and what clips them.
+  std::vector<std::pair<Assembly*, Id>> clipped_;
   Assembly build_;
 };
 
 }  // namespace
 
 double read_threemf(std::string_view file, uint64_t max_bytes, SoupBuilder& soup) {
-  return Package(file, max_bytes, soup).read();
+  return Package(file, max_bytes, false, soup).read();
+}
+
+double read_threemf_beams(std::string_view file, uint64_t max_bytes, SoupBuilder& soup,
+                          std::vector<BeamLattice>& lattices) {
+  Package package(file, max_bytes, true, soup);
+  const double unit = package.read();
+  lattices = package.lattices();
+  return unit;
 }
 
 }  // namespace msq

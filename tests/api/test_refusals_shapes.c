@@ -156,7 +156,7 @@ static void meshes(void** state) {
 static void wrong_file(refusals* table, msq_file_def* def) {
   const double units[] = {0, -1, NAN, INFINITY};
   wrong_sizes(table, def, sizeof *def, sizeof *def);
-  wrong_enum(table, &def->format, "format", 0, 6);
+  wrong_enum(table, &def->format, "format", 0, 7);
   wrong_enum(table, &def->winding_rule, "winding_rule", 0, 3);
   for (int i = 0; i < 4; ++i) WRONG(ARGUMENT, "unit_mm is ", def->unit_mm = units[i]);
   WRONG(ARGUMENT, "reserved is 9", def->reserved = 9);

@@ -4,6 +4,7 @@
 #include "definitions.h"
 #include "fills.h"
 #include "struts.h"
+#include "threemf.h"
 
 #define FOR_EACH_DEFINITION(DO)                                      \
   DO(context_def, offsetof(msq_context_def, cache_policy))           \
@@ -106,6 +107,7 @@ static struct {
   msq_contours* contours;
   msq_fill* fill;
   msq_strut_graph* graph;
+  msq_beam_file* beams;
   msq_job* job;
 } of;
 
@@ -158,6 +160,9 @@ DEFINE_READ(contours_report, msq_contours_info(of.contours, report))
 DEFINE_READ(printability_report, msq_printability(of.slicer, NULL, NULL, NULL, report, NULL))
 DEFINE_READ(fill_report, msq_fill_info(of.fill, report))
 DEFINE_READ(strut_graph_report, msq_strut_graph_info(of.graph, report))
+#if MSQ_WITH_ASSIMP
+DEFINE_READ(beam_file_report, msq_beam_file_info(of.beams, 0, report))
+#endif
 
 #define REPORT(type, first) \
   { #type, read_##type, first, sizeof(msq_##type) }
@@ -167,18 +172,21 @@ static void reports_are_filled(void** state) {
     use_fn read;
     size_t first, known;
   } reports[] = {
-      REPORT(build_report, offsetof(msq_build_report, with_xxhash)),
-      REPORT(memory_report, sizeof(msq_memory_report)),
-      REPORT(cache_report, offsetof(msq_cache_report, building_bytes)),
-      REPORT(job_report, sizeof(msq_job_report)),
-      REPORT(shape_report, sizeof(msq_shape_report)),
-      REPORT(unit_cell_report, sizeof(msq_unit_cell_report)),
-      REPORT(lattice_faces_report, sizeof(msq_lattice_faces_report)),
-      REPORT(slicer_report, offsetof(msq_slicer_report, window)),
-      REPORT(contours_report, sizeof(msq_contours_report)),
-      REPORT(printability_report, sizeof(msq_printability_report)),
-      REPORT(fill_report, sizeof(msq_fill_report)),
-      REPORT(strut_graph_report, sizeof(msq_strut_graph_report)),
+    REPORT(build_report, offsetof(msq_build_report, with_xxhash)),
+    REPORT(memory_report, sizeof(msq_memory_report)),
+    REPORT(cache_report, offsetof(msq_cache_report, building_bytes)),
+    REPORT(job_report, sizeof(msq_job_report)),
+    REPORT(shape_report, sizeof(msq_shape_report)),
+    REPORT(unit_cell_report, sizeof(msq_unit_cell_report)),
+    REPORT(lattice_faces_report, sizeof(msq_lattice_faces_report)),
+    REPORT(slicer_report, offsetof(msq_slicer_report, window)),
+    REPORT(contours_report, sizeof(msq_contours_report)),
+    REPORT(printability_report, sizeof(msq_printability_report)),
+    REPORT(fill_report, sizeof(msq_fill_report)),
+    REPORT(strut_graph_report, sizeof(msq_strut_graph_report)),
+#if MSQ_WITH_ASSIMP
+    REPORT(beam_file_report, sizeof(msq_beam_file_report)),
+#endif
   };
   (void)state;
   for (size_t i = 0; i < sizeof reports / sizeof reports[0]; ++i) {
@@ -228,6 +236,16 @@ static int make_all(void** state) {
   assert_ok(msq_layer_contours(of.model, 1, &contours, &of.contours, NULL));
   of.fill = make_fill(of.context, of.foam, &square);
   assert_ok(msq_structure_strut_graph(of.context, of.lattice, &box, &of.graph, NULL));
+#if MSQ_WITH_ASSIMP
+  {
+    const threemf_bytes bytes = threemf_of(THREEMF_BEAMS);
+    msq_file_def def;
+    assert_ok(msq_file_def_init(&def, sizeof def));
+    def.format = MSQ_FORMAT_3MF;
+    assert_ok(msq_beam_file_open_memory(of.context, bytes.data, bytes.size, &def, &of.beams, NULL));
+    free(bytes.data);
+  }
+#endif
   assert_ok(msq_job_create(&of.job));
   return 0;
 }
@@ -235,6 +253,7 @@ static int make_all(void** state) {
 static int release_all(void** state) {
   (void)state;
   msq_job_release(of.job);
+  msq_beam_file_release(of.beams);
   msq_strut_graph_release(of.graph);
   msq_fill_release(of.fill);
   msq_contours_release(of.contours);

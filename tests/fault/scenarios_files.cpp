@@ -99,6 +99,32 @@ constexpr const char* threemf_model =
     "v3=\"2\"/></triangles></mesh>"
     "</object></resources><build><item objectid=\"1\"/></build></model>";
 
+constexpr const char* beams_model =
+    "<?xml version=\"1.0\"?><model unit=\"millimeter\" requiredextensions=\"b\" "
+    "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
+    "xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\"><resources>"
+    "<object id=\"1\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>"
+    "<vertex x=\"4\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"4\" z=\"0\"/>"
+    "<vertex x=\"0\" y=\"0\" z=\"4\"/></vertices><triangles>"
+    "<triangle v1=\"0\" v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/>"
+    "<triangle v1=\"1\" v2=\"2\" v3=\"3\"/><triangle v1=\"0\" v2=\"3\" "
+    "v3=\"2\"/></triangles></mesh></object>"
+    "<object id=\"2\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>"
+    "<vertex x=\"4\" y=\"0\" z=\"0\"/></vertices><b:beamlattice minlength=\"0.1\" radius=\"1\" "
+    "clippingmode=\"inside\" clippingmesh=\"1\"><b:beams><b:beam v1=\"0\" v2=\"1\"/></b:beams>"
+    "</b:beamlattice></mesh></object></resources><build><item objectid=\"1\"/>"
+    "<item objectid=\"2\"/></build></model>";
+
+#if MSQ_WITH_JSON
+constexpr const char* gltf =
+    "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],"
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"count\":4,\"type\":\"VEC3\"},"
+    "{\"bufferView\":0,\"byteOffset\":12,\"componentType\":5121,\"count\":12,\"type\":"
+    "\"SCALAR\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":24}],\"buffers\":[{\"uri\":"
+    "\"data:;base64,AAAABAAAAAQAAAAEAAIBAAEDAQIDAAMC\",\"byteLength\":24}]}";
+#endif
+
 std::string binary_stl() {
   const float corners[4][3] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
   const int triangles[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
@@ -122,13 +148,17 @@ struct Format {
 
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = {
-      {"STL", MSQ_FORMAT_STL, stl, false},
-      {"binary STL", MSQ_FORMAT_STL, binary_stl(), true},
-      {"OBJ", MSQ_FORMAT_OBJ, obj, false},
-      {"PLY", MSQ_FORMAT_PLY, ply, false},
-      {"OFF", MSQ_FORMAT_OFF, off, false},
-      {"AMF", MSQ_FORMAT_AMF, amf, false},
-      {"3MF", MSQ_FORMAT_3MF, zip("3D/3dmodel.model", threemf_model), false}};
+    {"STL", MSQ_FORMAT_STL, stl, false},
+    {"binary STL", MSQ_FORMAT_STL, binary_stl(), true},
+    {"OBJ", MSQ_FORMAT_OBJ, obj, false},
+    {"PLY", MSQ_FORMAT_PLY, ply, false},
+    {"OFF", MSQ_FORMAT_OFF, off, false},
+    {"AMF", MSQ_FORMAT_AMF, amf, false},
+#if MSQ_WITH_JSON
+    {"glTF", MSQ_FORMAT_GLTF, gltf, false},
+#endif
+    {"3MF", MSQ_FORMAT_3MF, zip("3D/3dmodel.model", threemf_model), false}
+  };
   return all;
 }
 
@@ -145,10 +175,79 @@ void set_limits(Stage& stage, const Format& format) {
   stage.needs_stack = stage.allows_leaks = stage.allows_io = format.is_assimp;
 }
 
+void finish_beams(msq_beam_file* file, std::vector<double>& probe) {
+  msq_beam_file_report report{};
+  report.struct_size = sizeof report;
+  require_ok(msq_beam_file_info(file, 0, &report));
+  msq_beams_def def = make_def(msq_beams_def_init);
+  require_ok(msq_beam_file_beams(file, 0, &def));
+  probe[0] = static_cast<double>(report.beam_count + 10 * report.mesh_triangle_count);
+  probe[1] = static_cast<const double*>(def.radii)[1];
+  msq_beam_file_retain(file);
+  msq_beam_file_release(file);
+  msq_beam_file_release(file);
+}
+
+void add_beam_files(std::vector<Scenario>& scenarios) {
+  static const std::string bytes = zip("3D/3dmodel.model", beams_model);
+  for (const bool from_file : {false, true})
+    scenarios.push_back(
+        {from_file ? "msq_beam_file_open" : "msq_beam_file_open_memory", [from_file](Stage& stage) {
+           World world(stage);
+           char path[] = "/tmp/msq_fault_XXXXXX";
+           const int descriptor = mkstemp(path);
+           require(descriptor >= 0, "no file can be made");
+           const bool is_written =
+               write(descriptor, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
+           close(descriptor);
+           msq_file_def def = make_def(msq_file_def_init);
+           def.format = MSQ_FORMAT_3MF;
+           msq_beam_file* file;
+           std::vector<double> probe(2);
+           stage.watch_handle(file);
+           stage.watch_probe(probe);
+           try {
+             require(is_written, "the file cannot be written");
+             stage.call(
+                 [&] {
+                   return from_file ? msq_beam_file_open(world.context, path, &def, &file, nullptr)
+                                    : msq_beam_file_open_memory(world.context, bytes.data(),
+                                                                bytes.size(), &def, &file, nullptr);
+                 },
+                 [&] { finish_beams(file, probe); });
+           } catch (...) {
+             unlink(path);
+             throw;
+           }
+           unlink(path);
+         }});
+  scenarios.push_back({"msq_beam_file_shape", [](Stage& stage) {
+                         World world(stage);
+                         msq_file_def def = make_def(msq_file_def_init);
+                         def.format = MSQ_FORMAT_3MF;
+                         msq_beam_file* file;
+                         require_ok(msq_beam_file_open_memory(world.context, bytes.data(),
+                                                              bytes.size(), &def, &file, nullptr));
+                         msq_shape* shape;
+                         std::vector<double> probe(2);
+                         stage.watch_handle(shape);
+                         stage.watch_probe(probe);
+                         stage.call(
+                             [&] {
+                               return msq_beam_file_shape(world.context, file, 0,
+                                                          MSQ_BEAM_FILE_CLIPPING, MSQ_WINDING_AUTO,
+                                                          &shape);
+                             },
+                             [&] { finish_shape(shape, probe); });
+                         msq_beam_file_release(file);
+                       }});
+}
+
 }  // namespace
 
 std::vector<Scenario> file_scenarios() {
   std::vector<Scenario> scenarios;
+  add_beam_files(scenarios);
   for (const Format& format : formats()) {
     scenarios.push_back(
         {std::string("msq_shape_from_memory: ") + format.name, [&format](Stage& stage) {

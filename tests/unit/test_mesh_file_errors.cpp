@@ -22,7 +22,7 @@ void refuses_files_it_cannot_read(void**) {
   }
   for (const char* name : {"part.step", "part", "stl", "part.stl.gz", "x.obj/part"})
     assert_fails([&] { msq::read_mesh_file(folder().file(name), {}); }, Status::unsupported,
-                 {name, "stl, obj, ply, off, 3mf, amf"});
+                 {name, "stl, obj, ply, off, 3mf, amf, gltf, glb"});
   const std::string path = folder().write("broken.stl", "not a mesh");
   assert_fails([&] { msq::read_mesh_file(path, {}); }, Status::io, {path, "84", "10"});
 }
@@ -30,8 +30,8 @@ void refuses_files_it_cannot_read(void**) {
 void refuses_bad_arguments(void**) {
   const std::string file = obj();
   assert_fails([&] { read(file, {}); }, Status::argument, {"automatic"});
-  assert_fails([&] { read(file, options_for(static_cast<MeshFormat>(7))); }, Status::argument,
-               {"7", "6"});
+  assert_fails([&] { read(file, options_for(static_cast<MeshFormat>(8))); }, Status::argument,
+               {"8", "7"});
   assert_fails([&] { msq::read_mesh_memory(nullptr, 5, options_for(MeshFormat::obj)); },
                Status::argument, {"NULL", "5"});
   for (const double unit : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {

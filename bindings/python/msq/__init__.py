@@ -13,6 +13,7 @@ calls let other Python threads run. Failures are exceptions with the library's m
 """
 from ._grid import Grid, Period
 from ._host import HostPoints
+from .beam_file import BeamFile, BeamLattice
 from .camera import Camera
 from .context import (BuildInfo, CacheInfo, Context, Job, JobInfo, MemoryInfo, build_info)
 from .contours import Contours
@@ -38,7 +39,8 @@ from .unit_cell import UnitCell, UnitCellInfo
 __version__ = "0.1.0"
 
 __all__ = [
-    "ArgumentError", "Beams", "BuildInfo", "CacheInfo", "Calibration", "Camera", "CancelledError",
+    "ArgumentError", "BeamFile", "BeamLattice", "Beams", "BuildInfo", "CacheInfo", "Calibration",
+    "Camera", "CancelledError",
     "Context", "Contours", "Document", "Error", "Estimate", "Field", "FileError", "Fill", "Foam", "Functional",
     "Grid", "HostError",
     "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",

@@ -41,6 +41,7 @@ MSQ_FORMAT_PLY = 3
 MSQ_FORMAT_OFF = 4
 MSQ_FORMAT_3MF = 5
 MSQ_FORMAT_AMF = 6
+MSQ_FORMAT_GLTF = 7
 MSQ_SOLID_ABOVE = 0
 MSQ_SOLID_BELOW = 1
 MSQ_BOOLEAN_UNION = 1
@@ -74,6 +75,11 @@ MSQ_FUNCTIONAL_SHEET = 2
 MSQ_CAP_SPHERE = 0
 MSQ_CAP_HEMISPHERE = 1
 MSQ_CAP_BUTT = 2
+MSQ_CLIPPING_NONE = 0
+MSQ_CLIPPING_INSIDE = 1
+MSQ_CLIPPING_OUTSIDE = 2
+MSQ_BEAM_FILE_SOLID = 0
+MSQ_BEAM_FILE_CLIPPING = 1
 MSQ_BOX_MIXED = 0
 MSQ_BOX_OUTSIDE = 1
 MSQ_BOX_INSIDE = 2
@@ -134,6 +140,10 @@ class msq_field(Structure):
 
 
 class msq_structure(Structure):
+    """Opaque."""
+
+
+class msq_beam_file(Structure):
     """Opaque."""
 
 
@@ -358,6 +368,13 @@ class msq_beams_def(Structure):
                 ("ball_count", c_uint64), ("ball_stride", c_uint64), ("ball_radii", c_void_p),
                 ("ball_radius_stride", c_uint64), ("radius", c_double), ("ball_radius", c_double),
                 ("min_length", c_double), ("length_scale", c_double)]
+
+
+class msq_beam_file_report(Structure):
+    _fields_ = [("struct_size", c_uint32), ("clipping", c_int32), ("lattice_count", c_uint64),
+                ("mesh_triangle_count", c_uint64), ("node_count", c_uint64),
+                ("beam_count", c_uint64), ("ball_count", c_uint64),
+                ("clipping_triangle_count", c_uint64), ("min", c_double * 3), ("max", c_double * 3)]
 
 
 class msq_host_points(Structure):
@@ -749,6 +766,18 @@ FUNCTIONS = {
     "msq_beams_def_init": [c_int32, POINTER(msq_beams_def), c_size_t],
     "msq_structure_beams": [c_int32, POINTER(msq_context), POINTER(msq_beams_def),
                             POINTER(POINTER(msq_structure)), POINTER(msq_job)],
+    "msq_beam_file_open": [c_int32, POINTER(msq_context), c_char_p, POINTER(msq_file_def),
+                           POINTER(POINTER(msq_beam_file)), POINTER(msq_job)],
+    "msq_beam_file_open_memory": [c_int32, POINTER(msq_context), c_void_p, c_uint64,
+                                  POINTER(msq_file_def), POINTER(POINTER(msq_beam_file)),
+                                  POINTER(msq_job)],
+    "msq_beam_file_retain": [None, POINTER(msq_beam_file)],
+    "msq_beam_file_release": [None, POINTER(msq_beam_file)],
+    "msq_beam_file_info": [c_int32, POINTER(msq_beam_file), c_uint64,
+                           POINTER(msq_beam_file_report)],
+    "msq_beam_file_beams": [c_int32, POINTER(msq_beam_file), c_uint64, POINTER(msq_beams_def)],
+    "msq_beam_file_shape": [c_int32, POINTER(msq_context), POINTER(msq_beam_file), c_uint64,
+                            c_int32, c_int32, POINTER(POINTER(msq_shape))],
     "msq_host_structure_def_init": [c_int32, POINTER(msq_host_structure_def), c_size_t],
     "msq_structure_host": [c_int32, POINTER(msq_context), POINTER(msq_host_structure_def),
                            POINTER(POINTER(msq_structure))],

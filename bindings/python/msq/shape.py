@@ -59,7 +59,7 @@ class Shape(Handle):
                   unit_mm: float = 1.0, winding: str = "auto", max_bytes: int = 0,
                   max_triangles: int = 0, context: Optional[Context] = None,
                   job: Optional[Job] = None) -> Shape:
-        """Reads STL, OBJ, PLY, OFF, 3MF or AMF, in millimetres.
+        """Reads STL, OBJ, PLY, OFF, 3MF, AMF or glTF, in millimetres.
 
         unit_mm: length of the file's unit, for formats that name none. winding: `auto`, `nonzero`,
         `even_odd` or `positive`. Larger files than max_bytes and max_triangles are refused; 0:

@@ -29,7 +29,7 @@ REPORTS = {"msq_build_report": msq.BuildInfo, "msq_memory_report": msq.MemoryInf
            "msq_printability_report": msq.Printability}
 # Reports that objects hold, as attributes and arrays.
 ARRAYS = {"msq_slicer_report", "msq_contours_report", "msq_fill_report",
-          "msq_strut_graph_report", "msq_document_report"}
+          "msq_strut_graph_report", "msq_document_report", "msq_beam_file_report"}
 DEFINITIONS = {"msq_camera"}  # beside those that end in _def
 SET_BY_NAME = {"struct_size", "reserved", "reserved2", "user", "release"}
 

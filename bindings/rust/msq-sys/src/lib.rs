@@ -105,6 +105,9 @@ pub const MSQ_FORMAT_3MF: i32 = 5;
 
 pub const MSQ_FORMAT_AMF: i32 = 6;
 
+/// glTF 2.0, text or binary (GLB). Since 0.2.
+pub const MSQ_FORMAT_GLTF: i32 = 7;
+
 pub const MSQ_SOLID_ABOVE: i32 = 0;
 
 pub const MSQ_SOLID_BELOW: i32 = 1;
@@ -201,6 +204,20 @@ pub const MSQ_CAP_HEMISPHERE: i32 = 1;
 
 /// Flat.
 pub const MSQ_CAP_BUTT: i32 = 2;
+
+pub const MSQ_CLIPPING_NONE: i32 = 0;
+
+/// The part inside the clipping mesh.
+pub const MSQ_CLIPPING_INSIDE: i32 = 1;
+
+/// The part outside the clipping mesh.
+pub const MSQ_CLIPPING_OUTSIDE: i32 = 2;
+
+/// All triangles of the build: what is solid besides the beams. lattice must be 0.
+pub const MSQ_BEAM_FILE_SOLID: i32 = 0;
+
+/// The mesh that clips the lattice.
+pub const MSQ_BEAM_FILE_CLIPPING: i32 = 1;
 
 /// Unknown, or neither of the others.
 pub const MSQ_BOX_MIXED: i32 = 0;
@@ -303,6 +320,15 @@ pub const MSQ_COLOUR_MATERIAL: i32 = 2;
 /// red, green, blue = (1 + normal) / 2
 pub const MSQ_COLOUR_NORMAL: i32 = 3;
 
+/// Relative paths below base_directory, without "..". Symbolic links there are followed.
+pub const MSQ_DOCUMENT_FILES_BELOW: i32 = 0;
+
+/// None.
+pub const MSQ_DOCUMENT_FILES_NONE: i32 = 1;
+
+/// Any: relative ones start at base_directory. For documents that the host trusts.
+pub const MSQ_DOCUMENT_FILES_ANY: i32 = 2;
+
 /// Threads, cell cache and memory limit that objects share.
 #[repr(C)]
 pub struct msq_context {
@@ -330,6 +356,12 @@ pub struct msq_field {
 /// A fine-scale structure: a solid in all space.
 #[repr(C)]
 pub struct msq_structure {
+    _opaque: [u8; 0],
+}
+
+/// The beam lattices of a file, and its mesh. Immutable; any thread may read it. Since 0.2.
+#[repr(C)]
+pub struct msq_beam_file {
     _opaque: [u8; 0],
 }
 
@@ -369,6 +401,12 @@ pub struct msq_fill {
     _opaque: [u8; 0],
 }
 
+/// A model with settings for slices and pictures, read from a text in JSON. docs/model_file.md defines the format, docs/model.schema.json is its schema. Since 0.2.
+#[repr(C)]
+pub struct msq_document {
+    _opaque: [u8; 0],
+}
+
 /// How the loaded library was built.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -387,7 +425,8 @@ pub struct msq_build_report {
     pub simd: *const c_char,
     /// 1 if msq_shape_hash and its like are available. Since 0.2.
     pub with_xxhash: i32,
-    pub reserved: u32,
+    /// 1 if documents are read and written (msq_document_from_json). Since 0.2.
+    pub with_json: i32,
 }
 
 /// Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may add some. message: in UTF-8, with the values, valid until the callback returns.
@@ -585,7 +624,7 @@ pub struct msq_file_def {
     pub winding_rule: i32,
     /// Must be 0.
     pub reserved: u32,
-    /// Length of the file's unit in mm for STL, OBJ, PLY and OFF, which name no unit. Default 1. The units of 3MF and AMF files are read and applied.
+    /// Length of the file's unit in mm for STL, OBJ, PLY and OFF, which name no unit. Default 1. The units of 3MF and AMF files are read and applied; that of glTF is the metre.
     pub unit_mm: f64,
     /// Maximum size in bytes of the file, and of what an archive unpacks to. 0 and default: 4 GiB.
     pub max_bytes: u64,
@@ -971,6 +1010,28 @@ pub struct msq_beams_def {
     pub min_length: f64,
     /// Characteristic length of the scale. 0 (default): the longest beam, or the largest diameter if that is more.
     pub length_scale: f64,
+}
+
+/// What a lattice of a file holds.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_beam_file_report {
+    pub struct_size: u32,
+    /// An msq_clipping.
+    pub clipping: i32,
+    /// Lattices of the file.
+    pub lattice_count: u64,
+    /// Triangles of the build. 0: there is no mesh.
+    pub mesh_triangle_count: u64,
+    /// The rest is of the lattice:
+    pub node_count: u64,
+    pub beam_count: u64,
+    pub ball_count: u64,
+    /// Triangles of the clipping mesh.
+    pub clipping_triangle_count: u64,
+    /// Corners of a box that holds all beams and balls, in millimetres. Not clipped.
+    pub min: [f64; 3],
+    pub max: [f64; 3],
 }
 
 /// Points that a host structure evaluates. Valid until the callback returns.
@@ -1814,6 +1875,66 @@ pub type msq_render_fn = Option<
     unsafe extern "C" fn(user: *mut c_void, pass: *const msq_render_pass) -> i32,
 >;
 
+/// How a document is read. The limits protect the host from hostile documents. Since 0.2.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_document_def {
+    pub struct_size: u32,
+    /// An msq_document_files. Default MSQ_DOCUMENT_FILES_BELOW.
+    pub files: i32,
+    /// Where relative paths start. NULL (default): msq_document_from_file takes the directory of the document; a document from memory may then name no relative path.
+    pub base_directory: *const c_char,
+    /// Maximum size of the document in bytes. 0 and default: 64 MiB.
+    pub max_bytes: u64,
+    /// Maximum number of values in the document: numbers, texts, lists and objects. 0 and default: 8 million.
+    pub max_values: u64,
+    /// Maximum depth of nested lists and objects, at most 1024. 0 and default: 64.
+    pub max_depth: u32,
+    /// Maximum number of files that the document names. 0 and default: 256.
+    pub max_files: u32,
+    /// Maximum size in bytes of all these files together, and of what an archive among them unpacks to. 0 and default: 4 GiB.
+    pub max_file_bytes: u64,
+    /// Maximum number of triangles of each mesh file. 0 and default: 200 million.
+    pub max_triangles: u64,
+}
+
+/// What a document holds. Since 0.2.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_document_report {
+    pub struct_size: u32,
+    /// Version of the format that the document names; now 1.
+    pub version: u32,
+    /// 1 if it has settings for slices, for pictures.
+    pub has_slicing: i32,
+    /// 1 if it has settings for slices, for pictures.
+    pub has_view: i32,
+    /// Number of files that it names.
+    pub files: u32,
+    pub reserved: u32,
+    /// Its title in UTF-8, "" if it has none. Valid as long as the document.
+    pub title: *const c_char,
+}
+
+/// How a model is written. Since 0.2.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_json_def {
+    pub struct_size: u32,
+    /// Must be 0.
+    pub reserved: u32,
+    /// Paths of files below this directory become relative to it. It is compared as text. NULL (default): paths are written as the host or the document gave them.
+    pub base_directory: *const c_char,
+    /// In UTF-8. NULL (default): none.
+    pub title: *const c_char,
+    /// Settings to write beside the model. NULL (default): none. camera and render go together.
+    pub slicing: *const msq_slicer_def,
+    pub camera: *const msq_camera,
+    pub render: *const msq_render_def,
+    /// Maximum number of values of an array that is written into the document: of the vertices and triangles of a mesh, an image, beams. 0 and default: 1 million.
+    pub max_numbers: u64,
+}
+
 extern "C" {
     /// Returns the version of the loaded library, in the form of MSQ_VERSION.
     pub fn msq_version() -> u32;
@@ -1861,7 +1982,7 @@ extern "C" {
     pub fn msq_file_def_init(def: *mut msq_file_def, size: usize) -> msq_status;
     /// Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job. On Windows `path` is UTF-8; on other systems the bytes of it reach the system unchanged.
     ///
-    /// All instances in the file become one shape in millimetres. msq applies transforms, triangulates polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ: vertices and faces are read. Limit: coordinates up to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a million triangles: about a second). Cancelling ends the call within tens of milliseconds, except while the XML of 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or AMF in a build without Assimp), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY, CANCELLED.
+    /// All instances in the file become one shape in millimetres. msq applies transforms, triangulates polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ: vertices and faces are read. glTF: the triangles of the default scene are read from buffers in the file, with the transforms of nodes; y, which is up in glTF, becomes z. Limit: coordinates up to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a million triangles: about a second). Cancelling ends the call within tens of milliseconds, except while the XML of 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or AMF in a build without Assimp, glTF in one without JSON; a 3MF file with beam lattices, see msq_beam_file_open; glTF with buffers in other files, compressed or sparse data, or skins), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY, CANCELLED.
     pub fn msq_shape_from_file(context: *mut msq_context, path: *const c_char, def: *const msq_file_def, shape: *mut *mut msq_shape, job: *mut msq_job) -> msq_status;
     /// Reads a triangle mesh from bytes in memory. def must name the format and must not be NULL. See msq_shape_from_file.
     pub fn msq_shape_from_memory(context: *mut msq_context, data: *const c_void, bytes: u64, def: *const msq_file_def, shape: *mut *mut msq_shape, job: *mut msq_job) -> msq_status;
@@ -2005,6 +2126,26 @@ extern "C" {
     ///
     /// A beam is a conical frustum between two nodes, with a radius that is linear along its axis, and caps. A beam shorter than 1e-100 has no axis: its round caps are balls; with two flat caps it is dropped. Beams may overlap and repeat. Limits: 2^31 - 1 beams and balls in total; coordinates up to 1e75; radii 0 or from 1e-100 to 1e75. One radius of a beam may be 0; that of a ball may not. Cost: n log n, in parallel: about 0.3 us of processor time and 104 bytes per beam, of which 77 are kept, in the memory limit of the context. Queries search a tree of boxes. Errors: ARGUMENT (also, with its index: a node that is not finite; a node index, radius or cap out of range), CANCELLED, LIMIT, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Kamel and Faloutsos, "On packing R-trees", 1993.
     pub fn msq_structure_beams(context: *mut msq_context, def: *const msq_beams_def, structure: *mut *mut msq_structure, job: *mut msq_job) -> msq_status;
+    /// Reads beam lattices from a 3MF file. def NULL: defaults; format must be MSQ_FORMAT_AUTO or MSQ_FORMAT_3MF. job NULL: no job. path as in msq_shape_from_file.
+    ///
+    /// A file has one or more lattices, each for a structure of its own (msq_beam_file_beams). The beams and balls of the build that nothing clips are lattice 0; each placed object whose beams a mesh clips is one more. Everything is in millimetres and placed: units and transforms of items and components are applied. In the file a solid of beams is united with the triangles of its object; msq_beam_file_shape makes a shape of all triangles of the build.
+    ///
+    /// Read are vertices, beams, radii at the ends, caps, balls and their three modes, minlength (shorter beams are dropped) and the clipping mode with its mesh. In ball mode "all", the vertices at which beams end have balls. Beam sets, properties and representation meshes do not change the solid and are passed over. Numbers become the nearest doubles.
+    ///
+    /// Limits: those of def; max_triangles is also the maximum number of beams and balls, and of triangles that clip. Cost: linear in the size of the file, about 2 us per beam on one thread. Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that. Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has components or beams, and transforms that scale some directions by over 1e-4 more than others; MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0.
+    pub fn msq_beam_file_open(context: *mut msq_context, path: *const c_char, def: *const msq_file_def, file: *mut *mut msq_beam_file, job: *mut msq_job) -> msq_status;
+    /// Reads beam lattices from bytes in memory. def must name the format and must not be NULL. See msq_beam_file_open. Errors: as msq_beam_file_open. Since 0.2.
+    pub fn msq_beam_file_open_memory(context: *mut msq_context, data: *const c_void, bytes: u64, def: *const msq_file_def, file: *mut *mut msq_beam_file, job: *mut msq_job) -> msq_status;
+    /// Adds a reference. Since 0.2.
+    pub fn msq_beam_file_retain(file: *mut msq_beam_file);
+    /// Drops a reference. Since 0.2.
+    pub fn msq_beam_file_release(file: *mut msq_beam_file);
+    /// Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than lattice_count). Since 0.2.
+    pub fn msq_beam_file_info(file: *const msq_beam_file, lattice: u64, report: *mut msq_beam_file_report) -> msq_status;
+    /// Fills in the definition of a lattice for msq_structure_beams, unclipped. The caller sets struct_size. The arrays of the definition belong to the file and are valid as long as it is; the other fields have their defaults. Errors: ARGUMENT (lattice is not less than lattice_count). Since 0.2.
+    pub fn msq_beam_file_beams(file: *const msq_beam_file, lattice: u64, def: *mut msq_beams_def) -> msq_status;
+    /// Creates a shape from a mesh of a file of beams, in millimetres. mesh: an msq_beam_file_mesh. winding_rule: an msq_winding. Cost and errors: as msq_shape_from_mesh; ARGUMENT also for lattice; MESH if the file has no such mesh. Since 0.2.
+    pub fn msq_beam_file_shape(context: *mut msq_context, file: *const msq_beam_file, lattice: u64, mesh: i32, winding_rule: i32, shape: *mut *mut msq_shape) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_host_structure_def_init(def: *mut msq_host_structure_def, size: usize) -> msq_status;
     /// Creates a structure from callbacks. def must not be NULL. All applications work with inside alone.
@@ -2235,6 +2376,36 @@ extern "C" {
     ///
     /// Cost: one ray per pixel and samples^2 more if samples > 1, each with its shadow and occlusion rays; in parallel, in tiles of 32 x 32 rays. A mesh builds its tree first, as for msq_point_distance. Memory: about 1 MB per thread, kept for the next call. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting".
     pub fn msq_render(model: *const msq_model, camera: *const msq_camera, def: *const msq_render_def, query: *const msq_query_def, frame: *const msq_frame, r#fn: msq_render_fn, user: *mut c_void, job: *mut msq_job) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT. Since 0.2.
+    pub fn msq_document_def_init(def: *mut msq_document_def, size: usize) -> msq_status;
+    /// Reads a document from text in memory: JSON in UTF-8, of `bytes` bytes. def NULL: defaults. job NULL: no job; its progress is that of the file which is being read.
+    ///
+    /// msq builds every object of the document by the functions above, with their checks and their warnings. Lengths are in the model's unit. Unknown keys, keys that occur twice and definitions that contain themselves are refused. A message begins with line, column and path of the value that is at fault, for example "12:17: scales[1].structure.foam.radius: ...". Lines and columns begin at 1; columns count bytes.
+    ///
+    /// Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY. Since 0.2.
+    pub fn msq_document_from_json(context: *mut msq_context, text: *const c_char, bytes: u64, def: *const msq_document_def, document: *mut *mut msq_document, job: *mut msq_job) -> msq_status;
+    /// Reads a document from a file. path: as in msq_shape_from_file. Its messages begin with the path. The rest is as in msq_document_from_json. Errors: as msq_document_from_json. Since 0.2.
+    pub fn msq_document_from_file(context: *mut msq_context, path: *const c_char, def: *const msq_document_def, document: *mut *mut msq_document, job: *mut msq_job) -> msq_status;
+    /// Adds a reference.
+    pub fn msq_document_retain(document: *mut msq_document);
+    /// Drops a reference.
+    pub fn msq_document_release(document: *mut msq_document);
+    /// Reports what a document holds. Errors: ARGUMENT. Since 0.2.
+    pub fn msq_document_info(document: *const msq_document, report: *mut msq_document_report) -> msq_status;
+    /// Returns the model of a document, with a reference for the caller to release. It does not need the document any more. Errors: ARGUMENT. Since 0.2.
+    pub fn msq_document_model(document: *const msq_document, model: *mut *mut msq_model) -> msq_status;
+    /// Writes the settings for slices to *def, whose struct_size the caller has set; what the document does not say has its default. The pointers in it are valid as long as the document. The host may change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without slicing). Since 0.2.
+    pub fn msq_document_slicing(document: *const msq_document, def: *mut msq_slicer_def) -> msq_status;
+    /// Writes the settings for pictures to *camera and *render, whose struct_size the caller has set. A view along a direction is already fitted to the model, as by msq_camera_fit. The pointers in *render are valid as long as the document. Errors: ARGUMENT (also a document without view). Since 0.2.
+    pub fn msq_document_view(document: *const msq_document, camera: *mut msq_camera, render: *mut msq_render_def) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT. Since 0.2.
+    pub fn msq_json_def_init(def: *mut msq_json_def, size: usize) -> msq_status;
+    /// Writes a model as a document in JSON: its objects as they were defined, whether by the functions of this header or by a document. msq_document_from_json makes a model of it with the same msq_model_hash, as long as the files that it names are the same. def NULL: defaults.
+    ///
+    /// Meshes from files are written as the path of the file with its options. Other meshes, and images that no document read from a file, are written as numbers. Objects that are used more than once are written once, under a name.
+    ///
+    /// *bytes: receives the size of the text, without a terminating 0. text: receives it if room is enough, with a terminating 0 if room is larger; NULL if room is 0. Errors: ARGUMENT (also room that is neither 0 nor enough), UNSUPPORTED (an object of the host; beams of more than 4 MiB, whose definition msq does not keep; a path or a name that is not UTF-8; a build without nlohmann-json), LIMIT (max_numbers), MEMORY. Since 0.2.
+    pub fn msq_model_to_json(model: *const msq_model, def: *const msq_json_def, text: *mut c_char, room: u64, bytes: *mut u64) -> msq_status;
 }
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -2268,6 +2439,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_foam_def>(), 208);
     assert_eq!(std::mem::size_of::<msq_functional_def>(), 200);
     assert_eq!(std::mem::size_of::<msq_beams_def>(), 168);
+    assert_eq!(std::mem::size_of::<msq_beam_file_report>(), 104);
     assert_eq!(std::mem::size_of::<msq_host_points>(), 40);
     assert_eq!(std::mem::size_of::<msq_host_structure_def>(), 208);
     assert_eq!(std::mem::size_of::<msq_host_function_def>(), 208);
@@ -2305,4 +2477,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_render_def>(), 136);
     assert_eq!(std::mem::size_of::<msq_frame>(), 48);
     assert_eq!(std::mem::size_of::<msq_render_pass>(), 16);
+    assert_eq!(std::mem::size_of::<msq_document_def>(), 56);
+    assert_eq!(std::mem::size_of::<msq_document_report>(), 32);
+    assert_eq!(std::mem::size_of::<msq_json_def>(), 56);
 }
