@@ -47,7 +47,7 @@ class BeamFiles(unittest.TestCase):
         self.assertFalse(lattice.nodes.flags.writeable)
         nodes = lattice.nodes
         model = msq.Model(lattice.clipping_shape(), [lattice.structure()])
-        self.assertAlmostEqual(file.mesh().info().min[2], 80)
+        self.assertAlmostEqual(file.mesh().info.min[2], 80)
         self.assertIn("1 beams", repr(file))
         file.close()
         del file, lattice
