@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Source: 3MF Consortium, "Beam Lattice Extension", version 1.2.0, chapter 2. Sets of beams,
-// properties and the mesh that only shows the lattice do not change the solid and are passed over.
+// Source: 3MF Consortium, "Beam Lattice Extension", version 1.2.0, chapter 2. lib3mf up to 1.8
+// writes clippingmode as "clipping", and the files of drafts have minlength as "precision". Sets of
+// beams, properties and the mesh that only shows the lattice do not change the solid and are passed
+// over.
 #include "io/threemf_lattice.h"
 
 #include <cmath>
@@ -61,11 +63,11 @@ class LatticeReader {
     ThreemfLattice made;
     BeamLattice& lattice = made.lattice;
     lattice.nodes = vertices_;
-    lattice.min_length = parse_finite(required("minlength").value(), "3MF: minlength");
+    lattice.min_length = parse_finite(required("minlength", "precision").value(), "3MF: minlength");
     radius_ = parse_radius(required("radius"), "3MF: beamlattice: radius");
     cap_ = choose(caps, element_.attribute("cap"), 0);
     lattice.clipping =
-        static_cast<Clipping>(choose(clippings, element_.attribute("clippingmode"), 0));
+        static_cast<Clipping>(choose(clippings, either("clippingmode", "clipping"), 0));
     if (lattice.clipping != Clipping::none)
       made.clipping_mesh = parse_count(required("clippingmesh").value(), "3MF: clippingmesh");
     for (const pugi::xml_node& child : element_.children())
@@ -76,8 +78,12 @@ class LatticeReader {
   }
 
  private:
-  pugi::xml_attribute required(const char* name) const {
+  pugi::xml_attribute either(const char* name, const char* old_name) const {
     const pugi::xml_attribute attribute = element_.attribute(name);
+    return attribute ? attribute : element_.attribute(old_name);
+  }
+  pugi::xml_attribute required(const char* name, const char* old_name = "") const {
+    const pugi::xml_attribute attribute = either(name, old_name);
     if (!attribute) fail(Status::io, "3MF: <beamlattice> has no %s", name);
     return attribute;
   }

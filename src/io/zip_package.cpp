@@ -9,6 +9,7 @@
 
 #include "base/status.h"
 #include "io/text_cursor.h"
+#include "io/zip64_entry.h"
 #include "io/zip_directory.h"
 
 namespace msq {
@@ -108,10 +109,19 @@ std::optional<std::string> ZipPackage::read(const std::string& name) {
     fail(Status::io, "the zip entry \"%s\" is damaged", Quoted(name).text);
   if (info.flag & 1)
     fail(Status::unsupported, "the zip entry \"%s\" is encrypted", Quoted(name).text);
+  const std::optional<Zip64Entry> zip64 =
+      read_zip64_entry(archive_->source.content, unzGetOffset64(handle));
+  if (zip64) info.uncompressed_size = zip64->unpacked;
   if (info.uncompressed_size > bytes_left_)
     fail(Status::limit, "the zip entry \"%s\" unpacks to %llu bytes; max_bytes is %llu",
          Quoted(name).text, static_cast<Count>(info.uncompressed_size),
          static_cast<Count>(max_bytes_));
+  if (zip64) {
+    std::optional<std::string> unpacked = unpack(archive_->source.content, *zip64, job_);
+    if (!unpacked) fail(Status::io, "the zip entry \"%s\" is damaged", Quoted(name).text);
+    bytes_left_ -= unpacked->size();
+    return unpacked;
+  }
   const int opened = unzOpenCurrentFile(handle);
   check_memory(opened);
   if (opened != UNZ_OK)

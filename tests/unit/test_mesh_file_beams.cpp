@@ -72,6 +72,14 @@ void radii_and_caps_have_defaults(void**) {
     }
 }
 
+void names_of_drafts_are_read(void**) {
+  const BeamFile file = read_beams(model(
+      lattice("radius=\"0.5\" precision=\"3.5\" clipping=\"inside\" clippingmesh=\"5\"", path),
+      "<item objectid=\"1\"/>", "<object id=\"5\">" + threemf_mesh() + "</object>"));
+  assert_int_equal(file.lattices[0].beams.size(), 1);
+  assert_true(file.lattices[0].clipping == msq::Clipping::inside);
+}
+
 void balls_have_three_modes(void**) {
   const std::string balls =
       "<b2:balls><b2:ball vindex=\"3\"/><b2:ball vindex=\"1\" r=\"0.75\"/></b2:balls>";
@@ -164,6 +172,84 @@ void refuses_what_it_cannot_keep(void**) {
                  {"msq_beam_file_open"});
 }
 
+/// The archive of one entry, with its sizes and its place in fields of Zip64, as lib3mf writes it.
+std::string with_zip64_entry(const std::string& archive) {
+  const size_t record = archive.rfind("PK\x01\x02");
+  const auto number = [&](size_t at, size_t bytes) {
+    uint64_t value = 0;
+    for (size_t i = 0; i < bytes; ++i)
+      value |= uint64_t{static_cast<uint8_t>(archive[at + i])} << (8 * i);
+    return value;
+  };
+  const uint64_t packed = number(record + 20, 4), unpacked = number(record + 24, 4);
+  const size_t name = number(26, 2), data = 30 + name + number(28, 2);
+  const auto head = [&](size_t from) {  // from the method up to the length of the extra field
+    std::string bytes = archive.substr(from, 10);
+    put(bytes, UINT32_MAX);
+    put(bytes, UINT32_MAX);
+    put(bytes, static_cast<uint16_t>(name));
+    return bytes;
+  };
+  std::string file = archive.substr(0, 8) + head(8);
+  put(file, uint16_t{20});
+  file += archive.substr(30, name);
+  const auto put_sizes = [&](uint16_t bytes) {
+    put(file, uint16_t{1});
+    put(file, bytes);
+    put(file, unpacked);
+    put(file, packed);
+  };
+  put_sizes(16);
+  file += archive.substr(data, packed);
+  const size_t directory = file.size();
+  file += archive.substr(record, 10) + head(record + 10);
+  put(file, uint16_t{28});
+  file += archive.substr(record + 32, 10);
+  put(file, UINT32_MAX);
+  file += archive.substr(record + 46, name);
+  put_sizes(24);
+  put(file, uint64_t{0});
+  const size_t end = file.size();
+  file += archive.substr(archive.size() - 22, 12);
+  put(file, static_cast<uint32_t>(end - directory));
+  put(file, static_cast<uint32_t>(directory));
+  put(file, uint16_t{0});
+  return file;
+}
+
+void reads_zip64_entries(void**) {
+  const std::string small = with_zip64_entry(file_of(model(lattice(plain, path))));
+  // Larger than the pieces in which it is unpacked.
+  const std::string large =
+      with_zip64_entry(file_of(model(lattice(plain, path)) + std::string(700000, ' ') + "<!-- " +
+                               std::string(300000, 'x') + " -->"));
+  MeshFileOptions options = options_for(MeshFormat::threemf);
+  options.max_bytes = 2000000;
+  options.max_triangles = 1000;
+  for (const std::string& file : {small, large})
+    assert_int_equal(
+        msq::read_beam_memory(file.data(), file.size(), options).lattices[0].beams.size(), 2);
+  options.max_bytes = 1000000;
+  assert_fails([&] { msq::read_beam_memory(large.data(), large.size(), options); }, Status::limit,
+               {"max_bytes is 1000000"});
+  // Damage is found by the checksum, if not before.
+  std::mt19937_64 random(64);
+  int refused = 0;
+  constexpr int rounds = 3000;
+  for (int round = 0; round < rounds; ++round) {
+    std::string content = small;
+    if (round % 8 == 0) content.resize(random() % content.size());
+    if (!content.empty()) content[random() % content.size()] = static_cast<char>(random());
+    try {
+      msq::read_beam_memory(content.data(), content.size(), options);
+    } catch (const msq::Error& error) {
+      assert_true(error.status != Status::internal && error.what()[0] != '\0');
+      ++refused;
+    }
+  }
+  assert_true(refused > rounds / 2);
+}
+
 /// Few bytes that ask for many beams.
 void keeps_limits(void**) {
   MeshFileOptions options;
@@ -226,9 +312,11 @@ void survives_mutation(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(radii_and_caps_have_defaults),
+      cmocka_unit_test(names_of_drafts_are_read),
       cmocka_unit_test(balls_have_three_modes),
       cmocka_unit_test(instances_are_placed),
       cmocka_unit_test(refuses_what_it_cannot_keep),
+      cmocka_unit_test(reads_zip64_entries),
       cmocka_unit_test(keeps_limits),
       cmocka_unit_test(survives_mutation),
   };
