@@ -319,6 +319,57 @@ MSQ_IO_API msq_status msq_io_surface_save(const msq_model* model, const msq_surf
                                           int32_t format, const char* path, int32_t replace,
                                           msq_job* job);
 
+/* ---- 3MF ------------------------------------------------------------------------------------- */
+
+/** How struts are written as a beam lattice. */
+typedef struct msq_io_beams_def {
+  uint32_t struct_size;
+  /** What the mesh is for: an msq_clipping. NONE (default): it is solid, and united with the beams.
+   * INSIDE, OUTSIDE: the part of the beams inside or outside it is kept; the mesh itself is not
+   * solid. */
+  int32_t clipping;
+  /** The mesh, in the coordinates of the struts. NULL (default): none. */
+  const msq_mesh_def* mesh;
+} msq_io_beams_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_IO_API msq_status msq_io_beams_def_init(msq_io_beams_def* def, size_t size);
+
+/** Writes struts (msq_structure_strut_graph) to a 3MF file: a beam lattice with the radii and caps
+ * of their ends. Struts of no length become balls, which need the extension for balls. A unit of
+ * the model is a millimetre. Numbers are written with as many digits as it takes to read the same
+ * doubles; msq_beam_file_open reads the same struts, and programs with float32 read these rounded.
+ * replace as in msq_io_writer_def. def NULL: defaults. Cost: about 1 us per strut and node, most of
+ * it for compression; some megabytes of memory. Errors: ARGUMENT (also a graph without struts), IO,
+ * LIMIT (2^31 - 1 struts, nodes, vertices or triangles), MESH (no triangles, index out of range,
+ * vertex that is not finite), MEMORY. */
+MSQ_IO_API msq_status msq_io_beams_save(const msq_strut_graph* graph, const msq_io_beams_def* def,
+                                        const char* path, int32_t replace);
+
+/** Definition of a stack of slices. */
+typedef struct msq_io_slices_def {
+  uint32_t struct_size;
+  uint32_t reserved;
+  /** units of the contours (msq_contours_def), which coordinates are divided by. Default 1. */
+  double units;
+  /** Height of the layer, for a stack of one. Others end halfway between layers. Default 0. */
+  double layer_height;
+} msq_io_slices_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_IO_API msq_status msq_io_slices_def_init(msq_io_slices_def* def, size_t size);
+
+/** Begins a 3MF file whose one object is a stack of slices, from an output of CONTOURS
+ * (writer_def->output says which). x and y are u and v of the contours. The object's mesh is the
+ * box about the slices, of low resolution: readers must know the slice extension. Numbers as in
+ * msq_io_beams_save. writer_def, def NULL: defaults. The writer retains the slicer. Cost: about
+ * 1 us per point. Memory: as other writers. Errors: ARGUMENT (also if all layers are empty, when
+ * they have come), IO, LIMIT (4 GB of text before compression, 30 million points or more), MEMORY.
+ */
+MSQ_IO_API msq_status msq_io_slices_create(const msq_slicer* slicer, const char* path,
+                                           const msq_io_writer_def* writer_def,
+                                           const msq_io_slices_def* def, msq_io_writer** writer);
+
 #ifdef __cplusplus
 }
 #endif

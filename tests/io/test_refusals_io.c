@@ -40,7 +40,8 @@ static int end_tests(void** state) {
   static msq_status init_##name(void* def, size_t size) {   \
     return msq_io_##name##_init((msq_io_##name*)def, size); \
   }
-#define FOR_EACH_DEFINITION(DO) DO(writer_def) DO(png_def) DO(panel_def) DO(sl1_def) DO(svg_def)
+#define FOR_EACH_DEFINITION(DO) \
+  DO(writer_def) DO(png_def) DO(panel_def) DO(sl1_def) DO(svg_def) DO(beams_def) DO(slices_def)
 FOR_EACH_DEFINITION(INIT_OF)
 #define ROW_OF(name) {"msq_io_" #name "_init", init_##name, sizeof(msq_io_##name)},
 static const struct {
@@ -353,9 +354,86 @@ static void layers(void** state) {
   assert_int_equal(msq_io_version(), MSQ_VERSION);
 }
 
+static void threemf(void** state) {
+  static const double vertices[4][3] = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
+  msq_structure* lattice = make_lattice(context);
+  msq_strut_graph *struts, *none;
+  msq_struts_def box;
+  (void)state;
+  assert_ok(msq_struts_def_init(&box, sizeof box));
+  for (int axis = 0; axis < 3; ++axis) box.max[axis] = 2;
+  assert_ok(msq_structure_strut_graph(context, lattice, &box, &struts, NULL));
+  for (int axis = 0; axis < 3; ++axis) box.max[axis] = 0;
+  assert_ok(msq_structure_strut_graph(context, lattice, &box, &none, NULL));
+  REFUSALS("msq_io_beams_save") {
+    uint32_t triangles[6] = {0, 2, 1, 0, 1, 3};
+    double corners[4][3];
+    const msq_strut_graph* graph = struts;
+    msq_io_beams_def* def = (msq_io_beams_def*)definition(0);
+    msq_mesh_def mesh;
+    const char* path = part_path;
+    int32_t replace = 1;
+    memcpy(corners, vertices, sizeof corners);
+    assert_ok(msq_mesh_def_init(&mesh, sizeof mesh));
+    mesh.vertices = corners;
+    mesh.vertex_count = 4;
+    mesh.triangles = triangles;
+    mesh.triangle_count = 2;
+    assert_ok(msq_io_beams_def_init(def, sizeof *def));
+    def->mesh = &mesh;
+    wrong_enum(table, &replace, "replace", 0, 1);
+    wrong_enum(table, &def->clipping, "clipping", 0, 2);
+    WRONG(ARGUMENT, "struct_size of def is 4", def->struct_size = 4);
+    WRONG(ARGUMENT, "mesh is NULL", def->clipping = 1; def->mesh = NULL);
+    WRONG(ARGUMENT, "struct_size of mesh is 4", mesh.struct_size = 4);
+    WRONG(ARGUMENT, "vertices is NULL", mesh.vertices = NULL);
+    WRONG(ARGUMENT, "triangles is NULL", mesh.triangles = NULL);
+    WRONG(ARGUMENT, "vertex_stride is 8|24", mesh.vertex_stride = 8);
+    WRONG(ARGUMENT, "coordinate_type", mesh.coordinate_type = 7);
+    WRONG(MESH, "no triangles", mesh.triangle_count = 0);
+    WRONG(MESH, "triangle 1|index 4|4 vertices", triangles[5] = 4);
+    WRONG(MESH, "vertex 2|not finite", corners[2][1] = NAN);
+    WRONG(LIMIT, "4294967296", mesh.vertex_count = (uint64_t)1 << 32);
+    RIGHT(def = NULL);
+    WRONG(ARGUMENT, "no struts", graph = none);
+    WRONG(ARGUMENT, "graph is NULL", graph = NULL);
+    WRONG(ARGUMENT, "path is NULL", path = NULL);
+    WRONG(IO, "none/none", path = "none/none");
+    (void)TRY(msq_io_beams_save(graph, def, path, replace));
+    remove(part_path);
+  }
+  REFUSALS("msq_io_slices_create") {
+    const msq_slicer* slicer = bits;
+    const char* path = part_path;
+    msq_io_writer_def* writer_def = (msq_io_writer_def*)definition(0);
+    msq_io_slices_def* def = (msq_io_slices_def*)definition(1);
+    msq_io_writer** writer = (msq_io_writer**)output(0);
+    assert_ok(msq_io_writer_def_init(writer_def, sizeof *writer_def));
+    assert_ok(msq_io_slices_def_init(def, sizeof *def));
+    WRONG(ARGUMENT, "struct_size of def is 4", def->struct_size = 4);
+    WRONG(ARGUMENT, "reserved is 1", def->reserved = 1);
+    WRONG(ARGUMENT, "units is 0", def->units = 0);
+    WRONG(ARGUMENT, "layer_height is -1", def->layer_height = -1);
+    WRONG(ARGUMENT, "layer_height is 0|one layer", writer_def->layer_count = 1);
+    RIGHT(writer_def->layer_count = 1; def->layer_height = 0.5);
+    WRONG(ARGUMENT, "first_layer is 12", writer_def->first_layer = 12);
+    RIGHT(def = NULL; writer_def = NULL);
+    WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
+    WRONG(ARGUMENT, "path is NULL", path = NULL);
+    WRONG(IO, "none/none", path = "none/none");
+    WRONG(ARGUMENT, "writer is NULL", writer = NULL);
+    if (TRY(msq_io_slices_create(slicer, path, writer_def, def, writer)))
+      msq_io_writer_release(*writer);
+  }
+  msq_strut_graph_release(none);
+  msq_strut_graph_release(struts);
+  msq_structure_release(lattice);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(sizes),    cmocka_unit_test(report_sizes),
-                                     cmocka_unit_test(files),    cmocka_unit_test(writers),
-                                     cmocka_unit_test(archives), cmocka_unit_test(layers)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(sizes),   cmocka_unit_test(report_sizes),
+                                     cmocka_unit_test(files),   cmocka_unit_test(threemf),
+                                     cmocka_unit_test(writers), cmocka_unit_test(archives),
+                                     cmocka_unit_test(layers)};
   return cmocka_run_group_tests(tests, begin_tests, end_tests);
 }

@@ -86,6 +86,12 @@ void ZipFile::fail_zip(const char* what) const {
 }
 
 void ZipFile::add(const std::string& name, const void* bytes, uint64_t size, bool is_deflated) {
+  begin(name, is_deflated, size > 0xf0000000u);
+  append(bytes, size);
+  end();
+}
+
+void ZipFile::begin(const std::string& name, bool is_deflated, bool is_large) {
   const std::tm time = utc_of(created_);
   zip_fileinfo info{};
   info.tmz_date.tm_sec = static_cast<uInt>(time.tm_sec);
@@ -97,12 +103,14 @@ void ZipFile::add(const std::string& name, const void* bytes, uint64_t size, boo
   bool is_ascii = true;
   for (const char c : name) is_ascii = is_ascii && static_cast<unsigned char>(c) < 128;
   constexpr uLong utf8_names = 1 << 11;
-  const bool is_large = size > 0xf0000000u;
   if (zipOpenNewFileInZip4_64(zip_, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr,
                               is_deflated ? Z_DEFLATED : 0, Z_DEFAULT_COMPRESSION, 0, -MAX_WBITS,
                               DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY, nullptr, 0, 0,
                               is_ascii ? 0 : utf8_names, is_large) != ZIP_OK)
     fail_zip("begin an entry");
+}
+
+void ZipFile::append(const void* bytes, uint64_t size) {
   const auto* next = static_cast<const char*>(bytes);
   for (uint64_t left = size; left > 0;) {
     const auto part = static_cast<unsigned>(left < (1u << 30) ? left : 1u << 30);
@@ -110,6 +118,9 @@ void ZipFile::add(const std::string& name, const void* bytes, uint64_t size, boo
     next += part;
     left -= part;
   }
+}
+
+void ZipFile::end() {
   if (zipCloseFileInZip(zip_) != ZIP_OK || error_) fail_zip("end an entry");
 }
 

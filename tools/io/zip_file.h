@@ -22,6 +22,11 @@ class ZipFile {
 
   /// Adds an entry, stored or deflated.
   void add(const std::string& name, const void* bytes, uint64_t size, bool is_deflated);
+  /// The same in pieces. is_large: it may have more than 4 GB. (Readers that check archives warn of
+  /// small ones that are marked so.)
+  void begin(const std::string& name, bool is_deflated, bool is_large);
+  void append(const void* bytes, uint64_t size);
+  void end();
   void commit();
   uint64_t size() const { return file_.size(); }
 
