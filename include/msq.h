@@ -1447,7 +1447,7 @@ typedef struct msq_beam_file msq_beam_file;
  * solid and are passed over. Numbers become the nearest doubles.
  *
  * Limits: those of def; max_triangles is also the maximum number of beams and balls, and of
- * triangles that clip. Cost: linear in the size of the file, about 2 us per beam on one thread.
+ * triangles that clip. Cost: linear in the size of the file, about 1 us per beam on one thread.
  * Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that.
  * Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has
  * components or beams, and transforms that scale some directions by over 1e-4 more than others;

@@ -339,7 +339,7 @@ MSQ_IO_API msq_status msq_io_beams_def_init(msq_io_beams_def* def, size_t size);
  * of their ends. Struts of no length become balls, which need the extension for balls. A unit of
  * the model is a millimetre. Numbers are written with as many digits as it takes to read the same
  * doubles; msq_beam_file_open reads the same struts, and programs with float32 read these rounded.
- * replace as in msq_io_writer_def. def NULL: defaults. Cost: about 1 us per strut and node, most of
+ * replace as in msq_io_writer_def. def NULL: defaults. Cost: about 4 us per strut, most of
  * it for compression; some megabytes of memory. Errors: ARGUMENT (also a graph without struts), IO,
  * LIMIT (2^31 - 1 struts, nodes, vertices or triangles), MESH (no triangles, index out of range,
  * vertex that is not finite), MEMORY. */
