@@ -36,8 +36,12 @@ AtomicFolder::~AtomicFolder() {
 
 void AtomicFolder::remove() noexcept {
   if (temporary_.empty()) return;
-  std::error_code error;
-  fs::remove_all(temporary_, error);
+  try {
+    std::error_code error;
+    fs::remove_all(temporary_, error);
+  } catch (...) {
+    // Without memory not even a folder can be listed.
+  }
   temporary_.clear();
 }
 

@@ -14,15 +14,21 @@ namespace {
 // In thread-local storage without a destructor: a thread that ends frees it by itself.
 thread_local char last_message[512];
 
-/// Copies a message, without the bytes of a last character that does not fit.
-void keep(const char* message) {
+/// Copies a message to 512 bytes, without the bytes of a last character that does not fit.
+void copy(const char* message, char (&to)[512]) {
   size_t length = std::strlen(message);
-  if (length >= sizeof last_message) {
-    length = sizeof last_message - 1;
+  if (length >= sizeof to) {
+    length = sizeof to - 1;
     while (length > 0 && (static_cast<unsigned char>(message[length]) & 0xc0) == 0x80) --length;
   }
-  std::memcpy(last_message, message, length);
-  last_message[length] = 0;
+  std::memcpy(to, message, length);
+  to[length] = 0;
+}
+
+Failure failure_of(msq_status status, const char* message) {
+  Failure failure{status, {}};
+  copy(message, failure.message);
+  return failure;
 }
 
 }  // namespace
@@ -53,24 +59,28 @@ std::string text_of(double value) {
 }
 
 msq_status record(msq_status status, const char* message) noexcept {
-  keep(message);
+  copy(message, last_message);
   return status;
 }
 
-Error current_error() {
+Failure current_failure() noexcept {
   try {
     throw;
   } catch (const Error& error) {
-    return error;
+    return failure_of(error.status, error.what());
   } catch (const std::bad_alloc&) {
-    return {MSQ_E_MEMORY, "out of memory"};
+    return failure_of(MSQ_E_MEMORY, "out of memory");
   } catch (const std::length_error&) {
-    return {MSQ_E_MEMORY, "out of memory"};
+    return failure_of(MSQ_E_MEMORY, "out of memory");
   } catch (const std::exception& error) {
-    return {MSQ_E_INTERNAL, error.what()};
+    return failure_of(MSQ_E_INTERNAL, error.what());
   } catch (...) {
-    return {MSQ_E_INTERNAL, "unknown exception"};
+    return failure_of(MSQ_E_INTERNAL, "unknown exception");
   }
+}
+
+void raise(const Failure& failure) {
+  throw Error(failure.status, failure.message);
 }
 
 }  // namespace msq_io

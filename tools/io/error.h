@@ -41,8 +41,17 @@ std::string text_of(double value);
 /// Keeps the message for msq_io_error_message() on this thread and returns the status.
 msq_status record(msq_status status, const char* message) noexcept;
 
+/// An error that is kept. It needs no memory, so that a thread can keep that there is none.
+struct Failure {
+  msq_status status;
+  char message[512];
+};
+
 /// The error that is being handled.
-Error current_error();
+Failure current_failure() noexcept;
+
+/// Throws the error that was kept.
+[[noreturn]] void raise(const Failure& failure);
 
 /// Runs the body of a function of the C ABI.
 template <class Body>

@@ -10,19 +10,19 @@ using namespace msq_io;
 
 struct msq_io_file {
   std::optional<AtomicFile> file;
-  std::optional<Error> error;
+  std::optional<Failure> error;
   bool is_finished = false;
 
   template <class Body>
   void step(Body&& body) {
-    if (error) throw *error;
+    if (error) raise(*error);
     if (is_finished) fail(MSQ_E_ARGUMENT, "the file is finished");
     try {
       body(*file);
     } catch (...) {
-      error = current_error();
+      error = current_failure();
       file.reset();
-      throw *error;
+      raise(*error);
     }
   }
 };
@@ -83,7 +83,7 @@ msq_status msq_io_surface_save(const msq_model* model, const msq_surface_def* de
     msq_io_file file;
     file.file.emplace(name, replaces);
     const msq_status status = msq_surface_file(model, def, format, msq_io_file_part, &file, job);
-    if (file.error) throw *file.error;
+    if (file.error) raise(*file.error);
     check_msq(status);
     file.file->commit();
   });

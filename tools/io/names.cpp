@@ -58,7 +58,7 @@ fs::path temporary_name(const fs::path& folder, const fs::path& name) {
   auto bits = static_cast<uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
   bits = (bits ^ (calls.fetch_add(1) << 48)) * 0x9e3779b97f4a7c15u;
   std::string letters;
-  for (int i = 0; i < 8; ++i, bits >>= 5)
+  for (int i = 0; i < 8; ++i, bits <<= 5)
     letters += "abcdefghijklmnopqrstuvwxyz234567"[bits >> 59 & 31];
   fs::path made = folder / ".";
   made += name;

@@ -2,7 +2,6 @@
 #include "pipeline.h"
 
 #include <algorithm>
-#include <system_error>
 
 namespace msq_io {
 
@@ -20,8 +19,8 @@ Pipeline::Pipeline(Format& format, uint32_t threads, uint64_t queue_bytes)
   threads_.reserve(threads - 1);
   try {
     for (uint32_t i = 1; i < threads; ++i) threads_.emplace_back([this] { work(); });
-  } catch (const std::system_error&) {
-    // The threads that there are will do.
+  } catch (...) {
+    // No memory, or too many threads. The threads that there are will do.
   }
 }
 
@@ -36,11 +35,11 @@ Pipeline::~Pipeline() {
 }
 
 void Pipeline::check() const {
-  if (error_) throw *error_;
+  if (error_) raise(*error_);
 }
 
 void Pipeline::set_error() {
-  if (!error_) error_ = current_error();
+  if (!error_) error_ = current_failure();
   waiting_.clear();
 }
 
@@ -103,12 +102,12 @@ void Pipeline::process_one(Lock& lock) {
   waiting_.pop_front();
   lock.unlock();
   bool is_encoded = false;
-  std::optional<Error> error;
+  std::optional<Failure> error;
   try {
     format_.encode(*packet);
     is_encoded = true;
   } catch (...) {
-    error = current_error();
+    error = current_failure();
   }
   lock.lock();
   if (!is_encoded) {
@@ -139,11 +138,11 @@ void Pipeline::deliver_next(Lock& lock) {
     std::unique_ptr<Packet> packet = std::move(encoded_.begin()->second);
     encoded_.erase(encoded_.begin());
     lock.unlock();
-    std::optional<Error> error;
+    std::optional<Failure> error;
     try {
       format_.deliver(*packet);
     } catch (...) {
-      error = current_error();
+      error = current_failure();
     }
     lock.lock();
     if (error && !error_) error_ = error;

@@ -93,7 +93,7 @@ class Pipeline {
   uint64_t in_flight_ = 0, bytes_ = 0, peak_bytes_ = 0;
   uint64_t next_ = 0;
   bool is_delivering_ = false, is_stopping_ = false;
-  std::optional<Error> error_;
+  std::optional<Failure> error_;
   std::vector<std::thread> threads_;
 };
 

@@ -61,18 +61,18 @@ msq_io_writer::msq_io_writer(const WriterPlan& plan, std::unique_ptr<Format> for
       pipeline_(std::make_unique<Pipeline>(*format_, plan.threads, plan.queue_bytes)) {}
 
 void msq_io_writer::step(const std::function<void()>& body) {
-  if (error_) throw *error_;
+  if (error_) raise(*error_);
   try {
     body();
   } catch (...) {
-    error_ = current_error();
+    error_ = current_failure();
     // Nothing is left, and no thread.
     delivered_ = pipeline_->delivered();
     peak_bytes_ = pipeline_->peak_bytes();
     pipeline_.reset();
     bytes_ = format_->bytes();
     format_.reset();
-    throw *error_;
+    raise(*error_);
   }
 }
 

@@ -44,5 +44,5 @@ struct msq_io_writer {
   std::unique_ptr<msq_io::Pipeline> pipeline_;
   uint64_t received_ = 0, delivered_ = 0, peak_bytes_ = 0, bytes_ = 0;
   bool is_finished_ = false;
-  std::optional<msq_io::Error> error_;
+  std::optional<msq_io::Failure> error_;
 };

@@ -34,7 +34,7 @@ struct ZipCalls {
       body();
       return true;
     } catch (...) {
-      if (!zip.error_) zip.error_ = current_error();
+      if (!zip.error_) zip.error_ = current_failure();
       return false;
     }
   }
@@ -81,7 +81,7 @@ ZipFile::~ZipFile() {
 }
 
 void ZipFile::fail_zip(const char* what) const {
-  if (error_) throw *error_;
+  if (error_) raise(*error_);
   fail(MSQ_E_IO, "minizip cannot %s: %s", what, text_of(file_.path()).c_str());
 }
 

@@ -39,7 +39,7 @@ class ZipFile {
   int64_t created_;
   void* zip_ = nullptr;
   /// Of a callback: no exception passes through minizip.
-  std::optional<Error> error_;
+  std::optional<Failure> error_;
 };
 
 /// Days, hours and so on of a time in seconds since 1970, UTC (Howard Hinnant, "chrono-compatible
