@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// msq calibrate: finds the parameter of a volume fraction.
+#include "report.h"
+#include "scene.h"
+#include "watch.h"
+
+namespace command {
+
+namespace {
+
+// What the parameter is that msq_structure_calibrate varies.
+std::string_view parameter_of(const Arguments& arguments) {
+  if (arguments.has("function") || arguments.has("expression")) return "level";
+  return arguments.has("thickness") ? "thickness" : "radius";
+}
+
+}  // namespace
+
+void run_calibrate(const Arguments& arguments) {
+  arguments.require("fraction");
+  const double target = arguments.number("fraction", 0);
+  const uint64_t pairs = arguments.count("curve", 0);
+  if (pairs == 1 || pairs > (1 << 20)) {
+    arguments.refuse("curve", arguments.text("curve") + " is not 0 or from 2 to 1048576");
+  }
+  for (const char* option : {"skin", "radius-top"}) {
+    if (arguments.has(option)) arguments.refuse(option, "has no meaning here");
+  }
+  const Context context = make_context(arguments);
+  const Structure structure = make_structure(arguments, context.get(), 0, 0, true);
+  if (!structure) {
+    throw UsageError("msq calibrate needs --foam, --lattice, --function or --expression");
+  }
+  std::vector<double> parameters(pairs), fractions(pairs);
+  msq_calibration_report found = {};
+  found.struct_size = sizeof found;
+  {
+    Work work("calibrating");
+    check(msq_structure_calibrate(context.get(), structure.get(), nullptr, target,
+                                  pairs ? parameters.data() : nullptr,
+                                  pairs ? fractions.data() : nullptr, pairs, &found, work.job()));
+  }
+  const std::string_view name = parameter_of(arguments);
+  Report report;
+  report.add("structure", describe_structure(arguments));
+  report.add(name, found.parameter);
+  report.add("volume_fraction", found.fraction.value);
+  report.add("standard_error", found.fraction.standard_error);
+  report.add("max_fraction", found.max_fraction);
+  report.add("samples", found.samples);
+  std::vector<Report> curve(pairs);
+  for (size_t i = 0; i < pairs; ++i) {
+    curve[i].add(name, parameters[i]);
+    curve[i].add("volume_fraction", fractions[i]);
+  }
+  if (pairs > 0) report.add("curve", std::move(curve));
+  report.print(arguments);
+}
+
+}  // namespace command

@@ -1,0 +1,59 @@
+# Completion of msq for bash, made by msq --completion bash; tests compare.
+_msq() {
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options=
+  COMPREPLY=()
+  if ((COMP_CWORD == 1)); then
+    mapfile -t COMPREPLY < <(compgen -W 'mesh info stats query struts calibrate --help --version --man --completion' -- "$word")
+    return
+  fi
+  case $before in
+    --completion) mapfile -t COMPREPLY < <(compgen -W 'bash zsh' -- "$word"); return ;;
+    -o | --output) compopt -o default 2>/dev/null; return ;;
+    -p | --pitch) return ;;
+    --unit) return ;;
+    --up) mapfile -t COMPREPLY < <(compgen -W 'x -x y -y z -z' -- "$word"); return ;;
+    --foam) return ;;
+    --lattice) mapfile -t COMPREPLY < <(compgen -W 'cubic bcc octet fcc kelvin diamond dodecahedron reentrant' -- "$word"); return ;;
+    --function) mapfile -t COMPREPLY < <(compgen -W 'gyroid schwarz-p diamond i-wp neovius f-rd lidinoid split-p' -- "$word"); return ;;
+    --expression) return ;;
+    --cell) return ;;
+    -r | --radius) return ;;
+    --radius-top) return ;;
+    --thickness) return ;;
+    --level) return ;;
+    --density) return ;;
+    --jitter) return ;;
+    --seed) return ;;
+    --vent) return ;;
+    --skin) return ;;
+    --box) return ;;
+    --length-scale) return ;;
+    -t | --threads) return ;;
+    --memory) return ;;
+    -n | --samples) return ;;
+    --sample-seed) return ;;
+    --phase) mapfile -t COMPREPLY < <(compgen -W 'solid void' -- "$word"); return ;;
+    --two-point) return ;;
+    --lineal-path) return ;;
+    --direction) return ;;
+    --surface) return ;;
+    -w | --what) return ;;
+    --channels) return ;;
+    -f | --fraction) return ;;
+    --curve) return ;;
+  esac
+  case ${COMP_WORDS[1]} in
+    mesh) options='--output --pitch --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
+    info) options='--self-intersections --json --output --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
+    stats) options='--samples --sample-seed --phase --two-point --lineal-path --direction --surface --json --output --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
+    query) options='--output --what --channels --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --length-scale --threads --memory --quiet --help' ;;
+    struts) options='--output --whole --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --threads --memory --quiet --help' ;;
+    calibrate) options='--fraction --curve --json --output --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
+  esac
+  if [[ $word == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+  else
+    compopt -o default 2>/dev/null
+  fi
+}
+complete -F _msq msq

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.h"
+
+namespace command {
+
+namespace {
+
+constexpr char MODEL_HELP[] =
+    "a model file (.json), which has structures of its own, a mesh file (STL, OBJ, PLY, OFF, 3MF, "
+    "AMF), or box:X,Y,Z, a box of that "
+    "size with a corner at the origin";
+
+constexpr Option MAIN[] = {
+    {"help", 'h', "", Value::NONE, "", "print this text and exit; after a command: its options"},
+    {"version", 'V', "", Value::NONE, "", "print the version and exit"},
+    {"man", 0, "", Value::NONE, "", "print the manual page, for man -l, and exit"},
+    {"completion", 0, "SHELL", Value::WORDS, "bash zsh",
+     "print the completion for a shell and exit"},
+};
+
+constexpr Option RUNNING[] = {
+    {"threads", 't', "N", Value::TEXT, "", "threads; 0: one for each core (default 0)"},
+    {"memory", 0, "SIZE", Value::TEXT, "",
+     "most memory for meshes, images, cells and layers, such as 512M or 4G (default: no limit)"},
+    {"quiet", 'q', "", Value::NONE, "", "print neither warnings nor progress"},
+    {"help", 'h', "", Value::NONE, "", "print this text and exit"},
+};
+
+constexpr Option PART[] = {
+    {"unit", 0, "UNIT", Value::TEXT, "",
+     "unit of a mesh file that names none: um, mm, cm, m, in, ft, or its length in mm (default "
+     "mm)"},
+    {"up", 0, "AXIS", Value::WORDS, "x -x y -y z -z",
+     "axis of a mesh file that points upwards; the part is turned so that it becomes z (default "
+     "z)"},
+};
+
+constexpr Option STRUCTURE[] = {
+    {"foam", 0, "CELL", Value::TEXT, "",
+     "a Voronoi foam with one seed in each cell of this size, in mm; CELL or X,Y,Z"},
+    {"lattice", 0, "NAME", Value::WORDS,
+     "cubic bcc octet fcc kelvin diamond dodecahedron reentrant",
+     "a lattice of struts; needs --cell and --radius"},
+    {"function", 0, "NAME", Value::WORDS,
+     "gyroid schwarz-p diamond i-wp neovius f-rd lidinoid split-p",
+     "a periodic surface; needs --cell"},
+    {"expression", 0, "TEXT", Value::TEXT, "",
+     "a surface by a function of the angles x, y, z, 0 to 2 pi in a cell; needs --cell"},
+    {"cell", 0, "SIZE", Value::TEXT, "", "size of the cells in mm; SIZE or X,Y,Z"},
+    {"radius", 'r', "MM", Value::TEXT, "", "radius of the struts of a foam or a lattice"},
+    {"radius-top", 0, "MM", Value::TEXT, "",
+     "radius at the top of the part; from the bottom on it is linear"},
+    {"thickness", 0, "MM", Value::TEXT, "", "thickness of the walls of a foam or a surface"},
+    {"level", 0, "L", Value::TEXT, "", "value of the function up to which it is solid (default 0)"},
+    {"sheet", 0, "", Value::NONE, "", "with --level: solid where the magnitude is up to the level"},
+    {"density", 0, "N", Value::TEXT, "", "seeds in a cell of a foam (default 1)"},
+    {"jitter", 0, "J", Value::TEXT, "",
+     "of the seeds of a foam: 0, at the middle of cells, to 1 (default 1)"},
+    {"seed", 0, "N", Value::TEXT, "", "selects the foam (default 0)"},
+    {"vent", 0, "MM", Value::TEXT, "", "radius of a hole in each wall of a foam (default: none)"},
+    {"skin", 0, "MM", Value::TEXT, "", "solid skin under the surface of the part (default 0)"},
+};
+
+constexpr Option RESOLVED[] = {
+    {"length-scale", 0, "MM", Value::TEXT, "",
+     "leave structures with smaller cells out: they are solid (default 0)"},
+};
+
+constexpr Option BOX[] = {
+    {"box", 0, "X,Y,Z,X,Y,Z", Value::TEXT, "",
+     "lowest and highest corner of what is taken (default: the part's bounding box)"},
+};
+
+constexpr Option JSON[] = {
+    {"json", 0, "", Value::NONE, "", "print JSON in place of lines for people"},
+    {"output", 'o', "FILE", Value::FILE, "", "write there (default: standard output)"},
+};
+
+constexpr Option INFO[] = {
+    {"self-intersections", 0, "", Value::NONE, "",
+     "count the pairs of triangles that intersect, which takes a while"},
+};
+
+constexpr Option MESH[] = {
+    {"output", 'o', "FILE", Value::FILE, "", "a file that ends in .stl or .ply; required"},
+    {"pitch", 'p', "MM", Value::TEXT, "",
+     "distance of the nodes at which the model is sampled; required"},
+};
+
+constexpr Option QUERY[] = {
+    {"output", 'o', "FILE", Value::FILE, "",
+     "a file that ends in .csv or .npy (default: CSV to standard output)"},
+    {"what", 'w', "LIST", Value::TEXT, "",
+     "values to write, with commas between them: membership, distance, material, region (default "
+     "membership)"},
+    {"channels", 0, "LIST", Value::TEXT, "",
+     "channels of materials to write, with commas between their names"},
+};
+
+constexpr Option RENDER[] = {
+    {"output", 'o', "FILE", Value::FILE, "", "a file that ends in .png; required"},
+    {"size", 's', "W,H", Value::TEXT, "", "pixels of the picture (default 1200,900)"},
+    {"view", 0, "AZIMUTH,ELEVATION", Value::TEXT, "",
+     "direction of the eye in degrees: 0,0 is in front, 90,0 to the right, 0,90 above (default "
+     "32,30)"},
+    {"zoom", 0, "F", Value::TEXT, "", "enlarge by this factor (default 1)"},
+    {"at", 0, "X,Y,Z", Value::TEXT, "", "middle of the picture (default: that of the part)"},
+    {"perspective", 0, "DEGREES", Value::TEXT, "",
+     "vertical angle of view (default: parallel rays)"},
+    {"samples", 0, "N", Value::TEXT, "", "rays along each side of a pixel (default 3)"},
+    {"glass", 0, "", Value::NONE, "", "show the part's outline as glass"},
+    {"plain", 0, "", Value::NONE, "", "draw neither shadows nor ground, on nothing (transparent)"},
+};
+
+constexpr Option STATS[] = {
+    {"samples", 'n', "N", Value::TEXT, "", "number of sample points (default 1000000)"},
+    {"sample-seed", 0, "N", Value::TEXT, "", "selects the sample points (default 0)"},
+    {"phase", 0, "NAME", Value::WORDS, "solid void", "what is measured (default solid)"},
+    {"two-point", 0, "LENGTHS", Value::TEXT, "",
+     "two-point correlation at lengths in mm: A,B,... or FIRST:LAST:COUNT"},
+    {"lineal-path", 0, "LENGTHS", Value::TEXT, "", "lineal-path function at such lengths"},
+    {"direction", 0, "X,Y,Z", Value::TEXT, "",
+     "of the segments of both functions (default: all directions)"},
+    {"surface", 0, "MM", Value::TEXT, "", "area and volume of a mesh with nodes at this distance"},
+};
+
+constexpr Option STRUTS[] = {
+    {"output", 'o', "FILE", Value::FILE, "",
+     "a file that ends in .csv or .jsonl (default: CSV to standard output)"},
+    {"whole", 0, "", Value::NONE, "", "do not cut the struts to the part"},
+};
+
+constexpr Option CALIBRATE[] = {
+    {"fraction", 'f', "F", Value::TEXT, "", "volume fraction that is wanted, 0 to 1; required"},
+    {"curve", 0, "N", Value::TEXT, "",
+     "print N pairs of parameter and volume fraction too (default 0)"},
+};
+
+const Group RUNNING_GROUP = {"Running", RUNNING};
+const Group PART_GROUP = {"Part", PART};
+const Group STRUCTURE_GROUP = {"Structure", STRUCTURE};
+const Group RESOLVED_GROUP = {"Resolution", RESOLVED};
+const Group BOX_GROUP = {"Region", BOX};
+const Group REPORT_GROUP = {"Report", JSON};
+
+const Operand MODEL = {"MODEL", true, MODEL_HELP};
+
+const std::vector<Command>& table() {
+  static const std::vector<Command> commands = {
+      {"mesh",
+       "write a preview mesh as STL or PLY",
+       "Computes triangles of the model's boundary, for programs that take nothing else. The mesh "
+       "is closed and a manifold. Walls and struts narrower than 1.7 times the pitch may break.",
+       {MODEL},
+       {{"Mesh", MESH}, PART_GROUP, STRUCTURE_GROUP, BOX_GROUP, RESOLVED_GROUP, RUNNING_GROUP},
+       {"msq mesh bracket.stl --lattice octet --cell 8 --radius 0.8 --pitch 0.5 -o bracket.ply"},
+       run_mesh},
+      {"info",
+       "describe a part, a model or this program",
+       "Prints bounds, volume, the diagnosis of a mesh, the scales, hashes and the build of msq. "
+       "Without MODEL: the build alone.",
+       {{"MODEL", false, MODEL_HELP}},
+       {{"Diagnosis", INFO}, REPORT_GROUP, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
+       {"msq info bracket.stl --self-intersections", "msq info --json"},
+       run_info},
+      {"stats",
+       "measure volume fraction, correlations and surface",
+       "Measures in a box by stratified random points, with standard errors. Outside the part "
+       "everything is void. The relative density is the share of the part that is solid.",
+       {MODEL},
+       {{"Statistics", STATS},
+        REPORT_GROUP,
+        PART_GROUP,
+        STRUCTURE_GROUP,
+        BOX_GROUP,
+        RESOLVED_GROUP,
+        RUNNING_GROUP},
+       {"msq stats bracket.stl --foam 4 --radius 0.4 --samples 100000",
+        "msq stats box:10,10,10 --function gyroid --cell 5 --thickness 0.5 --samples 20000 "
+        "--two-point 0:4:9"},
+       run_stats},
+      {"query",
+       "evaluate the model at points",
+       "Reads points x, y, z and writes values at each of them, in the same order. Points are rows "
+       "of CSV, whose first row may be a heading, or a NumPy array of shape (n, 3) with float32 or "
+       "float64. CSV has the points and a column for each value. NPY has one array, of records if "
+       "there are several values. membership is 0 or 1, distance is signed and negative inside, "
+       "material is an id and 0 outside, region is an index and -1 outside.",
+       {MODEL,
+        {"POINTS", true, "a file that ends in .csv or .npy, or - for CSV from standard input"}},
+       {{"Values", QUERY}, PART_GROUP, STRUCTURE_GROUP, RESOLVED_GROUP, RUNNING_GROUP},
+       {"echo 10,10,5 | msq query bracket.stl - --foam 4 --radius 0.4 --what membership,distance"},
+       run_query},
+      {"struts",
+       "write struts as a graph",
+       "Writes the struts of a lattice or a foam as nodes and struts between them, for programs of "
+       "finite elements. CSV has a row for each strut: the numbers of its nodes, their places, the "
+       "radii there, 1 for an end where the strut leaves the part, and the cell. JSON lines have "
+       "the nodes first, then the struts. Model files are not taken: their structures cannot be "
+       "listed one by one.",
+       {MODEL},
+       {{"Graph", STRUTS}, PART_GROUP, STRUCTURE_GROUP, BOX_GROUP, RUNNING_GROUP},
+       {"msq struts bracket.stl --foam 4 --radius 0.4 -o struts.csv"},
+       run_struts},
+      {"calibrate",
+       "find the radius, thickness or level of a volume fraction",
+       "Finds the constant parameter at which a structure has a volume fraction: the radius of "
+       "struts, the thickness of the walls of a foam without struts, the level of a surface. It "
+       "measures the structure by itself, in whole cells. Radius, thickness and level need not be "
+       "given, except to say what is wanted: --thickness for the walls of a foam, --sheet for a "
+       "surface.",
+       {},
+       {{"Calibration", CALIBRATE}, REPORT_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
+       {"msq calibrate --lattice bcc --cell 4 --fraction 0.2",
+        "msq calibrate --function gyroid --sheet --cell 4 --fraction 0.2"},
+       run_calibrate},
+  };
+  return commands;
+}
+
+constexpr ExitCode EXIT_CODES[] = {
+    {"0", "the work is done"},
+    {"1", "the work failed; one line on standard error says why"},
+    {"2", "the command line makes no sense; one line on standard error says why"},
+    {"129, 130, 143", "a signal (hang-up, Ctrl-C, termination) ended the work"},
+};
+
+}  // namespace
+
+std::span<const Command> commands() {
+  return table();
+}
+std::span<const Option> main_options() {
+  return MAIN;
+}
+std::span<const ExitCode> exit_codes() {
+  return EXIT_CODES;
+}
+
+const Command* find_command(std::string_view name) {
+  for (const Command& command : table()) {
+    if (command.name == name) return &command;
+  }
+  return nullptr;
+}
+
+const Option* find_option(const Command& command, std::string_view name) {
+  for (const Group& group : command.groups) {
+    for (const Option& option : group.options) {
+      if (option.name == name) return &option;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace command

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The model that the command line describes.
+#ifndef MSQ_COMMAND_SCENE_H
+#define MSQ_COMMAND_SCENE_H
+
+#include <string>
+
+#include "arguments.h"
+#include "failure.h"
+
+namespace command {
+
+struct Scene {
+  Context context;
+  Shape part;           // of a mesh file or a box; none of a model file
+  Structure structure;  // of the options; none: the part is solid
+  Model model;
+  bool is_mesh_file = false;
+};
+
+// Makes a context by --threads, --memory and --quiet.
+Context make_context(const Arguments& arguments);
+
+// Reads operand 0, a mesh file or a box, and fills it with what the options say.
+Scene open_scene(const Arguments& arguments);
+
+// The structure of the options; none if there are none. bottom, top: where --radius and
+// --radius-top hold. is_calibrated: radius, thickness and level may be left out.
+Structure make_structure(const Arguments& arguments, msq_context* context, double bottom,
+                         double top, bool is_calibrated);
+
+// What the options describe, in a line: "foam, cells of 2 mm". "" if there is no structure.
+std::string describe_structure(const Arguments& arguments);
+
+// --length-scale.
+msq_query_def make_query(const Arguments& arguments);
+
+// --box, or the bounding box of the model.
+void take_box(const Arguments& arguments, const msq_model* model, double min[3], double max[3]);
+
+}  // namespace command
+
+#endif
