@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the PNG files that the examples write: 8 bits, grey or RGB, not interlaced."""
+"""Reads the PNG files that the examples and msq write: grey of 1 or 8 bits, RGB, not interlaced."""
 import pathlib
 import struct
 import zlib
@@ -22,17 +22,21 @@ def read(path):
             packed += body
         at += 12 + size
     width, height, depth, colour, _, _, interlace = header
-    if depth != 8 or colour not in (0, 2) or interlace:
+    if (depth, colour) not in ((1, 0), (8, 0), (8, 2)) or interlace:
         raise ValueError(f"{path}: depth {depth}, colour {colour}, interlace {interlace}")
     step = 3 if colour == 2 else 1
     raw = zlib.decompress(packed)
-    before = bytearray(width * step)
+    size = (width * step * depth + 7) // 8
+    before = bytearray(size)
     rows = []
     for y in range(height):
-        start = y * (width * step + 1)
-        row = bytearray(raw[start + 1:start + 1 + width * step])
+        start = y * (size + 1)
+        row = bytearray(raw[start + 1:start + 1 + size])
         unfilter(raw[start], row, before, step)
-        rows.append([tuple(row[x:x + step]) for x in range(0, len(row), step)])
+        if depth == 1:
+            rows.append([(row[x // 8] >> (7 - x % 8) & 1,) for x in range(width)])
+        else:
+            rows.append([tuple(row[x:x + step]) for x in range(0, len(row), step)])
         before = row
     return width, height, rows
 

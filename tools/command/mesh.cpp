@@ -7,20 +7,6 @@
 
 namespace command {
 
-namespace {
-
-struct Target {
-  OutputFile file;
-  Carried carried;
-};
-
-int32_t take_part(void* user, const msq_file_part* part) {
-  auto* target = static_cast<Target*>(user);
-  return target->carried.run([&] { target->file.write_at(part->offset, part->bytes, part->size); });
-}
-
-}  // namespace
-
 void run_mesh(const Arguments& arguments) {
   arguments.require("output");
   arguments.require("pitch");
@@ -38,13 +24,8 @@ void run_mesh(const Arguments& arguments) {
     def.has_box = 1;
     take_box(arguments, scene.model.get(), def.min, def.max);
   }
-  Target target{OutputFile(path), {}};
-  {
-    Work work("meshing");
-    target.carried.check(
-        msq_surface_file(scene.model.get(), &def, format, take_part, &target, work.job()));
-  }
-  target.file.commit();
+  Work work("meshing");
+  check_io(msq_io_surface_save(scene.model.get(), &def, format, path.c_str(), 1, work.job()));
 }
 
 }  // namespace command

@@ -81,6 +81,38 @@ constexpr Option INFO[] = {
      "count the pairs of triangles that intersect, which takes a while"},
 };
 
+constexpr Option SLICE[] = {
+    {"output", 'o', "PATH", Value::FILE, "",
+     "a folder, for one file a layer, or a file that ends in .sl1, .sl1s or .svg; required"},
+    {"format", 0, "NAME", Value::WORDS, "png svg", "of the files in a folder (default png)"},
+    {"pitch", 'p', "MM", Value::TEXT, "",
+     "size of a pixel, or of the mesh that contours start from; P or X,Y; required, except for "
+     ".sl1"},
+    {"layer-height", 'l', "MM", Value::TEXT, "", "required"},
+    {"layers", 0, "FIRST:END", Value::TEXT, "",
+     "compute layers FIRST to END - 1 alone, of those that there are without it; their files have "
+     "the same names and bytes"},
+    {"grey", 'g', "N", Value::TEXT, "",
+     "grey pixels by their coverage, from N x N samples, N = 2, 4, 8 or 16 (default: black and "
+     "white; .sl1: 4)"},
+    {"mirror", 0, "AXES", Value::WORDS, "none x y xy",
+     "mirror pixels (default none, with y upwards; .sl1: x)"},
+    {"tolerance", 0, "MM", Value::TEXT, "", "of contours in SVG (default: a tenth of the pitch)"},
+};
+
+constexpr Option PRINTER[] = {
+    {"panel", 0, "W,H", Value::TEXT, "", "pixels of the panel along x and y (default 2560,1440)"},
+    {"panel-size", 0, "W,H", Value::TEXT, "",
+     "size of the panel in mm along x and y (default 120.96,68.04)"},
+    {"landscape", 0, "", Value::NONE, "", "do not turn pictures (default: x runs along columns)"},
+    {"exposure", 0, "S", Value::TEXT, "", "exposure time in seconds (default 8)"},
+    {"first-exposure", 0, "S", Value::TEXT, "", "exposure time of the first layer (default 35)"},
+    {"fade", 0, "N", Value::TEXT, "",
+     "layers over which the time falls from the first to the others (default 10)"},
+    {"material", 0, "NAME", Value::TEXT, "", "name of the resin's settings"},
+    {"no-thumbnails", 0, "", Value::NONE, "", "leave out the thumbnails"},
+};
+
 constexpr Option MESH[] = {
     {"output", 'o', "FILE", Value::FILE, "", "a file that ends in .stl or .ply; required"},
     {"pitch", 'p', "MM", Value::TEXT, "",
@@ -99,7 +131,7 @@ constexpr Option QUERY[] = {
 
 constexpr Option RENDER[] = {
     {"output", 'o', "FILE", Value::FILE, "", "a file that ends in .png; required"},
-    {"size", 's', "W,H", Value::TEXT, "", "pixels of the picture (default 1200,900)"},
+    {"size", 's', "W,H", Value::TEXT, "", "pixels of the picture (default 800,600)"},
     {"view", 0, "AZIMUTH,ELEVATION", Value::TEXT, "",
      "direction of the eye in degrees: 0,0 is in front, 90,0 to the right, 0,90 above (default "
      "32,30)"},
@@ -107,9 +139,10 @@ constexpr Option RENDER[] = {
     {"at", 0, "X,Y,Z", Value::TEXT, "", "middle of the picture (default: that of the part)"},
     {"perspective", 0, "DEGREES", Value::TEXT, "",
      "vertical angle of view (default: parallel rays)"},
-    {"samples", 0, "N", Value::TEXT, "", "rays along each side of a pixel (default 3)"},
+    {"samples", 0, "N", Value::TEXT, "", "rays along each side of a pixel (default 2)"},
     {"glass", 0, "", Value::NONE, "", "show the part's outline as glass"},
-    {"plain", 0, "", Value::NONE, "", "draw neither shadows nor ground, on nothing (transparent)"},
+    {"plain", 0, "", Value::NONE, "",
+     "draw neither shadows nor ground; the background is transparent"},
 };
 
 constexpr Option STATS[] = {
@@ -147,21 +180,50 @@ const Operand MODEL = {"MODEL", true, MODEL_HELP};
 
 const std::vector<Command>& table() {
   static const std::vector<Command> commands = {
+      {"slice",
+       "write layers as PNG, SVG or SL1",
+       "Computes layers from the bottom to the top and writes each while the next ones are "
+       "computed. "
+       "A folder receives layer00000.png, or .svg, and so on. An .svg file holds all layers. An "
+       ".sl1 "
+       "archive is for resin printers. What a model file says of slices is used; options take its "
+       "place.",
+       {MODEL},
+       {{"Layers", SLICE},
+        {"Printer (.sl1)", PRINTER},
+        PART_GROUP,
+        STRUCTURE_GROUP,
+        BOX_GROUP,
+        RESOLVED_GROUP,
+        RUNNING_GROUP},
+       {"msq slice bracket.stl --foam 4 --radius 0.4 --pitch 0.5 --layer-height 0.5 -o layers/",
+        "msq slice bracket.stl --lattice octet --cell 8 --radius 0.8 --layer-height 2 "
+        "--panel 640,360 --no-thumbnails -o bracket.sl1"},
+       run_slice},
       {"mesh",
        "write a preview mesh as STL or PLY",
        "Computes triangles of the model's boundary, for programs that take nothing else. The mesh "
        "is closed and a manifold. Walls and struts narrower than 1.7 times the pitch may break.",
        {MODEL},
        {{"Mesh", MESH}, PART_GROUP, STRUCTURE_GROUP, BOX_GROUP, RESOLVED_GROUP, RUNNING_GROUP},
-       {"msq mesh bracket.stl --lattice octet --cell 8 --radius 0.8 --pitch 0.5 -o bracket.ply"},
+       {"msq mesh bracket.stl --lattice octet --cell 8 --radius 0.8 --pitch 1 -o bracket.ply"},
        run_mesh},
+      {"render",
+       "draw a picture by casting rays",
+       "Draws the model itself; nothing is meshed. What a model file says of pictures is used; "
+       "options "
+       "take its place.",
+       {MODEL},
+       {{"Picture", RENDER}, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
+       {"msq render bracket.stl --foam 4 --radius 0.4 --samples 1 --size 160,120 -o bracket.png"},
+       run_render},
       {"info",
        "describe a part, a model or this program",
        "Prints bounds, volume, the diagnosis of a mesh, the scales, hashes and the build of msq. "
        "Without MODEL: the build alone.",
        {{"MODEL", false, MODEL_HELP}},
        {{"Diagnosis", INFO}, REPORT_GROUP, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
-       {"msq info bracket.stl --self-intersections", "msq info --json"},
+       {"msq info bracket.stl --foam 4 --radius 0.4 --self-intersections --json", "msq info"},
        run_info},
       {"stats",
        "measure volume fraction, correlations and surface",
@@ -175,9 +237,9 @@ const std::vector<Command>& table() {
         BOX_GROUP,
         RESOLVED_GROUP,
         RUNNING_GROUP},
-       {"msq stats bracket.stl --foam 4 --radius 0.4 --samples 100000",
+       {"msq stats bracket.stl --foam 4 --radius 0.4 --samples 50000",
         "msq stats box:10,10,10 --function gyroid --cell 5 --thickness 0.5 --samples 20000 "
-        "--two-point 0:4:9"},
+        "--two-point 0:4:9 --surface 0.5 --json"},
        run_stats},
       {"query",
        "evaluate the model at points",
@@ -196,8 +258,7 @@ const std::vector<Command>& table() {
        "Writes the struts of a lattice or a foam as nodes and struts between them, for programs of "
        "finite elements. CSV has a row for each strut: the numbers of its nodes, their places, the "
        "radii there, 1 for an end where the strut leaves the part, and the cell. JSON lines have "
-       "the nodes first, then the struts. Model files are not taken: their structures cannot be "
-       "listed one by one.",
+       "the nodes first, then the struts. Model files are not taken.",
        {MODEL},
        {{"Graph", STRUTS}, PART_GROUP, STRUCTURE_GROUP, BOX_GROUP, RUNNING_GROUP},
        {"msq struts bracket.stl --foam 4 --radius 0.4 -o struts.csv"},

@@ -3,15 +3,22 @@
 #ifndef MSQ_COMMAND_OUTPUT_FILE_H
 #define MSQ_COMMAND_OUTPUT_FILE_H
 
+#include <msq_io.h>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "failure.h"
+
 namespace command {
 
-// Bytes go to a temporary file beside the final one, which commit() renames. Without commit() the
-// temporary file is removed. "-" is standard output. What is no regular file, such as a pipe or
-// /dev/null, is written in place.
+// Throws what a status of msq_io stands for. MSQ_OK: nothing.
+void check_io(msq_status status);
+
+// A file of msq_io, which replaces an existing one in commit(). Without commit() nothing is left.
+// "-" is standard output. It and what is no regular file, such as a pipe or /dev/null, are written
+// in place.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);
@@ -21,20 +28,19 @@ class OutputFile {
 
   void write(const void* bytes, size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
-  // Writes at a place from the start of the file; not to standard output, nor to pipes. Writes at
-  // the end go on where they were.
+  // Writes at a place from the start of the file; not to standard output, nor to pipes.
   void write_at(uint64_t offset, const void* bytes, size_t count);
   void commit();
 
  private:
+  void put(const char* bytes, size_t count);
   void flush();
   [[noreturn]] void fail(int code) const;
 
-  std::string path_;   // as the user gave it
-  std::string final_;  // what the temporary file becomes; "": written in place
-  std::string temporary_;
+  std::string path_;  // as the user gave it
   std::string buffer_;
-  int file_ = -1;
+  Handle<msq_io_file, msq_io_file_release> file_;
+  int descriptor_ = -1;  // of what is written in place
 };
 
 }  // namespace command

@@ -92,6 +92,7 @@ Scene open_scene(const Arguments& arguments) {
   Scene scene;
   scene.context = make_context(arguments);
   const std::string& path = arguments.operand(0);
+  if (ending(path) == ".json") throw Failure(path + ": this build reads no model files");
   if (path.starts_with(BOX)) {
     for (const char* option : {"unit", "up"}) {
       if (arguments.has(option)) arguments.refuse(option, "does not apply to a box");

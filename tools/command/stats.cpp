@@ -60,13 +60,13 @@ std::vector<double> read_lengths(const Arguments& arguments, std::string_view op
     return lengths;
   }
   const auto first = to_number(range[0]), last = to_number(range[1]);
-  const auto count = range.size() == 3 ? to_count(range[2]) : std::nullopt;
-  if (!first || !last || !count || *count < 2 || *count > 4096) {
+  const uint64_t count = range.size() == 3 ? to_count(range[2]).value_or(0) : 0;
+  if (!first || !last || count < 2 || count > 4096) {
     arguments.refuse(option, "'" + text + "' is not FIRST:LAST:COUNT with a COUNT from 2 to 4096");
   }
-  for (uint64_t i = 0; i < *count; ++i) {
+  for (uint64_t i = 0; i < count; ++i) {
     lengths.push_back(*first +
-                      static_cast<double>(i) * (*last - *first) / static_cast<double>(*count - 1));
+                      static_cast<double>(i) * (*last - *first) / static_cast<double>(count - 1));
   }
   return lengths;
 }

@@ -20,17 +20,13 @@ constexpr auto TICK = std::chrono::milliseconds(50);
 constexpr int TICKS_A_LINE = 4;                            // progress is drawn every 200 ms
 constexpr auto PATIENCE = std::chrono::milliseconds(400);  // shorter work shows no progress
 
-// What the handler touches. Atomics without locks may be used in it.
+// The handler may use atomics without locks.
 std::atomic<int> signal_caught{0};
-std::atomic<const char*> guarded{nullptr};
 static_assert(std::atomic<int>::is_always_lock_free);
-static_assert(std::atomic<const char*>::is_always_lock_free);
 
 extern "C" void on_signal(int number) {
   int none = 0;
   if (signal_caught.compare_exchange_strong(none, number)) return;
-  const char* path = guarded.load();
-  if (path) unlink(path);
   _exit(EXIT_SIGNALLED + number);
 }
 
@@ -148,10 +144,6 @@ void say(const std::string& text) {
 
 void warn(const std::string& text) {
   if (!watcher().is_quiet()) watcher().say("warning: " + text);
-}
-
-void guard_file(const char* path) {
-  guarded = path;
 }
 
 Work::Work(std::string doing, std::string unit)

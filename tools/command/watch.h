@@ -15,7 +15,7 @@
 namespace command {
 
 // Begins to catch signals, and starts the thread that heeds them and draws progress. The first
-// signal cancels the work; a second one ends the command at once.
+// signal cancels the work; a second one ends the command at once, which may leave a temporary file.
 void start_watch();
 
 // After this, neither warnings nor progress are shown.
@@ -35,10 +35,6 @@ void say(const std::string& text);
 
 // Prints "msq: warning: text", unless be_quiet() was called.
 void warn(const std::string& text);
-
-// A file that a second signal removes before it ends the command. The text must stay as it is until
-// another one, or NULL, takes its place.
-void guard_file(const char* path);
 
 // One long call, or several under one heading. On a terminal its progress is shown, with the rate
 // and the time left. A signal cancels job(). One at a time.

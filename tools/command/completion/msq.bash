@@ -3,13 +3,25 @@ _msq() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options=
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'mesh info stats query struts calibrate --help --version --man --completion' -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W 'slice mesh render info stats query struts calibrate --help --version --man --completion' -- "$word")
     return
   fi
   case $before in
     --completion) mapfile -t COMPREPLY < <(compgen -W 'bash zsh' -- "$word"); return ;;
     -o | --output) compopt -o default 2>/dev/null; return ;;
+    --format) mapfile -t COMPREPLY < <(compgen -W 'png svg' -- "$word"); return ;;
     -p | --pitch) return ;;
+    -l | --layer-height) return ;;
+    --layers) return ;;
+    -g | --grey) return ;;
+    --mirror) mapfile -t COMPREPLY < <(compgen -W 'none x y xy' -- "$word"); return ;;
+    --tolerance) return ;;
+    --panel) return ;;
+    --panel-size) return ;;
+    --exposure) return ;;
+    --first-exposure) return ;;
+    --fade) return ;;
+    --material) return ;;
     --unit) return ;;
     --up) mapfile -t COMPREPLY < <(compgen -W 'x -x y -y z -z' -- "$word"); return ;;
     --foam) return ;;
@@ -30,7 +42,12 @@ _msq() {
     --length-scale) return ;;
     -t | --threads) return ;;
     --memory) return ;;
-    -n | --samples) return ;;
+    -s | --size) return ;;
+    --view) return ;;
+    --zoom) return ;;
+    --at) return ;;
+    --perspective) return ;;
+    --samples) return ;;
     --sample-seed) return ;;
     --phase) mapfile -t COMPREPLY < <(compgen -W 'solid void' -- "$word"); return ;;
     --two-point) return ;;
@@ -43,7 +60,9 @@ _msq() {
     --curve) return ;;
   esac
   case ${COMP_WORDS[1]} in
+    slice) options='--output --format --pitch --layer-height --layers --grey --mirror --tolerance --panel --panel-size --landscape --exposure --first-exposure --fade --material --no-thumbnails --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
     mesh) options='--output --pitch --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
+    render) options='--output --size --view --zoom --at --perspective --samples --glass --plain --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
     info) options='--self-intersections --json --output --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
     stats) options='--samples --sample-seed --phase --two-point --lineal-path --direction --surface --json --output --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
     query) options='--output --what --channels --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --length-scale --threads --memory --quiet --help' ;;

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// msq render: draws a picture.
+#include <algorithm>
+#include <cmath>
+
+#include "output_file.h"
+#include "scene.h"
+#include "text.h"
+#include "watch.h"
+
+// The ground, its shadow and the glass are those of the example of the same name.
+extern "C" {
+#include "orbit.h"
+#include "stage.h"
+}
+
+namespace command {
+
+namespace {
+
+constexpr double LIGHT[3] = {-0.55, 0.75, 0.45};  // right, up, towards the eye
+constexpr double MARGIN = 1.06;
+// Linear light: the part's own surface, and the structures.
+constexpr double COLOURS[] = {0.80, 0.62, 0.40, 0.85, 0.30, 0.05,
+                              0.10, 0.38, 0.55, 0.45, 0.55, 0.12};
+constexpr uint32_t OCCLUSION_RAYS = 3;  // of a sample; a pixel has several
+constexpr double AMBIENT = 0.45;
+
+uint32_t side_of(const Arguments& arguments, double value) {
+  if (!(value >= 1) || !(value <= 16384) || value != std::floor(value)) {
+    arguments.refuse(
+        "size", "a side of '" + arguments.text("size") + "' is no whole number from 1 to 16384");
+  }
+  return static_cast<uint32_t>(value);
+}
+
+void read_size(const Arguments& arguments, msq_render_def& def) {
+  if (arguments.has("size")) {
+    const std::vector<double> size = arguments.numbers("size", {2});
+    def.width = side_of(arguments, size[0]);
+    def.height = side_of(arguments, size[1]);
+  }
+  const uint64_t samples = arguments.count("samples", def.samples);
+  if (samples < 1 || samples > 16) {
+    arguments.refuse("samples", arguments.text("samples") + " is not from 1 to 16");
+  }
+  def.samples = static_cast<uint32_t>(samples);
+}
+
+// Options take the place of what the camera has.
+void place_camera(const Arguments& arguments, const Scene& scene, const msq_render_def& def,
+                  bool is_placed, msq_camera& camera) {
+  const double zoom = arguments.number("zoom", 1);
+  if (!(zoom > 0)) arguments.refuse("zoom", arguments.text("zoom") + " is not above 0");
+  if (arguments.has("perspective")) {
+    camera.projection = MSQ_CAMERA_PERSPECTIVE;
+    camera.field_of_view = arguments.number("perspective", 40);
+  }
+  double nearer = 1 / zoom;
+  if (!is_placed || arguments.has("view") || arguments.has("perspective")) {
+    std::vector<double> view = {32, 30};
+    if (arguments.has("view")) view = arguments.numbers("view", {2});
+    double direction[3];
+    orbit_direction(view[0], view[1], direction);
+    check(msq_camera_fit(scene.model.get(), direction, nullptr, def.width, def.height, &camera));
+    nearer *= MARGIN;
+  }
+  std::vector<double> at(camera.target, camera.target + 3);
+  if (arguments.has("at")) at = arguments.numbers("at", {3});
+  const bool is_perspective = camera.projection == MSQ_CAMERA_PERSPECTIVE;
+  camera.height *= nearer;
+  for (size_t a = 0; a < 3; ++a) {
+    const double back = camera.eye[a] - camera.target[a];
+    camera.target[a] = at[a];
+    camera.eye[a] = at[a] + back * (is_perspective ? nearer : 1);
+  }
+}
+
+void save(const Arguments& arguments, const msq_render_def& def, uint32_t channels,
+          const std::vector<uint8_t>& pixels) {
+  heed_signals();
+  check_io(msq_io_picture_save(arguments.text("output").c_str(), def.width, def.height, channels,
+                               pixels.data(), 0, 1));
+}
+
+}  // namespace
+
+void run_render(const Arguments& arguments) {
+  arguments.require("output");
+  if (ending(arguments.text("output")) != ".png") {
+    arguments.refuse("output", "'" + arguments.text("output") + "' does not end in .png");
+  }
+  const bool is_plain = arguments.has("plain"), has_glass = arguments.has("glass");
+  if (is_plain && has_glass) arguments.refuse("glass", "does not go with --plain");
+  auto def = defaults(msq_render_def_init);
+  auto camera = defaults(msq_camera_init);
+  const Scene scene = open_scene(arguments);
+  def.width = 800;
+  def.height = 600;
+  def.samples = 2;
+  def.colour_by = MSQ_COLOUR_SCALE;
+  def.colours = COLOURS;
+  def.colour_count = std::size(COLOURS) / 3;
+  std::copy(LIGHT, LIGHT + 3, def.light);
+  def.ambient = AMBIENT;
+  def.shadows = !is_plain;
+  def.occlusion_rays = is_plain ? 0 : OCCLUSION_RAYS;
+  read_size(arguments, def);
+  place_camera(arguments, scene, def, false, camera);
+
+  const size_t pixels = size_t{def.width} * def.height;
+  std::vector<uint8_t> rgba(4 * pixels);
+  auto frame = defaults(msq_frame_init);
+  frame.rgba = rgba.data();
+  {
+    Work work("drawing");
+    check(msq_render(scene.model.get(), &camera, &def, nullptr, &frame, nullptr, nullptr,
+                     work.job()));
+  }
+  if (is_plain) {
+    save(arguments, def, 4, rgba);
+    return;
+  }
+  double min[3], max[3];
+  check(msq_model_bounds(scene.model.get(), min, max));
+  stage around = {};
+  around.model = scene.model.get();
+  around.camera = &camera;
+  around.width = def.width;
+  around.height = def.height;
+  std::copy(def.light, def.light + 3, around.light);
+  around.glass = has_glass;
+  around.ground = min[2];
+  around.has_ground = camera.eye[2] > camera.target[2];
+  std::vector<uint8_t> rgb(3 * pixels);
+  check(stage_compose(&around, rgba.data(), rgb.data()));
+  save(arguments, def, 3, rgb);
+}
+
+}  // namespace command

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// msq slice: writes layers for printers and other programs.
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output_file.h"
+#include "scene.h"
+#include "text.h"
+#include "watch.h"
+
+namespace command {
+
+namespace {
+
+using Writer = Handle<msq_io_writer, msq_io_writer_release>;
+
+enum class Format { PNG, SVG_STACK, SVG_FILES, SL1 };
+
+constexpr double TOLERANCE_OF_PITCH = 0.1;
+
+// By the name: a folder, or a file with an ending that is known.
+Format format_of(const Arguments& arguments) {
+  const std::string& path = arguments.text("output");
+  const std::string end = ending(path);
+  struct stat status = {};
+  const bool is_folder = path.ends_with('/') || end.empty() ||
+                         (stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode));
+  if (is_folder) return arguments.text("format") == "svg" ? Format::SVG_FILES : Format::PNG;
+  if (arguments.has("format")) arguments.refuse("format", "is for a folder");
+  if (end == ".svg") return Format::SVG_STACK;
+  if (end == ".sl1" || end == ".sl1s") return Format::SL1;
+  arguments.refuse("output", "'" + path + "' is no folder, and ends in none of .sl1, .sl1s, .svg");
+}
+
+// Options that only some formats take.
+void refuse_others(const Arguments& arguments, Format format) {
+  const bool is_sl1 = format == Format::SL1;
+  const bool is_svg = format == Format::SVG_STACK || format == Format::SVG_FILES;
+  for (const char* option : {"panel", "panel-size", "landscape", "exposure", "first-exposure",
+                             "fade", "material", "no-thumbnails"}) {
+    if (arguments.has(option) && !is_sl1) arguments.refuse(option, "is for .sl1 files");
+  }
+  for (const char* option : {"pitch", "box"}) {
+    if (arguments.has(option) && is_sl1) arguments.refuse(option, "follows from the panel");
+  }
+  if (arguments.has("tolerance") && !is_svg) arguments.refuse("tolerance", "is for SVG files");
+  if (arguments.has("grey") && is_svg) arguments.refuse("grey", "is for pixels");
+  if (arguments.has("mirror") && is_svg) arguments.refuse("mirror", "is for pixels");
+}
+
+bool mirrors(const Arguments& arguments, char axis) {
+  return arguments.text("mirror").find(axis) != std::string::npos;
+}
+
+msq_io_panel_def read_panel(const Arguments& arguments) {
+  auto panel = defaults(msq_io_panel_def_init);
+  if (arguments.has("panel")) {
+    const std::vector<double> pixels = arguments.numbers("panel", {2});
+    for (size_t i = 0; i < 2; ++i) {
+      if (!(pixels[i] >= 1) || !(pixels[i] <= 1e6) || pixels[i] != std::floor(pixels[i])) {
+        arguments.refuse("panel", "a side of '" + arguments.text("panel") +
+                                      "' is no whole number from 1 to 1000000");
+      }
+      panel.pixels[i] = static_cast<uint32_t>(pixels[i]);
+    }
+  }
+  if (arguments.has("panel-size")) {
+    const std::vector<double> size = arguments.numbers("panel-size", {2});
+    std::copy(size.begin(), size.end(), panel.size);
+  }
+  panel.portrait = !arguments.has("landscape");
+  if (arguments.has("mirror")) {
+    panel.mirror[0] = mirrors(arguments, 'x');
+    panel.mirror[1] = mirrors(arguments, 'y');
+  }
+  return panel;
+}
+
+void read_grey(const Arguments& arguments, msq_slicer_def& plan) {
+  if (!arguments.has("grey")) return;
+  const uint64_t samples = arguments.count("grey", 0);
+  if (samples != 2 && samples != 4 && samples != 8 && samples != 16) {
+    arguments.refuse("grey", arguments.text("grey") + " is none of 2, 4, 8, 16");
+  }
+  plan.output = MSQ_LAYER_GREY;
+  plan.grey_samples = static_cast<uint32_t>(samples);
+}
+
+// Pixels and region of all formats but SL1, whose panel decides them.
+void read_pixels(const Arguments& arguments, const Scene& scene, msq_slicer_def& plan) {
+  if (arguments.has("pitch")) {
+    const std::vector<double> pitch = arguments.numbers("pitch", {1, 2});
+    plan.pitch[0] = pitch.front();
+    plan.pitch[1] = pitch.back();
+    plan.resolution[0] = plan.resolution[1] = 0;
+  }
+  if (arguments.has("box")) {
+    plan.has_region = 1;
+    take_box(arguments, scene.model.get(), plan.region_min, plan.region_max);
+  }
+  uint32_t orientation = MSQ_LAYER_MIRROR_Y;  // y upwards in a picture
+  if (mirrors(arguments, 'x')) orientation ^= MSQ_LAYER_MIRROR_X;
+  if (mirrors(arguments, 'y')) orientation ^= MSQ_LAYER_MIRROR_Y;
+  plan.orientation = orientation;
+}
+
+msq_contours_def read_contours(const Arguments& arguments, const double pitch[2]) {
+  auto contours = defaults(msq_contours_def_init);
+  contours.pitch = std::fmin(pitch[0], pitch[1]);
+  contours.tolerance = arguments.number("tolerance", TOLERANCE_OF_PITCH * contours.pitch);
+  return contours;
+}
+
+// A:B, layers A to B - 1; either may be left out.
+void read_layers(const Arguments& arguments, uint64_t all, uint64_t& first, uint64_t& count) {
+  first = 0;
+  count = all;
+  if (!arguments.has("layers")) return;
+  const std::string& text = arguments.text("layers");
+  const std::vector<std::string_view> ends = split(text, ':');
+  std::optional<uint64_t> begin, end;
+  if (ends.size() == 2) {
+    begin = ends[0].empty() ? 0 : to_count(ends[0]);
+    end = ends[1].empty() ? all : to_count(ends[1]);
+  }
+  if (!begin || !end) arguments.refuse("layers", "'" + text + "' is not FIRST:END");
+  if (*begin >= *end || *end > all) {
+    throw Failure("--layers: " + text + " is no window of the " + std::to_string(all) +
+                  " layers 0:" + std::to_string(all));
+  }
+  first = *begin;
+  count = *end - *begin;
+}
+
+msq_io_writer_def make_writer_def(const Arguments& arguments, uint64_t first, uint64_t count) {
+  auto def = defaults(msq_io_writer_def_init);
+  def.threads = static_cast<uint32_t>(std::min<uint64_t>(arguments.count("threads", 0), 256));
+  def.replace = 1;
+  def.first_layer = first;
+  def.layer_count = count;
+  if (const uint64_t memory = arguments.bytes("memory")) {
+    def.queue_bytes = std::clamp<uint64_t>(memory / 8, 1 << 20, def.queue_bytes);
+  }
+  return def;
+}
+
+void create_sl1(const Arguments& arguments, const Scene& scene, const msq_slicer* slicer,
+                const std::string& path, const msq_io_writer_def& writer_def,
+                const msq_io_panel_def& panel, Writer& writer) {
+  auto def = defaults(msq_io_sl1_def_init);
+  def.panel = &panel;
+  def.exposure_time = arguments.number("exposure", def.exposure_time);
+  def.initial_exposure_time = arguments.number("first-exposure", def.initial_exposure_time);
+  def.faded_layers =
+      static_cast<uint32_t>(std::min<uint64_t>(arguments.count("fade", def.faded_layers), 1 << 20));
+  if (arguments.has("material")) def.material = arguments.text("material").c_str();
+  if (!arguments.has("no-thumbnails")) def.thumbnail_model = scene.model.get();
+  Work work("drawing thumbnails");
+  check_io(msq_io_sl1_create(slicer, path.c_str(), &writer_def, &def, writer.out(), work.job()));
+}
+
+void create_svg(const msq_slicer* slicer, const std::string& path,
+                const msq_io_writer_def& writer_def, Format format, Writer& writer) {
+  auto def = defaults(msq_io_svg_def_init);
+  def.layout = format == Format::SVG_FILES ? MSQ_IO_SVG_FILES : MSQ_IO_SVG_STACK;
+  check_io(msq_io_svg_create(slicer, path.c_str(), &writer_def, &def, writer.out()));
+}
+
+struct Run {
+  msq_io_writer* writer;
+  uint64_t first;
+  Work work;
+  Carried carried;
+};
+
+int32_t take_layer(void* user, const msq_layer* layer) {
+  auto* run = static_cast<Run*>(user);
+  return run->carried.run([&] {
+    check_io(msq_io_writer_layer(run->writer, layer));
+    run->work.done(layer->index - run->first + 1);
+  });
+}
+
+}  // namespace
+
+void run_slice(const Arguments& arguments) {
+  arguments.require("output");
+  const Format format = format_of(arguments);
+  refuse_others(arguments, format);
+  const bool is_svg = format == Format::SVG_STACK || format == Format::SVG_FILES;
+  const msq_io_panel_def panel = read_panel(arguments);
+  const Scene scene = open_scene(arguments);
+
+  auto plan = defaults(msq_slicer_def_init);
+  arguments.require("layer-height");
+  plan.layer_height = arguments.number("layer-height", 0);
+  plan.length_scale = arguments.number("length-scale", plan.length_scale);
+  read_grey(arguments, plan);
+  if (format == Format::SL1) {
+    check_io(msq_io_panel_plan(scene.model.get(), &panel, &plan));
+  } else {
+    arguments.require("pitch");
+    read_pixels(arguments, scene, plan);
+  }
+  const msq_contours_def contours = read_contours(arguments, plan.pitch);
+  auto output = defaults(msq_output_def_init);
+  if (is_svg) {
+    output.output = MSQ_LAYER_CONTOURS;
+    output.contours = &contours;
+    plan.output = MSQ_LAYER_BITS;
+    plan.outputs = &output;
+    plan.output_count = 1;
+  }
+  Slicer slicer;
+  check(msq_slicer_create(scene.model.get(), &plan, slicer.out()));
+  msq_slicer_report report = {};
+  report.struct_size = sizeof report;
+  check(msq_slicer_info(slicer.get(), &report));
+  uint64_t first = 0, count = 0;
+  read_layers(arguments, report.layer_count, first, count);
+
+  std::string path = arguments.text("output");
+  while (path.size() > 1 && path.ends_with('/')) path.pop_back();
+  const msq_io_writer_def writer_def = make_writer_def(arguments, first, count);
+  Writer writer;
+  if (format == Format::SL1) {
+    create_sl1(arguments, scene, slicer.get(), path, writer_def, panel, writer);
+  } else if (is_svg) {
+    create_svg(slicer.get(), path, writer_def, format, writer);
+  } else {
+    check_io(msq_io_png_create(slicer.get(), path.c_str(), &writer_def, nullptr, writer.out()));
+  }
+  {
+    Run run{writer.get(), first, Work("slicing", "layers"), {}};
+    run.carried.check(msq_slicer_run(slicer.get(), first, count, take_layer, &run, run.work.job()));
+  }
+  heed_signals();
+  check_io(msq_io_writer_finish(writer.get()));
+}
+
+}  // namespace command
