@@ -7,7 +7,7 @@ import unittest
 
 from command import SOURCE, Case, run
 
-COMMANDS = ["slice", "mesh", "render", "info", "stats", "query", "struts", "calibrate"]
+COMMANDS = ["slice", "mesh", "render", "model", "info", "stats", "query", "struts", "calibrate"]
 
 
 def options_of(command):
@@ -131,6 +131,11 @@ class Refusals(Case):
                 ("msq struts needs --foam or --lattice", ["struts", box]),
                 ("needs --fraction", ["calibrate", "--foam", "2"]),
                 ("msq calibrate needs --foam", ["calibrate", "--fraction", "0.5"]),
+                ("'x.json' is a model file already", ["model", "x.json"]),
+                ("'x.txt' does not end in .json", ["model", box, "-o", "x.txt"]),
+                ("--any-files: is for model files", ["mesh", box, "--any-files", *out]),
+                ("--foam: does not apply to a model file", ["info", "x.json", "--foam", "2"]),
+                ("--up: does not apply to a model file", ["info", "x.json", "--up", "x"]),
                 ("--skin: has no meaning here",
                  ["calibrate", "--foam", "2", "--skin", "1", "--fraction", "0.5"]),
                 ("--size: a side of '0,9'", ["render", box, "-o", "x.png", "--size", "0,9"]),

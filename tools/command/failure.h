@@ -62,6 +62,7 @@ class Handle {
 };
 
 using Context = Handle<msq_context, msq_context_release>;
+using Document = Handle<msq_document, msq_document_release>;
 using Shape = Handle<msq_shape, msq_shape_release>;
 using Field = Handle<msq_field, msq_field_release>;
 using Structure = Handle<msq_structure, msq_structure_release>;

@@ -22,6 +22,7 @@ Report build() {
   report.add("all_mesh_files", found.with_assimp != 0);
   report.add("self_intersections", found.with_cgal != 0);
   report.add("hashes", found.with_xxhash != 0);
+  report.add("model_files", found.with_json != 0);
   return report;
 }
 
@@ -61,6 +62,16 @@ void run_info(const Arguments& arguments) {
   }
   const Scene scene = open_scene(arguments);
   report.add("file", arguments.operand(0));
+  if (scene.document) {
+    msq_document_report found = {};
+    found.struct_size = sizeof found;
+    check(msq_document_info(scene.document.get(), &found));
+    report.add("title", found.title);
+    report.add("format", uint64_t{found.version});
+    report.add("files", uint64_t{found.files});
+    report.add("has_slicing", found.has_slicing != 0);
+    report.add("has_view", found.has_view != 0);
+  }
   double corners[2][3];
   check(msq_model_bounds(scene.model.get(), corners[0], corners[1]));
   const double size[3] = {corners[1][0] - corners[0][0], corners[1][1] - corners[0][1],

@@ -33,6 +33,8 @@ constexpr Option PART[] = {
     {"up", 0, "AXIS", Value::WORDS, "x -x y -y z -z",
      "axis of a mesh file that points upwards; the part is turned so that it becomes z (default "
      "z)"},
+    {"any-files", 0, "", Value::NONE, "",
+     "a model file may name files anywhere, not only below its own folder"},
 };
 
 constexpr Option STRUCTURE[] = {
@@ -111,6 +113,12 @@ constexpr Option PRINTER[] = {
      "layers over which the time falls from the first to the others (default 10)"},
     {"material", 0, "NAME", Value::TEXT, "", "name of the resin's settings"},
     {"no-thumbnails", 0, "", Value::NONE, "", "leave out the thumbnails"},
+};
+
+constexpr Option MODEL_FILE[] = {
+    {"output", 'o', "FILE", Value::FILE, "",
+     "a file that ends in .json (default: standard output)"},
+    {"title", 0, "TEXT", Value::TEXT, "", "title of the model"},
 };
 
 constexpr Option MESH[] = {
@@ -217,6 +225,17 @@ const std::vector<Command>& table() {
        {{"Picture", RENDER}, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
        {"msq render bracket.stl --foam 4 --radius 0.4 --samples 1 --size 160,120 -o bracket.png"},
        run_render},
+      {"model",
+       "write a model file",
+       "Writes what the options describe as a model file in JSON, to change it by hand and to use "
+       "it "
+       "in place of the options. A mesh file below the folder of the model file is named from "
+       "there, "
+       "any other by its whole path.",
+       {{"MODEL", true, "a mesh file or a box, as for other commands"}},
+       {{"Model file", MODEL_FILE}, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
+       {"msq model bracket.stl --foam 4 --radius 0.4 -o bracket.json"},
+       run_model},
       {"info",
        "describe a part, a model or this program",
        "Prints bounds, volume, the diagnosis of a mesh, the scales, hashes and the build of msq. "

@@ -76,6 +76,7 @@ std::string zsh_completion();
 void run_calibrate(const Arguments& arguments);
 void run_info(const Arguments& arguments);
 void run_mesh(const Arguments& arguments);
+void run_model(const Arguments& arguments);
 void run_query(const Arguments& arguments);
 void run_render(const Arguments& arguments);
 void run_slice(const Arguments& arguments);

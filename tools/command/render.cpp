@@ -19,6 +19,7 @@ namespace command {
 namespace {
 
 constexpr double LIGHT[3] = {-0.55, 0.75, 0.45};  // right, up, towards the eye
+constexpr uint32_t WIDTH = 800, HEIGHT = 600;
 constexpr double MARGIN = 1.06;
 // Linear light: the part's own surface, and the structures.
 constexpr double COLOURS[] = {0.80, 0.62, 0.40, 0.85, 0.30, 0.05,
@@ -95,18 +96,28 @@ void run_render(const Arguments& arguments) {
   auto def = defaults(msq_render_def_init);
   auto camera = defaults(msq_camera_init);
   const Scene scene = open_scene(arguments);
-  def.width = 800;
-  def.height = 600;
-  def.samples = 2;
-  def.colour_by = MSQ_COLOUR_SCALE;
-  def.colours = COLOURS;
-  def.colour_count = std::size(COLOURS) / 3;
-  std::copy(LIGHT, LIGHT + 3, def.light);
-  def.ambient = AMBIENT;
-  def.shadows = !is_plain;
-  def.occlusion_rays = is_plain ? 0 : OCCLUSION_RAYS;
+  if (scene.has_view) {
+    check(msq_document_view(scene.document.get(), &camera, &def));
+    if (def.width == 0) def.width = WIDTH;
+    if (def.height == 0) def.height = HEIGHT;
+  } else {
+    def.width = WIDTH;
+    def.height = HEIGHT;
+    def.samples = 2;
+    def.colour_by = MSQ_COLOUR_SCALE;
+    def.colours = COLOURS;
+    def.colour_count = std::size(COLOURS) / 3;
+    std::copy(LIGHT, LIGHT + 3, def.light);
+    def.ambient = AMBIENT;
+    def.shadows = 1;
+    def.occlusion_rays = OCCLUSION_RAYS;
+  }
+  if (is_plain) {
+    def.shadows = 0;
+    def.occlusion_rays = 0;
+  }
   read_size(arguments, def);
-  place_camera(arguments, scene, def, false, camera);
+  place_camera(arguments, scene, def, scene.has_view, camera);
 
   const size_t pixels = size_t{def.width} * def.height;
   std::vector<uint8_t> rgba(4 * pixels);

@@ -2,6 +2,7 @@
 #include "scene.h"
 
 #include <array>
+#include <filesystem>
 
 #include "text.h"
 #include "watch.h"
@@ -71,7 +72,33 @@ Shape make_box(msq_context* context, const std::string& text) {
   return shape;
 }
 
+void open_document(const Arguments& arguments, Scene& scene, const std::string& path) {
+  for (const Group& group : arguments.command().groups) {
+    if (group.title != "Structure" && group.title != "Part") continue;
+    for (const Option& option : group.options) {
+      if (arguments.has(option.name) && option.name != "any-files") {
+        arguments.refuse(option.name, "does not apply to a model file, which has its own");
+      }
+    }
+  }
+  auto def = defaults(msq_document_def_init);
+  if (arguments.has("any-files")) def.files = MSQ_DOCUMENT_FILES_ANY;
+  Work work("reading " + path);
+  check(msq_document_from_file(scene.context.get(), path.c_str(), &def, scene.document.out(),
+                               work.job()));
+  check(msq_document_model(scene.document.get(), scene.model.out()));
+  msq_document_report report = {};
+  report.struct_size = sizeof report;
+  check(msq_document_info(scene.document.get(), &report));
+  scene.has_slicing = report.has_slicing != 0;
+  scene.has_view = report.has_view != 0;
+}
+
 }  // namespace
+
+bool is_model_file(const std::string& path) {
+  return ending(path) == ".json";
+}
 
 Context make_context(const Arguments& arguments) {
   if (arguments.has("quiet")) be_quiet();
@@ -88,19 +115,25 @@ Context make_context(const Arguments& arguments) {
   return context;
 }
 
-Scene open_scene(const Arguments& arguments) {
+Scene open_scene(const Arguments& arguments, bool whole_paths) {
   Scene scene;
   scene.context = make_context(arguments);
   const std::string& path = arguments.operand(0);
-  if (ending(path) == ".json") throw Failure(path + ": this build reads no model files");
+  if (is_model_file(path)) {
+    open_document(arguments, scene, path);
+    return scene;
+  }
+  if (arguments.has("any-files")) arguments.refuse("any-files", "is for model files");
   if (path.starts_with(BOX)) {
     for (const char* option : {"unit", "up"}) {
       if (arguments.has(option)) arguments.refuse(option, "does not apply to a box");
     }
     scene.part = make_box(scene.context.get(), path);
   } else {
-    scene.part = read_mesh(arguments, scene.context.get(), path);
-    scene.is_mesh_file = true;
+    std::error_code error;
+    const std::string whole = std::filesystem::canonical(path, error).string();
+    const bool is_whole = whole_paths && !error;
+    scene.part = read_mesh(arguments, scene.context.get(), is_whole ? whole : path);
   }
   msq_shape_report report = {};
   report.struct_size = sizeof report;

@@ -12,17 +12,22 @@ namespace command {
 
 struct Scene {
   Context context;
+  Document document;    // of a model file; none otherwise
   Shape part;           // of a mesh file or a box; none of a model file
   Structure structure;  // of the options; none: the part is solid
   Model model;
-  bool is_mesh_file = false;
+  bool has_slicing = false, has_view = false;  // of the model file
 };
 
 // Makes a context by --threads, --memory and --quiet.
 Context make_context(const Arguments& arguments);
 
-// Reads operand 0, a mesh file or a box, and fills it with what the options say.
-Scene open_scene(const Arguments& arguments);
+// Reads operand 0: a model file, or a mesh file or a box, which the options fill.
+// whole_paths: mesh files are opened by their whole path, which their model then has.
+Scene open_scene(const Arguments& arguments, bool whole_paths = false);
+
+// Whether an operand names a model file.
+bool is_model_file(const std::string& path);
 
 // The structure of the options; none if there are none. bottom, top: where --radius and
 // --radius-top hold. is_calibrated: radius, thickness and level may be left out.

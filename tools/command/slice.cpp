@@ -100,17 +100,41 @@ void read_pixels(const Arguments& arguments, const Scene& scene, msq_slicer_def&
     plan.has_region = 1;
     take_box(arguments, scene.model.get(), plan.region_min, plan.region_max);
   }
-  uint32_t orientation = MSQ_LAYER_MIRROR_Y;  // y upwards in a picture
-  if (mirrors(arguments, 'x')) orientation ^= MSQ_LAYER_MIRROR_X;
-  if (mirrors(arguments, 'y')) orientation ^= MSQ_LAYER_MIRROR_Y;
-  plan.orientation = orientation;
+  if (plan.orientation == 0) plan.orientation = MSQ_LAYER_MIRROR_Y;  // y upwards in a picture
+  if (mirrors(arguments, 'x')) plan.orientation ^= MSQ_LAYER_MIRROR_X;
+  if (mirrors(arguments, 'y')) plan.orientation ^= MSQ_LAYER_MIRROR_Y;
 }
 
-msq_contours_def read_contours(const Arguments& arguments, const double pitch[2]) {
-  auto contours = defaults(msq_contours_def_init);
-  contours.pitch = std::fmin(pitch[0], pitch[1]);
-  contours.tolerance = arguments.number("tolerance", TOLERANCE_OF_PITCH * contours.pitch);
-  return contours;
+// Distance of samples along the side where they are closer.
+double pitch_of(const msq_slicer_report& plan) {
+  return std::fmin(plan.pitch[0], plan.pitch[1]);
+}
+
+bool is_pixels(int32_t output) {
+  return output == MSQ_LAYER_BITS || output == MSQ_LAYER_BYTES || output == MSQ_LAYER_GREY;
+}
+
+// What a model file says of slices. Of its outputs the first that the format can hold is taken:
+// pixels into the plan, contours into *contours.
+void read_document(const Scene& scene, msq_slicer_def& plan, msq_contours_def& contours) {
+  if (!scene.has_slicing) return;
+  check(msq_document_slicing(scene.document.get(), &plan));
+  const auto* outputs = reinterpret_cast<const char*>(plan.outputs);
+  bool has_pixels = false, has_contours = false;
+  for (uint32_t i = 0; i < plan.output_count; ++i) {
+    const auto* output = reinterpret_cast<const msq_output_def*>(outputs);
+    outputs += output->struct_size;
+    if (output->contours && !std::exchange(has_contours, true)) contours = *output->contours;
+    if (is_pixels(output->output) && !std::exchange(has_pixels, true)) {
+      plan.output = output->output;
+      plan.grey_samples = output->grey_samples;
+      plan.grey_threshold = output->grey_threshold;
+      plan.grey_gamma = output->grey_gamma;
+    }
+  }
+  plan.outputs = nullptr;
+  plan.output_count = 0;
+  if (!is_pixels(plan.output)) plan.output = MSQ_LAYER_BITS;
 }
 
 // A:B, layers A to B - 1; either may be left out.
@@ -168,6 +192,14 @@ void create_svg(const msq_slicer* slicer, const std::string& path,
   check_io(msq_io_svg_create(slicer, path.c_str(), &writer_def, &def, writer.out()));
 }
 
+msq_slicer_report make_slicer(const Scene& scene, const msq_slicer_def& plan, Slicer& slicer) {
+  check(msq_slicer_create(scene.model.get(), &plan, slicer.out()));
+  msq_slicer_report report = {};
+  report.struct_size = sizeof report;
+  check(msq_slicer_info(slicer.get(), &report));
+  return report;
+}
+
 struct Run {
   msq_io_writer* writer;
   uint64_t first;
@@ -194,30 +226,36 @@ void run_slice(const Arguments& arguments) {
   const Scene scene = open_scene(arguments);
 
   auto plan = defaults(msq_slicer_def_init);
-  arguments.require("layer-height");
-  plan.layer_height = arguments.number("layer-height", 0);
+  auto contours = defaults(msq_contours_def_init);
+  read_document(scene, plan, contours);
+  if (!plan.layer_z && !(plan.layer_height > 0)) arguments.require("layer-height");
+  if (arguments.has("layer-height")) {
+    plan.layer_height = arguments.number("layer-height", 0);
+    plan.layer_z = nullptr;
+    plan.layer_z_count = plan.layer_count = 0;
+  }
   plan.length_scale = arguments.number("length-scale", plan.length_scale);
   read_grey(arguments, plan);
   if (format == Format::SL1) {
     check_io(msq_io_panel_plan(scene.model.get(), &panel, &plan));
   } else {
-    arguments.require("pitch");
+    if (!(plan.pitch[0] > 0) && plan.resolution[0] == 0) arguments.require("pitch");
     read_pixels(arguments, scene, plan);
   }
-  const msq_contours_def contours = read_contours(arguments, plan.pitch);
+  Slicer slicer;
+  msq_slicer_report report = make_slicer(scene, plan, slicer);
   auto output = defaults(msq_output_def_init);
   if (is_svg) {
+    if (!(contours.pitch > 0)) contours.pitch = pitch_of(report);
+    if (!(contours.tolerance > 0)) contours.tolerance = TOLERANCE_OF_PITCH * contours.pitch;
+    contours.tolerance = arguments.number("tolerance", contours.tolerance);
     output.output = MSQ_LAYER_CONTOURS;
     output.contours = &contours;
     plan.output = MSQ_LAYER_BITS;
     plan.outputs = &output;
     plan.output_count = 1;
+    report = make_slicer(scene, plan, slicer);
   }
-  Slicer slicer;
-  check(msq_slicer_create(scene.model.get(), &plan, slicer.out()));
-  msq_slicer_report report = {};
-  report.struct_size = sizeof report;
-  check(msq_slicer_info(slicer.get(), &report));
   uint64_t first = 0, count = 0;
   read_layers(arguments, report.layer_count, first, count);
 

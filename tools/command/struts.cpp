@@ -108,6 +108,9 @@ void run_struts(const Arguments& arguments) {
     arguments.refuse("output", "'" + path + "' ends neither in .csv nor in .jsonl");
   }
   const Scene scene = open_scene(arguments);
+  if (scene.document) {
+    throw UsageError("msq struts takes no model file: its structures cannot be told apart");
+  }
   if (!scene.structure) throw UsageError("msq struts needs --foam or --lattice");
   StrutGraph graph;
   const msq_strut_graph_report report = collect(arguments, scene, graph);

@@ -3,7 +3,7 @@ _msq() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options=
   COMPREPLY=()
   if ((COMP_CWORD == 1)); then
-    mapfile -t COMPREPLY < <(compgen -W 'slice mesh render info stats query struts calibrate --help --version --man --completion' -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W 'slice mesh render model info stats query struts calibrate --help --version --man --completion' -- "$word")
     return
   fi
   case $before in
@@ -48,6 +48,7 @@ _msq() {
     --at) return ;;
     --perspective) return ;;
     --samples) return ;;
+    --title) return ;;
     --sample-seed) return ;;
     --phase) mapfile -t COMPREPLY < <(compgen -W 'solid void' -- "$word"); return ;;
     --two-point) return ;;
@@ -60,13 +61,14 @@ _msq() {
     --curve) return ;;
   esac
   case ${COMP_WORDS[1]} in
-    slice) options='--output --format --pitch --layer-height --layers --grey --mirror --tolerance --panel --panel-size --landscape --exposure --first-exposure --fade --material --no-thumbnails --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
-    mesh) options='--output --pitch --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
-    render) options='--output --size --view --zoom --at --perspective --samples --glass --plain --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
-    info) options='--self-intersections --json --output --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
-    stats) options='--samples --sample-seed --phase --two-point --lineal-path --direction --surface --json --output --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
-    query) options='--output --what --channels --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --length-scale --threads --memory --quiet --help' ;;
-    struts) options='--output --whole --unit --up --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --threads --memory --quiet --help' ;;
+    slice) options='--output --format --pitch --layer-height --layers --grey --mirror --tolerance --panel --panel-size --landscape --exposure --first-exposure --fade --material --no-thumbnails --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
+    mesh) options='--output --pitch --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
+    render) options='--output --size --view --zoom --at --perspective --samples --glass --plain --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
+    model) options='--output --title --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
+    info) options='--self-intersections --json --output --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
+    stats) options='--samples --sample-seed --phase --two-point --lineal-path --direction --surface --json --output --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
+    query) options='--output --what --channels --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --length-scale --threads --memory --quiet --help' ;;
+    struts) options='--output --whole --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --threads --memory --quiet --help' ;;
     calibrate) options='--fraction --curve --json --output --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
   esac
   if [[ $word == -* ]]; then

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Model files: what options describe as a file, and commands that take the file in their place."""
+import json
+import shutil
+import unittest
+
+from command import BRACKET, Case
+
+FOAM = ["--foam", "4", "--radius", "0.4", "--radius-top", "0.6", "--skin", "0.5"]
+BOX = "box:8,6,4"
+
+
+class Models(Case):
+    def write(self, name="model.json", **settings):
+        """The model file of a box with a foam."""
+        path = self.folder / name
+        self.msq("model", BOX, *FOAM, "--title", "a box", "-o", path)
+        if settings:
+            document = json.loads(path.read_text())
+            document.update(settings)
+            path.write_text(json.dumps(document))
+        return path
+
+    def info(self, *arguments):
+        return json.loads(self.msq("info", "--json", *arguments))
+
+    def test_the_same_model(self):
+        path = self.write()
+        found = self.info(path)
+        self.assertEqual(found["model_hash"], self.info(BOX, *FOAM)["model_hash"])
+        self.assertEqual((found["title"], found["has_slicing"]), ("a box", False))
+        self.assertEqual(json.loads(self.msq("model", BOX, *FOAM, "--title", "a box")),
+                         json.loads(path.read_text()))
+
+    def test_files_are_found_from_the_model_file(self):
+        parts = self.folder / "parts"
+        parts.mkdir()
+        shutil.copy(BRACKET, parts)
+        options = [*FOAM, "--up", "y", "--unit", "cm"]
+        wanted = self.info(BRACKET, *options)["model_hash"]
+        self.msq("model", "bracket.stl", *options, "-o", "../model.json", cwd=parts)
+        self.assertEqual(self.info(self.folder / "model.json")["model_hash"], wanted)
+        self.folder.joinpath("model.json").rename(parts / "model.json")
+        self.refuse(1, "parts/bracket.stl", "info", parts / "model.json")
+        self.msq("model", "bracket.stl", *options, "-o", "here.json", cwd=parts)
+        self.assertEqual(self.info(parts / "here.json")["model_hash"], wanted)
+        # A file elsewhere is named by its whole path, which only --any-files allows.
+        other = self.folder / "other"
+        other.mkdir()
+        self.msq("model", "bracket.stl", *options, "-o", other / "model.json", cwd=parts)
+        self.refuse(1, "bracket.stl", "info", other / "model.json")
+        self.assertEqual(self.info(other / "model.json", "--any-files")["model_hash"], wanted)
+
+    def test_commands_take_it(self):
+        path = self.write()
+        for arguments, output in ((["slice", "-p", "0.25", "-l", "0.5"], "a.svg"),
+                                  (["mesh", "-p", "0.5"], "a.stl"),
+                                  (["render", "--size", "40,30", "--samples", "1"], "a.png")):
+            command, *options = arguments
+            self.msq(command, path, *options, "-o", self.folder / output)
+            self.msq(command, BOX, *FOAM, *options, "-o", self.folder / f"b{output}")
+            self.assertEqual((self.folder / output).read_bytes(),
+                             (self.folder / f"b{output}").read_bytes(), command)
+        points = "1,1,1\n4,3,2\n"
+        self.assertEqual(self.msq("query", path, "-", input=points),
+                         self.msq("query", BOX, "-", *FOAM, input=points))
+        stats = [json.loads(self.msq("stats", *model, "--samples", "5000", "--json"))
+                 for model in ([path], [BOX, *FOAM])]
+        self.assertEqual(stats[0]["volume_fraction"], stats[1]["volume_fraction"])
+        self.refuse(2, "takes no model file", "struts", path)
+
+    def test_its_settings_are_used_and_options_take_their_place(self):
+        path = self.write(slicing={"pitch": [0.25, 0.25], "layer_height": 1, "output": "grey",
+                                   "grey_samples": 2})
+        plan = ["-p", "0.25", "-l", "1", "--grey", "2", "-q", "-o"]
+        self.msq("slice", path, "-q", "-o", self.folder / "a")
+        self.msq("slice", BOX, *FOAM, *plan, self.folder / "b")
+        self.msq("slice", path, "-l", "0.5", "-q", "-o", self.folder / "c")
+        files = [sorted(x.read_bytes() for x in (self.folder / name).iterdir()) for name in "abc"]
+        self.assertEqual(files[0], files[1])
+        self.assertEqual([len(found) for found in files], [4, 4, 8])
+        view = self.write("view.json", view={"direction": [0, 1, 0], "width": 30, "height": 20})
+        for options, size in (([], (30, 20)), (["--size", "8,9"], (8, 9))):
+            self.msq("render", view, *options, "-o", self.folder / "a.png")
+            head = (self.folder / "a.png").read_bytes()[16:24]
+            self.assertEqual((int.from_bytes(head[:4], "big"), int.from_bytes(head[4:], "big")), size)
+
+    def test_a_bad_file(self):
+        path = self.folder / "bad.json"
+        path.write_text('{"msq": 1,\n "shape": 7}')
+        self.refuse(1, "bad.json", "info", path)
+        self.refuse(1, "none.json", "info", self.folder / "none.json")
+
+
+if __name__ == "__main__":
+    unittest.main()
