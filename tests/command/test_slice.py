@@ -93,6 +93,12 @@ class Layers(Case):
         with zipfile.ZipFile(window) as archive:
             self.assertEqual(len([n for n in archive.namelist() if n.endswith(".png")]), 3)
 
+        flat = self.folder / "flat.sl1"
+        self.msq("slice", "box:8,6,4", "--layer-height", "4", "--panel", "160,120", "--panel-size",
+                 "10,7.5", "--no-thumbnails", "-o", flat)
+        with zipfile.ZipFile(flat) as archive:
+            self.assertRegex(archive.read("config.ini").decode(), r"(?m)^layerHeight = 4$")
+
     def test_options_of_other_formats(self):
         folder = self.folder / "layers"
         for text, options in (("--panel: is for .sl1 files", ["--panel", "9,9", "-o", folder]),

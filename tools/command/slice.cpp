@@ -172,9 +172,10 @@ msq_io_writer_def make_writer_def(const Arguments& arguments, uint64_t first, ui
 
 void create_sl1(const Arguments& arguments, const Scene& scene, const msq_slicer* slicer,
                 const std::string& path, const msq_io_writer_def& writer_def,
-                const msq_io_panel_def& panel, Writer& writer) {
+                const msq_io_panel_def& panel, double layer_height, Writer& writer) {
   auto def = defaults(msq_io_sl1_def_init);
   def.panel = &panel;
+  def.layer_height = layer_height;
   def.exposure_time = arguments.number("exposure", def.exposure_time);
   def.initial_exposure_time = arguments.number("first-exposure", def.initial_exposure_time);
   def.faded_layers =
@@ -264,7 +265,7 @@ void run_slice(const Arguments& arguments) {
   const msq_io_writer_def writer_def = make_writer_def(arguments, first, count);
   Writer writer;
   if (format == Format::SL1) {
-    create_sl1(arguments, scene, slicer.get(), path, writer_def, panel, writer);
+    create_sl1(arguments, scene, slicer.get(), path, writer_def, panel, plan.layer_height, writer);
   } else if (is_svg) {
     create_svg(slicer.get(), path, writer_def, format, writer);
   } else {
