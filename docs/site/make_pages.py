@@ -24,7 +24,8 @@ KINDS = {"function": "Functions", "callback": "Callbacks", "struct": "Structs", 
 # The documents outside of docs/, and their names in the site.
 OTHERS = {"CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md",
           "SECURITY.md": "security.md", "README.md": "readme.md",
-          "bindings/python/README.md": "python.md"}
+          "bindings/python/README.md": "python.md",
+          "integrations/freecad/README.md": "freecad.md"}
 LANGUAGES = {".c": "c", ".h": "c", ".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".cmake": "cmake", ".json": "json", ".rs": "rust", ".js": "javascript"}
 
 
