@@ -4,6 +4,9 @@
 
     python3 examples/python/slice_numpy.py examples/parts/bracket.stl -o out
 
+With --layers it writes a range of them, so that several processes, on one machine or many, make the same
+files as one: docs/howto/scale_out.md.
+
 The package is found if it is installed or bindings/python is on PYTHONPATH; MSQ_LIBRARY may name
 the shared library's file.
 """
@@ -28,9 +31,19 @@ def write_png(path, rows, width, depth):
     height, row_bytes = rows.shape
     filtered = np.zeros((height, 1 + row_bytes), np.uint8)  # filter 0 before each row
     filtered[:, 1:] = rows
-    path.write_bytes(b"\x89PNG\r\n\x1a\n"
-                     + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, 0, 0, 0, 0))
-                     + chunk(b"IDAT", zlib.compress(filtered.tobytes(), 1)) + chunk(b"IEND", b""))
+    whole = path.with_suffix(".part")  # renamed at the end: no file is incomplete
+    whole.write_bytes(b"\x89PNG\r\n\x1a\n"
+                      + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, 0, 0, 0, 0))
+                      + chunk(b"IDAT", zlib.compress(filtered.tobytes(), 1)) + chunk(b"IEND", b""))
+    whole.replace(path)
+
+
+def layer_range(text):
+    """FIRST:END, of which either may be left out, as a slice."""
+    first, colon, end = text.partition(":")
+    if not colon:
+        raise ValueError(text)
+    return slice(int(first) if first else 0, int(end) if end else None)
 
 
 def main():
@@ -42,23 +55,31 @@ def main():
                         metavar=("BOTTOM", "TOP"), help="of its struts (default 0.25 0.6 mm)")
     parser.add_argument("--layer", type=float, default=0.5, help="layer height (default 0.5 mm)")
     parser.add_argument("--pitch", type=float, default=0.1, help="pixel size (default 0.1 mm)")
+    parser.add_argument("--layers", type=layer_range, default=slice(0, None), metavar="FIRST:END",
+                        help="only these, from 0, without END (default all)")
+    parser.add_argument("--threads", type=int, default=0, help="of this process (default one per core)")
     options = parser.parse_args()
 
-    part = msq.Shape.from_file(options.file)
+    context = msq.Context(threads=options.threads)
+    part = msq.Shape.from_file(options.file, context=context)
     low, high = part.info.min, part.info.max
     bottom, top = options.radius
-    radius = msq.Field.gradient((0, 0, low[2]), bottom, (0, 0, high[2]), top)
+    radius = msq.Field.gradient((0, 0, low[2]), bottom, (0, 0, high[2]), top, context=context)
     model = msq.Model(part, [msq.Foam(cell_size=options.cell, radius=radius)])
     slicer = model.slicer(layer_height=options.layer, pitch=options.pitch)
 
     options.out.mkdir(parents=True, exist_ok=True)
     shadow = np.zeros((slicer.height, slicer.width), np.uint32)  # number of solid layers
     start, inside = time.perf_counter(), 0
-    for layer in slicer:
+    numbers = range(len(slicer))[options.layers]
+    for layer in slicer.layers(numbers.start, len(numbers)):
         path = options.out / f"layer_{layer.index:05}.png"
         write_png(path, layer.data[::-1], layer.width, depth=1)
         shadow += layer.pixels
         inside += layer.inside_count
+    if len(numbers) < len(slicer):
+        print(f"{len(numbers)} of {len(slicer)} layers in {time.perf_counter() - start:.2f} s")
+        return 0
     grey = (shadow * (255 / max(shadow.max(), 1))).astype(np.uint8)
     write_png(options.out / "shadow.png", grey[::-1], slicer.width, depth=8)
 
