@@ -25,7 +25,8 @@ KINDS = {"function": "Functions", "callback": "Callbacks", "struct": "Structs", 
 OTHERS = {"CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md",
           "SECURITY.md": "security.md", "README.md": "readme.md",
           "bindings/python/README.md": "python.md",
-          "integrations/freecad/README.md": "freecad.md"}
+          "integrations/freecad/README.md": "freecad.md",
+          "integrations/blender/README.md": "blender.md"}
 LANGUAGES = {".c": "c", ".h": "c", ".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".cmake": "cmake", ".json": "json", ".rs": "rust", ".js": "javascript"}
 
 
