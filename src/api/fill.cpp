@@ -110,6 +110,7 @@ FillPlan read_plan(const msq_fill_def& def, const Structure& structure) {
   // Lines are rounded to the coordinates.
   plan.tolerance = std::max(plan.tolerance, 0.5 * plan.scale);
   plan.min_length = require_length(def.min_length, "min_length");
+  plan.pair_distance = require_length(def.pair_distance, "pair_distance");
   return plan;
 }
 

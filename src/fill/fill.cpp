@@ -65,7 +65,8 @@ Fill::Fill(Context& context, const Structure& structure, const FillPlan& plan)
     simplify(line, dropped * plan.tolerance);
     polygon.cut(rounding.round(line), parts);
   }
-  std::vector<Tour> tours = find_trails(std::move(parts), plan.min_length / plan.scale);
+  std::vector<Tour> tours = find_trails(std::move(parts), plan.min_length / plan.scale,
+                                        {plan.pair_distance / plan.scale, &polygon});
   size_t points = 0, count = 0;
   for (const Tour& tour : tours) {
     count += tour.size();

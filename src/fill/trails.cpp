@@ -11,6 +11,7 @@
 #include "base/job.h"
 #include "base/polled_sort.h"
 #include "fill/matching.h"
+#include "fill/side_by_side.h"
 
 namespace msq {
 
@@ -24,8 +25,8 @@ constexpr size_t max_compared = 16;
 
 class Trails {
  public:
-  Trails(std::vector<IntPath> lines, double min_length)
-      : lines_(std::move(lines)), min_length_(min_length) {}
+  Trails(std::vector<IntPath> lines, double min_length, const LinePairs& pairs)
+      : lines_(std::move(lines)), min_length_(min_length), pairs_(pairs) {}
 
   std::vector<Tour> find();
 
@@ -56,6 +57,11 @@ class Trails {
     return end % 2 == 0 ? points.front() : points.back();
   }
   Vec2 direction(End end) const;
+  /// The end of the other line of a pair at the same point, or nothing.
+  End twin(End end) const {
+    const uint32_t other = end / 2 < twins_.size() ? twins_[end / 2] : nothing;
+    return other == nothing ? nothing : 2 * other + end % 2;
+  }
   bool is_way(uint32_t line) const { return line >= printed_; }
   /// 0: straight; 2: back again. A path ends where a way begins: the turn there does not matter.
   double turn(End a, End b) const {
@@ -64,10 +70,15 @@ class Trails {
 
   void find_points();
   void leave_out_short_lines();
+  void add_pairs();
   void add_ways();
   void pair_ends();
   void pair_at(size_t begin, size_t end);
   void pair(End a, End b);
+  void pair_twins(size_t& begin, size_t end);
+  double side(End end) const;
+  IntPoint joint(End end) const;
+  IntPath in_place(End from) const;
   void connect();
   void connect_pairs(size_t i, size_t j, std::vector<Exchange>& exchanges) const;
   void exchange(const Exchange& exchange);
@@ -76,7 +87,10 @@ class Trails {
 
   std::vector<IntPath> lines_;  // and from number printed_ on the ways
   double min_length_;
+  LinePairs pairs_;
   size_t printed_ = 0;
+  std::vector<uint32_t>
+      twins_;  // of each line that is printed: the other one of its pair, or nothing
   std::vector<Vec2> directions_;  // at each end
   std::vector<uint32_t> starts_;  // of each point in ends_
   std::vector<End> ends_;         // by point; then pairs follow each other
@@ -132,6 +146,38 @@ void Trails::leave_out_short_lines() {
   std::erase_if(lines_, [](const IntPath& line) { return line.points.empty(); });
 }
 
+/// Shortest lines first: as much is printed in addition as the travel that it saves is long.
+void Trails::add_pairs() {
+  const size_t count = lines_.size();
+  std::vector<uint32_t> point_of_end(2 * count), counts(starts_.size() - 1);
+  for (uint32_t n = 0; n < counts.size(); ++n) {
+    counts[n] = starts_[n + 1] - starts_[n];
+    for (uint32_t i = starts_[n]; i < starts_[n + 1]; ++i) point_of_end[ends_[i]] = n;
+  }
+  const auto is_candidate = [&](uint32_t line) {
+    const uint32_t a = point_of_end[2 * line], b = point_of_end[2 * line + 1];
+    return a != b && counts[a] % 2 == 1 && counts[b] % 2 == 1 && counts[a] + counts[b] > 2;
+  };
+  std::vector<std::pair<double, uint32_t>> found;
+  for (uint32_t line = 0; line < count; ++line)
+    if (is_candidate(line)) found.emplace_back(length_of(lines_[line]), line);
+  CancelPoll poll(current_job());
+  polled_sort(found.begin(), found.end(), std::less<>(), poll);
+  twins_.assign(count, nothing);
+  for (const auto& [length, line] : found) {
+    poll();
+    const uint32_t a = point_of_end[2 * line], b = point_of_end[2 * line + 1];
+    if (!is_candidate(line) || !fit_beside(lines_[line], 0.5 * pairs_.distance, counts[a] == 1,
+                                           counts[b] == 1, *pairs_.polygon))
+      continue;
+    ++counts[a];
+    ++counts[b];
+    twins_[line] = static_cast<uint32_t>(lines_.size());
+    twins_.push_back(line);
+    lines_.push_back(lines_[line]);
+  }
+}
+
 void Trails::add_ways() {
   printed_ = lines_.size();
   if (lines_.empty()) return;
@@ -172,11 +218,45 @@ void Trails::pair_ends() {
   }
 }
 
+/// Whether direction u comes before v in a turn to the left that begins at direction d.
+bool comes_before(Vec2 d, Vec2 u, Vec2 v) {
+  const auto cross = [](Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; };
+  const bool u_is_left = cross(d, u) >= 0, v_is_left = cross(d, v) >= 0;
+  return u_is_left != v_is_left ? u_is_left : cross(u, v) > 0;
+}
+
+/// Each line of a pair goes on with a line of its own, so that none turns back.
+void Trails::pair_twins(size_t& begin, size_t end) {
+  for (size_t i = begin; i < end && end - begin >= 4; ++i) {
+    const End one = ends_[i], two = twin(one);
+    if (two == nothing) continue;
+    const auto swap_to = [&](End known, size_t to) {
+      std::swap(*std::find(ends_.begin() + static_cast<ptrdiff_t>(begin),
+                           ends_.begin() + static_cast<ptrdiff_t>(end), known),
+                ends_[to]);
+    };
+    swap_to(one, begin);
+    swap_to(two, begin + 1);
+    for (const size_t to : {begin + 2, begin + 3}) {
+      size_t best = to;
+      for (size_t k = to; k < end; ++k)
+        if (turn(one, ends_[k]) < turn(one, ends_[best])) best = k;
+      std::swap(ends_[to], ends_[best]);
+    }
+    std::swap(ends_[begin + 1], ends_[begin + 2]);  // one, its partner, two, its partner
+    pair(ends_[begin], ends_[begin + 1]);
+    pair(ends_[begin + 2], ends_[begin + 3]);
+    begin += 4;
+    i = begin - 1;
+  }
+}
+
 /// Those that are most nearly straight, then the next ones; last the one that is left with the way.
 void Trails::pair_at(size_t begin, size_t end) {
   const auto swap_to = [this](size_t from, size_t to) { std::swap(ends_[from], ends_[to]); };
   for (size_t i = begin; i < end; ++i)
     if (is_way(ends_[i] / 2)) swap_to(i, end - 1);
+  if (!twins_.empty()) pair_twins(begin, end);
   for (; end - begin >= 2; begin += 2) {
     size_t best_a = begin, best_b = begin + 1;
     if (end - begin > 2 && end - begin <= max_compared) {
@@ -236,6 +316,39 @@ void Trails::connect() {
     }
 }
 
+/// On which side of its pair a line is at an end, seen from there: 1 is the left, -1 the right. The
+/// line that goes on to the left is the left one. 0 where the pair turns back.
+double Trails::side(End end) const {
+  const End other = twin(end);
+  if (other == nothing || partners_[end] == other) return 0;
+  const Vec2 d = directions_[end], u = directions_[partners_[end]],
+             v = directions_[partners_[other]];
+  if (comes_before(d, u, v)) return 1;
+  return comes_before(d, v, u) || end > other ? -1 : 1;
+}
+
+/// Where the line with an end meets its partner there.
+IntPoint Trails::joint(End end) const {
+  End partner = partners_[end];
+  if (side(end) == 0) std::swap(end, partner);
+  const double aside = 0.5 * pairs_.distance * side(end);
+  if (aside == 0) return point_of(end);
+  const double limit =
+      is_way(partner / 2) ? 0 : std::min(pairs_.distance, 0.5 * length_of(lines_[partner / 2]));
+  return moved(point_of(end), corner_beside(directions_[end], aside, directions_[partner], limit));
+}
+
+/// A line from an end on, beside its twin if it has one.
+IntPath Trails::in_place(End from) const {
+  IntPath line = lines_[from / 2];
+  if (from % 2) std::reverse(line.points.begin(), line.points.end());
+  const double aside = 0.5 * pairs_.distance, side_from = side(from), side_to = -side(from ^ 1);
+  if (side_from != 0 || side_to != 0) line = beside(line, aside * side_from, aside * side_to);
+  line.points.front() = joint(from);
+  line.points.back() = joint(from ^ 1);
+  return line;
+}
+
 Tour Trails::follow(End end) {
   // The lines of the tour, each from an end.
   std::vector<End> order;
@@ -265,11 +378,9 @@ Tour Trails::follow(End end) {
       path = {};
       continue;
     }
-    std::vector<IntPoint>& points = lines_[from / 2].points;
-    if (from % 2) std::reverse(points.begin(), points.end());
+    const std::vector<IntPoint> points = in_place(from).points;
     const bool goes_on = !path.points.empty();
     path.points.insert(path.points.end(), points.begin() + goes_on, points.end());
-    points = {};
   }
   if (!path.points.empty()) {  // the tour is closed; along one line and back it is no ring
     path.is_closed = path.points.size() > 3;
@@ -291,6 +402,10 @@ std::vector<Tour> Trails::find() {
   find_points();
   leave_out_short_lines();
   find_points();
+  if (pairs_.distance > 0) {
+    add_pairs();
+    find_points();
+  }
   add_ways();
   find_points();
   directions_.resize(2 * lines_.size());
@@ -311,8 +426,9 @@ std::vector<Tour> Trails::find() {
 
 }  // namespace
 
-std::vector<Tour> find_trails(std::vector<IntPath> lines, double min_length) {
-  return Trails(std::move(lines), min_length).find();
+std::vector<Tour> find_trails(std::vector<IntPath> lines, double min_length,
+                              const LinePairs& pairs) {
+  return Trails(std::move(lines), min_length, pairs).find();
 }
 
 }  // namespace msq

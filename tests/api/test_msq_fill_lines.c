@@ -255,6 +255,41 @@ static void drops_what_is_short(void** state) {
   msq_context_release(context);
 }
 
+/* Fewer paths and less travel for somewhat more length, all of it within the polygon; sheets, whose
+ * lines do not meet, stay as they are. */
+static void prints_walls_as_pairs(void** state) {
+  msq_context* context = make_context();
+  msq_structure* structures[2] = {make_foam_of(context, 3),
+                                  make_sheet(context, MSQ_FUNCTION_GYROID, 6)};
+  (void)state;
+  for (int s = 0; s < 2; ++s) {
+    msq_fill_def def = square_def(1.1);
+    def.min_length = 0.3;
+    msq_fill* single = make_fill(context, structures[s], &def);
+    def.pair_distance = 0.4;
+    msq_fill* paired = make_fill(context, structures[s], &def);
+    const msq_fill_report a = paths_of(single), b = paths_of(paired);
+    if (s == 0) {
+      assert_true(2 * b.path_count < a.path_count);
+      assert_true(b.length > 1.05 * a.length && b.length < 1.3 * a.length);
+      assert_true(b.length + b.travel < 1.03 * (a.length + a.travel));
+    } else {
+      assert_int_equal(b.path_count, a.path_count);
+      assert_int_equal(b.point_count, a.point_count);
+      assert_memory_equal(b.points, a.points, 16 * a.point_count);
+    }
+    for (uint64_t i = 0; i < b.point_count; ++i) {
+      const double x = coordinate_of(&b, 2 * i), y = coordinate_of(&b, 2 * i + 1);
+      assert_true(x >= 0 && y >= 0 && x <= 40e6 && y <= 40e6);
+      assert_false(x > 15e6 && y > 15e6 && x < 25e6 && y < 25e6);
+    }
+    msq_fill_release(paired);
+    msq_fill_release(single);
+    msq_structure_release(structures[s]);
+  }
+  msq_context_release(context);
+}
+
 /* Two halves of the square have the lines of the whole. */
 static void goes_on_in_the_next_polygon(void** state) {
   msq_context* context = make_context();
@@ -328,6 +363,7 @@ int main(void) {
       cmocka_unit_test(follows_a_field_of_density),
       cmocka_unit_test(takes_the_coordinates_of_the_host),
       cmocka_unit_test(drops_what_is_short),
+      cmocka_unit_test(prints_walls_as_pairs),
       cmocka_unit_test(goes_on_in_the_next_polygon),
       cmocka_unit_test(stops_and_keeps_to_its_memory),
   };

@@ -28,6 +28,7 @@ std::vector<Scenario> fill_scenarios() {
            def.ring_count = 2;
            def.scale = 1e-3;
            def.z = 0.7;
+           def.pair_distance = 0.05;
            msq_fill* fill;
            std::vector<int64_t> first(4);
            stage.watch_handle(fill);

@@ -254,6 +254,71 @@ void test_short_lines_between_junctions_are_left_out(void**) {
   assert_int_equal(count(find_trails({IntPath{{{0, 0}, {50, 0}, {0, 1}}, true}}, 200)), 0);
 }
 
+void test_pairs_join_paths(void**) {
+  // Two junctions of three lines: one path through each side of the pair, or one path that crosses.
+  const std::vector<IntPath> y = {line({{0, 0}, {1000, 0}}), line({{0, 0}, {-500, 900}}),
+                                  line({{0, 0}, {-500, -900}}), line({{1000, 0}, {1500, 900}}),
+                                  line({{1000, 0}, {1500, -900}})};
+  const FillPolygon wide({{{-5000, -5000}, {5000, -5000}, {5000, 5000}, {-5000, 5000}}});
+  const auto paths_of = [](const std::vector<Tour>& tours) {
+    std::vector<IntPath> paths;
+    for (const Tour& tour : tours) paths.insert(paths.end(), tour.begin(), tour.end());
+    return paths;
+  };
+  assert_int_equal(paths_of(find_trails(y, 0)).size(), 3);
+  const std::vector<IntPath> two = paths_of(find_trails(y, 0, {200, &wide}));
+  assert_int_equal(two.size(), 2);
+  // Both lines of the pair are 100 from its middle, and its corners are on the lines that go on.
+  std::set<Key> corners;
+  for (const IntPath& path : two) {
+    assert_int_equal(path.points.size(), 4);
+    for (const size_t i : {size_t{1}, size_t{2}}) corners.insert(key(path.points[i]));
+  }
+  const std::set<Key> expected = {{-56, 100}, {-56, -100}, {1056, 100}, {1056, -100}};
+  assert_true(corners == expected);
+  // No room beside the lines: no pair.
+  const FillPolygon narrow({{{-5000, -50}, {5000, -50}, {5000, 50}, {-5000, 50}}});
+  assert_int_equal(paths_of(find_trails(y, 0, {200, &narrow})).size(), 3);
+  // A single line, and two that meet, have no junction.
+  assert_int_equal(paths_of(find_trails({y[0], y[1]}, 0, {200, &wide}))[0].points.size(), 3);
+  assert_int_equal(paths_of(find_trails({y[0]}, 0, {200, &wide}))[0].points.size(), 2);
+  // A line with a loose end is printed to it and back; there its two lines meet.
+  const std::vector<IntPath> back = paths_of(
+      find_trails({line({{0, 0}, {0, 300}}), line({{-900, 0}, {0, 0}}), line({{0, 0}, {900, 0}})},
+                  0, {200, &wide}));
+  assert_int_equal(back.size(), 1);
+  assert_int_equal(back[0].points.size(), 5);
+  assert_true((back[0].points[2] == IntPoint{0, 300}));
+  assert_true(std::abs(back[0].points[1].x) == 100 && back[0].points[1].y == 0);
+}
+
+/// Each junction of a random graph is passed as often as before, and fewer paths are left.
+void test_pairs_of_random_lines(void**) {
+  Random random(12);
+  const FillPolygon wide({{{-1000000, -1000000}, {1000000, -1000000}, {0, 1000000}}});
+  for (size_t round = 0; round < 40; ++round) {
+    const std::vector<IntPath> lines =
+        random_lines(random, 3 + static_cast<int64_t>(random.below(8)), random.between(0.3, 1));
+    const auto measure = [](const std::vector<Tour>& tours) {
+      std::pair<size_t, double> sum{0, 0};
+      for (const Tour& tour : tours)
+        for (const IntPath& path : tour) {
+          ++sum.first;
+          sum.second += length_of(path);
+        }
+      return sum;
+    };
+    // A distance so small that corners hardly move: what is longer is printed twice.
+    const auto [count, length] = measure(find_trails(lines, 0));
+    const auto [fewer, longer] = measure(find_trails(lines, 0, {2, &wide}));
+    assert_true(fewer <= count);
+    double whole = 0;
+    for (const IntPath& line : lines) whole += length_of(line);
+    assert_true(longer >= length - 4 * static_cast<double>(lines.size()) &&
+                longer <= 2 * whole + 4 * static_cast<double>(lines.size()));
+  }
+}
+
 double travel(const std::vector<IntPath>& paths) {
   double sum = 0;
   for (size_t i = 1; i < paths.size(); ++i) {
@@ -341,6 +406,8 @@ int main() {
       cmocka_unit_test(test_paths_are_the_fewest),
       cmocka_unit_test(test_paths_go_straight_on),
       cmocka_unit_test(test_short_lines_between_junctions_are_left_out),
+      cmocka_unit_test(test_pairs_join_paths),
+      cmocka_unit_test(test_pairs_of_random_lines),
       cmocka_unit_test(test_order_shortens_travel),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

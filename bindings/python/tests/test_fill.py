@@ -78,6 +78,8 @@ class FillLines(unittest.TestCase):
                                 origin=(-1, 0))
         self.assertAlmostEqual(moved.length, fill.length, delta=0.01 * fill.length)
         self.assertEqual(len(foam.fill_lines(SQUARE, 1.3, min_length=1e9)), 0)
+        self.assertLess(len(foam.fill_lines(SQUARE, 1.3, pair_distance=0.4)),
+                        0.7 * len(foam.fill_lines(SQUARE, 1.3)))
 
     def test_density(self):
         cell = msq.Functional("gyroid", kind="sheet", level=0.1).fill_cell_size(0.45, 0.2)

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fill/side_by_side.h"
+
+#include <cmath>
+#include <vector>
+
+namespace msq {
+
+namespace {
+
+Vec2 between(IntPoint from, IntPoint to) {
+  return {static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y)};
+}
+
+Vec2 left_of(Vec2 way) {
+  return Vec2{-way.y, way.x} * (1 / length(way));
+}
+
+/// Of a line that is cut for a test: how far its pointed end is from the border.
+constexpr double pointed_gap = 0.05;
+
+}  // namespace
+
+IntPoint moved(IntPoint p, Vec2 by) {
+  return {p.x + std::llround(by.x), p.y + std::llround(by.y)};
+}
+
+Vec2 corner_beside(Vec2 along, double aside, Vec2 other, double limit) {
+  const double sine = along.x * other.y - along.y * other.x;
+  const double reach = aside / sine;  // along the other line; not finite if both are parallel
+  if (reach >= 0 && reach <= limit) return other * reach;
+  return left_of(along) * aside;
+}
+
+IntPath beside(const IntPath& line, double aside_from, double aside_to) {
+  const std::vector<IntPoint>& points = line.points;
+  const size_t last = points.size() - 1;
+  IntPath result = line;
+  result.points[0] = moved(points[0], left_of(between(points[0], points[1])) * aside_from);
+  result.points[last] =
+      moved(points[last], left_of(between(points[last - 1], points[last])) * aside_to);
+  if (aside_from == aside_to)
+    for (size_t i = 1; i < last; ++i) {
+      const Vec2 sum =
+          left_of(between(points[i - 1], points[i])) + left_of(between(points[i], points[i + 1]));
+      const double size = length(sum);
+      if (size > 0.5) result.points[i] = moved(points[i], sum * (aside_from / size));
+    }
+  return result;
+}
+
+bool fit_beside(const IntPath& line, double aside, bool is_from_pointed, bool is_to_pointed,
+                const FillPolygon& polygon) {
+  for (const double side : {aside, -aside}) {
+    IntPath path = beside(line, side, side);
+    std::vector<IntPoint>& points = path.points;
+    const size_t last = points.size() - 1;
+    const auto stop_short = [&](size_t end, size_t before) {
+      points[end] = line.points[end];
+      points[end] = moved(points[end], between(points[end], points[before]) * pointed_gap);
+    };
+    if (is_from_pointed) stop_short(0, 1);
+    if (is_to_pointed) stop_short(last, last - 1);
+    std::vector<IntPath> parts;
+    polygon.cut(path, parts);
+    if (parts.size() != 1 || !(parts[0].points == points)) return false;
+  }
+  return true;
+}
+
+}  // namespace msq
