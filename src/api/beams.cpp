@@ -82,12 +82,6 @@ double read_radius(double radius, bool is_needed, const char* name, const char* 
   return require_finite(radius, name);
 }
 
-double require_length(double value, const char* name) {
-  if (!(value >= 0) || !std::isfinite(value))
-    fail(Status::argument, "%s is %g; it must be finite and not negative", name, value);
-  return value;
-}
-
 bool is_radius(double r) {
   return r == 0 || (r >= min_radius && r <= most);
 }
@@ -193,8 +187,8 @@ class Given {
            static_cast<unsigned long long>(def.beam_count),
            static_cast<unsigned long long>(def.ball_count),
            static_cast<unsigned long long>(max_beams));
-    require_length(def.min_length, "min_length");
-    require_length(def.length_scale, "length_scale");
+    require_not_negative(def.min_length, "min_length");
+    require_not_negative(def.length_scale, "length_scale");
     return def;
   }
 

@@ -88,12 +88,6 @@ std::vector<std::vector<IntPoint>> read_rings(const msq_fill_def& def, bool is_i
   return rings;
 }
 
-double require_length(double value, const char* name) {
-  if (!(value >= 0) || !std::isfinite(value))
-    fail(Status::argument, "%s is %g; it must be finite and not negative", name, value);
-  return value;
-}
-
 FillPlan read_plan(const msq_fill_def& def, const Structure& structure) {
   FillPlan plan;
   const int32_t type = require_range(def.coordinate_type, MSQ_INT32, MSQ_INT64, "coordinate_type");
@@ -104,13 +98,13 @@ FillPlan read_plan(const msq_fill_def& def, const Structure& structure) {
     fail(Status::argument, "scale is %g; it must be from 1e-100 to 1e75", plan.scale);
   plan.origin = {require_finite(def.origin[0], "origin"), require_finite(def.origin[1], "origin")};
   plan.z = require_finite(def.z, "z");
-  plan.tolerance = require_length(def.tolerance, "tolerance");
+  plan.tolerance = require_not_negative(def.tolerance, "tolerance");
   if (plan.tolerance == 0)
     plan.tolerance = min_component(structure.neighbourhood().cell_size) / 200;
   // Lines are rounded to the coordinates.
   plan.tolerance = std::max(plan.tolerance, 0.5 * plan.scale);
-  plan.min_length = require_length(def.min_length, "min_length");
-  plan.pair_distance = require_length(def.pair_distance, "pair_distance");
+  plan.min_length = require_not_negative(def.min_length, "min_length");
+  plan.pair_distance = require_not_negative(def.pair_distance, "pair_distance");
   return plan;
 }
 

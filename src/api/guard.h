@@ -75,6 +75,12 @@ inline double require_finite(double value, const char* name) {
   return value;
 }
 
+inline double require_not_negative(double value, const char* name) {
+  if (!(value >= 0) || !std::isfinite(value))
+    fail(Status::argument, "%s is %g; it must be finite and not negative", name, value);
+  return value;
+}
+
 inline double require_positive(double value, const char* name) {
   if (!(value > 0) || !std::isfinite(value))
     fail(Status::argument, "%s is %g; it must be positive and finite", name, value);

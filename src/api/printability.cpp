@@ -32,12 +32,6 @@ msq_printability_def printability_defaults() {
   return def;
 }
 
-double require_not_negative(double value, const char* name) {
-  if (!(value >= 0) || !std::isfinite(value))
-    fail(Status::argument, "%s is %g; it must be finite and not negative", name, value);
-  return value;
-}
-
 PrintabilityPlan read_plan(const msq_printability_def& def) {
   PrintabilityPlan plan;
   if (def.kinds == 0 || (def.kinds & ~all_finding_kinds))

@@ -117,12 +117,6 @@ LayerFrame read_frame(const msq_slicer_def& def) {
   return frame;
 }
 
-double require_not_negative(double value, const char* name) {
-  if (!(value >= 0) || !std::isfinite(value))
-    fail(Status::argument, "%s is %g; it must be finite and not negative", name, value);
-  return value;
-}
-
 SlicePlan read_plan(const msq_slicer_def& def) {
   SlicePlan plan;
   plan.outputs = read_outputs(def);

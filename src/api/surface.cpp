@@ -37,8 +37,8 @@ MeshPlan read_plan(const msq_surface_def& def) {
 }
 
 /// A call, and what it keeps alive: callbacks may release the host's last references.
-struct Call {
-  Call(const msq_model* model, const msq_surface_def* def, msq_job* job)
+struct SurfaceCall {
+  SurfaceCall(const msq_model* model, const msq_surface_def* def, msq_job* job)
       : model(&object(model, "model")),
         plan(read_plan(read_def(def, surface_defaults(), "def"))),
         job(job ? &object(job, "job") : nullptr) {}
@@ -57,7 +57,7 @@ msq_status msq_surface_def_init(msq_surface_def* def, size_t size) {
 msq_status msq_surface_mesh(const msq_model* model, const msq_surface_def* def, msq_surface_fn fn,
                             void* user, msq_job* job) {
   return guard([&] {
-    const Call call(model, def, job);
+    const SurfaceCall call(model, def, job);
     if (!fn) fail(Status::argument, "fn is NULL");
     JobScope scope(call.job);
     make_mesh(*call.model, call.plan,
@@ -82,7 +82,7 @@ msq_status msq_surface_mesh(const msq_model* model, const msq_surface_def* def, 
 msq_status msq_surface_file(const msq_model* model, const msq_surface_def* def, int32_t format,
                             msq_file_fn fn, void* user, msq_job* job) {
   return guard([&] {
-    const Call call(model, def, job);
+    const SurfaceCall call(model, def, job);
     const SurfaceFormat known = static_cast<SurfaceFormat>(
         require_range(format, MSQ_SURFACE_STL, MSQ_SURFACE_PLY, "format"));
     if (!fn) fail(Status::argument, "fn is NULL");

@@ -9,13 +9,14 @@
 #include <cmath>
 #include <limits>
 
+#include "base/infinity.h"
+
 namespace msq {
 
 namespace {
 
 constexpr double slack = 0x1p-48;
 constexpr double max_angle = 0x1p19;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Enclosure unbounded{-infinity, infinity};
 
 /// The sine of x + quarters pi / 2.

@@ -8,10 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "base/borrowed.h"
+#include "base/infinity.h"
 #include "base/job.h"
 #include "expression/enclosure.h"
 
@@ -19,11 +19,10 @@ namespace msq {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double u = 0x1p-53, of_function = 0x1p-50, least = 0x1p-1000;
-constexpr double max_angle = 0x1p19;
+constexpr double max_sine_argument = 0x1p19;
 
-double magnitude(Interval v) {
+double max_magnitude(Interval v) {
   return std::max(std::abs(v.low), std::abs(v.high));
 }
 /// The minimum magnitude of the numbers of an interval.
@@ -46,7 +45,7 @@ Interval sum(Interval a, Interval b) {
 Interval negative(Interval a) {
   return {-a.high, -a.low};
 }
-Interval product(Interval a, Interval b) {
+Interval product_of(Interval a, Interval b) {
   if (is_zero(a) || is_zero(b)) return {0, 0};
   const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, t = a.high * b.high;
   return widened(
@@ -99,7 +98,7 @@ class Differentiation {
     }
     const Part& a = parts_[node.a];
     const Part& b = parts_[has_two_operands(node.op) ? node.b : node.a];
-    const double rounding = u * magnitude(computed_[i]) + least;
+    const double rounding = u * max_magnitude(computed_[i]) + least;
     switch (node.op) {
       case Op::add:
       case Op::subtract:
@@ -109,18 +108,19 @@ class Differentiation {
         break;
       case Op::multiply:
         for (int k = 0; k < 3; ++k)
-          part.along[k] = sum(product(a.value, b.along[k]), product(b.value, a.along[k]));
-        part.error = a.error * magnitude(b.value) + b.error * magnitude(a.value) +
+          part.along[k] = sum(product_of(a.value, b.along[k]), product_of(b.value, a.along[k]));
+        part.error = a.error * max_magnitude(b.value) + b.error * max_magnitude(a.value) +
                      a.error * b.error + rounding;
         break;
       case Op::divide: {
         const double divisor =
             std::min(distance_from_zero(b.value), distance_from_zero(computed_[node.b]));
         if (!(divisor > 0)) return false;
-        const Interval by = inverse(b.value), quotient = product(a.value, by);
+        const Interval by = inverse(b.value), quotient = product_of(a.value, by);
         for (int k = 0; k < 3; ++k)
-          part.along[k] = product(sum(a.along[k], negative(product(quotient, b.along[k]))), by);
-        part.error = (a.error + magnitude(quotient) * b.error) / divisor + rounding;
+          part.along[k] =
+              product_of(sum(a.along[k], negative(product_of(quotient, b.along[k]))), by);
+        part.error = (a.error + max_magnitude(quotient) * b.error) / divisor + rounding;
         break;
       }
       case Op::minimum:
@@ -149,33 +149,33 @@ class Differentiation {
         const double lowest = std::sqrt(a.value.low) * (1 - 0x1p-50);
         const Interval roots{lowest, std::sqrt(a.value.high) * (1 + 0x1p-50)};
         for (int k = 0; k < 3; ++k)
-          part.along[k] = product(a.along[k], product({0.5, 0.5}, inverse(roots)));
+          part.along[k] = product_of(a.along[k], product_of({0.5, 0.5}, inverse(roots)));
         part.error = a.error / lowest + rounding;
         break;
       }
       case Op::sine:
       case Op::cosine: {
-        if (magnitude(a.value) > max_angle) return false;
+        if (max_magnitude(a.value) > max_sine_argument) return false;
         const Interval cosines = enclose_result(Op::cosine, a.value, a.value, false);
         const Interval sines = enclose_result(Op::sine, a.value, a.value, false);
         for (int k = 0; k < 3; ++k)
-          part.along[k] = product(a.along[k], node.op == Op::sine ? cosines : negative(sines));
+          part.along[k] = product_of(a.along[k], node.op == Op::sine ? cosines : negative(sines));
         part.error = a.error + of_function;
         break;
       }
       case Op::exponential: {
         if (!(a.error < 0.5)) return false;
-        const double most = magnitude(computed_[i]) + least;
+        const double most = max_magnitude(computed_[i]) + least;
         part.error = most * (4 * a.error + 2 * of_function) + least;
         const Interval values = widened(computed_[i], part.error);
-        for (int k = 0; k < 3; ++k) part.along[k] = product(a.along[k], values);
+        for (int k = 0; k < 3; ++k) part.along[k] = product_of(a.along[k], values);
         break;
       }
       case Op::logarithm:
         if (!(a.value.low > 0)) return false;
-        for (int k = 0; k < 3; ++k) part.along[k] = product(a.along[k], inverse(a.value));
+        for (int k = 0; k < 3; ++k) part.along[k] = product_of(a.along[k], inverse(a.value));
         part.error = 2 * a.error / std::min(a.value.low, computed_[node.a].low) +
-                     of_function * (1 + magnitude(computed_[i]));
+                     of_function * (1 + max_magnitude(computed_[i]));
         break;
       default:
         return false;
@@ -211,7 +211,7 @@ void find_slopes(Differentiation& differentiation, const Tape& tape, Vec3 scale,
   double low = 0, high = 0;
   for (int k = 0; k < 3; ++k) {
     const double a = distance_from_zero(root->along[k]) * scale[k];
-    const double b = magnitude(root->along[k]) * scale[k];
+    const double b = max_magnitude(root->along[k]) * scale[k];
     low += a * a;
     high += b * b;
   }

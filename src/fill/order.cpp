@@ -13,7 +13,7 @@ namespace msq {
 
 namespace {
 
-constexpr size_t near_count = 6;
+constexpr size_t near_ends = 6;
 /// Paths of a run that is moved elsewhere, at most.
 constexpr size_t max_run = 3;
 /// On average, of all paths: how often each is tried, and how many of the order each try may move.
@@ -144,24 +144,24 @@ class Legs {
   std::vector<Leg> order_;
   std::vector<Vec2> ends_;
   std::vector<uint32_t> places_;  // of each path in the order
-  std::vector<uint32_t> near_;    // near_count ends of other paths for each end, or itself
+  std::vector<uint32_t> near_;    // near_ends ends of other paths for each end, or itself
   std::vector<uint32_t> changed_;
   uint64_t moved_ = 0;
 };
 
 std::vector<Leg> Legs::shorten() {
   const size_t count = order_.size();
-  near_.resize(2 * count * near_count);
+  near_.resize(2 * count * near_ends);
   NearPoints grid(ends_);
   std::vector<uint32_t> found;
   CancelPoll poll(current_job());
   for (uint32_t end = 0; end < 2 * count; ++end) {
     poll();
-    grid.find(ends_[end], near_count + 2, found);
+    grid.find(ends_[end], near_ends + 2, found);
     size_t n = 0;
     for (const uint32_t other : found)
-      if (other / 2 != end / 2 && n < near_count) near_[end * near_count + n++] = other;
-    for (; n < near_count; ++n) near_[end * near_count + n] = end;
+      if (other / 2 != end / 2 && n < near_ends) near_[end * near_ends + n++] = other;
+    for (; n < near_ends; ++n) near_[end * near_ends + n] = end;
   }
   std::vector<uint32_t> waiting(count);
   std::vector<bool> waits(count, true);
@@ -198,8 +198,8 @@ bool Legs::improve(uint32_t path) {
 void Legs::find_moves(const View& view, size_t i, Move& best) const {
   const double now = view.way(i);
   const uint32_t end = view.last(i);
-  for (size_t n = 0; n < near_count; ++n) {
-    const uint32_t other = near_[end * near_count + n];
+  for (size_t n = 0; n < near_ends; ++n) {
+    const uint32_t other = near_[end * near_ends + n];
     if (other == end) return;
     const double way = way_between(ends_[end], ends_[other]);
     if (!(way < now)) return;

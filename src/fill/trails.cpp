@@ -19,7 +19,7 @@ namespace {
 
 /// Ends of lines: 2 * line, and 2 * line + 1.
 using End = uint32_t;
-constexpr End nothing = UINT32_MAX;
+constexpr End no_end = UINT32_MAX;
 /// More lines meet only where coordinates are coarse. These are joined as they come.
 constexpr size_t max_compared = 16;
 
@@ -57,10 +57,10 @@ class Trails {
     return end % 2 == 0 ? points.front() : points.back();
   }
   Vec2 direction(End end) const;
-  /// The end of the other line of a pair at the same point, or nothing.
+  /// The end of the other line of a pair at the same point, or no_end.
   End twin(End end) const {
-    const uint32_t other = end / 2 < twins_.size() ? twins_[end / 2] : nothing;
-    return other == nothing ? nothing : 2 * other + end % 2;
+    const uint32_t other = end / 2 < twins_.size() ? twins_[end / 2] : no_end;
+    return other == no_end ? no_end : 2 * other + end % 2;
   }
   bool is_way(uint32_t line) const { return line >= printed_; }
   /// 0: straight; 2: back again. A path ends where a way begins: the turn there does not matter.
@@ -90,7 +90,7 @@ class Trails {
   LinePairs pairs_;
   size_t printed_ = 0;
   std::vector<uint32_t>
-      twins_;  // of each line that is printed: the other one of its pair, or nothing
+      twins_;  // of each line that is printed: the other one of its pair, or no_end
   std::vector<Vec2> directions_;  // at each end
   std::vector<uint32_t> starts_;  // of each point in ends_
   std::vector<End> ends_;         // by point; then pairs follow each other
@@ -163,7 +163,7 @@ void Trails::add_pairs() {
     if (is_candidate(line)) found.emplace_back(length_of(lines_[line]), line);
   CancelPoll poll(current_job());
   polled_sort(found.begin(), found.end(), std::less<>(), poll);
-  twins_.assign(count, nothing);
+  twins_.assign(count, no_end);
   for (const auto& [length, line] : found) {
     poll();
     const uint32_t a = point_of_end[2 * line], b = point_of_end[2 * line + 1];
@@ -208,7 +208,7 @@ uint32_t Trails::tour_of(uint32_t line) {
 }
 
 void Trails::pair_ends() {
-  partners_.assign(2 * lines_.size(), nothing);
+  partners_.assign(2 * lines_.size(), no_end);
   parents_.resize(lines_.size());
   std::iota(parents_.begin(), parents_.end(), 0u);
   CancelPoll poll(current_job());
@@ -229,7 +229,7 @@ bool comes_before(Vec2 d, Vec2 u, Vec2 v) {
 void Trails::pair_twins(size_t& begin, size_t end) {
   for (size_t i = begin; i < end && end - begin >= 4; ++i) {
     const End one = ends_[i], two = twin(one);
-    if (two == nothing) continue;
+    if (two == no_end) continue;
     const auto swap_to = [&](End known, size_t to) {
       std::swap(*std::find(ends_.begin() + static_cast<ptrdiff_t>(begin),
                            ends_.begin() + static_cast<ptrdiff_t>(end), known),
@@ -320,7 +320,7 @@ void Trails::connect() {
 /// line that goes on to the left is the left one. 0 where the pair turns back.
 double Trails::side(End end) const {
   const End other = twin(end);
-  if (other == nothing || partners_[end] == other) return 0;
+  if (other == no_end || partners_[end] == other) return 0;
   const Vec2 d = directions_[end], u = directions_[partners_[end]],
              v = directions_[partners_[other]];
   if (comes_before(d, u, v)) return 1;

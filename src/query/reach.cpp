@@ -11,7 +11,7 @@ namespace msq {
 namespace {
 
 /// Fourth powers of lengths stay finite, as for shapes.
-constexpr double max_coordinate = 1e75;
+constexpr double max_far_coordinate = 1e75;
 
 /// A structure, and what messages call it.
 struct Limited {
@@ -37,7 +37,7 @@ struct TooFar {
 TooFar too_far(const LimitedBy& limits, const Box3& box) {
   for (int axis = 0; axis < 3; ++axis) {
     const double far = std::max(std::abs(box.min[axis]), std::abs(box.max[axis]));
-    if (!(far <= max_coordinate)) return {nullptr, far, axis};
+    if (!(far <= max_far_coordinate)) return {nullptr, far, axis};
   }
   for (const Limited& limited : limits) {
     if (!limited.structure->is_on_grid()) continue;
@@ -57,7 +57,7 @@ void require_box(const LimitedBy& limits, const Box3& box, const char* name) {
   if (far.axis < 0) return;
   if (!far.limited)
     fail(Status::limit, "%s reaches a coordinate of %g along axis %d; the limit is %g", name,
-         far.reach, far.axis, max_coordinate);
+         far.reach, far.axis, max_far_coordinate);
   const std::string whose =
       far.limited->scale ? "scale " + std::to_string(far.limited->scale) : "the structure";
   fail(Status::limit,

@@ -12,7 +12,7 @@ namespace {
 /// Minimum sine of the angle between the view and the upward direction.
 constexpr double min_sine = 1e-6;
 
-struct Frame {
+struct ViewFrame {
   Vec3 forward, right, up;
 };
 
@@ -24,8 +24,8 @@ Vec3 unit(Vec3 v, const char* name) {
   return {v.x / size, v.y / size, v.z / size};
 }
 
-Frame frame_of(Vec3 view, Vec3 up, const char* view_name) {
-  Frame frame;
+ViewFrame frame_of(Vec3 view, Vec3 up, const char* view_name) {
+  ViewFrame frame;
   frame.forward = unit(view, view_name);
   frame.right = cross(frame.forward, unit(up, "up"));
   const double sine = length(frame.right);
@@ -52,7 +52,7 @@ View::View(const Camera& camera, uint32_t width, uint32_t height)
       height_(height),
       middle_x_(0.5 * width),
       middle_y_(0.5 * height) {
-  const Frame frame = frame_of(camera.target - camera.eye, camera.up, "target - eye");
+  const ViewFrame frame = frame_of(camera.target - camera.eye, camera.up, "target - eye");
   forward_ = frame.forward;
   right_ = frame.right;
   up_ = frame.up;
@@ -72,7 +72,7 @@ Vec3 default_up(Vec3 direction) {
 
 Camera fitted(Camera camera, const Box3& box, Vec3 direction, Vec3 up, uint32_t width,
               uint32_t height) {
-  const Frame frame = frame_of(direction, up, "direction");
+  const ViewFrame frame = frame_of(direction, up, "direction");
   const Vec3 half = box.extent() * 0.5;
   const double aspect = static_cast<double>(width) / height, radius = length(half);
   const double slope = slope_of(camera.field_of_view);

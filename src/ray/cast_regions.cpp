@@ -2,13 +2,12 @@
 #include "ray/cast_regions.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "base/infinity.h"
 
 namespace msq {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class RegionCaster {
  public:

@@ -26,7 +26,7 @@ constexpr size_t bucket_of(uint64_t key) {
 }
 
 /// The rays whose keys are made at once.
-struct Batch {
+struct KeyBatch {
   std::array<uint64_t, at_once> numbers;
   std::array<RaySearch, at_once> searches;
 };
@@ -130,7 +130,7 @@ bool RayOrder::sort(const Executor& executor, uint64_t first, uint64_t count, co
     check_cancelled(job);
     std::array<uint64_t, buckets>& counts = places[b];
     counts.fill(0);
-    const Borrowed<Batch> batch;
+    const Borrowed<KeyBatch> batch;
     auto& [numbers, searches] = *batch;
     const uint64_t end = std::min(count, (b + 1) * block);
     for (uint64_t begin = b * block; begin < end; begin += at_once) {

@@ -4,14 +4,13 @@
 #include <limits>
 
 #include "base/hash_input.h"
+#include "base/infinity.h"
 #include "base/ray_normal.h"
 #include "base/status.h"
 
 namespace msq {
 
-namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
-}
+namespace {}
 
 BooleanShape::BooleanShape(Operation operation, std::vector<Ref<const Shape>> members)
     : operation_(operation), members_(std::move(members)) {

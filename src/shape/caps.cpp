@@ -32,11 +32,6 @@ void cap_loop(uint32_t begin, uint32_t end, std::vector<Triangle>& triangles) {
   }
 }
 
-uint32_t bins_for(size_t triangles, double power, uint32_t most) {
-  return static_cast<uint32_t>(
-      std::clamp(std::pow(static_cast<double>(triangles), power), 1.0, static_cast<double>(most)));
-}
-
 /// Distance from the origin to the segment from a along `along`.
 double distance_to_segment(Vec3 a, Vec3 along) {
   const double squared = dot(along, along);

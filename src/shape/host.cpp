@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "base/borrowed.h"
+#include "base/infinity.h"
 #include "base/march_together.h"
 #include "base/ray_normal.h"
 
 namespace msq {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Memory of a callback.
 struct Batch {

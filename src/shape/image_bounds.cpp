@@ -10,7 +10,7 @@ namespace msq {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float float_infinity = std::numeric_limits<float>::infinity();
 
 template <class T>
 float rounded_down(T v) {
@@ -18,7 +18,7 @@ float rounded_down(T v) {
   if constexpr (!std::is_same_v<T, double>)
     return f;
   else
-    return static_cast<double>(f) > v ? std::nextafter(f, -infinity) : f;
+    return static_cast<double>(f) > v ? std::nextafter(f, -float_infinity) : f;
 }
 
 template <class T>
@@ -27,7 +27,7 @@ float rounded_up(T v) {
   if constexpr (!std::is_same_v<T, double>)
     return f;
   else
-    return static_cast<double>(f) < v ? std::nextafter(f, infinity) : f;
+    return static_cast<double>(f) < v ? std::nextafter(f, float_infinity) : f;
 }
 
 uint64_t leaves(uint64_t samples) {
@@ -47,7 +47,7 @@ ImageBounds::ImageBounds(const T* values, const uint64_t (&size)[3], const Job* 
   constexpr uint64_t side = 1 << leaf_bits;
   Level leaf;
   for (int axis = 0; axis < 3; ++axis) leaf.size[axis] = leaves(size[axis]);
-  leaf.bounds.assign(leaf.size[0] * leaf.size[1] * leaf.size[2], {infinity, -infinity});
+  leaf.bounds.assign(leaf.size[0] * leaf.size[1] * leaf.size[2], {float_infinity, -float_infinity});
   // A sample on the face between two leaves is in both.
   struct Two {
     uint64_t first, last;
@@ -86,7 +86,8 @@ void ImageBounds::add_levels() {
     if (fine.bounds.size() == 1) return;
     Level coarse;
     for (int axis = 0; axis < 3; ++axis) coarse.size[axis] = (fine.size[axis] + 1) / 2;
-    coarse.bounds.assign(coarse.size[0] * coarse.size[1] * coarse.size[2], {infinity, -infinity});
+    coarse.bounds.assign(coarse.size[0] * coarse.size[1] * coarse.size[2],
+                         {float_infinity, -float_infinity});
     size_t at = 0;
     for (uint64_t z = 0; z < fine.size[2]; ++z)
       for (uint64_t y = 0; y < fine.size[1]; ++y)

@@ -25,11 +25,6 @@ struct LayerWorkspace {
   }
 };
 
-uint32_t bins_for(uint64_t triangles, double power, uint32_t most) {
-  return static_cast<uint32_t>(
-      std::clamp(std::pow(static_cast<double>(triangles), power), 1.0, static_cast<double>(most)));
-}
-
 uint64_t bytes_of(const TriangleSoup& soup) {
   return soup.vertices.capacity() * sizeof(Vec3) + soup.triangles.capacity() * sizeof(Triangle);
 }

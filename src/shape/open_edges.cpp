@@ -12,11 +12,11 @@ namespace msq {
 namespace {
 
 /// One triangle's use of an edge.
-struct EdgeUse {
+struct DirectedEdge {
   uint32_t low, high;  // vertices
   int32_t way;         // 1 from low to high, -1 back
 
-  friend bool operator<(const EdgeUse& a, const EdgeUse& b) {
+  friend bool operator<(const DirectedEdge& a, const DirectedEdge& b) {
     return std::pair(a.low, a.high) < std::pair(b.low, b.high);
   }
 };
@@ -25,7 +25,7 @@ struct EdgeUse {
 
 std::vector<OpenEdge> open_edges(const TriangleSoup& soup, const Job* job) {
   CancelPoll poll(job);
-  std::vector<EdgeUse> uses;
+  std::vector<DirectedEdge> uses;
   uses.reserve(3 * soup.triangles.size());
   for (const Triangle& t : soup.triangles)
     for (int i = 0; i < 3; ++i) {
@@ -37,7 +37,7 @@ std::vector<OpenEdge> open_edges(const TriangleSoup& soup, const Job* job) {
   std::vector<OpenEdge> open;
   for (size_t i = 0; i < uses.size();) {
     int64_t net = 0;
-    const EdgeUse first = uses[i];
+    const DirectedEdge first = uses[i];
     for (; i < uses.size() && !(first < uses[i]); ++i) net += uses[i].way;
     if (net > 0) open.push_back({first.low, first.high, static_cast<uint32_t>(net)});
     if (net < 0) open.push_back({first.high, first.low, static_cast<uint32_t>(-net)});

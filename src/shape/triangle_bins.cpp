@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shape/triangle_bins.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace msq {
+
+uint32_t bins_for(uint64_t triangles, double power, uint32_t maximum) {
+  return static_cast<uint32_t>(std::clamp(std::pow(static_cast<double>(triangles), power), 1.0,
+                                          static_cast<double>(maximum)));
+}
 
 void TriangleBins::set_counts(const Box3& bounds, uint32_t ny, uint32_t nz) {
   const Vec3 e = bounds.extent();

@@ -10,6 +10,9 @@
 
 namespace msq {
 
+/// The number of triangles to a power, from 1 to the maximum: how many bins pay.
+uint32_t bins_for(uint64_t triangles, double power, uint32_t maximum);
+
 class TriangleBins {
  public:
   TriangleBins() = default;

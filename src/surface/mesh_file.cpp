@@ -57,7 +57,7 @@ class Writer {
   const uint64_t total_;
 };
 
-Vec3 unit(Vec3 v) {
+Vec3 unit_normal(Vec3 v) {
   const double size = length(v);
   return size > 0 ? v * (1 / size) : Vec3{};
 }
@@ -78,7 +78,7 @@ void write_stl(const Model& model, const MeshPlan& plan, MeshSize size,
           Vec3 p[3];
           for (size_t i = 0; i < 3; ++i)
             p[i] = slab.known[slab.triangles[3 * t + i] - slab.first_known];
-          bytes.put(unit(cross(p[1] - p[0], p[2] - p[0])));
+          bytes.put(unit_normal(cross(p[1] - p[0], p[2] - p[0])));
           for (const Vec3& v : p) bytes.put(v);
           bytes.put(uint8_t{0});
           bytes.put(uint8_t{0});

@@ -4,13 +4,11 @@
 // frustum is a trapezium and the caps are discs.
 #include "structure/beams/beam_distance.h"
 
-#include <limits>
+#include "base/infinity.h"
 
 namespace msq {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// p in the half plane.
 struct Place {

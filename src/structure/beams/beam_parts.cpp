@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/beams/beam_parts.h"
 
-#include <limits>
 #include <utility>
 
+#include "base/infinity.h"
 #include "structure/beams/cone_interval.h"
 
 namespace msq {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Relative rounding of squared lengths: rays that miss by less count as hits.
 constexpr double graze = 0x1p-45;
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/beams/beam_rays.h"
 
-#include <limits>
-
+#include "base/infinity.h"
 #include "structure/beams/beams.h"
 
 namespace msq {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Calls visit(part) for each part of beams [begin, end).
 template <class Visit>

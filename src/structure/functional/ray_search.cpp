@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/infinity.h"
 #include "structure/functional/row_kernels.h"
 
 namespace msq {
@@ -17,7 +17,6 @@ constexpr double first_span = 0.125, max_span = 0.5, small_span = 0x1p-7;
 /// of a surface; and the number of steps between doublings.
 constexpr uint32_t short_blind_steps = 16, short_near_steps = 1 << 14;
 constexpr uint32_t near_steps_at_once = 1 << 10;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Rounds after which progress is checked.
 constexpr uint32_t rounds_at_once = 4096;

@@ -13,7 +13,7 @@ namespace msq {
 
 namespace {
 
-struct Workspace {
+struct EdgesNearWorkspace {
   CellSeeds around;
   std::vector<uint32_t> near;
 
@@ -24,7 +24,7 @@ struct Workspace {
 
 void find_edges_near(const FoamSeeds& seeds, CellIndex cell, Vec3 q, double radius,
                      std::vector<NearEdge>& struts) {
-  const Borrowed<Workspace> workspace;
+  const Borrowed<EdgesNearWorkspace> workspace;
   CellSeeds& around = workspace->around;
   std::vector<uint32_t>& near = workspace->near;
   struts.clear();

@@ -25,7 +25,7 @@ struct NearSeed {
 };
 
 /// Memory of the search around a point.
-struct Workspace {
+struct OnsetWorkspace {
   CellSeeds around;
   std::vector<uint32_t> found;
   std::vector<Vec3> positions;
@@ -98,7 +98,7 @@ double edge_within(const std::vector<Vec3>& seeds, Vec3 q, double radius) {
 
 double foam_onset(const FoamSeeds& seeds, CellIndex cell, Vec3 q) {
   // Points come cell by cell if the caller can arrange it.
-  const Borrowed<Workspace> workspace;
+  const Borrowed<OnsetWorkspace> workspace;
   CellSeeds& around = workspace->around;
   std::vector<uint32_t>& found = workspace->found;
   std::vector<Vec3>& positions = workspace->positions;

@@ -34,7 +34,7 @@ struct Order {
 };
 
 /// The seeds around the last point's cell. Points come cell by cell if the caller can arrange it.
-struct Workspace {
+struct PointWorkspace {
   CellSeeds around;
   std::vector<uint32_t> found;
   std::vector<Vec3> near;
@@ -64,7 +64,7 @@ bool is_inside(const std::vector<Vec3>& near, Vec3 q, double radius, Order& work
 }  // namespace
 
 bool foam_point_inside(const FoamSeeds& seeds, CellIndex cell, Vec3 q, double radius) {
-  const Borrowed<Workspace> workspace;
+  const Borrowed<PointWorkspace> workspace;
   CellSeeds& around = workspace->around;
   std::vector<uint32_t>& found = workspace->found;
   std::vector<Vec3>& near = workspace->near;

@@ -13,7 +13,7 @@ namespace msq {
 namespace {
 
 /// Points come cell by cell where the caller can arrange it: the seeds about the last one's cell.
-struct Workspace {
+struct NearSeedsWorkspace {
   CellSeeds around;
   std::vector<uint32_t> found;
 
@@ -45,7 +45,7 @@ void find_graded(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex cell
 void NearSeeds::find(CellIndex cell, Vec3 q, double more, std::vector<Vec3>& near) const {
   near.clear();
   if (graded_) return find_graded(graded_, cell, q, more, near);
-  const Borrowed<Workspace> workspace;
+  const Borrowed<NearSeedsWorkspace> workspace;
   auto& [around, found] = *workspace;
   around.move_to(seeds_, cell);
   const CellSeeds::Block& block = around.find_near(q, 0.5 * more, found);

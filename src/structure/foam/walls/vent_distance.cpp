@@ -10,7 +10,7 @@ namespace msq {
 
 namespace {
 
-struct Workspace {
+struct VentDistanceWorkspace {
   std::vector<Vec3> near;
 
   size_t bytes() const { return near.capacity() * sizeof(Vec3); }
@@ -40,7 +40,7 @@ struct VentDistance {
   }
 
   double outside(double thickness) const {
-    const Borrowed<Workspace> workspace;
+    const Borrowed<VentDistanceWorkspace> workspace;
     std::vector<Vec3>& near = workspace->near;
     const double max_radius = vents.max_radius();
     const double plain = 0.5 * (find_nearest_face(seeds, cell, q).onset - thickness);
@@ -72,7 +72,7 @@ struct VentDistance {
   }
 
   double inside(Interval thickness) const {
-    const Borrowed<Workspace> workspace;
+    const Borrowed<VentDistanceWorkspace> workspace;
     std::vector<Vec3>& near = workspace->near;
     double least = 0.5 * (thickness.low - find_nearest_face(seeds, cell, q).onset);
     if (!(least > 0)) return 0;

@@ -17,7 +17,7 @@ struct HalfSpace {
   double offset;
 };
 
-struct Workspace {
+struct VentRowsWorkspace {
   std::vector<HalfSpace> certain, possible;
 
   size_t bytes() const { return 2 * certain.capacity() * sizeof(HalfSpace); }
@@ -72,7 +72,7 @@ void cut(Span& span, Vec3 middle, Vec3 n, double radius, double y, double z) {
 class Vent {
  public:
   Vent(const std::vector<VentPlane>& planes, const VentPlane& own, double half, double margin,
-       Workspace& work)
+       VentRowsWorkspace& work)
       : own_(own), margin_(margin), work_(work) {
     const Interval radius = own.radius;
     is_certain_ = radius.low >= min_vent_radius &&
@@ -134,7 +134,7 @@ class Vent {
 
   const VentPlane& own_;
   const double margin_;
-  Workspace& work_;
+  VentRowsWorkspace& work_;
   bool is_certain_;
   double reach_;
 };
@@ -153,7 +153,7 @@ void clear_bits(uint64_t* row, uint64_t first, uint64_t last) {
 
 void clear_vents(const std::vector<VentPlane>& planes, double half, double margin,
                  const VentRows& rows, std::vector<DoubtfulSamples>& doubts) {
-  const Borrowed<Workspace> borrowed;
+  const Borrowed<VentRowsWorkspace> borrowed;
   struct Samples {
     int64_t first, end;
   };

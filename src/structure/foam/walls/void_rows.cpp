@@ -21,7 +21,7 @@ constexpr double critical_samples = 24;
 /// Fields that grow faster tilt planes too far for the margin; they are bounded instead.
 constexpr double max_gradient = 0.25;
 
-struct Workspace {
+struct VoidRowsWorkspace {
   std::vector<VoidPlane> planes;
   std::vector<DoubtfulSamples> doubts;
   std::vector<double> y, z;
@@ -34,7 +34,7 @@ struct Workspace {
 
 class BlockVoids {
  public:
-  BlockVoids(const FoamWalls& walls, const RowBlock& block, Workspace& work)
+  BlockVoids(const FoamWalls& walls, const RowBlock& block, VoidRowsWorkspace& work)
       : walls_(walls), grid_(walls.neighbourhood()), unit_(walls.unit()), block_(block), w_(work) {
     find_alive();
   }
@@ -261,7 +261,7 @@ class BlockVoids {
   const Neighbourhood& grid_;
   const double unit_;
   const RowBlock& block_;
-  Workspace& w_;
+  VoidRowsWorkspace& w_;
   uint64_t j0_ = 0, j1_ = 0, k0_ = 0, k1_ = 0;
   Box3 box_;
   double samples_ = 0;
@@ -272,7 +272,7 @@ class BlockVoids {
 
 bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* job) {
   if (walls.seeds().graded()) return false;
-  const Borrowed<Workspace> workspace;
+  const Borrowed<VoidRowsWorkspace> workspace;
   BlockVoids voids(walls, block, *workspace);
   if (voids.is_empty()) return true;
   if (!voids.pays()) return false;

@@ -9,7 +9,7 @@ namespace msq {
 
 namespace {
 
-struct Workspace {
+struct WallPointWorkspace {
   std::vector<Vec3> near;
 
   size_t bytes() const { return near.capacity() * sizeof(Vec3); }
@@ -44,7 +44,7 @@ NearFace nearest_face(const std::vector<Vec3>& seeds, Vec3 q) {
 }
 
 bool is_in_wall(const NearSeeds& seeds, CellIndex cell, Vec3 q, double thickness) {
-  const Borrowed<Workspace> workspace;
+  const Borrowed<WallPointWorkspace> workspace;
   std::vector<Vec3>& near = workspace->near;
   // Thick walls reach a crowd of fine leaves, and mostly a near face holds the point: growing
   // distances find it first. Fewer seeds never make the onset less.
@@ -57,7 +57,7 @@ bool is_in_wall(const NearSeeds& seeds, CellIndex cell, Vec3 q, double thickness
 }
 
 NearFace find_nearest_face(const NearSeeds& seeds, CellIndex cell, Vec3 q) {
-  const Borrowed<Workspace> workspace;
+  const Borrowed<WallPointWorkspace> workspace;
   std::vector<Vec3>& near = workspace->near;
   for (double tried = 0.5 * seeds.spacing(cell, q);; tried *= 2) {
     seeds.find(cell, q, tried, near);

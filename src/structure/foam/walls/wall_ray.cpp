@@ -10,7 +10,7 @@ namespace msq {
 
 namespace {
 
-struct Workspace {
+struct WallRayWorkspace {
   std::vector<Vec3> near;
 
   size_t bytes() const { return near.capacity() * sizeof(Vec3); }
@@ -23,7 +23,7 @@ WallRay::Way WallRay::find(const Ray& ray, double from, double to, double tolera
   constexpr int max_steps = 64;
   // Of unlike seeds; copies of one, seen from unlike cells, are a rounding apart.
   constexpr double min_distance = 1e-9;
-  const Borrowed<Workspace> workspace;
+  const Borrowed<WallRayWorkspace> workspace;
   std::vector<Vec3>& near = workspace->near;
   const Vec3 scale = seeds.seeds().scale();
   const Vec3 along = grid.rotation.apply_inverse(ray.direction) * (1 / unit);

@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "base/grid_walk.h"
+#include "base/infinity.h"
 #include "cell/cell_hash.h"
 
 namespace msq {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// In smallest cell sizes: the maximum error of entries by formula, except those that only
 /// membership decides; and the length below which a part of a ray within a strut may be due to
 /// rounding.
