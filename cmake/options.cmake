@@ -56,3 +56,18 @@ function(msq_lighten header options)
     endif()
   endforeach()
 endfunction()
+
+# Compiles those sources of a target that lie in one folder as one file. By themselves stay files that Highway
+# compiles once for each instruction set, files with CGAL, and, by CMake, files with options of their own.
+function(msq_unite target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  foreach(file IN LISTS ARGN)
+    file(STRINGS ${file} found REGEX "^#include <(hwy/foreach_target|CGAL/)" LIMIT_COUNT 1)
+    if(NOT found)
+      get_filename_component(folder ${file} DIRECTORY)
+      file(RELATIVE_PATH folder ${CMAKE_CURRENT_SOURCE_DIR}/src ${folder})
+      string(REPLACE "/" "_" folder ${folder})
+      set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${folder})
+    endif()
+  endforeach()
+endfunction()
