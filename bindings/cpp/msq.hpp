@@ -214,6 +214,8 @@ using LatticeDef = detail::Definition<msq_lattice_def, msq_lattice_def_init>;
 using FoamDef = detail::Definition<msq_foam_def, msq_foam_def_init>;
 using FunctionalDef = detail::Definition<msq_functional_def, msq_functional_def_init>;
 using BeamsDef = detail::Definition<msq_beams_def, msq_beams_def_init>;
+using DocumentDef = detail::Definition<msq_document_def, msq_document_def_init>;
+using JsonDef = detail::Definition<msq_json_def, msq_json_def_init>;
 using HostStructureDef = detail::Definition<msq_host_structure_def, msq_host_structure_def_init>;
 using HostFunctionDef = detail::Definition<msq_host_function_def, msq_host_function_def_init>;
 using StrutsDef = detail::Definition<msq_struts_def, msq_struts_def_init>;
@@ -550,6 +552,12 @@ class Shape : public detail::Handle<msq_shape, msq_shape_retain, msq_shape_relea
     });
   }
 
+  /// create(&handle) makes it by a function of msq.h.
+  template <class Create>
+  static Shape made_by(Create&& create) {
+    return Shape(std::in_place, create);
+  }
+
   msq_shape_report info() const {
     return detail::report<msq_shape_report>([&](auto* r) { return msq_shape_info(get(), r); });
   }
@@ -579,6 +587,47 @@ class Shape : public detail::Handle<msq_shape, msq_shape_retain, msq_shape_relea
     def.triangle_count = triangles.size() / 3;
     return def;
   }
+};
+
+/// The beam lattices of a 3MF file, and its meshes.
+class BeamFile : public detail::Handle<msq_beam_file, msq_beam_file_retain, msq_beam_file_release> {
+ public:
+  BeamFile() = default;
+  static BeamFile open(const Context& context, const std::string& path,
+                       const FileDef& def = FileDef(), const Job& job = {}) {
+    return BeamFile(std::in_place, [&](auto** made) {
+      return msq_beam_file_open(context.get(), path.c_str(), &def, made, job.get());
+    });
+  }
+  /// def names the format.
+  static BeamFile open(const Context& context, Span<const uint8_t> bytes, const FileDef& def,
+                       const Job& job = {}) {
+    return BeamFile(std::in_place, [&](auto** made) {
+      return msq_beam_file_open_memory(context.get(), bytes.data(), bytes.size(), &def, made,
+                                       job.get());
+    });
+  }
+  msq_beam_file_report info(uint64_t lattice = 0) const {
+    return detail::report<msq_beam_file_report>(
+        [&](auto* r) { return msq_beam_file_info(get(), lattice, r); });
+  }
+  /// Its arrays live as long as the file.
+  BeamsDef beams(uint64_t lattice = 0) const {
+    BeamsDef def;
+    check(msq_beam_file_beams(get(), lattice, &def));
+    return def;
+  }
+  /// mesh: an msq_beam_file_mesh.
+  Shape shape(const Context& context, int32_t mesh = MSQ_BEAM_FILE_SOLID, uint64_t lattice = 0,
+              int32_t winding_rule = MSQ_WINDING_AUTO) const {
+    return Shape::made_by([&](auto** made) {
+      return msq_beam_file_shape(context.get(), get(), lattice, mesh, winding_rule, made);
+    });
+  }
+
+ private:
+  template <class Create>
+  BeamFile(std::in_place_t, Create&& create) : Handle(std::in_place, create) {}
 };
 
 // ---- Fields -------------------------------------------------------------------------------------
@@ -951,6 +1000,12 @@ class Model : public detail::Handle<msq_model, msq_model_retain, msq_model_relea
     });
   }
 
+  /// create(&handle) makes it by a function of msq.h.
+  template <class Create>
+  static Model made_by(Create&& create) {
+    return Model(std::in_place, create);
+  }
+
   Hash hash() const {
     Hash hash;
     check(msq_model_hash(get(), hash.data()));
@@ -965,6 +1020,15 @@ class Model : public detail::Handle<msq_model, msq_model_retain, msq_model_relea
     double length = 0;
     check(msq_model_scale_length(get(), scale, &length));
     return length;
+  }
+
+  /// As a document in JSON.
+  std::string to_json(const JsonDef& def = JsonDef()) const {
+    uint64_t bytes = 0;
+    check(msq_model_to_json(get(), &def, nullptr, 0, &bytes));
+    std::string text(bytes, '\0');
+    check(msq_model_to_json(get(), &def, text.data(), text.size(), &bytes));
+    return text;
   }
 
   bool inside(const Vec3& point, const QueryDef& query = QueryDef()) const {
@@ -1103,6 +1167,50 @@ class Model : public detail::Handle<msq_model, msq_model_retain, msq_model_relea
     def.scale_size = sizeof(msq_scale_def);
     return msq_model_create(context.get(), &def, made);
   }
+};
+
+// ---- Documents ----------------------------------------------------------------------------------
+
+/// A model with settings for slices and pictures, from JSON.
+class Document : public detail::Handle<msq_document, msq_document_retain, msq_document_release> {
+ public:
+  Document() = default;
+  static Document from_json(const Context& context, const std::string& text,
+                            const DocumentDef& def = DocumentDef(), const Job& job = {}) {
+    return Document(std::in_place, [&](auto** made) {
+      return msq_document_from_json(context.get(), text.data(), text.size(), &def, made, job.get());
+    });
+  }
+  static Document from_file(const Context& context, const std::string& path,
+                            const DocumentDef& def = DocumentDef(), const Job& job = {}) {
+    return Document(std::in_place, [&](auto** made) {
+      return msq_document_from_file(context.get(), path.c_str(), &def, made, job.get());
+    });
+  }
+  /// Its title lives as long as the document.
+  msq_document_report info() const {
+    return detail::report<msq_document_report>(
+        [&](auto* r) { return msq_document_info(get(), r); });
+  }
+  Model model() const {
+    return Model::made_by([&](auto** made) { return msq_document_model(get(), made); });
+  }
+  /// Its pointers live as long as the document.
+  SlicerDef slicing() const {
+    SlicerDef def;
+    check(msq_document_slicing(get(), &def));
+    return def;
+  }
+  /// The pointers live as long as the document.
+  std::pair<Camera, RenderDef> view() const {
+    std::pair<Camera, RenderDef> view;
+    check(msq_document_view(get(), &view.first, &view.second));
+    return view;
+  }
+
+ private:
+  template <class Create>
+  Document(std::in_place_t, Create&& create) : Handle(std::in_place, create) {}
 };
 
 // ---- Layers -------------------------------------------------------------------------------------

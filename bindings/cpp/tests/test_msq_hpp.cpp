@@ -59,7 +59,8 @@ void handles_count_references(void**) {
     assert_true(copy.get() == nullptr);
     assert_ptr_equal(moved.get(), shape.get());
     kept = moved;
-    kept = kept;
+    const msq::Shape& same = kept;
+    kept = same;
   }
   assert_true(std::abs(kept.info().volume - 1000) < 1e-9);
 }
@@ -280,8 +281,8 @@ void everything_else_is_reached(void**) {
     vertices.insert(vertices.end(), slab.vertices, slab.vertices + 3 * slab.vertex_count);
     for (uint64_t t = 0; t < slab.triangle_count; ++t) {
       const double* p[3];
-      for (int k = 0; k < 3; ++k) p[k] = &vertices[3 * size_t{slab.triangles[3 * t + k]}];
-      for (int k = 0; k < 3; ++k)
+      for (size_t k = 0; k < 3; ++k) p[k] = &vertices[3 * size_t{slab.triangles[3 * t + k]}];
+      for (size_t k = 0; k < 3; ++k)
         volume += p[0][k] *
                   (p[1][(k + 1) % 3] * p[2][(k + 2) % 3] - p[1][(k + 2) % 3] * p[2][(k + 1) % 3]);
     }

@@ -1643,6 +1643,8 @@ pub struct msq_fill_def {
     pub tolerance: f64,
     /// In model units. Shorter paths are dropped. A shorter line between two points where an odd number of lines meet is dropped too, as this saves a path: the lines that go on at both its ends are so close that they touch if min_length is at most the width of a line. Default 0.
     pub min_length: f64,
+    /// In model units, about the width of a line. If positive, walls between points where an odd number of lines meet are printed as two lines, side by side at this distance, where that joins paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter walls are taken first, none is taken where a line of the two would leave the polygon, and the two may cross. Default 0: no wall is printed twice. Since 0.2.
+    pub pair_distance: f64,
 }
 
 /// The paths of a fill. The arrays belong to the fill and live as long as it does.
@@ -2132,7 +2134,7 @@ extern "C" {
     ///
     /// Read are vertices, beams, radii at the ends, caps, balls and their three modes, minlength (shorter beams are dropped) and the clipping mode with its mesh. In ball mode "all", the vertices at which beams end have balls. Beam sets, properties and representation meshes do not change the solid and are passed over. Numbers become the nearest doubles.
     ///
-    /// Limits: those of def; max_triangles is also the maximum number of beams and balls, and of triangles that clip. Cost: linear in the size of the file, about 2 us per beam on one thread. Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that. Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has components or beams, and transforms that scale some directions by over 1e-4 more than others; MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0.
+    /// Limits: those of def; max_triangles is also the maximum number of beams and balls, and of triangles that clip. Cost: linear in the size of the file, about 1 us per beam on one thread. Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that. Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has components or beams, and transforms that scale some directions by over 1e-4 more than others; MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0.
     pub fn msq_beam_file_open(context: *mut msq_context, path: *const c_char, def: *const msq_file_def, file: *mut *mut msq_beam_file, job: *mut msq_job) -> msq_status;
     /// Reads beam lattices from bytes in memory. def must name the format and must not be NULL. See msq_beam_file_open. Errors: as msq_beam_file_open. Since 0.2.
     pub fn msq_beam_file_open_memory(context: *mut msq_context, data: *const c_void, bytes: u64, def: *const msq_file_def, file: *mut *mut msq_beam_file, job: *mut msq_job) -> msq_status;
@@ -2316,7 +2318,7 @@ extern "C" {
     ///
     /// Foams: the faces of the Voronoi diagram, cut by the plane. Sheets: where the function is 0. Networks, which have no walls: where the function is the level, the boundary of the solid. Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it. Strut lattices, beams and structures of the host have no such lines; use contours for them.
     ///
-    /// Each line is in one path; none is printed twice. Paths are as few as possible: one for two of the points where a path has to end, which are the border and junctions of three, five .. lines. At a junction, lines that are most nearly straight are joined as far as this keeps paths few. Paths are in the order in which they are best printed: each begins near the end of the one before. Of lines that are connected the travel is a few percent above the least one.
+    /// Each line is in one path; none is printed twice unless pair_distance says so. Paths are as few as possible: one for two of the points where a path has to end, which are the border and junctions of three, five .. lines. At a junction, lines that are most nearly straight are joined as far as this keeps paths few. Paths are in the order in which they are best printed: each begins near the end of the one before. Of lines that are connected the travel is a few percent above the least one.
     ///
     /// Ends at the polygon's border are rounded to whole coordinates, all else is decided exactly. Lines on the border itself count as inside on one side of the polygon. The lines do not depend on the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are followed on a grid of 1/32 of the smallest cell size: lines closer together than that may be joined, and smaller closed lines lost.
     ///
@@ -2466,7 +2468,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_finding>(), 112);
     assert_eq!(std::mem::size_of::<msq_printability_report>(), 96);
     assert_eq!(std::mem::size_of::<msq_ring>(), 16);
-    assert_eq!(std::mem::size_of::<msq_fill_def>(), 80);
+    assert_eq!(std::mem::size_of::<msq_fill_def>(), 88);
     assert_eq!(std::mem::size_of::<msq_fill_report>(), 64);
     assert_eq!(std::mem::size_of::<msq_surface_def>(), 80);
     assert_eq!(std::mem::size_of::<msq_surface_slab>(), 64);
