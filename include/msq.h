@@ -2719,12 +2719,12 @@ typedef struct msq_fill_def {
    * number of lines meet is dropped too, as this saves a path: the lines that go on at both its
    * ends are so close that they touch if min_length is at most the width of a line. Default 0. */
   double min_length;
-  /** In model units, about the width of a line. If positive, walls between points where an odd number
-   * of lines meet are printed as two lines, side by side at this distance, where that joins paths:
-   * a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a
-   * foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter
-   * walls are taken first, none is taken where a line of the two would leave the polygon, and the
-   * two may cross. Default 0: no wall is printed twice. Since 0.2. */
+  /** In model units, about the width of a line. If positive, walls between points where an odd
+   * number of lines meet are printed as two lines, side by side at this distance, where that joins
+   * paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the
+   * length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice.
+   * Shorter walls are taken first, none is taken where a line of the two would leave the polygon,
+   * and the two may cross. Default 0: no wall is printed twice. Since 0.2. */
   double pair_distance;
 } msq_fill_def;
 
@@ -2738,11 +2738,12 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  * Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it.
  * Strut lattices, beams and structures of the host have no such lines; use contours for them.
  *
- * Each line is in one path; none is printed twice unless pair_distance says so. Paths are as few as possible: one for two of the
- * points where a path has to end, which are the border and junctions of three, five .. lines. At a
- * junction, lines that are most nearly straight are joined as far as this keeps paths few. Paths
- * are in the order in which they are best printed: each begins near the end of the one before. Of
- * lines that are connected the travel is a few percent above the least one.
+ * Each line is in one path; none is printed twice unless pair_distance says so. Paths are as few as
+ * possible: one for two of the points where a path has to end, which are the border and junctions
+ * of three, five .. lines. At a junction, lines that are most nearly straight are joined as far as
+ * this keeps paths few. Paths are in the order in which they are best printed: each begins near the
+ * end of the one before. Of lines that are connected the travel is a few percent above the least
+ * one.
  *
  * Ends at the polygon's border are rounded to whole coordinates, all else is decided exactly. Lines
  * on the border itself count as inside on one side of the polygon. The lines do not depend on the

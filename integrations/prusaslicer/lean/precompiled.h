@@ -4,6 +4,7 @@
 
 #include "libslic3r/pchheader.hpp"
 
+#include <boost/log/trivial.hpp>
 #include "libslic3r/ClipperUtils.hpp"
 #include "libslic3r/EdgeGrid.hpp"
 #include "libslic3r/GCode.hpp"
@@ -15,4 +16,3 @@
 #include "libslic3r/PrintConfig.hpp"
 #include "libslic3r/ShortestPath.hpp"
 #include "libslic3r/Utils.hpp"
-#include <boost/log/trivial.hpp>
