@@ -246,6 +246,12 @@ class Measures(Case):
             struts = [line for line in lines if "strut" in line]
             self.assertTrue(([line["nodes"] for line in struts] == graph.struts).all())
             self.assertTrue(([line["radii"] for line in struts] == graph.radii).all())
+            path = self.folder / "struts.3mf"
+            self.msq("struts", BOX, *options, "-o", path)
+            lattice = msq.BeamFile.open(path, context=CONTEXT).lattices[0]
+            self.assertEqual(len(lattice.beams), len(graph))
+            ends = lattice.nodes[lattice.beams]
+            self.assertTrue((ends == graph.nodes[graph.struts]).all())
 
     def test_meshes(self):
         for name in ("a.stl", "a.ply"):

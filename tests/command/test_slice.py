@@ -69,6 +69,16 @@ class Layers(Case):
         group = re.findall(r"<g .*?</g>", text, flags=re.S)[8]
         self.assertEqual(len(re.findall("<polygon", group)), rings)
 
+    def test_3mf_has_the_contours(self):
+        path = self.folder / "stack.3mf"
+        self.msq("slice", *PLAN, "--tolerance", "0.02", "-o", path)
+        with zipfile.ZipFile(path) as archive:
+            text = archive.read("3D/3dmodel.model").decode()
+        slices = re.findall(r"<s:slice ztop.*?(?:</s:slice>|/>)", text, flags=re.S)
+        self.assertEqual(len(slices), 16)
+        contours = MODEL.contours(2.125, 0.02, pitch=0.125)
+        self.assertEqual(len(re.findall("<s:polygon", slices[8])), len(contours))
+
     def test_an_archive_for_a_printer(self):
         path = self.folder / "part.sl1"
         self.msq("slice", *FOAM, "--layer-height", "0.5", "--panel", "160,120", "--panel-size",

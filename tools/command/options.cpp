@@ -85,7 +85,8 @@ constexpr Option INFO[] = {
 
 constexpr Option SLICE[] = {
     {"output", 'o', "PATH", Value::FILE, "",
-     "a folder, for one file a layer, or a file that ends in .sl1, .sl1s or .svg; required"},
+     "a folder, for one file a layer, or a file that ends in .sl1, .sl1s, .svg or .3mf; "
+     "required"},
     {"format", 0, "NAME", Value::WORDS, "png svg", "of the files in a folder (default png)"},
     {"pitch", 'p', "MM", Value::TEXT, "",
      "size of a pixel, or of the mesh that contours start from; P or X,Y; required, except for "
@@ -99,7 +100,8 @@ constexpr Option SLICE[] = {
      "white; .sl1: 4)"},
     {"mirror", 0, "AXES", Value::WORDS, "none x y xy",
      "mirror pixels (default none, with y upwards; .sl1: x)"},
-    {"tolerance", 0, "MM", Value::TEXT, "", "of contours in SVG (default: a tenth of the pitch)"},
+    {"tolerance", 0, "MM", Value::TEXT, "",
+     "of contours in SVG and 3MF (default: a tenth of the pitch)"},
 };
 
 constexpr Option PRINTER[] = {
@@ -167,7 +169,7 @@ constexpr Option STATS[] = {
 
 constexpr Option STRUTS[] = {
     {"output", 'o', "FILE", Value::FILE, "",
-     "a file that ends in .csv or .jsonl (default: CSV to standard output)"},
+     "a file that ends in .csv, .jsonl or .3mf (default: CSV to standard output)"},
     {"whole", 0, "", Value::NONE, "", "do not cut the struts to the part"},
 };
 
@@ -189,12 +191,12 @@ const Operand MODEL = {"MODEL", true, MODEL_HELP};
 const std::vector<Command>& table() {
   static const std::vector<Command> commands = {
       {"slice",
-       "write layers as PNG, SVG or SL1",
+       "write layers as PNG, SVG, SL1 or 3MF",
        "Computes layers from the bottom to the top and writes each while the next ones are "
        "computed. "
-       "A folder receives layer00000.png, or .svg, and so on. An .svg file holds all layers. An "
-       ".sl1 "
-       "archive is for resin printers. What a model file says of slices is used; options take its "
+       "A folder receives layer00000.png, or .svg, and so on. An .svg file holds all layers, a "
+       ".3mf file all as slices. An .sl1 archive is for resin printers. What a model file says of "
+       "slices is used; options take its "
        "place.",
        {MODEL},
        {{"Layers", SLICE},

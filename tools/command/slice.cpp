@@ -16,7 +16,11 @@ namespace {
 
 using Writer = Handle<msq_io_writer, msq_io_writer_release>;
 
-enum class Format { PNG, SVG_STACK, SVG_FILES, SL1 };
+enum class Format { PNG, SVG_STACK, SVG_FILES, SL1, THREEMF };
+
+bool takes_contours(Format format) {
+  return format != Format::PNG && format != Format::SL1;
+}
 
 constexpr double TOLERANCE_OF_PITCH = 0.1;
 
@@ -31,13 +35,15 @@ Format format_of(const Arguments& arguments) {
   if (arguments.has("format")) arguments.refuse("format", "is for a folder");
   if (end == ".svg") return Format::SVG_STACK;
   if (end == ".sl1" || end == ".sl1s") return Format::SL1;
-  arguments.refuse("output", "'" + path + "' is no folder, and ends in none of .sl1, .sl1s, .svg");
+  if (end == ".3mf") return Format::THREEMF;
+  arguments.refuse("output",
+                   "'" + path + "' is no folder, and ends in none of .sl1, .sl1s, .svg, .3mf");
 }
 
 // Options that only some formats take.
 void refuse_others(const Arguments& arguments, Format format) {
   const bool is_sl1 = format == Format::SL1;
-  const bool is_svg = format == Format::SVG_STACK || format == Format::SVG_FILES;
+  const bool are_contours = takes_contours(format);
   for (const char* option : {"panel", "panel-size", "landscape", "exposure", "first-exposure",
                              "fade", "material", "no-thumbnails"}) {
     if (arguments.has(option) && !is_sl1) arguments.refuse(option, "is for .sl1 files");
@@ -45,9 +51,10 @@ void refuse_others(const Arguments& arguments, Format format) {
   for (const char* option : {"pitch", "box"}) {
     if (arguments.has(option) && is_sl1) arguments.refuse(option, "follows from the panel");
   }
-  if (arguments.has("tolerance") && !is_svg) arguments.refuse("tolerance", "is for SVG files");
-  if (arguments.has("grey") && is_svg) arguments.refuse("grey", "is for pixels");
-  if (arguments.has("mirror") && is_svg) arguments.refuse("mirror", "is for pixels");
+  if (arguments.has("tolerance") && !are_contours)
+    arguments.refuse("tolerance", "is for SVG and 3MF files");
+  if (arguments.has("grey") && are_contours) arguments.refuse("grey", "is for pixels");
+  if (arguments.has("mirror") && are_contours) arguments.refuse("mirror", "is for pixels");
 }
 
 bool mirrors(const Arguments& arguments, char axis) {
@@ -193,6 +200,15 @@ void create_svg(const msq_slicer* slicer, const std::string& path,
   check_io(msq_io_svg_create(slicer, path.c_str(), &writer_def, &def, writer.out()));
 }
 
+void create_threemf(const msq_slicer* slicer, const std::string& path,
+                    const msq_io_writer_def& writer_def, const msq_contours_def& contours,
+                    double layer_height, Writer& writer) {
+  auto def = defaults(msq_io_slices_def_init);
+  def.units = contours.units;
+  def.layer_height = layer_height;
+  check_io(msq_io_slices_create(slicer, path.c_str(), &writer_def, &def, writer.out()));
+}
+
 msq_slicer_report make_slicer(const Scene& scene, const msq_slicer_def& plan, Slicer& slicer) {
   check(msq_slicer_create(scene.model.get(), &plan, slicer.out()));
   msq_slicer_report report = {};
@@ -222,7 +238,6 @@ void run_slice(const Arguments& arguments) {
   arguments.require("output");
   const Format format = format_of(arguments);
   refuse_others(arguments, format);
-  const bool is_svg = format == Format::SVG_STACK || format == Format::SVG_FILES;
   const msq_io_panel_def panel = read_panel(arguments);
   const Scene scene = open_scene(arguments);
 
@@ -246,7 +261,7 @@ void run_slice(const Arguments& arguments) {
   Slicer slicer;
   msq_slicer_report report = make_slicer(scene, plan, slicer);
   auto output = defaults(msq_output_def_init);
-  if (is_svg) {
+  if (takes_contours(format)) {
     if (!(contours.pitch > 0)) contours.pitch = pitch_of(report);
     if (!(contours.tolerance > 0)) contours.tolerance = TOLERANCE_OF_PITCH * contours.pitch;
     contours.tolerance = arguments.number("tolerance", contours.tolerance);
@@ -266,7 +281,9 @@ void run_slice(const Arguments& arguments) {
   Writer writer;
   if (format == Format::SL1) {
     create_sl1(arguments, scene, slicer.get(), path, writer_def, panel, plan.layer_height, writer);
-  } else if (is_svg) {
+  } else if (format == Format::THREEMF) {
+    create_threemf(slicer.get(), path, writer_def, contours, plan.layer_height, writer);
+  } else if (takes_contours(format)) {
     create_svg(slicer.get(), path, writer_def, format, writer);
   } else {
     check_io(msq_io_png_create(slicer.get(), path.c_str(), &writer_def, nullptr, writer.out()));

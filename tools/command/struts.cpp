@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// msq struts: writes struts as a graph.
+// msq struts: writes struts as a graph, or as a beam lattice.
 #include <algorithm>
 
 #include "output_file.h"
@@ -104,8 +104,8 @@ void write_json(OutputFile& out, const msq_strut_graph_report& graph, Work& work
 void run_struts(const Arguments& arguments) {
   const std::string path = arguments.has("output") ? arguments.text("output") : "-";
   const std::string format = path == "-" ? ".csv" : ending(path);
-  if (format != ".csv" && format != ".jsonl") {
-    arguments.refuse("output", "'" + path + "' ends neither in .csv nor in .jsonl");
+  if (format != ".csv" && format != ".jsonl" && format != ".3mf") {
+    arguments.refuse("output", "'" + path + "' ends in none of .csv, .jsonl, .3mf");
   }
   const Scene scene = open_scene(arguments);
   if (scene.document) {
@@ -114,6 +114,10 @@ void run_struts(const Arguments& arguments) {
   if (!scene.structure) throw UsageError("msq struts needs --foam or --lattice");
   StrutGraph graph;
   const msq_strut_graph_report report = collect(arguments, scene, graph);
+  if (format == ".3mf") {
+    check_io(msq_io_beams_save(graph.get(), nullptr, path.c_str(), 1));
+    return;
+  }
   OutputFile out(path);
   {
     Work work("writing", "struts");
