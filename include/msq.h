@@ -238,7 +238,7 @@ typedef struct msq_context_def {
   /** Must be 0. */
   uint32_t reserved;
   /** Receives warnings about objects of this context. NULL (default): none. Must be valid as long
-   * as the context, which objects made in it keep alive. */
+   * as the context, which models keep alive. */
   msq_warning_fn warning;
   /** Passed to warning. */
   void* warning_user;
@@ -250,16 +250,16 @@ typedef struct msq_context_def {
   msq_parallel_for_fn parallel_for;
   /** First argument of parallel_for. */
   void* parallel_for_user;
-  /** NULL, or called with parallel_for_user when the context is freed: after the last object that
-   * was made in it, on the thread that drops the last reference. It is not called if
-   * msq_context_create fails. */
+  /** NULL, or called with parallel_for_user when the context is freed: when its last handle and the
+   * last model or other object that keeps it are gone, on the thread that drops the last reference.
+   * It is not called if msq_context_create fails. */
   msq_release_fn parallel_for_release;
 
   /* Life of what warning uses. */
 
-  /** NULL, or called with warning_user when the context is freed: after the last object that was
-   * made in it, on the thread that drops the last reference. It is not called if msq_context_create
-   * fails. */
+  /** NULL, or called with warning_user when the context is freed: when its last handle and the last
+   * model or other object that keeps it are gone, on the thread that drops the last reference. It
+   * is not called if msq_context_create fails. */
   msq_release_fn warning_release;
 } msq_context_def;
 

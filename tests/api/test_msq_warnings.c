@@ -213,6 +213,7 @@ static void hooks_live_as_long_as_the_context(void** state) {
   msq_context_def def;
   msq_context* context;
   msq_structure* lattice;
+  msq_model* model;
   (void)state;
   memset(&list, 0, sizeof list);
   list.thread = pthread_self();
@@ -228,9 +229,10 @@ static void hooks_live_as_long_as_the_context(void** state) {
   def.cache_policy = MSQ_CACHE_FIFO;
   assert_ok(msq_context_create(&def, &context));
   lattice = make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 1, 0.1);
+  model = make_model(context, make_box(context), lattice, NULL);
   msq_context_release(context);
   assert_int_equal(released, 0);
-  msq_structure_release(lattice);
+  msq_model_release(model);
   assert_int_equal(released, 1);
 }
 

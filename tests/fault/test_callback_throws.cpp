@@ -132,6 +132,7 @@ void objects(void**) {
   // What release throws is dropped.
   msq_host_field_def of;
   assert_ok(msq_host_field_def_init(&of, sizeof of));
+  of.low = 0;
   of.high = 1;
   of.evaluate = [](void*, const double*, uint64_t, double*) -> int32_t { return 0; };
   of.release = [](void*) { throw std::runtime_error("dropped"); };

@@ -22,6 +22,7 @@ if [[ $full != full ]]; then
   msq=$work/msq
   mkdir -p "$msq/src/api"
   cp -R "$root/CMakeLists.txt" "$root/LICENSE" "$root/cmake" "$root/include" "$msq"
+  mkdir "$msq/bindings" && cp -R "$root/bindings/cpp" "$msq/bindings"
   cp "$root"/src/api/msq.{map,exports} "$here/guest/stand_in/version.cpp" "$msq/src/api"
 fi
 
@@ -39,7 +40,7 @@ changed=$(LC_ALL=C comm -23 "$work/before" "$work/after")
 [[ -z $changed ]] || die "the guest changed cache variables of the host: $changed"
 # Its own, and those of the modules that find its libraries.
 added=$(LC_ALL=C comm -13 "$work/before" "$work/after" |
-  grep -vE '^(MSQ_|msq_|FETCHCONTENT_|PKG_CONFIG_|pkgcfg_lib_MSQ_|[A-Za-z0-9]+_DIR:)' || true)
+  grep -vE '^(MSQ_|msq_|FETCHCONTENT_|PKG_CONFIG_|pkgcfg_lib_MSQ_|ZLIB_|[A-Za-z0-9]+_DIR:)' || true)
 [[ -z $added ]] || die "the guest added cache variables: $added"
 [[ ! -e $work/host/compile_commands.json ]] || die "the guest made compile_commands.json"
 tests=$(cd "$work/host" && "$CTEST" -N)

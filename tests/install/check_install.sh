@@ -22,7 +22,7 @@ pc=$(dirname "$(find "$prefix" -name msq.pc)")
 headers=$(find "$prefix/include" -type f -printf '%f\n' | LC_ALL=C sort | tr '\n' ' ')
 has_io=OFF
 if [[ -e $pc/msq_io.pc ]]; then has_io=ON; fi
-if [[ $has_io == ON ]]; then wanted="msq.h msq_io.h "; else wanted="msq.h "; fi
+if [[ $has_io == ON ]]; then wanted="msq.h msq.hpp msq_io.h "; else wanted="msq.h msq.hpp "; fi
 [[ $headers == "$wanted" ]] || die "installed headers: $headers"
 if grep -rlF -e "$work/first" -e "$build" "$prefix" --include='*.cmake' --include='*.pc'; then
   die "these files name the folder they were built or first installed in"

@@ -470,7 +470,7 @@ pub struct msq_context_def {
     pub cache_policy: i32,
     /// Must be 0.
     pub reserved: u32,
-    /// Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context, which objects made in it keep alive.
+    /// Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context, which models keep alive.
     pub warning: msq_warning_fn,
     /// Passed to warning.
     pub warning_user: *mut c_void,
@@ -478,9 +478,9 @@ pub struct msq_context_def {
     pub parallel_for: msq_parallel_for_fn,
     /// First argument of parallel_for.
     pub parallel_for_user: *mut c_void,
-    /// NULL, or called with parallel_for_user when the context is freed: after the last object that was made in it, on the thread that drops the last reference. It is not called if msq_context_create fails.
+    /// NULL, or called with parallel_for_user when the context is freed: when its last handle and the last model or other object that keeps it are gone, on the thread that drops the last reference. It is not called if msq_context_create fails.
     pub parallel_for_release: msq_release_fn,
-    /// NULL, or called with warning_user when the context is freed: after the last object that was made in it, on the thread that drops the last reference. It is not called if msq_context_create fails.
+    /// NULL, or called with warning_user when the context is freed: when its last handle and the last model or other object that keeps it are gone, on the thread that drops the last reference. It is not called if msq_context_create fails.
     pub warning_release: msq_release_fn,
 }
 

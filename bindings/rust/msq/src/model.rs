@@ -61,7 +61,7 @@ impl Model {
         Model::with_skin(context, shape, 0.0, structures)
     }
 
-    /// As new, with a solid skin of the given thickness on the shape.
+    /// As new; the first structure leaves a solid skin of the given thickness under the shape.
     pub fn with_skin(
         context: &Context,
         shape: &Shape,
@@ -73,15 +73,15 @@ impl Model {
         let mut scales = vec![sys::msq_scale_def {
             shape: shape.as_ptr(),
             structure: ptr::null(),
-            skin: skin.raw(),
+            skin: none.raw(),
             material: ptr::null(),
             skin_material: ptr::null(),
         }];
-        for structure in structures {
+        for (index, structure) in structures.iter().enumerate() {
             scales.push(sys::msq_scale_def {
                 shape: ptr::null(),
                 structure: structure.as_ptr(),
-                skin: none.raw(),
+                skin: if index == 0 { skin.raw() } else { none.raw() },
                 material: ptr::null(),
                 skin_material: ptr::null(),
             });
