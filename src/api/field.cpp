@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "api/definitions.h"
+#include "api/defined_handle.h"
 #include "api/expression.h"
 #include "api/guard.h"
 #include "api/image.h"
@@ -64,13 +64,6 @@ Curve read_curve(const double* curve, uint64_t count) {
   return Curve(std::move(knots));
 }
 
-/// A handle to a new field, which keeps its definition.
-template <class Def>
-msq_field* defined_handle(const Ref<Field>& field, const Def& def) {
-  keep(*field, def);
-  return new_handle<msq_field>(field);
-}
-
 }  // namespace
 
 msq_status msq_field_gradient(msq_context* context, const double from[3], double from_value,
@@ -89,8 +82,9 @@ msq_status msq_field_gradient(msq_context* context, const double from[3], double
            "from (%g, %g, %g) and to (%g, %g, %g) are %g apart; they must differ, by %g at least",
            a.x, a.y, a.z, b.x, b.y, b.z, std::sqrt(length_squared), min_length);
     require_difference(from_value, to_value, "values");
-    *field = defined_handle(make_ref<GradientField>(a, from_value, b, to_value),
-                            GradientDef{{a.x, a.y, a.z}, from_value, {b.x, b.y, b.z}, to_value});
+    *field = defined_handle<msq_field>(
+        make_ref<GradientField>(a, from_value, b, to_value),
+        GradientDef{{a.x, a.y, a.z}, from_value, {b.x, b.y, b.z}, to_value});
   });
 }
 
@@ -123,7 +117,7 @@ msq_status msq_field_radial(msq_context* context, const msq_radial_field_def* de
            "from_radius is %g and to_radius is %g; they must ascend, from 0 or more",
            ramp.from_radius, ramp.to_radius);
     require_difference(ramp.from_value, ramp.to_value, "values");
-    *field = defined_handle(make_ref<RadialField>(centre, axis, ramp), known);
+    *field = defined_handle<msq_field>(make_ref<RadialField>(centre, axis, ramp), known);
   });
 }
 
@@ -137,8 +131,8 @@ msq_status msq_field_grid(msq_context* context, const msq_grid_field_def* def, m
     require(field, "field");
     const msq_grid_field_def known = read_def(def, grid_defaults(), "def");
     require_reserved(known.reserved, "reserved");
-    *field = defined_handle(make_ref<GridField>(read_image(known.image, 1, owner.budget)),
-                            GridDef{known, {}});
+    *field = defined_handle<msq_field>(
+        make_ref<GridField>(read_image(known.image, 1, owner.budget)), GridDef{known, {}});
   });
 }
 
@@ -169,7 +163,8 @@ msq_status msq_field_shape_distance(msq_context* context, const msq_shape_distan
           *shape, known.step, owner.executor_for(shape->is_concurrent()), owner.budget, work));
     else
       distance = make_ref<ShapeDistanceField>(shape);
-    *field = defined_handle(make_ref<MapField>(std::move(distance), std::move(curve)), known);
+    *field =
+        defined_handle<msq_field>(make_ref<MapField>(std::move(distance), std::move(curve)), known);
     scope.done();
   });
 }
@@ -191,7 +186,7 @@ msq_status msq_field_expression(msq_context* context, const msq_expression_field
     if (!(range.low <= range.high))
       fail(Status::argument, "low is %g and high is %g; low must be no more", range.low,
            range.high);
-    *field = defined_handle(make_ref<ExpressionField>(std::move(tape), range), known);
+    *field = defined_handle<msq_field>(make_ref<ExpressionField>(std::move(tape), range), known);
   });
 }
 
@@ -205,7 +200,8 @@ msq_status msq_field_map(msq_context* context, const msq_field* argument, const 
     if (known.depth() >= max_maps)
       fail(Status::limit, "%u maps would be within each other; the limit is %u", known.depth() + 1,
            max_maps);
-    *field = defined_handle(make_ref<MapField>(Ref<const Field>(&known), std::move(read)),
-                            MapDef{argument, curve, curve_count});
+    *field =
+        defined_handle<msq_field>(make_ref<MapField>(Ref<const Field>(&known), std::move(read)),
+                                  MapDef{argument, curve, curve_count});
   });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "api/definitions.h"
+#include "api/defined_handle.h"
 #include "api/file_def.h"
 #include "api/guard.h"
 #include "api/image.h"
@@ -29,13 +29,6 @@ msq_voxels_def voxels_defaults() {
   return def;
 }
 
-/// A handle to a new shape, which keeps its definition.
-template <class Def>
-msq_shape* defined_handle(const Ref<Shape>& shape, const Def& def) {
-  keep(*shape, def);
-  return new_handle<msq_shape>(shape);
-}
-
 /// The definition of a mesh that keeps its arrays itself.
 msq_mesh_def mesh_def(WindingRule rule) {
   msq_mesh_def def = mesh_defaults();
@@ -46,9 +39,8 @@ msq_mesh_def mesh_def(WindingRule rule) {
 /// A handle to a new mesh.
 template <class Def>
 msq_shape* mesh_handle(const Context& owner, Ref<Shape> mesh, WindingRule rule, const Def& def) {
-  keep(*mesh, def);
   if (rule == WindingRule::automatic) warn_of_open_mesh(owner, *mesh);
-  return new_handle<msq_shape>(std::move(mesh));
+  return defined_handle<msq_shape>(mesh, def);
 }
 
 /// The mesh of what read(options) returns.
@@ -140,8 +132,9 @@ msq_status msq_shape_from_box(msq_context* context, const double min[3], const d
     object(context, "context");
     const Box3 box = read_box(min, max);
     require(shape, "shape");
-    *shape = defined_handle(make_ref<BoxShape>(box), BoxDef{{box.min.x, box.min.y, box.min.z},
-                                                            {box.max.x, box.max.y, box.max.z}});
+    *shape = defined_handle<msq_shape>(
+        make_ref<BoxShape>(box),
+        BoxDef{{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}});
   });
 }
 
@@ -153,8 +146,8 @@ msq_status msq_shape_from_sphere(msq_context* context, const double center[3], d
     require_positive(radius, "radius");
     require(shape, "shape");
     check_size(radius, centre);
-    *shape = defined_handle(make_ref<SphereShape>(centre, radius),
-                            SphereDef{{centre.x, centre.y, centre.z}, radius});
+    *shape = defined_handle<msq_shape>(make_ref<SphereShape>(centre, radius),
+                                       SphereDef{{centre.x, centre.y, centre.z}, radius});
   });
 }
 
@@ -169,8 +162,8 @@ msq_status msq_shape_from_cylinder(msq_context* context, const double from[3], c
     check_size(max_magnitude(b - a), b);
     if (!(dot(b - a, b - a) > 0))
       fail(Status::argument, "from and to are both (%g, %g, %g); they must differ", a.x, a.y, a.z);
-    *shape = defined_handle(make_ref<CylinderShape>(a, b, radius),
-                            CylinderDef{{a.x, a.y, a.z}, {b.x, b.y, b.z}, radius});
+    *shape = defined_handle<msq_shape>(make_ref<CylinderShape>(a, b, radius),
+                                       CylinderDef{{a.x, a.y, a.z}, {b.x, b.y, b.z}, radius});
   });
 }
 
@@ -178,7 +171,7 @@ msq_status msq_shape_all_space(msq_context* context, msq_shape** shape) {
   return guard([&] {
     object(context, "context");
     require(shape, "shape");
-    *shape = defined_handle(make_ref<AllSpace>(), AllSpaceDef{});
+    *shape = defined_handle<msq_shape>(make_ref<AllSpace>(), AllSpaceDef{});
   });
 }
 
@@ -201,8 +194,8 @@ msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_def* def
     const Vec3 origin = require_vector(known.image.grid.origin, "grid.origin");
     Image image = read_image(known.image, 2, owner.budget);
     check_size(reach, origin);
-    *shape = defined_handle(make_ref<Voxels>(std::move(image), known.threshold, solid),
-                            VoxelsDef{known, {}});
+    *shape = defined_handle<msq_shape>(make_ref<Voxels>(std::move(image), known.threshold, solid),
+                                       VoxelsDef{known, {}});
   });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes made of other shapes.
-#include "api/definitions.h"
+#include "api/defined_handle.h"
 #include "api/guard.h"
 #include "api/shape_size.h"
 #include "shape/boolean.h"
@@ -22,8 +22,7 @@ msq_shape* made_of_shapes(const Ref<Shape>& shape, const Def& def) {
     fail(Status::limit, "%u shapes made of shapes would be within each other; the limit is %u",
          shape->nesting(), max_nesting);
   check_size(max_magnitude(shape->bounds().extent()), shape->bounds().min);
-  keep(*shape, def);
-  return new_handle<msq_shape>(shape);
+  return defined_handle<msq_shape>(shape, def);
 }
 
 /// Shapes of shapes need a box: all space is refused.
