@@ -156,10 +156,8 @@ class Renderer {
       search_along(view_.origin(at_x, at_y), view_.direction(at_x, at_y), size, camera.clip_near,
                    camera.clip_far, batch.searches.emplace_back());
       const uint64_t pixel = uint64_t{picture_y} * view_.width() + picture_x;
-      const uint64_t key =
-          (pixel * max_render_samples + down.sample) * max_render_samples + right.sample;
       batch.samples.push_back({x, y, at.y * side + at.x, size});
-      batch.seen.push_back({key, 0, 0});
+      batch.seen.push_back({pixel, down.sample * n + right.sample, 0, 0});
     }
   }
 
@@ -202,8 +200,9 @@ class Renderer {
   }
 
   void write_colour(const Pass& pass, uint32_t x0, uint32_t y0, Batch& batch) const {
-    shader_.shade(batch.seen, batch.hits, batch.colours, job_);
-    const uint32_t n = pass.samples, pixels = square_side(n), side = pixels * n;
+    const uint32_t n = pass.samples;
+    shader_.shade(batch.seen, n * n, batch.hits, batch.colours, job_);
+    const uint32_t pixels = square_side(n), side = pixels * n;
     if (n == 1) {
       for (size_t i = 0; i < batch.colours.size(); ++i) {
         const Sample& sample = batch.samples[i];

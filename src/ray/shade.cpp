@@ -18,28 +18,34 @@ double wrapped(double x) {
   return x - std::floor(x);
 }
 
-/// Directions around a normal, with a density proportional to their cosine with it. They are point
-/// `index` of `count` of a lattice of rank 1 (its second number by the golden ratio), shifted as a
-/// whole by the key's random numbers (Cranley and Patterson 1976) and projected from the disc
-/// upwards (Malley's method).
-struct Directions {
-  Directions(Vec3 normal, uint64_t key, uint32_t count)
-      : normal(normal),
-        first(random_fraction(splitmix_output(key, 1))),
-        second(random_fraction(splitmix_output(key, 2))),
-        part(1.0 / count) {
-    complete_basis(normal, a, b);
-  }
-  Vec3 operator[](uint32_t index) const {
+/// Directions of a pixel around a normal, with a density proportional to their cosine with it. They
+/// are the points of one lattice of rank 1 (its second number by the golden ratio) for all samples
+/// of the pixel, shifted as a whole by the pixel's random numbers (Cranley and Patterson 1976) and
+/// projected from the disc upwards (Malley's method). Each sample takes every samples-th point, so
+/// that its own directions are spread as evenly, and those of the pixel are never the same twice.
+class Directions {
+ public:
+  Directions(const Seen& seen, uint32_t samples, uint32_t count)
+      : first_(random_fraction(splitmix_output(splitmix_finalise(seen.pixel), 1))),
+        second_(random_fraction(splitmix_output(splitmix_finalise(seen.pixel), 2))),
+        sample_(seen.sample),
+        samples_(samples),
+        part_(1.0 / (double{1} * samples * count)) {}
+
+  /// normal: of unit length; a and b: a basis with it.
+  Vec3 direction(uint32_t index, Vec3 normal, Vec3 a, Vec3 b) const {
     constexpr double golden = 0.6180339887498949;
-    const double u = wrapped(first + index * part), v = wrapped(second + index * golden);
+    const double point = double{1} * index * samples_ + sample_;
+    const double u = wrapped(first_ + point * part_), v = wrapped(second_ + point * golden);
     const double angle = 2 * std::numbers::pi * v, across = std::sqrt(u);
     return a * (across * std::cos(angle)) + b * (across * std::sin(angle)) +
            normal * std::sqrt(1 - u);
   }
 
-  Vec3 normal, a, b;
-  double first, second, part;
+ private:
+  double first_, second_;
+  uint32_t sample_, samples_;
+  double part_;
 };
 
 }  // namespace
@@ -120,8 +126,9 @@ void Shader::find_lit(const std::vector<Seen>& seen, const std::vector<RayHit>& 
   for (size_t n = 0; n < asked.size(); ++n) lit[asked[n]] = found[n].scale < 0;
 }
 
-void Shader::find_open(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
-                       std::vector<float>& open, const Job* job) const {
+void Shader::find_open(const std::vector<Seen>& seen, uint32_t samples,
+                       const std::vector<RayHit>& hits, std::vector<float>& open,
+                       const Job* job) const {
   const uint32_t count = shading_.occlusion_rays;
   const float part = 1.0f / static_cast<float>(count);
   std::vector<size_t> asked;
@@ -136,22 +143,26 @@ void Shader::find_open(const std::vector<Seen>& seen, const std::vector<RayHit>&
   };
   for (size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].scale < 0) continue;
-    const Directions directions(hits[i].normal, splitmix_finalise(seen[i].key), count);
+    const Vec3 normal = hits[i].normal;
+    Vec3 a, b;
+    complete_basis(normal, a, b);
+    const Directions directions(seen[i], samples, count);
     for (uint32_t k = 0; k < count; ++k) {
       asked.push_back(i);
-      searches.push_back(search_from(seen[i], hits[i], directions[k], reach_));
+      searches.push_back(
+          search_from(seen[i], hits[i], directions.direction(k, normal, a, b), reach_));
     }
     if (searches.size() >= rays_at_once) cast();
   }
   cast();
 }
 
-void Shader::shade(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
+void Shader::shade(const std::vector<Seen>& seen, uint32_t samples, const std::vector<RayHit>& hits,
                    std::vector<Colour>& colours, const Job* job) const {
   std::vector<uint8_t> lit(hits.size(), 1);
   std::vector<float> open(hits.size(), 1);
   if (shading_.has_shadows) find_lit(seen, hits, lit, job);
-  if (shading_.occlusion_rays > 0) find_open(seen, hits, open, job);
+  if (shading_.occlusion_rays > 0) find_open(seen, samples, hits, open, job);
   colours.resize(hits.size());
   for (size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].scale < 0) {

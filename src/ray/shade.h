@@ -25,7 +25,8 @@ struct Shading {
 
 /// One ray of a camera and what it met.
 struct Seen {
-  uint64_t key;  ///< unique among the rays of the picture
+  uint64_t pixel;   ///< unique among the pixels of the picture
+  uint32_t sample;  ///< among those of the pixel
   double depth;
   uint32_t material;
 };
@@ -34,9 +35,9 @@ class Shader {
  public:
   Shader(const Model& model, const Scales& resolved, const View& view, const Shading& shading);
 
-  /// Sets colours[i] to the colour of hits[i]. Casts rays towards the light and all around if the
-  /// shading needs them, on the calling thread.
-  void shade(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
+  /// Sets colours[i] to the colour of hits[i]; pixels have `samples` rays. Casts rays towards the
+  /// light and all around if the shading needs them, on the calling thread.
+  void shade(const std::vector<Seen>& seen, uint32_t samples, const std::vector<RayHit>& hits,
              std::vector<Colour>& colours, const Job* job) const;
 
  private:
@@ -48,7 +49,7 @@ class Shader {
   void find_lit(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
                 std::vector<uint8_t>& lit, const Job* job) const;
   /// Sets open[i] to the fraction of the directions around hits[i] that nothing blocks.
-  void find_open(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
+  void find_open(const std::vector<Seen>& seen, uint32_t samples, const std::vector<RayHit>& hits,
                  std::vector<float>& open, const Job* job) const;
 
   const Model& model_;
