@@ -65,7 +65,7 @@ static msq_status render(const render_options* o, const msq_model* model, const 
   memcpy(def.light, light, sizeof def.light);
   def.shadows = !o->plain;
   def.ambient = 0.45;
-  def.occlusion_rays = o->plain ? 0 : 3; /* a sample; a pixel has several */
+  def.occlusion_rays = o->plain ? 0 : 8; /* per sample; a pixel has several */
   def.tile_width = o->width;
   def.tile_height = 32; /* strips, to show how far it is */
   for (def.tile_y = 0; def.tile_y < o->height; def.tile_y += def.tile_height) {

@@ -24,7 +24,7 @@ constexpr double MARGIN = 1.06;
 // Linear light: the part's own surface, and the structures.
 constexpr double COLOURS[] = {0.80, 0.62, 0.40, 0.85, 0.30, 0.05,
                               0.10, 0.38, 0.55, 0.45, 0.55, 0.12};
-constexpr uint32_t OCCLUSION_RAYS = 3;  // of a sample; a pixel has several
+constexpr uint32_t OCCLUSION_RAYS = 8;  // per sample; a pixel has several
 constexpr double AMBIENT = 0.45;
 
 uint32_t side_of(const Arguments& arguments, double value) {
