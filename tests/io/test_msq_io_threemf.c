@@ -8,6 +8,14 @@
 #include "lib3mf_files.h"
 #include "struts.h"
 
+#ifdef __SANITIZE_ADDRESS__
+/* What libzip leaks in lib3mf is not msq's. */
+const char* __lsan_default_suppressions(void);
+const char* __lsan_default_suppressions(void) {
+  return "leak:libzip.so";
+}
+#endif
+
 static msq_beam_file* open_beams(msq_context* context, const char* path) {
   msq_beam_file* file;
   if (msq_beam_file_open(context, path, NULL, &file, NULL) != MSQ_OK)
