@@ -124,23 +124,23 @@ static void assert_lib3mf_reads(msq_context* context, const char* path,
 
 static void msq_reads_what_lib3mf_writes(void** state) {
   msq_context* context = make_context();
-  lib3mf_lattice written, read;
+  lib3mf_lattice sent, read;
   msq_beam_file* file;
   msq_beams_def def;
   msq_beam_file_report report;
   double positions[node_count * 3];
   (void)state;
-  memset(&written, 0, sizeof written);
+  memset(&sent, 0, sizeof sent);
   for (int i = 0; i < node_count * 3; ++i) positions[i] = nodes[i / 3][i % 3];
-  written.node_count = node_count;
-  written.nodes = positions;
-  written.beam_count = beam_count - 1; /* without the one of no length */
-  written.beams = (uint32_t*)beams;
-  written.radii = (double*)radii;
-  written.caps = (uint8_t*)caps;
+  sent.node_count = node_count;
+  sent.nodes = positions;
+  sent.beam_count = beam_count - 1; /* without the one of no length */
+  sent.beams = (uint32_t*)beams;
+  sent.radii = (double*)radii;
+  sent.caps = (uint8_t*)caps;
   const char* path = in_folder("theirs.3mf");
-  written.clipping = MSQ_CLIPPING_OUTSIDE;
-  assert_int_equal(lib3mf_write_lattice(path, &written), 0);
+  sent.clipping = MSQ_CLIPPING_OUTSIDE;
+  assert_int_equal(lib3mf_write_lattice(path, &sent), 0);
   assert_int_equal(lib3mf_read_lattice(path, &read), 0);
   file = open_beams(context, path);
   def = beams_of(file);
