@@ -52,7 +52,8 @@ function(msq_lighten header options)
   foreach(file IN LISTS ARGN)
     file(STRINGS ${file} found REGEX "^#include <${header}" LIMIT_COUNT 1)
     if(MSQ_SANITIZE AND found)
-      set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS "${options}")
+      set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS "${options}"
+                                                     SKIP_PRECOMPILE_HEADERS ON)
     endif()
   endforeach()
 endfunction()
@@ -71,3 +72,20 @@ function(msq_unite target)
     endif()
   endforeach()
 endfunction()
+
+# Compiles headers of the standard library once and not with each C++ source of a target (MSQ_PRECOMPILE), or takes
+# those of another target with the same options.
+function(msq_precompile target)
+  if(MSQ_PRECOMPILE AND ARGC GREATER 1)
+    target_precompile_headers(${target} REUSE_FROM ${ARGV1})
+  elseif(MSQ_PRECOMPILE)
+    list(TRANSFORM MSQ_COMMON_HEADERS REPLACE "(.+)" "$<$<COMPILE_LANGUAGE:CXX>:<\\1$<ANGLE-R>>" OUTPUT_VARIABLE headers)
+    target_precompile_headers(${target} PRIVATE ${headers})
+  endif()
+  # Without it, Clang's file differs each time, and a compiler cache finds nothing that was compiled with it.
+  if(MSQ_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:SHELL:-Xclang -fno-pch-timestamp>)
+  endif()
+endfunction()
+set(MSQ_COMMON_HEADERS algorithm array atomic bit cmath cstdint cstring functional limits map memory mutex
+                       numeric optional set string utility vector)
