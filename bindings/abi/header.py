@@ -232,7 +232,7 @@ def _plain(comment: str) -> str:
 
 def _read_comments(header: Header, path: pathlib.Path) -> None:
     """Sets comments, and what they say of errors and of NULL."""
-    found = reference.read(path)
+    found = reference.read([path])
 
     def comment_of(name: str) -> str:
         return _plain(found.symbols[name].comment)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the sources of the documentation site: a page per symbol of msq.h, and the documents.
+"""Writes the sources of the documentation site: a page per symbol of msq.h and msq_io.h, and the documents.
 
     python3 docs/site/make_pages.py FOLDER
 
@@ -24,9 +24,11 @@ KINDS = {"function": "Functions", "callback": "Callbacks", "struct": "Structs", 
 # The documents outside of docs/, and their names in the site.
 OTHERS = {"CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md",
           "SECURITY.md": "security.md", "README.md": "readme.md",
+          "bindings/README.md": "bindings.md",
           "bindings/python/README.md": "python.md",
-          "integrations/freecad/README.md": "freecad.md",
-          "integrations/blender/README.md": "blender.md"}
+          **{f"integrations/{host}/README.md": f"{host}.md" for host in ("freecad", "blender", "prusaslicer")}}
+API_PAGES = {"msq.h": "api/index.md", "msq_io.h": "api/msq_io.md"}
+RULES_PAGES = {"msq.h": "api/rules.md", "msq_io.h": "api/msq_io_rules.md"}
 LANGUAGES = {".c": "c", ".h": "c", ".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".cmake": "cmake", ".json": "json", ".rs": "rust", ".js": "javascript"}
 
 
@@ -68,8 +70,10 @@ class Site:
         name = path.relative_to(ROOT).as_posix()
         if name in OTHERS:
             return OTHERS[name]
-        if name in ("include/msq.h", "docs/site/index.md"):
-            return "api/index.md" if name == "include/msq.h" else "index.md"
+        if name == "docs/site/index.md":
+            return "index.md"
+        if name.startswith("include/") and path.name in API_PAGES:
+            return API_PAGES[path.name]
         return name[len("docs/"):] if name.startswith("docs/") and name.endswith(".md") else ""
 
     def source_page(self, path: pathlib.Path) -> str:
@@ -296,7 +300,8 @@ def symbol_page(site: Site, symbol: Symbol) -> None:
         lines += ["## Source", "", prose(site, page, capital(
             text["Source"].replace("paper, section", "Igouchkine and Liu, section"))), ""]
     lines += related_lines(site, page, symbol)
-    lines += [f"Section: [{symbol.section}](index.md). Since version {header.since(symbol)}."]
+    lines += [f"Header: `{symbol.header}`, section [{symbol.section}]({pathlib.Path(API_PAGES[symbol.header]).name}). "
+              f"Since version {header.since(symbol, site.reference)}."]
     site.write(page, lines)
 
 
@@ -344,25 +349,24 @@ def related_lines(site: Site, page: str, symbol: Symbol) -> List[str]:
 
 
 def index_pages(site: Site) -> None:
-    lines = ["# C reference", "", "Every declaration of `msq.h`, in its order. These rules hold for all of "
-             "them: [rules](rules.md).", ""]
-    for section in site.reference.sections:
-        symbols = [s for s in site.reference.symbols.values() if s.section == section]
-        lines += [f"## {section}", ""]
-        note = site.reference.sections[section].strip()
-        if note:
-            lines += paragraphs(site, "api/index.md", note)
-        for kind, title in KINDS.items():
-            group = [s for s in symbols if s.kind == kind]
-            if group:
-                rows = [[f"[`{s.name}`]({s.name}.md)", prose(site, "api/index.md", first_sentence(s))]
-                        for s in group]
-                lines += table([title, ""], rows)
-    names = ["rules", *site.reference.symbols]
-    lines += ["```{toctree}", ":hidden:", "", *names, "```"]
-    site.write("api/index.md", lines)
-    site.write("api/rules.md", ["# Rules of the C API", "",
-                                *paragraphs(site, "api/rules.md", site.reference.preface)])
+    """For each header: the list of its declarations, and the rules that its file comment states."""
+    for name, sections in site.reference.sections.items():
+        page, rules = API_PAGES[name], RULES_PAGES[name]
+        symbols = [s for s in site.reference.symbols.values() if s.header == name]
+        lines = [f"# {'C reference' if name == 'msq.h' else name}", "",
+                 f"Every declaration of `{name}`, in its order. These rules hold for all of them: "
+                 f"[rules]({pathlib.Path(rules).name}).", ""]
+        for section, note in sections.items():
+            lines += [f"## {section}", "", *(paragraphs(site, page, note.strip()) if note.strip() else [])]
+            for kind, title in KINDS.items():
+                group = [s for s in symbols if s.section == section and s.kind == kind]
+                if group:
+                    rows = [[f"[`{s.name}`]({s.name}.md)", prose(site, page, first_sentence(s))] for s in group]
+                    lines += table([title, ""], rows)
+        lines += ["```{toctree}", ":hidden:", "", pathlib.Path(rules).stem, *(s.name for s in symbols), "```"]
+        site.write(page, lines)
+        title = "Rules of the C API" if name == "msq.h" else f"Rules of {name}"
+        site.write(rules, [f"# {title}", "", *paragraphs(site, rules, site.reference.prefaces[name])])
 
 
 def first_sentence(symbol: Symbol) -> str:

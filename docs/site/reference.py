@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the declarations of msq.h with their comments.
+"""Reads the declarations of msq.h and msq_io.h with their comments.
 
-Reads the C that msq.h is written in, as bindings/abi/header.py does, and keeps what that drops: comments
+Reads the C that they are written in, as bindings/abi/header.py does, and keeps what that drops: comments
 and sections. An error names the declaration that it does not understand.
 """
 import pathlib
 import re
 from dataclasses import dataclass, field
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 HEADER = ROOT / "include" / "msq.h"
+HEADERS = (HEADER, ROOT / "include" / "msq_io.h")
 
 STATUSES = ("ARGUMENT", "MEMORY", "CANCELLED", "HOST", "IO", "UNSUPPORTED", "MESH", "LIMIT", "INTERNAL")
 LABELS = ("Errors", "Cost", "Additional cost", "Memory", "Limits", "Limit", "Source", "Threads", "Since")
@@ -35,13 +36,14 @@ class Symbol:
     declaration: str
     returns: str = ""
     members: List[Member] = field(default_factory=list)
+    header: str = ""  # the name of its file
 
 
 @dataclass
 class Reference:
     symbols: Dict[str, Symbol] = field(default_factory=dict)
-    sections: Dict[str, str] = field(default_factory=dict)  # title: the comment under it
-    preface: str = ""  # the comment of the file
+    sections: Dict[str, Dict[str, str]] = field(default_factory=dict)  # header: title: the comment under it
+    prefaces: Dict[str, str] = field(default_factory=dict)  # header: the comment of the file
 
 
 class ReferenceError_(Exception):
@@ -138,10 +140,10 @@ def read_statement(statement: str, comment: str, section: str) -> Optional[Symbo
     if match:
         return Symbol("callback", match.group(2), section, comment, declaration, match.group(1).strip(),
                       read_arguments(match.group(3)))
-    match = re.fullmatch(r"MSQ_API\s+(.+?[\s*])(\w+)\s*\((.*)\)", plain)
+    match = re.fullmatch(r"MSQ_(?:IO_)?API\s+(.+?[\s*])(\w+)\s*\((.*)\)", plain)
     if match:
         return Symbol("function", match.group(2), section, comment,
-                      declaration.replace("MSQ_API ", "", 1), match.group(1).strip(),
+                      re.sub(r"^MSQ_(IO_)?API ", "", declaration), match.group(1).strip(),
                       read_arguments(match.group(3)))
     match = re.fullmatch(r"typedef\s+\w+\s+(\w+)", plain)
     if match:
@@ -161,9 +163,16 @@ def statement_end(text: str, at: int) -> int:
         at += 1
 
 
-def read(path: pathlib.Path = HEADER) -> Reference:
-    text = path.read_text(encoding="utf-8")
+def read(paths: Sequence[pathlib.Path] = HEADERS) -> Reference:
     reference = Reference()
+    for path in paths:
+        read_header(path, reference)
+    return reference
+
+
+def read_header(path: pathlib.Path, reference: Reference) -> None:
+    text = path.read_text(encoding="utf-8")
+    sections = reference.sections.setdefault(path.name, {})
     section, comment, at = "", "", 0
     while at < len(text):
         if text[at].isspace():
@@ -174,13 +183,13 @@ def read(path: pathlib.Path = HEADER) -> Reference:
             title = re.match(r"/\* -+ (.*?) -+ \*/", block)
             if title:
                 section, comment = title.group(1), ""
-                reference.sections[section] = ""
+                sections[section] = ""
             elif block.startswith("/** @file"):
-                reference.preface = text_of(block.replace("@file\n", "", 1))
+                reference.prefaces[path.name] = text_of(block.replace("@file\n", "", 1))
             elif block.startswith("/**"):
                 comment = text_of(block)
             elif section:
-                reference.sections[section] += "\n\n" + text_of(block)
+                sections[section] += "\n\n" + text_of(block)
         elif text[at] == "#":
             stop = text.index("\n", at)
             while text[stop - 1] == "\\":
@@ -188,7 +197,7 @@ def read(path: pathlib.Path = HEADER) -> Reference:
             macro = re.match(r"#define (MSQ_\w+) (\d+)$", text[at:stop])
             if macro:
                 reference.symbols[macro.group(1)] = Symbol(
-                    "macro", macro.group(1), section, comment, text[at:stop])
+                    "macro", macro.group(1), section, comment, text[at:stop], header=path.name)
             comment, at = "", stop
         elif text.startswith('extern "C" {', at) or text[at] == "}":
             at += 12 if text[at] == "e" else 1
@@ -197,9 +206,9 @@ def read(path: pathlib.Path = HEADER) -> Reference:
             symbol = read_statement(text[at:stop], comment, section)
             if symbol.name in reference.symbols:
                 raise ReferenceError_(f"{symbol.name} is declared twice")
+            symbol.header = path.name
             reference.symbols[symbol.name] = symbol
             comment, at = "", stop + 1
-    return reference
 
 
 def parts(comment: str) -> Dict[str, str]:
@@ -260,6 +269,8 @@ def inherited(symbol: Symbol, reference: Reference) -> Optional[Symbol]:
     return other if other and other.kind == "function" and other is not symbol else None
 
 
-def since(symbol: Symbol) -> str:
-    match = re.search(r"[Ss]ince(?: version)?:? (\d+\.\d+)", symbol.comment)
-    return match.group(1) if match else "0.1"
+def since(symbol: Symbol, reference: Reference) -> str:
+    """The version that a comment names, or that the comment of the file does for all."""
+    match = re.search(r"[Ss]ince(?: version)?:? (\d+\.\d+)", symbol.comment) or \
+        re.search(r"exists since version (\d+\.\d+)", reference.prefaces[symbol.header])
+    return match.group(1)

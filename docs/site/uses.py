@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the repository's documents and examples name the symbols of msq.h."""
+"""Where the repository's documents and examples name the symbols of msq.h and msq_io.h."""
 import pathlib
 import re
 from typing import Dict, List, Set
