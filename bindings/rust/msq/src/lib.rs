@@ -10,6 +10,7 @@ pub use msq_sys as sys;
 #[macro_use]
 mod handle;
 mod context;
+mod document;
 mod error;
 mod field;
 mod model;
@@ -18,6 +19,7 @@ mod slicer;
 mod structure;
 
 pub use context::{Context, ContextOptions, Job};
+pub use document::Document;
 pub use error::{check, Error, Result};
 pub use field::{Field, Param, ValuesFn};
 pub use model::{Grid, MeshSlab, Model};

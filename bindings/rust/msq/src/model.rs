@@ -102,6 +102,13 @@ impl Model {
         })
     }
 
+    /// 16 bytes that are equal for equal definitions with equal inputs, on every machine.
+    pub fn hash(&self) -> Result<[u8; 16]> {
+        let mut hash = [0; 16];
+        check(unsafe { sys::msq_model_hash(self.as_ptr(), hash.as_mut_ptr()) })?;
+        Ok(hash)
+    }
+
     pub fn bounds(&self) -> Result<([f64; 3], [f64; 3])> {
         let (mut min, mut max) = ([0.0; 3], [0.0; 3]);
         check(unsafe { sys::msq_model_bounds(self.as_ptr(), min.as_mut_ptr(), max.as_mut_ptr()) })?;
