@@ -17,12 +17,15 @@ sys.path.insert(0, str(HERE / "abi"))
 import ctypes_module  # noqa: E402
 import json_file  # noqa: E402
 import lua_module  # noqa: E402
+import node_module  # noqa: E402
 import rust_crate  # noqa: E402
 from header import HeaderError, read_header  # noqa: E402
 
 WRITERS = {
     "abi.json": json_file.write,
     "luajit/msq_cdef.lua": lua_module.write,
+    "node/abi.d.ts": node_module.write_types,
+    "node/abi.js": node_module.write,
     "python/msq/_abi.py": ctypes_module.write,
     "rust/msq-sys/src/lib.rs": rust_crate.write,
 }

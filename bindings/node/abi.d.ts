@@ -1,0 +1,2186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Made from msq.h by bindings/make_bindings.py: change those.
+
+/** An address, or null. */
+export type Pointer = bigint | null;
+/** An address, or memory of JavaScript that C reads or writes during the call. */
+export type Memory = Pointer | NodeJS.TypedArray | ArrayBuffer;
+export declare const MSQ_VERSION_MAJOR = 0;
+export declare const MSQ_VERSION_MINOR = 1;
+export declare const MSQ_VERSION_PATCH = 0;
+export declare const MSQ_VERSION = 100;
+export declare const MSQ_OK = 0;
+/** An argument is NULL, not finite, out of range, or inconsistent with another. */
+export declare const MSQ_E_ARGUMENT = -1;
+/** An allocation failed. */
+export declare const MSQ_E_MEMORY = -2;
+/** The job was cancelled. */
+export declare const MSQ_E_CANCELLED = -3;
+/** A host callback failed, see msq_error_host_code(), or returned an invalid value (host code 0). */
+export declare const MSQ_E_HOST = -4;
+/** A file cannot be opened or read, is truncated, or is malformed. */
+export declare const MSQ_E_IO = -5;
+/** This build lacks the feature, or msq does not read the file format. */
+export declare const MSQ_E_UNSUPPORTED = -6;
+/** Malformed mesh arrays. Dirty meshes are not an error. */
+export declare const MSQ_E_MESH = -7;
+/** A documented limit would be exceeded, for example the memory limit of the context. */
+export declare const MSQ_E_LIMIT = -8;
+/** A defect in msq. Please report it. */
+export declare const MSQ_E_INTERNAL = -9;
+/** The oldest cell first. Best for slicing from one end to the other. */
+export declare const MSQ_CACHE_FIFO = 0;
+/** Cells that were used once first (S3-FIFO). Best for frames and sets that return to more cells than fit. */
+export declare const MSQ_CACHE_SEGMENTED = 1;
+/** A mesh is not closed, and MSQ_WINDING_AUTO reads it by its generalised winding number. Once per shape, by the function that creates it. */
+export declare const MSQ_WARNING_OPEN_MESH = 1;
+/** The smallest cells of a structure have fewer than 4 pixels or layers across. Once per slicer, by msq_slicer_create. */
+export declare const MSQ_WARNING_COARSE_PITCH = 2;
+/** Cells were built for one use, because the cache had no room for them. Once per context, by a set query, msq_slicer_run, msq_slice_layer, msq_printability, msq_ray_cast or msq_render. Not with cache_bytes = 0. */
+export declare const MSQ_WARNING_SMALL_CACHE = 3;
+/** Unit cells of a lattice have nodes on their faces that the next cell, or another one of the library, does not have. Once per structure, by msq_structure_lattice. msq_unit_cell_info and msq_lattice_faces tell where. */
+export declare const MSQ_WARNING_UNMATCHED_CELLS = 4;
+/** All except 0. Overlapping and inverted parts are solid. */
+export declare const MSQ_WINDING_NONZERO = 0;
+export declare const MSQ_WINDING_EVEN_ODD = 1;
+/** Only parts whose normals point outwards are solid. */
+export declare const MSQ_WINDING_POSITIVE = 2;
+/** Default. NONZERO; for meshes that are not closed, NONZERO of the generalised winding number, rounded half up to a whole number. */
+export declare const MSQ_WINDING_AUTO = 3;
+export declare const MSQ_FLOAT32 = 1;
+export declare const MSQ_FLOAT64 = 2;
+export declare const MSQ_UINT8 = 3;
+export declare const MSQ_INT16 = 4;
+export declare const MSQ_UINT16 = 5;
+export declare const MSQ_INT32 = 6;
+export declare const MSQ_INT64 = 7;
+/** By the extension of the file. */
+export declare const MSQ_FORMAT_AUTO = 0;
+/** Binary or ASCII. */
+export declare const MSQ_FORMAT_STL = 1;
+export declare const MSQ_FORMAT_OBJ = 2;
+export declare const MSQ_FORMAT_PLY = 3;
+export declare const MSQ_FORMAT_OFF = 4;
+export declare const MSQ_FORMAT_3MF = 5;
+export declare const MSQ_FORMAT_AMF = 6;
+/** glTF 2.0, text or binary (GLB). Since 0.2. */
+export declare const MSQ_FORMAT_GLTF = 7;
+export declare const MSQ_SOLID_ABOVE = 0;
+export declare const MSQ_SOLID_BELOW = 1;
+/** Points in any of the shapes. */
+export declare const MSQ_BOOLEAN_UNION = 1;
+/** Points in all of the shapes. */
+export declare const MSQ_BOOLEAN_INTERSECTION = 2;
+/** Points of the first shape that are in no other. The boundary of a subtracted shape is outside. */
+export declare const MSQ_BOOLEAN_DIFFERENCE = 3;
+/** Nodes and struts of the definition. */
+export declare const MSQ_UNIT_CELL_CUSTOM = 0;
+/** Edges of the cube: 3 struts. */
+export declare const MSQ_UNIT_CELL_CUBIC = 1;
+/** Centre to the 8 corners. */
+export declare const MSQ_UNIT_CELL_BCC = 2;
+/** Corners to face centres, and the octahedron of the face centres: 24 struts. */
+export declare const MSQ_UNIT_CELL_OCTET = 3;
+/** Diagonals of the faces: 12 struts. */
+export declare const MSQ_UNIT_CELL_FCC = 4;
+/** Edges of space-filling truncated octahedra: 24 struts. */
+export declare const MSQ_UNIT_CELL_KELVIN = 5;
+/** Bonds of the diamond crystal: 16 struts. */
+export declare const MSQ_UNIT_CELL_DIAMOND = 6;
+/** Edges of space-filling rhombic dodecahedra: 32 struts. */
+export declare const MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7;
+/** Auxetic: widens in x and y when pulled along z. Uprights along z, 3/4 of the cell high, every second one half a cell higher, and slanted struts between the ends of neighbours: 22 struts. */
+export declare const MSQ_UNIT_CELL_REENTRANT = 8;
+/** The fastest method; now DIRECT. */
+export declare const MSQ_FOAM_AUTO = 0;
+/** The paper's naive query per point: gather seeds, form triplets with the nearest seed, project, validate. */
+export declare const MSQ_FOAM_POINT = 1;
+/** Per cell: edges of a Delaunay triangulation (CGAL), kept in the cache. */
+export declare const MSQ_FOAM_METHOD_2 = 2;
+/** Each Voronoi edge is built once, kept in the cache, and rasterised as spans. Arrays of points, and grids with few samples per cell, use the seeds near each point, grouped by cell, with SIMD. */
+export declare const MSQ_FOAM_DIRECT = 3;
+/** Per cell: lines of seed triplets, kept in the cache and validated per point. */
+export declare const MSQ_FOAM_METHOD_1 = 4;
+/** The expression of the definition. */
+export declare const MSQ_FUNCTION_EXPRESSION = 0;
+/** sin x cos y + sin y cos z + sin z cos x */
+export declare const MSQ_FUNCTION_GYROID = 1;
+/** cos x + cos y + cos z */
+export declare const MSQ_FUNCTION_SCHWARZ_P = 2;
+/** sin x sin y sin z + sin x cos y cos z + cos x sin y cos z + cos x cos y sin z */
+export declare const MSQ_FUNCTION_DIAMOND = 3;
+/** 2 (cos x cos y + cos y cos z + cos z cos x) - (cos 2x + cos 2y + cos 2z) */
+export declare const MSQ_FUNCTION_I_WP = 4;
+/** 3 (cos x + cos y + cos z) + 4 cos x cos y cos z */
+export declare const MSQ_FUNCTION_NEOVIUS = 5;
+/** 4 cos x cos y cos z - (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) */
+export declare const MSQ_FUNCTION_F_RD = 6;
+/** 0.5 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) - 0.5 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) + 0.15 */
+export declare const MSQ_FUNCTION_LIDINOID = 7;
+/** 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x) - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) - 0.4 (cos 2x + cos 2y + cos 2z) */
+export declare const MSQ_FUNCTION_SPLIT_P = 8;
+/** Where the function is at most the level. */
+export declare const MSQ_FUNCTIONAL_NETWORK = 1;
+/** Where the magnitude of the function is at most the level. */
+export declare const MSQ_FUNCTIONAL_SHEET = 2;
+/** With the ball of its radius there. With unlike radii the ball of the thicker end protrudes from the side of the beam. */
+export declare const MSQ_CAP_SPHERE = 0;
+/** With the half of that ball beyond the end. */
+export declare const MSQ_CAP_HEMISPHERE = 1;
+/** Flat. */
+export declare const MSQ_CAP_BUTT = 2;
+export declare const MSQ_CLIPPING_NONE = 0;
+/** The part inside the clipping mesh. */
+export declare const MSQ_CLIPPING_INSIDE = 1;
+/** The part outside the clipping mesh. */
+export declare const MSQ_CLIPPING_OUTSIDE = 2;
+/** All triangles of the build: what is solid besides the beams. lattice must be 0. */
+export declare const MSQ_BEAM_FILE_SOLID = 0;
+/** The mesh that clips the lattice. */
+export declare const MSQ_BEAM_FILE_CLIPPING = 1;
+/** Unknown, or neither of the others. */
+export declare const MSQ_BOX_MIXED = 0;
+export declare const MSQ_BOX_OUTSIDE = 1;
+export declare const MSQ_BOX_INSIDE = 2;
+/** The struts whose middle is in the half-open box: min <= middle < max along each axis. Boxes that tile a region share no strut, and together they have those of the region. The middle is half the sum of the ends, rounded. */
+export declare const MSQ_STRUTS_OWNED = 0;
+/** All struts that come near the closed box: the centre line meets the box, grown on all sides by the greatest radius that the strut may have. Every strut with a point in the box is among them. A strut may come near several boxes. */
+export declare const MSQ_STRUTS_NEAR = 1;
+export declare const MSQ_MATERIAL_VOID = 0;
+/** Groups of points; groups with few points one at a time. */
+export declare const MSQ_QUERY_AUTO = 0;
+/** Each point by itself. */
+export declare const MSQ_QUERY_POINT = 1;
+/** Groups of nearby points, however small. */
+export declare const MSQ_QUERY_SET = 2;
+export declare const MSQ_POINTS_ARRAY = 1;
+export declare const MSQ_POINTS_GRID = 2;
+export declare const MSQ_POINTS_STRATIFIED = 3;
+/** The onset: the smallest radius or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units; with factors of struts the least of these distances over the factors. Functional structures: the function; sheets: its magnitude. */
+export declare const MSQ_ONSET_PLAIN = 0;
+/** The onset minus the structure's radius or level at the point: at most 0 inside, positive outside. */
+export declare const MSQ_ONSET_SIGNED = 1;
+export declare const MSQ_PHASE_SOLID = 1;
+export declare const MSQ_PHASE_VOID = 2;
+/** 1 bit per pixel, sampled at its centre. The leftmost pixel is the high bit, as in PNG and PBM. */
+export declare const MSQ_LAYER_BITS = 1;
+/** 1 byte per pixel, sampled at its centre: 255 inside, 0 outside. */
+export declare const MSQ_LAYER_BYTES = 2;
+/** 1 byte per pixel: its coverage, from 0 to 255, by k x k samples with k = grey_samples. Sample (a, b), 0 <= a, b < k, lies at the centre of the pixel + ((a, b) + 1/2) / k * pitch - pitch / 2, the centre of its part of the pixel. With n samples inside the value is floor(255 * (n / k^2)^grey_gamma + 1/2), or 0 if that is below grey_threshold. */
+export declare const MSQ_LAYER_GREY = 3;
+/** 1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it, rounded to the nearest float32. Rows have the byte order of the machine. */
+export declare const MSQ_LAYER_DISTANCE = 4;
+/** 1 uint32 per pixel: the id of the material at its centre, as msq_set_material returns it. A resolved scale must have a material. */
+export declare const MSQ_LAYER_MATERIAL = 5;
+/** 1 float32 per pixel: the onset of a structure at its centre, as msq_set_onset returns it, rounded to the nearest float32. The model must be of one region. */
+export declare const MSQ_LAYER_ONSET = 6;
+/** No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs. */
+export declare const MSQ_LAYER_CONTOURS = 7;
+export declare const MSQ_LAYER_MIRROR_X = 1;
+export declare const MSQ_LAYER_MIRROR_Y = 2;
+export declare const MSQ_LAYER_TRANSPOSE = 4;
+/** A part of a layer, connected in the layer, that lies on no solid sample of the layer below. */
+export declare const MSQ_FINDING_ISLAND = 1;
+/** A connected part of the solid that does not reach the plate. Without a plate: any but that of the most samples. */
+export declare const MSQ_FINDING_LOOSE = 2;
+/** An enclosed void, which traps resin or powder: connected empty samples that reach neither a side of the grid nor its top; without a plate, nor its bottom. One that begins in layer 0 opens at the plate alone. */
+export declare const MSQ_FINDING_VOID = 4;
+/** Connected samples where the solid is thinner in its layer than a given width. */
+export declare const MSQ_FINDING_THIN = 8;
+/** Binary STL: triangles without common vertices, coordinates as float32. */
+export declare const MSQ_SURFACE_STL = 1;
+/** Binary PLY, low bytes first: vertices with normals, as float32, and triangles. */
+export declare const MSQ_SURFACE_PLY = 2;
+export declare const MSQ_CAMERA_ORTHOGRAPHIC = 0;
+export declare const MSQ_CAMERA_PERSPECTIVE = 1;
+/** colours[0] */
+export declare const MSQ_COLOUR_PLAIN = 0;
+/** colours[scale % colour_count] */
+export declare const MSQ_COLOUR_SCALE = 1;
+/** colours[material id % colour_count] */
+export declare const MSQ_COLOUR_MATERIAL = 2;
+/** red, green, blue = (1 + normal) / 2 */
+export declare const MSQ_COLOUR_NORMAL = 3;
+/** Relative paths below base_directory, without "..". Symbolic links there are followed. */
+export declare const MSQ_DOCUMENT_FILES_BELOW = 0;
+/** None. */
+export declare const MSQ_DOCUMENT_FILES_NONE = 1;
+/** Any: relative ones start at base_directory. For documents that the host trusts. */
+export declare const MSQ_DOCUMENT_FILES_ANY = 2;
+
+/** How the loaded library was built. */
+export interface msq_build_report {
+  /** In: size of the caller's struct. */
+  struct_size: number;
+  /** As msq_version(). */
+  version: number;
+  /** 1 if all mesh formats are read. 0: no binary STL, 3MF and AMF. */
+  with_assimp: number;
+  /** 1 if MSQ_FOAM_METHOD_2 and msq_shape_self_intersections are available. */
+  with_cgal: number;
+  /** SPDX licence of this binary together with the libraries it is built on. Static. */
+  licence: string | null;
+  /** Instruction set that the kernels use on this machine, for example "AVX3". Static. */
+  simd: string | null;
+  /** 1 if msq_shape_hash and its like are available. Since 0.2. */
+  with_xxhash: number;
+  /** 1 if documents are read and written (msq_document_from_json). Since 0.2. */
+  with_json: number;
+}
+
+/**
+ * Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may add some. message: in UTF-8, with the values, valid until the callback returns.
+ *
+ * It is called on the thread that called msq, when the work of the function that gives the warning is done and before it returns; never with a lock held, so it may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it. Since 0.2.
+ */
+export type msq_warning_fn = (user: bigint | null, code: number, message: bigint | null) => void;
+
+/** Called once when an object is freed. */
+export type msq_release_fn = (user: bigint | null) => void;
+
+/** One task of a loop of msq. It returns when its work is done and throws nothing. i: its number. */
+export type msq_task_fn = (task: bigint | null, i: number | bigint) => void;
+
+/**
+ * Shares the tasks of a loop among threads of the host: calls body(task, i) once for each i from 0 to count - 1 and returns when all these calls have returned. task is that of msq, to be passed on.
+ *
+ * The calls may run on any threads, in any order, at once or one after the other on the calling thread. Several threads may call this function at the same time, also from within a task. Such a call must not wait for a thread to become free: where all are busy, the calling thread runs the tasks itself.
+ *
+ * Return 0 for success. Any other code, preferably negative, stops the call of msq with MSQ_E_HOST; tasks that were not begun may then be left out. Exceptions of the host's language must not leave the function.
+ */
+export type msq_parallel_for_fn = (user: bigint | null, count: number | bigint, body: msq_task_fn | bigint | null, task: bigint | null) => number;
+
+/** Definition of a context. */
+export interface msq_context_def {
+  struct_size: number;
+  /** Threads per call, including the caller. 0 (default): one per core; larger values are clamped to that. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024. */
+  threads: number;
+  /** Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results. */
+  cache_bytes: number | bigint;
+  /** Maximum number of bytes that meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file) hold at the same time. Cached cells are evicted to make room. 0 (default): no limit. */
+  memory_limit: number | bigint;
+  /** An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results. */
+  cache_policy: number;
+  /** Must be 0. */
+  reserved: number;
+  /** Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context, which models keep alive. */
+  warning: msq_warning_fn | bigint | null;
+  /** Passed to warning. */
+  warning_user: Memory;
+  /** Runs the loops of msq on threads of the host. msq then starts no thread of its own. NULL (default): threads of msq. Does not change results. */
+  parallel_for: msq_parallel_for_fn | bigint | null;
+  /** First argument of parallel_for. */
+  parallel_for_user: Memory;
+  /** NULL, or called with parallel_for_user when the context is freed: when its last handle and the last model or other object that keeps it are gone, on the thread that drops the last reference. It is not called if msq_context_create fails. */
+  parallel_for_release: msq_release_fn | bigint | null;
+  /** NULL, or called with warning_user when the context is freed: when its last handle and the last model or other object that keeps it are gone, on the thread that drops the last reference. It is not called if msq_context_create fails. */
+  warning_release: msq_release_fn | bigint | null;
+}
+
+/** Memory that is accounted to a context. */
+export interface msq_memory_report {
+  struct_size: number;
+  reserved: number;
+  /** Bytes that meshes, images, beams, slabs and cached cells hold now. */
+  bytes: number | bigint;
+  /** Maximum of bytes so far. */
+  peak_bytes: number | bigint;
+  /** The limit of the definition. 0: no limit. */
+  limit_bytes: number | bigint;
+}
+
+/** Counters of the cell cache. */
+export interface msq_cache_report {
+  struct_size: number;
+  reserved: number;
+  /** Number of cell lookups that found the cell, and that did not; number of evicted cells. */
+  hits: number | bigint;
+  /** Number of cell lookups that found the cell, and that did not; number of evicted cells. */
+  misses: number | bigint;
+  /** Number of cell lookups that found the cell, and that did not; number of evicted cells. */
+  evictions: number | bigint;
+  /** Bytes held now by cells and reserved for cells under construction. Never above limit_bytes. */
+  bytes: number | bigint;
+  peak_bytes: number | bigint;
+  limit_bytes: number | bigint;
+  /** The part of bytes that is reserved for cells under construction. */
+  building_bytes: number | bigint;
+  /** Number of cells held now. */
+  cells: number | bigint;
+  /** Misses for which two threads built the same cell at the same time. */
+  duplicates: number | bigint;
+  /** Misses for which no room was found: the cell served one caller and was freed. */
+  unkept: number | bigint;
+}
+
+/** Which parts of the engine evaluated the points of a set query. */
+export interface msq_job_report {
+  struct_size: number;
+  reserved: number;
+  /** Points evaluated so far. */
+  points: number | bigint;
+  /** Points decided by the coarse shape alone: they are outside it, or no finer scale is resolved. */
+  by_shape: number | bigint;
+  /** Points that structures evaluated one at a time. A point counts once per structure. */
+  by_point: number | bigint;
+  /** Points that structures evaluated in groups. A point counts once per structure. */
+  by_set: number | bigint;
+  /** Number of these groups. On grids a group is a tile of rows. */
+  groups: number | bigint;
+}
+
+/**
+ * A part of a grid: the samples (i, j, k) with first <= (i, j, k) < first + count along each axis. All zeros (default): the whole grid. Otherwise each count is at least 1.
+ *
+ * Positions depend on the index in the whole grid alone: origin + (i, j, k) * spacing. So windows that tile a grid have, byte for byte, the results of the whole. A smaller grid with a shifted origin does not: its positions are rounded differently.
+ */
+export interface msq_window {
+  /** Index of the first sample in the whole grid. */
+  first: ArrayLike<number | bigint>;
+  /** Number of samples along x, y and z. */
+  count: ArrayLike<number | bigint>;
+}
+
+/** Writes values[i], the value at point i, for i < count. */
+export type msq_values_fn = (user: bigint | null, points: bigint | null, count: number | bigint, values: bigint | null) => number;
+
+/** Writes bounds of all values in the box from min to max. The bounds include rounding. */
+export type msq_range_fn = (user: bigint | null, min: bigint | null, max: bigint | null, low: bigint | null, high: bigint | null) => number;
+
+/** The grid of neighbourhood cells of a structure, or the frame of an image. Cell (i, j, k) holds the points origin + rotation * ((i, j, k) + u) * cell_size with 0 <= u < 1 in each component. Source: paper, section "Multiscale Shape-Material Modeling API". */
+export interface msq_neighbourhood {
+  /** Default 0. */
+  origin: ArrayLike<number>;
+  /** Along the axes of the grid, 1e-75 to 1e75. Default 1. */
+  cell_size: ArrayLike<number>;
+  /** Row-major. Orthonormal within 1e-9 with determinant +1; msq takes the nearest rotation. Default identity. */
+  rotation: ArrayLike<number>;
+}
+
+/**
+ * A graded period: cells whose size varies along one axis of a structure's grid, for example to vary the spacing of walls that are printed with lines of constant width.
+ *
+ * The number of cells per unit length, 1 / size, is linear between positions and constant before the first and beyond the last. So the map from the coordinate to the number of cells from the grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not fold. The size of the grid along this axis is ignored; its origin is a corner of cells. The largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit for bit. The arrays are copied. Since 0.2.
+ */
+export interface msq_period_def {
+  struct_size: number;
+  /** Axis of the grid, 0 to 2. Default 2. */
+  axis: number;
+  /** count coordinates along that axis, in model units from the grid's origin. Ascending, neighbours at least 1e-6 of the smaller of their two cell sizes apart. No default. */
+  positions: Memory;
+  /** Size of the cells at each position, in model units, 1e-75 to 1e75; the largest is at most 1024 times the smallest. No default. */
+  cell_sizes: Memory;
+  /** 1 to 4096. */
+  count: number | bigint;
+}
+
+/** Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about 1/7 byte per value in addition. */
+export interface msq_image {
+  /** size[2] layers of size[1] rows of size[0] values. */
+  values: Memory;
+  /** MSQ_UINT8, INT16, UINT16, FLOAT32 or FLOAT64. No default. Floating-point values: at most 1e100 in magnitude. */
+  value_type: number;
+  /** Must be 0. */
+  reserved: number;
+  /** Number of values along x, y and z: 1 to 2^20 each. */
+  size: ArrayLike<number | bigint>;
+  /** Bytes from one row to the next. 0 (default): tightly packed. */
+  row_stride: number | bigint;
+  /** Bytes from one layer to the next. 0 (default): size[1] rows. */
+  layer_stride: number | bigint;
+  /** Value (i, j, k) is at origin + rotation * ((i, j, k) * cell_size): cell_size is the spacing of the values. */
+  grid: msq_neighbourhood;
+}
+
+/** How a mesh file is read. */
+export interface msq_file_def {
+  struct_size: number;
+  /** An msq_format. Default MSQ_FORMAT_AUTO, which needs a path. */
+  format: number;
+  /** An msq_winding. Default MSQ_WINDING_AUTO. */
+  winding_rule: number;
+  /** Must be 0. */
+  reserved: number;
+  /** Length of the file's unit in mm for STL, OBJ, PLY and OFF, which name no unit. Default 1. The units of 3MF and AMF files are read and applied; that of glTF is the metre. */
+  unit_mm: number;
+  /** Maximum size in bytes of the file, and of what an archive unpacks to. 0 and default: 4 GiB. */
+  max_bytes: number | bigint;
+  /** Maximum number of triangles. 0 and default: 200 million. */
+  max_triangles: number | bigint;
+}
+
+/** A triangle mesh in arrays. */
+export interface msq_mesh_def {
+  struct_size: number;
+  /** MSQ_FLOAT32 or MSQ_FLOAT64 (default). */
+  coordinate_type: number;
+  /** An msq_winding. Default MSQ_WINDING_AUTO. */
+  winding_rule: number;
+  /** Must be 0. */
+  reserved: number;
+  /** vertex_count triples x, y, z. No alignment is needed. */
+  vertices: Memory;
+  vertex_count: number | bigint;
+  /** Bytes from one vertex to the next. 0 (default): tightly packed. */
+  vertex_stride: number | bigint;
+  /** triangle_count triples of vertex indices, counter-clockwise seen from outside. */
+  triangles: Memory;
+  triangle_count: number | bigint;
+}
+
+/** Writes inside[i]: 0 if point i is outside, any other value if it is inside or on the boundary. */
+export type msq_inside_fn = (user: bigint | null, points: bigint | null, count: number | bigint, inside: bigint | null) => number;
+
+/** A shape that the host computes. */
+export interface msq_host_shape_def {
+  struct_size: number;
+  /** 0 (default) or 1. See "Objects that the host defines". */
+  concurrent: number;
+  /** Membership of points in the bounding box, in model coordinates. */
+  inside: msq_inside_fn | bigint | null;
+  /** Lower bound on the distance to the boundary, for any points, on either side; its sign is ignored. It must have Lipschitz constant 1. NULL (default): the distance to the bounding box, 0 inside it. */
+  distance: msq_values_fn | bigint | null;
+  user: Memory;
+  release: msq_release_fn | bigint | null;
+  /** Bounding box, with the limits of msq_shape_from_box. No default. */
+  min: ArrayLike<number>;
+  /** Bounding box, with the limits of msq_shape_from_box. No default. */
+  max: ArrayLike<number>;
+  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  hash_key: ArrayLike<number | bigint>;
+}
+
+/** A shape from a voxel image. */
+export interface msq_voxels_def {
+  struct_size: number;
+  /** An msq_solid_side. Default MSQ_SOLID_ABOVE. */
+  solid: number;
+  /** At least 2 values along each axis. */
+  image: msq_image;
+  /** In the unit of the values. Default 0. */
+  threshold: number;
+}
+
+/** Bounds, size and diagnosis of a shape. */
+export interface msq_shape_report {
+  struct_size: number;
+  /** 1 for a mesh, also a placed one. 0 for other shapes; their counts below are 0. */
+  is_mesh: number;
+  /** Bounding box. */
+  min: ArrayLike<number>;
+  max: ArrayLike<number>;
+  /** Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: with capped holes, except pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of the solid values. Host shapes, booleans and offsets: NaN. */
+  volume: number;
+  /** Square model units. NaN of shapes without a formula: voxels, host shapes, booleans, offsets, stretched shapes. Meshes: infinite or 0 if triangles are beyond 1e75 or below 1e-75. */
+  area: number;
+  /** Vertices after welding. */
+  vertices: number | bigint;
+  /** Triangles that were kept. */
+  triangles: number | bigint;
+  /** Triangles without area. Those with fewer than three distinct vertices are dropped. Collinear ones are kept, because they close the surface. */
+  degenerate_triangles: number | bigint;
+  /** Kept triangles with the same three vertices as an earlier one. */
+  duplicate_triangles: number | bigint;
+  /** Edges with one triangle. */
+  open_edges: number | bigint;
+  /** Edges with three or more triangles. */
+  non_manifold_edges: number | bigint;
+  /** Edges with two triangles that run along the edge in the same direction. */
+  flipped_edges: number | bigint;
+  /** 1 if along every edge as many triangles run one way as the other. */
+  closed: number;
+  reserved: number;
+}
+
+/** A field by the distance from a point or a line. */
+export interface msq_radial_field_def {
+  struct_size: number;
+  reserved: number;
+  /** Default 0. */
+  center: ArrayLike<number>;
+  /** Direction of the line through center, of any length. 0 (default): distance from the point center. */
+  axis: ArrayLike<number>;
+  /** At least 0. Default 0. */
+  from_radius: number;
+  from_value: number;
+  /** Greater than from_radius. Default 1. */
+  to_radius: number;
+  to_value: number;
+}
+
+/** A field that the host computes. */
+export interface msq_host_field_def {
+  struct_size: number;
+  /** 0 (default) or 1. See "Objects that the host defines". */
+  concurrent: number;
+  /** Values at points of space, anywhere, in model coordinates. */
+  evaluate: msq_values_fn | bigint | null;
+  /** Bounds over a box in model coordinates. NULL (default): derived from lipschitz. */
+  range: msq_range_fn | bigint | null;
+  user: Memory;
+  release: msq_release_fn | bigint | null;
+  /** Bounds of all values. Finite. No default. */
+  low: number;
+  /** Bounds of all values. Finite. No default. */
+  high: number;
+  /** Lipschitz constant of the values. Infinity (default): unknown. */
+  lipschitz: number;
+  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  hash_key: ArrayLike<number | bigint>;
+}
+
+/** A field from an image. */
+export interface msq_grid_field_def {
+  struct_size: number;
+  /** Must be 0. */
+  reserved: number;
+  image: msq_image;
+}
+
+/** A named number in an expression. */
+export interface msq_named_value {
+  /** Letters a to z and A to Z, digits and _; does not begin with a digit; not a name that expressions define; no name twice. */
+  name: string | null;
+  value: number;
+}
+
+/** A field from an expression. */
+export interface msq_expression_field_def {
+  struct_size: number;
+  /** Must be 0. */
+  reserved: number;
+  /** Text in the grammar of msq_structure_functional. */
+  expression: string | null;
+  /** parameter_count names that the text may use. */
+  parameters: Memory;
+  /** At most 1024. */
+  parameter_count: number | bigint;
+  /** The value is clamped to this range. Finite, low <= high. Default 0. */
+  low: number;
+  /** The value is clamped to this range. Finite, low <= high. Default 0. */
+  high: number;
+}
+
+/** A field by the signed distance to a shape. */
+export interface msq_shape_distance_field_def {
+  struct_size: number;
+  /** Must be 0. */
+  reserved: number;
+  shape: Memory;
+  /** curve_count pairs (signed distance, value), strictly ascending in the first component, as in msq_field_map. Distances inside are negative. */
+  curve: Memory;
+  curve_count: number | bigint;
+  /** 0 (default): exact distance at every point. > 0: spacing of samples that are interpolated trilinearly. */
+  step: number;
+}
+
+/** A parameter: the field, or value if field is NULL. Objects retain the fields of their parameters. */
+export interface msq_param {
+  value: number;
+  field: Memory;
+}
+
+/** A unit cell: a named one, or nodes and struts. */
+export interface msq_unit_cell_def {
+  struct_size: number;
+  /** An msq_unit_cell. Default MSQ_UNIT_CELL_BCC. */
+  unit_cell: number;
+  /** CUSTOM: node_count triples, in [0, 1]. */
+  nodes: Memory;
+  /** 1 to 4096. */
+  node_count: number | bigint;
+  /** CUSTOM: strut_count pairs of indices of different nodes. */
+  struts: Memory;
+  /** 1 to 4096. A named cell needs it only with strut_factors. */
+  strut_count: number | bigint;
+  /** Factor of the radius for each strut, 0.001 to 1000. NULL (default): all 1. */
+  strut_factors: Memory;
+}
+
+/** Counts of a unit cell and the nodes that do not match their neighbours. */
+export interface msq_unit_cell_report {
+  struct_size: number;
+  /** 1 if unmatched_count is 0. */
+  is_periodic: number;
+  node_count: number | bigint;
+  strut_count: number | bigint;
+  /** Struts per cell of the tiling. Struts that coincide in neighbouring cells count once. */
+  tiled_strut_count: number | bigint;
+  /** Total length of these struts in a cell of size 1. */
+  tiled_length: number;
+  /** Nodes on the face at 0 of each axis. */
+  low_nodes: ArrayLike<number | bigint>;
+  /** Nodes on the face at 1 of each axis. */
+  high_nodes: ArrayLike<number | bigint>;
+  /** Nodes on both faces without a copy on the opposite face. */
+  unmatched_nodes: ArrayLike<number | bigint>;
+  /** Nodes without a copy along at least one axis. */
+  unmatched_count: number | bigint;
+}
+
+/** A periodic strut lattice. */
+export interface msq_lattice_def {
+  struct_size: number;
+  /** An msq_unit_cell. Default MSQ_UNIT_CELL_BCC. Ignored with a library. */
+  unit_cell: number;
+  grid: msq_neighbourhood;
+  /** Radius of the struts in model units. A constant must be > 0, a field >= 0. No default. */
+  radius: msq_param;
+  /** CUSTOM: node_count triples, in [0, 1]. */
+  nodes: Memory;
+  /** 1 to 4096. */
+  node_count: number | bigint;
+  /** CUSTOM: strut_count pairs of indices of different nodes. */
+  struts: Memory;
+  /** 1 to 4096. A named cell needs it only with strut_factors. */
+  strut_count: number | bigint;
+  /** As in msq_unit_cell_def. */
+  strut_factors: Memory;
+  /** Library of cell_count unit cells, all with the same struct_size, with at most 4096 nodes and 4096 struts in total. NULL (default): the unit cell above. */
+  cells: Memory;
+  /** 1 to 256. */
+  cell_count: number;
+  /** The cell is divided into this many clusters along each axis to find the struts near points of arrays. 1 (none) to 64. 0 (default): chosen by cost. Ignored with a library. Does not change results. */
+  clusters: number;
+  /** With a library: index of the unit cell of each neighbourhood cell. It is evaluated at the cell's centre, rounded half up, and clamped to the library. */
+  cell_choice: msq_param;
+}
+
+/** Faces between unlike cells of a lattice. */
+export interface msq_lattice_faces_report {
+  struct_size: number;
+  /** Axis of the grid normal to the first unmatched face: 0, 1 or 2. -1: there is none, and the fields below cell are 0. */
+  axis: number;
+  /** Cells that were examined. */
+  cells: number | bigint;
+  /** Faces between two of them with different unit cells. */
+  faces: number | bigint;
+  /** Faces with a node on one side that has no copy on the other. */
+  unmatched: number | bigint;
+  /** Index of the cell below the first unmatched face. The other cell is the next one along the axis. Cells are ordered by z, then y, then x. */
+  cell: ArrayLike<number>;
+  reserved: number;
+  /** Library indices of the unit cells in these two cells. */
+  types: ArrayLike<number>;
+  /** Centre of the face in model units. */
+  point: ArrayLike<number>;
+}
+
+/** A Voronoi foam: open-cell (struts), closed-cell (walls), or with both. */
+export interface msq_foam_def {
+  struct_size: number;
+  /** An msq_foam_method. */
+  method: number;
+  grid: msq_neighbourhood;
+  /** Radius of the struts in model units. A constant must be > 0, a field >= 0. No default. With walls, the constant 0 stands for no struts. */
+  radius: msq_param;
+  /** 0: seeds at the cell centres. 1 (default): anywhere in their cells. */
+  jitter: number;
+  /** Selects the foam. Default 0. */
+  seed: number | bigint;
+  /** Seeds per cell volume, up to 32768. Values below 1 count as 1 (default). */
+  density: msq_param;
+  /** Whole thickness of the walls between the cells of the foam, in model units, >= 0. The constant 0 (default): no walls. */
+  wall_thickness: msq_param;
+  /** Radius of the hole through the middle of each wall, in model units, >= 0. A field is evaluated at the middle of the wall. Walls with less area than their hole stay whole. Radii below 1/512 of the largest cell size count as 0. The constant 0 (default): no holes. Otherwise wall_thickness must not be the constant 0. */
+  vent_radius: msq_param;
+}
+
+/** A functional structure. */
+export interface msq_functional_def {
+  struct_size: number;
+  /** An msq_function. Default MSQ_FUNCTION_GYROID. */
+  function: number;
+  /** An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK. */
+  kind: number;
+  /** The cell is divided into this many clusters along each axis to decide whole blocks at once. 1 (none) to 64. 0 (default): chosen by cost. Does not change results. */
+  clusters: number;
+  /** One period per cell. */
+  grid: msq_neighbourhood;
+  /** Value of the function, not a length. Default 0. SHEET: a constant must be > 0, a field >= 0 and not 0 everywhere; or give thickness instead. */
+  level: msq_param;
+  /** EXPRESSION: text in the grammar below. Otherwise NULL. */
+  expression: string | null;
+  /** EXPRESSION: parameter_count names that the text may use. */
+  parameters: Memory;
+  /** At most 1024. */
+  parameter_count: number | bigint;
+  /** SHEET, instead of level: mean wall thickness in model units. A constant must be > 0, a field >= 0 and not 0 everywhere. With a period it must be a constant. Default 0: level is used. */
+  thickness: msq_param;
+  /** Cells of varying size. NULL (default): all cells have the size of the grid. Since 0.2. */
+  period: Memory;
+}
+
+/** A list of beams. Strides are bytes from one element to the next; 0 (default): tightly packed. No alignment is needed. */
+export interface msq_beams_def {
+  struct_size: number;
+  /** An msq_cap, of all ends unless caps is given. Default MSQ_CAP_SPHERE. */
+  cap: number;
+  /** Of nodes, radii and ball_radii: MSQ_FLOAT32 or MSQ_FLOAT64 (default). */
+  coordinate_type: number;
+  /** Must be 0. */
+  reserved: number;
+  /** node_count triples x, y, z. */
+  nodes: Memory;
+  node_count: number | bigint;
+  node_stride: number | bigint;
+  /** beam_count pairs of node indices. */
+  beams: Memory;
+  beam_count: number | bigint;
+  beam_stride: number | bigint;
+  /** beam_count pairs: radius at the first and at the second node. NULL (default): radius. */
+  radii: Memory;
+  radius_stride: number | bigint;
+  /** beam_count pairs of msq_cap, at the first and at the second node. NULL (default): cap. */
+  caps: Memory;
+  cap_stride: number | bigint;
+  /** ball_count node indices: balls in addition to those of the caps. */
+  balls: Memory;
+  ball_count: number | bigint;
+  ball_stride: number | bigint;
+  /** ball_count numbers. NULL (default): ball_radius. */
+  ball_radii: Memory;
+  ball_radius_stride: number | bigint;
+  /** Radius of all beams if radii is NULL. No default. */
+  radius: number;
+  /** Radius of all balls if ball_radii is NULL. No default. */
+  ball_radius: number;
+  /** Shorter beams are dropped. Default 0. */
+  min_length: number;
+  /** Characteristic length of the scale. 0 (default): the longest beam, or the largest diameter if that is more. */
+  length_scale: number;
+}
+
+/** What a lattice of a file holds. */
+export interface msq_beam_file_report {
+  struct_size: number;
+  /** An msq_clipping. */
+  clipping: number;
+  /** Lattices of the file. */
+  lattice_count: number | bigint;
+  /** Triangles of the build. 0: there is no mesh. */
+  mesh_triangle_count: number | bigint;
+  /** The rest is of the lattice: */
+  node_count: number | bigint;
+  beam_count: number | bigint;
+  ball_count: number | bigint;
+  /** Triangles of the clipping mesh. */
+  clipping_triangle_count: number | bigint;
+  /** Corners of a box that holds all beams and balls, in millimetres. Not clipped. */
+  min: ArrayLike<number>;
+  max: ArrayLike<number>;
+}
+
+/** Points that a host structure evaluates. Valid until the callback returns. */
+export interface msq_host_points {
+  /** Out: sizeof(msq_host_points) of the library. */
+  struct_size: number;
+  reserved: number;
+  /** At most 4096. */
+  count: number | bigint;
+  /** Triples x, y, z in model coordinates. */
+  points: Memory;
+  /** Triples: offset from the corner of the point's cell, in model units along the axes of the grid, from 0 to the cell size. */
+  positions: Memory;
+  /** Triples i, j, k: the cell of each point. */
+  cells: Memory;
+}
+
+/** Writes inside[i]: 0 if point i is outside, any other value if it is inside or on the boundary. */
+export type msq_points_inside_fn = (user: bigint | null, points: bigint | null, inside: bigint | null) => number;
+
+/** Writes distances[i]: a lower bound on the distance from point i to the boundary, on either side, with Lipschitz constant 1. The sign is ignored. */
+export type msq_points_distance_fn = (user: bigint | null, points: bigint | null, distances: bigint | null) => number;
+
+/** Builds the data of a cell. *data: the data, may be NULL. *bytes: its size in memory. */
+export type msq_build_cell_fn = (user: bigint | null, cell: bigint | null, data: bigint | null, bytes: bigint | null) => number;
+
+/** As msq_points_inside_fn, for points in the one cell that data belongs to. */
+export type msq_evaluate_cell_fn = (user: bigint | null, data: bigint | null, points: bigint | null, inside: bigint | null) => number;
+
+/** Frees data of a cell. data is not NULL. */
+export type msq_free_cell_fn = (user: bigint | null, data: bigint | null) => void;
+
+/** Writes *answer, an msq_box_answer, for the closed box from min to max in model coordinates. */
+export type msq_box_fn = (user: bigint | null, min: bigint | null, max: bigint | null, answer: bigint | null) => number;
+
+/** A structure that the host computes. inside, or both build_cell and evaluate_cell, must be given. If all are given, inside evaluates single points and evaluate_cell sets. */
+export interface msq_host_structure_def {
+  struct_size: number;
+  /** 0 (default) or 1. See "Objects that the host defines". */
+  concurrent: number;
+  grid: msq_neighbourhood;
+  inside: msq_points_inside_fn | bigint | null;
+  build_cell: msq_build_cell_fn | bigint | null;
+  evaluate_cell: msq_evaluate_cell_fn | bigint | null;
+  /** May be NULL. */
+  free_cell: msq_free_cell_fn | bigint | null;
+  /** May be NULL. Spares evaluating the points of boxes without boundary. */
+  box: msq_box_fn | bigint | null;
+  /** May be NULL: the distance bound is then 0, which is correct but does not help sphere tracing. */
+  distance: msq_points_distance_fn | bigint | null;
+  user: Memory;
+  /** May be NULL. */
+  release: msq_release_fn | bigint | null;
+  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  hash_key: ArrayLike<number | bigint>;
+}
+
+/** A functional structure whose function the host computes. */
+export interface msq_host_function_def {
+  struct_size: number;
+  /** 0 (default) or 1. See "Objects that the host defines". */
+  concurrent: number;
+  /** An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK. */
+  kind: number;
+  /** As in msq_functional_def. Not used without range and lipschitz. */
+  clusters: number;
+  /** One period per cell. */
+  grid: msq_neighbourhood;
+  /** As in msq_functional_def. */
+  level: msq_param;
+  /** Values at triples of angles: 2 pi times the position in the cell, 0 to 2 pi. */
+  evaluate: msq_values_fn | bigint | null;
+  /** Bounds over a box of angles, from -1e-9 to 2 pi + 1e-9. NULL (default): derived from lipschitz. */
+  range: msq_range_fn | bigint | null;
+  user: Memory;
+  release: msq_release_fn | bigint | null;
+  /** Lipschitz constant of the values with respect to the angles. Infinity (default): unknown. */
+  lipschitz: number;
+  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  hash_key: ArrayLike<number | bigint>;
+}
+
+/** A strut, or a piece of one: a segment of the centre lines of a structure. Two struts, or two nodes, are the same if and only if both numbers of their ids are equal. */
+export interface msq_strut {
+  /** Depends on the definition of the structure alone, not on the box, threads or machine. */
+  id: ArrayLike<number | bigint>;
+  /** Id of the node at a. Struts that meet in a node have the same id there, and the same coordinates, bit for bit. */
+  node_a: ArrayLike<number | bigint>;
+  /** Id of the node at b. */
+  node_b: ArrayLike<number | bigint>;
+  /** First end in model units. */
+  a: ArrayLike<number>;
+  /** Second end. */
+  b: ArrayLike<number>;
+  /** Radius at a and at b, in model units. A field of radius is evaluated at the ends. */
+  radii: ArrayLike<number>;
+  /** Cell of the grid that owns the strut. Beams: 0. */
+  cell: ArrayLike<number>;
+  /** An msq_cap for each end. MSQ_CAP_SPHERE except for beams. */
+  caps: ArrayLike<number>;
+  /** 1: this end is where the strut leaves the shape. 0: a node of the structure. */
+  cut: ArrayLike<number>;
+}
+
+/** Receives count struts, valid until the callback returns. A return value other than 0 stops the call with MSQ_E_HOST. */
+export type msq_struts_fn = (user: bigint | null, struts: bigint | null, count: number | bigint) => number;
+
+/** Which struts of a structure are wanted. */
+export interface msq_struts_def {
+  struct_size: number;
+  /** An msq_struts_selection. Default MSQ_STRUTS_OWNED. */
+  selection: number;
+  /** Corners of the box in model units, min <= max. Default 0. */
+  min: ArrayLike<number>;
+  max: ArrayLike<number>;
+  /** Struts are cut to this shape. NULL (default): they are not. The selection goes by the whole strut, so pieces of one strut come together. */
+  shape: Memory;
+}
+
+/** What a graph of struts holds. Pointers are valid as long as the graph is. */
+export interface msq_strut_graph_report {
+  struct_size: number;
+  reserved: number;
+  node_count: number | bigint;
+  strut_count: number | bigint;
+  /** node_count triples x, y, z in model units. */
+  nodes: Memory;
+  /** node_count pairs, as in msq_strut. */
+  node_ids: Memory;
+  /** strut_count pairs of indices of nodes: at a and at b. */
+  struts: Memory;
+  /** strut_count pairs: radius at a and at b. */
+  radii: Memory;
+  /** strut_count pairs, as in msq_strut. */
+  strut_ids: Memory;
+  /** strut_count triples, as in msq_strut. */
+  cells: Memory;
+  /** strut_count pairs of msq_cap. */
+  caps: Memory;
+  /** strut_count pairs: 1 for an end where the strut leaves the shape. */
+  cuts: Memory;
+}
+
+/** A named channel of a material. */
+export interface msq_channel {
+  /** 1 to 255 bytes. */
+  name: string | null;
+  value: msq_param;
+}
+
+/** A material. */
+export interface msq_material_def {
+  struct_size: number;
+  /** Positive. Its meaning is the host's. No default. */
+  id: number;
+  /** channel_count channels with distinct names. */
+  channels: Memory;
+  /** At most 256. */
+  channel_count: number | bigint;
+}
+
+/** One scale of a model. Zero-initialise it, then set what you need; fields may be added. */
+export interface msq_scale_def {
+  /** Scale 0: the shape. Other scales: NULL. */
+  shape: Memory;
+  /** Scales 1 and finer: the structure. Scale 0: NULL. */
+  structure: Memory;
+  /** Thickness, in model units, of the solid skin that the scale leaves under the surface of the coarse shape. At least 0 everywhere. 0: none. Not for scale 0, nor in shapes without depth. */
+  skin: msq_param;
+  /** Material of what the scale resolves. NULL: that of the next coarser scale. */
+  material: Memory;
+  /** Material of the skin. NULL: material. Not for scale 0. */
+  skin_material: Memory;
+}
+
+/** A model. */
+export interface msq_model_def {
+  struct_size: number;
+  /** 1 to 64. */
+  scale_count: number;
+  /** Coarsest first: a shape, then structures. */
+  scales: Memory;
+  /** sizeof(msq_scale_def) of the caller. A multiple of 8. 0 (default): that of version 0.1. */
+  scale_size: number;
+  /** Must be 0. */
+  reserved: number;
+}
+
+/** Options of a query. */
+export interface msq_query_def {
+  struct_size: number;
+  /** An msq_query_method, for msq_set_membership. Default MSQ_QUERY_AUTO. */
+  method: number;
+  /** Scales with a characteristic length of at least this are resolved; finer ones are solid. 0 (default): all. Infinity: the coarse shape only. */
+  length_scale: number;
+  /** AUTO: minimum number of points in a group that is evaluated as a set. 0 (default): measured for each kind of structure. */
+  critical_count: number | bigint;
+  /** Arrays of points are grouped by this many parts of a cell along each axis, where parts hold hundreds of points. 1 (by cell) to 64, rounded down to a power of 2. 0 (default): measured. Does not change results. */
+  group_parts: number;
+  /** Must be 0. */
+  reserved: number;
+}
+
+/**
+ * A set of points.
+ *
+ * ARRAY: count points in any order. GRID: point (i, j, k) is origin + (i, j, k) * spacing and has index i + nx * (j + ny * k). With a window, the set is the points of the window, and point window.first + (i, j, k) has index i + window.count[0] * (j + window.count[1] * k). STRATIFIED: per_cell uniformly random points in each cell of a box of nx * ny * nz cells. Cell (i, j, k) has its corner at origin + rotation * ((i, j, k) * spacing) and its size is spacing. Its point s has index s + per_cell * (i + nx * (j + ny * k)). Points are a function of their index and the seed, equal on every machine, and are never stored.
+ */
+export interface msq_points_def {
+  struct_size: number;
+  /** An msq_points_kind. No default. */
+  kind: number;
+  /** ARRAY: count triples x, y, z. No alignment is needed. */
+  coordinates: Memory;
+  /** ARRAY. */
+  count: number | bigint;
+  /** ARRAY: bytes from one point to the next. 0 (default): tightly packed. */
+  stride: number | bigint;
+  /** ARRAY: MSQ_FLOAT32 or MSQ_FLOAT64 (default). */
+  coordinate_type: number;
+  /** Must be 0. */
+  reserved: number;
+  /** GRID, STRATIFIED. */
+  origin: ArrayLike<number>;
+  /** GRID, STRATIFIED. Positive. GRID: large enough that rounding keeps neighbours apart. */
+  spacing: ArrayLike<number>;
+  /** GRID, STRATIFIED: nx, ny, nz, each 1 to 2^31 - 1; fewer than 2^63 points in total, or in the window. */
+  counts: ArrayLike<number | bigint>;
+  /** STRATIFIED: selects the sample. Default 0. */
+  seed: number | bigint;
+  /** STRATIFIED: at least 1 (default). Standard errors need at least 2. */
+  per_cell: number;
+  /** Must be 0. */
+  reserved2: number;
+  /** STRATIFIED: as in msq_neighbourhood. Default identity. */
+  rotation: ArrayLike<number>;
+  /** GRID: the points of the set. All zeros (default): the whole grid. */
+  window: msq_window;
+}
+
+/** An estimate of a number between 0 and 1. */
+export interface msq_estimate {
+  value: number;
+  /** From the spread within the cells of the sample. */
+  standard_error: number;
+  /** 95 % confidence interval (Wilson). */
+  low: number;
+  /** 95 % confidence interval (Wilson). */
+  high: number;
+}
+
+/** Segments for correlations. One segment of each length starts at each point of the sample. */
+export interface msq_segments_def {
+  struct_size: number;
+  /** An msq_phase. Default MSQ_PHASE_SOLID. */
+  phase: number;
+  /** Direction of all segments, of any length. 0 (default): each point has its own, uniform on the sphere, a function of its index and the seed. */
+  direction: ArrayLike<number>;
+  /** length_count lengths, finite, not negative, in any order. */
+  lengths: Memory;
+  /** 1 to 4096. */
+  length_count: number | bigint;
+  /** Step of msq_lineal_path in model units. 0 (default): 1/256 of the smallest characteristic length that is resolved (msq_model_scale_length), or of the longest length if that is smaller. */
+  step: number;
+}
+
+/** Result of a calibration. */
+export interface msq_calibration_report {
+  struct_size: number;
+  reserved: number;
+  /** Points that were evaluated. */
+  samples: number | bigint;
+  /** Smallest parameter that holds at least the target fraction of the points. */
+  parameter: number;
+  /** Volume fraction at that parameter. */
+  fraction: msq_estimate;
+  /** Volume fraction at the greatest parameter that the kind of structure allows. */
+  max_fraction: number;
+}
+
+/** Definition of contours. The plane is normal to an axis. Its coordinates u, v are the other two axes in their order: x, y for axis z; x, z for axis y; y, z for axis x. */
+export interface msq_contours_def {
+  struct_size: number;
+  /** Of the coordinates: MSQ_INT32, MSQ_INT64 or MSQ_FLOAT64 (default). */
+  type: number;
+  /** Normal of the plane: 0 (x), 1 (y) or 2 (z, default). */
+  axis: number;
+  /** 0 (default): the bounding box of the model; window_min and window_max must be 0. 1: the window below. */
+  has_window: number;
+  /** Corners in u and v, in model units. Rings close along the edges of the window. Windows that have a whole edge in common, and the other values of this struct, have the same points on it, bit for bit. */
+  window_min: ArrayLike<number>;
+  window_max: ArrayLike<number>;
+  /** Greatest distance between boundary and rings, in model units, where features are wider than the pitch. Positive; there is no default. */
+  tolerance: number;
+  /** Distance of the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. 0 (default): the tolerance. */
+  pitch: number;
+  /** Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest. Then a pitch must have at least 64 units, and a tolerance 4. */
+  units: number;
+  /** As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0. */
+  length_scale: number;
+}
+
+/** Definition of one of the outputs of a slicer. */
+export interface msq_output_def {
+  struct_size: number;
+  /** An msq_layer_output. Default MSQ_LAYER_BITS. */
+  output: number;
+  /** GREY: as in msq_slicer_def. Defaults 4, 0 and 1. */
+  grey_samples: number;
+  grey_threshold: number;
+  grey_gamma: number;
+  /** ONSET: the scale whose structure it is, from 1. It must be resolved. 0 (default): the finest resolved scale. */
+  onset_scale: number;
+  /** ONSET: an msq_onset_value. Default MSQ_ONSET_PLAIN. */
+  onset_value: number;
+  /** CONTOURS: as msq_slicer_contours takes it. Copied. Other outputs: NULL (default). */
+  contours: Memory;
+}
+
+/** Definition of a slicer. */
+export interface msq_slicer_def {
+  struct_size: number;
+  /** An msq_layer_output except CONTOURS. Default MSQ_LAYER_BITS, which it must be if outputs are given. */
+  output: number;
+  /** Pixel size in x and y. 0 (default): from region and resolution. */
+  pitch: ArrayLike<number>;
+  /** Pixels in x and y. 0 (default): from region and pitch, rounded up. */
+  resolution: ArrayLike<number>;
+  /** Positive, unless layer_z is given. */
+  layer_height: number;
+  /** 0 (default): from region and layer_height, rounded up. */
+  layer_count: number | bigint;
+  /** 0 (default): the region is the bounding box of the model, centred in the pixels; region_min and region_max must be 0. 1: the region below. A model of all space needs 1. */
+  has_region: number;
+  /** Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures that do not gain by more; at least one. Except for these, the first slab of a run has an eighth of the layers, so that the host has its first layer soon. Does not change results. */
+  slab_layers: number;
+  /** Corner of pixel (0, 0) and bottom of layer 0. */
+  region_min: ArrayLike<number>;
+  /** Needed where a count follows from it. */
+  region_max: ArrayLike<number>;
+  /** z of each layer, strictly ascending. NULL (default): the middle of each layer, region_min[2] + (index + 1/2) * layer_height. */
+  layer_z: Memory;
+  /** Number of layers in layer_z: 1 to 2^31 - 1. */
+  layer_z_count: number | bigint;
+  /** As in msq_query_def. */
+  length_scale: number;
+  /** Pixels and layers that are computed, as an index window of the plan that the fields above make. The slicer then has window.count[2] layers of window.count[0] x window.count[1] pixels, with their own indices from 0. All zeros (default): the whole plan. */
+  window: msq_window;
+  /** GREY: samples along each side of a pixel: 2, 4 (default), 8 or 16. */
+  grey_samples: number;
+  /** GREY: smaller values become 0 (minimum exposure). 0 (default) to 255. */
+  grey_threshold: number;
+  /** GREY: 0.1 to 10. Default 1. */
+  grey_gamma: number;
+  /** A sum of msq_layer_orientation. Default 0. It turns pixels. Contours keep the coordinates of the model. */
+  orientation: number;
+  /** Number of outputs: 1 to 64. 0 (default) if outputs is NULL. */
+  output_count: number;
+  /** What each layer holds, in place of `output` and the values for GREY above. Copied. All elements have the same struct_size, which is the distance between them. Outputs that sample the same points share their samples: BITS and BYTES, and GREY of equal grey_samples. NULL (default): one output, as above. */
+  outputs: Memory;
+  /** Where layers lie: coordinates u, v, w are those of the point frame_origin + u * axis 0 + v * axis 1 + w * axis 2. Rows of pixels lie along u, one row follows the other along v, and layers lie along w. x, y and z in the text above and of layers then mean u, v and w, also in the region, in heights, in contours and in findings. Default 0. */
+  frame_origin: ArrayLike<number>;
+  /** Three rows, the axes, orthonormal within 1e-9; msq takes the nearest axes that are orthonormal. Left-handed axes mirror. All zeros (default): the axes of the model. For layers normal to x whose pixels lie along y and z: {0, 1, 0, 0, 0, 1, 1, 0, 0}. Cost: bits of layers normal to y with pixels along x and z cost what they do without a frame. Along other axes they take 10 to 15 ns per sample and thread in a box; more in meshes and host shapes, which are asked about points. */
+  frame_axes: ArrayLike<number>;
+}
+
+/** The plan of a slicer. */
+export interface msq_slicer_report {
+  struct_size: number;
+  /** Layers computed at once, except in the first slab of a run. */
+  slab_layers: number;
+  /** Pixels in x and y of the layers that the host receives: exchanged with TRANSPOSE. */
+  width: number;
+  /** Pixels in x and y of the layers that the host receives: exchanged with TRANSPOSE. */
+  height: number;
+  layer_count: number | bigint;
+  /** Bytes from one row to the next, a multiple of 8. Of the first output; CONTOURS: 0. */
+  stride: number | bigint;
+  /** stride * height. */
+  layer_bytes: number | bigint;
+  /** x, y of the centre of pixel (0, 0) of the whole plan. */
+  origin: ArrayLike<number>;
+  /** Pixel (i, j) is sampled at origin + (i, j) * pitch, as in a grid of points. With a window: at origin + (window.first + (i, j)) * pitch. */
+  pitch: ArrayLike<number>;
+  /** The window. Without one: the whole plan. */
+  window: msq_window;
+  /** Pixels in x and y, and layers, of the whole plan. */
+  whole: ArrayLike<number | bigint>;
+}
+
+/** What one of the outputs is in a layer. Valid until the callback returns. */
+export interface msq_output {
+  /** Out: sizeof(msq_output) of the library. */
+  struct_size: number;
+  /** An msq_layer_output. */
+  output: number;
+  /** height rows, row 0 at the smallest y. Bits past the width are 0. CONTOURS: NULL. */
+  data: Memory;
+  /** Bytes from one row to the next. CONTOURS: 0. */
+  stride: number | bigint;
+  /** Number of pixels inside. GREY: number of samples inside. ONSET, CONTOURS: 0. */
+  inside_count: number | bigint;
+  /** CONTOURS: the rings of the layer, for msq_contours_info. To keep them beyond the callback, retain them. Other outputs: NULL. */
+  contours: Memory;
+}
+
+/** One layer. Valid until the callback returns. */
+export interface msq_layer {
+  /** Out: sizeof(msq_layer) of the library. */
+  struct_size: number;
+  /** The output, data, stride and inside_count below are those of the first output. */
+  output: number;
+  /** Number of the layer, from 0; with a window, from its first layer. */
+  index: number | bigint;
+  z: number;
+  data: Memory;
+  stride: number | bigint;
+  /** Pixels of all outputs. */
+  width: number;
+  /** Pixels of all outputs. */
+  height: number;
+  inside_count: number | bigint;
+  /** At least 1. */
+  output_count: number | bigint;
+  /** output_count pointers, in the order of msq_slicer_def.outputs. */
+  outputs: Memory;
+}
+
+/** Receives a layer. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it. */
+export type msq_layer_fn = (user: bigint | null, layer: bigint | null) => number;
+
+/** What contours hold. Pointers are valid as long as the contours are. */
+export interface msq_contours_report {
+  struct_size: number;
+  /** As in the definition. */
+  type: number;
+  ring_count: number | bigint;
+  /** Of all rings together. A ring does not repeat its first point. */
+  point_count: number | bigint;
+  /** Pairs u, v of the type. */
+  points: Memory;
+  /** ring_count + 1 numbers: points starts[i] to starts[i + 1] - 1 are those of ring i. */
+  starts: Memory;
+  /** The ring just around ring i. -1: none. The parent of a hole is an outer ring; that of an outer ring is a hole. */
+  parents: Memory;
+  /** 1: a hole. 0: an outer ring. */
+  holes: Memory;
+  /** Places where the rings may be wrong at the scale of the pitch: where one sample decided what is connected, where the boundary is not within the tolerance, and cells that a strut passes with no node in it. Other features that no node or crossing meets are not counted. */
+  unresolved_count: number | bigint;
+  /** Distance of the nodes, as rounded. */
+  pitch: number;
+}
+
+/** What is looked for. */
+export interface msq_printability_def {
+  struct_size: number;
+  /** A sum of msq_finding_kind. Default ISLAND + LOOSE + VOID. */
+  kinds: number;
+  /** 1 (default): the first layer lies on a build plate, which carries it and closes voids. 0: there is nothing below. */
+  has_plate: number;
+  /** Must be 0. */
+  reserved: number;
+  /** THIN: the width in model units, 2 to 32 pixels along x and y. Otherwise 0 (default). */
+  width: number;
+  /** Findings of less volume are ignored. In model units cubed, at least 0. Default 0. */
+  min_volume: number;
+}
+
+/** Something doubtful. A sample stands for the box of a pixel and its layer's height, which reaches half-way to the layers around it. */
+export interface msq_finding {
+  /** An msq_finding_kind. */
+  kind: number;
+  reserved: number;
+  /** Layers of the slicer, the first and the last one that it has samples in. */
+  first_layer: number | bigint;
+  last_layer: number | bigint;
+  sample_count: number | bigint;
+  /** In model units cubed. Of an island: in its layer. */
+  volume: number;
+  /** One of its samples, in model units: of its first layer, at the lowest y and there at the lowest x. */
+  point: ArrayLike<number>;
+  /** Box around its samples, in model units. */
+  min: ArrayLike<number>;
+  /** Box around its samples, in model units. */
+  max: ArrayLike<number>;
+}
+
+/** Receives findings, at most 4096 at a time, valid until it returns. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it. */
+export type msq_findings_fn = (user: bigint | null, findings: bigint | null, count: number | bigint) => number;
+
+/** Totals of what was found. Volumes are in model units cubed. */
+export interface msq_printability_report {
+  struct_size: number;
+  reserved: number;
+  /** Layers that were inspected. */
+  layer_count: number | bigint;
+  /** Solid samples, and their volume. */
+  solid_count: number | bigint;
+  solid_volume: number;
+  /** Findings of each kind. 0 for kinds that were not looked for. */
+  island_count: number | bigint;
+  /** Findings of each kind. 0 for kinds that were not looked for. */
+  loose_count: number | bigint;
+  /** Findings of each kind. 0 for kinds that were not looked for. */
+  void_count: number | bigint;
+  /** Findings of each kind. 0 for kinds that were not looked for. */
+  thin_count: number | bigint;
+  island_volume: number;
+  loose_volume: number;
+  void_volume: number;
+  thin_volume: number;
+}
+
+/** A ring of a polygon. */
+export interface msq_ring {
+  /** count pairs x, y of the definition's coordinate_type. The last point is joined to the first. No alignment is needed. */
+  points: Memory;
+  /** At least 3. */
+  count: number | bigint;
+}
+
+/** A polygon with holes at a height, and how it is filled. */
+export interface msq_fill_def {
+  struct_size: number;
+  /** Of the rings and of the result: MSQ_INT32 or MSQ_INT64 (default). */
+  coordinate_type: number;
+  /** ring_count rings, outlines and holes in any order and direction. Points enclosed by an odd number of rings are filled. */
+  rings: Memory;
+  ring_count: number | bigint;
+  /** Bytes from one point of a ring to the next. 0 (default): tightly packed. */
+  point_stride: number | bigint;
+  /** Model units per unit of the coordinates, for example 1e-6 for nanometres in a model in millimetres. No default. */
+  scale: number;
+  /** x, y in the model of the coordinates 0, 0. Default 0. */
+  origin: ArrayLike<number>;
+  /** In model units. Slicers take the middle of the layer. Default 0. */
+  z: number;
+  /** Greatest distance between the lines and the walls' middle, in model units, before rounding to the coordinates; at least half of a unit of these. 0 (default): 1/200 of the smallest cell size. */
+  tolerance: number;
+  /** In model units. Shorter paths are dropped. A shorter line between two points where an odd number of lines meet is dropped too, as this saves a path: the lines that go on at both its ends are so close that they touch if min_length is at most the width of a line. Default 0. */
+  min_length: number;
+  /** In model units, about the width of a line. If positive, walls between points where an odd number of lines meet are printed as two lines, side by side at this distance, where that joins paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter walls are taken first, none is taken where a line of the two would leave the polygon, and the two may cross. Default 0: no wall is printed twice. Since 0.2. */
+  pair_distance: number;
+}
+
+/** The paths of a fill. The arrays belong to the fill and live as long as it does. */
+export interface msq_fill_report {
+  struct_size: number;
+  /** As in the definition. */
+  coordinate_type: number;
+  /** point_count pairs x, y of int32_t or int64_t. */
+  points: Memory;
+  point_count: number | bigint;
+  /** path_count + 1 numbers: path i has the points path_starts[i] to path_starts[i + 1] - 1. */
+  path_starts: Memory;
+  /** path_count bytes. 1: the last point is joined to the first; 0: it is not. */
+  closed: Memory;
+  path_count: number | bigint;
+  /** Length of all paths in model units. */
+  length: number;
+  /** Length of the straight ways from each path to the next, in model units. */
+  travel: number;
+}
+
+/** Definition of a mesh. */
+export interface msq_surface_def {
+  struct_size: number;
+  /** 0 (default): the bounding box of the model; min and max must be 0. 1: the box below. A model of all space needs 1. */
+  has_box: number;
+  /** Corners of the box, in model units. The mesh is closed where its faces cut the model. */
+  min: ArrayLike<number>;
+  max: ArrayLike<number>;
+  /** Distance of the nodes at which the model is sampled, in model units. Positive; there is no default. Walls and struts narrower than sqrt(3) * pitch may break or be lost. */
+  pitch: number;
+  /** As in msq_query_def. */
+  length_scale: number;
+  /** Layers of nodes per callback, at most. 0 (default): as many as fit 32 MiB of nodes and about 2^18 crossings. Does not change the mesh. */
+  slab_layers: number;
+  /** Must be 0. */
+  reserved: number;
+}
+
+/** A part of a mesh. The arrays are valid until the callback returns. The parts, one behind the other, are the mesh. */
+export interface msq_surface_slab {
+  /** Out: sizeof(msq_surface_slab) of the library. */
+  struct_size: number;
+  reserved: number;
+  /** Number of vertices in the parts before this one. */
+  first_vertex: number | bigint;
+  vertex_count: number | bigint;
+  /** vertex_count triples x, y, z. */
+  vertices: Memory;
+  /** vertex_count triples: outward, of length 1. The normal of the surface at the vertex, as in msq_ray_hit; on an edge, that of one of its sides or their mean. */
+  normals: Memory;
+  /** Number of triangles in the parts before this one. */
+  first_triangle: number | bigint;
+  triangle_count: number | bigint;
+  /** triangle_count triples of vertices, counter-clockwise seen from outside. Vertices are numbered from the first of the mesh on: they are of this part or of parts before it. */
+  triangles: Memory;
+}
+
+/** Receives a part of a mesh. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it. */
+export type msq_surface_fn = (user: bigint | null, slab: bigint | null) => number;
+
+/** Some bytes of a file. Valid until the callback returns. */
+export interface msq_file_part {
+  /** Out: sizeof(msq_file_part) of the library. */
+  struct_size: number;
+  reserved: number;
+  /** Where the bytes belong in the file. */
+  offset: number | bigint;
+  /** Number of bytes, at least 1. */
+  size: number | bigint;
+  /** Size of the whole file, the same in all parts. */
+  total: number | bigint;
+  bytes: Memory;
+}
+
+/** Receives some bytes of a file. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it. */
+export type msq_file_fn = (user: bigint | null, part: bigint | null) => number;
+
+/** An array of rays: origin + t * direction. */
+export interface msq_rays_def {
+  struct_size: number;
+  /** Of origins and directions: MSQ_FLOAT32 or MSQ_FLOAT64 (default). */
+  coordinate_type: number;
+  count: number | bigint;
+  /** count triples x, y, z. */
+  origins: Memory;
+  /** count triples, of any length except 0. */
+  directions: Memory;
+  /** Bytes from one origin to the next. 0 (default): tightly packed. */
+  origin_stride: number | bigint;
+  /** Bytes from one direction to the next. 0 (default): tightly packed. */
+  direction_stride: number | bigint;
+  /** count numbers. NULL (default): 0. */
+  t_min: Memory;
+  /** count numbers, may be infinity. NULL (default): infinity. A model of all space needs finite ones. */
+  t_max: Memory;
+}
+
+/** Where a ray first meets the solid. */
+export interface msq_ray_hit {
+  /** The point is origin + t * direction. Infinity: no hit. */
+  t: number;
+  /** Outward, of length 1. Against the ray if it starts inside. 0 without a hit. */
+  normal: ArrayLike<number>;
+  /** Scale whose surface was hit; 0: the coarse shape; -1: no hit. */
+  scale: number;
+  /** 1: the ray is inside at t_min; t is t_min and scale is the finest one. */
+  starts_inside: number;
+  /** Cell of the finest resolved structure at the point; 0 for beams, which have no cells. */
+  cell: ArrayLike<number>;
+  /** Material id just inside. MSQ_MATERIAL_VOID without a hit, or if no resolved scale has a material. */
+  material: number;
+}
+
+/** A camera. It looks from eye to target, which is the middle of the picture. Depth is the distance from the plane through eye normal to that direction. docs/concepts.md has the formulas. */
+export interface msq_camera {
+  struct_size: number;
+  /** An msq_projection. Default MSQ_CAMERA_ORTHOGRAPHIC. */
+  projection: number;
+  /** PERSPECTIVE: origin of all rays. ORTHOGRAPHIC: a point of the plane of their origins. No default. */
+  eye: ArrayLike<number>;
+  /** Different from eye. No default. */
+  target: ArrayLike<number>;
+  /** Upwards in the picture. Not parallel to the view. Default 0, 0, 1. */
+  up: ArrayLike<number>;
+  /** ORTHOGRAPHIC: height of the picture in model units. No default. */
+  height: number;
+  /** PERSPECTIVE: vertical angle of view in degrees, 0.001 to 179. Default 40. */
+  field_of_view: number;
+  /** Depths between which the model is visible; the rest is cut away. 0 <= near < far. Defaults 0 and infinity. */
+  clip_near: number;
+  /** Depths between which the model is visible; the rest is cut away. 0 <= near < far. Defaults 0 and infinity. */
+  clip_far: number;
+}
+
+/** How a picture is rendered. */
+export interface msq_render_def {
+  struct_size: number;
+  /** Size of the whole picture in pixels, 1 to 16384. No default. */
+  width: number;
+  /** Size of the whole picture in pixels, 1 to 16384. No default. */
+  height: number;
+  /** Upper left corner of the tile to render. */
+  tile_x: number;
+  /** Upper left corner of the tile to render. */
+  tile_y: number;
+  /** Size of the tile. All four 0 (default): the whole picture. A tile has exactly the pixels of the whole picture. */
+  tile_width: number;
+  /** Size of the tile. All four 0 (default): the whole picture. A tile has exactly the pixels of the whole picture. */
+  tile_height: number;
+  /** rgba: samples along each side of a pixel, 1 (default) to 16. */
+  samples: number;
+  /** With a callback: 2, 4, ... 64: the first pass casts one ray per block of so many pixels a side, each further pass halves the block. 1 (default): one pass. */
+  first_step: number;
+  /** An msq_colour_by. */
+  colour_by: number;
+  /** colour_count triples red, green, blue, linear, 0 to 1. NULL (default): 8 colours of msq. */
+  colours: Memory;
+  /** 1 to 65536. */
+  colour_count: number | bigint;
+  /** Red, green, blue (linear) and opacity where nothing is hit. Default 0. */
+  background: ArrayLike<number>;
+  /** Direction to the light in the frame of the camera: right, up, towards the eye. Any length except 0. Default -0.4, 0.6, 1. */
+  light: ArrayLike<number>;
+  /** Share of ambient light, 0 to 1. Default 0.3. */
+  ambient: number;
+  /** 1: a shadow ray per lit sample. Default 0. */
+  shadows: number;
+  /** Ambient occlusion rays per sample, 0 (default) to 256, distributed by the cosine with the normal. */
+  occlusion_rays: number;
+  /** Length of occlusion rays in model units. 0 (default): a tenth of the diagonal of the bounding box. */
+  occlusion_distance: number;
+}
+
+/** Arrays that receive pixels. Pixel (i, j) of the tile, j downwards, has index j * row_pixels + i. Arrays that are NULL are skipped. All arrays except rgba hold the ray through the centre of the pixel. */
+export interface msq_frame {
+  struct_size: number;
+  /** Pixels from one row to the next. 0 (default): the width of the tile. */
+  row_pixels: number;
+  /** Infinity without a hit. */
+  depth: Memory;
+  /** 3 per pixel, as in msq_ray_hit, in model coordinates. 0 without a hit. */
+  normal: Memory;
+  /** As in msq_ray_hit. -1 without a hit. */
+  scale: Memory;
+  /** As in msq_ray_hit. */
+  material: Memory;
+  /** 4 per pixel: red, green, blue in sRGB, and opacity. Not premultiplied. */
+  rgba: Memory;
+}
+
+/** A pass of a rendering. */
+export interface msq_render_pass {
+  /** Out: sizeof(msq_render_pass) of the library. */
+  struct_size: number;
+  /** Pixels a side of the blocks that share one ray. 1: each pixel has its own. */
+  step: number;
+  /** rgba: samples along a side of a pixel. */
+  samples: number;
+  /** 1: the picture is complete. */
+  is_last: number;
+}
+
+/** Receives a pass. The frame holds a whole picture, to show or copy; the host must not change it before the last pass. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it. */
+export type msq_render_fn = (user: bigint | null, pass: bigint | null) => number;
+
+/** How a document is read. The limits protect the host from hostile documents. Since 0.2. */
+export interface msq_document_def {
+  struct_size: number;
+  /** An msq_document_files. Default MSQ_DOCUMENT_FILES_BELOW. */
+  files: number;
+  /** Where relative paths start. NULL (default): msq_document_from_file takes the directory of the document; a document from memory may then name no relative path. */
+  base_directory: string | null;
+  /** Maximum size of the document in bytes. 0 and default: 64 MiB. */
+  max_bytes: number | bigint;
+  /** Maximum number of values in the document: numbers, texts, lists and objects. 0 and default: 8 million. */
+  max_values: number | bigint;
+  /** Maximum depth of nested lists and objects, at most 1024. 0 and default: 64. */
+  max_depth: number;
+  /** Maximum number of files that the document names. 0 and default: 256. */
+  max_files: number;
+  /** Maximum size in bytes of all these files together, and of what an archive among them unpacks to. 0 and default: 4 GiB. */
+  max_file_bytes: number | bigint;
+  /** Maximum number of triangles of each mesh file. 0 and default: 200 million. */
+  max_triangles: number | bigint;
+}
+
+/** What a document holds. Since 0.2. */
+export interface msq_document_report {
+  struct_size: number;
+  /** Version of the format that the document names; now 1. */
+  version: number;
+  /** 1 if it has settings for slices, for pictures. */
+  has_slicing: number;
+  /** 1 if it has settings for slices, for pictures. */
+  has_view: number;
+  /** Number of files that it names. */
+  files: number;
+  reserved: number;
+  /** Its title in UTF-8, "" if it has none. Valid as long as the document. */
+  title: string | null;
+}
+
+/** How a model is written. Since 0.2. */
+export interface msq_json_def {
+  struct_size: number;
+  /** Must be 0. */
+  reserved: number;
+  /** Paths of files below this directory become relative to it. It is compared as text. NULL (default): paths are written as the host or the document gave them. */
+  base_directory: string | null;
+  /** In UTF-8. NULL (default): none. */
+  title: string | null;
+  /** Settings to write beside the model. NULL (default): none. camera and render go together. */
+  slicing: Memory;
+  camera: Memory;
+  render: Memory;
+  /** Maximum number of values of an array that is written into the document: of the vertices and triangles of a mesh, an image, beams. 0 and default: 1 million. */
+  max_numbers: number | bigint;
+}
+
+/** The functions of msq.h. */
+export interface Functions {
+  /** Returns the version of the loaded library, in the form of MSQ_VERSION. */
+  msq_version(): number;
+  /** Returns the name of a status, for example "MSQ_E_LIMIT"; "MSQ_E_UNKNOWN" for other values. The string is static. */
+  msq_status_name(status: number): string;
+  /** Returns the message of the last failure on the calling thread, in UTF-8; "" before the first failure. The string is valid until the next failure on this thread. */
+  msq_error_message(): string;
+  /** Returns the code that a host callback returned at the last MSQ_E_HOST on the calling thread; 0 before the first one. */
+  msq_error_host_code(): number;
+  /** Reports how the loaded library was built. Errors: ARGUMENT. */
+  msq_build_info(report: Partial<msq_build_report>): number;
+  /** Sets the defaults. size: sizeof of the caller's struct. Errors: ARGUMENT. */
+  msq_context_def_init(def: Partial<msq_context_def>, size: number | bigint): number;
+  /** Creates a context. def NULL: defaults. Results never depend on the context. No thread is started before the first call that needs one. Errors: ARGUMENT, MEMORY. Calls that use a context with parallel_for: HOST. */
+  msq_context_create(def: msq_context_def | null, context: [Pointer]): number;
+  /** Adds a reference. */
+  msq_context_retain(context: Memory): void;
+  /** Drops a reference. */
+  msq_context_release(context: Memory): void;
+  /** Reports the memory accounted to the context. Errors: ARGUMENT. */
+  msq_context_memory(context: Memory, report: Partial<msq_memory_report>): number;
+  /**
+   * Reports the counters of the cell cache since the context was created.
+   *
+   * Before a cell is built, msq reserves the size that recent cells of the structure had. A cell that turns out larger is counted in full from then on. Not counted: working memory of builders, unkept cells, and cells in use that msq_cache_clear or the memory limit dropped. Errors: ARGUMENT. Source: paper, section "Set Queries for Ray-Casting" (FIFO cache).
+   */
+  msq_cache_stats(context: Memory, report: Partial<msq_cache_report>): number;
+  /** Drops all cached cells. Running calls keep the cells that they use. The counters remain. The cells of a structure are also dropped when its last reference goes. Errors: ARGUMENT. */
+  msq_cache_clear(context: Memory): number;
+  /** Creates a job. Pass it to one long call at a time; two calls at once mix their progress. Errors: ARGUMENT, MEMORY. */
+  msq_job_create(job: [Pointer]): number;
+  /** Adds a reference. */
+  msq_job_retain(job: Memory): void;
+  /** Drops a reference. */
+  msq_job_release(job: Memory): void;
+  /** Cancels the call that runs under the job. The call returns MSQ_E_CANCELLED, usually within tens of milliseconds. The job stays cancelled: later calls under it return at once. Errors: ARGUMENT. */
+  msq_job_cancel(job: Memory): number;
+  /** Returns the completed fraction, 0 to 1, of the last call under the job. It is 1 only after success. Errors: ARGUMENT. */
+  msq_job_progress(job: Memory, fraction: Memory): number;
+  /** Reports the counters of the last set query or statistic under the job; zeros for other calls. Errors: ARGUMENT. Source: paper, section "Structured and Unstructured Set Queries" (critical number of points). */
+  msq_job_info(job: Memory, report: Partial<msq_job_report>): number;
+  /** Moves a grid along with a part: *placed receives the grid whose cells are those of grid, placed by a matrix as in msq_shape_placed. A structure on that grid, with its radius or thickness scaled as lengths are, is the same structure at another place: seeds and unit cells go with the cells. Fields and beams are the host's to move. Without this call a structure stays fixed to the model's frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that mirrors, shears or stretches by more than 1e-9). Since 0.2. */
+  msq_neighbourhood_placed(grid: msq_neighbourhood | null, matrix: Memory, placed: Partial<msq_neighbourhood>): number;
+  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  msq_period_def_init(def: Partial<msq_period_def>, size: number | bigint): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_file_def_init(def: Partial<msq_file_def>, size: number | bigint): number;
+  /**
+   * Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job. On Windows `path` is UTF-8; on other systems the bytes of it reach the system unchanged.
+   *
+   * All instances in the file become one shape in millimetres. msq applies transforms, triangulates polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ: vertices and faces are read. glTF: the triangles of the default scene are read from buffers in the file, with the transforms of nodes; y, which is up in glTF, becomes z. Limit: coordinates up to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a million triangles: about a second). Cancelling ends the call within tens of milliseconds, except while the XML of 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or AMF in a build without Assimp, glTF in one without JSON; a 3MF file with beam lattices, see msq_beam_file_open; glTF with buffers in other files, compressed or sparse data, or skins), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY, CANCELLED.
+   */
+  msq_shape_from_file(context: Memory, path: string | null, def: msq_file_def | null, shape: [Pointer], job: Memory): number;
+  /** Reads a triangle mesh from bytes in memory. def must name the format and must not be NULL. See msq_shape_from_file. */
+  msq_shape_from_memory(context: Memory, data: Memory, bytes: number | bigint, def: msq_file_def | null, shape: [Pointer], job: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_mesh_def_init(def: Partial<msq_mesh_def>, size: number | bigint): number;
+  /**
+   * Creates a shape from a triangle mesh. Dirty meshes (open, self-intersecting, flipped or duplicate triangles) are accepted; msq_shape_info diagnoses them.
+   *
+   * Membership. A point in the bounding box of the mesh is inside if the winding number of the ray from it along +x satisfies the winding rule. Crossings are half-open in y and z, so shared edges and vertices count once. They are closed in x: a point on a crossing is inside if either side is. Points exactly on a face that is highest in y or z are therefore outside; points on the opposite face are inside. On faces that are not normal to an axis the position of the crossing is rounded, by about 1e-16 of the coordinates.
+   *
+   * With MSQ_WINDING_AUTO a mesh that is not closed (msq_shape_report.closed is 0) uses the generalised winding number, rounded half up to a whole number. The solid ends at the bounding box. Distances are lower bounds. A skin follows the triangles, not the holes. Additional cost: about 500 bytes per open edge; a point near a hole, or where the number is near a half, may sum over all open edges.
+   *
+   * Limits: coordinates up to 1e100; 2^32 - 1 vertices and triangles. Cost: linear in the number of triangles; msq keeps about 75 bytes per triangle and needs 100 during construction. Errors: ARGUMENT, MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY. Source: Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers", 2013.
+   */
+  msq_shape_from_mesh(context: Memory, def: msq_mesh_def | null, shape: [Pointer]): number;
+  /** Creates an axis-aligned box with its boundary. Coordinates of min, and sides: up to 1e75. Errors: ARGUMENT unless min < max along each axis; MEMORY. */
+  msq_shape_from_box(context: Memory, min: Memory, max: Memory, shape: [Pointer]): number;
+  /** Creates a ball with its boundary. Coordinates and radius: up to 1e75. Errors: ARGUMENT unless radius > 0; MEMORY. */
+  msq_shape_from_sphere(context: Memory, center: Memory, radius: number, shape: [Pointer]): number;
+  /** Creates a round cylinder with flat ends and its boundary. Coordinates, their differences and the radius: up to 1e75. Errors: ARGUMENT unless from and to differ and radius > 0; MEMORY. */
+  msq_shape_from_cylinder(context: Memory, from: Memory, to: Memory, radius: number, shape: [Pointer]): number;
+  /**
+   * Creates the shape that every point is inside of, for models of structures alone that the host clips itself. Its bounds are infinite, its volume is infinite, and it has no surface: no scale can leave a skin in it, and msq_field_shape_distance refuses it.
+   *
+   * A model of all space is queried like any other, with these differences. The limit of 2^24 cells from the origin of a structure's grid, and of 1e75 for coordinates, holds for the points of each query: LIMIT, which writes nothing. A slicer needs a region. Rays need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT, MEMORY.
+   */
+  msq_shape_all_space(context: Memory, shape: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_host_shape_def_init(def: Partial<msq_host_shape_def>, size: number | bigint): number;
+  /** Creates a shape from callbacks. It has no depth, so no scale can leave a skin in it. Slices and arrays call back with batches of points, distances with single points. def must not be NULL. Errors: ARGUMENT unless min < max along each axis; MEMORY. Calls that use the shape: HOST. */
+  msq_shape_from_host(context: Memory, def: msq_host_shape_def | null, shape: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_voxels_def_init(def: Partial<msq_voxels_def>, size: number | bigint): number;
+  /** Creates a shape from a voxel image, for example a CT scan: the points where the trilinear function is on the solid side of the threshold, inside the box that the outermost values span. def must not be NULL. It has no depth, so no scale can leave a skin in it. Limits: coordinates of the origin, and the sum of the extents along the axes, up to 1e75. Cost: linear in the number of values, on the calling thread (one or two seconds for 10^8). Rows and layers then visit the cells that the surface crosses. Errors: ARGUMENT (also if no value is solid), LIMIT (memory limit of the context), MEMORY. */
+  msq_shape_from_voxels(context: Memory, def: msq_voxels_def | null, shape: [Pointer]): number;
+  /**
+   * Creates a shape from another one by an affine map, for example an instance of a part on a plate. The two share mesh, image and trees. matrix: three rows of four numbers, row-major; a point q of the original is placed at matrix * (q, 1). Rotations, scalings, mirror images and shears are allowed.
+   *
+   * A point p is inside if the original holds B * (p - b), where B is the inverse of the first three columns, computed once in double precision, and b the last column. Lengths keep the unit of the model. Distance and depth are those of the original where all lengths grow alike (within 1e-6); otherwise the distance is at least the original's times the smallest growth of a length, and the shape has no depth, so no scale can leave a skin in it: transform the vertices of a mesh instead. Bounds enclose the placed bounding box of the original.
+   *
+   * Cost: constant. Points and rays cost what they cost in the original. Layers ask the distance at a few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. Since 0.2.
+   */
+  msq_shape_placed(original: Memory, matrix: Memory, shape: [Pointer]): number;
+  /**
+   * Creates the union, intersection or difference of shapes (operation: an msq_boolean_operation) from their memberships. shapes: count shapes, 1 to 4096.
+   *
+   * Distance. Of a union: the smallest of the shapes' signed distances, exact outside if theirs are, a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference: as an intersection with complements. Depth, and hence skin: intersections and differences of shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY. Since 0.2.
+   */
+  msq_shape_boolean(operation: number, shapes: Memory, count: number | bigint, shape: [Pointer]): number;
+  /**
+   * Creates a shape from another one by moving its surface by a distance, outwards if it is positive and inwards if it is negative: the points whose signed distance to the original (msq_point_distance) is at most distance. Outwards, edges become round.
+   *
+   * The original's distance must be exact on the side to which the surface moves: primitives, closed meshes, uniformly placed ones of these, outwards unions, inwards intersections and differences of these, and offsets once more to the same side. Triangles of a mesh that bound nothing count as its surface. The distance of the new shape is exact beyond its surface on that side, a bound on the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not finite, an offset inwards by more than half the bounding box, coordinates above 1e75), UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as msq_shape_placed; memory), MEMORY. Since 0.2.
+   */
+  msq_shape_offset(original: Memory, distance: number, shape: [Pointer]): number;
+  /** Adds a reference. */
+  msq_shape_retain(shape: Memory): void;
+  /** Drops a reference. */
+  msq_shape_release(shape: Memory): void;
+  /** Reports bounds, volume, area and the diagnosis of a dirty mesh, as found at construction. Errors: ARGUMENT. */
+  msq_shape_info(shape: Memory, report: Partial<msq_shape_report>): number;
+  /**
+   * Hashes a shape: 16 bytes that are equal for equal definitions with equal inputs and differ otherwise, for a host to know whether what it computed from the shape is still valid.
+   *
+   * They are the same in each run and on each machine, with any number of threads and in all builds of a version of msq; another version may change them. What results do not depend on does not count: names of files, the context, options that say "Does not change results". All other fields of a definition count, so do the vertices and triangles of a mesh after welding, in their order, the values of images with their type, and the operations of an expression, not its spaces and names. 0 and -0 are equal numbers. Shapes, fields, structures and materials within an object count by their hashes. docs/howto/caching.md says more.
+   *
+   * It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without a hash_key in it; a build without xxHash), MEMORY. Since 0.2.
+   */
+  msq_shape_hash(shape: Memory, hash: Memory): number;
+  /**
+   * Counts the pairs of triangles in which a mesh intersects itself. Other shapes: 0.
+   *
+   * A pair counts if its triangles cross, touch, overlap in a plane or are duplicates; a shared vertex or edge alone does not count (CGAL::Polygon_mesh_processing::self_intersections). The decision is exact, after welding, without triangles that have no area. This is a diagnosis: no result of a shape depends on it.
+   *
+   * job NULL: no job; progress jumps from 0 to 1 at the end. Cost: about n log^3 n for n triangles plus a test per pair of overlapping boxes, on the calling thread (about a second for 270,000 triangles), with about 100 bytes per triangle. Errors: ARGUMENT, CANCELLED, UNSUPPORTED (a mesh, in a build without CGAL), MEMORY. Source: Zomorodian and Edelsbrunner, "Fast software for box intersections", 2002.
+   */
+  msq_shape_self_intersections(shape: Memory, pairs: Memory, job: Memory): number;
+  /** Creates a linear gradient: from_value in the plane through from, to_value in the plane through to, both normal to to - from; linear between the planes and constant beyond them. Errors: ARGUMENT unless from and to are 1e-140 to 1.3e154 apart and the difference of the values is finite; MEMORY. */
+  msq_field_gradient(context: Memory, from: Memory, from_value: number, to: Memory, to_value: number, field: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_radial_field_def_init(def: Partial<msq_radial_field_def>, size: number | bigint): number;
+  /** Creates a field that is from_value up to from_radius, to_value from to_radius on, and linear between. def must not be NULL. Errors: ARGUMENT (also if the difference of the values is not finite), MEMORY. */
+  msq_field_radial(context: Memory, def: msq_radial_field_def | null, field: [Pointer]): number;
+  /**
+   * Creates a piecewise linear curve over another field.
+   *
+   * curve: curve_count pairs (value of argument, value of this field), 1 to 65536, strictly ascending in the first component. The curve is constant beyond its ends. Differences of neighbours must be finite. Cost per point: that of argument plus log(curve_count). Errors: ARGUMENT, LIMIT (more than 64 nested maps), MEMORY.
+   */
+  msq_field_map(context: Memory, argument: Memory, curve: Memory, curve_count: number | bigint, field: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_host_field_def_init(def: Partial<msq_host_field_def>, size: number | bigint): number;
+  /**
+   * Creates a field from callbacks. def must not be NULL.
+   *
+   * msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz promise too much, results are wrong; behaviour stays defined. Cost: single points and struts call back with one point; sets and slices of functional structures with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.
+   */
+  msq_field_host(context: Memory, def: msq_host_field_def | null, field: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_grid_field_def_init(def: Partial<msq_grid_field_def>, size: number | bigint): number;
+  /** Creates a field from an image: trilinear between the values; outside the image it has the value of the nearest point of its border. Its Lipschitz constant is that of the steepest pair of neighbours. def must not be NULL. Cost: linear in the number of values, on the calling thread (a second for 10^8); nanoseconds per point. Errors: ARGUMENT, LIMIT (memory limit of the context), MEMORY. */
+  msq_field_grid(context: Memory, def: msq_grid_field_def | null, field: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_expression_field_def_init(def: Partial<msq_expression_field_def>, size: number | bigint): number;
+  /** Creates a field from an expression in x, y and z, clamped to low and high; low where the value is not a number. x, y and z are model coordinates, not angles. def must not be NULL. Rays use a bound of the slope over each box where the expression is smooth. Distances to surfaces that depend on the field are 0, because the field has no global Lipschitz constant. Errors: ARGUMENT, LIMIT (as msq_structure_functional), MEMORY. */
+  msq_field_expression(context: Memory, def: msq_expression_field_def | null, field: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_shape_distance_field_def_init(def: Partial<msq_shape_distance_field_def>, size: number | bigint): number;
+  /**
+   * Creates a piecewise linear curve over the signed distance to a shape, as msq_point_distance returns it. def must not be NULL. job NULL: no job.
+   *
+   * With a step, msq samples the distance once over the bounding box of the shape and a step around it, on the threads of the context, in single precision. Outside, the field has the value of the nearest point of the border. The error inside is below step * sqrt(3), and far smaller away from edges and medial surfaces. Cost: without a step, that of msq_point_distance per point and strut (microseconds); with a step, that of msq_field_grid with 4-byte values. Errors: ARGUMENT (also more than 2^20 steps along an axis), LIMIT (memory limit of the context), HOST, CANCELLED, MEMORY.
+   */
+  msq_field_shape_distance(context: Memory, def: msq_shape_distance_field_def | null, field: [Pointer], job: Memory): number;
+  /** Hashes a field, as msq_shape_hash does. A field by the distance to a shape that was sampled with a step is hashed from its samples. Errors: as msq_shape_hash. Since 0.2. */
+  msq_field_hash(field: Memory, hash: Memory): number;
+  /** Adds a reference. */
+  msq_field_retain(field: Memory): void;
+  /** Drops a reference. */
+  msq_field_release(field: Memory): void;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_unit_cell_def_init(def: Partial<msq_unit_cell_def>, size: number | bigint): number;
+  /**
+   * Counts the nodes and struts of a unit cell, and finds the nodes on its faces that do not meet a node of the next cell. A cell that is not periodic may be used, but its struts may end at the face.
+   *
+   * unmatched: receives the indices of the unmatched nodes, ascending, at most unmatched_room; NULL if unmatched_room is 0. Nodes within 1e-9 of the cell size are equal. Cost: quadratic in the numbers of nodes and struts, below a second. Errors: ARGUMENT, MEMORY.
+   */
+  msq_unit_cell_info(cell: msq_unit_cell_def | null, report: Partial<msq_unit_cell_report>, unmatched: Memory, unmatched_room: number | bigint): number;
+  /** Copies the nodes (node_count triples) and struts (strut_count pairs of node indices) of a unit cell, in the order of strut_factors, for example to draw or modify a named cell. The counts must equal those of msq_unit_cell_info. Errors: ARGUMENT, MEMORY. */
+  msq_unit_cell_geometry(cell: msq_unit_cell_def | null, nodes: Memory, node_count: number | bigint, struts: Memory, strut_count: number | bigint): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_lattice_def_init(def: Partial<msq_lattice_def>, size: number | bigint): number;
+  /**
+   * Creates a periodic strut lattice: the points within radius, times the factor of the strut, of the struts of the tiled unit cell. def must not be NULL.
+   *
+   * Struts are capsules: circular in model units for any cell size, with round ends, and they reach across cell borders. With a library, each cell holds the struts of the unit cell that cell_choice selects. If the nodes of two different neighbours do not match (msq_lattice_faces), struts end at the face.
+   *
+   * Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY.
+   */
+  msq_structure_lattice(context: Memory, def: msq_lattice_def | null, structure: [Pointer]): number;
+  /**
+   * Counts the faces between cells of a lattice whose unit cells have nodes there that do not match, and finds the first such face.
+   *
+   * The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info tells whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY.
+   */
+  msq_lattice_faces(lattice: Memory, min: Memory, max: Memory, report: Partial<msq_lattice_faces_report>, job: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_foam_def_init(def: Partial<msq_foam_def>, size: number | bigint): number;
+  /**
+   * Creates a Voronoi foam of one jittered seed per neighbourhood cell: the points within radius of the edges of the Voronoi diagram, and those within half of wall_thickness of its faces. def must not be NULL.
+   *
+   * Struts are capsules, circular in model units. Walls are plane and as thick as said: their thickness is measured across the face. Foams with walls alone have an onset, the thickness; those with struts and walls have none (msq_structure_calibrate). Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2, recursively, with one jittered seed per leaf, to that density on average (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.
+   */
+  msq_structure_foam(context: Memory, def: msq_foam_def | null, structure: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_functional_def_init(def: Partial<msq_functional_def>, size: number | bigint): number;
+  /**
+   * Creates a functional structure: the points where a function of the position in the cell is at most a level. def must not be NULL.
+   *
+   * Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp and log (natural). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE 754-2019). Points where the value is NaN are outside. Limits: 4096 bytes; 100 nested parentheses, signs and exponents; 1024 distinct operations, numbers and variables in total.
+   *
+   * Thickness is the volume of the walls divided by the area of their middle surface, where the function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of the function, accurate to about 0.3 % for the named functions (docs/concepts.md). Walls are thicker where the function is flatter. A field of thickness selects at each point the level of that thickness.
+   *
+   * With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness selects at each position along the axis the level of walls that thick in cells of the size there: the thickness stays, the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost what those of a structure do whose cells hold no whole number of samples.
+   *
+   * Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and Nesper 1991.
+   */
+  msq_structure_functional(context: Memory, def: msq_functional_def | null, structure: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_beams_def_init(def: Partial<msq_beams_def>, size: number | bigint): number;
+  /**
+   * Creates a structure of beams: the points in at least one beam or ball of a list. It has no grid and is empty elsewhere. def must not be NULL. job NULL: no job.
+   *
+   * A beam is a conical frustum between two nodes, with a radius that is linear along its axis, and caps. A beam shorter than 1e-100 has no axis: its round caps are balls; with two flat caps it is dropped. Beams may overlap and repeat. Limits: 2^31 - 1 beams and balls in total; coordinates up to 1e75; radii 0 or from 1e-100 to 1e75. One radius of a beam may be 0; that of a ball may not. Cost: n log n, in parallel: about 0.3 us of processor time and 104 bytes per beam, of which 77 are kept, in the memory limit of the context. Queries search a tree of boxes. Errors: ARGUMENT (also, with its index: a node that is not finite; a node index, radius or cap out of range), CANCELLED, LIMIT, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Kamel and Faloutsos, "On packing R-trees", 1993.
+   */
+  msq_structure_beams(context: Memory, def: msq_beams_def | null, structure: [Pointer], job: Memory): number;
+  /**
+   * Reads beam lattices from a 3MF file. def NULL: defaults; format must be MSQ_FORMAT_AUTO or MSQ_FORMAT_3MF. job NULL: no job. path as in msq_shape_from_file.
+   *
+   * A file has one or more lattices, each for a structure of its own (msq_beam_file_beams). The beams and balls of the build that nothing clips are lattice 0; each placed object whose beams a mesh clips is one more. Everything is in millimetres and placed: units and transforms of items and components are applied. In the file a solid of beams is united with the triangles of its object; msq_beam_file_shape makes a shape of all triangles of the build.
+   *
+   * Read are vertices, beams, radii at the ends, caps, balls and their three modes, minlength (shorter beams are dropped) and the clipping mode with its mesh. In ball mode "all", the vertices at which beams end have balls. Beam sets, properties and representation meshes do not change the solid and are passed over. Numbers become the nearest doubles.
+   *
+   * Limits: those of def; max_triangles is also the maximum number of beams and balls, and of triangles that clip. Cost: linear in the size of the file, about 1 us per beam on one thread. Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that. Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has components or beams, and transforms that scale some directions by over 1e-4 more than others; MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0.
+   */
+  msq_beam_file_open(context: Memory, path: string | null, def: msq_file_def | null, file: [Pointer], job: Memory): number;
+  /** Reads beam lattices from bytes in memory. def must name the format and must not be NULL. See msq_beam_file_open. Errors: as msq_beam_file_open. Since 0.2. */
+  msq_beam_file_open_memory(context: Memory, data: Memory, bytes: number | bigint, def: msq_file_def | null, file: [Pointer], job: Memory): number;
+  /** Adds a reference. Since 0.2. */
+  msq_beam_file_retain(file: Memory): void;
+  /** Drops a reference. Since 0.2. */
+  msq_beam_file_release(file: Memory): void;
+  /** Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than lattice_count). Since 0.2. */
+  msq_beam_file_info(file: Memory, lattice: number | bigint, report: Partial<msq_beam_file_report>): number;
+  /** Fills in the definition of a lattice for msq_structure_beams, unclipped. The caller sets struct_size. The arrays of the definition belong to the file and are valid as long as it is; the other fields have their defaults. Errors: ARGUMENT (lattice is not less than lattice_count). Since 0.2. */
+  msq_beam_file_beams(file: Memory, lattice: number | bigint, def: Partial<msq_beams_def>): number;
+  /** Creates a shape from a mesh of a file of beams, in millimetres. mesh: an msq_beam_file_mesh. winding_rule: an msq_winding. Cost and errors: as msq_shape_from_mesh; ARGUMENT also for lattice; MESH if the file has no such mesh. Since 0.2. */
+  msq_beam_file_shape(context: Memory, file: Memory, lattice: number | bigint, mesh: number, winding_rule: number, shape: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_host_structure_def_init(def: Partial<msq_host_structure_def>, size: number | bigint): number;
+  /**
+   * Creates a structure from callbacks. def must not be NULL. All applications work with inside alone.
+   *
+   * A cell is built when a point in it is evaluated, and kept as long as the cache of the context keeps it. Two threads may build the same cell at once. Evicted cells are freed when the next cell is built, or with the structure. A cell does not see its neighbours: whatever reaches across a border must be in the data of both cells. Cost: sets, grids and slices call back with batches, grouped by cell if build_cell is given. Single points and distances call back point by point. Errors: ARGUMENT, MEMORY. Calls that use the structure: HOST. Source: paper, section "Multiscale Shape-Material Modeling API".
+   */
+  msq_structure_host(context: Memory, def: msq_host_structure_def | null, structure: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_host_function_def_init(def: Partial<msq_host_function_def>, size: number | bigint): number;
+  /** Creates a functional structure from callbacks, see msq_structure_functional. def must not be NULL. The function may be infinite but not NaN. With range or lipschitz, blocks that are entirely inside or outside are decided without evaluating points. Distances to its surface are 0. Cost: clusters^3 calls of range (32768 by default), and as many points of evaluate with lipschitz. Errors: ARGUMENT, HOST, MEMORY. Calls that use the structure: HOST. Source: paper, section "Preprocessing for Repeating Structures". */
+  msq_structure_host_function(context: Memory, def: msq_host_function_def | null, structure: [Pointer]): number;
+  /** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. Since 0.2. */
+  msq_structure_hash(structure: Memory, hash: Memory): number;
+  /** Adds a reference. */
+  msq_structure_retain(structure: Memory): void;
+  /** Drops a reference. */
+  msq_structure_release(structure: Memory): void;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_struts_def_init(def: Partial<msq_struts_def>, size: number | bigint): number;
+  /**
+   * Passes the struts of a lattice, an open foam or beams that a box selects to a callback: for beam models of finite elements, for 3MF, or for drawing.
+   *
+   * Lattices: the struts of the tiled unit cell, each once, where struts coincide with the greatest factor. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the first. Foams: the edges of the Voronoi diagram. A node is a point equally far from four or more seeds; its id comes from their names. Node positions are computed from the seeds in double precision. Nodes and struts whose ids are made from more than 128 bits have a hash as id; it is taken for unique. Beams: all beams and balls, whose a and b are equal; ends at the same coordinates are one node; id[0] is the index of the beam in the definition, after which balls count on. Foams with struts and walls: the struts.
+   *
+   * With a shape, the parts of a strut's centre line whose points are inside the shape come instead, in the order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and coordinates of the place where membership changes on the line, found as rays find it (msq_ray_cast); parts and gaps shorter than that may be overlooked. The solid around the line is not cut. Radii at cut ends are evaluated there. The first piece has the id of the strut, others have an id and each cut end a node of its own.
+   *
+   * The order of struts and their bytes are the same on every call and on any number of threads. callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone: they have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991.
+   */
+  msq_structure_struts(context: Memory, structure: Memory, def: msq_struts_def | null, callback: msq_struts_fn | bigint | null, user: Memory, job: Memory): number;
+  /** Collects the struts that msq_structure_struts passes, in the same order, and numbers their nodes in the order in which they first occur. Cost: as msq_structure_struts, and a table of the nodes on the calling thread. Memory: 56 bytes per strut and 40 per node, accounted to the context; while the call lasts, up to four times as much. Errors: as msq_structure_struts; LIMIT also for memory or more than 2^32 - 2 nodes. Since 0.2. */
+  msq_structure_strut_graph(context: Memory, structure: Memory, def: msq_struts_def | null, graph: [Pointer], job: Memory): number;
+  /** Adds a reference. */
+  msq_strut_graph_retain(graph: Memory): void;
+  /** Drops a reference. */
+  msq_strut_graph_release(graph: Memory): void;
+  /** Reports what a graph holds. Errors: ARGUMENT. Since 0.2. */
+  msq_strut_graph_info(graph: Memory, report: Partial<msq_strut_graph_report>): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_material_def_init(def: Partial<msq_material_def>, size: number | bigint): number;
+  /** Creates a material. def must not be NULL. Errors: ARGUMENT, MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API". */
+  msq_material_create(context: Memory, def: msq_material_def | null, material: [Pointer]): number;
+  /** Creates a blend of two materials: each channel is (1 - f) * a + f * b, where f is the fraction at the point, 0 to 1 everywhere. id: positive, of the blend. Errors: ARGUMENT (also if one material has a channel that the other lacks), LIMIT (more than 64 nested blends, or more than 4096 materials in a blend, counted with repetition), MEMORY. */
+  msq_material_blend(context: Memory, id: number, a: Memory, b: Memory, fraction: msq_param | null, material: [Pointer]): number;
+  /** Hashes a material, as msq_shape_hash does: its id, and its channels in their order. Errors: as msq_shape_hash. Since 0.2. */
+  msq_material_hash(material: Memory, hash: Memory): number;
+  /** Adds a reference. */
+  msq_material_retain(material: Memory): void;
+  /** Drops a reference. */
+  msq_material_release(material: Memory): void;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_model_def_init(def: Partial<msq_model_def>, size: number | bigint): number;
+  /**
+   * Creates a model: the intersection of the shape with every structure. Where a scale leaves a skin, the union of structure and skin takes the place of the structure. def must not be NULL.
+   *
+   * The skin holds the points of the shape whose depth is at most the thickness at the point, where the thickness is above 0. Depth is the distance to the boundary of the shape, as in msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the origin of a structure's grid), UNSUPPORTED (a skin in a voxel image, a host shape or all space), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the skin is ours.
+   */
+  msq_model_create(context: Memory, def: msq_model_def | null, model: [Pointer]): number;
+  /**
+   * Creates a model of several regions, for example the parts of a plate and the modifier volumes in them. regions: count models, 1 to 4096; each has its own shape, scales, skins and materials.
+   *
+   * A point belongs to the first region whose shape contains it, and is inside where that region is: later regions count for nothing there, also where the region is empty. A region that is itself a model of regions is replaced by these, in their order. All functions take the model: one slice, ray or query serves a whole plate. Its coarse shape is the union of those of its regions. Scales are numbered by region: hits name the scale of the region that they are in, and msq_model_scale_length returns the largest length of any region.
+   *
+   * Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups, so a sample costs the memberships in the shapes before its region, and its region. Two bits per sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a region of all space), MEMORY. Since 0.2.
+   */
+  msq_model_regions(context: Memory, regions: Memory, count: number | bigint, model: [Pointer]): number;
+  /** Hashes a model, as msq_shape_hash does: its shape, and the structure, skin and materials of each scale; or its regions in their order. Errors: as msq_shape_hash. Since 0.2. */
+  msq_model_hash(model: Memory, hash: Memory): number;
+  /** Adds a reference. */
+  msq_model_retain(model: Memory): void;
+  /** Drops a reference. */
+  msq_model_release(model: Memory): void;
+  /** Returns the bounding box of the coarse shape, which contains the model; of regions, that of all. Infinite for msq_shape_all_space. Errors: ARGUMENT. */
+  msq_model_bounds(model: Memory, min: Memory, max: Memory): number;
+  /** Returns the characteristic length of a scale: its largest cell size; the length_scale of beams, which have no cells; infinity for scale 0. Errors: ARGUMENT (no such scale). */
+  msq_model_scale_length(model: Memory, scale: number, length: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_query_def_init(def: Partial<msq_query_def>, size: number | bigint): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_points_def_init(def: Partial<msq_points_def>, size: number | bigint): number;
+  /** Writes points first to first + count - 1 of a set as count triples x, y, z: the exact numbers that queries of the set use. Cost: about 5 ns per point, on the calling thread. Errors: ARGUMENT (also past the end). Source: paper, section "Structured and Unstructured Set Queries"; Steele, Lea and Flood 2014 (SplitMix64). */
+  msq_points_generate(points: msq_points_def | null, first: number | bigint, count: number | bigint, coordinates: Memory): number;
+  /**
+   * Membership of one point: *inside receives 1 in the model or on its boundary, otherwise 0. query NULL: defaults. For the boundary of meshes see msq_shape_from_mesh.
+   *
+   * This function is the definition. All other queries agree with it bit for bit. The one exception is MSQ_FOAM_METHOD_2 with a jitter below 0.01, within 1e-9 of a cell of the boundary. Cost: a mesh tests the triangles in one y, z bin; a lattice the struts that can reach the cell; a foam 27 to a few hundred seeds (about a microsecond). Errors: ARGUMENT, MEMORY.
+   */
+  msq_point_membership(model: Memory, point: Memory, query: msq_query_def | null, inside: Memory): number;
+  /**
+   * Membership of a set: inside[i] receives 1 or 0 for point i. inside_count must be the number of points. query NULL: defaults. job NULL: no job.
+   *
+   * Scales are evaluated from coarse to fine. A finer scale does not evaluate points that a coarser one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in any order, with 6 bytes per point and at most 15 MB, or less if the memory limit leaves no room. Grids cost far less per point, as slices. Stratified samples need no grouping and no memory. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
+   */
+  msq_set_membership(model: Memory, points: msq_points_def | null, query: msq_query_def | null, inside: Memory, inside_count: number | bigint, job: Memory): number;
+  /** Region of one point: *region receives the index of the first region whose shape contains it, -1 if none does. The point need not be in the solid of the region. A model that is not made of regions is region 0. Regions of regions are counted in their order. Errors: ARGUMENT, MEMORY. Since 0.2. */
+  msq_point_region(model: Memory, point: Memory, region: Memory): number;
+  /** Regions of a set: regions[i] receives the result of msq_point_region for point i. region_count must be the number of points. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave regions partly written. Cost: in parallel, the memberships in the shapes. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Since 0.2. */
+  msq_set_region(model: Memory, points: msq_points_def | null, regions: Memory, region_count: number | bigint, job: Memory): number;
+  /**
+   * Material of one point. *id receives the id of its material, or MSQ_MATERIAL_VOID outside the model. values[c] receives the value of the channel named channels[c]; 0 outside, and where the material has no such channel. query NULL: defaults. channels and values may be NULL if channel_count is 0.
+   *
+   * The material is that of the finest resolved scale that has one, or of its skin inside the skin. Where finer scales are not resolved, the host's material stands for the mixture. Errors: ARGUMENT (also if no resolved scale has a material, or none of their materials has a channel of that name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API".
+   */
+  msq_point_material(model: Memory, point: Memory, query: msq_query_def | null, channels: Memory, channel_count: number | bigint, id: Memory, values: Memory): number;
+  /** Materials of a set: ids[i] and values[i * channel_count + c] receive, bit for bit, the result of msq_point_material for point i. id_count must be the number of points, value_count channel_count times that. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave the arrays partly written. Cost: msq_set_membership plus a byte per point; channels are evaluated at the points inside. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries". */
+  msq_set_material(model: Memory, points: msq_points_def | null, query: msq_query_def | null, channels: Memory, channel_count: number | bigint, ids: Memory, id_count: number | bigint, values: Memory, value_count: number | bigint, job: Memory): number;
+  /**
+   * Signed distance of one point to the boundary of the model, in model units. *distance is positive, at least 2.2e-308, where msq_point_membership returns 0, and at most 0 where it returns 1. It is always finite. query NULL: defaults.
+   *
+   * The magnitude never exceeds the true distance, so a step of that length along a ray crosses no surface. It is exact for primitives, clean meshes, and outside of lattices and foams with a constant radius, and a lower bound otherwise. docs/accuracy.md tells, for each kind of shape and structure, where the distance is exact and how tight the bound is. Outside the model the distance is that of the coarsest scale that the point is outside of; inside, that of the nearest boundary of any scale. Of regions it is a bound: up to where another region begins (docs/accuracy.md).
+   *
+   * Cost: a mesh builds a tree of its triangles on first use (n log n; seconds for millions; about 120 bytes per triangle until the shape is freed) and then visits about log n nodes. A lattice evaluates the struts that can be nearest, a foam the edges of the seeds around (microseconds). A functional structure takes about ten milliseconds on first use to bound its slope. Errors: ARGUMENT, LIMIT (tree above the memory limit), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing", 1996.
+   */
+  msq_point_distance(model: Memory, point: Memory, query: msq_query_def | null, distance: Memory): number;
+  /** Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Cancelling does not interrupt the construction of a mesh's tree. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries". */
+  msq_set_distance(model: Memory, points: msq_points_def | null, query: msq_query_def | null, distance: Memory, distance_count: number | bigint, job: Memory): number;
+  /**
+   * Writes the onset of a structure, of itself and of no model, at each point of a set. value: an msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size (lattices) or is not a number. onset_count must be the number of points.
+   *
+   * gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central difference over 2^-17 of the smallest cell size on either side: off by about 1e-8 of the largest slope where the function is smooth, a mean of both sides along ridges, and 0 where it is not finite.
+   *
+   * MSQ_ONSET_SIGNED agrees in sign with membership; for lattices and foams except within 1e-9 of a cell of the boundary. job NULL: no job. ARGUMENT, LIMIT and UNSUPPORTED write nothing; CANCELLED, HOST and MEMORY may leave the arrays partly written. Cost: in parallel, lattices and functions about 0.1 us, foams 1.5 us per point, seven times that with gradients; foams less if points of a cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index), UNSUPPORTED (kinds without onset, as in msq_structure_calibrate), LIMIT (a point 2^24 cells from the origin of the grid), HOST (fields), CANCELLED, MEMORY.
+   */
+  msq_set_onset(context: Memory, structure: Memory, points: msq_points_def | null, value: number, onsets: Memory, onset_count: number | bigint, gradients: Memory, gradient_count: number | bigint, job: Memory): number;
+  /** Writes the value of a field at each point of a set: values[i] of point i, the number that msq uses there. value_count must be the number of points. job NULL: no job. ARGUMENT writes nothing; CANCELLED, HOST and MEMORY may leave values partly written. Cost: that of the field (docs/concepts.md), in parallel. Errors: ARGUMENT (also points that are not finite, with their index), HOST, CANCELLED, MEMORY. */
+  msq_field_evaluate(context: Memory, field: Memory, points: msq_points_def | null, values: Memory, value_count: number | bigint, job: Memory): number;
+  /** Estimates the volume fraction of a phase (msq_phase) in the box of the sample. query NULL: defaults. job NULL: no job. Cost: msq_set_membership. Errors: ARGUMENT, CANCELLED, MEMORY. Source: paper, section "Set-based queries"; Cochran, "Sampling Techniques", 1977, chapter 5. */
+  msq_volume_fraction(model: Memory, sample: msq_points_def | null, query: msq_query_def | null, phase: number, estimate: Partial<msq_estimate>, job: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_segments_def_init(def: Partial<msq_segments_def>, size: number | bigint): number;
+  /** Estimates the two-point correlation S2: estimates[i] receives the probability that both ends of a segment of length i are in the phase. At length 0 this is the volume fraction. estimate_count must be length_count. query NULL: defaults. job NULL: no job. Cost: msq_set_membership of the sample, and again per length of those points that are in the phase. Errors: ARGUMENT, CANCELLED, MEMORY. Source: Torquato, "Random Heterogeneous Materials", 2002, section 2.2. */
+  msq_two_point_correlation(model: Memory, sample: msq_points_def | null, query: msq_query_def | null, def: msq_segments_def | null, estimates: Memory, estimate_count: number | bigint, job: Memory): number;
+  /**
+   * Estimates the lineal-path function L: estimates[i] receives the probability that a segment of length i lies entirely in the phase. Arguments as in msq_two_point_correlation.
+   *
+   * msq follows a segment by the steps that msq_point_distance allows, which cross no boundary, and near boundaries by the step of def. Gaps shorter than that step may be missed; longer ones never are. Ends are found within a thousandth of the step. Cost: tens of distances per point, and one per step where the distance is 0. Errors: ARGUMENT, CANCELLED, LIMIT (a length above 10^6 steps), MEMORY. Source: Torquato 2002, section 2.4; Lu and Torquato 1992.
+   */
+  msq_lineal_path(model: Memory, sample: msq_points_def | null, query: msq_query_def | null, def: msq_segments_def | null, estimates: Memory, estimate_count: number | bigint, job: Memory): number;
+  /**
+   * Finds the constant parameter (radius of struts, level of a function) at which a structure has a target volume fraction, and the curve between the two. The parameter of the structure itself is ignored.
+   *
+   * target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20), parameters[i], in model units, has fraction fractions[i] = i / (pair_count - 1) * max_fraction. The fractions ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2 points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells (foams; with a period, of the smallest size), from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host structures and functions, beams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.
+   */
+  msq_structure_calibrate(context: Memory, structure: Memory, sample: msq_points_def | null, target: number, parameters: Memory, fractions: Memory, pair_count: number | bigint, report: Partial<msq_calibration_report> | null, job: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_contours_def_init(def: Partial<msq_contours_def>, size: number | bigint): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_output_def_init(def: Partial<msq_output_def>, size: number | bigint): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_slicer_def_init(def: Partial<msq_slicer_def>, size: number | bigint): number;
+  /** Plans the layers of a model, normal to z or in a frame. Computes nothing yet. def must not be NULL. Errors: ARGUMENT (also pixels or layers that rounding makes coincide, and a window outside the plan), LIMIT (more than 2^31 - 1 layers, or pixels along a side, or 2^63 pixels in total or in the window), MEMORY. */
+  msq_slicer_create(model: Memory, def: msq_slicer_def | null, slicer: [Pointer]): number;
+  /** Adds a reference. */
+  msq_slicer_retain(slicer: Memory): void;
+  /** Drops a reference. */
+  msq_slicer_release(slicer: Memory): void;
+  /** Reports the plan. Errors: ARGUMENT. */
+  msq_slicer_info(slicer: Memory, report: Partial<msq_slicer_report>): number;
+  /** Returns z of the samples of a layer. Errors: ARGUMENT (index out of range). */
+  msq_slicer_layer_z(slicer: Memory, index: number | bigint, z: Memory): number;
+  /** Computes layers first to first + count - 1 and passes each to the callback, in ascending order, on the calling thread. Workers compute the next slab meanwhile and wait for the callback. (With the host's parallel_for, the next slab is computed after the callbacks of the slab.) count UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the plan is split into calls or processes, nor on its other outputs. Memory, accounted to the context: two slabs, one layer and a few tiles per thread, for any height of the stack; foams keep cells in the cache in addition. With contours, workers compute those of as many layers at once as there are threads, and as many wait for the callback. Where memory_limit does not hold these, they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section "Slicing". */
+  msq_slicer_run(slicer: Memory, first: number | bigint, count: number | bigint, fn: msq_layer_fn | bigint | null, user: Memory, job: Memory): number;
+  /** Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask for them; for others up to three times that. Memory: one layer and a few tiles per thread; layers that are filled ahead take at most two slabs until the slicer is freed or a call needs the memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY. */
+  msq_slice_layer(slicer: Memory, index: number | bigint, buffer: Memory, buffer_bytes: number | bigint, job: Memory): number;
+  /**
+   * Computes the contours of the section of a model at a height along the axis.
+   *
+   * Rings are closed and simple, and no two of them meet. The inside is on the left: outer rings are counter-clockwise in (u, v), holes clockwise. Corners are points of the rings. Points that the tolerance does not need are left out. Rings come in the order of their lowest v, so a ring's parent has a smaller index. The same arguments yield the same bytes, on any thread.
+   *
+   * contours: a new handle. job NULL: no job. Any number of threads may call it at once. Memory: in proportion to the window's nodes and crossings, accounted to the context while the call lasts. The result is not accounted. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 crossings; coordinates beyond the type, for int64 beyond 2^53; memory), MEMORY. Source: marching squares; Imai and Iri 1986.
+   */
+  msq_layer_contours(model: Memory, height: number, def: msq_contours_def | null, contours: [Pointer], job: Memory): number;
+  /** The same for a layer of a slicer: at the layer's z, with the slicer's length_scale. axis must be 2. has_window 0: the rectangle of the slicer's pixels. Errors: as msq_layer_contours; ARGUMENT also for an index out of range. */
+  msq_slicer_contours(slicer: Memory, index: number | bigint, def: msq_contours_def | null, contours: [Pointer], job: Memory): number;
+  /** Adds a reference. */
+  msq_contours_retain(contours: Memory): void;
+  /** Drops a reference. */
+  msq_contours_release(contours: Memory): void;
+  /** Reports what contours hold. Errors: ARGUMENT. */
+  msq_contours_info(contours: Memory, report: Partial<msq_contours_report>): number;
+  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  msq_printability_def_init(def: Partial<msq_printability_def>, size: number | bigint): number;
+  /**
+   * Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids, thin places.
+   *
+   * It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation of the slicer are ignored. What is smaller than a pixel may lie between samples: to find it, use a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners, empty ones across sides; samples of two layers are connected if one is on the other.
+   *
+   * def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 16 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack; of these, runs and totals are not accounted to the context. Cost: 1.3 to 1.8 times that of msq_slicer_run for bits, up to 3 times with thousands of enclosed voids in a layer. THIN adds 0.2 to 1.5 ns per sample. All but the bits runs on the calling thread. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2.
+   */
+  msq_printability(slicer: Memory, def: msq_printability_def | null, fn: msq_findings_fn | bigint | null, user: Memory, report: Partial<msq_printability_report>, job: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_fill_def_init(def: Partial<msq_fill_def>, size: number | bigint): number;
+  /**
+   * Computes the middle lines of a structure's thin walls at a height, within a polygon.
+   *
+   * Foams: the faces of the Voronoi diagram, cut by the plane. Sheets: where the function is 0. Networks, which have no walls: where the function is the level, the boundary of the solid. Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it. Strut lattices, beams and structures of the host have no such lines; use contours for them.
+   *
+   * Each line is in one path; none is printed twice unless pair_distance says so. Paths are as few as possible: one for two of the points where a path has to end, which are the border and junctions of three, five .. lines. At a junction, lines that are most nearly straight are joined as far as this keeps paths few. Paths are in the order in which they are best printed: each begins near the end of the one before. Of lines that are connected the travel is a few percent above the least one.
+   *
+   * Ends at the polygon's border are rounded to whole coordinates, all else is decided exactly. Lines on the border itself count as inside on one side of the polygon. The lines do not depend on the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are followed on a grid of 1/32 of the smallest cell size: lines closer together than that may be joined, and smaller closed lines lost.
+   *
+   * def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box. Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam in the plane; about 1 us per square that a line of a function crosses and 20 ns per other square. Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are on one line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson, "Matching, Euler tours and the Chinese postman", 1973.
+   */
+  msq_fill_lines(context: Memory, structure: Memory, def: msq_fill_def | null, fill: [Pointer], job: Memory): number;
+  /** Adds a reference. */
+  msq_fill_retain(fill: Memory): void;
+  /** Drops a reference. */
+  msq_fill_release(fill: Memory): void;
+  /** Reports the paths. Errors: ARGUMENT. */
+  msq_fill_info(fill: Memory, report: Partial<msq_fill_report>): number;
+  /**
+   * Finds the cell sizes at which a structure's fill lines cover a share of the area.
+   *
+   * The density of lines is their length per area times their width, on average over all heights. It is inversely proportional to the cell size. cell_size receives those of the structure's grid, all times the same factor: create the structure anew with them, and the same rotation. density: more than 0, at most 1. job NULL: no job. Single layers differ, of a gyroid by a tenth. The length is measured on the structure as it is: one cell at 64 heights; 8 x 8 if the grid is turned; 32 x 32 cells of a foam at 32 heights, accurate to about 0.5 %. A foam with a field of density: calibrate it without the field; d seeds per cell volume then multiply the density of lines by about the cube root of d. Cost: up to 0.5 s for a foam. Errors: ARGUMENT, UNSUPPORTED (no thin walls; a field of density, or of the level of a network), LIMIT (no lines), CANCELLED, HOST, MEMORY.
+   */
+  msq_fill_calibrate(context: Memory, structure: Memory, line_width: number, density: number, cell_size: Memory, job: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  msq_surface_def_init(def: Partial<msq_surface_def>, size: number | bigint): number;
+  /**
+   * Computes triangles of the boundary of a model within a box, to look at and to hand on to programs that take nothing else. Layers, contours, rays and distances come from the model itself, faster and exactly.
+   *
+   * The mesh is closed, and a manifold: each edge has two triangles, which run through it in opposite directions, and the triangles around a vertex are one ring. Each vertex is within pitch / 1000 of the boundary of the model cut with the box. Edges and corners of the model that are wider apart than the pitch are kept. Triangles may intersect where the boundary is bent within a pitch.
+   *
+   * Callbacks run on the calling thread, from low z to high z. The parts together do not depend on slab_layers, threads or calls. A model without a point at a node yields no callback. def must not be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory: about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors: ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 vertices; memory), MEMORY. Since 0.2. Source: Schaefer, Ju and Warren, "Manifold dual contouring", 2007.
+   */
+  msq_surface_mesh(model: Memory, def: msq_surface_def | null, fn: msq_surface_fn | bigint | null, user: Memory, job: Memory): number;
+  /**
+   * Computes the mesh of msq_surface_mesh as the bytes of a file. format: an msq_surface_format.
+   *
+   * Each byte of the file is in one part. Parts of MSQ_SURFACE_STL come in the order of the file. In MSQ_SURFACE_PLY vertices come before triangles, so its parts alternate between two places: seek to offset, or copy to it in memory of total bytes. The bytes of the file do not depend on slab_layers or threads. Coordinates are rounded to float32: far from the origin, vertices closer together than that may coincide.
+   *
+   * Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is written. A model without a point at a node yields a file without triangles. Errors: as msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices. Since 0.2.
+   */
+  msq_surface_file(model: Memory, def: msq_surface_def | null, format: number, fn: msq_file_fn | bigint | null, user: Memory, job: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_rays_def_init(def: Partial<msq_rays_def>, size: number | bigint): number;
+  /**
+   * Finds where each ray first meets the solid at t_min <= t <= t_max. hits[i] belongs to ray i. hit_count must be the number of rays. query NULL: defaults. job NULL: no job. What begins at t_max is hit if the rounded point there is inside.
+   *
+   * Membership (msq_point_membership) changes within 2^-36 of the characteristic length of the scale hit, or within 2^-50 of the largest coordinate of the ray in the shape's box, seen from the origin and from that of the grid, if that is more. Before t it does not change, except over parts of the ray shorter than that. Exceptions: shapes and structures that are known by callbacks, images or rough fields; docs/accuracy.md lists the tolerance of position and normal for each kind. A ray is known to 2^-53 of the way from its origin. Every ray ends. t is finite in each hit. Results do not depend on the order of the rays.
+   *
+   * Finer scales are evaluated only where the ray is inside the coarser ones. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave hits partly written. Cost: parallel. Rays that are close together share work; rays in random order are sorted first, up to 2^20 at once, with 16 bytes each and at most 1/16 of the memory limit. A mesh builds its tree first, as for msq_point_distance. Errors: ARGUMENT (also rays that are not finite and directions of length 0, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting".
+   */
+  msq_ray_cast(model: Memory, rays: msq_rays_def | null, query: msq_query_def | null, hits: Memory, hit_count: number | bigint, job: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_camera_init(camera: Partial<msq_camera>, size: number | bigint): number;
+  /** Sets eye, target, up and height so that the bounding box of the model fits a picture of width x height pixels (1 to 16384 each). direction: from eye to target, of any length except 0. up NULL: z, or y if z is within 2.6 degrees of the view. Other fields keep their values; a perspective camera uses field_of_view. Errors: ARGUMENT. */
+  msq_camera_fit(model: Memory, direction: Memory, up: Memory, width: number, height: number, camera: Partial<msq_camera>): number;
+  /** Returns the ray of a position in a picture of width x height pixels. position: pixels to the right of and below the upper left corner; the centre of pixel (i, j) is (i + 0.5, j + 0.5). With the returned direction the t of msq_ray_cast is the depth, and a ray from t_min = clip_near to t_max = clip_far hits exactly what msq_render draws. For picking and for pictures of the host's own. Errors: ARGUMENT. */
+  msq_camera_ray(camera: msq_camera | null, width: number, height: number, position: Memory, origin: Memory, direction: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
+  msq_render_def_init(def: Partial<msq_render_def>, size: number | bigint): number;
+  /** Sets the defaults: no arrays. Errors: ARGUMENT. */
+  msq_frame_init(frame: Partial<msq_frame>, size: number | bigint): number;
+  /**
+   * Renders a model as a camera sees it.
+   *
+   * Depth, normal, scale and material of a pixel are those of msq_ray_cast for the ray through its centre. Its colour is the mean, in linear light, of its samples: the background, or
+   *
+   * base * (ambient * open + (1 - ambient) * max(0, normal . light) * lit)
+   *
+   * with the colour base from colour_by, the share open of occlusion rays that hit nothing, and lit 0 in shadow; open and lit are 1 if not requested. What the clip planes cut away casts no shadow. A pixel has the same bits for any tile, passes and threads.
+   *
+   * fn NULL: no callback. Otherwise fn is called on the calling thread after each pass: steps from first_step, halved each time, down to 1; then one with all samples if rgba has more than one per pixel. query NULL: defaults. job NULL: no job. ARGUMENT writes nothing; other errors may leave the frame partly written.
+   *
+   * Cost: one ray per pixel and samples^2 more if samples > 1, each with its shadow and occlusion rays; in parallel, in tiles of 32 x 32 rays. A mesh builds its tree first, as for msq_point_distance. Memory: about 1 MB per thread, kept for the next call. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting".
+   */
+  msq_render(model: Memory, camera: msq_camera | null, def: msq_render_def | null, query: msq_query_def | null, frame: msq_frame | null, fn: msq_render_fn | bigint | null, user: Memory, job: Memory): number;
+  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  msq_document_def_init(def: Partial<msq_document_def>, size: number | bigint): number;
+  /**
+   * Reads a document from text in memory: JSON in UTF-8, of `bytes` bytes. def NULL: defaults. job NULL: no job; its progress is that of the file which is being read.
+   *
+   * msq builds every object of the document by the functions above, with their checks and their warnings. Lengths are in the model's unit. Unknown keys, keys that occur twice and definitions that contain themselves are refused. A message begins with line, column and path of the value that is at fault, for example "12:17: scales[1].structure.foam.radius: ...". Lines and columns begin at 1; columns count bytes.
+   *
+   * Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY. Since 0.2.
+   */
+  msq_document_from_json(context: Memory, text: string | null, bytes: number | bigint, def: msq_document_def | null, document: [Pointer], job: Memory): number;
+  /** Reads a document from a file. path: as in msq_shape_from_file. Its messages begin with the path. The rest is as in msq_document_from_json. Errors: as msq_document_from_json. Since 0.2. */
+  msq_document_from_file(context: Memory, path: string | null, def: msq_document_def | null, document: [Pointer], job: Memory): number;
+  /** Adds a reference. */
+  msq_document_retain(document: Memory): void;
+  /** Drops a reference. */
+  msq_document_release(document: Memory): void;
+  /** Reports what a document holds. Errors: ARGUMENT. Since 0.2. */
+  msq_document_info(document: Memory, report: Partial<msq_document_report>): number;
+  /** Returns the model of a document, with a reference for the caller to release. It does not need the document any more. Errors: ARGUMENT. Since 0.2. */
+  msq_document_model(document: Memory, model: [Pointer]): number;
+  /** Writes the settings for slices to *def, whose struct_size the caller has set; what the document does not say has its default. The pointers in it are valid as long as the document. The host may change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without slicing). Since 0.2. */
+  msq_document_slicing(document: Memory, def: Partial<msq_slicer_def>): number;
+  /** Writes the settings for pictures to *camera and *render, whose struct_size the caller has set. A view along a direction is already fitted to the model, as by msq_camera_fit. The pointers in *render are valid as long as the document. Errors: ARGUMENT (also a document without view). Since 0.2. */
+  msq_document_view(document: Memory, camera: Partial<msq_camera>, render: Partial<msq_render_def>): number;
+  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  msq_json_def_init(def: Partial<msq_json_def>, size: number | bigint): number;
+  /**
+   * Writes a model as a document in JSON: its objects as they were defined, whether by the functions of this header or by a document. msq_document_from_json makes a model of it with the same msq_model_hash, as long as the files that it names are the same. def NULL: defaults.
+   *
+   * Meshes from files are written as the path of the file with its options. Other meshes, and images that no document read from a file, are written as numbers. Objects that are used more than once are written once, under a name.
+   *
+   * *bytes: receives the size of the text, without a terminating 0. text: receives it if room is enough, with a terminating 0 if room is larger; NULL if room is 0. Errors: ARGUMENT (also room that is neither 0 nor enough), UNSUPPORTED (an object of the host; beams of more than 4 MiB, whose definition msq does not keep; a path or a name that is not UTF-8; a build without nlohmann-json), LIMIT (max_numbers), MEMORY. Since 0.2.
+   */
+  msq_model_to_json(model: Memory, def: msq_json_def | null, text: Memory, room: number | bigint, bytes: Memory): number;
+}
+
+/** Structs with defaults, by their names without msq_. */
+export interface Definitions {
+  context_def: msq_context_def;
+  period_def: msq_period_def;
+  file_def: msq_file_def;
+  mesh_def: msq_mesh_def;
+  host_shape_def: msq_host_shape_def;
+  voxels_def: msq_voxels_def;
+  radial_field_def: msq_radial_field_def;
+  host_field_def: msq_host_field_def;
+  grid_field_def: msq_grid_field_def;
+  expression_field_def: msq_expression_field_def;
+  shape_distance_field_def: msq_shape_distance_field_def;
+  unit_cell_def: msq_unit_cell_def;
+  lattice_def: msq_lattice_def;
+  foam_def: msq_foam_def;
+  functional_def: msq_functional_def;
+  beams_def: msq_beams_def;
+  host_structure_def: msq_host_structure_def;
+  host_function_def: msq_host_function_def;
+  struts_def: msq_struts_def;
+  material_def: msq_material_def;
+  model_def: msq_model_def;
+  query_def: msq_query_def;
+  points_def: msq_points_def;
+  segments_def: msq_segments_def;
+  contours_def: msq_contours_def;
+  output_def: msq_output_def;
+  slicer_def: msq_slicer_def;
+  printability_def: msq_printability_def;
+  fill_def: msq_fill_def;
+  surface_def: msq_surface_def;
+  rays_def: msq_rays_def;
+  camera: msq_camera;
+  render_def: msq_render_def;
+  frame: msq_frame;
+  document_def: msq_document_def;
+  json_def: msq_json_def;
+}
+
+/** Structs that msq fills in. */
+export interface Reports {
+  build_report: msq_build_report;
+  memory_report: msq_memory_report;
+  cache_report: msq_cache_report;
+  job_report: msq_job_report;
+  shape_report: msq_shape_report;
+  unit_cell_report: msq_unit_cell_report;
+  lattice_faces_report: msq_lattice_faces_report;
+  beam_file_report: msq_beam_file_report;
+  strut_graph_report: msq_strut_graph_report;
+  calibration_report: msq_calibration_report;
+  slicer_report: msq_slicer_report;
+  contours_report: msq_contours_report;
+  printability_report: msq_printability_report;
+  fill_report: msq_fill_report;
+  document_report: msq_document_report;
+}
