@@ -27,6 +27,7 @@ from .model import Model, Scale
 from .picture import Picture, RenderPass
 from .points import PointGrid, PointSet, Stratified
 from .printability import Printability
+from .progress import progress
 from .shape import Shape, ShapeInfo
 from .slicer import Layer, Output, Slicer
 from .statistics import Calibration, Estimate
@@ -49,5 +50,5 @@ __all__ = [
     "OutOfMemoryError", "Output", "Param", "Period", "Picture", "PointGrid", "PointSet",
     "Printability", "RenderPass", "Scale",
     "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
-    "UnsupportedError", "build_info",
+    "UnsupportedError", "build_info", "progress",
 ]

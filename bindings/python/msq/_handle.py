@@ -7,6 +7,7 @@ import ctypes
 from typing import Any, ClassVar, Optional, Type, TypeVar
 
 from . import _abi
+from ._given import Given
 from ._library import lib
 from ._signals import held
 
@@ -47,6 +48,7 @@ class Handle:
 
     _kind: ClassVar[str] = ""  # as in msq_<kind>_release
     _reference: Optional[Reference] = None
+    _given: Optional[Given] = None
 
     @classmethod
     def _create(cls, create: Any, *arguments: Any) -> Reference:
@@ -86,6 +88,12 @@ class Handle:
         raise TypeError(f"{type(self).__name__} objects can neither be pickled nor deep-copied: they "
                         "belong to this process. Share them, or make them again from their arguments")
 
+    def __repr__(self) -> str:
+        name = f"msq.{type(self).__name__}"
+        if self.closed:
+            return f"<{name}, closed>"
+        return f"<{name}>" if self._given is None else self._given.text(name)
+
     @property
     def closed(self) -> bool:
         """Whether close() was called."""
@@ -94,6 +102,7 @@ class Handle:
     def close(self) -> None:
         """Drops this object's reference. What was built from it, and calls on it, go on."""
         self._reference = None
+        self._given = None
 
     def __enter__(self: SelfT) -> SelfT:
         return self

@@ -11,6 +11,7 @@ import threading
 from typing import Any, Callable, Dict, Optional, Tuple, Type, TypeVar
 
 from . import _abi
+from ._given import parameter, remembers
 from ._handle import Handle
 from ._library import constant, defaults, lib, report
 
@@ -123,7 +124,11 @@ class Context(Handle):
     """
 
     _kind = "context"
+    threads: parameter[int] = parameter("As given; 0: one a core.")
+    memory_limit: parameter[int] = parameter("Bytes; 0: none.")
+    cache_policy: parameter[str] = parameter("As given.")
 
+    @remembers
     def __init__(self, *, threads: int = 0, cache_bytes: Optional[int] = None,
                  memory_limit: int = 0, cache_policy: str = "fifo",
                  on_warning: Optional[Callable[[str, str], Any]] = None) -> None:
@@ -191,6 +196,9 @@ class Job(Handle):
 
     def __init__(self) -> None:
         self._reference = self._create(lib.msq_job_create)
+
+    def __repr__(self) -> str:
+        return "<msq.Job, closed>" if self.closed else f"<msq.Job, {100 * self.progress:.0f} % done>"
 
     def cancel(self) -> None:
         """Asks the call under the job to stop, with CancelledError; later ones stop at once."""

@@ -74,6 +74,9 @@ class Document(Handle):
         made.has_view: bool = bool(filled.has_view)
         return made
 
+    def __repr__(self) -> str:
+        return f"<msq.Document {self.title!r}>"
+
     @property
     def model(self) -> Model:
         """The model."""

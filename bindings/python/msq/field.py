@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _abi
 from ._arrays import output, pointer, vector
+from ._given import remembers
 from ._grid import Cell, set_image
 from ._handle import Handle, hash_of
 from ._host import HashKey, create
@@ -36,6 +37,7 @@ class Field(Handle):
         return made
 
     @classmethod
+    @remembers
     def gradient(cls, start: Sequence[float], start_value: float, end: Sequence[float],
                  end_value: float, *, context: Optional[Context] = None) -> Field:
         """Linear from start_value in the plane through start, normal to end - start, to end_value
@@ -44,6 +46,7 @@ class Field(Handle):
                          start_value, doubles(end, "end"), end_value)
 
     @classmethod
+    @remembers
     def radial(cls, center: Sequence[float], start_radius: float, start_value: float,
                end_radius: float, end_value: float, *, axis: Optional[Sequence[float]] = None,
                context: Optional[Context] = None) -> Field:
@@ -58,6 +61,7 @@ class Field(Handle):
         return cls._make(context_of(context), lib.msq_field_radial, ctypes.byref(definition))
 
     @classmethod
+    @remembers
     def grid(cls, values: Any, *, spacing: Cell = 1.0, origin: Sequence[float] = (0, 0, 0),
              rotation: Any = None, context: Optional[Context] = None) -> Field:
         """Trilinear between values (nz, ny, nx), constant beyond them. values[k, j, i] stands at
@@ -67,6 +71,7 @@ class Field(Handle):
         return cls._make(context_of(context), lib.msq_field_grid, ctypes.byref(definition))
 
     @classmethod
+    @remembers
     def host(cls, evaluate: Callable[[np.ndarray], Any], low: float, high: float, *,
              lipschitz: float = math.inf, range: Optional[Callable[[Any, Any], Any]] = None,
              concurrent: bool = False, hash_key: HashKey = None,
@@ -89,6 +94,7 @@ class Field(Handle):
                       definition, concurrent, hash_key, evaluate=evaluate, range=range)
 
     @classmethod
+    @remembers
     def expression(cls, expression: str, low: float, high: float, *,
                    parameters: Optional[Mapping[str, float]] = None,
                    context: Optional[Context] = None) -> Field:
@@ -100,6 +106,7 @@ class Field(Handle):
         return cls._make(context_of(context), lib.msq_field_expression, ctypes.byref(definition))
 
     @classmethod
+    @remembers
     def shape_distance(cls, shape: Shape, curve: Any, *, step: float = 0.0,
                        context: Optional[Context] = None, job: Optional[Job] = None) -> Field:
         """A piecewise linear curve over the signed distance to a shape, negative inside: pairs
@@ -116,6 +123,7 @@ class Field(Handle):
         return build(lambda new, _kept=kept: cls._make(context, new, ctypes.byref(definition)),
                      lib.msq_field_shape_distance, job, step > 0)
 
+    @remembers
     def map(self, curve: Any, *, context: Optional[Context] = None) -> Field:
         """A piecewise linear curve over this field: pairs (n, 2) of this one's value, strictly
         ascending, and the new one's; constant beyond the ends."""

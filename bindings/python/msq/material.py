@@ -6,6 +6,7 @@ import ctypes
 from typing import Any, Optional, Sequence
 
 from . import _abi
+from ._given import remembers
 from ._handle import Handle, hash_of
 from ._library import defaults, lib
 from .context import Context, context_of, unsigned
@@ -23,6 +24,7 @@ class Material(Handle):
     id: int  #: what Model.material answers
     context: Context
 
+    @remembers
     def __init__(self, id: int, /, *, context: Optional[Context] = None, **channels: Param) -> None:
         definition = defaults(_abi.msq_material_def)
         definition.id = unsigned(id, 32, "id")
@@ -38,6 +40,7 @@ class Material(Handle):
         self.id, self.context = definition.id, context
 
     @classmethod
+    @remembers
     def blend(cls, id: int, a: Material, b: Material, fraction: Param, *,
               context: Optional[Context] = None) -> Material:
         """One material graded into another, with an id of its own: each channel is (1 - f) times

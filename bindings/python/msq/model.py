@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _abi, picture, statistics, surface
 from ._arrays import output, pointer, triples
+from ._given import parameter, remembers
 from ._handle import Handle, hash_of
 from ._interrupt import interruptible
 from ._library import defaults, lib
@@ -57,7 +58,11 @@ class Model(Handle):
     """
 
     _kind = "model"
+    shape: parameter[Shape] = parameter("The coarse shape. Not of models of regions and documents.")
+    structures: parameter[Union[Part, Sequence[Part]]] = parameter(
+        "As given. Not of models of regions and documents.")
 
+    @remembers
     def __init__(self, shape: Shape, structures: Union[Part, Sequence[Part]] = (), *,
                  material: Optional[Material] = None, context: Optional[Context] = None) -> None:
         if not isinstance(shape, Shape):
@@ -85,6 +90,7 @@ class Model(Handle):
         self.context = context
 
     @classmethod
+    @remembers
     def regions(cls, *models: Model, context: Optional[Context] = None) -> Model:
         """A model of regions, such as the parts of a plate and modifier volumes in them: a point
         belongs to the first whose shape contains it, and is inside where that model is."""

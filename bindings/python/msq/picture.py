@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Tuple
 
 import numpy as np
 
-from . import _abi
+from . import _abi, _png
 from ._arrays import output, pointer, vector
 from ._interrupt import interruptible
 from ._library import constant, defaults, keep_exception, lib
@@ -39,6 +39,16 @@ class Picture:
     scale: Optional[np.ndarray] = None  #: int32, whose surface it is; -1 in a miss
     material: Optional[np.ndarray] = None  #: uint32, its id; 0 in a miss
     rgba: Optional[np.ndarray] = None  #: uint8 (..., 4), sRGB and opacity
+
+    def _repr_png_(self) -> Optional[bytes]:
+        """A notebook shows the picture so, if it has rgba."""
+        return None if self.rgba is None else _png.encoded(self.rgba)
+
+    def __repr__(self) -> str:
+        arrays = {name: getattr(self, name) for name in _ARRAYS}
+        held = [name for name, array in arrays.items() if array is not None]
+        height, width = arrays[held[0]].shape[:2] if held else (0, 0)
+        return f"<msq.Picture: {width} x {height}, {', '.join(held)}>"
 
 
 @dataclasses.dataclass(frozen=True)

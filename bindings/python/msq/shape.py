@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _abi
 from ._arrays import pointer, triples, vector
+from ._given import remembers
 from ._grid import Cell, affine, set_image
 from ._handle import Handle, hash_of
 from ._host import HashKey, create
@@ -55,6 +56,7 @@ class Shape(Handle):
         return made
 
     @classmethod
+    @remembers
     def from_file(cls, path: Union[str, "os.PathLike[str]"], *, format: str = "auto",
                   unit_mm: float = 1.0, winding: str = "auto", max_bytes: int = 0,
                   max_triangles: int = 0, context: Optional[Context] = None,
@@ -76,6 +78,7 @@ class Shape(Handle):
             raise with_path(error, path) from None
 
     @classmethod
+    @remembers
     def from_memory(cls, data: Any, format: str, *, unit_mm: float = 1.0, winding: str = "auto",
                     max_bytes: int = 0, max_triangles: int = 0,
                     context: Optional[Context] = None, job: Optional[Job] = None) -> Shape:
@@ -99,6 +102,7 @@ class Shape(Handle):
         return definition
 
     @classmethod
+    @remembers
     def from_mesh(cls, vertices: Any, triangles: Any, *, winding: str = "auto",
                   context: Optional[Context] = None) -> Shape:
         """A triangle mesh in arrays: vertices (n, 3), float32 or float64; triangles (m, 3), indices
@@ -118,6 +122,7 @@ class Shape(Handle):
         return cls._make(context, lib.msq_shape_from_mesh, ctypes.byref(definition))
 
     @classmethod
+    @remembers
     def box(cls, min: Sequence[float], max: Sequence[float], *,
             context: Optional[Context] = None) -> Shape:
         """Axis-aligned box, boundary included."""
@@ -125,6 +130,7 @@ class Shape(Handle):
                          doubles(max, "max"))
 
     @classmethod
+    @remembers
     def sphere(cls, center: Sequence[float], radius: float, *,
                context: Optional[Context] = None) -> Shape:
         """Ball, boundary included."""
@@ -132,6 +138,7 @@ class Shape(Handle):
                          radius)
 
     @classmethod
+    @remembers
     def cylinder(cls, start: Sequence[float], end: Sequence[float], radius: float, *,
                  context: Optional[Context] = None) -> Shape:
         """Flat-ended round cylinder between two points, boundary included."""
@@ -139,12 +146,14 @@ class Shape(Handle):
                          doubles(end, "end"), radius)
 
     @classmethod
+    @remembers
     def all_space(cls, *, context: Optional[Context] = None) -> Shape:
         """Every point, for models of structures alone: see msq_shape_all_space in msq.h. Slicers of
         such models need a region, rays a finite t_max, pictures a finite clip_far."""
         return cls._make(context_of(context), lib.msq_shape_all_space)
 
     @classmethod
+    @remembers
     def voxels(cls, values: Any, threshold: float, *, spacing: Cell = 1.0,
                origin: Sequence[float] = (0, 0, 0), rotation: Any = None, solid: str = "above",
                context: Optional[Context] = None) -> Shape:
@@ -161,6 +170,7 @@ class Shape(Handle):
         return cls._make(context_of(context), lib.msq_shape_from_voxels, ctypes.byref(definition))
 
     @classmethod
+    @remembers
     def host(cls, inside: Callable[[np.ndarray], Any], min: Sequence[float],
              max: Sequence[float], *, distance: Optional[Callable[[np.ndarray], Any]] = None,
              concurrent: bool = False, hash_key: HashKey = None,
@@ -178,27 +188,32 @@ class Shape(Handle):
         return create(lambda: cls._make(context, lib.msq_shape_from_host, ctypes.byref(definition)),
                       definition, concurrent, hash_key, inside=inside, distance=distance)
 
+    @remembers
     def placed(self, matrix: Any) -> Shape:
         """An instance of the shape, turned, scaled, mirrored, sheared and moved: its point q is at
         matrix @ (q, 1). matrix: (3, 4), or (4, 4) with the last row 0, 0, 0, 1. It shares mesh and
         trees with this one."""
         return self._made_of(lib.msq_shape_placed, self._ref, affine(matrix))
 
+    @remembers
     def offset(self, distance: float) -> Shape:
         """The shape with its surface moved by a distance, outwards or, if negative, inwards."""
         return self._made_of(lib.msq_shape_offset, self._ref, distance)
 
     @classmethod
+    @remembers
     def union(cls, *shapes: Shape) -> Shape:
         """Points in any of the shapes."""
         return cls._boolean("union", shapes)
 
     @classmethod
+    @remembers
     def intersection(cls, *shapes: Shape) -> Shape:
         """Points in all of the shapes."""
         return cls._boolean("intersection", shapes)
 
     @classmethod
+    @remembers
     def difference(cls, *shapes: Shape) -> Shape:
         """Points of the first shape that are in no other."""
         return cls._boolean("difference", shapes)

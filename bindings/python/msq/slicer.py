@@ -5,11 +5,12 @@ from __future__ import annotations
 import ctypes
 import operator
 import weakref
-from typing import TYPE_CHECKING, Any, Callable, Iterator, List, Optional, Sequence, Tuple, Union
+from typing import (TYPE_CHECKING, Any, Callable, Iterator, List, Optional, Sequence, Tuple, Union,
+                    overload)
 
 import numpy as np
 
-from . import _abi
+from . import _abi, _png
 from ._arrays import output as output_array
 from ._arrays import pointer, vector
 from ._grid import Window, set_window
@@ -145,6 +146,14 @@ class Layer:
         return Layer(self.index, self.z, self.output, self.width, self.height, self.inside_count,
                      first.rows if isinstance(first, Layer) else self.rows.copy(), outputs)
 
+    def _repr_png_(self) -> bytes:
+        """A notebook shows the layer so, with y upwards: coverage if it is grey, else what is inside."""
+        if self.output == "contours":
+            raise ValueError("the first output is contours, which has no pixels: see contours()")
+        if self.output == "grey":
+            return _png.encoded(self.data[::-1])
+        return _png.encoded(self.pixels[::-1].astype(np.uint8) * np.uint8(255))
+
     def __repr__(self) -> str:
         return (f"<msq.Layer {self.index} at z = {self.z:g}: {self.width} x {self.height}, "
                 f"{self.inside_count} inside>")
@@ -170,8 +179,8 @@ class Slicer(Handle):
     (u, v, w)), orthonormal axes along which pixels and layers lie. With either, region, heights and
     contours are in the coordinates of the layers, and x, y, z of pixels and layers mean these.
 
-    Slicers are sequences: len(slicer), slicer[i] (one layer, by itself) and iteration (slab by
-    slab, faster).
+    Slicers are sequences: len(slicer), slicer[i] (one layer, by itself), slicer[2:4] (a list) and
+    iteration (slab by slab, faster).
     """
 
     _kind = "slicer"
@@ -265,6 +274,7 @@ class Slicer(Handle):
         return made
 
     def _plan(self, model: Model, definition: _abi.msq_slicer_def) -> None:
+        self._is_turned = definition.orientation != 0
         self._reference = self._create(lib.msq_slicer_create, model._ref, ctypes.byref(definition))
         plan = report(_abi.msq_slicer_report, lib.msq_slicer_info, self._ref)
         self.width: int = plan.width  #: pixels in x
@@ -295,8 +305,35 @@ class Slicer(Handle):
     def __len__(self) -> int:
         return self.layer_count
 
-    def __getitem__(self, index: int) -> Layer:
-        return self.layer(index)
+    @overload
+    def __getitem__(self, index: int) -> Layer: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> List[Layer]: ...
+
+    def __getitem__(self, index: Union[int, slice]) -> Union[Layer, List[Layer]]:
+        if not isinstance(index, slice):
+            return self.layer(index)
+        chosen = range(self.layer_count)[index]
+        if abs(chosen.step) == 1 and len(chosen) > 1:  # all from the first to the last
+            found = list(self.layers(min(chosen), len(chosen)))
+            return found if chosen.step > 0 else found[::-1]
+        return [self.layer(one) for one in chosen]
+
+    def __repr__(self) -> str:
+        return (f"<msq.Slicer: {self.layer_count} layers of {self.width} x {self.height} pixels, "
+                f"{' and '.join(self._kinds)}>")
+
+    @property
+    def extent(self) -> Tuple[float, float, float, float]:
+        """x of the left and right, y of the lower and upper edge of the pixels, as matplotlib wants it:
+        imshow(layer.pixels, origin="lower", extent=slicer.extent). Not if layers are turned."""
+        if self._is_turned:
+            raise ValueError("the layers are mirrored or transposed; extent is of those that are not")
+        low = [self.origin[axis] + (self.window[0][axis] - 0.5) * self.pitch[axis]
+               for axis in range(2)]
+        return (low[0], low[0] + self.width * self.pitch[0],
+                low[1], low[1] + self.height * self.pitch[1])
 
     def __iter__(self) -> Iterator[Layer]:
         return self.layers()

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _abi, statistics
 from ._arrays import Elements, elements, output, pointer, triples
+from ._given import parameter, remembers
 from ._grid import Cell, Period, set_grid, set_period
 from ._handle import Handle, hash_of
 from ._host import HashKey, HostPoints, create
@@ -142,6 +143,15 @@ class Lattice(Structure):
     an index, names the one that stands in each cell.
     """
 
+    unit_cell: parameter[Any] = parameter("As given.")
+    radius: parameter[Param] = parameter("Of the struts.")
+    cell_choice: parameter[Optional[Param]] = parameter("Which of the unit cells stands in a cell.")
+    cell_size: parameter[Cell] = parameter("As given: one number, or three.")
+    clusters: parameter[int] = parameter("As given.")
+    origin: parameter[Sequence[float]] = parameter("Of the grid.")
+    rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
+
+    @remembers
     def __init__(self, unit_cell: Union[UnitCellLike, Sequence[UnitCellLike]] = "bcc", *,
                  radius: Param, cell_choice: Optional[Param] = None, cell_size: Cell = 1.0,
                  clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
@@ -183,6 +193,18 @@ class Foam(Structure):
     their cells. density: seeds in a cell's volume. method: how sets and slices are answered, `auto` the fastest.
     """
 
+    radius: parameter[Param] = parameter("Of the struts.")
+    cell_size: parameter[Cell] = parameter("As given: one number, or three.")
+    jitter: parameter[float] = parameter("0 to 1.")
+    seed: parameter[int] = parameter("As given.")
+    density: parameter[Param] = parameter("Seeds in the volume of a cell.")
+    method: parameter[str] = parameter("As given.")
+    origin: parameter[Sequence[float]] = parameter("Of the grid.")
+    rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
+    wall_thickness: parameter[Param] = parameter("0: no walls.")
+    vent_radius: parameter[Param] = parameter("Of a hole in each wall; 0: none.")
+
+    @remembers
     def __init__(self, *, radius: Param = 0.0, cell_size: Cell = 1.0, jitter: float = 1.0,
                  seed: int = 0, density: Param = 1.0, method: str = "auto",
                  origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
@@ -214,6 +236,9 @@ class Beams(Structure):
     others are copied. The structure keeps its own.
     """
 
+    min_length: parameter[float] = parameter("Shorter beams were dropped.")
+
+    @remembers
     def __init__(self, nodes: Any, beams: Any = None, *, radius: Any = 0.0, cap: Any = "sphere",
                  balls: Any = None, ball_radius: Any = 0.0, min_length: float = 0.0,
                  length_scale: float = 0.0, context: Optional[Context] = None,
@@ -288,6 +313,19 @@ class Functional(Structure):
     period: a Period, for cells whose size varies along an axis; cell_size along it is ignored.
     """
 
+    function: parameter[Optional[str]] = parameter("Its name; None: an expression.")
+    expression: parameter[Optional[str]] = parameter("None: a named function.")
+    parameters: parameter[Optional[Mapping[str, float]]] = parameter("Of the expression.")
+    kind: parameter[str] = parameter("`network` or `sheet`.")
+    level: parameter[Param] = parameter("As given.")
+    thickness: parameter[Param] = parameter("Of the walls; 0: by the level.")
+    cell_size: parameter[Cell] = parameter("As given: one number, or three.")
+    clusters: parameter[int] = parameter("As given.")
+    origin: parameter[Sequence[float]] = parameter("Of the grid.")
+    rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
+    period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
+
+    @remembers
     def __init__(self, function: Optional[str] = None, *, expression: Optional[str] = None,
                  parameters: Optional[Mapping[str, float]] = None, kind: str = "network",
                  level: Param = 0.0, thickness: Param = 0.0, cell_size: Cell = 1.0,
@@ -323,6 +361,7 @@ class HostStructure(Structure):
     Field.host.
     """
 
+    @remembers
     def __init__(self, inside: Optional[Callable[[HostPoints], Any]] = None, *,
                  build_cell: Optional[Callable[[Tuple[int, int, int]], Any]] = None,
                  evaluate_cell: Optional[Callable[[Any, HostPoints], Any]] = None,
@@ -342,6 +381,7 @@ class HostFunctional(Structure):
     """As Functional, of a function of Python: evaluate(angles) answers angles (n, 3), 0 to 2 pi, by
     n numbers. lipschitz or range(min, max) make it fast, as for Field.host."""
 
+    @remembers
     def __init__(self, evaluate: Callable[[Any], Any], *, lipschitz: float = math.inf,
                  range: Optional[Callable[[Any, Any], Any]] = None, kind: str = "network",
                  level: Param = 0.0, cell_size: Cell = 1.0, clusters: int = 0,

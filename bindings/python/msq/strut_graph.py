@@ -70,6 +70,15 @@ class StrutGraph(Handle):
         self.caps = view(report.caps, (struts, 2), "|u1")  #: as MSQ_CAP_*
         self.cuts = view(report.cuts, (struts, 2), "|b1")  #: does it leave the shape at that end
 
+    @property
+    def vtk_lines(self) -> np.ndarray:
+        """(3 * n,) int64: 2 and two nodes for each strut, as vtkCellArray and
+        pyvista.PolyData(graph.nodes, lines=graph.vtk_lines) take them."""
+        cells = np.empty((len(self.struts), 3), np.int64)
+        cells[:, 0] = 2
+        cells[:, 1:] = self.struts
+        return cells.ravel()
+
     def __len__(self) -> int:
         """The number of struts."""
         return len(self.struts)

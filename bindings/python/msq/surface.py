@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, BinaryIO, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, BinaryIO, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -19,11 +19,32 @@ _FORMATS = {"stl": _abi.MSQ_SURFACE_STL, "ply": _abi.MSQ_SURFACE_PLY}
 
 
 class Mesh(NamedTuple):
-    """Triangles that enclose a volume. Made by Model.mesh."""
+    """Triangles that enclose a volume. Made by Model.mesh.
+
+    matplotlib draws them on 3D axes: axes.plot_trisurf(*mesh.vertices.T, triangles=mesh.triangles).
+    """
 
     vertices: np.ndarray  #: (n, 3) float64
     normals: np.ndarray  #: (n, 3) float32, outward, of length 1
     triangles: np.ndarray  #: (m, 3) uint32: vertices, counter-clockwise seen from outside
+
+    @property
+    def trimesh_arguments(self) -> Dict[str, Any]:
+        """trimesh.Trimesh(**mesh.trimesh_arguments) is the mesh, with its vertices and their order."""
+        return {"vertices": self.vertices, "faces": self.triangles, "vertex_normals": self.normals,
+                "process": False}
+
+    @property
+    def vtk_cells(self) -> np.ndarray:
+        """(4 * m,) int64: 3 and three vertices for each triangle, as vtkCellArray and
+        pyvista.PolyData(mesh.vertices, mesh.vtk_cells) take them."""
+        cells = np.empty((len(self.triangles), 4), np.int64)
+        cells[:, 0] = 3
+        cells[:, 1:] = self.triangles
+        return cells.ravel()
+
+    def __repr__(self) -> str:
+        return f"<msq.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
 
 
 def definition_of(pitch: float, box: Optional[Box], length_scale: float,
