@@ -1,0 +1,3 @@
+module msq
+
+go 1.19

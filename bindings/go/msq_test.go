@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+package msq
+
+import (
+	"errors"
+	"runtime"
+	"strings"
+	"testing"
+)
+
+func foamModel(t *testing.T) (*Context, *Model) {
+	t.Helper()
+	context, err := NewContext(2)
+	check(t, err)
+	box, err := Box(context, [3]float64{}, [3]float64{8, 6, 4})
+	check(t, err)
+	foam, err := NewFoam(context, Foam{CellSize: [3]float64{2, 2, 2}, Radius: 0.3})
+	check(t, err)
+	model, err := NewModel(context, box, foam)
+	check(t, err)
+	return context, model
+}
+
+func check(t *testing.T, err error) {
+	t.Helper()
+	if err != nil {
+		t.Fatal(err)
+	}
+}
+
+func TestLayersComeInOrder(t *testing.T) {
+	_, model := foamModel(t)
+	slicer, err := model.Slicer(Plan{Pitch: 0.1, LayerHeight: 0.5})
+	check(t, err)
+	next, solid := uint64(2), uint64(0)
+	check(t, slicer.Run(2, 5, nil, func(layer Layer) error {
+		if layer.Index != next || layer.Width != 80 || len(layer.Data) != layer.Stride*60 {
+			t.Errorf("layer %+v", layer)
+		}
+		next++
+		solid += layer.InsideCount
+		runtime.GC()
+		return nil
+	}))
+	if next != 7 || solid == 0 {
+		t.Errorf("next %d, solid %d", next, solid)
+	}
+}
+
+func TestErrorsAndPanicsOfTheFunctionStopTheRun(t *testing.T) {
+	_, model := foamModel(t)
+	slicer, err := model.Slicer(Plan{Pitch: 0.5, LayerHeight: 0.5})
+	check(t, err)
+	enough, calls := errors.New("enough"), 0
+	err = slicer.Run(0, slicer.LayerCount, nil, func(Layer) error { calls++; return enough })
+	if !errors.Is(err, enough) || calls != 1 {
+		t.Errorf("%v after %d calls", err, calls)
+	}
+	defer func() {
+		if recover() != "oh" {
+			t.Error("the panic was lost")
+		}
+	}()
+	_ = slicer.Run(0, slicer.LayerCount, nil, func(Layer) error { panic("oh") })
+}
+
+func TestRefusalsHaveStatusAndMessage(t *testing.T) {
+	context, _ := foamModel(t)
+	_, err := Sphere(context, [3]float64{}, -1)
+	var refused *Error
+	if !errors.As(err, &refused) || refused.Status != ErrArgument || !strings.Contains(err.Error(), "-1") {
+		t.Error(err)
+	}
+}
+
+func TestJobsCancel(t *testing.T) {
+	_, model := foamModel(t)
+	slicer, err := model.Slicer(Plan{Pitch: 0.1, LayerHeight: 0.01})
+	check(t, err)
+	job, err := NewJob()
+	check(t, err)
+	check(t, job.Cancel())
+	err = slicer.Run(0, slicer.LayerCount, job, func(Layer) error { return nil })
+	var cancelled *Error
+	if !errors.As(err, &cancelled) || cancelled.Status != ErrCancelled {
+		t.Error(err)
+	}
+}
+
+func TestDistanceAgreesWithMembershipInManyGoroutines(t *testing.T) {
+	_, model := foamModel(t)
+	points := make([][3]float64, 2000)
+	for i := range points {
+		points[i] = [3]float64{float64(i%20) * 0.4, float64(i/20%10) * 0.6, float64(i/200) * 0.4}
+	}
+	done := make(chan error)
+	for n := 0; n < 8; n++ {
+		go func() {
+			inside, err := model.Membership(points)
+			if err != nil {
+				done <- err
+				return
+			}
+			distances, err := model.Distance(points)
+			for i := range inside {
+				if err == nil && inside[i] != (distances[i] <= 0) {
+					err = errors.New("signs differ")
+				}
+			}
+			done <- err
+		}()
+	}
+	for n := 0; n < 8; n++ {
+		check(t, <-done)
+	}
+}
