@@ -1,6 +1,8 @@
 # Installs the library, its C header, the C++ header over it, the CMake package and the pkg-config file,
 # and msq_io likewise. A shared msq
 # keeps its dependencies to itself; a static one hands them on to whoever links it.
+# Components, for `cmake --install build --component NAME`: msq_runtime and msq_io_runtime, the libraries;
+# msq_development, what programs are built with; msq_tools, the command; msq_python; msq_licence.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -19,23 +21,26 @@ if(NOT BUILD_SHARED_LIBS AND MSQ_WITH_CGAL)
 endif()
 
 install(TARGETS msq EXPORT msqTargets
-        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT msq_runtime
+                NAMELINK_COMPONENT msq_development
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT msq_development
+        RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT msq_runtime
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(FILES include/msq.h bindings/cpp/msq.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES include/msq.h bindings/cpp/msq.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        COMPONENT msq_development)
 # Not CMAKE_INSTALL_DOCDIR, which is the host's where msq is a part of another project.
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/msq)
-install(EXPORT msqTargets NAMESPACE msq:: DESTINATION ${MSQ_CMAKE_DIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/msq COMPONENT msq_licence)
+install(EXPORT msqTargets NAMESPACE msq:: DESTINATION ${MSQ_CMAKE_DIR} COMPONENT msq_development)
 
 if(MSQ_BUILD_TOOLS)
   install(TARGETS msq_io EXPORT msqIoTargets
-          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-          RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT msq_io_runtime
+                  NAMELINK_COMPONENT msq_development
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT msq_development
+          RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT msq_io_runtime
           INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  install(FILES include/msq_io.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  install(EXPORT msqIoTargets NAMESPACE msq:: DESTINATION ${MSQ_CMAKE_DIR})
+  install(FILES include/msq_io.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT msq_development)
+  install(EXPORT msqIoTargets NAMESPACE msq:: DESTINATION ${MSQ_CMAKE_DIR} COMPONENT msq_development)
 endif()
 
 configure_package_config_file(cmake/msqConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/msqConfig.cmake
@@ -51,7 +56,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/msqConfigVersion.cm
                                  COMPATIBILITY ${MSQ_COMPATIBILITY})
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/msqConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/msqConfigVersion.cmake
-        DESTINATION ${MSQ_CMAKE_DIR})
+        DESTINATION ${MSQ_CMAKE_DIR} COMPONENT msq_development)
 
 # pkg-config asks for the files of Requires.private even for --cflags, so a shared msq lists none.
 set(MSQ_PC_REQUIRES_PRIVATE "")
@@ -90,7 +95,8 @@ foreach(dir IN ITEMS LIBDIR INCLUDEDIR)
   endif()
 endforeach()
 configure_file(cmake/msq.pc.in ${CMAKE_CURRENT_BINARY_DIR}/msq.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/msq.pc DESTINATION ${MSQ_PC_DIR})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/msq.pc DESTINATION ${MSQ_PC_DIR}
+        COMPONENT msq_development)
 
 if(MSQ_BUILD_TOOLS)
   set(MSQ_PC_REQUIRES_PRIVATE "")
@@ -101,5 +107,6 @@ if(MSQ_BUILD_TOOLS)
     endif()
   endif()
   configure_file(cmake/msq_io.pc.in ${CMAKE_CURRENT_BINARY_DIR}/msq_io.pc @ONLY)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/msq_io.pc DESTINATION ${MSQ_PC_DIR})
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/msq_io.pc DESTINATION ${MSQ_PC_DIR}
+          COMPONENT msq_development)
 endif()

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs a build to a prefix, moves the prefix, and builds and runs a C program against it.
-# Usage: check_install.sh cmake|pkgconfig|examples shared|static BUILD_DIR VERSION
-# examples builds those of C and C++ by themselves against the prefix.
+# Usage: check_install.sh cmake|pkgconfig|examples|components shared|static BUILD_DIR VERSION
+# examples builds those of C and C++ by themselves against the prefix. components installs each component alone.
 # Environment: CC, CXX, CMAKE, PKG_CONFIG.
 set -euo pipefail
 
@@ -77,6 +77,23 @@ case $way in
     "$work/c/hello" >"$work/layer"
     grep -q '#.*#' "$work/layer" || die "hello printed no layer"
     "$work/cpp/infill_plugin" >"$work/log" || { cat "$work/log"; exit 1; }
+    ;;
+  components)
+    files() { (cd "$1" && find . ! -type d | LC_ALL=C sort); }
+    for component in msq_runtime msq_io_runtime msq_development msq_tools msq_python msq_licence; do
+      "$CMAKE" --install "$build" --component "$component" --prefix "$work/$component" >"$work/log" ||
+        { cat "$work/log"; exit 1; }
+      mkdir -p "$work/$component"
+      # What a package has beside it, in share/doc of the package, only its component installs.
+      files "$work/$component" | grep -v '^\./share/doc/.*/\(changelog\.gz\|copyright\)$' >"$work/$component.files" || true
+    done
+    LC_ALL=C sort "$work"/*.files | diff - <(files "$prefix") || die "the components are not the whole"
+    if [[ $kind == shared ]]; then
+      ! grep -v '/libmsq\.so\.[0-9.]*$' "$work/msq_runtime.files" || die "more than the library in msq_runtime"
+      [[ -s $work/msq_runtime.files ]] || die "msq_runtime is empty"
+      grep -q '/libmsq\.so$' "$work/msq_development.files" || die "no libmsq.so in msq_development"
+    fi
+    if [[ $has_io == ON ]]; then grep -q '/man1/msq\.1$' "$work/msq_tools.files" || die "no manual in msq_tools"; fi
     ;;
   pkgconfig)
     flags=()
