@@ -29,7 +29,9 @@ OTHERS = {"CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md",
           **{f"integrations/{host}/README.md": f"{host}.md" for host in ("freecad", "blender", "prusaslicer")}}
 API_PAGES = {"msq.h": "api/index.md", "msq_io.h": "api/msq_io.md"}
 RULES_PAGES = {"msq.h": "api/rules.md", "msq_io.h": "api/msq_io_rules.md"}
-LANGUAGES = {".c": "c", ".h": "c", ".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".cmake": "cmake", ".json": "json", ".rs": "rust", ".js": "javascript"}
+# Debian 12's Pygments does not know the private members of JavaScript.
+LANGUAGES = {".c": "c", ".h": "c", ".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".cmake": "cmake",
+             ".json": "json", ".rs": "rust", ".js": "text", ".go": "go", ".lua": "lua"}
 
 
 # When a function fails, if its comment only names the status.
