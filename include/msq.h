@@ -1922,6 +1922,13 @@ MSQ_API msq_status msq_model_bounds(const msq_model* model, double min[3], doubl
  * Errors: ARGUMENT (no such scale). */
 MSQ_API msq_status msq_model_scale_length(const msq_model* model, uint32_t scale, double* length);
 
+/** Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the
+ * scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0
+ * also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such
+ * region or scale). Since 0.2. */
+MSQ_API msq_status msq_model_scale(const msq_model* model, uint32_t region, uint32_t scale,
+                                   msq_shape** shape, msq_structure** structure);
+
 /* ---- Queries --------------------------------------------------------------------------------- */
 
 /** How structures evaluate the points of a set. Does not change results. */

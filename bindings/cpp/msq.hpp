@@ -764,6 +764,12 @@ class Structure
  public:
   Structure() = default;
 
+  /// create(&handle) makes it by a function of msq.h.
+  template <class Create>
+  static Structure made_by(Create&& create) {
+    return Structure(std::in_place, create);
+  }
+
   static Structure lattice(const Context& context, const LatticeDef& def) {
     return Structure(std::in_place,
                      [&](auto** made) { return msq_structure_lattice(context.get(), &def, made); });
@@ -1020,6 +1026,16 @@ class Model : public detail::Handle<msq_model, msq_model_retain, msq_model_relea
     double length = 0;
     check(msq_model_scale_length(get(), scale, &length));
     return length;
+  }
+  /// The structure of a scale. Of scale 0: an empty handle.
+  Structure structure(uint32_t scale = 1, uint32_t region = 0) const {
+    return Structure::made_by(
+        [&](auto** made) { return msq_model_scale(get(), region, scale, nullptr, made); });
+  }
+  /// The coarse shape of a region.
+  Shape shape(uint32_t region = 0) const {
+    return Shape::made_by(
+        [&](auto** made) { return msq_model_scale(get(), region, 0, made, nullptr); });
   }
 
   /// As a document in JSON.

@@ -236,6 +236,7 @@ void msq_model_retain(msq_model* model);
 void msq_model_release(msq_model* model);
 msq_status msq_model_bounds(const msq_model* model, double* min, double* max);
 msq_status msq_model_scale_length(const msq_model* model, uint32_t scale, double* length);
+msq_status msq_model_scale(const msq_model* model, uint32_t region, uint32_t scale, msq_shape** shape, msq_structure** structure);
 msq_status msq_query_def_init(msq_query_def* def, size_t size);
 msq_status msq_points_def_init(msq_points_def* def, size_t size);
 msq_status msq_points_generate(const msq_points_def* points, uint64_t first, uint64_t count, double* coordinates);

@@ -39,6 +39,13 @@ Parameter read_skin(const msq_param& skin, uint32_t scale) {
   return thickness;
 }
 
+/// Another handle of an object.
+template <class Handle, class Object>
+Handle* shared(const Object& object) {
+  object.retain();
+  return reinterpret_cast<Handle*>(const_cast<Object*>(&object));
+}
+
 /// NULL: none.
 Ref<const Material> read_material(const msq_material* material) {
   return material ? Ref<const Material>(&object(material, "material")) : Ref<const Material>();
@@ -156,5 +163,21 @@ msq_status msq_model_scale_length(const msq_model* model, uint32_t scale, double
     if (scale >= known.scale_count())
       fail(Status::argument, "scale is %u; the model has %zu", scale, known.scale_count());
     *length = known.scale_length(scale);
+  });
+}
+
+msq_status msq_model_scale(const msq_model* model, uint32_t region, uint32_t scale,
+                           msq_shape** shape, msq_structure** structure) {
+  return guard([&] {
+    const Model& known = object(model, "model");
+    const size_t region_count = std::max<size_t>(known.regions().size(), 1);
+    if (region >= region_count)
+      fail(Status::argument, "region is %u; the model has %zu", region, region_count);
+    const Model& part = known.regions().empty() ? known : *known.regions()[region];
+    if (scale >= part.scale_count())
+      fail(Status::argument, "scale is %u; region %u has %zu", scale, region, part.scale_count());
+    const Structure* fine = scale == 0 ? nullptr : part.all_scales()[scale - 1]->structure.get();
+    if (shape) *shape = scale == 0 ? shared<msq_shape>(part.shape()) : nullptr;
+    if (structure) *structure = fine ? shared<msq_structure>(*fine) : nullptr;
   });
 }

@@ -107,6 +107,19 @@ static void parts_of_models(void** state) {
     WRONG(ARGUMENT, "model has 3|4294967295", scale = UINT32_MAX);
     TRY(msq_model_scale_length(model, scale, length));
   }
+  REFUSALS("msq_model_scale") {
+    const msq_model* model = three;
+    uint32_t region = 0, scale = 2;
+    msq_shape** shape = (msq_shape**)output(0);
+    msq_structure** structure = (msq_structure**)output(1);
+    RIGHT(shape = NULL);
+    WRONG(ARGUMENT, "model is NULL", model = NULL);
+    WRONG(ARGUMENT, "region is 1|1", region = 1);
+    WRONG(ARGUMENT, "scale is 3|region 0 has 3", scale = 3);
+    WRONG(ARGUMENT, "scale is 4294967295", scale = UINT32_MAX);
+    if (TRY(msq_model_scale(model, region, scale, shape, structure)))
+      msq_structure_release(*structure);
+  }
   msq_model_release(three);
 }
 

@@ -67,7 +67,49 @@ class Models(Case):
         stats = [json.loads(self.msq("stats", *model, "--samples", "5000", "--json"))
                  for model in ([path], [BOX, *FOAM])]
         self.assertEqual(stats[0]["volume_fraction"], stats[1]["volume_fraction"])
-        self.refuse(2, "takes no model file", "struts", path)
+        self.assertEqual(self.msq("struts", path), self.msq("struts", BOX, *FOAM))
+
+    def test_structures_of_a_model_file(self):
+        grid = {"grid": {"cell_size": 2}, "radius": 0.2}
+        scales = [{"shape": {"box": {"min": [0, 0, 0], "max": [4, 4, 4]}}},
+                  {"structure": {"lattice": {"unit_cell": "octet", **grid}}},
+                  {"structure": {"foam": {**grid, "seed": 3}}}]
+        solid, path = scales[:1], self.folder / "several.json"
+
+        def write(**model):
+            path.write_text(json.dumps({"msq_model": 1, **model}))
+
+        options = {"1": ["--lattice", "octet", "--cell", "2", "--radius", "0.2"],
+                   "2": ["--foam", "2", "--radius", "0.2", "--seed", "3"]}
+        struts = {scale: self.msq("struts", "box:4,4,4", *given)
+                  for scale, given in options.items()}
+        fractions = {scale: json.loads(self.msq("calibrate", *given, "--fraction", "0.2", "--json"))
+                     for scale, given in options.items()}
+
+        def compare(scale, *chosen):
+            self.assertEqual(self.msq("struts", path, *chosen), struts[scale])
+            found = json.loads(self.msq("calibrate", path, *chosen, "--fraction", "0.2", "--json"))
+            self.assertEqual(found["parameter"], fractions[scale]["radius"])
+            self.assertEqual(found["samples"], fractions[scale]["samples"])
+
+        write(scales=scales)
+        for scale in options:
+            compare(scale, "--scale", scale)
+        write(regions=[{"scales": solid}, {"scales": scales[:2]}])
+        compare("1")
+        write(regions=[{"scales": scales[:2]}, {"scales": [solid[0], scales[2]]}])
+        compare("2", "--region", "1")
+        for command in (["struts", path], ["calibrate", path, "--fraction", "0.2"]):
+            self.refuse(2, "has 2 structures", *command)
+            self.refuse(2, "--foam: does not apply", *command, "--foam", "2")
+            self.refuse(1, "region is 2; the model has 2", *command, "--region", "2")
+            self.refuse(1, "scale is 2; region 1 has 2", *command, "--region", "1", "--scale", "2")
+            self.refuse(2, "--scale: 0 is the coarse shape", *command, "--scale", "0")
+        write(scales=solid)
+        self.refuse(2, "has no structure", "struts", path)
+        self.refuse(2, "--scale: is for model files", "struts", BOX, *FOAM, "--scale", "1")
+        self.refuse(2, "is for model files", "calibrate", *options["1"], "-f", "0.2", "--any-files")
+        self.refuse(2, "'box:4,4,4' is none", "calibrate", "box:4,4,4", "-f", "0.2")
 
     def test_its_settings_are_used_and_options_take_their_place(self):
         path = self.write(slicing={"pitch": [0.25, 0.25], "layer_height": 1, "output": "grey",

@@ -257,7 +257,8 @@ std::vector<Scenario> create_scenarios() {
                              msq_material_retain, [](msq_material*, std::vector<double>&) {});
                        }});
   scenarios.push_back(
-      {"msq_model_create, msq_model_bounds, msq_model_scale_length", [](Stage& stage) {
+      {"msq_model_create, msq_model_bounds, msq_model_scale_length, msq_model_scale",
+       [](Stage& stage) {
          World world(stage);
          msq_scale_def scales[3];
          std::memset(scales, 0, sizeof scales);
@@ -275,6 +276,9 @@ std::vector<Scenario> create_scenarios() {
              [](msq_model* made, std::vector<double>& probe) {
                require_ok(msq_model_bounds(made, &probe[0], &probe[3]));
                require_ok(msq_model_scale_length(made, 1, &probe[6]));
+               msq_structure* structure;
+               require_ok(msq_model_scale(made, 0, 1, nullptr, &structure));
+               msq_structure_release(structure);
              });
        }});
   scenarios.push_back(

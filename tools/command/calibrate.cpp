@@ -14,6 +14,30 @@ std::string_view parameter_of(const Arguments& arguments) {
   return arguments.has("thickness") ? "thickness" : "radius";
 }
 
+Scene open_file(const Arguments& arguments) {
+  if (!is_model_file(arguments.operand(0))) {
+    throw UsageError("msq calibrate takes a model file (.json) or options, and '" +
+                     arguments.operand(0) + "' is none");
+  }
+  Scene scene = open_model_file(arguments);
+  choose_structure(arguments, scene);
+  return scene;
+}
+
+Scene make_scene(const Arguments& arguments) {
+  for (const char* option : {"any-files", "region", "scale"}) {
+    if (arguments.has(option)) arguments.refuse(option, "is for model files");
+  }
+  Scene scene;
+  scene.context = make_context(arguments);
+  scene.structure = make_structure(arguments, scene.context.get(), 0, 0, true);
+  if (!scene.structure) {
+    throw UsageError(
+        "msq calibrate needs --foam, --lattice, --function, --expression or a model file");
+  }
+  return scene;
+}
+
 }  // namespace
 
 void run_calibrate(const Arguments& arguments) {
@@ -26,23 +50,25 @@ void run_calibrate(const Arguments& arguments) {
   for (const char* option : {"skin", "radius-top"}) {
     if (arguments.has(option)) arguments.refuse(option, "has no meaning here");
   }
-  const Context context = make_context(arguments);
-  const Structure structure = make_structure(arguments, context.get(), 0, 0, true);
-  if (!structure) {
-    throw UsageError("msq calibrate needs --foam, --lattice, --function or --expression");
-  }
+  const bool has_file = !arguments.operand(0).empty();
+  const Scene scene = has_file ? open_file(arguments) : make_scene(arguments);
   std::vector<double> parameters(pairs), fractions(pairs);
   msq_calibration_report found = {};
   found.struct_size = sizeof found;
   {
     Work work("calibrating");
-    check(msq_structure_calibrate(context.get(), structure.get(), nullptr, target,
+    check(msq_structure_calibrate(scene.context.get(), scene.structure.get(), nullptr, target,
                                   pairs ? parameters.data() : nullptr,
                                   pairs ? fractions.data() : nullptr, pairs, &found, work.job()));
   }
-  const std::string_view name = parameter_of(arguments);
+  // A model file does not tell msq of which kind its structure is.
+  const std::string_view name = has_file ? "parameter" : parameter_of(arguments);
   Report report;
-  report.add("structure", describe_structure(arguments));
+  if (has_file) {
+    report.add("file", arguments.operand(0));
+  } else {
+    report.add("structure", describe_structure(arguments));
+  }
   report.add(name, found.parameter);
   report.add("volume_fraction", found.fraction.value);
   report.add("standard_error", found.fraction.standard_error);

@@ -63,6 +63,17 @@ constexpr Option STRUCTURE[] = {
     {"skin", 0, "MM", Value::TEXT, "", "solid skin under the surface of the part (default 0)"},
 };
 
+constexpr Option CHOICE[] = {
+    {"scale", 0, "N", Value::TEXT, "",
+     "scale of a model file whose structure is taken, from 1 (default: the only one)"},
+    {"region", 0, "N", Value::TEXT, "", "region of the scale, from 0 (default 0 with --scale)"},
+};
+
+// What a command needs to read a model file and nothing else.
+constexpr Option MODEL_FILES[] = {
+    {"any-files", 0, "", Value::NONE, "", "the model file may name files outside its own folder"},
+};
+
 constexpr Option RESOLVED[] = {
     {"length-scale", 0, "MM", Value::TEXT, "",
      "leave structures with smaller cells out: they are solid (default 0)"},
@@ -183,6 +194,7 @@ const Group RUNNING_GROUP = {"Running", RUNNING};
 const Group PART_GROUP = {"Part", PART};
 const Group STRUCTURE_GROUP = {"Structure", STRUCTURE};
 const Group RESOLVED_GROUP = {"Resolution", RESOLVED};
+const Group CHOICE_GROUP = {"Structure of a model file", CHOICE};
 const Group BOX_GROUP = {"Region", BOX};
 const Group REPORT_GROUP = {"Report", JSON};
 
@@ -279,20 +291,29 @@ const std::vector<Command>& table() {
        "Writes the struts of a lattice or a foam as nodes and struts between them, for programs of "
        "finite elements. CSV has a row for each strut: the numbers of its nodes, their places, the "
        "radii there, 1 for an end where the strut leaves the part, and the cell. JSON lines have "
-       "the nodes first, then the struts. Model files are not taken.",
+       "the nodes first, then the struts. Struts of a model file are those of one structure; finer "
+       "and "
+       "coarser ones do not cut them.",
        {MODEL},
-       {{"Graph", STRUTS}, PART_GROUP, STRUCTURE_GROUP, BOX_GROUP, RUNNING_GROUP},
+       {{"Graph", STRUTS}, PART_GROUP, STRUCTURE_GROUP, CHOICE_GROUP, BOX_GROUP, RUNNING_GROUP},
        {"msq struts bracket.stl --foam 4 --radius 0.4 -o struts.csv"},
        run_struts},
       {"calibrate",
        "find the radius, thickness or level of a volume fraction",
        "Finds the constant parameter at which a structure has a volume fraction: the radius of "
        "struts, the thickness of the walls of a foam without struts, the level of a surface. It "
-       "measures the structure by itself, in whole cells. Radius, thickness and level need not be "
+       "measures the structure by itself, in whole cells. The structure of a model file may have a "
+       "field for its parameter, which plays no part. Of options, radius, thickness and level need "
+       "not be "
        "given, except to say what is wanted: --thickness for the walls of a foam, --sheet for a "
        "surface.",
-       {},
-       {{"Calibration", CALIBRATE}, REPORT_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
+       {{"MODEL", false, "a model file (.json), in place of options"}},
+       {{"Calibration", CALIBRATE},
+        REPORT_GROUP,
+        STRUCTURE_GROUP,
+        CHOICE_GROUP,
+        {"Files", MODEL_FILES},
+        RUNNING_GROUP},
        {"msq calibrate --lattice bcc --cell 4 --fraction 0.2",
         "msq calibrate --function gyroid --sheet --cell 4 --fraction 0.2"},
        run_calibrate},

@@ -94,6 +94,16 @@ void open_document(const Arguments& arguments, Scene& scene, const std::string& 
   scene.has_view = report.has_view != 0;
 }
 
+bool has_scale(const msq_model* model, uint32_t region, uint32_t scale) {
+  return msq_model_scale(model, region, scale, nullptr, nullptr) == MSQ_OK;
+}
+
+uint32_t index_of(const Arguments& arguments, const char* option, uint64_t otherwise) {
+  const uint64_t index = arguments.count(option, otherwise);
+  if (index > 4096) arguments.refuse(option, arguments.text(option) + " is above 4096");
+  return static_cast<uint32_t>(index);
+}
+
 }  // namespace
 
 bool is_model_file(const std::string& path) {
@@ -115,15 +125,49 @@ Context make_context(const Arguments& arguments) {
   return context;
 }
 
-Scene open_scene(const Arguments& arguments, bool whole_paths) {
+Scene open_model_file(const Arguments& arguments) {
   Scene scene;
   scene.context = make_context(arguments);
-  const std::string& path = arguments.operand(0);
-  if (is_model_file(path)) {
-    open_document(arguments, scene, path);
-    return scene;
+  open_document(arguments, scene, arguments.operand(0));
+  return scene;
+}
+
+void choose_structure(const Arguments& arguments, Scene& scene) {
+  const msq_model* model = scene.model.get();
+  const bool is_named = arguments.has("region") || arguments.has("scale");
+  uint32_t region = 0, scale = 1;
+  if (is_named) {
+    region = index_of(arguments, "region", 0);
+    scale = index_of(arguments, "scale", 1);
+    if (scale == 0) arguments.refuse("scale", "0 is the coarse shape; structures begin at 1");
+  } else {
+    size_t count = 0;
+    for (uint32_t r = 0; has_scale(model, r, 0); ++r) {
+      for (uint32_t s = 1; has_scale(model, r, s); ++s) {
+        if (count++ == 0) {
+          region = r;
+          scale = s;
+        }
+      }
+    }
+    if (count == 0) throw UsageError(arguments.operand(0) + " has no structure");
+    if (count > 1) {
+      throw UsageError(arguments.operand(0) + " has " + std::to_string(count) +
+                       " structures; --scale, and --region if there are several, choose one");
+    }
   }
-  if (arguments.has("any-files")) arguments.refuse("any-files", "is for model files");
+  check(msq_model_scale(model, region, 0, scene.part.out(), nullptr), "--region");
+  check(msq_model_scale(model, region, scale, nullptr, scene.structure.out()), "--scale");
+}
+
+Scene open_scene(const Arguments& arguments, bool whole_paths) {
+  const std::string& path = arguments.operand(0);
+  if (is_model_file(path)) return open_model_file(arguments);
+  Scene scene;
+  scene.context = make_context(arguments);
+  for (const char* option : {"any-files", "region", "scale"}) {
+    if (arguments.has(option)) arguments.refuse(option, "is for model files");
+  }
   if (path.starts_with(BOX)) {
     for (const char* option : {"unit", "up"}) {
       if (arguments.has(option)) arguments.refuse(option, "does not apply to a box");

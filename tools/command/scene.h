@@ -13,8 +13,8 @@ namespace command {
 struct Scene {
   Context context;
   Document document;    // of a model file; none otherwise
-  Shape part;           // of a mesh file or a box; none of a model file
-  Structure structure;  // of the options; none: the part is solid
+  Shape part;           // of a mesh file or a box; of a model file by choose_structure() alone
+  Structure structure;  // of the options, as part; none: the part is solid
   Model model;
   bool has_slicing = false, has_view = false;  // of the model file
 };
@@ -25,6 +25,13 @@ Context make_context(const Arguments& arguments);
 // Reads operand 0: a model file, or a mesh file or a box, which the options fill.
 // whole_paths: mesh files are opened by their whole path, which their model then has.
 Scene open_scene(const Arguments& arguments, bool whole_paths = false);
+
+// Reads a model file alone. Options of a structure are refused.
+Scene open_model_file(const Arguments& arguments);
+
+// Sets part and structure of a model file: those of --region and --scale, or the only structure
+// that there is.
+void choose_structure(const Arguments& arguments, Scene& scene);
 
 // Whether an operand names a model file.
 bool is_model_file(const std::string& path);

@@ -107,10 +107,8 @@ void run_struts(const Arguments& arguments) {
   if (format != ".csv" && format != ".jsonl" && format != ".3mf") {
     arguments.refuse("output", "'" + path + "' ends in none of .csv, .jsonl, .3mf");
   }
-  const Scene scene = open_scene(arguments);
-  if (scene.document) {
-    throw UsageError("msq struts takes no model file: its structures cannot be told apart");
-  }
+  Scene scene = open_scene(arguments);
+  if (scene.document) choose_structure(arguments, scene);
   if (!scene.structure) throw UsageError("msq struts needs --foam or --lattice");
   StrutGraph graph;
   const msq_strut_graph_report report = collect(arguments, scene, graph);

@@ -815,6 +815,8 @@ FUNCTIONS = {
     "msq_model_release": [None, POINTER(msq_model)],
     "msq_model_bounds": [c_int32, POINTER(msq_model), POINTER(c_double), POINTER(c_double)],
     "msq_model_scale_length": [c_int32, POINTER(msq_model), c_uint32, POINTER(c_double)],
+    "msq_model_scale": [c_int32, POINTER(msq_model), c_uint32, c_uint32,
+                        POINTER(POINTER(msq_shape)), POINTER(POINTER(msq_structure))],
     "msq_query_def_init": [c_int32, POINTER(msq_query_def), c_size_t],
     "msq_points_def_init": [c_int32, POINTER(msq_points_def), c_size_t],
     "msq_points_generate": [c_int32, POINTER(msq_points_def), c_uint64, c_uint64,

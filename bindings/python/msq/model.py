@@ -155,6 +155,27 @@ class Model(Handle):
                                    ctypes.byref(length))
         return length.value
 
+    def structure(self, scale: int = 1, *, region: int = 0) -> Structure:
+        """The structure of a scale, of a region if the model has several."""
+        if scale == 0:
+            raise ValueError("scale is 0, which has a shape and no structure")
+        return self._part(Structure, scale, region)
+
+    def shape(self, *, region: int = 0) -> Shape:
+        """The coarse shape, of a region if the model has several."""
+        return self._part(Shape, 0, region)
+
+    def _part(self, kind: Any, scale: int, region: int) -> Any:
+        numbers = unsigned(region, 32, "region"), unsigned(scale, 32, "scale")
+
+        def create(reference: Any, made: Any) -> None:
+            lib.msq_model_scale(reference, *numbers, *((made, None) if kind is Shape else
+                                                       (None, made)))
+
+        part = kind._wrap(kind._create(create, self._ref))
+        part.context = self.context
+        return part
+
     def contains(self, points: Any, *, out: Optional[np.ndarray] = None, length_scale: float = 0.0,
                  method: str = "auto", critical_count: int = 0, group_parts: int = 0,
                  job: Optional[Job] = None) -> Any:

@@ -51,6 +51,25 @@ class Documents(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
+    def test_parts_of_a_model(self):
+        foam = {"structure": {"foam": {"grid": {"cell_size": 2}, "radius": 0.2}}}
+        bcc = {"structure": {"lattice": {"radius": 0.3, "grid": {"cell_size": 2}}}}
+        text = json.dumps({"msq_model": 1, "regions": [{"scales": [{"shape": BOX}, foam, bcc]},
+                                                       {"scales": [{"shape": BOX}, bcc]}]})
+        model = msq.Model.from_json(text)
+        lattice = msq.Lattice("bcc", radius=0.3, cell_size=2)
+        self.assertEqual(model.structure(2).hash, lattice.hash)
+        self.assertEqual(model.structure(region=1).hash, lattice.hash)
+        self.assertEqual(model.structure().hash, msq.Foam(radius=0.2, cell_size=2).hash)
+        self.assertEqual(model.shape(region=1).hash, msq.Shape.box((0, 0, 0), (4, 4, 4)).hash)
+        structure, fraction = model.structure(2), lattice.calibrate(0.2)
+        del model  # the structure keeps what it needs
+        self.assertEqual(structure.calibrate(0.2).parameter, fraction.parameter)
+        with self.assertRaisesRegex(ValueError, "scale is 0"):
+            structure = msq.Model.from_json(text).structure(0)
+        with self.assertRaisesRegex(msq.ArgumentError, "scale is 2; region 1 has 2"):
+            msq.Model.from_json(text).structure(2, region=1)
+
     def test_examples_are_read_and_written_again(self):
         self.assertGreaterEqual(len(MODELS), 7)
         for path in MODELS:

@@ -57,6 +57,8 @@ _msq() {
     --surface) return ;;
     -w | --what) return ;;
     --channels) return ;;
+    --scale) return ;;
+    --region) return ;;
     -f | --fraction) return ;;
     --curve) return ;;
   esac
@@ -68,8 +70,8 @@ _msq() {
     info) options='--self-intersections --json --output --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
     stats) options='--samples --sample-seed --phase --two-point --lineal-path --direction --surface --json --output --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
     query) options='--output --what --channels --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --length-scale --threads --memory --quiet --help' ;;
-    struts) options='--output --whole --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --threads --memory --quiet --help' ;;
-    calibrate) options='--fraction --curve --json --output --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
+    struts) options='--output --whole --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --scale --region --box --threads --memory --quiet --help' ;;
+    calibrate) options='--fraction --curve --json --output --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --scale --region --any-files --threads --memory --quiet --help' ;;
   esac
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")

@@ -2216,6 +2216,8 @@ extern "C" {
     pub fn msq_model_bounds(model: *const msq_model, min: *mut f64, max: *mut f64) -> msq_status;
     /// Returns the characteristic length of a scale: its largest cell size; the length_scale of beams, which have no cells; infinity for scale 0. Errors: ARGUMENT (no such scale).
     pub fn msq_model_scale_length(model: *const msq_model, scale: u32, length: *mut f64) -> msq_status;
+    /// Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0 also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such region or scale). Since 0.2.
+    pub fn msq_model_scale(model: *const msq_model, region: u32, scale: u32, shape: *mut *mut msq_shape, structure: *mut *mut msq_structure) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_query_def_init(def: *mut msq_query_def, size: usize) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
