@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes what bindings are made from: the declarations of msq.h in other languages.
+"""Writes what bindings are made from: the declarations of msq.h in other languages, and those of
+msq_io.h in Python.
 
     python3 bindings/make_bindings.py [--check] [--header msq.h] [--output folder]
+
+With --header msq_io.h is left out.
 
 --check writes nothing, and fails where a file is not what the header makes.
 """
@@ -34,16 +37,22 @@ WRITERS = {
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--check", action="store_true")
-    parser.add_argument("--header", type=pathlib.Path, default=HERE.parent / "include" / "msq.h")
+    parser.add_argument("--header", type=pathlib.Path)
     parser.add_argument("--output", type=pathlib.Path, default=HERE)
     arguments = parser.parse_args()
+    include = HERE.parent / "include"
+    path = arguments.header or include / "msq.h"
     try:
-        header = read_header(arguments.header)
+        header = read_header(path)
+        texts = {name: write(header) for name, write in WRITERS.items()}
+        if not arguments.header:
+            path = include / "msq_io.h"
+            texts["python/msq/_io_abi.py"] = ctypes_module.write(read_header(path, header))
     except HeaderError as error:
-        sys.exit(f"{arguments.header}: make_bindings.py does not read this: {error}")
+        sys.exit(f"{path}: make_bindings.py does not read this: {error}")
     stale = 0
-    for name, write in WRITERS.items():
-        path, text = arguments.output / name, write(header)
+    for name, text in texts.items():
+        path = arguments.output / name
         if not arguments.check:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
@@ -53,7 +62,7 @@ def main() -> int:
             stale += 1
             sys.stdout.writelines(difflib.unified_diff(
                 committed.splitlines(True), text.splitlines(True), str(path), "of the header"))
-            print(f"{name} is not what msq.h declares; run: python3 bindings/make_bindings.py")
+            print(f"{name} is not what the header declares; run: python3 bindings/make_bindings.py")
     return 1 if stale else 0
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""python/msq/_abi.py: the declarations in ctypes."""
+"""python/msq/_abi.py and _io_abi.py: the declarations in ctypes."""
 import re
 from typing import List
 
@@ -64,8 +64,13 @@ def write(header: Header) -> str:
     declarations += ["}"]
     used = set(re.findall(r"\b(?:c_\w+|POINTER|Structure|CFUNCTYPE)\b", "\n".join(declarations)))
     imports = sorted(used, key=lambda name: (not name.isupper(), name.startswith("c_"), name))
+    file = "msq_io.h" if header.base else "msq.h"
     lines = ["# SPDX-License-Identifier: Apache-2.0",
-             '"""The declarations of msq.h. Made from it by make_bindings.py: change those."""',
+             f'"""The declarations of {file}. Made from it by make_bindings.py: change those."""',
              *wrapped("from ctypes import (", imports, ")"), ""]
+    if header.base:
+        names = sorted(name for name in set(re.findall(r"\bmsq_\w+", "\n".join(declarations)))
+                       if header.base.has_type(name))
+        lines += [*wrapped("from ._abi import (", names, ")"), ""]
     lines += [f"{name} = {value}" for name, value in constants_of(header).items()]
     return "\n".join(lines + declarations) + "\n"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads msq.h into the description that all bindings are made from.
+"""Reads msq.h, or msq_io.h, into the description that all bindings are made from.
 
-It reads the C that msq.h is written in, and no other: enums of plain numbers, structs and callbacks
-by typedef, functions that begin with MSQ_API. Whatever it does not understand is an error. Comments
+It reads the C that they are written in, and no other: enums of plain numbers, structs and callbacks
+by typedef, functions that begin with MSQ_API or MSQ_IO_API. Whatever it does not understand is an error. Comments
 are read by docs/site/reference.py, as for the pages of the reference.
 """
 import pathlib
@@ -78,6 +78,7 @@ class Header:
     handles: Dict[str, str] = field(default_factory=dict)  # opaque types and their comments
     types: List[Union[Struct, Function]] = field(default_factory=list)  # structs, callbacks, in order
     functions: List[Function] = field(default_factory=list)
+    base: Optional["Header"] = None  # of which this one uses types
 
     @property
     def structs(self) -> List[Struct]:
@@ -88,10 +89,15 @@ class Header:
         return [one for one in self.types if isinstance(one, Function)]
 
     def has_type(self, name: str) -> bool:
-        return name in self.handles or any(one.name == name for one in self.types)
+        own = name in self.handles or any(one.name == name for one in self.types)
+        return own or (self.base is not None and self.base.has_type(name))
+
+    def is_handle(self, name: str) -> bool:
+        return name in self.handles or (self.base is not None and self.base.is_handle(name))
 
     def struct(self, name: str) -> Optional[Struct]:
-        return next((one for one in self.structs if one.name == name), None)
+        own = next((one for one in self.structs if one.name == name), None)
+        return own or (self.base.struct(name) if self.base else None)
 
 
 def constants_of(header: Header) -> Dict[str, int]:
@@ -109,7 +115,7 @@ def _type(c: str, header: Header, length: int = 0) -> Type:
     name = words[0]
     if name != "void" and name not in SCALARS and not header.has_type(name):
         raise HeaderError(f"unknown type {name}")
-    if name in header.handles and not pointers:
+    if header.is_handle(name) and not pointers:
         raise HeaderError(f"{name} by value")
     return Type(name, bool(re.match(r"\s*const\b", c)), pointers, length)
 
@@ -172,7 +178,7 @@ def _arguments(text: str, header: Header, owner: str) -> List[Member]:
         one.direction = "in"
         if kind.pointers and not kind.is_const and kind.name not in ("void",):
             struct = header.struct(kind.name)
-            if kind.name in header.handles:
+            if header.is_handle(kind.name):
                 one.direction = "in" if kind.pointers == 1 else "out"
             elif struct and struct.fields[0].name == "struct_size" and not owner.endswith("_init"):
                 one.direction = "inout"
@@ -276,12 +282,12 @@ STATEMENT = re.compile(r"""\s*(?:
   | typedef\s+(?P<result>[\w\s*]+?)\(\s*\*\s*(?P<callback>\w+)\s*\)
              \s*\((?P<arguments>[^)]*)\)\s*
   | typedef\s+int32_t\s+msq_status\s*
-  | MSQ_API\s+(?P<returned>[\w\s*]+?[\s*])(?P<function>\w+)\s*\((?P<parameters>[^)]*)\)\s*
+  | MSQ_(?:IO_)?API\s+(?P<returned>[\w\s*]+?[\s*])(?P<function>\w+)\s*\((?P<parameters>[^)]*)\)\s*
 );""", re.X)
 
 
-def read_header(path: pathlib.Path) -> Header:
-    header = Header()
+def read_header(path: pathlib.Path, base: Optional[Header] = None) -> Header:
+    header = Header(base=base)
     text = re.sub(r"/\*.*?\*/", " ", path.read_text(encoding="utf-8"), flags=re.S)
     for name, number in re.findall(r"^#define (MSQ_VERSION\w*) (\d+)\s*$", text, flags=re.M):
         header.versions[name] = int(number)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds the wheel. MSQ_LIBRARY names a shared library of msq that the wheel carries; its tag then
-names the platform. Without it the wheel is pure Python, and finds the library of the system."""
+"""Builds the wheel. MSQ_LIBRARY names a shared library of msq that the wheel carries, and MSQ_IO_LIBRARY
+one of msq_io beside it; its tag then names the platform. Without it the wheel is pure Python, and finds the library of the system."""
 import os
 import pathlib
 import shutil
@@ -18,6 +18,7 @@ except ImportError:  # before setuptools 70
         bdist_wheel = None
 
 LIBRARY = os.environ.get("MSQ_LIBRARY")
+IO_LIBRARY = os.environ.get("MSQ_IO_LIBRARY") if LIBRARY else None  # it needs the other
 
 
 def name_of(library: pathlib.Path) -> str:
@@ -34,8 +35,8 @@ class BuildWithLibrary(build_py):
             for old in package.glob(name):
                 old.unlink()
         super().run()
-        if LIBRARY:
-            library = pathlib.Path(LIBRARY).resolve()
+        for name in filter(None, (LIBRARY, IO_LIBRARY)):
+            library = pathlib.Path(name).resolve()
             shutil.copyfile(library, package / name_of(library))
 
 

@@ -54,14 +54,16 @@ def _open() -> ctypes.CDLL:
 _MOST_EXCEPTIONS = 64
 _exceptions: "collections.OrderedDict[int, BaseException]" = collections.OrderedDict()
 _exceptions_lock = threading.Lock()
-_last_code = 0
+# Codes are below those of statuses, which a callback of C may return.
+_FIRST_CODE = -1000
+_last_code = _FIRST_CODE
 
 
 def keep_exception(error: BaseException) -> int:
     """Keeps what a callback raised; returns the code that the callback has to return."""
     global _last_code
     with _exceptions_lock:
-        _last_code = _last_code - 1 if _last_code > -2**31 else -1
+        _last_code = _last_code - 1 if _last_code > -2**31 else _FIRST_CODE
         _exceptions[_last_code] = error
         while len(_exceptions) > _MOST_EXCEPTIONS:
             _exceptions.popitem(last=False)

@@ -14,6 +14,7 @@ HERE = pathlib.Path(__file__).resolve().parent.parent
 TOOLS = all(importlib.util.find_spec(name) for name in ("pip", "setuptools", "wheel"))
 USE = ("import msq, pathlib; from msq._library import lib; assert msq.build_info().version; "
        "print(pathlib.Path(lib._name).parent)")
+USE_IO = "import msq.io, pathlib; print(pathlib.Path(msq.io._io._name).parent)"
 
 
 @unittest.skipIf(os.environ.get("MSQ_SANITIZE"), "a sanitized library cannot be loaded alone")
@@ -26,6 +27,8 @@ class Wheel(unittest.TestCase):
                        if name not in ("MSQ_LIBRARY", "PYTHONPATH")}
         if library:
             environment["MSQ_LIBRARY"] = library
+        else:
+            environment.pop("MSQ_IO_LIBRARY", None)
         done = subprocess.run([sys.executable, "-m", "pip", "wheel", "--no-build-isolation", "--no-deps",
                                "--no-index", "-w", folder, str(source)], env=environment,
                               capture_output=True, text=True, check=False)
@@ -39,11 +42,16 @@ class Wheel(unittest.TestCase):
             site = pathlib.Path(folder) / "site"
             with zipfile.ZipFile(wheel) as archive:
                 archive.extractall(site)
-            environment = {name: value for name, value in os.environ.items() if name != "MSQ_LIBRARY"}
+            environment = {name: value for name, value in os.environ.items()
+                           if name not in ("MSQ_LIBRARY", "MSQ_IO_LIBRARY")}
             environment["PYTHONPATH"] = str(site)
             done = subprocess.run([sys.executable, "-B", "-c", USE], env=environment, cwd=folder,
                                   capture_output=True, text=True, check=False)
             self.assertEqual((done.stdout.strip(), done.stderr), (str(site / "msq"), ""))
+            if "MSQ_IO_LIBRARY" in os.environ:
+                done = subprocess.run([sys.executable, "-B", "-c", USE_IO], env=environment, cwd=folder,
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual((done.stdout.strip(), done.stderr), (str(site / "msq"), ""))
 
     def test_is_pure_without_one(self):
         with tempfile.TemporaryDirectory() as folder:
