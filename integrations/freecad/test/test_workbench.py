@@ -2,12 +2,16 @@
 """Drives the installed workbench without a window: freecadcmd test_workbench.py. scripts/test_freecad runs
 it. MSQ_FREECAD_TEST: part of the name of the only tests to run."""
 import glob
+import importlib
+import io
 import os
+import re
 import sys
 import tempfile
 import threading
 import traceback
 import unittest
+import zipfile
 
 import FreeCAD
 import Mesh
@@ -217,6 +221,28 @@ class Workbench(unittest.TestCase):
         with self.assertRaises(FileExistsError):
             export.save_images(made, folder, 0.25, 0.125)
         self.assertEqual(os.listdir(self.folder.name), ["images"])
+
+    def test_an_archive(self):
+        try:
+            importlib.import_module("msq.io")
+        except ImportError as error:
+            self.skipTest(str(error))
+        made = self.filled()
+        path = self.path("part.sl1")
+        panel = {"pixels": (250, 160), "size": (25.0, 16.0)}
+        self.assertEqual(export.save_sl1(made, path, 0.5, **panel), 20)
+        with zipfile.ZipFile(path) as archive:
+            images = [name for name in archive.namelist() if re.fullmatch(r"part\d+\.png", name)]
+            self.assertEqual(len(images), 20)
+            self.assertIn("layerHeight = 0.5", archive.read("config.ini").decode())
+            image = np.asarray(Image.open(io.BytesIO(archive.read(images[10]))))
+        self.assertEqual(image.shape, (250, 160))  # portrait: x runs along columns
+        # Of the part in the middle of the panel: as much as the filling there.
+        solid = filling.recipe_of(made)().slicer(layer_height=0.5, pitch=0.1)[10].pixels.mean()
+        self.assertAlmostEqual(image.mean() / 255 * 250 * 160 / (200 * 150), solid, delta=0.01)
+        with self.assertRaisesRegex(ValueError, "must end in .sl1"):
+            export.save_sl1(made, self.path("part.zip"), 0.5)
+        self.assertEqual(os.listdir(self.folder.name), ["part.sl1"])
 
     # What goes wrong
 

@@ -104,14 +104,15 @@ class Slice(_Command):
 
 class Export(_Command):
     ICON = "export"
-    TEXT, TIP = "Export…", "Write the filling as STL, PLY or 3MF, or its layers as a folder of PNGs"
+    TEXT, TIP = "Export…", ("Write the filling as STL, PLY or 3MF, or its layers as a folder of PNGs or as SL1 "
+                            "for a resin printer")
 
     def run(self):
         filling = selected_filling()
         filling.Document.abortTransaction()  # nothing changes
         path, chosen = QtGui.QFileDialog.getSaveFileName(
             FreeCADGui.getMainWindow(), "Export the filling", filling.Label,
-            "STL (*.stl);;PLY (*.ply);;3MF (*.3mf);;Folder of PNG layers (*)")
+            "STL (*.stl);;PLY (*.ply);;3MF (*.3mf);;SL1 (*.sl1);;Folder of PNG layers (*)")
         if not path:
             return
         if "PNG" in chosen:
@@ -120,6 +121,12 @@ class Export(_Command):
                 0.001, 1000, 3)
             if agreed:
                 export.save_images(filling, path, height, height)
+            return
+        if "SL1" in chosen:
+            height, agreed = QtGui.QInputDialog.getDouble(
+                FreeCADGui.getMainWindow(), "Export the filling", "Layer height in mm", 0.05, 0.001, 1000, 3)
+            if agreed:
+                export.save_sl1(filling, path if os.path.splitext(path)[1] else path + ".sl1", height)
             return
         suffix = {"STL": ".stl", "PLY": ".ply", "3MF": ".3mf"}[chosen[:3]]
         if not os.path.splitext(path)[1]:

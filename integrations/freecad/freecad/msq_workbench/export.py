@@ -64,6 +64,28 @@ def save_images(obj, folder, layer_height, pitch):
     return waiting.run(f"Writing {os.path.basename(folder)}", write)
 
 
+def save_sl1(obj, path, layer_height, pixels=(2560, 1440), size=(120.96, 68.04)):
+    """Writes an SL1 archive for a resin printer, with the filling in the middle of the panel. pixels, size: of
+    the panel along x and y, size in millimetres; those of the Original Prusa SL1 unless given. Returns
+    the number of layers."""
+    if not path.lower().endswith((".sl1", ".sl1s")):
+        raise ValueError(f"the file is {os.path.basename(path)!r}; its name must end in .sl1 or .sl1s")
+    try:
+        import msq.io
+    except ImportError as error:
+        raise RuntimeError(f"SL1 needs the library msq_io: {error}") from error
+    build, panel = recipe_of(obj), msq.io.Panel(pixels=pixels, size=size)
+
+    def write(job):
+        model = build(job)
+        slicer = msq.io.panel_slicer(model, layer_height=layer_height, panel=panel)
+        name = os.path.splitext(os.path.basename(path))[0]
+        msq.io.save_sl1(slicer, path, panel=panel, name=name, thumbnail=model, replace=True, job=job)
+        return len(slicer)
+
+    return waiting.run(f"Writing {os.path.basename(path)}", write)
+
+
 class _replaced:
     """Within `with`, the name of a file in the path's folder; then it is renamed to path, or removed after a
     failure."""
