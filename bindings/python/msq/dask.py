@@ -11,7 +11,8 @@
 Models cannot be sent to other processes, but recipes can: `build`, a function without arguments that
 can be pickled and returns the Model. Each process calls it once and keeps the model. A chunk is one task
 and one index window of the grid (docs/howto/windows.md), so chunks, workers and the order of tasks change no
-byte. `import msq.dask` needs Dask (Debian: python3-dask), and to_zarr zarr 2 (python3-zarr).
+byte. `import msq.dask` needs Dask (Debian: python3-dask), and to_zarr zarr (python3-zarr): with zarr 2 it
+writes Zarr version 2, with zarr 3 or later version 3.
 """
 from __future__ import annotations
 
@@ -20,7 +21,7 @@ import dataclasses
 import itertools
 import os
 import threading
-from typing import Any, Callable, List, NamedTuple, Sequence, Set, Tuple, Union
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Set, Tuple, Union
 
 import numpy as np
 
@@ -52,7 +53,7 @@ class Stored(NamedTuple):
     path: str
     shapes: List[Tuple[int, int, int]]  #: of the levels, finest first: nz, ny, nx
     chunks: Tuple[int, int, int]  #: of all levels
-    tasks: int  #: chunks computed, of all levels
+    tasks: int  #: chunks, or shards, computed, of all levels
     model_hash: str  #: Model.hash; "" if the model has none
 
 
@@ -108,51 +109,54 @@ def array(build: Build, grid: PointGrid, *, value: str = "contains", chunks: Any
 
 def to_zarr(build: Build, grid: PointGrid, path: Union[str, "os.PathLike[str]"], *,
             value: str = "contains", chunks: Union[int, Sequence[int]] = 256, levels: int = 1,
-            unit: str = "millimeter", compressor: Any = "default") -> Stored:
-    """Computes the values at the points of a grid, and stores them as Zarr version 2 in a new folder.
+            unit: str = "millimeter", compressor: Any = "default",
+            shards: Union[None, int, Sequence[int]] = None) -> Stored:
+    """Computes the values at the points of a grid, and stores them as Zarr in a new folder: version 2
+    where zarr 2 is installed, version 3 where zarr 3 or later is.
 
     The workers of the current dask.distributed client, or the local scheduler of Dask, compute and
     write one chunk per task; nothing large comes back. A task may be repeated: it writes the same
-    bytes, and a chunk is renamed into place when it is whole.
+    bytes, and a chunk is renamed into place when it is whole. With shards, of Zarr version 3, a file
+    and a task are a shard: one number or (nz, ny, nx), multiples of the chunks, which readers still
+    fetch one by one.
 
     The arrays `0` (the whole grid), `1`, ... are levels of half the resolution each, with the metadata
-    of OME-Zarr 0.4 (multiscales) beside them, written last: a folder without it is not complete.
+    of OME-Zarr (0.4, with version 3 0.5) beside them, written last: a folder without it is not complete.
     value: as in array; `contains` is stored as uint8, 255 inside and 0 outside, and coarser levels
     hold the coverage. Those of `distance` are means; of ids single samples, each eighth one. chunks:
     of all levels, one number or (nz, ny, nx). unit: of lengths, a name of OME-Zarr. compressor: of
-    numcodecs; default: Blosc with Zstandard, bits shuffled. None: none.
+    numcodecs, with version 3 of zarr.codecs; default: Blosc with Zstandard, bits shuffled. None: none.
 
     FileExistsError if the path exists. RuntimeError if processes built models that differ.
     """
-    zarr = _zarr()
+    version = _zarr_version()
     path = os.fspath(path)
     dtype = _dtype(value)
     recipe = _Recipe(build)
-    sizes = (chunks,) * 3 if isinstance(chunks, int) else tuple(int(size) for size in chunks)
-    if len(sizes) != 3 or min(sizes) < 1:
-        raise ValueError(f"chunks are {chunks!r}; they must be one number or three, each at least 1")
+    sizes = _sizes(chunks, "chunks")
+    parts = sizes  # of which each is a task
+    if shards is not None:
+        if version < 3:
+            raise UnsupportedError("shards are of Zarr version 3; this zarr writes version 2 (pip: 'zarr>=3')")
+        parts = _sizes(shards, "shards")
+        if any(part % size for part, size in zip(parts, sizes)):
+            raise ValueError(f"shards are {shards!r}; they must be multiples of the chunks {sizes}")
     if levels < 1 or (min(grid.shape) - 1) >> (levels - 1) < 1 and levels > 1:
         raise ValueError(f"levels is {levels}; it must be at least 1, and leave 2 points along each axis "
                          f"of {grid.shape}")
     if os.path.lexists(path):
         raise FileExistsError(f"{path} exists; to_zarr needs a new folder")
-    if compressor == "default":
-        from numcodecs import Blosc
-        compressor = Blosc("zstd", clevel=1, shuffle=Blosc.BITSHUFFLE if dtype.itemsize == 1
-                           else Blosc.SHUFFLE)
-
-    store = zarr.DirectoryStore(path, dimension_separator="/")
-    group = zarr.group(store)
     stored_type = np.dtype(np.uint8) if value == "contains" else dtype
+    folder = (_Folder3 if version >= 3 else _Folder2)(path)
     shapes, tasks, hashes = [], 0, set()  # type: List[Tuple[int, int, int]], int, Set[str]
     shape: Tuple[int, ...] = grid.shape
     for level in range(levels):
-        group.create_dataset(str(level), shape=shape, chunks=sizes, dtype=stored_type,
-                             compressor=compressor, fill_value=0, write_empty_chunks=False)
+        folder.create(level, shape, sizes, None if shards is None else parts, stored_type, compressor)
         shared = dask.delayed(recipe, traverse=False)  # sent once, not with each task
-        work = [dask.delayed(_write, pure=False)(shared, grid, value, path, level, box)
-                if level == 0 else dask.delayed(_write_coarser, pure=False)(value, path, level, box)
-                for box in _boxes(shape, sizes)]
+        work = [dask.delayed(_write, pure=False)(shared, grid, value, path, level, box, sizes[0])
+                if level == 0 else
+                dask.delayed(_write_coarser, pure=False)(value, path, level, box, sizes[0])
+                for box in _boxes(shape, parts)]
         hashes.update(dask.compute(*work))
         tasks += len(work)
         shapes.append(shape)  # type: ignore[arg-type]
@@ -161,8 +165,7 @@ def to_zarr(build: Build, grid: PointGrid, path: Union[str, "os.PathLike[str]"],
     if len(hashes) > 1:
         raise RuntimeError(f"build made models that differ: {', '.join(sorted(hashes))}")
     _remove_parts(path)
-    group.attrs["multiscales"] = [_multiscales(grid, value, levels, unit,
-                                               os.path.basename(os.path.normpath(path)))]
+    folder.describe(_multiscales(grid, value, levels, unit, os.path.basename(os.path.normpath(path))))
     return Stored(path, shapes, sizes, tasks, hashes.pop())
 
 
@@ -175,14 +178,73 @@ def _dtype(value: str) -> np.dtype:
     return _VALUES[value]
 
 
-def _zarr() -> Any:
+def _sizes(given: Union[int, Sequence[int]], name: str) -> Tuple[int, ...]:
+    sizes = (given,) * 3 if isinstance(given, int) else tuple(int(size) for size in given)
+    if len(sizes) != 3 or min(sizes) < 1:
+        raise ValueError(f"{name} are {given!r}; they must be one number or three, each at least 1")
+    return sizes
+
+
+def _zarr_version() -> int:
     try:
         import zarr
     except ImportError as error:
-        raise ImportError(f"to_zarr needs zarr 2 (Debian: python3-zarr; pip: 'zarr<3'): {error}") from None
-    if not hasattr(zarr, "DirectoryStore"):
-        raise ImportError(f"zarr is {zarr.__version__}; to_zarr needs version 2 (pip: 'zarr<3')")
-    return zarr
+        raise ImportError(f"to_zarr needs zarr (Debian: python3-zarr; pip: zarr): {error}") from None
+    return int(zarr.__version__.split(".")[0])
+
+
+class _Folder2:
+    """A folder of Zarr version 2, by zarr 2."""
+
+    def __init__(self, path: str) -> None:
+        import zarr
+        self._group = zarr.group(zarr.DirectoryStore(path, dimension_separator="/"))
+
+    def create(self, level: int, shape: Sequence[int], chunks: Sequence[int],
+               _shards: Optional[Sequence[int]], dtype: np.dtype, compressor: Any) -> None:
+        if compressor == "default":
+            from numcodecs import Blosc
+            compressor = Blosc("zstd", clevel=1, shuffle=Blosc.BITSHUFFLE if dtype.itemsize == 1
+                               else Blosc.SHUFFLE)
+        self._group.create_dataset(str(level), shape=shape, chunks=chunks, dtype=dtype,
+                                   compressor=compressor, fill_value=0, write_empty_chunks=False)
+
+    def describe(self, image: Dict[str, Any]) -> None:
+        self._group.attrs["multiscales"] = [{"version": "0.4", **image}]
+
+    @staticmethod
+    def open(path: str, level: int) -> Any:
+        import zarr
+        store = zarr.DirectoryStore(path, dimension_separator="/")
+        return zarr.Array(store, path=str(level), write_empty_chunks=False)
+
+
+class _Folder3:
+    """A folder of Zarr version 3, by zarr 3 or later."""
+
+    def __init__(self, path: str) -> None:
+        import zarr
+        self._group = zarr.create_group(path, zarr_format=3)
+
+    def create(self, level: int, shape: Sequence[int], chunks: Sequence[int],
+               shards: Optional[Sequence[int]], dtype: np.dtype, compressor: Any) -> None:
+        if compressor == "default":
+            from zarr.codecs import BloscCodec
+            compressor = BloscCodec(cname="zstd", clevel=1,
+                                    shuffle="bitshuffle" if dtype.itemsize == 1 else "shuffle")
+        self._group.create_array(str(level), shape=tuple(shape), chunks=tuple(chunks), dtype=dtype,
+                                 shards=None if shards is None else tuple(shards),
+                                 compressors=compressor, fill_value=0, dimension_names=("z", "y", "x"),
+                                 config={"write_empty_chunks": False})
+
+    def describe(self, image: Dict[str, Any]) -> None:
+        self._group.attrs["ome"] = {"version": "0.5", "multiscales": [image]}
+
+    @staticmethod
+    def open(path: str, level: int) -> Any:
+        import zarr
+        found = zarr.open_array(os.path.join(path, str(level)), mode="r+", zarr_format=3)
+        return found.with_config({"write_empty_chunks": False})
 
 
 def _boxes(shape: Sequence[int], sizes: Sequence[int]) -> List[Box]:
@@ -215,25 +277,51 @@ def _slices(box: Box) -> Tuple[slice, ...]:
     return tuple(slice(low, high) for low, high in box)
 
 
-def _write(recipe: _Recipe, grid: PointGrid, value: str, path: str, level: int, box: Box) -> str:
-    """Computes and stores one chunk; returns the hash of the model."""
+def _pieces(box: Box, depth: int) -> List[Box]:
+    """Parts of a box of at most that many planes, so that shards take little more than their own memory."""
+    (first, end), *rest = box
+    return [((z, min(z + depth, end)), *rest) for z in range(first, end, depth)]
+
+
+def _store(path: str, level: int, box: Box, depth: int, values_of: Callable[[Box], np.ndarray]) -> None:
+    """Stores one chunk or shard from the values of its pieces."""
+    array = _open(path, level)
+    pieces = _pieces(box, depth)
+    if len(pieces) == 1:
+        array[_slices(box)] = values_of(box)
+        return
+    values = np.empty([high - low for low, high in box], array.dtype)
+    for piece in pieces:
+        values[piece[0][0] - box[0][0]:piece[0][1] - box[0][0]] = values_of(piece)
+    array[_slices(box)] = values
+
+
+def _write(recipe: _Recipe, grid: PointGrid, value: str, path: str, level: int, box: Box,
+           depth: int) -> str:
+    """Computes and stores one chunk or shard; returns the hash of the model."""
     model = recipe.model()
-    values = _compute(model, grid, value, box)
-    if value == "contains":
-        values = values.view(np.uint8) * np.uint8(255)
-    _open(path, level)[_slices(box)] = values
+
+    def values_of(piece: Box) -> np.ndarray:
+        values = _compute(model, grid, value, piece)
+        return values.view(np.uint8) * np.uint8(255) if value == "contains" else values
+
+    _store(path, level, box, depth, values_of)
     try:
         return model.hash
     except UnsupportedError:  # of a build without xxHash, or of callbacks without hash_key
         return ""
 
 
-def _write_coarser(value: str, path: str, level: int, box: Box) -> str:
-    """Stores one chunk of a level from the one before."""
+def _write_coarser(value: str, path: str, level: int, box: Box, depth: int) -> str:
+    """Stores one chunk or shard of a level from the one before."""
     finer = _open(path, level - 1)
-    values = finer[tuple(slice(2 * low, min(2 * high, count))
-                         for (low, high), count in zip(box, finer.shape))]
-    _open(path, level)[_slices(box)] = _halved(values) if value in _MEANS else values[::2, ::2, ::2]
+
+    def values_of(piece: Box) -> np.ndarray:
+        values = finer[tuple(slice(2 * low, min(2 * high, count))
+                             for (low, high), count in zip(piece, finer.shape))]
+        return _halved(values) if value in _MEANS else values[::2, ::2, ::2]
+
+    _store(path, level, box, depth, values_of)
     return _NO_MODEL
 
 
@@ -259,9 +347,7 @@ def _halved_planes(values: np.ndarray) -> np.ndarray:
 
 
 def _open(path: str, level: int) -> Any:
-    zarr = _zarr()
-    store = zarr.DirectoryStore(path, dimension_separator="/")
-    return zarr.Array(store, path=str(level), write_empty_chunks=False)
+    return (_Folder3 if _zarr_version() >= 3 else _Folder2).open(path, level)
 
 
 def _remove_parts(path: str) -> None:
@@ -272,8 +358,8 @@ def _remove_parts(path: str) -> None:
                 os.unlink(os.path.join(folder, name))
 
 
-def _multiscales(grid: PointGrid, value: str, levels: int, unit: str, name: str) -> Any:
-    """The metadata of OME-Zarr 0.4: where the points of each level are."""
+def _multiscales(grid: PointGrid, value: str, levels: int, unit: str, name: str) -> Dict[str, Any]:
+    """The metadata of OME-Zarr: where the points of each level are."""
     from .context import triple
     spacing, origin = triple(grid.spacing, "spacing"), triple(grid.origin, "origin")
     first = (0, 0, 0) if grid.window is None else grid.window[0]
@@ -286,7 +372,7 @@ def _multiscales(grid: PointGrid, value: str, levels: int, unit: str, name: str)
             {"type": "translation", "translation": [
                 start + (int(index) + shift) * size
                 for start, index, size in zip(origin[::-1], tuple(first)[::-1], spacing[::-1])]}]})
-    return {"version": "0.4", "name": name, "type": "mean" if value in _MEANS else "nearest",
+    return {"name": name, "type": "mean" if value in _MEANS else "nearest",
             "axes": [{"name": axis, "type": "space", "unit": unit} for axis in "zyx"],
             "datasets": datasets}
 

@@ -30,6 +30,7 @@ if not MISSING:
     del sys.warnoptions[:]
     warnings.simplefilter("ignore")
 
+ZARR_3 = not MISSING and int(zarr.__version__.split(".")[0]) >= 3
 GRID = msq.PointGrid(origin=(-0.4, -0.3, -0.2), spacing=(0.1, 0.11, 0.12), counts=(83, 61, 42))
 
 
@@ -44,6 +45,18 @@ def build(log=None, seconds=0.0, different=False):
     return msq.Model(msq.Shape.sphere((4, 3, 2), 3.6, context=context),
                      [msq.Foam(cell_size=1.5, radius=0.25, seed=seed, context=context)],
                      material=msq.Material(5))
+
+
+def image_of(group):
+    """The metadata of OME-Zarr."""
+    if ZARR_3:
+        ome = group.attrs["ome"]
+        assert ome["version"] == "0.5"
+        image, = ome["multiscales"]
+    else:
+        image, = group.attrs["multiscales"]
+        assert image["version"] == "0.4"
+    return image
 
 
 def files(folder):
@@ -83,9 +96,9 @@ class DaskTest(unittest.TestCase):
         part = msq.dask.array(build, window, chunks=16).compute()
         np.testing.assert_array_equal(part, build().contains(GRID)[9:29, 7:37, 5:45])
         msq.dask.to_zarr(build, window, self.path("part"), chunks=16)
-        group = zarr.open_group(self.path("part"), "r")
+        group = zarr.open_group(self.path("part"), mode="r")
         np.testing.assert_array_equal(group["0"][:], 255 * part.view(np.uint8))
-        (_, shift), = (of["coordinateTransformations"] for of in group.attrs["multiscales"][0]["datasets"])
+        (_, shift), = (of["coordinateTransformations"] for of in image_of(group)["datasets"])
         np.testing.assert_allclose(shift["translation"], [-0.2 + 9 * 0.12, -0.3 + 7 * 0.11, -0.4 + 0.5])
 
     def test_levels(self):
@@ -101,11 +114,11 @@ class DaskTest(unittest.TestCase):
             nz, ny, nx = padded.shape
             blocks = padded.reshape(nz // 2, 2, ny // 2, 2, nx // 2, 2)
             levels.append(np.floor(np.nanmean(blocks, axis=(1, 3, 5)) + 0.5).astype(np.uint8))
-        group = zarr.open_group(self.path("ball.zarr"), "r")
+        group = zarr.open_group(self.path("ball.zarr"), mode="r")
         for number, level in enumerate(levels):
             np.testing.assert_array_equal(group[str(number)][:], level)
-        image, = group.attrs["multiscales"]
-        self.assertEqual((image["version"], image["name"]), ("0.4", "ball.zarr"))
+        image = image_of(group)
+        self.assertEqual(image["name"], "ball.zarr")
         self.assertEqual([axis["name"] for axis in image["axes"]], ["z", "y", "x"])
         self.assertEqual({axis["unit"] for axis in image["axes"]}, {"micrometer"})
         scale, shift = image["datasets"][2]["coordinateTransformations"]
@@ -116,11 +129,36 @@ class DaskTest(unittest.TestCase):
         for value, expected in (("material", build().material(GRID)[0]),
                                 ("distance", build().distance(GRID))):
             msq.dask.to_zarr(build, GRID, self.path(value), value=value, chunks=30, levels=2)
-            group = zarr.open_group(self.path(value), "r")
+            group = zarr.open_group(self.path(value), mode="r")
             np.testing.assert_array_equal(group["0"][:], expected)
         np.testing.assert_allclose(group["1"][3, 4, 5], expected[6:8, 8:10, 10:12].mean())
-        group = zarr.open_group(self.path("material"), "r")
+        group = zarr.open_group(self.path("material"), mode="r")
         np.testing.assert_array_equal(group["1"][:], build().material(GRID)[0][::2, ::2, ::2])
+
+    @unittest.skipUnless(ZARR_3, "shards need zarr 3")
+    def test_shards(self):
+        plain = msq.dask.to_zarr(build, GRID, self.path("plain"), chunks=8, levels=2)
+        made = msq.dask.to_zarr(build, GRID, self.path("shards"), chunks=8, levels=2,
+                                shards=(16, 32, 24))
+        self.assertEqual(made.shapes, plain.shapes)
+        self.assertEqual(made.tasks, 3 * 2 * 4 + 2 * 1 * 2)
+        for level in "01":
+            a, b = (zarr.open_group(self.path(name), mode="r")[level] for name in ("plain", "shards"))
+            self.assertEqual((b.chunks, b.shards), ((8, 8, 8), (16, 32, 24)))
+            np.testing.assert_array_equal(a[:], b[:])
+        stored = [name for name in files(self.path("shards")) if "zarr.json" not in name]
+        self.assertLessEqual(len(stored), made.tasks)
+        msq.dask.to_zarr(build, GRID, self.path("again"), chunks=8, levels=2, shards=(16, 32, 24))
+        expected, found = files(self.path("shards")), files(self.path("again"))
+        found["zarr.json"] = found["zarr.json"].replace(b'"again"', b'"shards"')
+        self.assertEqual(found, expected)
+        with self.assertRaisesRegex(ValueError, "multiples of the chunks"):
+            msq.dask.to_zarr(build, GRID, self.path("none"), chunks=8, shards=20)
+
+    @unittest.skipIf(ZARR_3 or MISSING, "of zarr 2")
+    def test_shards_of_version_2(self):
+        with self.assertRaisesRegex(msq.UnsupportedError, "version 3"):
+            msq.dask.to_zarr(build, GRID, self.path("none"), chunks=8, shards=16)
 
     @unittest.skipIf(os.environ.get("MSQ_SANITIZE"), "sanitized, workers take too long to start")
     def test_a_worker_is_killed(self):
@@ -152,12 +190,13 @@ class DaskTest(unittest.TestCase):
         self.assertEqual(made[1:], alone[1:])
         self.assertNotEqual(again.tasks, alone.tasks)
         expected, found = files(self.path("alone")), files(self.path("two"))
+        attributes = "zarr.json" if ZARR_3 else ".zattrs"
         for contents in (expected, found):
-            contents[".zattrs"] = contents[".zattrs"].replace(b'"alone"', b'"two"')
+            contents[attributes] = contents[attributes].replace(b'"alone"', b'"two"')
         self.assertEqual(found, expected)
         for level in "01":
-            np.testing.assert_array_equal(zarr.open_group(self.path("again"), "r")[level][:],
-                                          zarr.open_group(self.path("alone"), "r")[level][:])
+            np.testing.assert_array_equal(zarr.open_group(self.path("again"), mode="r")[level][:],
+                                          zarr.open_group(self.path("alone"), mode="r")[level][:])
 
     def test_what_is_refused(self):
         with self.assertRaisesRegex(TypeError, "build is a Model"):
