@@ -46,13 +46,13 @@ class Layers(Case):
         for format in ("png", "svg"):
             plan = [*PLAN, "--format", format, "-o"]
             self.msq("slice", *plan, self.folder / "whole")
-            for window in ("0:5", "5:6", "6:"):
+            for window in ("0:5", "5:6", "6:8", "8:99" if format == "png" else "8:"):
                 self.msq("slice", *plan, f"{self.folder}/parts/", "--layers", window)
             whole = {path.name: path.read_bytes() for path in (self.folder / "whole").iterdir()}
             parts = {path.name: path.read_bytes() for path in (self.folder / "parts").iterdir()}
             self.assertEqual(len(whole), 16 if format == "png" else 32)
             self.assertEqual(whole, parts)
-        for window in ("3:3", "0:17", "16:20"):
+        for window in ("3:3", "4:2", "16:20"):
             self.refuse(1, f"--layers: {window} is no window of the 16 layers", "slice", *PLAN,
                         "--layers", window, "-o", self.folder / "none")
         for window in ("3", "a:b", "1:2:3", "-1:2"):
@@ -74,7 +74,7 @@ class Layers(Case):
         self.msq("slice", *PLAN, "--tolerance", "0.02", "-o", path)
         with zipfile.ZipFile(path) as archive:
             text = archive.read("3D/3dmodel.model").decode()
-        slices = re.findall(r"<s:slice ztop.*?(?:</s:slice>|/>)", text, flags=re.S)
+        slices = re.findall(r"<s:slice ztop[^>]*?(?:/>|>.*?</s:slice>)", text, flags=re.S)
         self.assertEqual(len(slices), 16)
         contours = MODEL.contours(2.125, 0.02, pitch=0.125)
         self.assertEqual(len(re.findall("<s:polygon", slices[8])), len(contours))

@@ -104,8 +104,8 @@ constexpr Option SLICE[] = {
      ".sl1"},
     {"layer-height", 'l', "MM", Value::TEXT, "", "required"},
     {"layers", 0, "FIRST:END", Value::TEXT, "",
-     "compute layers FIRST to END - 1 alone, of those that there are without it; their files have "
-     "the same names and bytes"},
+     "compute layers FIRST to END - 1 alone, or to the last, of those that there are without it; "
+     "their files have the same names and bytes"},
     {"grey", 'g', "N", Value::TEXT, "",
      "grey pixels by their coverage, from N x N samples, N = 2, 4, 8 or 16 (default: black and "
      "white; .sl1: 4)"},

@@ -144,7 +144,8 @@ void read_document(const Scene& scene, msq_slicer_def& plan, msq_contours_def& c
   if (!is_pixels(plan.output)) plan.output = MSQ_LAYER_BITS;
 }
 
-// A:B, layers A to B - 1; either may be left out.
+// A:B, layers A to B - 1; either may be left out. B is cut to the last layer, so that equal ranges
+// may cover a stack of any number.
 void read_layers(const Arguments& arguments, uint64_t all, uint64_t& first, uint64_t& count) {
   first = 0;
   count = all;
@@ -157,12 +158,12 @@ void read_layers(const Arguments& arguments, uint64_t all, uint64_t& first, uint
     end = ends[1].empty() ? all : to_count(ends[1]);
   }
   if (!begin || !end) arguments.refuse("layers", "'" + text + "' is not FIRST:END");
-  if (*begin >= *end || *end > all) {
+  if (*begin >= *end || *begin >= all) {
     throw Failure("--layers: " + text + " is no window of the " + std::to_string(all) +
                   " layers 0:" + std::to_string(all));
   }
   first = *begin;
-  count = *end - *begin;
+  count = std::min(*end, all) - *begin;
 }
 
 msq_io_writer_def make_writer_def(const Arguments& arguments, uint64_t first, uint64_t count) {
