@@ -2,6 +2,7 @@
 // Files of beam lattices.
 #include <optional>
 
+#include "api/defined_handle.h"
 #include "api/file_def.h"
 #include "api/guard.h"
 #include "api/warnings.h"
@@ -173,6 +174,6 @@ msq_status msq_beam_file_shape(msq_context* context, const msq_beam_file* file, 
            is_solid ? "the file has no mesh besides its beams" : "no mesh clips this lattice");
     const Ref<Shape> made = make_ref<Mesh>(TriangleSoup(soup), known_rule, owner.budget);
     if (known_rule == WindingRule::automatic) warn_of_open_mesh(owner, *made);
-    *shape = new_handle<msq_shape>(made);
+    *shape = defined_handle<msq_shape>(made, mesh_def(known_rule));
   });
 }

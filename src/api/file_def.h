@@ -12,6 +12,9 @@ msq_file_def file_defaults();
 
 WindingRule winding_rule(int32_t rule);
 
+/// The definition of a mesh that keeps its arrays itself.
+msq_mesh_def mesh_def(WindingRule rule);
+
 struct FileRequest {
   MeshFileOptions options;
   WindingRule rule;

@@ -29,13 +29,6 @@ msq_voxels_def voxels_defaults() {
   return def;
 }
 
-/// The definition of a mesh that keeps its arrays itself.
-msq_mesh_def mesh_def(WindingRule rule) {
-  msq_mesh_def def = mesh_defaults();
-  def.winding_rule = static_cast<int32_t>(rule);
-  return def;
-}
-
 /// A handle to a new mesh.
 template <class Def>
 msq_shape* mesh_handle(const Context& owner, Ref<Shape> mesh, WindingRule rule, const Def& def) {
@@ -58,6 +51,12 @@ msq_shape* make_mesh(const Context& owner, FileRequest request, const Def& def, 
 }
 
 }  // namespace
+
+msq_mesh_def msq::api::mesh_def(WindingRule rule) {
+  msq_mesh_def def = mesh_defaults();
+  def.winding_rule = static_cast<int32_t>(rule);
+  return def;
+}
 
 msq_status msq_file_def_init(msq_file_def* def, size_t size) {
   return guard([&] { set_defaults(def, size, file_defaults(), "msq_file_def"); });

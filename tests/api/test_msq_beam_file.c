@@ -97,6 +97,28 @@ static void lattices_are_in_millimetres(void** state) {
   msq_context_release(context);
 }
 
+/* A model that is written and read again is the same. */
+static void check_json(msq_context* context, const msq_model* model) {
+  uint64_t bytes;
+  msq_document* document;
+  msq_model* again;
+  uint8_t hashes[2][16];
+  assert_ok(msq_model_to_json(model, NULL, NULL, 0, &bytes));
+  char* text = (char*)malloc(bytes);
+  assert_non_null(text);
+  assert_ok(msq_model_to_json(model, NULL, text, bytes, &bytes));
+  assert_ok(msq_document_from_json(context, text, bytes, NULL, &document, NULL));
+  free(text);
+  assert_ok(msq_document_model(document, &again));
+  msq_document_release(document);
+  if (MSQ_WITH_XXHASH) {
+    assert_ok(msq_model_hash(model, hashes[0]));
+    assert_ok(msq_model_hash(again, hashes[1]));
+    assert_memory_equal(hashes[0], hashes[1], 16);
+  }
+  msq_model_release(again);
+}
+
 /* The solid of the file: the mesh, and the beams within what clips them. */
 static void models_are_composed(void** state) {
   msq_context* context = make_context();
@@ -128,6 +150,7 @@ static void models_are_composed(void** state) {
   assert_int_equal(is_inside(model, 20, -1, 1), 0); /* clipped */
   assert_int_equal(is_inside(model, 20, 6, 1), 0);
   assert_int_equal(is_inside(model, 1, 1, 36), 1); /* the ball */
+  if (MSQ_WITH_JSON) check_json(context, model);
   msq_model_release(model);
   msq_structure_release(made);
   msq_shape_release(clip);
