@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "atomic_file.h"
+#include "contour_packet.h"
 #include "defs.h"
 #include "layer_folder.h"
 #include "names.h"
@@ -89,48 +90,13 @@ void begin_svg(Text& text, const Sheet& sheet) {
           "xmlns:slic3r=\"http://slic3r.org/namespaces/slic3r\"";
 }
 
-/// Reads points of any type of contours.
-class Rings {
- public:
-  Rings(const msq_contours* contours, const Sheet& sheet) : sheet_(sheet) {
-    report_.struct_size = sizeof report_;
-    check_msq(msq_contours_info(contours, &report_));
+/// Writes the points of a ring, with signs between coordinates and between points.
+void write_ring(const Rings& rings, uint64_t ring, const Sheet& sheet, const char* between,
+                const char* next, Text& text) {
+  for (uint64_t i = rings.begin(ring); i < rings.begin(ring + 1); ++i) {
+    if (i > rings.begin(ring)) text << next;
+    text << rings.at(i, 0) - sheet.left << between << sheet.top - rings.at(i, 1);
   }
-  const msq_contours_report& report() const { return report_; }
-  /// The points of a ring, with signs between coordinates and between points.
-  void write(uint64_t ring, const char* between, const char* next, Text& text) const {
-    for (uint64_t i = report_.starts[ring]; i < report_.starts[ring + 1]; ++i) {
-      if (i > report_.starts[ring]) text << next;
-      text << coordinate(2 * i) - sheet_.left << between << sheet_.top - coordinate(2 * i + 1);
-    }
-  }
-
- private:
-  double coordinate(uint64_t i) const {
-    switch (report_.type) {
-      case MSQ_INT32:
-        return static_cast<const int32_t*>(report_.points)[i] / sheet_.units;
-      case MSQ_INT64:
-        return static_cast<double>(static_cast<const int64_t*>(report_.points)[i]) / sheet_.units;
-      default:
-        return static_cast<const double*>(report_.points)[i] / sheet_.units;
-    }
-  }
-
-  const Sheet& sheet_;
-  msq_contours_report report_{};
-};
-
-void take_contours(const msq_output& output, Packet& packet) {
-  if (output.output != MSQ_LAYER_CONTOURS)
-    fail(MSQ_E_ARGUMENT, "the output of the layers is %d; it must be MSQ_LAYER_CONTOURS (7)",
-         output.output);
-  msq_contours_report report{};
-  report.struct_size = sizeof report;
-  check_msq(msq_contours_info(output.contours, &report));
-  msq_contours_retain(output.contours);
-  packet.contours = {output.contours, msq_contours_release};
-  packet.bytes = report.point_count * 16 + report.ring_count * 17 + 1;
 }
 
 class SvgStack : public Format {
@@ -147,13 +113,13 @@ class SvgStack : public Format {
     take_contours(output, packet);
   }
   void encode(Packet& packet) override {
-    const Rings rings(packet.contours.get(), sheet_);
+    const Rings rings(packet.contours.get(), sheet_.units);
     Text text(packet.output, sheet_.decimals);
     text << "<g id=\"layer" << first_ + packet.number << "\" slic3r:z=\"" << packet.z << "\">\n";
-    for (uint64_t i = 0; i < rings.report().ring_count; ++i) {
-      const bool is_hole = rings.report().holes[i] != 0;
+    for (uint64_t i = 0; i < rings.count(); ++i) {
+      const bool is_hole = rings.is_hole(i);
       text << "<polygon slic3r:type=\"" << (is_hole ? "hole" : "contour") << "\" points=\"";
-      rings.write(i, ",", " ", text);
+      write_ring(rings, i, sheet_, ",", " ", text);
       text << "\" style=\"fill: " << (is_hole ? "black" : "white") << "\"/>\n";
     }
     text << "</g>\n";
@@ -187,14 +153,14 @@ class SvgFolder : public LayerFolder {
     take_contours(output, packet);
   }
   void encode(Packet& packet) override {
-    const Rings rings(packet.contours.get(), sheet_);
+    const Rings rings(packet.contours.get(), sheet_.units);
     std::vector<uint8_t> file;
     Text text(file, sheet_.decimals);
     begin_svg(text, sheet_);
     text << " slic3r:z=\"" << packet.z << "\">\n<path fill-rule=\"evenodd\" d=\"";
-    for (uint64_t i = 0; i < rings.report().ring_count; ++i) {
+    for (uint64_t i = 0; i < rings.count(); ++i) {
       text << "M";
-      rings.write(i, " ", "L", text);
+      write_ring(rings, i, sheet_, " ", "L", text);
       text << "Z\n";
     }
     text << "\"/>\n</svg>\n";

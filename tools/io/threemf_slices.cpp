@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "contour_packet.h"
 #include "defs.h"
 #include "names.h"
 #include "threemf_text.h"
@@ -77,15 +78,7 @@ class ThreemfSlices : public Format {
   }
 
   void take(const msq_layer&, const msq_output& output, Packet& packet) override {
-    if (output.output != MSQ_LAYER_CONTOURS)
-      fail(MSQ_E_ARGUMENT, "the output of the layers is %d; it must be MSQ_LAYER_CONTOURS (%d)",
-           output.output, MSQ_LAYER_CONTOURS);
-    msq_contours_report report{};
-    report.struct_size = sizeof report;
-    check_msq(msq_contours_info(output.contours, &report));
-    msq_contours_retain(output.contours);
-    packet.contours = {output.contours, msq_contours_release};
-    packet.bytes = report.point_count * 16 + report.ring_count * 17 + 1;
+    take_contours(output, packet);
   }
 
   void encode(Packet& packet) override {
@@ -135,37 +128,24 @@ class ThreemfSlices : public Format {
   }
 
   void write_slice(const Packet& packet, XmlText& text, Extent& extent) const {
-    msq_contours_report rings{};
-    rings.struct_size = sizeof rings;
-    check_msq(msq_contours_info(packet.contours.get(), &rings));
+    const Rings rings(packet.contours.get(), units_);
     text << "<s:slice ztop=\"" << heights_[packet.number + 1] << "\">\n";
-    if (rings.point_count > 0) {
+    if (rings.point_count() > 0) {
       text << "<s:vertices>\n";
-      for (uint64_t i = 0; i < rings.point_count; ++i) {
-        const double p[2] = {coordinate(rings, 2 * i), coordinate(rings, 2 * i + 1)};
+      for (uint64_t i = 0; i < rings.point_count(); ++i) {
+        const double p[2] = {rings.at(i, 0), rings.at(i, 1)};
         extent.add(p);
         text << "<s:vertex x=\"" << p[0] << "\" y=\"" << p[1] << "\"/>\n";
       }
       text << "</s:vertices>\n";
     }
-    for (uint64_t ring = 0; ring < rings.ring_count; ++ring) {
-      const uint64_t first = rings.starts[ring], end = rings.starts[ring + 1];
+    for (uint64_t ring = 0; ring < rings.count(); ++ring) {
+      const uint64_t first = rings.begin(ring), end = rings.begin(ring + 1);
       text << "<s:polygon startv=\"" << first << "\">";
       for (uint64_t i = first + 1; i < end; ++i) text << "<s:segment v2=\"" << i << "\"/>";
       text << "<s:segment v2=\"" << first << "\"/></s:polygon>\n";
     }
     text << "</s:slice>\n";
-  }
-
-  double coordinate(const msq_contours_report& rings, uint64_t i) const {
-    switch (rings.type) {
-      case MSQ_INT32:
-        return static_cast<const int32_t*>(rings.points)[i] / units_;
-      case MSQ_INT64:
-        return static_cast<double>(static_cast<const int64_t*>(rings.points)[i]) / units_;
-      default:
-        return static_cast<const double*>(rings.points)[i] / units_;
-    }
   }
 
   /// The object: a box about all slices, of lower resolution than they are.
