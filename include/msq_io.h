@@ -155,9 +155,10 @@ MSQ_IO_API void msq_io_writer_release(msq_io_writer* writer);
 /** Definition of a stack of PNG files. */
 typedef struct msq_io_png_def {
   uint32_t struct_size;
-  /** 0 (default): streams are compressed by ISA-L, which is several times as fast as the other
-   * levels and nearly as dense as level 1; in a build without ISA-L as level 1. 1 to 9: by libpng,
-   * at that level of zlib. The pixels are the same. */
+  /** 0 (default): rows are stored as differences from the row above, whose zeros are compressed as
+   * runs, with the Huffman codes of ISA-L. That is several times as fast as the other levels, and
+   * smaller than level 1 for layers. In a build without ISA-L as level 1. 1 to 9: by libpng, at
+   * that level of zlib. The pixels are the same. */
   int32_t level;
   /** Digits of the number of a layer in the name of its file, 1 to 20. Longer numbers have the
    * digits that they need. Default 5. */

@@ -21,10 +21,10 @@ AtomicFolder::AtomicFolder(const fs::path& path, bool replace)
   if (!is_new_ && !fs::is_directory(status))
     throw Error(MSQ_E_IO, "the name is not that of a folder: " + text_of(path_));
   for (int tries = 0; temporary_.empty(); ++tries) {
-    const fs::path name = is_new_ ? temporary_name(path_.parent_path(), path_.filename())
-                                  : temporary_name(path_, "msq");
+    fs::path name = is_new_ ? temporary_name(path_.parent_path(), path_.filename())
+                            : temporary_name(path_, "msq");
     if (fs::create_directory(name, error))
-      temporary_ = name;
+      temporary_ = std::move(name);  // without memory: from here on it is removed
     else if (error || tries == 100)
       fail_io("cannot create the folder", error.default_error_condition().value(), text_of(path_));
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "error.h"
 
+#include <cerrno>
 #include <charconv>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <system_error>
 
 namespace msq_io {
@@ -43,6 +45,7 @@ void fail(msq_status status, const char* format, ...) {
 }
 
 void fail_io(const char* what, int code, const std::string& path) {
+  if (code == ENOMEM) throw std::bad_alloc();
   throw Error(MSQ_E_IO,
               std::string(what) + ": " + std::generic_category().message(code) + ": " + path);
 }

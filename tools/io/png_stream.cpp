@@ -4,6 +4,7 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <cstdlib>
 #include <cstring>
 
 namespace msq_io {
@@ -28,6 +29,16 @@ bool append(std::vector<uint8_t>& stream, const uint8_t* bytes, size_t size) noe
   } catch (...) {
     return false;
   }
+}
+
+/// For libpng, whose errors do not tell what is wrong.
+png_voidp take_memory(png_structp png, png_alloc_size_t size) {
+  void* const block = std::malloc(size);
+  if (!block) static_cast<Sink*>(png_get_mem_ptr(png))->is_out_of_memory = true;
+  return block;
+}
+void give_memory(png_structp, png_voidp block) {
+  std::free(block);
 }
 
 // No exception passes through libpng.
@@ -81,14 +92,9 @@ void append_chunk(std::vector<uint8_t>& stream, const char* name, const uint8_t*
 
 }  // namespace
 
-void wrap_png(const PngRows& image, const uint8_t* zlib_stream, size_t size,
-              std::vector<uint8_t>& stream) {
-  if (size > 0x7fffffff)
-    fail(MSQ_E_LIMIT, "a picture of %zu compressed bytes; the limit is 2147483647", size);
+size_t begin_png(const PngRows& image, std::vector<uint8_t>& stream) {
   static constexpr uint8_t signature[8] = {137, 80, 78, 71, 13, 10, 26, 10};
-  stream.reserve(size + 64);
-  stream.resize(sizeof signature);
-  std::memcpy(stream.data(), signature, sizeof signature);
+  stream.assign(signature, signature + sizeof signature);
   const int colour = image.channels == 1 ? 0 : image.channels == 3 ? 2 : 6;
   uint8_t header[13] = {};
   put_be32(header, image.width);
@@ -96,16 +102,30 @@ void wrap_png(const PngRows& image, const uint8_t* zlib_stream, size_t size,
   header[8] = static_cast<uint8_t>(image.depth);
   header[9] = static_cast<uint8_t>(colour);
   append_chunk(stream, "IHDR", header, sizeof header);
-  append_chunk(stream, "IDAT", zlib_stream, size);
+  static constexpr uint8_t pixels[8] = {0, 0, 0, 0, 'I', 'D', 'A', 'T'};
+  stream.insert(stream.end(), pixels, pixels + sizeof pixels);
+  return stream.size() - sizeof pixels;
+}
+
+void end_png(size_t chunk, uint32_t (*crc)(uint32_t, const unsigned char*, uint64_t),
+             std::vector<uint8_t>& stream) {
+  const size_t size = stream.size() - chunk - 8;
+  if (size > 0x7fffffff)
+    fail(MSQ_E_LIMIT, "a picture of %zu compressed bytes; the limit is 2147483647", size);
+  put_be32(stream.data() + chunk, static_cast<uint32_t>(size));
+  uint8_t sum[4];
+  put_be32(sum, crc(0, stream.data() + chunk + 4, size + 4));
+  stream.insert(stream.end(), sum, sum + sizeof sum);
   append_chunk(stream, "IEND", nullptr, 0);
 }
 
 void encode_by_libpng(const PngRows& image, const std::vector<uint8_t>& rows, int level,
                       bool is_layer, std::vector<uint8_t>& stream) {
   stream.clear();
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
-  png_infop info = png ? png_create_info_struct(png) : nullptr;
   Sink sink{&stream, false};
+  png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning,
+                                              &sink, take_memory, give_memory);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
   bool is_written = false;
   if (info) {
     png_set_write_fn(png, &sink, on_bytes, on_flush);
@@ -113,7 +133,7 @@ void encode_by_libpng(const PngRows& image, const std::vector<uint8_t>& rows, in
   }
   png_destroy_write_struct(&png, &info);
   if (!info && !is_written && stream.empty()) throw std::bad_alloc();
-  if (sink.is_out_of_memory) throw std::bad_alloc();
+  if (!is_written && sink.is_out_of_memory) throw std::bad_alloc();
   if (!is_written)
     fail(MSQ_E_INTERNAL, "libpng does not write %u x %u pixels", image.width, image.height);
 }

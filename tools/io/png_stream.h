@@ -34,9 +34,12 @@ void encode_by_libpng(const PngRows& image, const std::vector<uint8_t>& rows, in
 bool encode_fast(const PngRows& image, const std::vector<uint8_t>& rows,
                  std::vector<uint8_t>& stream);
 
-/// The PNG file around a zlib stream.
-void wrap_png(const PngRows& image, const uint8_t* zlib_stream, size_t size,
-              std::vector<uint8_t>& stream);
+/// Begins the file that a zlib stream is appended to: signature and header, and the chunk of
+/// pixels, whose place it returns.
+size_t begin_png(const PngRows& image, std::vector<uint8_t>& stream);
+/// Ends the chunk and the file. crc: as crc32_gzip_refl of ISA-L.
+void end_png(size_t chunk, uint32_t (*crc)(uint32_t, const unsigned char*, uint64_t),
+             std::vector<uint8_t>& stream);
 
 /// Copies pixels to rows. Fails with LIMIT if that are 2^31 bytes or more.
 void copy_rows(const PngRows& image, const uint8_t* pixels, uint64_t stride,
