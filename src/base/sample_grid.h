@@ -82,6 +82,14 @@ struct SampleWindow {
   friend bool operator==(const SampleWindow&, const SampleWindow&) = default;
 };
 
+/// Rows [begin, end) of a grid.
+inline SampleGrid rows_of(const SampleGrid& grid, uint64_t begin, uint64_t end) {
+  SampleGrid part = grid;
+  part.first[1] += begin;
+  part.ny = end - begin;
+  return part;
+}
+
 /// A window of a whole grid; the grid itself if the window is all zeros. Throws Error(argument) if
 /// the window is empty or reaches beyond the grid.
 SampleGrid window_of(const SampleGrid& whole, const SampleWindow& window);

@@ -16,10 +16,12 @@ struct Orientation {
   bool is_plain() const { return !mirror_x && !mirror_y && !transpose; }
 };
 
-/// `pixel_bytes`: 0, 1 or 4, 0 being bits with the leftmost pixel in the high bit. `width`,
-/// `height`: of the plan. Rows of both are layer_stride() apart; bytes past the width of the result
-/// become 0.
-void orient_layer(const Orientation& orientation, unsigned pixel_bytes, const uint8_t* plan,
-                  uint64_t width, uint64_t height, uint8_t* out, const Executor& executor);
+/// Rows [begin, end) of the plan, `rows`. Calls for bands of rows, the first of which begins at 0,
+/// write a whole layer. `pixel_bytes`: 0, 1 or 4, 0 being bits with the leftmost pixel in the high
+/// bit. `width`, `height`: of the plan. Rows of both are layer_stride() apart; bytes past the width
+/// of the result become 0.
+void orient_rows(const Orientation& orientation, unsigned pixel_bytes, const uint8_t* rows,
+                 uint64_t begin, uint64_t end, uint64_t width, uint64_t height, uint8_t* out,
+                 const Executor& executor);
 
 }  // namespace msq

@@ -7,28 +7,37 @@
 
 namespace msq {
 
+namespace {
+
+/// Rows of samples that divide a row of pixels.
+uint64_t rows_of_pixel(const SampleGrid& grid, const SlabsAhead::Bands& bands) {
+  return grid.ny / bands.rows;
+}
+
+}  // namespace
+
 SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
-                       const std::vector<SampleGrid>& grids, Depth depth, uint64_t first,
-                       uint64_t last, Job* job)
+                       const std::vector<SampleGrid>& grids, Depth depth, Bands bands,
+                       uint64_t first, uint64_t last, Job* job)
     : model_(model),
       resolved_(resolved),
       grids_(grids),
       first_(first),
       last_(last),
       depth_(depth),
-      begin_(first),
-      end_(first + depth.first),
+      bands_(bands),
+      piece_{first, first + depth.first},
       layer_(first),
       ahead_job_(job) {
   if (grids_.empty()) return;
-  const bool is_one_slab = depth.others == last - first;
+  const bool is_one_slab = depth.others == last - first && bands.count() == 1;
   for (const SampleGrid& grid : grids_) {
-    const uint64_t words = words_for(grid.nx) * grid.ny;
+    const uint64_t words = words_for(grid.nx) * rows_of_pixel(grid, bands) * bands.band_rows;
     layer_words_.push_back(words);
     current_.emplace_back((is_one_slab ? depth.first : depth.others) * words);
     next_.emplace_back((is_one_slab ? depth.others - depth.first : depth.others) * words);
   }
-  fill(begin_, end_, current_, job);
+  fill(piece_, current_, job);
   start_next();
 }
 
@@ -37,42 +46,52 @@ SlabsAhead::~SlabsAhead() {
 }
 
 uint64_t SlabsAhead::bytes(const Model& model, const Scales& resolved,
-                           const std::vector<SampleGrid>& grids, Depth depth, uint64_t layers) {
+                           const std::vector<SampleGrid>& grids, Depth depth, Bands bands,
+                           uint64_t layers) {
+  const bool is_one_slab = depth.others == layers && bands.count() == 1;
   uint64_t words = 0, scratch = 0;
   for (const SampleGrid& grid : grids) {
-    words += (depth.others == layers ? 1 : 2) * depth.others * words_for(grid.nx) * grid.ny;
+    const SampleGrid band = rows_of(grid, 0, rows_of_pixel(grid, bands) * bands.band_rows);
+    words += (is_one_slab ? 1 : 2) * depth.others * words_for(band.nx) * band.ny;
     for (const uint64_t filled : {depth.first, depth.others})
-      scratch = std::max(scratch, fill_slab_scratch_words(model, resolved, grid, filled));
+      scratch = std::max(scratch, fill_slab_scratch_words(model, resolved, band, filled));
   }
   return (words + scratch) * sizeof(uint64_t);
 }
 
-void SlabsAhead::fill(uint64_t begin, uint64_t end, Slab& slab, const Job* job) const {
-  for (size_t g = 0; g < grids_.size(); ++g)
-    fill_slab(model_, resolved_, grids_[g], begin, end, slab[g].data(), job);
+void SlabsAhead::fill(const Piece& piece, Slab& slab, const Job* job) const {
+  for (size_t g = 0; g < grids_.size(); ++g) {
+    const uint64_t across = rows_of_pixel(grids_[g], bands_);
+    const SampleGrid rows =
+        rows_of(grids_[g], across * bands_.begin(piece.band), across * bands_.end(piece.band));
+    fill_slab(model_, resolved_, rows, piece.begin, piece.end, slab[g].data(), job);
+  }
+}
+
+SlabsAhead::Piece SlabsAhead::after(const Piece& piece) const {
+  if (piece.band + 1 < bands_.count()) return {piece.begin, piece.end, piece.band + 1};
+  // All slabs but the first begin at a multiple of their height: what Slicer::plan_slabs() says of
+  // whole cells holds for them.
+  const uint64_t end = first_ + (piece.end - first_) / depth_.others * depth_.others;
+  return {piece.end, std::min(last_, end + depth_.others)};
 }
 
 void SlabsAhead::start_next() {
-  if (end_ == last_) return;
-  // All slabs but the first begin at a multiple of their height: what Slicer::plan_slabs() says of
-  // whole cells holds for them.
-  const uint64_t end =
-      std::min(last_, first_ + (end_ - first_) / depth_.others * depth_.others + depth_.others);
-  ahead_.emplace(model_.executor(), [this, begin = end_, end] {
+  const Piece next = after(piece_);
+  if (next.begin == last_) return;
+  ahead_.emplace(model_.executor(), [this, next] {
     const CurrentJob current(&ahead_job_);
-    fill(begin, end, next_, &ahead_job_);
+    fill(next, next_, &ahead_job_);
   });
 }
 
-void SlabsAhead::go_to(uint64_t layer) {
+void SlabsAhead::go_to(uint64_t layer, uint64_t band) {
   if (grids_.empty()) return;
-  if (layer == end_) {
+  if (layer == piece_.end || band != piece_.band) {
     ahead_->wait();
     ahead_.reset();
     std::swap(current_, next_);
-    begin_ = end_;
-    end_ =
-        std::min(last_, first_ + (end_ - first_) / depth_.others * depth_.others + depth_.others);
+    piece_ = after(piece_);
     start_next();
   }
   layer_ = layer;

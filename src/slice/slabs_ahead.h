@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bits of layers, slab by slab in ascending order. While the caller uses the layers of a slab,
-// workers fill the next one. Source: paper, section "Slicing".
+// workers fill the next one. Where a slab of one layer is still too large, bands of its rows follow
+// each other in the same way. Source: paper, section "Slicing".
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -20,29 +22,45 @@ class SlabsAhead {
     uint64_t first, others;
   };
 
-  /// Memory for a run of so many layers: two slabs and what filling them takes. The caller reserves
-  /// it.
+  /// Rows of the pixels that samples divide.
+  struct Bands {
+    uint64_t rows;       ///< of a layer
+    uint64_t band_rows;  ///< filled at once; fewer than `rows` only in slabs of one layer
+
+    uint64_t count() const { return (rows + band_rows - 1) / band_rows; }
+    uint64_t begin(uint64_t band) const { return band * band_rows; }
+    uint64_t end(uint64_t band) const { return std::min(rows, (band + 1) * band_rows); }
+  };
+
+  /// Memory for a run of so many layers: two slabs or bands and what filling them takes. The caller
+  /// reserves it.
   static uint64_t bytes(const Model& model, const Scales& resolved,
-                        const std::vector<SampleGrid>& grids, Depth depth, uint64_t layers);
+                        const std::vector<SampleGrid>& grids, Depth depth, Bands bands,
+                        uint64_t layers);
 
   /// Of layers [first, last) of grids with the same layers, of which there may be none. No slab has
-  /// more layers than there are. Fills the first slab.
+  /// more layers than there are. Fills the first slab or band.
   SlabsAhead(const Model& model, const Scales& resolved, const std::vector<SampleGrid>& grids,
-             Depth depth, uint64_t first, uint64_t last, Job* job);
+             Depth depth, Bands bands, uint64_t first, uint64_t last, Job* job);
   /// Stops the slab ahead.
   ~SlabsAhead();
 
-  /// Makes a layer current: the first one, then each next one.
-  void go_to(uint64_t layer);
-  /// Rows of the current layer of a grid, in words_for(nx) words each. Valid until go_to().
+  /// Makes a band of a layer current: the first one, then each next one.
+  void go_to(uint64_t layer, uint64_t band);
+  /// Rows of the current band of a grid, in words_for(nx) words each. Valid until go_to().
   const uint64_t* words(size_t grid) const {
-    return current_[grid].data() + (layer_ - begin_) * layer_words_[grid];
+    return current_[grid].data() + (layer_ - piece_.begin) * layer_words_[grid];
   }
 
  private:
   using Slab = std::vector<std::vector<uint64_t>>;  ///< of each grid
+  /// Layers that are filled at once, or a band of one.
+  struct Piece {
+    uint64_t begin, end, band = 0;
+  };
 
-  void fill(uint64_t begin, uint64_t end, Slab& slab, const Job* job) const;
+  void fill(const Piece& piece, Slab& slab, const Job* job) const;
+  Piece after(const Piece& piece) const;
   void start_next();
 
   const Model& model_;
@@ -50,10 +68,12 @@ class SlabsAhead {
   const std::vector<SampleGrid>& grids_;
   const uint64_t first_, last_;
   const Depth depth_;
-  std::vector<uint64_t> layer_words_;
+  const Bands bands_;
+  std::vector<uint64_t> layer_words_;  // of a layer or a band
   Slab current_, next_;
-  uint64_t begin_, end_, layer_;  // of the current slab
-  Job ahead_job_;                 // stops the slab ahead when the caller ends early
+  Piece piece_;  // the current one
+  uint64_t layer_;
+  Job ahead_job_;  // stops the slab ahead when the caller ends early
   std::optional<Executor::Task> ahead_;
 };
 

@@ -25,6 +25,8 @@ constexpr double automatic_slab_layers = 64;
 /// The first slab of a run has this part of the layers of a slab, 1 / 8, unless the slabs of
 /// structures are shallow already: each slab has a cost of its own.
 constexpr uint64_t first_slab_part = 8;
+/// Of samples. Bands have no fewer: each takes up again the cells that the one before it reached.
+constexpr uint64_t min_band_rows = 16;
 
 /// Samples of a pitch that cover an extent; a remainder of rounding does not make one more.
 double samples_across(double extent, double pitch) {
@@ -36,6 +38,20 @@ uint64_t checked_count(double count, const char* what) {
     fail(Status::limit, "%g %s; the limit is %llu", count, what,
          static_cast<unsigned long long>(max_samples));
   return static_cast<uint64_t>(count);
+}
+
+/// What a slab takes of a memory limit: two of them leave as much for cells, meshes and other
+/// calls.
+uint64_t slab_share(uint64_t limit) {
+  return limit ? limit / 4 : UINT64_MAX;
+}
+
+/// Bytes that a call may take. Cached cells give way.
+uint64_t room_in(const Context& context) {
+  const uint64_t limit = context.budget->limit();
+  if (limit == 0) return UINT64_MAX;
+  const uint64_t held = context.budget->held(), cached = context.cache.counters().bytes;
+  return limit - std::min(limit, held - std::min(held, cached));
 }
 
 /// Whether slabs are as deep as memory allows.
@@ -191,9 +207,7 @@ void Slicer::plan_slabs() {
       std::min(automatic_slab_bytes, shallow_slab_bytes * model_->executor().threads());
   for (const Scale* scale : framed_resolved_)
     if (gains_by_layers(*scale)) max_bytes = automatic_slab_bytes;
-  // Two slabs, and as much for cells, meshes and other calls.
-  if (const uint64_t limit = model_->context().budget->limit())
-    max_bytes = std::min(max_bytes, limit / 4);
+  max_bytes = std::min(max_bytes, slab_share(model_->context().budget->limit()));
   const uint64_t fit = max_bytes / layer_bytes;
   slab_layers_ = static_cast<uint64_t>(
       std::clamp(std::min(layers, static_cast<double>(fit)), 1.0, static_cast<double>(grid_.nz)));
@@ -207,6 +221,46 @@ SlabsAhead::Depth Slicer::slab_depth(uint64_t layers) const {
   return {is_shallow ? depth : (depth + first_slab_part - 1) / first_slab_part, depth};
 }
 
+uint64_t Slicer::band_rows(uint64_t max_sample_bytes,
+                           const std::function<uint64_t(uint64_t)>& bytes_of) const {
+  uint64_t across = 1, row_bytes = 0;
+  for (const SampleGrid& samples : samples_) {
+    across = std::max(across, samples.ny / grid_.ny);
+    row_bytes += words_for(samples.nx) * (samples.ny / grid_.ny) * sizeof(uint64_t);
+  }
+  const uint64_t room = room_in(model_->context());
+  const uint64_t fewest = std::min(grid_.ny, (min_band_rows + across - 1) / across);
+  uint64_t least_rows = grid_.ny, least = UINT64_MAX;
+  for (uint64_t rows = grid_.ny;; rows = std::max(fewest, (rows + 1) / 2)) {
+    const uint64_t bytes = bytes_of(rows);
+    if (bytes <= room && rows * row_bytes <= max_sample_bytes) return rows;
+    if (bytes < least) {
+      least = bytes;
+      least_rows = rows;
+    }
+    if (rows == fewest) return least_rows;
+  }
+}
+
+Slicer::Portions Slicer::portions(uint64_t layers, uint64_t beside) const {
+  Portions made{slab_depth(layers), {grid_.ny, grid_.ny}, 0};
+  const auto bytes_of = [&](uint64_t rows) {
+    uint64_t plain = 0;
+    for (const Output& output : outputs_) plain = std::max(plain, plain_bytes(output, rows));
+    return beside + plain +
+           SlabsAhead::bytes(*framed_, framed_resolved_, samples_, made.depth, {grid_.ny, rows},
+                             layers);
+  };
+  const Context& context = model_->context();
+  while (plan_.slab_layers == 0 && made.depth.others > 1 && bytes_of(grid_.ny) > room_in(context))
+    made.depth = slab_depth((made.depth.others + 1) / 2);
+  if (made.depth.others == 1)
+    made.bands.band_rows =
+        band_rows(std::min(automatic_slab_bytes, slab_share(context.budget->limit())), bytes_of);
+  made.bytes = bytes_of(made.bands.band_rows);
+  return made;
+}
+
 void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const Layer&)>& take,
                  Job* job) const {
   JobScope scope(job);
@@ -215,89 +269,118 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   std::vector<size_t> with_contours;
   for (size_t i = 0; i < outputs_.size(); ++i) {
     all_bytes += layer_bytes(i);
-    max_plain_bytes = std::max(max_plain_bytes, plain_bytes(outputs_[i]));
     if (!outputs_[i].pixels) with_contours.push_back(i);
   }
-  const SlabsAhead::Depth depth = slab_depth(last - first);
-  const uint64_t slab_bytes =
-      SlabsAhead::bytes(*framed_, framed_resolved_, samples_, depth, last - first);
-  const Reservation reservation(model_->context().budget, slab_bytes + all_bytes + max_plain_bytes,
-                                samples_.empty() ? "a layer" : "slabs of layers");
+  const Portions portion = portions(last - first, all_bytes);
+  const SlabsAhead::Bands& bands = portion.bands;
+  const Reservation reservation(model_->context().budget, portion.bytes,
+                                samples_.empty()    ? "a layer"
+                                : bands.count() > 1 ? "a layer and bands of its rows"
+                                                    : "slabs of layers");
+  for (const Output& output : outputs_)
+    max_plain_bytes = std::max(max_plain_bytes, plain_bytes(output, bands.band_rows));
   std::vector<uint8_t> bytes(all_bytes), plain(max_plain_bytes);
   std::vector<LayerPart> parts(outputs_.size());
-  SlabsAhead slabs(*framed_, framed_resolved_, samples_, depth, first, last, job);
+  SlabsAhead slabs(*framed_, framed_resolved_, samples_, portion.depth, bands, first, last, job);
   const auto make = [&](uint64_t layer, size_t n, Job* part) {
     return contours(layer, outputs_[with_contours[n]].plan.contours, part);
   };
   ContoursAhead rings(*model_, make, with_contours.size(), first, last, job);
-  for (uint64_t k = first; k < last; ++k) {
-    check_cancelled(job);
-    slabs.go_to(k);
-    rings.go_to(k);
+  const auto write_band = [&](uint64_t layer, uint64_t band) {
+    slabs.go_to(layer, band);
     uint8_t* out = bytes.data();
-    for (size_t i = 0, n = 0; i < outputs_.size(); ++i) {
+    for (size_t i = 0; i < outputs_.size(); ++i) {
       const Output& output = outputs_[i];
-      if (!output.pixels) {
-        parts[i].contours = rings.contours(n++).get();
-        continue;
-      }
+      if (!output.pixels) continue;
       const uint64_t* words = output.samples == no_samples ? nullptr : slabs.words(output.samples);
-      parts[i].data = out;
       Job part(job);  // its progress is not that of the call
-      parts[i].inside_count = write(output, k, words, plain.data(), out, &part);
+      parts[i].inside_count +=
+          write(output, layer, bands.begin(band), bands.end(band), words, plain.data(), out, &part);
       if (job) job->counts().add(part.counts());
       out += layer_bytes(i);
     }
+  };
+  for (uint64_t k = first; k < last; ++k) {
+    const uint8_t* out = bytes.data();
+    for (size_t i = 0; i < outputs_.size(); out += layer_bytes(i), ++i)
+      parts[i] = {outputs_[i].pixels ? out : nullptr};
+    for (uint64_t band = 0; band < bands.count(); ++band) {
+      check_cancelled(job);
+      write_band(k, band);
+    }
+    rings.go_to(k);
+    for (size_t n = 0; n < with_contours.size(); ++n)
+      parts[with_contours[n]].contours = rings.contours(n).get();
     take({k, grid_.z(k), parts});
     if (job)
       job->set_progress(static_cast<double>(k + 1 - first) / static_cast<double>(last - first));
   }
 }
 
-uint64_t Slicer::plain_bytes(const Output& output) const {
+uint64_t Slicer::plain_bytes(const Output& output, uint64_t rows) const {
   if (plan_.orientation.is_plain() || !output.pixels) return 0;
-  return layer_stride(output.pixels->pixel_bytes(), grid_.nx) * grid_.ny;
+  return layer_stride(output.pixels->pixel_bytes(), grid_.nx) * rows;
 }
 
-uint64_t Slicer::write(const Output& output, uint64_t index, const uint64_t* words, uint8_t* plain,
-                       uint8_t* out, Job* job) const {
-  SampleGrid pixels = grid_;
+uint64_t Slicer::write(const Output& output, uint64_t index, uint64_t begin, uint64_t end,
+                       const uint64_t* words, uint8_t* plain, uint8_t* out, Job* job) const {
+  SampleGrid pixels = rows_of(grid_, begin, end);
   pixels.nz = 1;
   pixels.origin.z = grid_.z(index);
   pixels.spacing.z = 1;
   pixels.heights = nullptr;
   pixels.first[2] = 0;
+  const unsigned pixel_bytes = output.pixels->pixel_bytes();
   const bool is_plain = plan_.orientation.is_plain();
-  const uint64_t inside = output.pixels->write(
-      {*model_, resolved_, plan_.frame, pixels, words, job}, is_plain ? out : plain);
+  const uint64_t inside =
+      output.pixels->write({*model_, resolved_, plan_.frame, pixels, words, job},
+                           is_plain ? out + begin * layer_stride(pixel_bytes, grid_.nx) : plain);
   if (!is_plain)
-    orient_layer(plan_.orientation, output.pixels->pixel_bytes(), plain, grid_.nx, grid_.ny, out,
-                 model_->context().executor);
+    orient_rows(plan_.orientation, pixel_bytes, plain, begin, end, grid_.nx, grid_.ny, out,
+                model_->context().executor);
   return inside;
 }
 
 void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
   JobScope scope(job);
   const Output& output = outputs_.front();
-  const bool has_samples = output.samples != no_samples;
-  uint64_t layer_words = 0, scratch = 0;
-  if (has_samples) {
-    const SampleGrid& samples = samples_[output.samples];
-    layer_words = words_for(samples.nx) * samples.ny;
-    scratch = fill_slab_scratch_words(*framed_, framed_resolved_, samples, 1);
+  const SampleGrid* samples = output.samples == no_samples ? nullptr : &samples_[output.samples];
+  const auto sample_rows = [&](uint64_t begin, uint64_t end) {
+    const uint64_t across = samples->ny / grid_.ny;
+    return rows_of(*samples, across * begin, across * end);
+  };
+  // A call that fails leaves `out` as it was: what is not written from the bits of the whole layer
+  // is written beside it.
+  const auto is_beside = [&](uint64_t rows) { return !samples || rows < grid_.ny; };
+  const auto bytes_of = [&](uint64_t rows) {
+    uint64_t words = 0;
+    if (samples) {
+      const SampleGrid band = sample_rows(0, rows);
+      words = words_for(band.nx) * band.ny +
+              fill_slab_scratch_words(*framed_, framed_resolved_, band, 1);
+    }
+    return words * sizeof(uint64_t) + plain_bytes(output, rows) +
+           (is_beside(rows) ? layer_bytes(0) : 0);
+  };
+  const std::shared_ptr<MemoryBudget>& budget = model_->context().budget;
+  const uint64_t band = band_rows(
+      std::max(layer_bytes(0), std::min(automatic_slab_bytes, slab_share(budget->limit()))),
+      bytes_of);
+  const Reservation reservation(budget, bytes_of(band), "a layer");
+  std::vector<uint64_t> words(samples ? words_for(samples->nx) * sample_rows(0, band).ny : 0);
+  std::vector<uint8_t> plain(plain_bytes(output, band));
+  std::vector<uint8_t> bytes(is_beside(band) ? layer_bytes(0) : 0);
+  const bool is_ahead = samples && band == grid_.ny && ahead_;
+  for (uint64_t begin = 0; begin < grid_.ny; begin += band) {
+    check_cancelled(job);
+    const uint64_t end = std::min(grid_.ny, begin + band);
+    if (samples && !(is_ahead && ahead_->take(index, words.data(), job)))
+      fill_slab(*framed_, framed_resolved_, sample_rows(begin, end), index, index + 1, words.data(),
+                job);
+    write(output, index, begin, end, words.data(), plain.data(), bytes.empty() ? out : bytes.data(),
+          job);
   }
-  // A call that fails leaves `out` as it was: values are written beside it.
-  const uint64_t beside = has_samples ? 0 : layer_bytes(0);
-  const Reservation reservation(
-      model_->context().budget,
-      (layer_words + scratch) * sizeof(uint64_t) + plain_bytes(output) + beside, "a layer");
-  std::vector<uint64_t> words(layer_words);
-  std::vector<uint8_t> plain(plain_bytes(output)), bytes(beside);
-  if (has_samples && !(ahead_ && ahead_->take(index, words.data(), job)))
-    fill_slab(*framed_, framed_resolved_, samples_[output.samples], index, index + 1, words.data(),
-              job);
-  write(output, index, words.data(), plain.data(), has_samples ? out : bytes.data(), job);
-  if (!has_samples) std::memcpy(out, bytes.data(), bytes.size());
+  if (!bytes.empty()) std::memcpy(out, bytes.data(), bytes.size());
   scope.done();
 }
 

@@ -100,14 +100,27 @@ class Slicer final : public RefCounted {
   void plan_layers();
   void plan_outputs();
   void plan_slabs();
-  /// Of a run of so many layers.
+  /// Of slabs of at most so many layers.
   SlabsAhead::Depth slab_depth(uint64_t layers) const;
+  /// What a run computes at once, and the bytes that this takes.
+  struct Portions {
+    SlabsAhead::Depth depth;
+    SlabsAhead::Bands bands;
+    uint64_t bytes;
+  };
+  /// Of a run of so many layers, in what the context's memory_limit leaves beside these bytes.
+  Portions portions(uint64_t layers, uint64_t beside) const;
+  /// Rows of pixels of a layer to compute at once: as many as fit, if any do. bytes_of(rows): what
+  /// they take.
+  uint64_t band_rows(uint64_t max_sample_bytes,
+                     const std::function<uint64_t(uint64_t)>& bytes_of) const;
   SampleGrid divided_pixels(unsigned across) const;
-  /// Bytes of a layer of an output as it writes it, before it is turned; 0 where it is not.
-  uint64_t plain_bytes(const Output& output) const;
-  /// Writes one layer from its bits, where the output has samples. `plain`: plain_bytes().
-  uint64_t write(const Output& output, uint64_t index, const uint64_t* words, uint8_t* plain,
-                 uint8_t* out, Job* job) const;
+  /// Bytes of rows of an output as it writes them, before they are turned; 0 where they are not.
+  uint64_t plain_bytes(const Output& output, uint64_t rows) const;
+  /// Writes rows [begin, end) of a layer from their bits, where the output has samples. The bands
+  /// of a layer come in order. `plain`: plain_bytes(). `out`: of the whole layer.
+  uint64_t write(const Output& output, uint64_t index, uint64_t begin, uint64_t end,
+                 const uint64_t* words, uint8_t* plain, uint8_t* out, Job* job) const;
 
   Ref<const Model> model_;
   SlicePlan plan_;
