@@ -30,8 +30,9 @@ uint64_t rows_of_tile(const Model& model, const Scales& scales, const SampleGrid
   const bool is_cached = !shares_cells || model.context().cache.limit() >= min_cache_of_tiles;
   const uint64_t deep = std::max<uint64_t>(1, std::min(layers, tile_layers));
   const uint64_t fit = (is_cached ? 1 : 8) * tile_words / (words_for(grid.nx) * deep);
-  // Several tiles for each thread.
-  const uint64_t balanced = is_cached ? grid.ny / (4 * threads) : (grid.ny + threads - 1) / threads;
+  // Several tiles for each of several threads.
+  const uint64_t balanced =
+      is_cached && threads > 1 ? grid.ny / (4 * threads) : (grid.ny + threads - 1) / threads;
   return std::clamp<uint64_t>(std::min(fit, balanced), min_tile_rows,
                               std::max(min_tile_rows, grid.ny));
 }

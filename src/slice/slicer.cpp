@@ -25,6 +25,9 @@ constexpr double automatic_slab_layers = 64;
 /// The first slab of a run has this part of the layers of a slab, 1 / 8, unless the slabs of
 /// structures are shallow already: each slab has a cost of its own.
 constexpr uint64_t first_slab_part = 8;
+/// What one thread fills, cuts and writes in its own caches. Several threads take whole layers
+/// where these fit: more of the next layer is then computed while the host has one.
+constexpr uint64_t near_band_bytes = uint64_t{1} << 20;
 /// Of samples. Bands have no fewer: each takes up again the cells that the one before it reached.
 constexpr uint64_t min_band_rows = 16;
 
@@ -213,12 +216,15 @@ void Slicer::plan_slabs() {
       std::clamp(std::min(layers, static_cast<double>(fit)), 1.0, static_cast<double>(grid_.nz)));
 }
 
+bool Slicer::is_shallow() const {
+  return plan_.slab_layers == 0 && !framed_resolved_.empty() &&
+         std::none_of(framed_resolved_.begin(), framed_resolved_.end(),
+                      [](const Scale* scale) { return gains_by_layers(*scale); });
+}
+
 SlabsAhead::Depth Slicer::slab_depth(uint64_t layers) const {
   const uint64_t depth = std::min(slab_layers_, layers);
-  const bool is_shallow = plan_.slab_layers == 0 && !framed_resolved_.empty() &&
-                          std::none_of(framed_resolved_.begin(), framed_resolved_.end(),
-                                       [](const Scale* scale) { return gains_by_layers(*scale); });
-  return {is_shallow ? depth : (depth + first_slab_part - 1) / first_slab_part, depth};
+  return {is_shallow() ? depth : (depth + first_slab_part - 1) / first_slab_part, depth};
 }
 
 uint64_t Slicer::band_rows(uint64_t max_sample_bytes,
@@ -254,9 +260,11 @@ Slicer::Portions Slicer::portions(uint64_t layers, uint64_t beside) const {
   const Context& context = model_->context();
   while (plan_.slab_layers == 0 && made.depth.others > 1 && bytes_of(grid_.ny) > room_in(context))
     made.depth = slab_depth((made.depth.others + 1) / 2);
-  if (made.depth.others == 1)
-    made.bands.band_rows =
-        band_rows(std::min(automatic_slab_bytes, slab_share(context.budget->limit())), bytes_of);
+  if (made.depth.others == 1) {
+    uint64_t most = std::min(automatic_slab_bytes, slab_share(context.budget->limit()));
+    if (is_shallow() && model_->executor().threads() == 1) most = std::min(most, near_band_bytes);
+    made.bands.band_rows = band_rows(most, bytes_of);
+  }
   made.bytes = bytes_of(made.bands.band_rows);
   return made;
 }

@@ -100,6 +100,8 @@ class Slicer final : public RefCounted {
   void plan_layers();
   void plan_outputs();
   void plan_slabs();
+  /// Whether slabs have no more layers than caches hold: the structures do not gain by more.
+  bool is_shallow() const;
   /// Of slabs of at most so many layers.
   SlabsAhead::Depth slab_depth(uint64_t layers) const;
   /// What a run computes at once, and the bytes that this takes.

@@ -26,6 +26,9 @@ class ColumnSets {
   ColumnSets(const double* fractions, size_t first, size_t end);
 
   size_t parts() const { return parts_; }
+  size_t bytes() const {
+    return numbers_.capacity() * sizeof(uint16_t) + sets_.capacity() * sizeof(uint64_t);
+  }
   /// The columns of a part that lie in the buckets before `bucket`, which counts modulo `buckets`.
   const uint64_t* before(int32_t bucket, size_t part) const {
     const size_t place = static_cast<size_t>(bucket & (buckets - 1));

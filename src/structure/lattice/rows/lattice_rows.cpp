@@ -96,10 +96,34 @@ void LatticeRows::keep(const Job* job, const std::function<bool(Vec3)>& inside) 
   for (uint64_t w = first; w * bits_per_word < i1_; w += window_words) keep_window(w, job, inside);
 }
 
+RowTables::Line LatticeRows::line(int axis, uint64_t begin, uint64_t end) const {
+  const auto of = static_cast<size_t>(axis), along = static_cast<size_t>(axis_[of]);
+  return {cells_.origin[axis],
+          cells_.rotation.m[3 * of + along],
+          cells_.cell_size[axis_[of]],
+          grid_.origin[axis],
+          grid_.spacing[axis],
+          grid_.first[of],
+          0,
+          begin,
+          end,
+          0};
+}
+
+RowTables::Columns LatticeRows::make_columns(uint64_t base, uint64_t begin, uint64_t end) const {
+  std::vector<double> x = positions(0, begin, end), samples;
+  x.insert(x.begin(), begin - base, 0);
+  ColumnSets sets(x.data(), begin - base, end - base);
+  for (double& position : x) position *= struts_.cell_size[0];
+  samples.reserve(end - base);
+  for (uint64_t i = base; i < end; ++i) samples.push_back(grid_.x(i));
+  return {std::move(x), std::move(samples), std::move(sets)};
+}
+
 /// Rows or layers [begin, end) in the order of their positions in the cell; positions within `same`
 /// of each other are one class.
-LatticeRows::Classes LatticeRows::classes(int axis, uint64_t begin, uint64_t end,
-                                          double same) const {
+LatticeRows::Classes LatticeRows::make_classes(int axis, uint64_t begin, uint64_t end,
+                                               double same) const {
   const std::vector<double> fractions = positions(axis, begin, end);
   Classes made;
   made.members.resize(fractions.size());
@@ -124,15 +148,19 @@ LatticeRows::Classes LatticeRows::classes(int axis, uint64_t begin, uint64_t end
 void LatticeRows::keep_window(size_t first_word, const Job* job,
                               const std::function<bool(Vec3)>& inside) {
   const uint64_t base = first_word * bits_per_word;
-  const uint64_t begin = std::max(i0_, base);
-  const uint64_t end = std::min(i1_, base + window_words * bits_per_word);
-  std::vector<double> x = positions(0, begin, end), sample_x;
-  x.insert(x.begin(), begin - base, 0);
-  const ColumnSets columns(x.data(), begin - base, end - base);
-  for (double& position : x) position *= struts_.cell_size[0];
-  for (uint64_t i = base; i < end; ++i) sample_x.push_back(grid_.x(i));
-  const Window window{first_word,      base,   begin, end, words_for(end) - first_word, x.data(),
-                      sample_x.data(), columns};
+  const uint64_t begin = std::max(i0_, base), end_of_all = base + window_words * bits_per_word;
+  const uint64_t end = std::min(i1_, end_of_all);
+  // All columns of the window, so that other tiles find their table, unless few of them are alive.
+  RowTables::Line columns = line(0, begin, end);
+  columns.base = base;
+  const uint64_t last = std::min(grid_.nx, end_of_all);
+  if (4 * (end - begin) >= last - base) {
+    columns.begin = base;
+    columns.end = last;
+  }
+  const std::shared_ptr<const RowTables::Columns> table =
+      tables_->columns(columns, [&] { return make_columns(base, columns.begin, columns.end); });
+  const Window window{first_word, base, begin, end, words_for(end) - first_word, *table};
   const uint64_t max_rows = radius_.is_constant() || is_linear_ ? j1_ - j0_ : bounded_rows;
   for (uint64_t j = j0_; j < j1_; j += max_rows)
     keep_rows(window, j, std::min(j1_, j + max_rows), job, inside);
@@ -142,17 +170,23 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
                             const std::function<bool(Vec3)>& inside) {
   // If the radius is constant, rows at the same position in the cell are equal.
   const double same = radius_.is_constant() ? same_ : -1;
-  const Classes rows = classes(1, begin, end, same), layers = classes(2, k0_, k1_, same);
+  RowTables::Line of_rows = line(1, begin, end);
+  of_rows.same = same;
+  const auto make_rows = [&] { return make_classes(1, begin, end, same); };
+  const std::shared_ptr<const Classes> kept = radius_.is_constant()
+                                                  ? tables_->classes(of_rows, make_rows)
+                                                  : std::make_shared<const Classes>(make_rows());
+  const Classes &rows = *kept, layers = make_classes(2, k0_, k1_, same);
   std::vector<double> sample_y;
   for (const uint64_t j : rows.members) sample_y.push_back(grid_.y(j));
   RowTask task;
   task.struts = &struts_;
-  task.columns = &window.columns;
-  task.x = window.positions;
+  task.columns = &window.columns.sets;
+  task.x = window.columns.positions.data();
   task.y = rows.positions.data();
   task.rows = rows.count();
   task.words = window.words;
-  task.sample_x = window.sample_x;
+  task.sample_x = window.columns.samples.data();
   task.sample_y = sample_y.data();  // of each row, if they are evaluated one by one
   task.margin = margin_;
   const size_t padded = task.row_words();

@@ -5,10 +5,12 @@
 #include <functional>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "base/job.h"
 #include "base/sample_grid.h"
 #include "cell/neighbourhood.h"
 #include "structure/lattice/rows/row_kernel.h"
+#include "structure/lattice/rows/row_tables.h"
 
 namespace msq {
 
@@ -29,16 +31,9 @@ class LatticeRows {
     size_t first_word;
     uint64_t base, begin, end;  ///< its first column; the columns that may be alive
     size_t words;
-    const double *positions, *sample_x;  ///< of columns from `base` on: in the cell; of samples
-    const ColumnSets& columns;
+    const RowTables::Columns& columns;
   };
-  /// Rows or layers by their position in the cell.
-  struct Classes {
-    std::vector<uint64_t> members;  ///< members of all classes, class by class
-    std::vector<size_t> first;      ///< of each class, and the end of the last
-    std::vector<double> positions;  ///< of each class, padded by a vector
-    size_t count() const { return first.size() - 1; }
-  };
+  using Classes = RowTables::Classes;
   struct Bit {
     uint64_t* word;
     uint64_t mask;
@@ -47,7 +42,10 @@ class LatticeRows {
   bool find_alive();
   /// Positions of columns, rows or layers in their cell: 0 to 1.
   std::vector<double> positions(int axis, uint64_t first, uint64_t end) const;
-  Classes classes(int axis, uint64_t begin, uint64_t end, double same) const;
+  /// Of samples along an axis, for the tables that are kept.
+  RowTables::Line line(int axis, uint64_t begin, uint64_t end) const;
+  RowTables::Columns make_columns(uint64_t base, uint64_t begin, uint64_t end) const;
+  Classes make_classes(int axis, uint64_t begin, uint64_t end, double same) const;
   void keep_window(size_t first_word, const Job* job, const std::function<bool(Vec3)>& inside);
   void keep_rows(const Window& window, uint64_t begin, uint64_t end, const Job* job,
                  const std::function<bool(Vec3)>& inside);
@@ -61,6 +59,7 @@ class LatticeRows {
   const RowStruts& struts_;
   const Parameter& radius_;
   const RowBlock& block_;
+  const Borrowed<RowTables> tables_;
   const SampleGrid& grid_;
   double same_, margin_, level_margin_;
   uint64_t i0_ = 0, i1_ = 0, j0_ = 0, j1_ = 0, k0_ = 0, k1_ = 0;  // bounds of all samples alive

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the rows of a lattice along its grid have in common, kept between calls. All layers of a
+// slicer have the same columns and rows, and so have the tiles of a layer the same columns: to sort
+// them takes longer than to draw a layer of few struts.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "cell/neighbourhood.h"
+#include "structure/lattice/rows/column_sets.h"
+
+namespace msq {
+
+class RowTables {
+ public:
+  /// Samples [begin, end) along an axis, and the line of cells that they lie in. Tables of equal
+  /// lines are equal, bit for bit: positions in the cell depend on these numbers alone.
+  struct Line {
+    double cells_from, direction, cell_size;  ///< of the grid of cells, along the samples' axis
+    double from, spacing;
+    uint64_t first;  ///< index of sample 0
+    uint64_t base;   ///< where columns are counted from
+    uint64_t begin, end;
+    double same;  ///< of classes
+
+    friend bool operator==(const Line&, const Line&) = default;
+  };
+
+  struct Columns {
+    std::vector<double> positions;  ///< in the cell, in model units, of columns from `base` on
+    std::vector<double> samples;    ///< x of these columns
+    ColumnSets sets;
+
+    size_t bytes() const {
+      return (positions.capacity() + samples.capacity()) * sizeof(double) + sets.bytes();
+    }
+  };
+
+  /// Rows or layers by their position in the cell.
+  struct Classes {
+    std::vector<uint64_t> members;  ///< members of all classes, class by class
+    std::vector<size_t> first;      ///< of each class, and the end of the last
+    std::vector<double> positions;  ///< of each class, padded by a vector
+
+    size_t count() const { return first.size() - 1; }
+    size_t bytes() const {
+      return (members.capacity() + first.capacity() + positions.capacity()) * sizeof(uint64_t);
+    }
+  };
+
+  template <class Make>
+  std::shared_ptr<const Columns> columns(const Line& line, Make&& make) {
+    return columns_.find(line, make);
+  }
+  template <class Make>
+  std::shared_ptr<const Classes> classes(const Line& line, Make&& make) {
+    return classes_.find(line, make);
+  }
+  size_t bytes() const { return columns_.bytes() + classes_.bytes(); }
+
+ private:
+  /// A call looks through all of them.
+  static constexpr size_t max_tables = 64;
+
+  /// The latest tables; together, without the last, they have at most so many bytes.
+  template <class Table, size_t max_bytes>
+  class Latest {
+   public:
+    template <class Make>
+    std::shared_ptr<const Table> find(const Line& line, Make&& make) {
+      for (const Entry& entry : entries_)
+        if (entry.line == line) return entry.table;
+      Entry made{line, std::make_shared<const Table>(make())};
+      while (!entries_.empty() &&
+             (entries_.size() == max_tables || bytes_ + made.table->bytes() > max_bytes)) {
+        bytes_ -= entries_.front().table->bytes();
+        entries_.pop_front();
+      }
+      entries_.push_back(made);
+      bytes_ += made.table->bytes();
+      return made.table;
+    }
+    size_t bytes() const { return bytes_; }
+
+   private:
+    struct Entry {
+      Line line;
+      std::shared_ptr<const Table> table;
+    };
+    std::deque<Entry> entries_;
+    size_t bytes_ = 0;
+  };
+
+  Latest<Columns, size_t{6} << 20> columns_;  // those of rows of 65536 samples
+  Latest<Classes, size_t{1} << 20> classes_;
+};
+
+}  // namespace msq
