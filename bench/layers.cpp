@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Single layers against a run, in processor time for each layer: one after the other, scattered,
 // and from several threads of the host at once. And the resident memory that layers of several
-// sizes take, in a process of their own.
+// sizes take, in a process of their own. And grey layers against bits.
 //
-// usage: layers [results.json] [pixels along a side, default 2048] [part of the names of works]
+// usage: layers [results.json] [pixels along a side, default 2048] [part of the names of works, or
+// "resident" or "grey"]
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -90,7 +91,7 @@ msq_shape* make_shape(msq_context* context, const Work& work) {
 class Slices {
  public:
   Slices(const Work& work, uint32_t resolution, uint32_t threads, uint64_t cache = 1u << 30,
-         uint64_t memory = 0) {
+         uint64_t memory = 0, int32_t output = MSQ_LAYER_BITS) {
     msq_context_def context_def;
     bench::check(msq_context_def_init(&context_def, sizeof context_def));
     context_def.threads = threads;
@@ -103,6 +104,7 @@ class Slices {
     bench::check(msq_slicer_def_init(&def, sizeof def));
     def.resolution[0] = def.resolution[1] = resolution;
     def.layer_height = 1.0 / resolution;
+    def.output = output;
     def.has_region = 1;
     for (double& corner : def.region_max) corner = 1;
     bench::check(msq_slicer_create(model, &def, &slicer_));
@@ -213,8 +215,30 @@ void bench_work(bench::Report& report, const Work& work, uint32_t resolution) {
   }
 }
 
+/// 4 x 4 samples per pixel beside one, and beside bits of as many samples.
+void bench_grey(bench::Report& report, const Work& work, uint32_t resolution) {
+  const uint64_t count = 16, first = resolution / 4;
+  const auto seconds = [&](uint32_t pixels, int32_t output) {
+    const Slices slices(work, pixels, 1, 1u << 30, 0, output);
+    slices.run(first, count);
+    std::vector<double> times;
+    for (int i = 0; i < 5; ++i)
+      times.push_back(processor_seconds([&] { slices.run(first, count); }));
+    std::sort(times.begin(), times.end());
+    return times[2];
+  };
+  const std::string name = std::string(work.name) + ", ";
+  const double bits = seconds(resolution, MSQ_LAYER_BITS);
+  const double grey = seconds(resolution, MSQ_LAYER_GREY);
+  report.add(name + "bits", bits, static_cast<double>(count), "layer");
+  report.add(name + "bits, 4 times the pixels along a side",
+             seconds(4 * resolution, MSQ_LAYER_BITS), static_cast<double>(count), "layer");
+  report.add(name + "grey, 4 x 4", grey, static_cast<double>(count), "layer");
+  report.mark("  times the bits", grey / bits, "", 4.5, false);
+}
+
 /// In a process of its own: prints the bytes that layers take beyond those of the process before.
-int measure_resident(uint32_t resolution, bool is_run, uint64_t limit) {
+int measure_resident(uint32_t resolution, bool is_run, uint64_t limit, bool is_grey) {
   const auto resident = [] {
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
@@ -224,8 +248,9 @@ int measure_resident(uint32_t resolution, bool is_run, uint64_t limit) {
   const double before = resident();
   uint64_t peak = 0;
   try {
-    const Slices slices(work, resolution, 2, limit / 4, limit);
-    const uint64_t first = resolution / 4, count = std::min<uint64_t>(resolution / 2, 160);
+    const Slices slices(work, resolution, 2, limit / 4, limit,
+                        is_grey ? MSQ_LAYER_GREY : MSQ_LAYER_BITS);
+    const uint64_t first = resolution / 4, count = resolution > 4096 ? 16 : 160;
     if (is_run) {
       slices.run(first, count);
     } else {
@@ -243,16 +268,18 @@ int measure_resident(uint32_t resolution, bool is_run, uint64_t limit) {
 
 void bench_resident(bench::Report& report) {
   for (const uint32_t resolution : {512u, 4096u, 16384u})
-    for (const bool is_run : {true, false})
-      for (const uint64_t megabytes : {32u, 128u, 512u}) {
+    for (const char* way : {"run", "layers", "grey"})
+      for (const uint64_t megabytes : {32u, 48u, 128u, 512u}) {
         const std::string command = "/proc/" + std::to_string(getpid()) + "/exe --resident " +
-                                    std::to_string(resolution) + (is_run ? " run " : " layers ") +
+                                    std::to_string(resolution) + " " + way + " " +
                                     std::to_string(megabytes);
         const std::unique_ptr<FILE, int (*)(FILE*)> child(popen(command.c_str(), "r"), pclose);
         char line[512] = "";
         const std::string name = std::to_string(resolution) + "^2, " +
-                                 (is_run ? "run" : "single layers") + ", memory_limit " +
-                                 std::to_string(megabytes) + " MiB: ";
+                                 (way == std::string("layers") ? "single layers"
+                                  : way == std::string("run")  ? "run"
+                                                               : "run of grey") +
+                                 ", memory_limit " + std::to_string(megabytes) + " MiB: ";
         if (!child || !std::fgets(line, sizeof line, child.get()))
           throw std::runtime_error("no answer of " + command);
         double taken = 0, accounted = 0;
@@ -269,8 +296,9 @@ void bench_resident(bench::Report& report) {
 
 int main(int argc, char** argv) {
   if (argc == 5 && !std::strcmp(argv[1], "--resident"))
-    return measure_resident(static_cast<uint32_t>(std::atoi(argv[2])), !std::strcmp(argv[3], "run"),
-                            static_cast<uint64_t>(std::atoi(argv[4])) << 20);
+    return measure_resident(
+        static_cast<uint32_t>(std::atoi(argv[2])), std::strcmp(argv[3], "layers") != 0,
+        static_cast<uint64_t>(std::atoi(argv[4])) << 20, !std::strcmp(argv[3], "grey"));
   const uint32_t resolution = argc > 2 ? static_cast<uint32_t>(std::atoi(argv[2])) : 2048;
   const std::string part = argc > 3 ? argv[3] : "";
   bench::Report report("single layers, " + std::to_string(resolution) +
@@ -278,6 +306,10 @@ int main(int argc, char** argv) {
   for (const Work& work : works)
     if (std::string(work.name).find(part) != std::string::npos)
       bench_work(report, work, resolution);
+  if (std::string("grey").find(part) != std::string::npos)
+    for (const Work& work : works)
+      if (work.kind == Kind::foam || work.kind == Kind::lattice || work.kind == Kind::gyroid)
+        bench_grey(report, work, resolution);
   if (std::string("resident").find(part) != std::string::npos) bench_resident(report);
   report.write(argc, argv);
 }

@@ -2290,7 +2290,11 @@ enum msq_layer_output {
    * rounded to the nearest float32. The model must be of one region. */
   MSQ_LAYER_ONSET = 6,
   /** No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs. */
-  MSQ_LAYER_CONTOURS = 7
+  MSQ_LAYER_CONTOURS = 7,
+  /** 1 float32 per pixel: the value of a channel of the material at its centre, as msq_set_material
+   * returns it, rounded to the nearest float32; 0 outside, and where the material has no such
+   * channel. Only in msq_slicer_def.outputs. Since 0.2. */
+  MSQ_LAYER_CHANNEL = 8
 };
 
 /** How layers are turned before the host receives them, as the panels of printers need it. A sum.
@@ -2355,6 +2359,9 @@ typedef struct msq_output_def {
   int32_t onset_value;
   /** CONTOURS: as msq_slicer_contours takes it. Copied. Other outputs: NULL (default). */
   const msq_contours_def* contours;
+  /** CHANNEL: its name, in UTF-8, copied. A material of a resolved scale must have it. Other
+   * outputs: NULL (default). Since 0.2. */
+  const char* channel;
 } msq_output_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -2363,8 +2370,8 @@ MSQ_API msq_status msq_output_def_init(msq_output_def* def, size_t size);
 /** Definition of a slicer. */
 typedef struct msq_slicer_def {
   uint32_t struct_size;
-  /** An msq_layer_output except CONTOURS. Default MSQ_LAYER_BITS, which it must be if outputs are
-   * given. */
+  /** An msq_layer_output except CONTOURS and CHANNEL. Default MSQ_LAYER_BITS, which it must be if
+   * outputs are given. */
   int32_t output;
   /** Pixel size in x and y. 0 (default): from region and resolution. */
   double pitch[2];
@@ -2379,8 +2386,10 @@ typedef struct msq_slicer_def {
   int32_t has_region;
   /** Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at
    * most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures
-   * that do not gain by more; at least one. Except for these, the first slab of a run has an eighth
-   * of the layers, so that the host has its first layer soon. Does not change results. */
+   * that do not gain by more; at least one; in a run, fewer where the limit leaves less. Except for
+   * these, the first slab of a run has an eighth of the layers, so that the host has its first
+   * layer soon. Where a slab is one layer and that is still too large, bands of its rows are
+   * computed one after the other. Does not change results. */
   uint32_t slab_layers;
   /** Corner of pixel (0, 0) and bottom of layer 0. */
   double region_min[3];
@@ -2516,11 +2525,14 @@ typedef int32_t (*msq_layer_fn)(void* user, const msq_layer* layer);
  * the host's parallel_for, the next slab is computed after the callbacks of the slab.) count
  * UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the
  * plan is split into calls or processes, nor on its other outputs. Memory, accounted to the
- * context: two slabs, one layer and a few tiles per thread, for any height of the stack; foams keep
- * cells in the cache in addition. With contours, workers compute those of as many layers at once as
- * there are threads, and as many wait for the callback. Where memory_limit does not hold these,
- * they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also
- * those of msq_layer_contours, before their layer. Source: paper, section "Slicing". */
+ * context: two slabs, one layer and a few tiles per thread, for any height of the stack. Where
+ * memory_limit does not hold two slabs of one layer: one layer, two bands of its rows, at least 16
+ * rows of samples each, and a few tiles per thread; LIMIT if that does not fit either, and then
+ * windows do. Foams keep cells in the cache in addition. With contours, workers compute those of as
+ * many layers at once as there are threads, and as many wait for the callback. Where memory_limit
+ * does not hold these, they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT,
+ * MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section
+ * "Slicing". */
 MSQ_API msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t count,
                                   msq_layer_fn fn, void* user, msq_job* job);
 
@@ -2528,9 +2540,10 @@ MSQ_API msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint
  * least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer
  * call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for
  * lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask
- * for them; for others up to three times that. Memory: one layer and a few tiles per thread; layers
- * that are filled ahead take at most two slabs until the slicer is freed or a call needs the
- * memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY. */
+ * for them; for others up to three times that. Memory: the bits of one layer and a few tiles per
+ * thread, or where memory_limit does not hold these one layer and a band of its rows; layers that
+ * are filled ahead take at most two slabs until the slicer is freed or a call needs the memory.
+ * Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY. */
 MSQ_API msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* buffer,
                                    uint64_t buffer_bytes, msq_job* job);
 

@@ -26,7 +26,7 @@ enum msq_query_method { MSQ_QUERY_AUTO = 0, MSQ_QUERY_POINT = 1, MSQ_QUERY_SET =
 enum msq_points_kind { MSQ_POINTS_ARRAY = 1, MSQ_POINTS_GRID = 2, MSQ_POINTS_STRATIFIED = 3 };
 enum msq_onset_value { MSQ_ONSET_PLAIN = 0, MSQ_ONSET_SIGNED = 1 };
 enum msq_phase { MSQ_PHASE_SOLID = 1, MSQ_PHASE_VOID = 2 };
-enum msq_layer_output { MSQ_LAYER_BITS = 1, MSQ_LAYER_BYTES = 2, MSQ_LAYER_GREY = 3, MSQ_LAYER_DISTANCE = 4, MSQ_LAYER_MATERIAL = 5, MSQ_LAYER_ONSET = 6, MSQ_LAYER_CONTOURS = 7 };
+enum msq_layer_output { MSQ_LAYER_BITS = 1, MSQ_LAYER_BYTES = 2, MSQ_LAYER_GREY = 3, MSQ_LAYER_DISTANCE = 4, MSQ_LAYER_MATERIAL = 5, MSQ_LAYER_ONSET = 6, MSQ_LAYER_CONTOURS = 7, MSQ_LAYER_CHANNEL = 8 };
 enum msq_layer_orientation { MSQ_LAYER_MIRROR_X = 1, MSQ_LAYER_MIRROR_Y = 2, MSQ_LAYER_TRANSPOSE = 4 };
 enum msq_finding_kind { MSQ_FINDING_ISLAND = 1, MSQ_FINDING_LOOSE = 2, MSQ_FINDING_VOID = 4, MSQ_FINDING_THIN = 8 };
 enum msq_surface_format { MSQ_SURFACE_STL = 1, MSQ_SURFACE_PLY = 2 };
@@ -105,7 +105,7 @@ typedef struct msq_estimate { double value; double standard_error; double low; d
 typedef struct msq_segments_def { uint32_t struct_size; int32_t phase; double direction[3]; const double* lengths; uint64_t length_count; double step; } msq_segments_def;
 typedef struct msq_calibration_report { uint32_t struct_size; uint32_t reserved; uint64_t samples; double parameter; msq_estimate fraction; double max_fraction; } msq_calibration_report;
 typedef struct msq_contours_def { uint32_t struct_size; int32_t type; int32_t axis; int32_t has_window; double window_min[2]; double window_max[2]; double tolerance; double pitch; double units; double length_scale; } msq_contours_def;
-typedef struct msq_output_def { uint32_t struct_size; int32_t output; uint32_t grey_samples; uint32_t grey_threshold; double grey_gamma; uint32_t onset_scale; int32_t onset_value; const msq_contours_def* contours; } msq_output_def;
+typedef struct msq_output_def { uint32_t struct_size; int32_t output; uint32_t grey_samples; uint32_t grey_threshold; double grey_gamma; uint32_t onset_scale; int32_t onset_value; const msq_contours_def* contours; const char* channel; } msq_output_def;
 typedef struct msq_slicer_def { uint32_t struct_size; int32_t output; double pitch[2]; uint32_t resolution[2]; double layer_height; uint64_t layer_count; int32_t has_region; uint32_t slab_layers; double region_min[3]; double region_max[3]; const double* layer_z; uint64_t layer_z_count; double length_scale; msq_window window; uint32_t grey_samples; uint32_t grey_threshold; double grey_gamma; uint32_t orientation; uint32_t output_count; const msq_output_def* outputs; double frame_origin[3]; double frame_axes[9]; } msq_slicer_def;
 typedef struct msq_slicer_report { uint32_t struct_size; uint32_t slab_layers; uint32_t width; uint32_t height; uint64_t layer_count; uint64_t stride; uint64_t layer_bytes; double origin[2]; double pitch[2]; msq_window window; uint64_t whole[3]; } msq_slicer_report;
 typedef struct msq_output { uint32_t struct_size; int32_t output; const uint8_t* data; uint64_t stride; uint64_t inside_count; msq_contours* contours; } msq_output;

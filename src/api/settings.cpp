@@ -9,7 +9,7 @@ namespace {
 constexpr Choice outputs[] = {{"bits", MSQ_LAYER_BITS},         {"bytes", MSQ_LAYER_BYTES},
                               {"grey", MSQ_LAYER_GREY},         {"distance", MSQ_LAYER_DISTANCE},
                               {"material", MSQ_LAYER_MATERIAL}, {"onset", MSQ_LAYER_ONSET},
-                              {"contours", MSQ_LAYER_CONTOURS}};
+                              {"contours", MSQ_LAYER_CONTOURS}, {"channel", MSQ_LAYER_CHANNEL}};
 constexpr Choice orientations[] = {{"mirror_x", MSQ_LAYER_MIRROR_X},
                                    {"mirror_y", MSQ_LAYER_MIRROR_Y},
                                    {"transpose", MSQ_LAYER_TRANSPOSE}};
@@ -50,6 +50,7 @@ void walk_output(DefinitionWalk& in, msq_output_def& def) {
   in.whole("onset_scale", def.onset_scale);
   in.choice("onset_value", def.onset_value, onset_values);
   in.optional("contours", def.contours, defaults_of<msq_contours_def>(), walk_contours);
+  in.text("channel", def.channel);
 }
 
 void walk_camera(DefinitionWalk& in, msq_camera& camera) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstring>
 
 #include "api/contours_def.h"
 #include "api/guard.h"
@@ -13,6 +14,7 @@ using namespace msq::api;
 namespace {
 
 constexpr uint32_t max_outputs = 64;
+constexpr size_t max_channel_name = 255;
 
 msq_slicer_def slicer_defaults() {
   msq_slicer_def def{};
@@ -44,7 +46,7 @@ GreyScale read_grey(uint32_t samples, double gamma, uint32_t threshold) {
 OutputPlan read_output(const msq_output_def& def) {
   OutputPlan plan;
   plan.format = static_cast<LayerFormat>(
-      require_range(def.output, MSQ_LAYER_BITS, MSQ_LAYER_CONTOURS, "output"));
+      require_range(def.output, MSQ_LAYER_BITS, MSQ_LAYER_CHANNEL, "output"));
   plan.grey = read_grey(def.grey_samples, def.grey_gamma, def.grey_threshold);
   plan.onset_scale = def.onset_scale;
   plan.is_onset_signed = require_range(def.onset_value, MSQ_ONSET_PLAIN, MSQ_ONSET_SIGNED,
@@ -54,6 +56,12 @@ OutputPlan read_output(const msq_output_def& def) {
     fail(Status::argument, "output is %d and contours is %s; CONTOURS (%d) needs it, and no other",
          def.output, def.contours ? "given" : "NULL", MSQ_LAYER_CONTOURS);
   if (has_contours) plan.contours = read_slicer_contours(def.contours, "contours");
+  const bool has_channel = plan.format == LayerFormat::channel;
+  if (has_channel != (def.channel != nullptr))
+    fail(Status::argument, "output is %d and channel is %s; CHANNEL (%d) needs it, and no other",
+         def.output, def.channel ? "given" : "NULL", MSQ_LAYER_CHANNEL);
+  // No material has a longer name.
+  if (has_channel) plan.channel.assign(def.channel, strnlen(def.channel, max_channel_name + 1));
   return plan;
 }
 

@@ -166,7 +166,7 @@ void Reader::text(const char* key, const char*& value) {
   const uint32_t found = find(key);
   if (!found) return;
   expect(found, Kind::text);
-  value = tree_.text(tree_[found].text).c_str();
+  value = arena_.keep(std::string(tree_.text(tree_[found].text))).c_str();
 }
 
 void Reader::file(const char* key, const char*& value) {

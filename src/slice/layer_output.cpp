@@ -42,6 +42,19 @@ const Structure& onset_structure(const OutputPlan& plan, const Model& model,
 
 }  // namespace
 
+namespace {
+
+void require_channel(const std::string& channel, const Model& model, const Scales& resolved) {
+  if (!model.has_material(resolved))
+    fail(Status::argument, "the output is a channel, and no resolved scale has a material");
+  for (const Material* material : model.materials(resolved))
+    if (material->find(channel)) return;
+  fail(Status::argument, "the output is channel %s, and no material of the model has it",
+       channel.c_str());
+}
+
+}  // namespace
+
 std::unique_ptr<const LayerOutput> make_layer_output(const OutputPlan& plan, const Model& model,
                                                      const Scales& resolved) {
   switch (plan.format) {
@@ -59,6 +72,9 @@ std::unique_ptr<const LayerOutput> make_layer_output(const OutputPlan& plan, con
       return make_material_output();
     case LayerFormat::onset:
       return make_onset_output(onset_structure(plan, model, resolved), plan.is_onset_signed);
+    case LayerFormat::channel:
+      require_channel(plan.channel, model, resolved);
+      return make_channel_output(plan.channel);
     case LayerFormat::contours:
       break;
   }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "base/job.h"
 #include "base/sample_grid.h"
@@ -24,7 +25,8 @@ enum class LayerFormat : int32_t {
   distance = 4,
   material = 5,
   onset = 6,
-  contours = 7
+  contours = 7,
+  channel = 8
 };
 
 /// How coverage becomes grey. See msq_slicer_def.
@@ -40,6 +42,7 @@ struct OutputPlan {
   GreyScale grey;
   size_t onset_scale = 0;  ///< 0: the finest that is resolved
   bool is_onset_signed = false;
+  std::string channel{};
   /// Plane and length scale are those of the slicer.
   ContourPlan contours;
 };
@@ -87,6 +90,7 @@ std::unique_ptr<const LayerOutput> make_byte_output();
 std::unique_ptr<const LayerOutput> make_grey_output(const GreyScale& grey);
 std::unique_ptr<const LayerOutput> make_distance_output();
 std::unique_ptr<const LayerOutput> make_material_output();
+std::unique_ptr<const LayerOutput> make_channel_output(const std::string& channel);
 std::unique_ptr<const LayerOutput> make_onset_output(const Structure& structure, bool is_signed);
 
 }  // namespace msq

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signed distances, materials and onsets of pixels: set queries on the grid of a layer.
+// Signed distances, materials, channels and onsets of pixels: set queries on the grid of a layer.
 #include <cstring>
 #include <vector>
 
@@ -94,6 +94,35 @@ class MaterialOutput final : public LayerOutput {
   }
 };
 
+class ChannelOutput final : public LayerOutput {
+ public:
+  explicit ChannelOutput(std::string channel) : channel_(std::move(channel)) {}
+  unsigned pixel_bytes() const override { return sizeof(float); }
+  unsigned samples_across() const override { return 0; }
+
+  uint64_t write(const LayerSource& source, uint8_t* out) const override {
+    std::vector<uint32_t> ids;
+    uint64_t inside = 0;
+    write_values<double>(
+        source, pixel_bytes(), out,
+        [&](const PointSet& points, double* values) {
+          ids.resize(points.count());
+          set_material(source.model, source.resolved, points, {}, {channel_}, ids.data(), values,
+                       source.job);
+          for (const uint32_t id : ids) inside += id != 0;
+        },
+        [](double value, uint8_t* at) {
+          const auto rounded = static_cast<float>(value);
+          std::memcpy(at, &rounded, sizeof rounded);
+          return false;
+        });
+    return inside;
+  }
+
+ private:
+  const std::string channel_;
+};
+
 class OnsetOutput final : public LayerOutput {
  public:
   OnsetOutput(const Structure& structure, bool is_signed)
@@ -133,6 +162,10 @@ std::unique_ptr<const LayerOutput> make_distance_output() {
 
 std::unique_ptr<const LayerOutput> make_material_output() {
   return std::make_unique<MaterialOutput>();
+}
+
+std::unique_ptr<const LayerOutput> make_channel_output(const std::string& channel) {
+  return std::make_unique<ChannelOutput>(channel);
 }
 
 std::unique_ptr<const LayerOutput> make_onset_output(const Structure& structure, bool is_signed) {

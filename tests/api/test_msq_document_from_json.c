@@ -222,7 +222,8 @@ static void settings_are_read(void** state) {
       "[{\"output\": \"grey\", \"grey_samples\": 8, \"grey_threshold\": 3, \"grey_gamma\": 2}, "
       "{\"output\": \"contours\", \"contours\": {\"tolerance\": 0.01, \"type\": \"int32\", "
       "\"units\": "
-      "100000, \"window\": {\"min\": [0, 0], \"max\": [1, 1]}}}], \"frame\": {\"origin\": [1, 0, "
+      "100000, \"window\": {\"min\": [0, 0], \"max\": [1, 1]}}}, {\"output\": \"channel\", "
+      "\"channel\": \"density\"}], \"frame\": {\"origin\": [1, 0, "
       "0], "
       "\"axes\": [0, 1, 0, 0, 0, 1, 1, 0, 0]}}, \"view\": {\"direction\": [-1, 1, -0.5], "
       "\"width\": "
@@ -251,13 +252,16 @@ static void settings_are_read(void** state) {
   assert_int_equal(slicing.window.count[0], 4);
   assert_int_equal(slicing.orientation, MSQ_LAYER_MIRROR_X | MSQ_LAYER_TRANSPOSE);
   assert_int_equal(slicing.slab_layers, 8);
-  assert_int_equal(slicing.output_count, 2);
+  assert_int_equal(slicing.output_count, 3);
   assert_int_equal(slicing.outputs[0].output, MSQ_LAYER_GREY);
   assert_int_equal(slicing.outputs[0].grey_samples, 8);
   assert_true(slicing.outputs[0].grey_gamma == 2);
   assert_int_equal(slicing.outputs[1].output, MSQ_LAYER_CONTOURS);
   assert_int_equal(slicing.outputs[1].contours->type, MSQ_INT32);
   assert_int_equal(slicing.outputs[1].contours->has_window, 1);
+  assert_null(slicing.outputs[1].channel);
+  assert_int_equal(slicing.outputs[2].output, MSQ_LAYER_CHANNEL);
+  assert_string_equal(slicing.outputs[2].channel, "density");
   assert_true(slicing.frame_axes[1] == 1 && slicing.frame_origin[0] == 1);
 
   msq_camera camera, fitted;

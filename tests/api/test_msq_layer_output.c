@@ -136,13 +136,21 @@ static void grey_counts_the_samples_of_a_pixel(void** state) {
 static void values_are_those_of_set_queries(void** state) {
   msq_slicer_def def = plan_def(MSQ_LAYER_DISTANCE);
   const taken distances = slice(&def);
-  taken materials;
-  static double wanted[WIDTH * HEIGHT];
+  taken materials, moduli;
+  msq_output_def channel;
+  static double wanted[WIDTH * HEIGHT], values[WIDTH * HEIGHT];
   static uint32_t ids[WIDTH * HEIGHT];
   uint64_t of[4] = {0};
   (void)state;
   def.output = MSQ_LAYER_MATERIAL;
   materials = slice(&def);
+  assert_ok(msq_output_def_init(&channel, sizeof channel));
+  channel.output = MSQ_LAYER_CHANNEL;
+  channel.channel = material_channels[0];
+  def.output = MSQ_LAYER_BITS;
+  def.outputs = &channel;
+  def.output_count = 1;
+  moduli = slice(&def);
   for (uint64_t layer = 0; layer < LAYERS; ++layer) {
     msq_points_def points = grid_points(0, 1, 1);
     uint64_t inside = 0, solid = 0;
@@ -153,13 +161,16 @@ static void values_are_those_of_set_queries(void** state) {
     points.origin[2] = def.region_min[2] + 0.25 * (double)layer + 0.125;
     points.spacing[0] = points.spacing[1] = points.spacing[2] = 0.125;
     assert_ok(msq_set_distance(model, &points, NULL, wanted, WIDTH * HEIGHT, NULL));
-    assert_ok(msq_set_material(model, &points, NULL, NULL, 0, ids, WIDTH * HEIGHT, NULL, 0, NULL));
+    assert_ok(msq_set_material(model, &points, NULL, material_channels, 1, ids, WIDTH * HEIGHT,
+                               values, WIDTH * HEIGHT, NULL));
     for (uint64_t j = 0; j < HEIGHT; ++j)
       for (uint64_t i = 0; i < WIDTH; ++i) {
-        float distance;
+        float distance, modulus;
         uint32_t id;
         memcpy(&distance, row_of(&distances, layer, j) + 4 * i, 4);
         memcpy(&id, row_of(&materials, layer, j) + 4 * i, 4);
+        memcpy(&modulus, row_of(&moduli, layer, j) + 4 * i, 4);
+        assert_true(modulus == (float)values[j * WIDTH + i]);
         assert_true(distance == (float)wanted[j * WIDTH + i]);
         assert_int_equal(id, ids[j * WIDTH + i]);
         inside += wanted[j * WIDTH + i] <= 0;
@@ -168,10 +179,12 @@ static void values_are_those_of_set_queries(void** state) {
       }
     assert_int_equal(distances.inside[layer], inside);
     assert_int_equal(materials.inside[layer], solid);
+    assert_int_equal(moduli.inside[layer], solid);
   }
   assert_true(of[0] > 100 && of[2] > 100 && of[3] > 100);
   free(distances.data);
   free(materials.data);
+  free(moduli.data);
 }
 
 static void pixel_of(const taken* all, int32_t output, uint64_t layer, uint64_t i, uint64_t j,

@@ -4,7 +4,7 @@
 #include "layers.h"
 #include "materials.h"
 
-enum { WIDTH = 37, HEIGHT = 22, LAYERS = 12, KINDS = 10 };
+enum { WIDTH = 37, HEIGHT = 22, LAYERS = 12, KINDS = 11 };
 
 static msq_context* context;
 static msq_model* model; /* with a material at each scale, from 0 to 4 */
@@ -34,9 +34,10 @@ static int tear_down(void** state) {
 
 /* Every kind of output, some of them twice with other options. */
 static msq_output_def kind(int number) {
-  static const int32_t outputs[KINDS] = {
-      MSQ_LAYER_BITS,     MSQ_LAYER_BYTES, MSQ_LAYER_GREY,  MSQ_LAYER_GREY,     MSQ_LAYER_DISTANCE,
-      MSQ_LAYER_MATERIAL, MSQ_LAYER_ONSET, MSQ_LAYER_ONSET, MSQ_LAYER_CONTOURS, MSQ_LAYER_CONTOURS};
+  static const int32_t outputs[KINDS] = {MSQ_LAYER_BITS,     MSQ_LAYER_BYTES,    MSQ_LAYER_GREY,
+                                         MSQ_LAYER_GREY,     MSQ_LAYER_DISTANCE, MSQ_LAYER_MATERIAL,
+                                         MSQ_LAYER_ONSET,    MSQ_LAYER_ONSET,    MSQ_LAYER_CONTOURS,
+                                         MSQ_LAYER_CONTOURS, MSQ_LAYER_CHANNEL};
   msq_output_def def;
   assert_ok(msq_output_def_init(&def, sizeof def));
   def.output = outputs[number];
@@ -51,6 +52,7 @@ static msq_output_def kind(int number) {
   }
   if (number == 8) def.contours = &fine_rings;
   if (number == 9) def.contours = &coarse_rings;
+  if (number == 10) def.channel = "modulus";
   return def;
 }
 
@@ -177,7 +179,7 @@ static void assert_same(const kept* got, const kept* wanted) {
   assert_int_equal(got->inside, wanted->inside);
 }
 
-static const int every_kind[KINDS] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+static const int every_kind[KINDS] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
 
 /* One output by the calls for single layers. */
 static kept single(const msq_slicer_def* plan, int number, uint64_t k) {
@@ -198,7 +200,9 @@ static kept single(const msq_slicer_def* plan, int number, uint64_t k) {
   def.grey_samples = output.grey_samples;
   def.grey_gamma = output.grey_gamma;
   def.grey_threshold = output.grey_threshold;
-  msq_slicer* slicer = number == 7 ? slicer_of(model, *plan, &number, 1) : make_slicer(model, &def);
+  const int is_of_outputs = number == 7 || number == 10;
+  msq_slicer* slicer =
+      is_of_outputs ? slicer_of(model, *plan, &number, 1) : make_slicer(model, &def);
   made.count = plan_of(slicer).layer_bytes;
   made.bytes = (uint8_t*)malloc(made.count);
   assert_ok(msq_slice_layer(slicer, k, made.bytes, made.count, NULL));

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
  * What slicers and contours refuse. */
 #include "layers.h"
+#include "materials.h"
 #include "wrong_values.h"
 
 static msq_context* context;
 static msq_model *plain, *plain_of_small, *everywhere; /* a lattice in a box; without bounds */
-static msq_model *regions, *beams;
+static msq_model *regions, *beams, *with_materials;
 
 static msq_slicer_def* plan_of_output(int32_t kind) {
   msq_slicer_def* def = (msq_slicer_def*)definition(0);
@@ -157,7 +158,7 @@ static void slicers(void** state) {
     WRONG(ARGUMENT, "struct_size of outputs[0]", outputs[0].struct_size = 4);
     WRONG(ARGUMENT, "struct_size of outputs[1]", outputs[1].struct_size = 4);
     WRONG(ARGUMENT, "struct_size of outputs[1]|that of outputs[0]", ++outputs[1].struct_size);
-    wrong_enum(table, &outputs[0].output, "output", 1, 7);
+    wrong_enum(table, &outputs[0].output, "output", 1, 8);
     WRONG(ARGUMENT, "grey_samples is 5", outputs[0].grey_samples = 5);
     WRONG(ARGUMENT, "grey_gamma is 11", outputs[0].grey_gamma = 11);
     WRONG(ARGUMENT, "grey_threshold is 300", outputs[0].grey_threshold = 300);
@@ -169,6 +170,13 @@ static void slicers(void** state) {
     WRONG(UNSUPPORTED, "2 regions", outputs[0].output = MSQ_LAYER_ONSET; model = regions);
     WRONG(UNSUPPORTED, "scale 1 has none", outputs[0].output = MSQ_LAYER_ONSET; model = beams);
     WRONG(ARGUMENT, "material", outputs[0].output = MSQ_LAYER_MATERIAL);
+    WRONG(ARGUMENT, "output is 8|channel is NULL", outputs[0].output = MSQ_LAYER_CHANNEL);
+    WRONG(ARGUMENT, "output is 3|channel is given", outputs[0].channel = "density");
+    WRONG(ARGUMENT, "channel|no resolved scale has a material",
+          outputs[0].output = MSQ_LAYER_CHANNEL;
+          outputs[0].channel = "density");
+    WRONG(ARGUMENT, "channel colour", outputs[0].output = MSQ_LAYER_CHANNEL;
+          outputs[0].channel = "colour"; model = with_materials);
     WRONG(ARGUMENT, "output is 3|given", outputs[0].contours = rings);
     WRONG(ARGUMENT, "output is 7|NULL", outputs[1].contours = NULL);
     WRONG(ARGUMENT, "axis is 0", rings->axis = 0);
@@ -455,9 +463,11 @@ int main(void) {
   assert_ok(msq_shape_all_space(context, &all));
   regions = make_regions_model();
   beams = make_beam_model();
+  with_materials = make_material_model(context, 1, 1, 1);
   everywhere = make_model(context, all, make_lattice(context), NULL);
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   msq_job_release(cancelled_job());
+  msq_model_release(with_materials);
   msq_model_release(beams);
   msq_model_release(regions);
   msq_model_release(everywhere);

@@ -103,6 +103,7 @@ MSQ_LAYER_DISTANCE = 4
 MSQ_LAYER_MATERIAL = 5
 MSQ_LAYER_ONSET = 6
 MSQ_LAYER_CONTOURS = 7
+MSQ_LAYER_CHANNEL = 8
 MSQ_LAYER_MIRROR_X = 1
 MSQ_LAYER_MIRROR_Y = 2
 MSQ_LAYER_TRANSPOSE = 4
@@ -499,7 +500,8 @@ class msq_contours_def(Structure):
 class msq_output_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("output", c_int32), ("grey_samples", c_uint32),
                 ("grey_threshold", c_uint32), ("grey_gamma", c_double), ("onset_scale", c_uint32),
-                ("onset_value", c_int32), ("contours", POINTER(msq_contours_def))]
+                ("onset_value", c_int32), ("contours", POINTER(msq_contours_def)),
+                ("channel", c_char_p)]
 
 
 class msq_slicer_def(Structure):

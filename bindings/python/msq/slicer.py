@@ -32,7 +32,7 @@ _MOST_AHEAD_BYTES = 64 << 20  # of layers that an iterator holds
 # Axes u, v, w of layers normal to an axis, as Model.contours has them.
 _AXES = {0: (0, 1, 0, 0, 0, 1, 1, 0, 0), 1: (1, 0, 0, 0, 0, 1, 0, 1, 0), 2: ()}
 _PIXELS = {"bytes": np.uint8, "grey": np.uint8, "distance": np.float32, "material": np.uint32,
-           "onset": np.float32}
+           "onset": np.float32, "channel": np.float32}
 
 Region = Tuple[Sequence[float], Sequence[float]]
 
@@ -40,15 +40,16 @@ Region = Tuple[Sequence[float], Sequence[float]]
 class Output:
     """One of the things that each layer of a Slicer holds.
 
-    kind: `bits`, `bytes`, `grey`, `distance`, `material`, `onset` or `contours`. grey_samples,
-    grey_gamma, grey_threshold: of grey. scale, signed: of the onset: the scale whose structure it is,
-    0: the finest resolved, and whether the radius or level is subtracted. tolerance, pitch, window,
-    type, units: of contours, as in Slicer.contours.
+    kind: `bits`, `bytes`, `grey`, `distance`, `material`, `onset`, `channel` or `contours`.
+    grey_samples, grey_gamma, grey_threshold: of grey. scale, signed: of the onset: the scale whose
+    structure it is, 0: the finest resolved, and whether the radius or level is subtracted. channel:
+    the name of a channel of the materials. tolerance, pitch, window, type, units: of contours, as in
+    Slicer.contours.
     """
 
     def __init__(self, kind: str, *, grey_samples: int = 4, grey_gamma: float = 1.0,
                  grey_threshold: int = 0, scale: int = 0, signed: bool = False,
-                 tolerance: Optional[float] = None, pitch: float = 0.0,
+                 channel: Optional[str] = None, tolerance: Optional[float] = None, pitch: float = 0.0,
                  window: Optional[Window] = None, type: str = "float64",
                  units: float = 1.0) -> None:
         if kind not in ("bits", *_PIXELS, "contours"):
@@ -65,6 +66,8 @@ class Output:
         definition.grey_threshold = unsigned(grey_threshold, 32, "grey_threshold")
         definition.onset_scale = unsigned(scale, 32, "scale")
         definition.onset_value = _abi.MSQ_ONSET_SIGNED if signed else _abi.MSQ_ONSET_PLAIN
+        if channel is not None:
+            definition.channel = channel.encode()
         if tolerance is not None:
             self._contours = contours_definition(tolerance, axis=2, window=window, pitch=pitch,
                                                  type=type, units=units, length_scale=0.0)
@@ -122,7 +125,7 @@ class Layer:
 
         bits: uint8 (height, (width + 7) // 8), leftmost pixel in the high bit, as PNG and PBM have
         them. bytes: uint8 (height, width), 255 inside and 0 outside. grey: uint8 (height, width),
-        coverage. distance, onset: float32 (height, width). material: uint32 (height, width).
+        coverage. distance, onset, channel: float32 (height, width). material: uint32 (height, width).
         """
         if self.output == "contours":
             raise ValueError("the first output is contours, which has no pixels: see contours()")
@@ -133,7 +136,7 @@ class Layer:
     @property
     def pixels(self) -> np.ndarray:
         """A new array of bools, (height, width): inside, with any coverage, or of a material. Onsets:
-        at most 0."""
+        at most 0. Channels: not 0."""
         if self.output == "bits":
             return np.unpackbits(self.data, axis=1, count=self.width).view(np.bool_)
         return self.data <= 0 if self.output in ("distance", "onset") else self.data != 0
@@ -261,7 +264,7 @@ class Slicer(Handle):
         """The slicer of a definition that msq has made."""
         names = {getattr(_abi, f"MSQ_LAYER_{name.upper()}"): name
                  for name in ("bits", "bytes", "grey", "distance", "material", "onset",
-                              "contours")}
+                              "contours", "channel")}
         made = cls.__new__(cls)
         if definition.output_count:
             made._kinds = tuple(names[definition.outputs[i].output]
@@ -348,7 +351,7 @@ class Slicer(Handle):
         rows = output_array(out, (self.height, self.stride), (np.uint8,))
         kind = self._kinds[0]
         # Samples inside are counted by a run, which also has all outputs.
-        if kind in ("grey", "contours") or len(self._kinds) > 1:
+        if kind in ("grey", "contours", "channel") or len(self._kinds) > 1:
             found: List[Layer] = []
             self.run(lambda layer: found.append(layer.copy()), index, 1, job=job)
             layer = found[0]

@@ -84,6 +84,21 @@ class Layers(unittest.TestCase):
             for layer, picture in zip(slicer, pictures):
                 self.assertTrue(np.array_equal(layer.pixels, read_png(picture)[::-1]), picture.name)
 
+    def test_holds_channels(self):
+        steel = msq.Material(3, density=7.75)
+        model = msq.Model(msq.Shape.sphere((0, 0, 0), 4), [msq.Lattice("bcc", cell_size=2, radius=0.3)],
+                          material=steel)
+        slicer = model.slicer(layer_height=1, pitch=0.25,
+                              output=[msq.Output("channel", channel="density"), msq.Output("bits")])
+        layer = slicer[3]
+        density, inside = layer.data, layer.outputs[1].pixels
+        self.assertEqual(density.dtype, np.float32)
+        self.assertTrue(inside.any())
+        self.assertTrue(np.array_equal(density, np.where(inside, np.float32(7.75), np.float32(0))))
+        self.assertEqual(layer.inside_count, np.count_nonzero(inside))
+        with self.assertRaisesRegex(msq.ArgumentError, "channel colour"):
+            model.slicer(layer_height=1, pitch=0.25, output=[msq.Output("channel", channel="colour")])
+
     def test_holds_several_outputs(self):
         model = reference_model()
         plan = {"layer_height": 1.5, "pitch": 0.25}

@@ -280,6 +280,9 @@ pub const MSQ_LAYER_ONSET: i32 = 6;
 /// No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs.
 pub const MSQ_LAYER_CONTOURS: i32 = 7;
 
+/// 1 float32 per pixel: the value of a channel of the material at its centre, as msq_set_material returns it, rounded to the nearest float32; 0 outside, and where the material has no such channel. Only in msq_slicer_def.outputs. Since 0.2.
+pub const MSQ_LAYER_CHANNEL: i32 = 8;
+
 pub const MSQ_LAYER_MIRROR_X: i32 = 1;
 
 pub const MSQ_LAYER_MIRROR_Y: i32 = 2;
@@ -1395,6 +1398,8 @@ pub struct msq_output_def {
     pub onset_value: i32,
     /// CONTOURS: as msq_slicer_contours takes it. Copied. Other outputs: NULL (default).
     pub contours: *const msq_contours_def,
+    /// CHANNEL: its name, in UTF-8, copied. A material of a resolved scale must have it. Other outputs: NULL (default). Since 0.2.
+    pub channel: *const c_char,
 }
 
 /// Definition of a slicer.
@@ -1402,7 +1407,7 @@ pub struct msq_output_def {
 #[derive(Clone, Copy)]
 pub struct msq_slicer_def {
     pub struct_size: u32,
-    /// An msq_layer_output except CONTOURS. Default MSQ_LAYER_BITS, which it must be if outputs are given.
+    /// An msq_layer_output except CONTOURS and CHANNEL. Default MSQ_LAYER_BITS, which it must be if outputs are given.
     pub output: i32,
     /// Pixel size in x and y. 0 (default): from region and resolution.
     pub pitch: [f64; 2],
@@ -1414,7 +1419,7 @@ pub struct msq_slicer_def {
     pub layer_count: u64,
     /// 0 (default): the region is the bounding box of the model, centred in the pixels; region_min and region_max must be 0. 1: the region below. A model of all space needs 1.
     pub has_region: i32,
-    /// Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures that do not gain by more; at least one. Except for these, the first slab of a run has an eighth of the layers, so that the host has its first layer soon. Does not change results.
+    /// Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures that do not gain by more; at least one; in a run, fewer where the limit leaves less. Except for these, the first slab of a run has an eighth of the layers, so that the host has its first layer soon. Where a slab is one layer and that is still too large, bands of its rows are computed one after the other. Does not change results.
     pub slab_layers: u32,
     /// Corner of pixel (0, 0) and bottom of layer 0.
     pub region_min: [f64; 3],
@@ -2288,9 +2293,9 @@ extern "C" {
     pub fn msq_slicer_info(slicer: *const msq_slicer, report: *mut msq_slicer_report) -> msq_status;
     /// Returns z of the samples of a layer. Errors: ARGUMENT (index out of range).
     pub fn msq_slicer_layer_z(slicer: *const msq_slicer, index: u64, z: *mut f64) -> msq_status;
-    /// Computes layers first to first + count - 1 and passes each to the callback, in ascending order, on the calling thread. Workers compute the next slab meanwhile and wait for the callback. (With the host's parallel_for, the next slab is computed after the callbacks of the slab.) count UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the plan is split into calls or processes, nor on its other outputs. Memory, accounted to the context: two slabs, one layer and a few tiles per thread, for any height of the stack; foams keep cells in the cache in addition. With contours, workers compute those of as many layers at once as there are threads, and as many wait for the callback. Where memory_limit does not hold these, they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section "Slicing".
+    /// Computes layers first to first + count - 1 and passes each to the callback, in ascending order, on the calling thread. Workers compute the next slab meanwhile and wait for the callback. (With the host's parallel_for, the next slab is computed after the callbacks of the slab.) count UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the plan is split into calls or processes, nor on its other outputs. Memory, accounted to the context: two slabs, one layer and a few tiles per thread, for any height of the stack. Where memory_limit does not hold two slabs of one layer: one layer, two bands of its rows, at least 16 rows of samples each, and a few tiles per thread; LIMIT if that does not fit either, and then windows do. Foams keep cells in the cache in addition. With contours, workers compute those of as many layers at once as there are threads, and as many wait for the callback. Where memory_limit does not hold these, they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section "Slicing".
     pub fn msq_slicer_run(slicer: *const msq_slicer, first: u64, count: u64, r#fn: msq_layer_fn, user: *mut c_void, job: *mut msq_job) -> msq_status;
-    /// Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask for them; for others up to three times that. Memory: one layer and a few tiles per thread; layers that are filled ahead take at most two slabs until the slicer is freed or a call needs the memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY.
+    /// Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask for them; for others up to three times that. Memory: the bits of one layer and a few tiles per thread, or where memory_limit does not hold these one layer and a band of its rows; layers that are filled ahead take at most two slabs until the slicer is freed or a call needs the memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY.
     pub fn msq_slice_layer(slicer: *const msq_slicer, index: u64, buffer: *mut u8, buffer_bytes: u64, job: *mut msq_job) -> msq_status;
     /// Computes the contours of the section of a model at a height along the axis.
     ///
@@ -2460,7 +2465,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_segments_def>(), 56);
     assert_eq!(std::mem::size_of::<msq_calibration_report>(), 64);
     assert_eq!(std::mem::size_of::<msq_contours_def>(), 80);
-    assert_eq!(std::mem::size_of::<msq_output_def>(), 40);
+    assert_eq!(std::mem::size_of::<msq_output_def>(), 48);
     assert_eq!(std::mem::size_of::<msq_slicer_def>(), 304);
     assert_eq!(std::mem::size_of::<msq_slicer_report>(), 144);
     assert_eq!(std::mem::size_of::<msq_output>(), 40);
