@@ -139,11 +139,39 @@ static void outputs_share_the_bands(void** state) {
   check_bands(&def, 1, 0.8);
 }
 
+/* One thread takes bands that its caches hold, two whole layers. */
+static void bands_of_one_thread_have_the_same_bytes(void** state) {
+  const uint64_t samples = 4 * 1024 / 8 * 4 * 1400;
+  taken by[2];
+  (void)state;
+  for (uint32_t threads = 1; threads <= 2; ++threads) {
+    taken* all = &by[threads - 1];
+    msq_slicer_def def = slicer_def(MSQ_LAYER_GREY, 1024, 1400, 0.25);
+    msq_context* context = make_context_of(threads, 0, 0);
+    msq_model* model = make_lattice_model(context);
+    msq_slicer* slicer = make_slicer(model, &def);
+    memset(all, 0, sizeof *all);
+    all->plan = plan_of(slicer);
+    all->data = (uint8_t*)malloc(LAYERS * all->plan.layer_bytes);
+    assert_ok(msq_slicer_run(slicer, 0, LAYERS, take, all, NULL));
+    all->peak = memory_of(context).peak_bytes;
+    msq_slicer_release(slicer);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+  assert_memory_equal(by[0].data, by[1].data, LAYERS * by[1].plan.layer_bytes);
+  assert_memory_equal(by[0].inside, by[1].inside, sizeof by[1].inside);
+  assert_true(by[0].inside[0] > 0);
+  assert_in_range(by[0].peak, by[0].plan.layer_bytes, 2 * samples - 1);
+  for (int i = 0; i < 2; ++i) free(by[i].data);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bands_have_the_bytes_of_the_layer),
       cmocka_unit_test(values_are_turned_in_bands),
       cmocka_unit_test(outputs_share_the_bands),
+      cmocka_unit_test(bands_of_one_thread_have_the_same_bytes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,8 @@
 #include <bit>
 #include <cmath>
 
+#include "structure/common/restrict_words.h"
+
 namespace msq {
 
 namespace {
@@ -242,12 +244,7 @@ void FunctionalRows::keep_group(const RowGroup& group) {
       else
         for (const Segment& segment : work->segments) decide_linear(*work, segment, group, row);
     }
-    if (words_ == 1)
-      for (size_t w = 0; w < row_words; ++w) words[w] &= result_[0];
-    else
-      for (size_t w = 0; w < row_words;)
-        for (size_t part = 0; part < words_ && w < row_words; ++part, ++w)
-          words[w] &= result_[part];
+    restrict_words(words, result_.data(), words_, row_words);
   }
 }
 

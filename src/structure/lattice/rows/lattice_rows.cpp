@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "base/simd.h"
+#include "structure/common/restrict_words.h"
 
 namespace msq {
 
@@ -240,8 +241,7 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
     }
     left.clear();
     for_each_row([&](size_t row, uint64_t* words) {
-      const uint64_t* const restricted = drawn.data() + row * padded;
-      for (size_t w = 0; w < window.words; ++w) words[w] &= restricted[w];
+      restrict_words(words, drawn.data() + row * padded, window.words);
     });
     for (const Bit& bit : restored) *bit.word |= bit.mask;
     restored.clear();
