@@ -93,10 +93,12 @@ void measure(bench::Report& report, const std::string& kind, uint32_t threads) {
 
 int main(int count, char** arguments) try {
   bench::Report report("printability of 128 layers of 1024^2 pixels");
+  const std::string only = count > 2 ? arguments[2] : "";  // "turned lattice, 1": this case alone
   for (const uint32_t threads : {1u, 2u})
     for (const char* kind :
          {"foam of struts", "foam of walls", "lattice", "turned lattice", "gyroid", "solid"})
-      measure(report, kind, threads);
+      if (only.empty() || only == std::string(kind) + ", " + std::to_string(threads))
+        measure(report, kind, threads);
   report.write(count, arguments);
   return 0;
 } catch (const std::exception& error) {

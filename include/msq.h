@@ -2618,7 +2618,16 @@ enum msq_finding_kind {
    * at the plate alone. */
   MSQ_FINDING_VOID = 4,
   /** Connected samples where the solid is thinner in its layer than a given width. */
-  MSQ_FINDING_THIN = 8
+  MSQ_FINDING_THIN = 8,
+  /** A cup: a void that is closed except where the next layer is printed, so it sucks at the film
+   * of a resin printer. In other words, empty samples that are connected within the layers up to
+   * one, reach that layer, and reach neither a side of the grid nor, without a plate, its bottom.
+   * Each is listed once, as it is in the last layer before it opens; last_layer is that one. Voids
+   * that close are listed as VOID alone. */
+  MSQ_FINDING_CUP = 16,
+  /** Connected samples of a layer with none below them, and none in the layer below within a given
+   * horizontal distance. */
+  MSQ_FINDING_OVERHANG = 32
 };
 
 /** What is looked for. */
@@ -2635,6 +2644,9 @@ typedef struct msq_printability_def {
   double width;
   /** Findings of less volume are ignored. In model units cubed, at least 0. Default 0. */
   double min_volume;
+  /** OVERHANG: the distance in model units, 0 (default) to 31 pixels along x and y. Solid that
+   * leans by an angle reaches layer_height * tan(angle) beyond the layer below. Otherwise 0. */
+  double overhang;
 } msq_printability_def;
 
 /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
@@ -2676,10 +2688,12 @@ typedef struct msq_printability_report {
   /** Findings of each kind. 0 for kinds that were not looked for. */
   uint64_t island_count, loose_count, void_count, thin_count;
   double island_volume, loose_volume, void_volume, thin_volume;
+  uint64_t cup_count, overhang_count;
+  double cup_volume, overhang_volume;
 } msq_printability_report;
 
 /** Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids,
- * thin places.
+ * thin places, cups, overhangs.
  *
  * It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation
  * of the slicer are ignored. What is smaller than a pixel may lie between samples: to find it, use
@@ -2688,11 +2702,12 @@ typedef struct msq_printability_report {
  *
  * def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each
  * finding once, after the layer that ends it, in an order that depends on the layers alone. Results
- * do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 16
+ * do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22
  * bits per pixel of a layer, and runs and totals of what is not part of the main body, for any
- * height of the stack; of these, runs and totals are not accounted to the context. Cost: 1.3 to 1.8
- * times that of msq_slicer_run for bits, up to 3 times with thousands of enclosed voids in a layer.
- * THIN adds 0.2 to 1.5 ns per sample. All but the bits runs on the calling thread.
+ * height of the stack. Runs and totals are accounted to the context after each layer. Workers share
+ * the rows of each layer. Cost: 1.1 to 1.9
+ * times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a
+ * layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md.
  * Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer),
  * MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2. */
 MSQ_API msq_status msq_printability(const msq_slicer* slicer, const msq_printability_def* def,

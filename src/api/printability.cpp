@@ -24,6 +24,8 @@ static_assert(static_cast<int>(FindingKind::island) == MSQ_FINDING_ISLAND);
 static_assert(static_cast<int>(FindingKind::loose) == MSQ_FINDING_LOOSE);
 static_assert(static_cast<int>(FindingKind::enclosed_void) == MSQ_FINDING_VOID);
 static_assert(static_cast<int>(FindingKind::thin) == MSQ_FINDING_THIN);
+static_assert(static_cast<int>(FindingKind::cup) == MSQ_FINDING_CUP);
+static_assert(static_cast<int>(FindingKind::overhang) == MSQ_FINDING_OVERHANG);
 
 msq_printability_def printability_defaults() {
   msq_printability_def def{};
@@ -43,6 +45,10 @@ PrintabilityPlan read_plan(const msq_printability_def& def) {
   if (plan.width != 0 && !(def.kinds & MSQ_FINDING_THIN))
     fail(Status::argument, "width is %g, and kinds does not contain MSQ_FINDING_THIN", def.width);
   plan.min_volume = require_not_negative(def.min_volume, "min_volume");
+  plan.overhang = require_not_negative(def.overhang, "overhang");
+  if (plan.overhang != 0 && !(def.kinds & MSQ_FINDING_OVERHANG))
+    fail(Status::argument, "overhang is %g, and kinds does not contain MSQ_FINDING_OVERHANG",
+         def.overhang);
   return plan;
 }
 
@@ -83,6 +89,10 @@ msq_status msq_printability(const msq_slicer* slicer, const msq_printability_def
     written.loose_volume = found.volumes[1];
     written.void_volume = found.volumes[2];
     written.thin_volume = found.volumes[3];
+    written.cup_count = found.counts[4];
+    written.overhang_count = found.counts[5];
+    written.cup_volume = found.volumes[4];
+    written.overhang_volume = found.volumes[5];
     warn_of_cache(known.model().context());
     write_report(report, written, "report");
   });

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "printability/printability.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
+#include <vector>
 
 #include "printability/components.h"
 #include "printability/thin.h"
@@ -46,92 +47,192 @@ double layer_face(const Slicer& slicer, uint64_t index, int side) {
   return z[at] + (has_upper ? upper : lower);
 }
 
+/// Bands of a layer of so many words. A band has enough samples to be worth the threads' while.
+unsigned band_count(uint64_t words, uint64_t ny, unsigned threads) {
+  constexpr uint64_t min_words = 512;
+  if (threads < 2) return 1;
+  const uint64_t most = std::min({uint64_t{2} * threads, words / min_words, ny});
+  return static_cast<unsigned>(std::max<uint64_t>(most, 1));
+}
+
 class Inspection {
  public:
   Inspection(const Slicer& slicer, const PrintabilityPlan& plan,
              const std::function<void(const Finding*, size_t)>& take)
-      : slicer_(slicer), grid_(slicer.grid()), plan_(plan), take_(take) {
+      : slicer_(slicer),
+        grid_(slicer.grid()),
+        plan_(plan),
+        take_(take),
+        executor_(slicer.model().context().executor),
+        words_(words_for(grid_.nx)) {
     const uint64_t nx = grid_.nx, ny = grid_.ny;
-    const bool finds_islands = finds(FindingKind::island), finds_loose = finds(FindingKind::loose);
-    const uint64_t mask = words_for(nx) * ny * sizeof(uint64_t);
-    uint64_t bytes = mask;
-    if (finds_islands || finds_loose) bytes += Components::bytes(nx, ny);
-    if (finds(FindingKind::enclosed_void)) bytes += Components::bytes(nx, ny) + mask;
-    if (finds(FindingKind::thin)) bytes += Components::bytes(nx, ny) + ThinSamples::bytes(nx, ny);
-    reservation_ = Reservation(slicer.model().context().budget, bytes, "masks of layers");
-    bits_.resize(words_for(nx) * ny);
-    if (finds_islands || finds_loose) {
-      Components::Rules rules;
-      rules.joins_corners = true;
-      rules.anchors_first_layer = plan.has_plate;
-      rules.finds_islands = finds_islands;
-      solid_.emplace(
-          nx, ny, rules, [this](const ComponentTotals& part) { add_part(part); },
-          [this](const ComponentTotals& island) { add(FindingKind::island, island); });
-    }
-    if (finds(FindingKind::enclosed_void)) {
-      Components::Rules rules;
-      rules.anchors_sides = true;
-      rules.anchors_first_layer = !plan.has_plate;
-      empty_.emplace(nx, ny, rules, [this](const ComponentTotals& totals) {
-        add(FindingKind::enclosed_void, totals);
-      });
-      gaps_.resize(bits_.size());
-    }
+    const bool finds_solid = finds(FindingKind::island) || finds(FindingKind::loose);
+    const bool finds_empty = finds(FindingKind::enclosed_void) || finds(FindingKind::cup);
+    const unsigned bands = band_count(words_ * ny, ny, executor_.threads());
     if (finds(FindingKind::thin)) {
       const unsigned across[2] = {samples_across(plan.width, grid_.spacing.x, 'x'),
                                   samples_across(plan.width, grid_.spacing.y, 'y')};
-      thin_samples_.emplace(nx, ny, across);
+      thin_.emplace(across);
+    }
+    if (finds(FindingKind::overhang)) {
+      const double pitch[2] = {grid_.spacing.x, grid_.spacing.y};
+      for (int axis = 0; axis < 2; ++axis)
+        if (!(plan.overhang <= OverhangSamples::max_reach * pitch[axis]))
+          fail(Status::argument, "overhang is %g, %g pixels along %c; it must be at most %u pixels",
+               plan.overhang, plan.overhang / pitch[axis], "xy"[axis], OverhangSamples::max_reach);
+      overhangs_.emplace(plan.overhang, pitch);
+    }
+    const uint64_t mask = words_ * ny, rows = ny / bands + 1;
+    uint64_t words = 0;
+    if (finds_empty) words += mask;
+    if (thin_) words += mask + bands * thin_->scratch_words(words_, rows);
+    if (overhangs_) words += 2 * mask + bands * OverhangSamples::scratch_words(words_);
+    const uint64_t analyses =
+        uint64_t{finds_solid} + finds_empty + thin_.has_value() + overhangs_.has_value();
+    reserve(words * sizeof(uint64_t) + analyses * Components::bytes(nx, ny), "masks of layers");
+    if (finds_solid) {
       Components::Rules rules;
       rules.joins_corners = true;
-      thin_.emplace(nx, ny, rules,
-                    [this](const ComponentTotals& totals) { add(FindingKind::thin, totals); });
+      rules.anchors_first_layer = plan.has_plate;
+      rules.finds_islands = finds(FindingKind::island);
+      analyses_.emplace_back(Samples::solid, Components(nx, ny, rules, bands));
     }
+    if (finds_empty) {
+      Components::Rules rules;
+      rules.anchors_sides = true;
+      rules.anchors_first_layer = !plan.has_plate;
+      rules.finds_cups = finds(FindingKind::cup);
+      analyses_.emplace_back(Samples::empty, Components(nx, ny, rules, bands));
+      analyses_.back().rows.resize(mask);
+    }
+    Components::Rules rules;
+    rules.joins_corners = true;
+    if (thin_) {
+      analyses_.emplace_back(Samples::thin, Components(nx, ny, rules, bands));
+      analyses_.back().rows.resize(mask);
+      analyses_.back().scratch.assign(bands,
+                                      std::vector<uint64_t>(thin_->scratch_words(words_, rows)));
+    }
+    if (overhangs_) {
+      analyses_.emplace_back(Samples::overhang, Components(nx, ny, rules, bands));
+      analyses_.back().rows.resize(mask);
+      analyses_.back().scratch.assign(
+          bands, std::vector<uint64_t>(OverhangSamples::scratch_words(words_)));
+      below_.resize(mask);
+    }
+    bands_ = bands;
+    reserve_held();
   }
 
   void add_layer(const Layer& layer) {
-    read_bits(layer.main().data);
     const double height = layer_face(slicer_, layer.index, 1) - layer_face(slicer_, layer.index, 0);
     ++counts_.layers;
     counts_.solid_samples += layer.main().inside_count;
     counts_.solid_volume += static_cast<double>(layer.main().inside_count) * pixel_area() * height;
-    if (solid_) solid_->add_layer(bits_.data(), height);
-    if (empty_) empty_->add_layer(gaps_.data(), height);
-    if (thin_) thin_->add_layer(thin_samples_->find(bits_.data()), height);
+    const uint64_t* rows = layer.main().words;
+    const uint64_t tasks = analyses_.size() * bands_;
+    executor_.for_each(tasks, [&](uint64_t i) {
+      Analysis& analysis = analyses_[i / bands_];
+      const auto band = static_cast<unsigned>(i % bands_);
+      analysis.components.scan(band, prepare(analysis, band, rows, layer.index));
+    });
+    executor_.for_each(analyses_.size(), [&](uint64_t i) { analyses_[i].components.join(height); });
+    executor_.for_each(tasks, [&](uint64_t i) {
+      Analysis& analysis = analyses_[i / bands_];
+      const auto band = static_cast<unsigned>(i % bands_);
+      analysis.components.settle(band);
+      if (analysis.samples != Samples::overhang) return;
+      const size_t begin = analysis.components.first_row(band) * words_,
+                   end = analysis.components.end_row(band) * words_;
+      std::copy(rows + begin, rows + end, below_.begin() + static_cast<std::ptrdiff_t>(begin));
+    });
+    for (Analysis& analysis : analyses_) take_events(analysis, analysis.components.finish());
+    reserve_held();
     flush();
   }
 
   PrintabilityCounts end() {
-    if (solid_) solid_->end();
-    if (thin_) thin_->end();
-    // Voids that reach the last layer are open above.
+    has_ended_ = true;
+    for (Analysis& analysis : analyses_) take_events(analysis, analysis.components.end());
     flush();
     return counts_;
   }
 
  private:
+  enum class Samples { solid, empty, thin, overhang };
+  struct Analysis {
+    Analysis(Samples of, Components made) : samples(of), components(std::move(made)) {}
+    Samples samples;
+    Components components;
+    std::vector<uint64_t> rows;                  ///< none: those of the layer
+    std::vector<std::vector<uint64_t>> scratch;  ///< of each band
+  };
+
   bool finds(FindingKind kind) const { return (plan_.kinds & static_cast<uint32_t>(kind)) != 0; }
   double pixel_area() const { return grid_.spacing.x * grid_.spacing.y; }
 
-  /// The bits of a layer, and the empty ones. Pixel i of a layer is bit 7 - i % 8 of byte i / 8.
-  void read_bits(const uint8_t* data) {
-    const size_t words = words_for(grid_.nx);
-    static_assert(std::endian::native == std::endian::little);
-    std::memcpy(bits_.data(), data, bits_.size() * sizeof(uint64_t));
-    for (uint64_t& word : bits_) {
-      word = (word >> 1 & 0x5555555555555555u) | (word & 0x5555555555555555u) << 1;
-      word = (word >> 2 & 0x3333333333333333u) | (word & 0x3333333333333333u) << 2;
-      word = (word >> 4 & 0x0f0f0f0f0f0f0f0fu) | (word & 0x0f0f0f0f0f0f0f0fu) << 4;
+  void reserve(uint64_t bytes, const char* what) {
+    reservations_.push_back(Reservation(slicer_.model().context().budget, bytes, what));
+  }
+  /// Runs, totals and findings, as much as there is by now.
+  void reserve_held() {
+    uint64_t held = findings_.capacity() * sizeof(Finding);
+    for (const Analysis& analysis : analyses_) held += analysis.components.held_bytes();
+    if (held <= held_) return;
+    reserve(held - held_, "the runs of layers");
+    held_ = held;
+  }
+
+  /// The rows of a band of the samples that an analysis is about, among those of the whole layer.
+  const uint64_t* prepare(Analysis& analysis, unsigned band, const uint64_t* rows, uint64_t index) {
+    const uint64_t begin = analysis.components.first_row(band),
+                   end = analysis.components.end_row(band);
+    uint64_t* out = analysis.rows.data();
+    switch (analysis.samples) {
+      case Samples::solid:
+        return rows;
+      case Samples::empty: {
+        const uint64_t last = ~uint64_t{0} >> (bits_per_word - 1 - (grid_.nx - 1) % bits_per_word);
+        for (size_t i = begin * words_; i < end * words_; ++i) out[i] = ~rows[i];
+        for (uint64_t j = begin; j < end; ++j) out[(j + 1) * words_ - 1] &= last;
+        return out;
+      }
+      case Samples::thin:
+        thin_->find({rows, words_, grid_.ny}, begin, end, analysis.scratch[band].data(), out);
+        return out;
+      case Samples::overhang:
+        // The first layer stays without.
+        if (index > 0)
+          overhangs_->find({rows, words_, grid_.ny}, below_.data(), begin, end,
+                           analysis.scratch[band].data(), out);
+        return out;
     }
-    if (gaps_.empty()) return;
-    for (size_t i = 0; i < bits_.size(); ++i) gaps_[i] = ~bits_[i];
-    const uint64_t last = ~uint64_t{0} >> (bits_per_word - 1 - (grid_.nx - 1) % bits_per_word);
-    for (uint64_t j = 0; j < grid_.ny; ++j) gaps_[(j + 1) * words - 1] &= last;
+    return out;
+  }
+
+  void take_events(const Analysis& analysis, const Components::Events& events) {
+    switch (analysis.samples) {
+      case Samples::solid:
+        for (const ComponentTotals& island : events.islands) add(FindingKind::island, island);
+        for (const ComponentTotals& part : events.ended) add_part(part);
+        return;
+      case Samples::empty:
+        for (const ComponentTotals& cup : events.cups) add(FindingKind::cup, cup);
+        // Voids that reach the last layer are open above.
+        for (const ComponentTotals& empty : events.ended)
+          add(has_ended_ ? FindingKind::cup : FindingKind::enclosed_void, empty);
+        return;
+      case Samples::thin:
+        for (const ComponentTotals& place : events.ended) add(FindingKind::thin, place);
+        return;
+      case Samples::overhang:
+        for (const ComponentTotals& place : events.ended) add(FindingKind::overhang, place);
+        return;
+    }
   }
 
   /// Of several parts without a plate, the largest is the part itself.
   void add_part(const ComponentTotals& part) {
-    if (!finds(FindingKind::loose)) return;
     if (plan_.has_plate) return add(FindingKind::loose, part);
     if (!part_) {
       part_ = part;
@@ -144,6 +245,7 @@ class Inspection {
   }
 
   void add(FindingKind kind, const ComponentTotals& totals) {
+    if (!finds(kind)) return;
     const double volume =
         (kind == FindingKind::island
              ? static_cast<double>(totals.samples) * (layer_face(slicer_, totals.first_layer, 1) -
@@ -176,11 +278,17 @@ class Inspection {
   const SampleGrid& grid_;
   const PrintabilityPlan plan_;
   const std::function<void(const Finding*, size_t)>& take_;
-  Reservation reservation_;
-  std::vector<uint64_t> bits_, gaps_;
-  std::optional<Components> solid_, empty_, thin_;
-  std::optional<ThinSamples> thin_samples_;
+  const Executor& executor_;
+  const size_t words_;  ///< of a row
+  uint64_t bands_ = 1;
+  std::vector<Reservation> reservations_;
+  uint64_t held_ = 0;
+  std::vector<Analysis> analyses_;
+  std::vector<uint64_t> below_;  ///< the layer before, for overhangs
+  std::optional<ThinSamples> thin_;
+  std::optional<OverhangSamples> overhangs_;
   std::optional<ComponentTotals> part_;
+  bool has_ended_ = false;
   std::vector<Finding> findings_;
   PrintabilityCounts counts_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is doubtful about printing the layers of a slicer: islands, loose parts, enclosed voids,
-// thin places. docs/concepts.md defines them.
+// thin places, cups, overhangs. docs/concepts.md defines them.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,16 @@
 
 namespace msq {
 
-enum class FindingKind : int32_t { island = 1, loose = 2, enclosed_void = 4, thin = 8 };
-constexpr uint32_t all_finding_kinds = 15;
+enum class FindingKind : int32_t {
+  island = 1,
+  loose = 2,
+  enclosed_void = 4,
+  thin = 8,
+  cup = 16,
+  overhang = 32
+};
+constexpr size_t finding_kinds = 6;
+constexpr uint32_t all_finding_kinds = (1u << finding_kinds) - 1;
 
 /// See msq_printability_def.
 struct PrintabilityPlan {
@@ -21,6 +29,7 @@ struct PrintabilityPlan {
   bool has_plate = true;
   double width = 0;  ///< of thin places
   double min_volume = 0;
+  double overhang = 0;  ///< horizontal distance from the solid below
 };
 
 /// As msq_finding.
@@ -38,9 +47,9 @@ struct PrintabilityCounts {
   uint64_t layers = 0;
   uint64_t solid_samples = 0;
   double solid_volume = 0;
-  /// By kind: islands, loose parts, voids, thin places.
-  uint64_t counts[4] = {0, 0, 0, 0};
-  double volumes[4] = {0, 0, 0, 0};
+  /// By kind.
+  uint64_t counts[finding_kinds] = {};
+  double volumes[finding_kinds] = {};
 };
 
 /// Calls take(findings, count) on this thread after layers that end findings, and at the end.

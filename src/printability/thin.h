@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thin samples of a layer: those where a disc of a given width does not fit into the solid nearby.
+// Discs of samples in a layer: the samples where one does not fit into the solid nearby, and those
+// that are far from the solid of another layer.
 // Source: Serra, "Image analysis and mathematical morphology", 1982: erosion and dilation.
 #pragma once
 
@@ -10,6 +11,22 @@
 
 namespace msq {
 
+/// A row of a disc: samples first to first + length - 1 from its place. |first| and
+/// first + length - 1 are less than 64.
+struct DiscRow {
+  int row, first;
+  unsigned length;
+};
+/// Shorter rows first: longer ones are made from them.
+using Disc = std::vector<DiscRow>;
+
+/// Rows of a layer, in words_for(nx) words each, 0 past nx. What is outside the grid is not set.
+struct LayerRows {
+  const uint64_t* rows;
+  size_t words;
+  uint64_t ny;
+};
+
 /// The disc has `across` samples along x and y: sample (a, b) of a block of as many samples
 /// belongs to it if ((2 a + 1) / across_x - 1)^2 + ... <= 1, measured from the middle of the block
 /// to the middle of the sample. It fits where all its samples are solid. A solid sample is thin if
@@ -19,33 +36,39 @@ class ThinSamples {
  public:
   static constexpr unsigned max_across = 32;
 
-  ThinSamples(uint64_t nx, uint64_t ny, const unsigned across[2]);
+  explicit ThinSamples(const unsigned across[2]);
 
-  /// rows: ny rows of words_for(nx) words, 0 past nx. What is outside the grid is not solid. The
-  /// result is valid until the next call.
-  const uint64_t* find(const uint64_t* rows);
+  /// Writes rows [begin, end) of the result to the same rows of `out`. Bands of rows may be found
+  /// at the same time. scratch: scratch_words() words.
+  void find(const LayerRows& layer, uint64_t begin, uint64_t end, uint64_t* scratch,
+            uint64_t* out) const;
 
-  static uint64_t bytes(uint64_t nx, uint64_t ny) {
-    return 2 * words_for(nx) * ny * sizeof(uint64_t);
+  size_t scratch_words(size_t words, uint64_t rows) const {
+    return words * (static_cast<size_t>(rows) + reach_) + words + 2;
   }
 
  private:
-  /// One row of a disc, for the disc whose block begins at sample (0, 0).
-  struct Span {
-    int row, first;
-    unsigned length;
-  };
+  Disc disc_, wide_;
+  size_t reach_;  ///< rows around a band whose discs reach into it
+};
 
-  static std::vector<Span> spans_of(const unsigned across[2], double scale);
-  void fit(const uint64_t* rows);
-  void cover();
+/// Solid samples with none below them and none near that: sample (a, b) of the layer below is near
+/// if (a pitch_x)^2 + (b pitch_y)^2 <= distance^2 from there.
+class OverhangSamples {
+ public:
+  static constexpr unsigned max_reach = 31;
 
-  const uint64_t ny_;
-  const size_t words_;
-  const std::vector<Span> disc_, wide_;
-  std::vector<uint64_t> fits_;   ///< where the block of a disc that fits begins
-  std::vector<uint64_t> found_;  ///< covered samples, then the thin ones
-  std::vector<uint64_t> runs_;   ///< one row, with a word before and behind it
+  /// The distance is at most max_reach pitches.
+  OverhangSamples(double distance, const double pitch[2]);
+
+  /// As ThinSamples::find().
+  void find(const LayerRows& layer, const uint64_t* below, uint64_t begin, uint64_t end,
+            uint64_t* scratch, uint64_t* out) const;
+
+  static size_t scratch_words(size_t words) { return words + 2; }
+
+ private:
+  Disc disc_;
 };
 
 }  // namespace msq

@@ -301,6 +301,7 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
       const Output& output = outputs_[i];
       if (!output.pixels) continue;
       const uint64_t* words = output.samples == no_samples ? nullptr : slabs.words(output.samples);
+      if (bands.count() == 1) parts[i].words = words;
       Job part(job);  // its progress is not that of the call
       parts[i].inside_count +=
           write(output, layer, bands.begin(band), bands.end(band), words, plain.data(), out, &part);

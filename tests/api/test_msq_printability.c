@@ -43,8 +43,8 @@ static msq_printability_report inspect(const msq_slicer* slicer, const msq_print
   assert_ok(msq_printability(slicer, def, take_findings, to, &report, NULL));
   assert_false(to->is_on_other_thread);
   assert_false(to->has_failed);
-  assert_int_equal(
-      to->count, report.island_count + report.loose_count + report.void_count + report.thin_count);
+  assert_int_equal(to->count, report.island_count + report.loose_count + report.void_count +
+                                  report.thin_count + report.cup_count + report.overhang_count);
   return report;
 }
 
@@ -238,6 +238,106 @@ static void thin_walls_are_found(void** state) {
   msq_context_release(context);
 }
 
+/* A pot; a well that narrows to its mouth; a bell on the plate with a hole on top; a hollow. */
+static void cups_close_while_they_print(void** state) {
+  msq_context* context = make_context();
+  msq_printability_def def = printability_def(MSQ_FINDING_CUP | MSQ_FINDING_VOID, 1);
+  msq_printability_report report;
+  msq_slicer* slicer;
+  msq_shape* parts[6] = {box_of(context, 0, 0, 0, 16, 4, 8), /* filled with: */
+                         box_of(context, 1, 1, 2, 3, 3, 9),     box_of(context, 5, 1, 3, 7, 3, 5),
+                         box_of(context, 5.5, 1.5, 4, 6, 2, 9), box_of(context, 9, 1, -1, 11, 3, 4),
+                         box_of(context, 13, 1, 2, 15, 3, 4)};
+  (void)state;
+  slicer = slicer_of(context, join(MSQ_BOOLEAN_DIFFERENCE, parts, 6));
+  report = inspect(slicer, &def, &list);
+  assert_int_equal(report.void_count, 2); /* the hollow, and the bell without a hole */
+  assert_int_equal(report.cup_count, 2);  /* the pot and the well, open at the top */
+  assert_near(report.cup_volume, 4 * 6 + 4 * 2 + 0.25 * 3, 1e-9);
+  for (uint64_t i = 0; i < list.count; ++i)
+    if (list.findings[i].kind == MSQ_FINDING_CUP) assert_int_equal(list.findings[i].last_layer, 31);
+  def.has_plate = 0; /* the bell is open below */
+  report = inspect(slicer, &def, &list);
+  assert_int_equal(report.void_count, 1);
+  assert_int_equal(report.cup_count, 2);
+  msq_slicer_release(slicer);
+
+  /* The same bell with a hole to the side, 2 above the plate: it is a cup up to there. */
+  parts[0] = box_of(context, 0, 0, 0, 8, 8, 8);
+  parts[1] = box_of(context, 2, 2, 0, 6, 6, 6);
+  parts[2] = box_of(context, 3, 3, 2, 4, 9, 3);
+  slicer = slicer_of(context, join(MSQ_BOOLEAN_DIFFERENCE, parts, 3));
+  def.has_plate = 1;
+  report = inspect(slicer, &def, &list);
+  assert_int_equal(report.void_count, 0);
+  assert_int_equal(report.cup_count, 1);
+  assert_near(list.findings[0].volume, 4 * 4 * 2, 1e-9);
+  assert_int_equal(list.findings[0].first_layer, 0);
+  assert_int_equal(list.findings[0].last_layer, 7);
+  assert_box(&list.findings[0], 2, 2, 0, 6, 6, 2);
+  def.has_plate = 0;
+  assert_int_equal(inspect(slicer, &def, &list).cup_count, 0);
+  msq_slicer_release(slicer);
+  msq_context_release(context);
+}
+
+/* A post with a plate on top, which is wider by 2, and steps of 0.25 per layer. */
+static void overhangs_reach_beyond_the_layer_below(void** state) {
+  msq_context* context = make_context();
+  msq_printability_def def = printability_def(MSQ_FINDING_OVERHANG, 1);
+  msq_printability_report report;
+  msq_slicer* slicer;
+  msq_shape* parts[6] = {box_of(context, 2, 0, 0, 4, 4, 6), box_of(context, 0, 0, 3, 6, 4, 6)};
+  (void)state;
+  for (int i = 0; i < 4; ++i)
+    parts[2 + i] = box_of(context, 8, 0, 0.25 * i, 10 + 0.25 * i, 4, 0.25 * (i + 1));
+  slicer = slicer_of(context, join(MSQ_BOOLEAN_UNION, parts, 6));
+  def.overhang = 0.5;
+  report = inspect(slicer, &def, &list);
+  assert_int_equal(report.overhang_count, 2);
+  const int left = list.findings[1].min[0] < 1;
+  assert_box(&list.findings[left], 0, 0, 3, 1.5, 4, 3.25);
+  assert_box(&list.findings[1 - left], 4.5, 0, 3, 6, 4, 3.25);
+  assert_near(report.overhang_volume, 2 * 1.5 * 4 * 0.25, 1e-9);
+  def.overhang = 0; /* the three steps too */
+  report = inspect(slicer, &def, &list);
+  assert_int_equal(report.overhang_count, 5);
+  assert_near(report.overhang_volume, (2 * 2 + 3 * 0.25) * 4 * 0.25, 1e-9);
+  def.overhang = 2;
+  assert_int_equal(inspect(slicer, &def, &list).overhang_count, 0);
+  msq_slicer_release(slicer);
+  msq_context_release(context);
+}
+
+/* Runs and totals count, not only masks. */
+static void memory_is_accounted(void** state) {
+  msq_memory_report memory;
+  uint64_t peaks[2];
+  (void)state;
+  for (int fine = 0; fine < 2; ++fine) {
+    msq_context* context = make_context();
+    msq_structure* lattice =
+        make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, fine ? 0.25 : 8, fine ? 0.06 : 0.1);
+    msq_model* model = make_model(context, box_of(context, 0, 0, 0, 8, 8, 1), lattice, NULL);
+    msq_slicer_def plan = slicer_def(MSQ_LAYER_BITS, 160, 160, 0.05);
+    msq_printability_def def = printability_def(MSQ_FINDING_THIN, 1);
+    msq_slicer* slicer;
+    plan.slab_layers = 2;
+    slicer = make_slicer(model, &plan);
+    def.width = 0.2;
+    inspect(slicer, &def, &list);
+    memset(&memory, 0, sizeof memory);
+    memory.struct_size = sizeof memory;
+    assert_ok(msq_context_memory(context, &memory));
+    peaks[fine] = memory.peak_bytes;
+    msq_slicer_release(slicer);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+  /* 1000 struts cross a layer, each with a component and several runs. */
+  assert_true(peaks[1] > peaks[0] + 1000 * 100);
+}
+
 /* Heights as they are listed. */
 static void volumes_follow_listed_heights(void** state) {
   const double heights[] = {0.5, 1, 2, 4, 5};
@@ -292,9 +392,10 @@ static msq_structure* closed_foam(msq_context* context) {
 
 static void results_do_not_depend_on_threads_and_output(void** state) {
   const uint32_t threads[] = {1, 2, 4}, slabs[] = {0, 1, 7};
-  msq_printability_def def = printability_def(15, 1);
+  msq_printability_def def = printability_def(63, 1);
   (void)state;
   def.width = 0.3;
+  def.overhang = 0.05;
   for (int structure = 0; structure < 3; ++structure) {
     msq_printability_report first;
     for (int i = 0; i < 4; ++i) {
@@ -311,6 +412,10 @@ static void results_do_not_depend_on_threads_and_output(void** state) {
       msq_printability_report report;
       assert_ok(msq_shape_from_sphere(context, center, 2, &ball));
       model = make_model(context, ball, filling, NULL);
+      if (structure == 0) { /* large enough for workers to share a layer */
+        plan.resolution[0] = 260;
+        plan.resolution[1] = 300;
+      }
       plan.slab_layers = slabs[i % 3];
       if (i == 3) plan.orientation = MSQ_LAYER_TRANSPOSE | MSQ_LAYER_MIRROR_X;
       slicer = make_slicer(model, &plan);
@@ -363,6 +468,9 @@ int main(void) {
       cmocka_unit_test(hanging_parts_are_islands),
       cmocka_unit_test(only_the_largest_part_counts_without_a_plate),
       cmocka_unit_test(thin_walls_are_found),
+      cmocka_unit_test(cups_close_while_they_print),
+      cmocka_unit_test(overhangs_reach_beyond_the_layer_below),
+      cmocka_unit_test(memory_is_accounted),
       cmocka_unit_test(volumes_follow_listed_heights),
       cmocka_unit_test(results_do_not_depend_on_threads_and_output),
       cmocka_unit_test(callbacks_stop_the_call),

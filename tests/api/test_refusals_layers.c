@@ -331,12 +331,12 @@ static void printability(void** state) {
     msq_job* job = NULL;
     assert_ok(msq_printability_def_init(def, sizeof *def));
     report->struct_size = sizeof *report;
-    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    wrong_sizes(table, def, offsetof(msq_printability_def, overhang), sizeof *def);
     WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
     WRONG(ARGUMENT, "report is NULL", report = NULL);
     WRONG(ARGUMENT, "struct_size of report is 4", report->struct_size = 4);
     WRONG(ARGUMENT, "kinds is 0", def->kinds = 0);
-    WRONG(ARGUMENT, "kinds is 16", def->kinds = 16);
+    WRONG(ARGUMENT, "kinds is 64", def->kinds = 64);
     WRONG(ARGUMENT, "kinds is 4294967295", def->kinds = UINT32_MAX);
     wrong_enum(table, &def->has_plate, "has_plate", 0, 1);
     WRONG(ARGUMENT, "reserved is 3", def->reserved = 3);
@@ -351,6 +351,11 @@ static void printability(void** state) {
     WRONG(ARGUMENT, "min_volume is -1", def->min_volume = -1);
     wrong_number(table, &def->min_volume, "min_volume is ");
     WRONG(LIMIT, "memory_limit", slicer = of_small);
+    wrong_number(table, &def->overhang, "overhang is ");
+    WRONG(ARGUMENT, "overhang is 0.5|MSQ_FINDING_OVERHANG", def->overhang = 0.5);
+    WRONG(ARGUMENT, "overhang|-1", def->kinds = MSQ_FINDING_OVERHANG; def->overhang = -1);
+    WRONG(ARGUMENT, "overhang is 1000|at most 31", def->kinds = MSQ_FINDING_OVERHANG;
+          def->overhang = 1000);
     WRONG(HOST, "-9", fn = refuse_findings; def->kinds = MSQ_FINDING_THIN; def->width = 0.5);
     WRONG(CANCELLED, "cancelled", job = cancelled_job());
     RIGHT(def = NULL);

@@ -30,11 +30,11 @@ OUTSIDE = [
     (r"msq\.h", ["api/*", "document/*"]),
     # Files that are compiled once for each target include these themselves, between their own lines.
     (r"hwy/highway\.h", ["base/simd.cpp", "base/*-inl.h", "strut/*.cpp", "strut/*-inl.h",
-                         "slice/*.cpp", "structure/*/*.cpp", "structure/*/*-inl.h",
+                         "slice/*.cpp", "printability/*.cpp", "structure/*/*.cpp", "structure/*/*-inl.h",
                          "structure/*/*/*.cpp", "structure/*/*/*-inl.h", "expression/*.cpp",
                          "expression/*-inl.h"]),
     (r"hwy/foreach_target\.h", ["strut/*.cpp", "structure/*/*.cpp", "structure/*/*/*.cpp",
-                                "slice/*.cpp", "expression/*.cpp"]),
+                                "slice/*.cpp", "printability/*.cpp", "expression/*.cpp"]),
     (r"hwy/.*", ["base/simd.h", "base/simd.cpp"]),
     (r"(oneapi/)?tbb/.*", ["base/parallel.cpp"]),
     (r"nlohmann/.*", ["io/json_text_nlohmann.cpp"]),

@@ -62,8 +62,8 @@ Found found_of(const ComponentTotals& totals) {
            totals.high[1]}};
 }
 
-struct FoundBoth {
-  std::vector<Found> ended, islands;
+struct FoundAll {
+  std::vector<Found> ended, islands, cups;
 };
 
 /// Neighbours of a sample; within its layer alone if `flat`.
@@ -116,15 +116,49 @@ Found found_of(const Index& start, const std::vector<Index>& all) {
   return found_of(totals);
 }
 
-FoundBoth by_flood(const Volume& volume, const Components::Rules& rules) {
-  FoundBoth result;
+bool is_anchored(const Volume& volume, const Components::Rules& rules, const Index& p) {
+  if (rules.anchors_first_layer && p[2] == 0) return true;
+  return rules.anchors_sides &&
+         (p[0] == 0 || p[1] == 0 || p[0] == volume.n[0] - 1 || p[1] == volume.n[1] - 1);
+}
+
+/// The layers up to k.
+Volume lower_part(const Volume& volume, int k) {
+  Volume part(volume.n[0], volume.n[1], k + 1);
+  std::copy_n(volume.samples.begin(), part.samples.size(), part.samples.begin());
+  return part;
+}
+
+/// By the definition: components of the layers up to k, which the next layer joins to an anchor.
+std::vector<Found> cups_by_flood(const Volume& volume, const Components::Rules& rules) {
+  std::vector<Found> cups;
+  for (int k = 0; k + 1 < volume.n[2]; ++k) {
+    const Volume lower = lower_part(volume, k), upper = lower_part(volume, k + 1);
+    std::vector<uint8_t> opens(upper.samples.size());
+    flood(upper, rules.joins_corners, false, [&](const Index&, const std::vector<Index>& all) {
+      bool anchored = false;
+      for (const Index& p : all) anchored = anchored || is_anchored(volume, rules, p);
+      if (anchored)
+        for (const Index& p : all) opens[upper.at(p)] = 1;
+    });
+    flood(lower, rules.joins_corners, false,
+          [&](const Index& start, const std::vector<Index>& all) {
+            bool reaches = false;
+            for (const Index& p : all) {
+              if (is_anchored(volume, rules, p)) return;
+              reaches = reaches || p[2] == k;
+            }
+            if (reaches && opens[lower.at(start)]) cups.push_back(found_of(start, all));
+          });
+  }
+  return cups;
+}
+
+FoundAll by_flood(const Volume& volume, const Components::Rules& rules) {
+  FoundAll result;
   flood(volume, rules.joins_corners, false, [&](const Index& start, const std::vector<Index>& all) {
-    for (const Index& p : all) {
-      if (rules.anchors_first_layer && p[2] == 0) return;
-      if (rules.anchors_sides &&
-          (p[0] == 0 || p[1] == 0 || p[0] == volume.n[0] - 1 || p[1] == volume.n[1] - 1))
-        return;
-    }
+    for (const Index& p : all)
+      if (is_anchored(volume, rules, p)) return;
     result.ended.push_back(found_of(start, all));
   });
   if (rules.finds_islands)
@@ -135,22 +169,34 @@ FoundBoth by_flood(const Volume& volume, const Components::Rules& rules) {
               if (volume.get({p[0], p[1], p[2] - 1})) return;
             result.islands.push_back(found_of(start, all));
           });
+  if (rules.finds_cups) result.cups = cups_by_flood(volume, rules);
   return result;
 }
 
-FoundBoth by_layers(const Volume& volume, const Components::Rules& rules) {
-  FoundBoth result;
+/// In the order in which they are found.
+FoundAll by_layers(const Volume& volume, const Components::Rules& rules, unsigned bands) {
+  FoundAll result;
   double heights = 0, samples = 0;
-  Components components(
-      static_cast<uint64_t>(volume.n[0]), static_cast<uint64_t>(volume.n[1]), rules,
-      [&](const ComponentTotals& totals) {
-        result.ended.push_back(found_of(totals));
-        heights += totals.height_sum;
-        samples += static_cast<double>(totals.samples);
-      },
-      [&](const ComponentTotals& totals) { result.islands.push_back(found_of(totals)); });
-  for (int k = 0; k < volume.n[2]; ++k) components.add_layer(volume.layer(k).data(), 0.5);
-  components.end();
+  Components components(static_cast<uint64_t>(volume.n[0]), static_cast<uint64_t>(volume.n[1]),
+                        rules, bands);
+  const auto take = [&](const Components::Events& events) {
+    for (const ComponentTotals& totals : events.ended) {
+      result.ended.push_back(found_of(totals));
+      heights += totals.height_sum;
+      samples += static_cast<double>(totals.samples);
+    }
+    for (const ComponentTotals& totals : events.islands) result.islands.push_back(found_of(totals));
+    for (const ComponentTotals& totals : events.cups) result.cups.push_back(found_of(totals));
+  };
+  for (int k = 0; k < volume.n[2]; ++k) {
+    const std::vector<uint64_t> rows = volume.layer(k);
+    // Bands may come in any order.
+    for (unsigned b = bands; b-- > 0;) components.scan(b, rows.data());
+    components.join(0.5);
+    for (unsigned b = 0; b < bands; ++b) components.settle((b + 1) % bands);
+    take(components.finish());
+  }
+  take(components.end());
   assert_true(heights == 0.5 * samples);
   return result;
 }
@@ -168,11 +214,26 @@ void check(const Volume& volume) {
     rules.anchors_sides = bits & 2;
     rules.anchors_first_layer = bits & 4;
     rules.finds_islands = bits & 8;
+    // The flood of each layer's cups takes long.
+    rules.finds_cups = rules.anchors_sides && volume.samples.size() < 10000;
     // Anchored samples at a side have nothing below them.
     if (rules.anchors_sides && rules.finds_islands) continue;
-    const FoundBoth got = by_layers(volume, rules), wanted = by_flood(volume, rules);
-    assert_same(got.ended, wanted.ended, "components");
-    assert_same(got.islands, wanted.islands, "islands");
+    const FoundAll wanted = by_flood(volume, rules);
+    FoundAll first;
+    const auto ny = static_cast<unsigned>(volume.n[1]);
+    for (const unsigned bands : {1u, std::min(2u, ny), std::min(5u, ny), ny}) {
+      const FoundAll got = by_layers(volume, rules, bands);
+      if (bands == 1) {
+        assert_same(got.ended, wanted.ended, "components");
+        assert_same(got.islands, wanted.islands, "islands");
+        assert_same(got.cups, wanted.cups, "cups");
+        first = got;
+      }
+      // In the same order, too.
+      if (got.ended != first.ended || got.islands != first.islands || got.cups != first.cups)
+        fail_msg("%d x %d x %d samples, rules %d: %u bands find others than one", volume.n[0],
+                 volume.n[1], volume.n[2], bits, bands);
+    }
   }
 }
 
@@ -278,6 +339,64 @@ bool is_thin(const Volume& volume, int i, int j, const unsigned across[2]) {
   return true;
 }
 
+/// Thin samples, found in bands.
+std::vector<uint64_t> thin_of(const ThinSamples& thin, const Volume& volume, unsigned bands) {
+  const std::vector<uint64_t> rows = volume.layer(0);
+  std::vector<uint64_t> found(rows.size(), ~uint64_t{0});
+  const auto ny = static_cast<uint64_t>(volume.n[1]);
+  const size_t words = words_for(static_cast<uint64_t>(volume.n[0]));
+  for (unsigned b = 0; b < bands; ++b) {
+    const uint64_t begin = ny * b / bands, end = ny * (b + 1) / bands;
+    std::vector<uint64_t> scratch(thin.scratch_words(words, end - begin), ~uint64_t{0});
+    thin.find({rows.data(), words, ny}, begin, end, scratch.data(), found.data());
+  }
+  return found;
+}
+
+void test_overhangs(void**) {
+  Random random(7);
+  const size_t count = std::max<size_t>(test_count(200), 30);
+  for (size_t n = 0; n < count; ++n) {
+    Volume volume(1 + static_cast<int>(random.below(150)), 1 + static_cast<int>(random.below(40)),
+                  2);
+    const double density[2] = {n % 3 ? 0.01 : 0.3, 0.7};
+    for (int k = 0; k < 2; ++k)
+      for (int j = 0; j < volume.n[1]; ++j)
+        for (int i = 0; i < volume.n[0]; ++i)
+          volume.samples[volume.at({i, j, k})] = random.unit() < density[k];
+    const double pitch[2] = {random.between(0.5, 2), random.between(0.5, 2)};
+    const double distance = n % 5 == 0   ? static_cast<double>(random.below(4)) * pitch[0]
+                            : n % 7 == 0 ? 31 * std::min(pitch[0], pitch[1])
+                                         : random.between(0, 6) * std::min(pitch[0], pitch[1]);
+    const OverhangSamples overhangs(distance, pitch);
+    const size_t words = words_for(static_cast<uint64_t>(volume.n[0]));
+    const std::vector<uint64_t> below = volume.layer(0), rows = volume.layer(1);
+    std::vector<uint64_t> found(rows.size(), ~uint64_t{0}),
+        scratch(OverhangSamples::scratch_words(words), ~uint64_t{0});
+    const auto ny = static_cast<uint64_t>(volume.n[1]);
+    const unsigned bands = std::min(1 + static_cast<unsigned>(n % 3), static_cast<unsigned>(ny));
+    for (unsigned b = 0; b < bands; ++b)
+      overhangs.find({rows.data(), words, ny}, below.data(), ny * b / bands, ny * (b + 1) / bands,
+                     scratch.data(), found.data());
+    const int reach[2] = {static_cast<int>(distance / pitch[0]) + 1,
+                          static_cast<int>(distance / pitch[1]) + 1};
+    for (int j = 0; j < volume.n[1]; ++j)
+      for (int i = 0; i < static_cast<int>(words * 64); ++i) {
+        bool wanted = volume.get({i, j, 1});
+        for (int b = -reach[1]; b <= reach[1] && wanted; ++b)
+          for (int a = -reach[0]; a <= reach[0] && wanted; ++a)
+            if (a * a * pitch[0] * pitch[0] + b * b * pitch[1] * pitch[1] <=
+                distance * distance * (1 + 1e-9))
+              wanted = !volume.get({i + a, j + b, 0});
+        const bool got =
+            found[static_cast<size_t>(j) * words + static_cast<size_t>(i) / 64] >> i % 64 & 1;
+        if (got != wanted)
+          fail_msg("%d x %d, distance %g of pitches %g, %g: sample %d, %d is wrong", volume.n[0],
+                   volume.n[1], distance, pitch[0], pitch[1], i, j);
+      }
+  }
+}
+
 void test_thin(void**) {
   Random random(4);
   const size_t count = std::max<size_t>(test_count(80), 12);
@@ -295,12 +414,10 @@ void test_thin(void**) {
     }
     unsigned across[2];
     for (unsigned& a : across) a = 2 + static_cast<unsigned>(random.below(n % 20 ? 6 : 30));
-    ThinSamples thin(static_cast<uint64_t>(volume.n[0]), static_cast<uint64_t>(volume.n[1]),
-                     across);
-    const std::vector<uint64_t> rows = volume.layer(0);
-    for (int times = 0; times < 2; ++times) {
-      const uint64_t* found = thin.find(rows.data());
+    const ThinSamples thin(across);
+    for (unsigned bands = 1; bands <= std::min(3u, static_cast<unsigned>(volume.n[1])); ++bands) {
       const size_t words = words_for(static_cast<uint64_t>(volume.n[0]));
+      const std::vector<uint64_t> found = thin_of(thin, volume, bands);
       for (int j = 0; j < volume.n[1]; ++j)
         for (int i = 0; i < static_cast<int>(words * 64); ++i) {
           const bool got =
@@ -330,9 +447,7 @@ void test_width_of_strips(void**) {
         volume.samples[volume.at({i, j, 0})] = std::abs(across) <= own / 2;
       }
     const unsigned count_across[2] = {static_cast<unsigned>(width), static_cast<unsigned>(width)};
-    ThinSamples thin(100, 100, count_across);
-    const std::vector<uint64_t> rows = volume.layer(0);
-    const uint64_t* found = thin.find(rows.data());
+    const std::vector<uint64_t> found = thin_of(ThinSamples(count_across), volume, 1);
     for (int j = 25; j < 75; ++j)
       for (int i = 25; i < 75; ++i)
         if (volume.get({i, j, 0}))
@@ -381,7 +496,7 @@ int main() {
       cmocka_unit_test(test_rows_of_bits),    cmocka_unit_test(test_random_volumes),
       cmocka_unit_test(test_mazes),           cmocka_unit_test(test_sticks),
       cmocka_unit_test(test_spiral),          cmocka_unit_test(test_thin),
-      cmocka_unit_test(test_width_of_strips),
+      cmocka_unit_test(test_width_of_strips), cmocka_unit_test(test_overhangs),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

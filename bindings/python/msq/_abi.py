@@ -111,6 +111,8 @@ MSQ_FINDING_ISLAND = 1
 MSQ_FINDING_LOOSE = 2
 MSQ_FINDING_VOID = 4
 MSQ_FINDING_THIN = 8
+MSQ_FINDING_CUP = 16
+MSQ_FINDING_OVERHANG = 32
 MSQ_SURFACE_STL = 1
 MSQ_SURFACE_PLY = 2
 MSQ_CAMERA_ORTHOGRAPHIC = 0
@@ -548,7 +550,8 @@ class msq_contours_report(Structure):
 
 class msq_printability_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("kinds", c_uint32), ("has_plate", c_int32),
-                ("reserved", c_uint32), ("width", c_double), ("min_volume", c_double)]
+                ("reserved", c_uint32), ("width", c_double), ("min_volume", c_double),
+                ("overhang", c_double)]
 
 
 class msq_finding(Structure):
@@ -565,7 +568,8 @@ class msq_printability_report(Structure):
                 ("solid_count", c_uint64), ("solid_volume", c_double), ("island_count", c_uint64),
                 ("loose_count", c_uint64), ("void_count", c_uint64), ("thin_count", c_uint64),
                 ("island_volume", c_double), ("loose_volume", c_double), ("void_volume", c_double),
-                ("thin_volume", c_double)]
+                ("thin_volume", c_double), ("cup_count", c_uint64), ("overhang_count", c_uint64),
+                ("cup_volume", c_double), ("overhang_volume", c_double)]
 
 
 class msq_ring(Structure):

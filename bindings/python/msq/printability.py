@@ -36,19 +36,24 @@ class Printability:
     loose_volume: float
     void_volume: float
     thin_volume: float
+    cup_count: int  #: voids that are closed until a later layer
+    overhang_count: int  #: parts of layers beyond the solid below
+    cup_volume: float
+    overhang_volume: float
     findings: np.ndarray
 
     #: values of findings["kind"]
     kinds = {"island": _abi.MSQ_FINDING_ISLAND, "loose": _abi.MSQ_FINDING_LOOSE,
-             "void": _abi.MSQ_FINDING_VOID, "thin": _abi.MSQ_FINDING_THIN}
+             "void": _abi.MSQ_FINDING_VOID, "thin": _abi.MSQ_FINDING_THIN,
+             "cup": _abi.MSQ_FINDING_CUP, "overhang": _abi.MSQ_FINDING_OVERHANG}
 
     def findings_of(self, kind: str) -> np.ndarray:
-        """The findings of one kind: `island`, `loose`, `void` or `thin`."""
+        """The findings of one kind: `island`, `loose`, `void`, `thin`, `cup` or `overhang`."""
         return self.findings[self.findings["kind"] == constant("MSQ_FINDING_", kind, "kind")]
 
 
 def inspect(slicer: Any, kinds: Sequence[str], has_plate: bool, width: float, min_volume: float,
-            job: Optional[Job]) -> Printability:
+            overhang: float, job: Optional[Job]) -> Printability:
     """Of Slicer.printability."""
     definition = defaults(_abi.msq_printability_def)
     definition.kinds = 0
@@ -57,6 +62,7 @@ def inspect(slicer: Any, kinds: Sequence[str], has_plate: bool, width: float, mi
     definition.has_plate = bool(has_plate)
     definition.width = width
     definition.min_volume = min_volume
+    definition.overhang = overhang
     filled = _abi.msq_printability_report()
     filled.struct_size = ctypes.sizeof(filled)
     batches: List[np.ndarray] = []

@@ -379,14 +379,15 @@ class Slicer(Handle):
 
     def printability(self, kinds: Sequence[str] = ("island", "loose", "void"), *,
                      has_plate: bool = True, width: float = 0.0, min_volume: float = 0.0,
-                     job: Optional[Job] = None) -> Printability:
+                     overhang: float = 0.0, job: Optional[Job] = None) -> Printability:
         """Inspects all layers for what is doubtful about printing them.
 
-        kinds: of `island`, `loose`, `void` and `thin`, which needs a width in model units, 2 to 32
-        pixels. has_plate: the first layer lies on a build plate. Findings of less than min_volume
-        are ignored. Costs about twice as much as the layers.
+        kinds: of `island`, `loose`, `void`, `cup`, `overhang` and `thin`. `thin` needs a width in
+        model units, 2 to 32 pixels. `overhang`: how far the solid may reach beyond that of the
+        layer below, in model units, 0 to 31 pixels. has_plate: the first layer lies on a build
+        plate. Findings of less than min_volume are ignored. Costs about twice as much as the layers.
         """
-        return inspect(self, kinds, has_plate, width, min_volume, job)
+        return inspect(self, kinds, has_plate, width, min_volume, overhang, job)
 
     def layers(self, first: int = 0, count: Optional[int] = None, *,
                job: Optional[Job] = None) -> Iterator[Layer]:

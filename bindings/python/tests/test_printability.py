@@ -35,6 +35,19 @@ class PrintabilityTest(unittest.TestCase):
         self.assertEqual(slicer.printability(min_volume=28).void_count, 0)
         self.assertEqual(slicer.printability("loose", has_plate=False).loose_count, 0)
 
+    def test_cups_and_overhangs(self):
+        block = msq.Shape.box((0, 0, 0), (8, 8, 8))
+        pot = msq.Model(block - msq.Shape.box((2, 2, 2), (5, 5, 8)))
+        found = pot.slicer(layer_height=0.25, pitch=0.25).printability(["cup", "void"])
+        self.assertEqual((found.cup_count, found.void_count), (1, 0))
+        self.assertAlmostEqual(found.cup_volume, 9 * 6)
+        slicer = self.hollow.slicer(layer_height=0.25, pitch=0.25)
+        found = slicer.printability(["overhang", "cup"], overhang=0.5)
+        self.assertEqual((found.overhang_count, found.cup_count), (1, 0))
+        places = found.findings_of("overhang")
+        np.testing.assert_allclose(places[0]["min"], (2.5, 2.5, 5))
+        np.testing.assert_allclose(places[0]["max"], (4.5, 4.5, 5.25))
+
     def test_refusals(self):
         slicer = self.hollow.slicer(layer_height=0.25, pitch=0.25)
         with self.assertRaisesRegex(msq.ArgumentError, "width is 0"):

@@ -301,6 +301,12 @@ pub const MSQ_FINDING_VOID: i32 = 4;
 /// Connected samples where the solid is thinner in its layer than a given width.
 pub const MSQ_FINDING_THIN: i32 = 8;
 
+/// A cup: a void that is closed except where the next layer is printed, so it sucks at the film of a resin printer. In other words, empty samples that are connected within the layers up to one, reach that layer, and reach neither a side of the grid nor, without a plate, its bottom. Each is listed once, as it is in the last layer before it opens; last_layer is that one. Voids that close are listed as VOID alone.
+pub const MSQ_FINDING_CUP: i32 = 16;
+
+/// Connected samples of a layer with none below them, and none in the layer below within a given horizontal distance.
+pub const MSQ_FINDING_OVERHANG: i32 = 32;
+
 /// Binary STL: triangles without common vertices, coordinates as float32.
 pub const MSQ_SURFACE_STL: i32 = 1;
 
@@ -1563,6 +1569,8 @@ pub struct msq_printability_def {
     pub width: f64,
     /// Findings of less volume are ignored. In model units cubed, at least 0. Default 0.
     pub min_volume: f64,
+    /// OVERHANG: the distance in model units, 0 (default) to 31 pixels along x and y. Solid that leans by an angle reaches layer_height * tan(angle) beyond the layer below. Otherwise 0.
+    pub overhang: f64,
 }
 
 /// Something doubtful. A sample stands for the box of a pixel and its layer's height, which reaches half-way to the layers around it.
@@ -1614,6 +1622,10 @@ pub struct msq_printability_report {
     pub loose_volume: f64,
     pub void_volume: f64,
     pub thin_volume: f64,
+    pub cup_count: u64,
+    pub overhang_count: u64,
+    pub cup_volume: f64,
+    pub overhang_volume: f64,
 }
 
 /// A ring of a polygon.
@@ -2313,11 +2325,11 @@ extern "C" {
     pub fn msq_contours_info(contours: *const msq_contours, report: *mut msq_contours_report) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT. Since 0.2.
     pub fn msq_printability_def_init(def: *mut msq_printability_def, size: usize) -> msq_status;
-    /// Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids, thin places.
+    /// Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids, thin places, cups, overhangs.
     ///
     /// It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation of the slicer are ignored. What is smaller than a pixel may lie between samples: to find it, use a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners, empty ones across sides; samples of two layers are connected if one is on the other.
     ///
-    /// def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 16 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack; of these, runs and totals are not accounted to the context. Cost: 1.3 to 1.8 times that of msq_slicer_run for bits, up to 3 times with thousands of enclosed voids in a layer. THIN adds 0.2 to 1.5 ns per sample. All but the bits runs on the calling thread. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2.
+    /// def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack. Runs and totals are accounted to the context after each layer. Workers share the rows of each layer. Cost: 1.1 to 1.9 times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2.
     pub fn msq_printability(slicer: *const msq_slicer, def: *const msq_printability_def, r#fn: msq_findings_fn, user: *mut c_void, report: *mut msq_printability_report, job: *mut msq_job) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_fill_def_init(def: *mut msq_fill_def, size: usize) -> msq_status;
@@ -2471,9 +2483,9 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_output>(), 40);
     assert_eq!(std::mem::size_of::<msq_layer>(), 72);
     assert_eq!(std::mem::size_of::<msq_contours_report>(), 72);
-    assert_eq!(std::mem::size_of::<msq_printability_def>(), 32);
+    assert_eq!(std::mem::size_of::<msq_printability_def>(), 40);
     assert_eq!(std::mem::size_of::<msq_finding>(), 112);
-    assert_eq!(std::mem::size_of::<msq_printability_report>(), 96);
+    assert_eq!(std::mem::size_of::<msq_printability_report>(), 128);
     assert_eq!(std::mem::size_of::<msq_ring>(), 16);
     assert_eq!(std::mem::size_of::<msq_fill_def>(), 88);
     assert_eq!(std::mem::size_of::<msq_fill_report>(), 64);
