@@ -71,6 +71,13 @@ const MeshBoundary& Mesh::boundary(const Job* job) const {
       [&] { return std::make_unique<MeshBoundary>(soup_, facts_, rule_, budget_, job); });
 }
 
+const DecidedCells& Mesh::cells(const Job* job) const {
+  return cells_.get([&] {
+    return std::make_unique<DecidedCells>(
+        soup_, facts_.bounds, [this](Vec3 p) { return inside(p); }, budget_, job);
+  });
+}
+
 bool Mesh::inside(Vec3 p) const {
   if (!facts_.bounds.contains(p)) return false;
   RowWinding winding = count_crossings(soup_, columns_.at(p.y, p.z), p);

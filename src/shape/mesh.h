@@ -21,6 +21,7 @@
 #include "base/lazy.h"
 #include "base/memory.h"
 #include "base/triangle_soup.h"
+#include "shape/decided_cells.h"
 #include "shape/mesh_boundary.h"
 #include "shape/open_mesh.h"
 #include "shape/shape.h"
@@ -64,6 +65,7 @@ class Mesh final : public Shape {
  private:
   void describe(HashInput& input) const override;
   const MeshBoundary& boundary(const Job* job = nullptr) const;
+  const DecidedCells& cells(const Job* job) const;
   bool solid(int64_t winding) const {
     return rule_ == WindingRule::even_odd   ? (winding & 1) != 0
            : rule_ == WindingRule::positive ? winding > 0
@@ -87,6 +89,7 @@ class Mesh final : public Shape {
   TriangleBins sheets_;                   // bins of z alone, for layers
   std::unique_ptr<const OpenMesh> open_;  // of open meshes by the rule `automatic`
   Lazy<MeshBoundary> boundary_;
+  Lazy<DecidedCells> cells_;  // of closed meshes
 };
 
 }  // namespace msq

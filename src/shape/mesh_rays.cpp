@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays through a mesh. Between two crossings of the boundary's triangles membership does not
-// change, so one point between them decides it. False crossings from the tree do no harm.
+// change, so one point between them decides it. False crossings from the tree do no harm. Short
+// rays away from all triangles need no search (decided_cells.h).
 #include "base/ray_normal.h"
 #include "shape/mesh.h"
 
@@ -9,6 +10,13 @@ namespace msq {
 bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, double& t,
                       const Job* job) const {
   if (open_) return find_along_open(ray, from, to, wanted, t, job);
+  if (facts_.closed) {
+    const DecidedCells::Side side = cells(job).side(ray.at(from), ray.at(to));
+    if (side != DecidedCells::Side::unknown) {
+      t = from;
+      return (side == DecidedCells::Side::inside) == wanted;
+    }
+  }
   const auto is_wanted = [&](double at) { return inside(ray.at(at)) == wanted; };
   if (is_wanted(from)) {
     t = from;
