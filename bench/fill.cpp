@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fill lines of a foam beside those of a gyroid of equal density: travel, paths, the time of the
-// call, and the time that a printer would take.
+// Fill lines of a foam, with and without pairs of lines, beside those of a gyroid of equal density:
+// travel, paths, the time of the call, and the time that a printer would take.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -74,9 +74,13 @@ class Printer {
   double x_ = 0, y_ = 0, ux_ = 0, uy_ = 0;
 };
 
-msq_structure* make_structure(msq_context* context, bool is_foam, const double cell[3]) {
+/// What is compared. PAIRS: a foam some of whose walls are two lines side by side.
+enum Pattern { FOAM, PAIRS, GYROID, PATTERNS };
+constexpr const char* names[PATTERNS] = {"foam", "foam in pairs", "gyroid"};
+
+msq_structure* make_structure(msq_context* context, Pattern pattern, const double cell[3]) {
   msq_structure* structure;
-  if (is_foam) {
+  if (pattern != GYROID) {
     msq_foam_def def;
     bench::check(msq_foam_def_init(&def, sizeof def));
     for (int i = 0; i < 3; ++i) def.grid.cell_size[i] = cell[i];
@@ -91,14 +95,6 @@ msq_structure* make_structure(msq_context* context, bool is_foam, const double c
     bench::check(msq_structure_functional(context, &def, &structure));
   }
   return structure;
-}
-
-msq_structure* calibrated(msq_context* context, bool is_foam, double density, double cell[3]) {
-  for (int i = 0; i < 3; ++i) cell[i] = 1;
-  msq_structure* unit = make_structure(context, is_foam, cell);
-  bench::check(msq_fill_calibrate(context, unit, line_width, density, cell, nullptr));
-  msq_structure_release(unit);
-  return make_structure(context, is_foam, cell);
 }
 
 struct Totals {
@@ -128,8 +124,8 @@ void add_layer(Totals& totals, const msq_fill_report& paths) {
   totals.paths += static_cast<double>(paths.path_count);
 }
 
-Totals fill_stack(msq_context* context, const msq_structure* structure, double side, int layers,
-                  double step) {
+Totals fill_stack(msq_context* context, const msq_structure* structure, Pattern pattern,
+                  double side, int layers, double step) {
   const auto end = static_cast<int64_t>(side * 1e6);
   const int64_t square[8] = {0, 0, end, 0, end, end, 0, end};
   const msq_ring ring = {square, 4};
@@ -143,6 +139,7 @@ Totals fill_stack(msq_context* context, const msq_structure* structure, double s
     def.z = (k + 0.5) * step;
     def.tolerance = 0.0125;
     def.min_length = 0.8 * line_width;
+    def.pair_distance = pattern == PAIRS ? line_width : 0;
     msq_fill* fill = nullptr;
     totals.call += bench::seconds_of(
         [&] { bench::check(msq_fill_lines(context, structure, &def, &fill, nullptr)); });
@@ -153,6 +150,26 @@ Totals fill_stack(msq_context* context, const msq_structure* structure, double s
     msq_fill_release(fill);
   }
   return totals;
+}
+
+msq_structure* calibrated(msq_context* context, Pattern pattern, double density, double cell[3]) {
+  for (int i = 0; i < 3; ++i) cell[i] = 1;
+  msq_structure* unit = make_structure(context, pattern, cell);
+  bench::check(msq_fill_calibrate(context, unit, line_width, density, cell, nullptr));
+  msq_structure_release(unit);
+  return make_structure(context, pattern, cell);
+}
+
+/// Calibration counts each line once. In pairs lines cover more, which is measured and divided by.
+msq_structure* of_density(msq_context* context, Pattern pattern, double density, double cell[3]) {
+  msq_structure* structure = calibrated(context, pattern, density, cell);
+  if (pattern != PAIRS) return structure;
+  const double side = 20 * cell[0];
+  const int layers = 8;
+  const Totals sum = fill_stack(context, structure, pattern, side, layers, 2.11);
+  msq_structure_release(structure);
+  const double found = sum.length * line_width / (layers * side * side);
+  return calibrated(context, pattern, density * density / found, cell);
 }
 
 /// Rings and solid layers of a cube besides its fill: what both patterns print alike.
@@ -178,48 +195,47 @@ double seconds_of_shells(double side, int layers, int solid_layers) {
 void measure(bench::Report& report, double density) {
   char text[120];
   msq_context* context = bench::make_context(1);
-  double cell[2][3];
-  msq_structure* structures[2];
-  for (int s = 0; s < 2; ++s) structures[s] = calibrated(context, s == 0, density, cell[s]);
-  const double side = 20 * cell[0][0];
-  Totals totals[2];
+  double cell[PATTERNS][3], fill[PATTERNS], cubes[PATTERNS];
+  msq_structure* structures[PATTERNS];
+  const auto all = {FOAM, PAIRS, GYROID};
+  for (const Pattern p : all) structures[p] = of_density(context, p, density, cell[p]);
+  const double side = 20 * cell[FOAM][0];
   const int layers = 32;
-  for (int s = 0; s < 2; ++s) {
-    const char* name = s == 0 ? "foam" : "gyroid";
-    Totals& sum = totals[s] = fill_stack(context, structures[s], side, layers, 1.37);
-    std::snprintf(text, sizeof text, "%s, %.0f %%, %.0f x %.0f mm, cells of %.2f mm: call", name,
-                  100 * density, side, side, cell[s][0]);
+  // A cube as slicers print it, with 2 rings and 5 + 5 solid layers.
+  const double cube = 40, inner = cube - 4 * line_width;
+  const int cube_layers = static_cast<int>(cube / layer_height), solid = 10;
+  for (const Pattern p : all) {
+    const Totals sum = fill_stack(context, structures[p], p, side, layers, 1.37);
+    std::snprintf(text, sizeof text, "%s, %.0f %%, %.0f x %.0f mm, cells of %.2f mm: call",
+                  names[p], 100 * density, side, side, cell[p][0]);
     report.add(text, sum.call / layers, sum.length / layers, "mm");
     const auto note = [&](const char* what, double value, const char* unit) {
-      std::snprintf(text, sizeof text, "%s, %.0f %%: %s", name, 100 * density, what);
+      std::snprintf(text, sizeof text, "%s, %.0f %%: %s", names[p], 100 * density, what);
       report.note(text, value, unit);
     };
+    fill[p] = sum.seconds / sum.length;
     note("travel", 100 * sum.travel / sum.length, "% of the length");
     note("paths", sum.paths / layers, "per layer");
     note("length of a path", sum.length / sum.paths, "mm");
     note("density", 100 * sum.length * line_width / (layers * side * side), "%");
-    note("printing", sum.seconds / sum.length * 1000, "s per m of line");
+    note("printing", fill[p] * 1000, "s per m of line");
+    const Totals stack =
+        fill_stack(context, structures[p], p, inner, cube_layers - solid, layer_height);
+    cubes[p] = stack.seconds + seconds_of_shells(cube, cube_layers, solid);
+    note("cube of 40 mm, of which the fill", 100 * stack.seconds / cubes[p], "%");
+    note("cube of 40 mm", cubes[p] / 60, "min");
   }
-  std::snprintf(text, sizeof text, "foam / gyroid, %.0f %%: time of the fill", 100 * density);
-  report.note(text, totals[0].seconds / totals[0].length * totals[1].length / totals[1].seconds,
-              "times");
-
-  // A cube as slicers print it, with 2 rings and 5 + 5 solid layers.
-  const double cube = 40, inner = cube - 4 * line_width;
-  const int cube_layers = static_cast<int>(cube / layer_height), solid = 10;
-  double seconds[2];
-  for (int s = 0; s < 2; ++s) {
-    const Totals sum = fill_stack(context, structures[s], inner, cube_layers - solid, layer_height);
-    seconds[s] = sum.seconds + seconds_of_shells(cube, cube_layers, solid);
-    std::snprintf(text, sizeof text, "%s, %.0f %%: cube of 40 mm, of which the fill",
-                  s == 0 ? "foam" : "gyroid", 100 * density);
-    report.note(text, 100 * sum.seconds / seconds[s], "%");
-    std::snprintf(text, sizeof text, "%s, %.0f %%: cube of 40 mm", s == 0 ? "foam" : "gyroid",
+  for (const Pattern p : {FOAM, PAIRS}) {
+    std::snprintf(text, sizeof text, "%s / gyroid, %.0f %%: time of the fill", names[p],
                   100 * density);
-    report.note(text, seconds[s] / 60, "min");
+    report.note(text, fill[p] / fill[GYROID], "times");
+    std::snprintf(text, sizeof text, "%s / gyroid, %.0f %%: time of the cube", names[p],
+                  100 * density);
+    if (p == PAIRS)
+      report.mark(text, cubes[p] / cubes[GYROID], "times", 1.1, false);
+    else
+      report.note(text, cubes[p] / cubes[GYROID], "times");
   }
-  std::snprintf(text, sizeof text, "foam / gyroid, %.0f %%: time of the cube", 100 * density);
-  report.mark(text, seconds[0] / seconds[1], "times", 1.1, false);
   for (msq_structure* structure : structures) msq_structure_release(structure);
   msq_context_release(context);
 }
