@@ -2,53 +2,26 @@
 #include "FillMsq.hpp"
 
 #include "../ClipperUtils.hpp"
+#include "../MsqHandles.hpp"
 #include "../ShortestPath.hpp"
-
-#include <msq.h>
 
 #include <array>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <string>
 
 namespace Slic3r {
 namespace {
 
-void check(msq_status status)
-{
-    if (status != MSQ_OK)
-        throw Slic3r::SlicingError(std::string("msq: ") + msq_error_message());
-}
-
-template<class T, void (*Release)(T*)> struct Releaser { void operator()(T *t) const { Release(t); } };
-using Context   = std::unique_ptr<msq_context, Releaser<msq_context, msq_context_release>>;
-using Shape     = std::unique_ptr<msq_shape, Releaser<msq_shape, msq_shape_release>>;
-using Field     = std::unique_ptr<msq_field, Releaser<msq_field, msq_field_release>>;
-using Structure = std::unique_ptr<msq_structure, Releaser<msq_structure, msq_structure_release>>;
-using Model     = std::unique_ptr<msq_model, Releaser<msq_model, msq_model_release>>;
-using Lines     = std::unique_ptr<msq_fill, Releaser<msq_fill, msq_fill_release>>;
-using Contours  = std::unique_ptr<msq_contours, Releaser<msq_contours, msq_contours_release>>;
-
-// Calls a function of msq that creates an object and returns it by its last argument.
-template<class Handle, class Create, class... A> Handle make(Create create, A... a)
-{
-    typename Handle::pointer made = nullptr;
-    check(create(a..., &made));
-    return Handle(made);
-}
-
-// A thread of the slicer fills a layer: msq starts no threads of its own.
-msq_context* context()
-{
-    static const Context context = [] {
-        msq_context_def def;
-        check(msq_context_def_init(&def, sizeof def));
-        def.threads = 1;
-        return make<Context>(msq_context_create, &def);
-    }();
-    return context.get();
-}
+using Msq::check;
+using Msq::context;
+using Msq::make;
+using Msq::Contours;
+using Msq::Field;
+using Msq::Lines;
+using Msq::Model;
+using Msq::Shape;
+using Msq::Structure;
 
 // What a pattern depends on. Lengths in mm.
 struct Key
@@ -222,16 +195,7 @@ Made make_pattern(const Key &key)
     Made made;
     made.structure = key.pattern == FillMsq::Pattern::Foam   ? make_foam(key) :
                      key.pattern == FillMsq::Pattern::Gyroid ? make_gyroid(key) : make_struts(key);
-    const Shape   space     = make<Shape>(msq_shape_all_space, context());
-    msq_scale_def scales[2] = {};
-    scales[0].shape         = space.get();
-    scales[1].structure     = made.structure.get();
-    msq_model_def def;
-    check(msq_model_def_init(&def, sizeof def));
-    def.scales      = scales;
-    def.scale_count = 2;
-    def.scale_size  = sizeof scales[0];
-    made.model      = make<Model>(msq_model_create, context(), &def);
+    made.model     = Msq::make_model(make<Shape>(msq_shape_all_space, context()), made.structure);
     return made;
 }
 
@@ -307,7 +271,7 @@ void FillMsq::_fill_surface_single(
     Polylines lines = m_pattern == Pattern::Struts ?
         strut_loops(made->model.get(), expolygon, z, this->spacing, resolution) :
         wall_lines(made->structure.get(), m_pattern, expolygon, z, this->spacing, resolution);
-    if (m_pattern == Pattern::Gyroid && ! params.dont_connect() && ! lines.empty()) {
+    if (m_pattern != Pattern::Struts && ! params.dont_connect() && ! lines.empty()) {
         Polylines connected;
         connect_infill(std::move(lines), expolygon, connected, this->spacing, params);
         lines = std::move(connected);

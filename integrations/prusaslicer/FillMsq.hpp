@@ -16,8 +16,6 @@ public:
 
     explicit FillMsq(Pattern pattern) : m_pattern(pattern) {}
     Fill* clone() const override { return new FillMsq(*this); }
-    // The paths of a foam come in the order in which they are best printed.
-    bool no_sort() const override { return m_pattern == Pattern::Foam; }
 
 protected:
     void _fill_surface_single(

@@ -3,9 +3,11 @@
 """Slices parts with PrusaSlicer's gyroid and with the patterns of FillMsq, and compares what the G-code says.
 
     measure.py slice_gcode directory [part.stl ...]
+    measure.py --bunny bunny.off bunny.stl
 
 A cube of 40 mm, and the parts given, at 15 and 30 %; a cylinder whose foam is graded from 80 % on the axis to 15 % at the rim. Prints tables,
-and writes measurements.json and a picture of a layer of each foam (SVG) to the directory, beside the G-code.
+and writes measurements.json and a picture of a layer of each foam (SVG) to the directory, beside the G-code. --bunny turns the bunny of CGAL's
+examples, which has y upwards, into an STL file of 40 mm height.
 """
 import json
 import math
@@ -121,7 +123,21 @@ def draw(gcode, svg, share):
         out.write('"/>\n</svg>\n')
 
 
+def stand_bunny(off, stl):
+    words = pathlib.Path(off).read_text(encoding="ascii").split()
+    count, faces = int(words[1]), int(words[2])
+    points = [tuple(map(float, words[4 + 3 * i:7 + 3 * i])) for i in range(count)]
+    low = min(y for _, y, _ in points)
+    scale = 40 / (max(y for _, y, _ in points) - low)
+    points = [(scale * x, -scale * z, scale * (y - low)) for x, y, z in points]
+    first = 4 + 3 * count
+    write_stl(stl, [[points[int(k)] for k in words[first + 4 * i + 1:first + 4 * i + 4]] for i in range(faces)])
+
+
 def main():
+    if sys.argv[1] == "--bunny":
+        stand_bunny(*sys.argv[2:4])
+        return
     program, directory = sys.argv[1], pathlib.Path(sys.argv[2])
     directory.mkdir(parents=True, exist_ok=True)
     cube = directory / "cube.stl"

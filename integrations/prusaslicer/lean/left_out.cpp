@@ -9,9 +9,7 @@
 #include "libslic3r/Format/STEP.hpp"
 #include "libslic3r/GCode/Thumbnails.hpp"
 #include "libslic3r/GCode/WipeTower.hpp"
-#include "libslic3r/PNGReadWrite.hpp"
 #include "libslic3r/SupportMaterial.hpp"
-#include "libslic3r/Tesselate.hpp"
 
 namespace Slic3r {
 
@@ -83,17 +81,5 @@ bool load_obj(const char*, Model*, const char*) {
 bool load_step(const char*, Model*) {
   return left_out;
 }
-std::vector<Vec3d> triangulate_expolygon_3d(const ExPolygon&, coordf_t, bool) {
-  return left_out;
-}
-std::vector<Vec3d> triangulate_expolygons_3d(const ExPolygons&, coordf_t, bool) {
-  return left_out;
-}
-namespace png {
-bool write_rgb_to_file_scaled(const std::string&, size_t, size_t, const std::vector<uint8_t>&,
-                              size_t) {
-  return left_out;
-}
-}  // namespace png
 
 }  // namespace Slic3r
