@@ -2,12 +2,15 @@
 // The edges of bricks by both walks: over Delaunay tetrahedra, and over Voronoi cells.
 #include <hwy/highway.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "msq_test.h"
 #include "random.h"
 #include "structure/foam/edges/edge_brick.h"
+#include "structure/foam/edges/edge_builder.h"
 #include "structure/foam/edges/facet_walk.h"
 
 using namespace msq;
@@ -95,6 +98,74 @@ void test_random_grids(void**) {
   assert_true(8 * refused <= bricks);
 }
 
+/// Owner, and the two other seeds from it.
+using Triple = std::array<int, 9>;
+
+/// Compares a brick of 4^3 cells edge by edge, by their seeds. Returns the number of edges.
+size_t compare_small(const FoamSeeds& seeds, CellIndex corner, const FacetWalk& walk) {
+  constexpr int side = 4;
+  EdgeBuilder builder;
+  builder.build(seeds, corner, side, true);
+  const Vec3 middle = seeds.scale() * (0.5 * side);
+  std::map<Triple, FloatSegment> rest;
+  walk.for_each_edge([&](const FacetWalk::Edge& edge) {
+    const auto &o = edge.owner, &a = edge.others[0], &b = edge.others[1];
+    FloatSegment segment;
+    for (int axis = 0; axis < 3; ++axis) {
+      segment.a[axis] = walk.vertex(edge.ends[0])[axis];
+      segment.b[axis] = walk.vertex(edge.ends[1])[axis];
+    }
+    const Triple triple{o[0], o[1], o[2], a[0], a[1], a[2], b[0], b[1], b[2]};
+    assert_true(rest.emplace(triple, segment).second);
+  });
+  assert_int_equal(rest.size(), walk.count());
+  const BrickSeeds& block = builder.block();
+  bool is_known = true;
+  for (size_t e = 0; e < builder.ends().size(); ++e) {
+    FloatSegment expected;
+    const Vec3 a = builder.vertex(builder.ends()[e][0]) - middle,
+               b = builder.vertex(builder.ends()[e][1]) - middle;
+    for (int axis = 0; axis < 3; ++axis) {
+      expected.a[axis] = static_cast<float>(a[axis]);
+      expected.b[axis] = static_cast<float>(b[axis]);
+    }
+    const std::array<uint32_t, 3>& names = builder.seeds()[e];
+    is_known &= names[0] != names[1];
+    if (is_short(expected) || names[0] == names[1]) continue;
+    const auto &own = block.cell(names[0]), &one = block.cell(std::min(names[1], names[2])),
+               &two = block.cell(std::max(names[1], names[2]));
+    const auto found =
+        rest.find({own[0], own[1], own[2], one[0] - own[0], one[1] - own[1], one[2] - own[2],
+                   two[0] - own[0], two[1] - own[1], two[2] - own[2]});
+    assert_true(found != rest.end());
+    assert_true(apart(found->second, expected) <= 2 * edge_error);
+    rest.erase(found);
+  }
+  for (const auto& [triple, segment] : rest) assert_true(!is_known || is_short(segment));
+  return walk.count();
+}
+
+/// Bricks of 4^3 cells, with the seeds of edges.
+void test_small_bricks(void**) {
+  const auto walk = std::make_unique<FacetWalk>();
+  Random random(22);
+  size_t bricks = 0, refused = 0, edges = 0;
+  for (const double jitter : {1.0, 0.5, 0.05})
+    for (const Vec3 scale : {Vec3{1, 1, 1}, Vec3{1, 0.8, 0.9}, Vec3{0.6, 0.6, 1}})
+      for (size_t n = test_count(20); n > 0; --n) {
+        const FoamSeeds seeds(random.bits(), jitter, scale);
+        const auto place = [&] { return static_cast<int32_t>(random.below(64)) - 32; };
+        const CellIndex corner{place(), place(), place()};
+        ++bricks;
+        if (walk->build(seeds, corner, 4))
+          edges += compare_small(seeds, corner, *walk);
+        else
+          ++refused;
+      }
+  print_message("%zu edges of %zu bricks; %zu bricks refused\n", edges, bricks, refused);
+  assert_true(8 * refused <= bricks);
+}
+
 /// A seed of the brick whose tetrahedra have no other seed of it.
 void test_island(void**) {
   const auto walk = std::make_unique<FacetWalk>();
@@ -148,6 +219,7 @@ void test_refused(void**) {
 
 int main() {
   const CMUnitTest tests[] = {cmocka_unit_test(test_random_grids), cmocka_unit_test(test_island),
+                              cmocka_unit_test(test_small_bricks),
                               cmocka_unit_test(test_instruction_sets),
                               cmocka_unit_test(test_refused)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);

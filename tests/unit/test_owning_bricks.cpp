@@ -63,7 +63,8 @@ void names_owners(void** state) {
         }
     for (int c = 0; c < side * side * side; ++c) {
       const int x = c % side, y = c / side % side, z = c / side / side;
-      const unsigned bits = brick.owning(x, y, z), those = owning[static_cast<size_t>(c)];
+      const unsigned bits = brick.owning(seeds, row.radius, x, y, z),
+                     those = owning[static_cast<size_t>(c)];
       if (those & ~bits)
         fail_msg("round %zu: near cell (%d, %d, %d) are owners in bricks %02x, named are %02x",
                  round, x, y, z, those, bits);
@@ -83,7 +84,7 @@ void names_all_if_edges_reach_far(void**) {
   const FoamSeeds seeds(1, 1, {1, 1, 0.6});
   const RayBrick brick(seeds, {0, 0, 0}, 0.1);
   for (int c = 0; c < side * side * side; ++c)
-    assert_int_equal(brick.owning(c % side, c / side % side, c / side / side), 0xff);
+    assert_int_equal(brick.owning(seeds, 0.1, c % side, c / side % side, c / side / side), 0xff);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 //
 // The walk over tetrahedra (facet_walk.h) finds the edges of most bricks in less than half the
 // time. This one stays for what that one refuses, since it needs no general position and no limit
-// on the shape of cells; and for rays, which need the seeds of each edge in bricks of 4 cells.
+// on the shape of cells.
 #pragma once
 
 #include <array>

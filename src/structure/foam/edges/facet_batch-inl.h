@@ -136,21 +136,23 @@ HWY_INLINE void find_lines(const FacetState& s, Batch& batch) {
       const VF normal = hn::Mul(m[k], unit), middle = hn::Add(pa[k], g[k]);
       hn::Store(normal, d, batch.normal[k] + i);
       hn::Store(middle, d, batch.middle[k] + i);
-      const VF at = hn::Add(hn::Div(hn::MulAdd(far, normal, middle), scale[k]),
-                            hn::Set(d, FacetState::half_width + 0.5f - FacetState::half_patch));
+      const VF at =
+          hn::Add(hn::Div(hn::MulAdd(far, normal, middle), scale[k]),
+                  hn::Set(d, static_cast<float>(s.half_width - FacetState::half_patch) + 0.5f));
       // Also where rounding has made it infinite or no number.
       const VF small = hn::IfThenElseZero(hn::Lt(hn::Abs(at), hn::Set(d, 1000.0f)), at);
       first[k] = hn::Min(hn::Max(hn::ConvertTo(di, small), hn::Zero(di)),
-                         hn::Set(di, FacetState::width - FacetState::patch));
+                         hn::Set(di, s.width - FacetState::patch));
       hn::Store(
-          hn::Mul(hn::Sub(hn::ConvertTo(d, first[k]), hn::Set(d, float(FacetState::half_width))),
+          hn::Mul(hn::Sub(hn::ConvertTo(d, first[k]), hn::Set(d, static_cast<float>(s.half_width))),
                   scale[k]),
           d, batch.low[k] + i);
     }
     hn::Store(hn::BitCast(DU(), hn::Or(first[0], hn::Or(hn::ShiftLeft<4>(first[1]),
                                                         hn::ShiftLeft<8>(first[2])))),
               DU(), batch.first + i);
-    const auto row = hn::Set(di, FacetState::patches_in_row), high = hn::Set(di, FacetState::width);
+    const auto row = hn::Set(di, FacetState::patches_in_row),
+               high = hn::Set(di, FacetState::max_width);
     hn::Store(hn::Add(first[2], hn::Mul(high, hn::Add(first[0], hn::Mul(first[1], row)))), di,
               batch.layer + i);
   }

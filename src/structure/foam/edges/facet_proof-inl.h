@@ -54,11 +54,11 @@ HWY_INLINE bool cells_of(const FacetState& s, const double* centre, double radiu
                          CellRange& range) {
   bool is_in = true;
   for (int k = 0; k < 3; ++k) {
-    const double low = std::floor((centre[k] - radius) / s.scale[k]) + FacetState::half_width,
-                 high = std::floor((centre[k] + radius) / s.scale[k]) + FacetState::half_width;
-    is_in &= low >= 0 && high < FacetState::width;
-    range.low[k] = static_cast<int>(std::min(std::max(low, 0.0), FacetState::width - 1.0));
-    range.high[k] = static_cast<int>(std::min(std::max(high, 0.0), FacetState::width - 1.0));
+    const double low = std::floor((centre[k] - radius) / s.scale[k]) + s.half_width,
+                 high = std::floor((centre[k] + radius) / s.scale[k]) + s.half_width;
+    is_in &= low >= 0 && high < s.width;
+    range.low[k] = static_cast<int>(std::min(std::max(low, 0.0), s.width - 1.0));
+    range.high[k] = static_cast<int>(std::min(std::max(high, 0.0), s.width - 1.0));
   }
   return is_in;
 }

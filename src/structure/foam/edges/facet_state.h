@@ -9,26 +9,25 @@ namespace msq {
 
 /// Seeds are named by their cells: (z * stride + y) * stride + x, from the first of the halo.
 struct FacetState {
-  static constexpr int side = 8;  // cells of the brick along each axis
+  static constexpr int max_side = 8;  // cells of the brick along each axis: this or 4
   /// Cells on either side of the brick whose seeds are known.
   static constexpr int halo = 3;
-  static constexpr int width = side + 2 * halo;  // cells along each axis
-  static constexpr int half_width = width / 2;
-  static constexpr int stride = 16;  // of rows of cells
-  static constexpr uint32_t seeds_in_brick = side * side * side;
+  static constexpr int max_width = max_side + 2 * halo;  // cells along each axis
+  static constexpr int stride = 16;                      // of rows of cells
+  static constexpr uint32_t seeds_in_brick = max_side * max_side * max_side;
   static constexpr uint32_t max_tetrahedra = 12 * seeds_in_brick;
   static constexpr uint32_t buckets = 3 * seeds_in_brick;
   static constexpr uint32_t bucket_room = 64;
   static constexpr int batch = 16;  // facets handled together, at any width of vectors
   static constexpr int patch = 4;   // cells along each axis that are searched first
   static constexpr int half_patch = patch / 2;
-  static constexpr int patches_in_row = width - patch + 1;
+  static constexpr int patches_in_row = max_width - patch + 1;
 
   // Positions of seeds in cells, from the middle of the brick: multiples of 2^-21 below 8.
-  alignas(64) float points[width * stride * stride][4];
+  alignas(64) float points[max_width * stride * stride][4];
   // For each 4 x 4 cells along x and y, and each z: x, y and z of their seeds in foam units. The
   // four layers of a patch follow each other.
-  alignas(64) float layers[patches_in_row * patches_in_row * width][3 * patch * patch];
+  alignas(64) float layers[patches_in_row * patches_in_row * max_width][3 * patch * patch];
   // Centres of tetrahedra, foam units.
   alignas(64) float centres[max_tetrahedra + batch][4];
   // A facet is in a bucket of its first seed in the brick. Each seed has three: for facets of which
@@ -38,16 +37,19 @@ struct FacetState {
   alignas(64) uint16_t ends[buckets][bucket_room][2];
   uint64_t done[buckets];  // facets with both ends
   uint8_t count[buckets];
-  uint8_t reached[width * stride * stride];
+  uint8_t reached[max_width * stride * stride];
   // Duplicates within a batch: the last batch that used a bucket, or a tetrahedron's hash.
   uint32_t bucket_used[buckets], hash_used[2048];
   uint64_t queue[buckets * bucket_room + 1];
   uint32_t head, last, tetrahedra, stamp, random, resolved;
   // Results.
   alignas(64) uint16_t firsts[seeds_in_brick * bucket_room], seconds[seeds_in_brick * bucket_room];
-  float bounds[6][side * side];
-  uint32_t starts[side * side + 1];
+  float bounds[6][max_side * max_side];
+  uint32_t starts[max_side * max_side + 1];
 
+  int side;        // of the current brick
+  int width;       // cells along each axis, with the halo
+  int half_width;  // cells before the brick's middle
   double scale[3];
   float unit;  // size of a cube of a cell's volume
 

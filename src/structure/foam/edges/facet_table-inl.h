@@ -34,7 +34,7 @@ HWY_INLINE uint64_t queued(uint32_t low, uint32_t high, uint64_t slot) {
   return low | uint64_t{high} << 32 | slot << 45;
 }
 static_assert(FacetState::buckets <= 1 << 11 && FacetState::bucket_room == 1 << 6);
-static_assert(FacetState::width * FacetState::stride * FacetState::stride <= 1 << 12);
+static_assert(FacetState::max_width * FacetState::stride * FacetState::stride <= 1 << 12);
 
 /// Takes up to B facets whose far side is unknown.
 HWY_INLINE void draw(FacetState& s, Batch& batch) {
@@ -64,17 +64,19 @@ HWY_INLINE void draw(FacetState& s, Batch& batch) {
   }
 }
 
-/// Among the brick's seeds, by number, or else a number with the bit `outside`.
+/// Among the brick's seeds, by number as in a brick of max_side^3, or else a number with the bit
+/// `outside`.
 constexpr uint32_t outside = FacetState::seeds_in_brick;
-HWY_INLINE VU with_number(VU seed) {
+HWY_INLINE VU with_number(const FacetState& s, VU seed) {
   const DU d;
   const auto mask = hn::Set(d, FacetState::stride - 1), halo = hn::Set(d, FacetState::halo);
   const auto x = hn::Sub(hn::And(seed, mask), halo),
              y = hn::Sub(hn::And(hn::ShiftRight<4>(seed), mask), halo),
              z = hn::Sub(hn::ShiftRight<8>(seed), halo);
-  static_assert(FacetState::side == 8);
+  static_assert(FacetState::max_side == 8);
   const auto is_out =
-      hn::Ne(hn::And(hn::Or(x, hn::Or(y, z)), hn::Set(d, ~uint32_t{7})), hn::Zero(d));
+      hn::Ne(hn::And(hn::Or(x, hn::Or(y, z)), hn::Set(d, ~static_cast<uint32_t>(s.side - 1))),
+             hn::Zero(d));
   const auto number = hn::Or(x, hn::Or(hn::ShiftLeft<3>(y), hn::ShiftLeft<6>(z)));
   return hn::Or(hn::ShiftLeft<12>(seed), hn::IfThenElse(is_out, hn::Set(d, outside), number));
 }

@@ -47,9 +47,10 @@ HWY_INLINE void add(FacetState& s, const Batch& batch) {
     number += kept >> i & 1;
   }
   for (size_t i = 0; i < B; i += hn::Lanes(d)) {
-    const VU a = with_number(hn::Load(d, batch.a + i)), b = with_number(hn::Load(d, batch.b + i)),
-             c = with_number(hn::Load(d, batch.c + i)),
-             e = with_number(hn::Load(d, batch.found + i));
+    const VU a = with_number(s, hn::Load(d, batch.a + i)),
+             b = with_number(s, hn::Load(d, batch.b + i)),
+             c = with_number(s, hn::Load(d, batch.c + i)),
+             e = with_number(s, hn::Load(d, batch.found + i));
     const VU tetrahedron = hn::Load(d, numbers + i);
     const auto which = hn::RebindMask(d, lanes_of(d, kept >> i));
     const auto negative = hn::RebindMask(d, hn::Lt(hn::Load(D(), batch.side + i), hn::Zero(D())));
@@ -143,7 +144,7 @@ bool begin(FacetState& s, uint32_t seed) {
   const auto facet = [&](int i, int j, int k, bool is_away) {
     Facets f;
     f.count = 0;
-    const auto one = [&](int n) { return with_number(hn::Set(d, t.seeds[n])); };
+    const auto one = [&](int n) { return with_number(s, hn::Set(d, t.seeds[n])); };
     name(one(i), one(j), one(k), lanes_of(d, is_away ? 1 : 0), lanes_of(d, 1), hn::Set(d, number),
          f);
     take(s, f);
@@ -163,7 +164,7 @@ bool collect(FacetState& s) {
   for (const uint8_t count : s.count)
     if (count >= FacetState::bucket_room - 1) return false;
   uint32_t edges = 0;
-  for (uint32_t row = 0; row < FacetState::side * FacetState::side; ++row) {
+  for (uint32_t row = 0; row < FacetState::max_side * FacetState::max_side; ++row) {
     s.starts[row] = edges;
 #if HWY_TARGET == HWY_SCALAR
     float low[3] = {far, far, far}, high[3] = {-far, -far, -far};
@@ -171,7 +172,7 @@ bool collect(FacetState& s) {
     const hn::FixedTag<float, 4> d;
     auto low0 = hn::Set(d, far), high0 = hn::Set(d, -far), low1 = low0, high1 = high0;
 #endif
-    for (uint32_t bucket = row * FacetState::side; bucket < (row + 1) * FacetState::side;
+    for (uint32_t bucket = row * FacetState::max_side; bucket < (row + 1) * FacetState::max_side;
          ++bucket) {
       const uint32_t count = s.count[bucket];
       if (s.done[bucket] != (uint64_t{1} << count) - 1) return false;
@@ -210,7 +211,7 @@ bool collect(FacetState& s) {
       s.bounds[k + 3][row] = high[k];
     }
   }
-  s.starts[FacetState::side * FacetState::side] = edges;
+  s.starts[FacetState::max_side * FacetState::max_side] = edges;
   return true;
 }
 
@@ -224,8 +225,9 @@ namespace msq {
 
 namespace {
 
-constexpr int halo = FacetState::halo, width = FacetState::width, stride = FacetState::stride,
-              patch = FacetState::patch, patches_in_row = FacetState::patches_in_row;
+constexpr int halo = FacetState::halo, max_width = FacetState::max_width,
+              stride = FacetState::stride, patch = FacetState::patch,
+              patches_in_row = FacetState::patches_in_row;
 
 }  // namespace
 
@@ -243,9 +245,13 @@ bool FacetWalk::suits(const FoamSeeds& seeds) {
   return std::min({scale.x, scale.y, scale.z}) >= min_side * unit && seeds.jitter() >= min_jitter;
 }
 
-void FacetWalk::place(const FoamSeeds& seeds, CellIndex corner) {
-  const int size[3] = {side, side, side}, around[3] = {halo, halo, halo};
+void FacetWalk::place(const FoamSeeds& seeds, CellIndex corner, int cells) {
+  const int size[3] = {cells, cells, cells}, around[3] = {halo, halo, halo};
   tile_.build(seeds, corner, size, around);
+  const int width = cells + 2 * halo;
+  s_.side = cells;
+  s_.width = width;
+  s_.half_width = width / 2;
   const Vec3 scale = seeds.scale();
   for (int k = 0; k < 3; ++k) s_.scale[k] = scale[k];
   s_.unit = static_cast<float>(std::cbrt(scale.x * scale.y * scale.z));
@@ -253,8 +259,9 @@ void FacetWalk::place(const FoamSeeds& seeds, CellIndex corner) {
   const auto sx = static_cast<float>(scale.x), sy = static_cast<float>(scale.y),
              sz = static_cast<float>(scale.z);
   // Positions in foam units, in rows of `stride`.
-  const auto middle = static_cast<float>(FacetState::half_width);
-  float x[width][stride], y[width][stride], z[width][stride];
+  const int patches = width - patch + 1;
+  const auto middle = static_cast<float>(s_.half_width);
+  float x[max_width][stride], y[max_width][stride], z[max_width][stride];
   for (int cz = 0; cz < width; ++cz) {
     for (int cy = 0; cy < width; ++cy) {
       float(*point)[4] = s_.points + (cz * stride + cy) * stride;
@@ -271,9 +278,9 @@ void FacetWalk::place(const FoamSeeds& seeds, CellIndex corner) {
         z[cy][cx] = pz * sz;
       }
     }
-    for (int py = 0; py < patches_in_row; ++py)
-      for (int px = 0; px < patches_in_row; ++px) {
-        float* layer = s_.layers[(py * patches_in_row + px) * width + cz];
+    for (int py = 0; py < patches; ++py)
+      for (int px = 0; px < patches; ++px) {
+        float* layer = s_.layers[(py * patches_in_row + px) * max_width + cz];
         for (int row = 0; row < patch; ++row) {
           std::memcpy(layer + patch * row, &x[py + row][px], patch * sizeof(float));
           std::memcpy(layer + 16 + patch * row, &y[py + row][px], patch * sizeof(float));
@@ -283,8 +290,8 @@ void FacetWalk::place(const FoamSeeds& seeds, CellIndex corner) {
   }
 }
 
-bool FacetWalk::build(const FoamSeeds& seeds, CellIndex corner) {
-  place(seeds, corner);
+bool FacetWalk::build(const FoamSeeds& seeds, CellIndex corner, int cells) {
+  place(seeds, corner, cells);
   std::memset(s_.count, 0, sizeof s_.count);
   std::memset(s_.done, 0, sizeof s_.done);
   std::memset(s_.reached, 0, sizeof s_.reached);
@@ -301,11 +308,11 @@ bool FacetWalk::build(const FoamSeeds& seeds, CellIndex corner) {
     }
     return true;
   };
-  constexpr uint32_t middle = ((width / 2) * stride + width / 2) * stride + width / 2;
-  if (!walk_from(middle)) return false;
-  for (int z = halo; z < halo + side; ++z)
-    for (int y = halo; y < halo + side; ++y)
-      for (int x = halo; x < halo + side; ++x) {
+  const int half = s_.half_width, middle = (half * stride + half) * stride + half;
+  if (!walk_from(static_cast<uint32_t>(middle))) return false;
+  for (int z = halo; z < halo + cells; ++z)
+    for (int y = halo; y < halo + cells; ++y)
+      for (int x = halo; x < halo + cells; ++x) {
         const auto seed = static_cast<uint32_t>((z * stride + y) * stride + x);
         if (!s_.reached[seed] && !walk_from(seed)) return false;
       }

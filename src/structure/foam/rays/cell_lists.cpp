@@ -116,7 +116,8 @@ void CellLists::find_bricks(CellIndex cell) {
   }
   unsigned owning = 0xff;
   if (is_within_half)
-    owning = find_brick({own[0], own[1], own[2]}).edges->owning(in_own[0], in_own[1], in_own[2]);
+    owning = find_brick({own[0], own[1], own[2]})
+                 .edges->owning(foam_->seeds(), radius_, in_own[0], in_own[1], in_own[2]);
   sources_.clear();
   for (int k = first[2]; k <= last[2]; ++k)
     for (int j = first[1]; j <= last[1]; ++j)
@@ -144,10 +145,10 @@ void CellLists::make_list(List& list) {
   size_t i = 0;
   for (const Source& source : sources_) {
     const RayBrick& brick = *source.brick;
-    const CellIndex corner = brick.corner();
-    const float x = static_cast<float>((cell.x - corner.x) * scale.x);
-    const float y = static_cast<float>((cell.y - corner.y) * scale.y);
-    const float z = static_cast<float>((cell.z - corner.z) * scale.z);
+    const CellIndex middle = brick.middle();
+    const float x = static_cast<float>((cell.x - middle.x) * scale.x);
+    const float y = static_cast<float>((cell.y - middle.y) * scale.y);
+    const float z = static_cast<float>((cell.z - middle.z) * scale.z);
     for (const uint16_t edge : source.edges) {
       const auto &a = brick.end(edge, 0), &b = brick.end(edge, 1);
       float* const value = values + i;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Seeds are excluded for eighths of the brick; the remaining ones for cells; and the remaining ones
-// of those for boxes. A box is cut into eight if its seeds may own edges from a brick that is not
+// Seeds are excluded for the eighth; the remaining ones for cells; and the remaining ones of those
+// for boxes. A box is cut into eight if its seeds may own edges from a brick that is not
 // yet found, up to a maximum depth.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "structure/foam/rays/owning_bricks.cpp"
@@ -20,9 +20,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
 constexpr int side = owning_bricks_side;
+constexpr int half_side = side / 2;
 /// Cells around a cell that may contain the nearest seed to a point near it; the same plus the
-/// brick.
-constexpr int out = 2, wide = side + 2 * out;
+/// eighth.
+constexpr int out = 2, wide = half_side + 2 * out;
 /// Depth of the subdivision of a cell into eight boxes each.
 constexpr int cuts = 2;
 
@@ -36,7 +37,7 @@ struct Seeds {
   alignas(64) float x[room], y[room], z[room];
   /// Squared distance from the origin.
   alignas(64) float squared[room];
-  /// Bit i for the brick of bit i of OwningBricks; bit 0 for the brick itself.
+  /// Bit i for the brick of bit i of a cell's; bit 0 for the brick itself.
   alignas(64) uint32_t brick[room];
   size_t count = 0;
 
@@ -76,35 +77,36 @@ struct Box {
 
 class Finder {
  public:
-  Finder(const BrickSeeds& block, Vec3 scale, double around) : around_(static_cast<float>(around)) {
-    for (int axis = 0; axis < 3; ++axis) size_[axis] = static_cast<float>(scale[axis]);
-    const Vec3 middle = scale * (0.5 * side);
+  Finder(const FoamSeeds& seeds, CellIndex corner, unsigned eighth, double around)
+      : around_(static_cast<float>(around)) {
+    const Vec3 scale = seeds.scale(), middle = scale * (0.5 * side);
+    for (int axis = 0; axis < 3; ++axis) {
+      size_[axis] = static_cast<float>(scale[axis]);
+      first_[axis] = eighth >> axis & 1 ? half_side : 0;
+      outside_[axis] = first_[axis] ? 1.0f : -1.0f;
+    }
     const auto is_beyond = [](int cell) { return cell < 0 || cell >= side; };
-    for (int z = -out; z < side + out; ++z)
-      for (int y = -out; y < side + out; ++y)
-        for (int x = -out; x < side + out; ++x) {
+    for (int z = first_[2] - out; z < first_[2] + half_side + out; ++z)
+      for (int y = first_[1] - out; y < first_[1] + half_side + out; ++y) {
+        const uint64_t row_key = seeds.row_key(corner, y, z);
+        for (int x = first_[0] - out; x < first_[0] + half_side + out; ++x) {
           const int across = is_beyond(x) | is_beyond(y) << 1 | is_beyond(z) << 2;
-          of_brick_.add(block.position(block.index(x, y, z)) - middle, uint32_t{1} << across);
+          all_.add(seeds.in_row(row_key, corner, x, y, z) - middle, uint32_t{1} << across);
         }
-    of_brick_.pad();
+      }
+    all_.pad();
   }
 
-  void find(OwningBricks& found) {
-    constexpr int half = side / 2;
+  uint64_t find() {
     // All cells of an eighth of the brick have the same neighbouring bricks.
-    for (int eighth = 0; eighth < 8; ++eighth) {
-      int first[3];
-      for (int axis = 0; axis < 3; ++axis) {
-        first[axis] = (eighth >> axis & 1) * half;
-        outside_[axis] = first[axis] ? 1.0f : -1.0f;
-      }
-      keep_nearest(of_brick_, box(first, half), of_eighth_);
-      for (int cell = 0; cell < half * half * half; ++cell) {
-        const int at[3] = {first[0] + cell % half, first[1] + cell / half % half,
-                           first[2] + cell / half / half};
-        found[static_cast<size_t>((at[2] * side + at[1]) * side + at[0])] = cell_bricks(at);
-      }
+    keep_nearest(all_, box(first_, half_side), of_eighth_);
+    uint64_t found = 0;
+    for (int cell = 0; cell < 8; ++cell) {
+      const int at[3] = {first_[0] + (cell & 1), first_[1] + (cell >> 1 & 1),
+                         first_[2] + (cell >> 2)};
+      found |= uint64_t{cell_bricks(at)} << (8 * cell);
     }
+    return found;
   }
 
  private:
@@ -279,17 +281,18 @@ class Finder {
   }
 
   float size_[3], around_;
-  Seeds of_brick_, of_eighth_, of_boxes_[cuts + 1];
-  /// For the current eighth: the direction of the brick's faces.
+  int first_[3];  // cell of the eighth
+  Seeds all_, of_eighth_, of_boxes_[cuts + 1];
+  /// The direction of the brick's faces next to the eighth.
   float outside_[3];
   /// For the current cell.
   uint32_t found_ = 0;
   alignas(64) float powers_[Seeds::room];
 };
 
-void find(const BrickSeeds& block, Vec3 scale, double around, OwningBricks& found) {
+uint64_t find(const FoamSeeds& seeds, CellIndex corner, unsigned eighth, double around) {
   // On the heap: too large for the stacks of a host's threads.
-  std::make_unique<Finder>(block, scale, around)->find(found);
+  return std::make_unique<Finder>(seeds, corner, eighth, around)->find();
 }
 
 }  // namespace
@@ -302,10 +305,9 @@ namespace msq {
 
 HWY_EXPORT(find);
 
-OwningBricks find_owning_bricks(const BrickSeeds& block, Vec3 scale, double around) {
-  OwningBricks found;
-  HWY_DYNAMIC_DISPATCH(find)(block, scale, around, found);
-  return found;
+uint64_t find_owning_bricks(const FoamSeeds& seeds, CellIndex corner, unsigned eighth,
+                            double around) {
+  return HWY_DYNAMIC_DISPATCH(find)(seeds, corner, eighth, around);
 }
 
 }  // namespace msq

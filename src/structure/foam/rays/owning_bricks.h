@@ -9,23 +9,22 @@
 // edge there: an owner comes before both other seeds of its edge.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
-#include "structure/foam/edges/brick_seeds.h"
+#include "structure/foam/seeds/seeds.h"
 
 namespace msq {
 
 /// Cells along each axis of the bricks for which this works.
 constexpr int owning_bricks_side = 4;
-/// For each cell, x first: bit i is set if an edge that comes near the cell may be owned by another
-/// brick. That is the brick across those faces next to the cell whose axes are the bits of i. Bit
-/// 0, for the brick itself, is always set.
-using OwningBricks =
-    std::array<uint8_t, owning_bricks_side * owning_bricks_side * owning_bricks_side>;
 
-/// For edges that come within `around` of a cell along each axis, foam units. `around` plus the
-/// empty radius must be at most two cells.
-OwningBricks find_owning_bricks(const BrickSeeds& block, Vec3 scale, double around);
+/// For the 2^3 cells of an eighth of the brick whose first cell is `corner`: eight bits per cell, x
+/// first. Bit i of these is set if an edge that comes near the cell may be owned by another brick.
+/// That is the brick across those faces next to the cell whose axes are the bits of i. Bit 0, for
+/// the brick itself, is always set. The bits of `eighth` are the axes along which it is the second
+/// half. Edges come near if they come within `around` of a cell along each axis, foam units.
+/// `around` plus the empty radius must be at most two cells.
+uint64_t find_owning_bricks(const FoamSeeds& seeds, CellIndex corner, unsigned eighth,
+                            double around);
 
 }  // namespace msq

@@ -6,6 +6,7 @@
 
 #include "base/borrowed.h"
 #include "structure/foam/edges/edge_builder.h"
+#include "structure/foam/edges/facet_walk.h"
 #include "structure/foam/rays/cells_near_edges.h"
 
 namespace msq {
@@ -15,13 +16,30 @@ namespace {
 /// Slack for roundings in single precision, coordinates below 16.
 constexpr double slack = 1e-5;
 
-/// Memory for a brick's edges.
-struct EdgeWorkspace {
-  EdgeBuilder builder;
-  std::vector<uint16_t> numbers;  // of nodes, or no_number
-  std::vector<std::array<float, 3>> nodes;
+/// Numbers of the vertices of edges, in the order in which edges name them. Memory for one brick
+/// after another.
+class NodeNumbers {
+ public:
+  void clear(size_t vertices) {
+    numbers_.assign(vertices, no_number);
+    vertices_.resize(vertices + 1);
+    count_ = 0;
+  }
+  /// Without a branch: whether a vertex is new is unpredictable.
+  uint16_t take(uint32_t vertex) {
+    vertices_[count_] = vertex;
+    const uint16_t known = numbers_[vertex];
+    const uint16_t number = known == no_number ? count_ : known;
+    count_ = static_cast<uint16_t>(count_ + (known == no_number));
+    return numbers_[vertex] = number;
+  }
+  std::span<const uint32_t> vertices() const { return {vertices_.data(), count_}; }
 
-  size_t bytes() const { return builder.bytes(); }
+ private:
+  static constexpr uint16_t no_number = UINT16_MAX;
+  std::vector<uint16_t> numbers_;
+  std::vector<uint32_t> vertices_;
+  uint16_t count_ = 0;
 };
 
 /// Memory for the lists of cells.
@@ -54,49 +72,90 @@ bool RayBrick::fits(const FoamSeeds& seeds) {
 
 RayBrick::RayBrick(const FoamSeeds& seeds, CellIndex corner, double radius)
     : corner_(corner), reach_(reach(seeds, radius)) {
-  const Borrowed<EdgeWorkspace> workspace;
-  auto& [builder, numbers, nodes] = *workspace;
-  constexpr uint16_t no_number = UINT16_MAX;
-  builder.build(seeds, corner, side, true);
-  numbers.assign(builder.vertex_count(), no_number);
-  nodes.resize(builder.vertex_count() + 1);
-  uint16_t count = 0;
+  if (FacetWalk::suits(seeds)) {
+    const Borrowed<FacetWalk> walk;
+    if (walk->build(seeds, corner, side)) {
+      build_by_facets(*walk);
+      list_edges(seeds, radius);
+      return;
+    }
+  }
+  const Borrowed<EdgeBuilder> builder;
+  builder->build(seeds, corner, side, true);
+  build_by_cells(*builder, seeds.scale());
+  list_edges(seeds, radius);
+}
+
+void RayBrick::build_by_facets(const FacetWalk& walk) {
+  const Borrowed<NodeNumbers> numbers;
+  numbers->clear(walk.vertex_count());
+  edges_.resize(walk.count());
+  size_t e = 0;
+  walk.for_each_edge([&](const FacetWalk::Edge& edge) {
+    for (size_t end = 0; end < 2; ++end) edges_[e].ends[end] = numbers->take(edge.ends[end]);
+    edges_[e++].seeds = pack_seeds(edge.owner, edge.others);
+  });
+  nodes_.reserve(numbers->vertices().size());
+  for (const uint32_t vertex : numbers->vertices()) {
+    const float(&p)[4] = walk.vertex(vertex);
+    nodes_.push_back({p[0], p[1], p[2]});
+  }
+}
+
+void RayBrick::build_by_cells(const EdgeBuilder& builder, Vec3 scale) {
+  const Borrowed<NodeNumbers> numbers;
+  numbers->clear(builder.vertex_count());
   edges_.resize(builder.ends().size());
   for (size_t e = 0; e < edges_.size(); ++e) {
-    for (size_t end = 0; end < 2; ++end) {
-      // Without a branch: whether a vertex is new is unpredictable.
-      const uint32_t vertex = builder.ends()[e][end];
-      const Vec3 p = builder.vertex(vertex);
-      nodes[count] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-      const uint16_t known = numbers[vertex];
-      const uint16_t number = known == no_number ? count : known;
-      count = static_cast<uint16_t>(count + (known == no_number));
-      numbers[vertex] = edges_[e].ends[end] = number;
-    }
+    for (size_t end = 0; end < 2; ++end)
+      edges_[e].ends[end] = numbers->take(builder.ends()[e][end]);
     edges_[e].seeds = pack_seeds(builder.block(), builder.seeds()[e]);
   }
-  nodes_.assign(nodes.begin(), nodes.begin() + count);
-  list_edges(seeds, radius);
-  owning_.fill(0xff);
-  if (*std::max_element(reach_.begin(), reach_.end()) <= side / 2)
-    owning_ = find_owning_bricks(builder.block(), seeds.scale(), radius + ray_list_margin + slack);
+  const Vec3 origin = scale * (0.5 * side);
+  nodes_.reserve(numbers->vertices().size());
+  for (const uint32_t vertex : numbers->vertices()) {
+    const Vec3 p = builder.vertex(vertex) - origin;
+    nodes_.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
+}
+
+uint8_t RayBrick::owning(const FoamSeeds& seeds, double radius, int x, int y, int z) const {
+  constexpr int half = side / 2;
+  if (*std::max_element(reach_.begin(), reach_.end()) > half) return 0xff;
+  const auto bits_of = [](bool i, bool j, bool k) {
+    return static_cast<unsigned>(i) | static_cast<unsigned>(j) << 1 | static_cast<unsigned>(k) << 2;
+  };
+  const unsigned eighth = bits_of(x >= half, y >= half, z >= half);
+  // Threads that come at once find the same.
+  uint64_t found = owning_[eighth].load(std::memory_order_relaxed);
+  if (found == 0) {
+    found = find_owning_bricks(seeds, corner_, eighth, radius + ray_list_margin + slack);
+    owning_[eighth].store(found, std::memory_order_relaxed);
+  }
+  return static_cast<uint8_t>(found >> 8 * bits_of(x & 1, y & 1, z & 1));
+}
+
+uint32_t RayBrick::pack_seeds(const int (&owner)[3], const int (&others)[2][3]) {
+  auto packed = static_cast<uint32_t>((owner[2] * side + owner[1]) * side + owner[0]);
+  int shift = 6;
+  for (const int(&other)[3] : others)
+    for (size_t axis = 0; axis < 3; ++axis, shift += 4)
+      packed |= static_cast<uint32_t>(other[axis] + max_apart) << shift;
+  return packed;
 }
 
 uint32_t RayBrick::pack_seeds(const BrickSeeds& block, const std::array<uint32_t, 3>& triple) {
   if (triple[0] == triple[1]) return no_seeds;
   const std::array<int, 3>& own = block.cell(triple[0]);
-  auto packed = static_cast<uint32_t>((own[2] * side + own[1]) * side + own[0]);
-  int shift = 6;
   // In the order of cells; the owner comes before both.
-  for (const uint32_t seed : {std::min(triple[1], triple[2]), std::max(triple[1], triple[2])}) {
-    const std::array<int, 3>& cell = block.cell(seed);
-    for (size_t axis = 0; axis < 3; ++axis, shift += 4) {
-      const int apart = cell[axis] - own[axis];
-      if (std::abs(apart) > max_apart) return no_seeds;
-      packed |= static_cast<uint32_t>(apart + max_apart) << shift;
+  const uint32_t seeds[2] = {std::min(triple[1], triple[2]), std::max(triple[1], triple[2])};
+  int others[2][3];
+  for (size_t i = 0; i < 2; ++i)
+    for (size_t axis = 0; axis < 3; ++axis) {
+      others[i][axis] = block.cell(seeds[i])[axis] - own[axis];
+      if (std::abs(others[i][axis]) > max_apart) return no_seeds;
     }
-  }
-  return packed;
+  return pack_seeds({own[0], own[1], own[2]}, others);
 }
 
 std::array<CellIndex, 3> RayBrick::seeds(size_t edge) const {
@@ -126,7 +185,7 @@ void RayBrick::list_edges(const FoamSeeds& seeds, double radius) {
   size_t cells = 1;
   for (size_t axis = 0; axis < 3; ++axis) {
     box.size[axis] = static_cast<float>(seeds.scale()[static_cast<int>(axis)]);
-    box.first[axis] = -reach_[axis];
+    box.first[axis] = -side / 2 - reach_[axis];
     box.count[axis] = side + 2 * reach_[axis];
     cells *= static_cast<size_t>(box.count[axis]);
   }

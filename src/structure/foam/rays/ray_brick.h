@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,6 +14,10 @@
 #include "structure/foam/seeds/seeds.h"
 
 namespace msq {
+
+class BrickSeeds;
+class EdgeBuilder;
+class FacetWalk;
 
 /// The list of a cell contains the struts that come within this distance of it, in foam units.
 constexpr double ray_list_margin = 0x1p-10;
@@ -40,7 +45,12 @@ class RayBrick final : public CellData {
 
   CellIndex corner() const { return corner_; }
   size_t count() const { return edges_.size(); }
-  /// An end of an edge, 0 or 1: foam units, from the corner of the brick's first cell.
+  /// The cell whose corner is in the middle of the brick.
+  CellIndex middle() const {
+    constexpr int half = side / 2;
+    return {corner_.x + half, corner_.y + half, corner_.z + half};
+  }
+  /// An end of an edge, 0 or 1: foam units, from the middle of the brick.
   const std::array<float, 3>& end(size_t edge, size_t which) const {
     return nodes_[edges_[edge].ends[which]];
   }
@@ -48,11 +58,9 @@ class RayBrick final : public CellData {
   bool knows_seeds(size_t edge) const { return edges_[edge].seeds != no_seeds; }
   std::array<CellIndex, 3> seeds(size_t edge) const;
 
-  /// The bricks that may own edges that come near a cell of this one, by the bits of OwningBricks.
-  /// Requires that edges reach at most half a brick.
-  uint8_t owning(int x, int y, int z) const {
-    return owning_[static_cast<size_t>((z * side + y) * side + x)];
-  }
+  /// The bricks that may own edges that come near a cell of this one, as the bits of
+  /// find_owning_bricks(). Seeds and radius: those that the brick was made of.
+  uint8_t owning(const FoamSeeds& seeds, double radius, int x, int y, int z) const;
 
   /// Numbers of the edges for the cell at (x, y, z) relative to the brick's first.
   std::span<const uint16_t> list(int x, int y, int z) const {
@@ -84,6 +92,9 @@ class RayBrick final : public CellData {
     uint32_t seeds;
   };
 
+  void build_by_facets(const FacetWalk& walk);
+  void build_by_cells(const EdgeBuilder& builder, Vec3 scale);
+  static uint32_t pack_seeds(const int (&owner)[3], const int (&others)[2][3]);
   static uint32_t pack_seeds(const BrickSeeds& block, const std::array<uint32_t, 3>& triple);
   void list_edges(const FoamSeeds& seeds, double radius);
 
@@ -93,7 +104,8 @@ class RayBrick final : public CellData {
   std::array<int, 3> reach_;
   std::vector<uint32_t> starts_;
   std::vector<uint16_t> listed_;
-  OwningBricks owning_;
+  /// Of each eighth of the brick, 0 until first wanted: rays rarely cross all of a brick.
+  mutable std::array<std::atomic<uint64_t>, 8> owning_{};
 };
 
 }  // namespace msq

@@ -209,7 +209,7 @@ StrutLine StrutEntries::line(const std::array<CellIndex, 3>& cells) const {
 StrutLine StrutEntries::line(const RayBrick& brick, size_t edge) const {
   StrutLine strut;
   if (brick.knows_seeds(edge)) strut = line(brick.seeds(edge));
-  set_ends(brick.end(edge, 0), brick.end(edge, 1), brick.corner(), strut);
+  set_ends(brick.end(edge, 0), brick.end(edge, 1), brick.middle(), strut);
   return strut;
 }
 
