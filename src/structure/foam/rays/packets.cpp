@@ -21,6 +21,7 @@
 #include "base/borrowed.h"
 #include "structure/foam/rays/cell_lists.h"
 #include "structure/foam/rays/graded_lists.h"
+#include "structure/foam/rays/packet_entries.h"
 #include "structure/foam/rays/packet_path.h"
 #include "structure/foam/rays/ray_demand.h"
 #include "structure/foam/rays/ray_struts.h"
@@ -134,6 +135,7 @@ class Walker {
       const FoamRay& own = ray(rays[n]);
       sum = sum + own.direction;
       room_ = std::max(room_, struts_.room(own));
+      exact_.set(n, own);
       for (int axis = 0; axis < 3; ++axis) {
         packet_.direction[axis][n] = static_cast<float>(own.direction[axis]);
         packet_.is_parallel &= packet_.direction[axis][n] == packet_.direction[axis][0];
@@ -305,17 +307,19 @@ class Walker {
       meet_capsules(slot.list, slot.radius + room_, slot.corner, packet_,
                     asks_once_ ? &seen_ : nullptr, hits_);
       const bool is_last = c + 1 == order_.size();
+      uint32_t near = 0;
       for (uint32_t rest = active; rest; rest &= rest - 1) {
         const size_t n = static_cast<size_t>(std::countr_zero(rest));
         if (hits_.first[n] == std::numeric_limits<float>::infinity()) continue;
         // The other cells contain nothing that the ray may meet before.
-        const double last_t =
+        last_[n] =
             is_last ? limit(n) : std::min(limit(n), enter(n) + double(order_[c + 1].at) * step_[n]);
-        if (enter_[n] + double(hits_.first[n]) > last_t || !settle(n, last_t)) continue;
-        active &= ~(1u << n);
-        live_ &= ~(1u << n);
-        packet_.to[n] = -1;
+        near |= uint32_t{enter_[n] + double(hits_.first[n]) <= last_[n]} << n;
       }
+      const uint32_t settled = settle(near);
+      active &= ~settled;
+      live_ &= ~settled;
+      for (uint32_t rest = settled; rest; rest &= rest - 1) packet_.to[std::countr_zero(rest)] = -1;
     }
     return true;
   }
@@ -372,11 +376,43 @@ class Walker {
     return slot;
   }
 
-  /// Whether ray n ends in this slab before `last`. The current lists contain all struts that it
-  /// may meet up to `last`.
-  bool settle(size_t n, double last) {
+  /// Those of some rays that end in this slab before their `last_`. The current lists contain all
+  /// struts that they may meet up to there.
+  uint32_t settle(uint32_t rays) {
+    uint32_t settled = 0;
+    while (rays) {
+      // Those that may meet the same strut first.
+      const uint32_t id = hits_.id[std::countr_zero(rays)];
+      uint32_t same = 0;
+      for (uint32_t rest = rays; rest; rest &= rest - 1) {
+        const int n = std::countr_zero(rest);
+        same |= uint32_t{hits_.id[n] == id} << n;
+      }
+      rays &= ~same;
+      entries_.met = entries_.missed = 0;
+      if (const StrutLine& line = struts_.line(id); foam_.has_capsules() && line.has_line)
+        find_packet_entries(line, scale_, foam_.max_radius(), exact_, same, entries_);
+      for (; same; same &= same - 1) {
+        const auto n = static_cast<size_t>(std::countr_zero(same));
+        StrutEntry found;
+        if (entries_.met >> n & 1) {
+          const Vec3 normal{entries_.normal[0][n], entries_.normal[1][n], entries_.normal[2][n]};
+          found.is_met = found.is_sure = true;
+          found.t = entries_.t[n];
+          found.normal = foam_.neighbourhood().rotation.apply(normal);
+        } else if (!(entries_.missed >> n & 1)) {
+          found = struts_.entry(ray_of(n), id);
+        }
+        settled |= uint32_t{settle(n, last_[n], found)} << n;
+      }
+    }
+    return settled;
+  }
+
+  /// Whether ray n ends in this slab before `last`, given its entry into the strut that it may meet
+  /// first.
+  bool settle(size_t n, double last, const StrutEntry& found) {
     const double second = enter_[n] + double(hits_.second[n]);
-    const StrutEntry found = struts_.entry(ray_of(n), hits_.id[n]);
     if (found.is_met && (found.at_from || (found.t <= second && found.t <= last))) {
       struts_.take(found, searches_[ray_[n]]);
       return true;
@@ -429,8 +465,11 @@ class Walker {
   bool has_base_ = false;
   int32_t base_slab_ = 0, base_[2];
   PacketPath path_;
+  PacketRays exact_;
   double enter_[most], step_[most];  // of t: at the first plane of the base, and per slab
-  int number_ = 0;                   // of the current slab, relative to the base
+  double last_[most];                // t up to which rays know their struts
+  PacketEntries entries_;
+  int number_ = 0;  // of the current slab, relative to the base
   RayPacket packet_;
   // Relative to the base.
   PacketHits hits_;

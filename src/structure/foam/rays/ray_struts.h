@@ -80,11 +80,12 @@ class RayStruts {
     return found->second;
   }
 
-  /// The entry into a strut of a list.
-  StrutEntry entry(const FoamRay& ray, uint32_t id) {
-    return entries_.find(ray,
-                         lines_.line(id, lists_.era(), [&] { return lists_.line(entries_, id); }));
+  /// The line of a strut of a list; valid until the next call.
+  const StrutLine& line(uint32_t id) {
+    return lines_.line(id, lists_.era(), [&] { return lists_.line(entries_, id); });
   }
+  /// The entry into a strut of a list.
+  StrutEntry entry(const FoamRay& ray, uint32_t id) { return entries_.find(ray, line(id)); }
 
   /// Tests the struts that a ray may meet by a list of a cell, each strut once. Updates the first
   /// of their entries and of those tested before.

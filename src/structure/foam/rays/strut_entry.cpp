@@ -15,10 +15,6 @@ namespace msq {
 
 namespace {
 
-/// Squared sine of an angle. A ray at a smaller angle to a line keeps its distance from it. It is
-/// far below the rounding of directions, except for rays exactly along a line.
-constexpr double parallel_squared = 1e-60;
-
 double square(double x) {
   return x * x;
 }

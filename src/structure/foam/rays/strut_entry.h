@@ -67,6 +67,10 @@ class TaperedStrut;
 /// Slack for the error of ends, in single precision, and of the line that they are compared with.
 constexpr double end_error = 4 * edge_error;
 
+/// Squared sine of an angle. A ray at a smaller angle to a line keeps its distance from it. It is
+/// far below the rounding of directions, except for rays exactly along a line.
+constexpr double parallel_squared = 1e-60;
+
 /// Distance from 0 along the direction u at which a ray enters the capsule of a segment; infinite
 /// if it misses. As in strut/capsule_rays.cpp.
 double capsule_entry(Vec3 a, Vec3 ab, Vec3 u, double radius);
