@@ -52,9 +52,12 @@ HWY_INLINE Vector set(float x, float y, float z) {
 /// The ids given by the bits, without those already seen.
 HWY_INLINE uint64_t new_ones(const uint32_t* ids, uint64_t bits, SeenIds* seen) {
   if (!seen) return bits;
-  for (uint64_t rest = bits; rest; rest &= rest - 1)
-    if (!seen->add(ids[std::countr_zero(rest)])) bits &= ~(rest & -rest);
-  return bits;
+  uint64_t found = 0;
+  for (uint64_t rest = bits; rest; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    found |= uint64_t{seen->add(ids[i])} << i;
+  }
+  return found;
 }
 
 /// Whether axes from w on come within the square root of `most` of the line through 0 along u,

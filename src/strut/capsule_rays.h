@@ -65,9 +65,10 @@ class SeenIds {
   /// Returns whether the id is new, and keeps it.
   bool add(uint32_t id) {
     uint32_t& place = ids_[(id ^ id >> 13) % std::size(ids_)];
-    if (place == id) return false;
+    // Without a branch: whether it is new is unpredictable.
+    const bool is_new = place != id;
     place = id;
-    return true;
+    return is_new;
   }
 
  private:
