@@ -35,6 +35,9 @@ class BoxShape final : public Primitive {
  public:
   explicit BoxShape(const Box3& box);
   bool inside(Vec3 p) const override { return bounds().contains(p); }
+  /// As that of all primitives, without calls.
+  bool cross(const Ray& ray, double from, double to, double& t, double& end,
+             const Job* job) const override;
   void fill_rows(const RowBlock& block) const override;
   bool fill_shallow_rows(double depth, const RowBlock& block) const override;
   Vec3 normal(const Ray& ray, double t) const override;
