@@ -2,8 +2,10 @@
 #include "slice/contour_details.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include "slice/contour_bends.h"
 #include "slice/nearest_unit.h"
 
 namespace msq {
@@ -33,9 +35,12 @@ double curvature(Vec2 a, Vec2 b, Vec2 c) {
 /// triples that hold both is far above that of the outer ones.
 double bend_of(Vec2 before_p, Vec2 p, Vec2 a, Vec2 b, Vec2 q, Vec2 behind_q) {
   constexpr double evenly = 1.6;
-  const double k0 = curvature(before_p, p, a), k1 = curvature(p, a, b), k2 = curvature(a, b, q),
-               k3 = curvature(b, q, behind_q);
-  if (!(k1 * k2 > 0 && k0 * k1 > 0 && k3 * k1 > 0)) return 0;
+  const double k1 = curvature(p, a, b), k2 = curvature(a, b, q);
+  if (!(k1 * k2 > 0)) return 0;
+  const double k0 = curvature(before_p, p, a);
+  if (!(k0 * k1 > 0)) return 0;
+  const double k3 = curvature(b, q, behind_q);
+  if (!(k3 * k1 > 0)) return 0;
   const double inner = std::max(std::abs(k1), std::abs(k2));
   if (!(inner <= evenly * std::max(std::abs(k0), std::abs(k3)))) return 0;
   return 0.125 * 0.5 * (k1 + k2) * dot(b - a, b - a);
@@ -74,15 +79,36 @@ bool is_tangled(std::span<const Vec2> p) {
 
 void ContourDetails::find(ContourPoints& points) {
   find_suspects(points.job());
-  while (!pieces_.empty()) {
+  while (!memory_->pieces.empty()) {
     keep_bent(points);
     take_corners(points);
     split(points);
   }
-  std::sort(details_.begin(), details_.end(), [](const DetailPoint& a, const DetailPoint& b) {
-    return a.id != b.id ? a.id < b.id : a.order < b.order;
-  });
+  merge_runs();
   drop_tangles();
+}
+
+/// Begins a run of points in the order of crossings.
+void ContourDetails::begin_run() {
+  if (memory_->runs.empty() || memory_->runs.back() < memory_->details.size())
+    memory_->runs.push_back(memory_->details.size());
+}
+
+/// Each step found its points in the order of crossings.
+void ContourDetails::merge_runs() {
+  std::vector<DetailPoint>& details = memory_->details;
+  std::vector<size_t>& runs = memory_->runs;
+  const auto is_before = [](const DetailPoint& a, const DetailPoint& b) {
+    return a.id != b.id ? a.id < b.id : a.order < b.order;
+  };
+  // Later runs are shorter.
+  size_t end = details.size();
+  const auto at = [&](size_t i) { return details.begin() + static_cast<ptrdiff_t>(i); };
+  while (runs.size() >= 2) {
+    const size_t middle = runs.back();
+    runs.pop_back();
+    std::inplace_merge(at(runs.back()), at(middle), at(end), is_before);
+  }
 }
 
 bool ContourDetails::is_in_cell(uint32_t id, Vec2 p) const {
@@ -93,48 +119,46 @@ bool ContourDetails::is_in_cell(uint32_t id, Vec2 p) const {
 }
 
 void ContourDetails::find_suspects(const Job* job) {
-  for (const ContourRings::Ring& ring : rings_.rings()) {
+  const size_t count = rings_.count();
+  memory_->bends.resize((count + 63) / 64);
+  constexpr size_t at_once = size_t{1} << 18;
+  for (size_t first = 0; first < count; first += at_once) {
     check_cancelled(job);
+    find_bends(rings_.x() + first, rings_.y() + first, std::min(at_once, count - first), tolerance_,
+               close(), memory_->bends.data() + first / 64);
+  }
+  begin_run();
+  CancelPoll poll(job);
+  for (const ContourRings::Ring& ring : rings_.rings()) {
+    poll();
     if (ring.is_closed)
-      look_along(ring, job);
+      look_along(ring, poll);
     else
-      for (uint32_t id = ring.first; id < ring.end; ++id) suspect(ring, id);
+      for (uint32_t id = ring.first; id < ring.end; ++id) {
+        poll();
+        suspect(ring, id);
+      }
   }
 }
 
-/// suspect() for all crossings, but without a call where it would return at once: most pieces are
-/// short, or nearly straight. Each piece takes over what the one before it computed.
-void ContourDetails::look_along(const ContourRings::Ring& ring, const Job* job) {
-  const double limit2 = tolerance_ * tolerance_, close2 = close() * close();
+/// suspect() for all crossings of a closed ring, but for those that `bends` excludes: most pieces
+/// are short, or nearly straight.
+void ContourDetails::look_along(const ContourRings::Ring& ring, CancelPoll& poll) {
   const uint32_t count = ring.end - ring.first;
-  const auto at = [&](uint32_t i) { return rings_[ring.first + (i < count ? i : i - count)].at; };
   if (count < 4) {
     for (uint32_t id = ring.first; id < ring.end; ++id) suspect(ring, id);
     return;
   }
-  Vec2 b = at(1), d1 = at(0) - at(count - 1), ab = b - at(0);
-  double size1 = dot(d1, d1), size = dot(ab, ab), turn1 = cross(d1, ab);
-  CancelPoll poll(job);
-  for (uint32_t i = 0; i < count; ++i) {
+  suspect(ring, ring.first);
+  // Those with all their neighbours in a row.
+  for (uint32_t id = ring.first + 1; id < ring.end - 2;) {
     poll();
-    const Vec2 q = at(i + 2), d2 = q - b;
-    const double size2 = dot(d2, d2), turn2 = cross(ab, d2);
-    const auto is_suspect = [&] {
-      if (size <= limit2) return false;
-      if (size1 < close2 || size2 < close2) return true;
-      if (turn1 * turn2 <= 0)
-        return turn1 * turn1 > 4 * limit2 * size1 || turn2 * turn2 > 4 * limit2 * size2;
-      const double turn = cross(d1, d2), area = turn1 * turn2;
-      return !(turn * turn1 > 0 && area * area <= limit2 * turn * turn * size);
-    };
-    if (is_suspect()) suspect(ring, ring.first + i);
-    b = q;
-    d1 = ab;
-    ab = d2;
-    size1 = size;
-    size = size2;
-    turn1 = turn2;
+    const uint64_t rest = memory_->bends[id / 64] >> (id % 64);
+    id = rest ? id + static_cast<uint32_t>(std::countr_zero(rest)) : (id / 64 + 1) * 64;
+    if (rest && id < ring.end - 2) suspect(ring, id++);
   }
+  suspect(ring, ring.end - 2);
+  suspect(ring, ring.end - 1);
 }
 
 /// The piece that begins at crossing `id`.
@@ -144,30 +168,30 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   const double close2 = close() * close();
   const uint32_t next = behind(id);
   if (rings_.is_beyond(id) || rings_.is_beyond(next) || rings_.is_before_saddle(id)) return;
-  const Vec2 a = rings_[id].at, b = rings_[next].at, ab = b - a;
+  const Vec2 a = rings_.at(id), b = rings_.at(next), ab = b - a;
   if (dot(ab, ab) <= tolerance_ * tolerance_) return;
   uint32_t p = before(id), q = behind(next);
   const auto make_piece = [&] { return Piece{id, next, 0, 0, false, false, a, b, {}, 0, 1}; };
   if (rings_.is_beyond(p) || rings_.is_beyond(q)) {
     // The direction of the boundary at the edge of a window is not known.
-    pieces_.push_back(make_piece());
+    memory_->pieces.push_back(make_piece());
     return;
   }
   // A crossing that is very near tells little about the direction.
-  Vec2 d1 = a - rings_[p].at, d2 = rings_[q].at - b;
+  Vec2 d1 = a - rings_.at(p), d2 = rings_.at(q) - b;
   if (dot(d1, d1) < close2 && !rings_.is_beyond(before(p))) {
     p = before(p);
-    d1 = a - rings_[p].at;
+    d1 = a - rings_.at(p);
   }
   if (dot(d2, d2) < close2 && !rings_.is_beyond(behind(q))) {
     q = behind(q);
-    d2 = rings_[q].at - b;
+    d2 = rings_.at(q) - b;
   }
   const double turn1 = cross(d1, ab), turn2 = cross(ab, d2);
   const double size2 = dot(ab, ab), limit2 = tolerance_ * tolerance_;
   if (turn1 * turn2 <= 0) {  // an inflection: of an arc, less than a quarter of this
     if (turn1 * turn1 > 4 * limit2 * dot(d1, d1) || turn2 * turn2 > 4 * limit2 * dot(d2, d2))
-      pieces_.push_back(make_piece());
+      memory_->pieces.push_back(make_piece());
     return;
   }
   const double turn = cross(d1, d2);
@@ -183,47 +207,47 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
     piece.has_corner = is_in_cell(id, piece.corner);
   }
   if (const double bend =
-          bend_of(rings_[before(p)].at, rings_[p].at, a, b, rings_[q].at, rings_[behind(q)].at);
+          bend_of(rings_.at(before(p)), rings_.at(p), a, b, rings_.at(q), rings_.at(behind(q)));
       bend != 0) {
     if (std::abs(bend) <= tolerance_) return;
     const Vec2 middle = piece.middle() - left_of(unit(ab)) * bend;
     if (std::abs(bend) <= 4 * tolerance_ && is_in_cell(id, middle)) {
-      details_.push_back({id, next, 0.5, middle});
+      memory_->details.push_back({id, next, 0.5, middle});
       return;
     }
   }
-  pieces_.push_back(piece);
+  memory_->pieces.push_back(piece);
 }
 
 /// Drops pieces whose middle is within the tolerance of the boundary. Where the boundary turns
 /// left, it lies to the right of the middle, which is inside: the point on that side tells.
 void ContourDetails::keep_bent(ContourPoints& points) {
+  std::vector<Piece>& pieces = memory_->pieces;
   points.clear();
+  for (const Piece& piece : pieces)
+    if (piece.turn == 0) points.add(piece.middle());
+  const std::vector<uint8_t>& middles = points.find_inside();
+  size_t n = 0;
+  for (Piece& piece : pieces)
+    piece.is_inside = piece.turn == 0 ? middles[n++] != 0 : piece.turn > 0;
   const auto aside_of = [&](const Piece& piece) {
-    return left_of(unit(piece.b - piece.a)) * tolerance_;
+    const Vec2 aside = left_of(unit(piece.b - piece.a)) * tolerance_;
+    return piece.is_inside ? piece.middle() - aside : piece.middle() + aside;
   };
-  for (const Piece& piece : pieces_) {
-    const Vec2 m = piece.middle(), aside = aside_of(piece);
-    if (piece.turn == 0) points.add(m);
-    if (piece.turn <= 0) points.add(m + aside);
-    if (piece.turn >= 0) points.add(m - aside);
-  }
+  points.clear();
+  for (const Piece& piece : pieces) points.add(aside_of(piece));
   const std::vector<uint8_t>& inside = points.find_inside();
-  size_t kept = 0, n = 0;
-  for (Piece& piece : pieces_) {
-    const Vec2 m = piece.middle(), aside = aside_of(piece);
-    piece.is_inside = piece.turn == 0 ? inside[n++] != 0 : piece.turn > 0;
+  size_t kept = 0;
+  for (n = 0; n < pieces.size(); ++n) {
+    const Piece& piece = pieces[n];
     // Along the edges of a window, what is beyond does not count.
-    bool is_left = false, is_right = false;
-    if (piece.turn <= 0) is_left = inside[n++] != 0 || !is_in_window(m + aside);
-    if (piece.turn >= 0) is_right = inside[n++] == 0 || !is_in_window(m - aside);
-    if (piece.is_inside ? is_right : is_left) continue;
+    if ((inside[n] != 0) != piece.is_inside || !is_in_window(aside_of(piece))) continue;
     if (piece.depth < max_depth)
-      pieces_[kept++] = piece;
+      pieces[kept++] = piece;
     else
       ++unresolved_;
   }
-  pieces_.resize(kept);
+  pieces.resize(kept);
 }
 
 bool ContourDetails::is_in_window(Vec2 p) const {
@@ -238,7 +262,7 @@ void ContourDetails::take_corners(ContourPoints& points) {
     points.add(p + towards_inside * tolerance_);
     points.add(p - towards_inside * tolerance_);
   };
-  for (const Piece& piece : pieces_) {
+  for (const Piece& piece : memory_->pieces) {
     if (!piece.has_corner) continue;
     const Vec2 x = piece.corner;
     both_sides((piece.a + x) * 0.5, left_of(unit(x - piece.a)));
@@ -247,21 +271,23 @@ void ContourDetails::take_corners(ContourPoints& points) {
     both_sides(x, unit(piece.middle() - x) * (is_concave ? -1.0 : 1.0));
   }
   const std::vector<uint8_t>& inside = points.find_inside();
+  begin_run();
   size_t kept = 0, first = 0;
-  for (const Piece& piece : pieces_) {
+  for (const Piece& piece : memory_->pieces) {
     if (piece.has_corner) {
       bool is_corner = true;
       for (size_t n = first; n < first + 6; n += 2)
         is_corner = is_corner && inside[n] && !inside[n + 1];
       first += 6;
       if (is_corner) {
-        details_.push_back({piece.id, piece.next, 0.5 * (piece.begin + piece.end), piece.corner});
+        memory_->details.push_back(
+            {piece.id, piece.next, 0.5 * (piece.begin + piece.end), piece.corner});
         continue;
       }
     }
-    pieces_[kept++] = piece;
+    memory_->pieces[kept++] = piece;
   }
-  pieces_.resize(kept);
+  memory_->pieces.resize(kept);
 }
 
 void ContourDetails::split(ContourPoints& points) {
@@ -271,8 +297,8 @@ void ContourDetails::split(ContourPoints& points) {
   };
   std::vector<Search> searches;
   points.clear();
-  for (size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece& piece = pieces_[i];
+  for (size_t i = 0; i < memory_->pieces.size(); ++i) {
+    const Piece& piece = memory_->pieces[i];
     const Vec2 m = piece.middle();
     const Vec2 d = left_of(unit(piece.b - piece.a)) * (piece.is_inside ? -1.0 : 1.0);
     // To where the normal leaves the cell.
@@ -290,7 +316,7 @@ void ContourDetails::split(ContourPoints& points) {
   size_t kept = 0;
   const std::vector<uint8_t>& ends = points.find_inside();
   for (size_t n = 0; n < searches.size(); ++n) {
-    if ((ends[n] != 0) != pieces_[searches[n].piece].is_inside)
+    if ((ends[n] != 0) != memory_->pieces[searches[n].piece].is_inside)
       searches[kept++] = searches[n];
     else
       ++unresolved_;
@@ -312,16 +338,18 @@ void ContourDetails::split(ContourPoints& points) {
     const std::vector<uint8_t>& inside = points.find_inside();
     for (size_t n = 0; n < open.size(); ++n) {
       Search& s = *open[n];
-      const bool is_same = (inside[n] != 0) == pieces_[s.piece].is_inside;
+      const bool is_same = (inside[n] != 0) == memory_->pieces[s.piece].is_inside;
       (is_same ? s.same : s.other) = (s.same + s.other) * 0.5;
     }
   }
-  std::vector<Piece> halves;
+  std::vector<Piece>& halves = memory_->halves;
+  halves.clear();
+  begin_run();
   for (const Search& s : searches) {
-    const Piece& piece = pieces_[s.piece];
+    const Piece& piece = memory_->pieces[s.piece];
     const Vec2 at = (s.same + s.other) * 0.5;
     const double order = 0.5 * (piece.begin + piece.end);
-    details_.push_back({piece.id, piece.next, order, at});
+    memory_->details.push_back({piece.id, piece.next, order, at});
     // A half as short as that is near enough.
     if (length(at - piece.a) > tolerance_)
       halves.push_back({piece.id,
@@ -348,7 +376,7 @@ void ContourDetails::split(ContourPoints& points) {
                         order,
                         piece.end});
   }
-  pieces_ = std::move(halves);
+  memory_->pieces.swap(halves);
 }
 
 Vec2 ContourDetails::rounded(Vec2 p) const {
@@ -360,19 +388,19 @@ Vec2 ContourDetails::rounded(Vec2 p) const {
 void ContourDetails::drop_tangles() {
   std::vector<Vec2> line;
   size_t kept = 0;
-  for (size_t first = 0, end; first < details_.size(); first = end) {
-    const uint32_t id = details_[first].id;
-    line.assign(1, rounded(rings_[id].at));
-    for (end = first; end < details_.size() && details_[end].id == id; ++end)
-      line.push_back(rounded(details_[end].at));
-    line.push_back(rounded(rings_[details_[first].next].at));
+  for (size_t first = 0, end; first < memory_->details.size(); first = end) {
+    const uint32_t id = memory_->details[first].id;
+    line.assign(1, rounded(rings_.at(id)));
+    for (end = first; end < memory_->details.size() && memory_->details[end].id == id; ++end)
+      line.push_back(rounded(memory_->details[end].at));
+    line.push_back(rounded(rings_.at(memory_->details[first].next)));
     if (is_tangled(line)) {
       ++unresolved_;
       continue;
     }
-    for (size_t i = first; i < end; ++i) details_[kept++] = details_[i];
+    for (size_t i = first; i < end; ++i) memory_->details[kept++] = memory_->details[i];
   }
-  details_.resize(kept);
+  memory_->details.resize(kept);
 }
 
 }  // namespace msq

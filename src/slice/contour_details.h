@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "slice/contour_points.h"
 #include "slice/contour_rings.h"
 
@@ -36,12 +37,16 @@ class ContourDetails {
  public:
   /// `units`: coordinates will be multiplied by it and rounded; 0: they will not be rounded.
   ContourDetails(const ContourRings& rings, double tolerance, double units)
-      : rings_(rings), tolerance_(tolerance), units_(units) {}
+      : rings_(rings), tolerance_(tolerance), units_(units) {
+    memory_->pieces.clear();
+    memory_->details.clear();
+    memory_->runs.clear();
+  }
 
   void find(ContourPoints& points);
 
   /// In the order of crossings, and of points between two crossings.
-  const std::vector<DetailPoint>& points() const { return details_; }
+  const std::vector<DetailPoint>& points() const { return memory_->details; }
   /// Cells where the boundary is farther than the tolerance from what was found.
   uint64_t unresolved() const { return unresolved_; }
 
@@ -58,11 +63,13 @@ class ContourDetails {
   using Cell = ContourRings::Cell;
 
   void find_suspects(const Job* job);
-  void look_along(const ContourRings::Ring& ring, const Job* job);
+  void look_along(const ContourRings::Ring& ring, CancelPoll& poll);
   void suspect(const ContourRings::Ring& ring, uint32_t id);
   void keep_bent(ContourPoints& points);
   void take_corners(ContourPoints& points);
   void split(ContourPoints& points);
+  void begin_run();
+  void merge_runs();
   void drop_tangles();
   /// A crossing that is nearer than that to another tells little about the direction.
   double close() const { return rings_.grid().pitch() / 16; }
@@ -72,8 +79,19 @@ class ContourDetails {
 
   const ContourRings& rings_;
   const double tolerance_, units_;
-  std::vector<Piece> pieces_;
-  std::vector<DetailPoint> details_;
+  // Kept between calls: fresh memory of this size takes a while to get.
+  struct Memory {
+    std::vector<uint64_t> bends;  // see find_bends()
+    std::vector<Piece> pieces, halves;
+    std::vector<DetailPoint> details;
+    std::vector<size_t> runs;  // where runs of details begin
+    size_t bytes() const {
+      return bends.capacity() * sizeof(uint64_t) +
+             (pieces.capacity() + halves.capacity()) * sizeof(Piece) +
+             details.capacity() * sizeof(DetailPoint);
+    }
+  };
+  const Borrowed<Memory> memory_;
   uint64_t unresolved_ = 0;
 };
 

@@ -7,6 +7,8 @@
 #include "base/sample_grid.h"
 #include "base/status.h"
 #include "query/membership.h"
+#include "slice/contour_points.h"
+#include "slice/contour_struts.h"
 
 namespace msq {
 
@@ -70,6 +72,21 @@ void ContourGrid::find_nodes(const Model& model, const Scales& resolved, const J
     for (const uint32_t row : {bottom_edge(), top_edge()})
       find_part(model, resolved, {u(column), v(row), 1, 1, column, row}, job);
   }
+}
+
+void ContourGrid::find_nodes(const PlaneStruts& struts, const ContourGrid& shape,
+                             ContourPoints& points) {
+  bits_.assign(words(), 0);
+  std::vector<GridNode> doubtful;
+  struts.draw(*this, {bits_.data(), row_words_, doubtful}, points.job());
+  std::erase_if(doubtful, [&](const GridNode& n) { return inside(n.column, n.row); });
+  points.clear();
+  for (const GridNode& n : doubtful) points.add({u(n.column), v(n.row)});
+  const std::vector<uint8_t>& held = points.find_inside();
+  for (size_t i = 0; i < doubtful.size(); ++i)
+    bits_[doubtful[i].row * row_words_ + doubtful[i].column / 64] |= uint64_t{held[i]}
+                                                                     << (doubtful[i].column % 64);
+  for (size_t w = 0; w < bits_.size(); ++w) bits_[w] &= shape.bits_[w];
 }
 
 void ContourGrid::find_part(const Model& model, const Scales& resolved, const Part& part,

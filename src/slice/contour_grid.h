@@ -35,6 +35,10 @@ struct LayerPlane {
   }
 };
 
+struct GridNode {
+  uint32_t column, row;
+};
+
 /// Of an axis of the window: positions of its nodes.
 class ContourAxis {
  public:
@@ -78,6 +82,9 @@ class ContourAxis {
   uint64_t inner_ = 0;
 };
 
+class ContourPoints;
+class PlaneStruts;
+
 class ContourGrid {
  public:
   ContourGrid(LayerPlane plane, const double window_min[2], const double window_max[2],
@@ -114,6 +121,9 @@ class ContourGrid {
   uint64_t bytes(const Model& model, const Scales& resolved) const;
   /// Finds which nodes are inside.
   void find_nodes(const Model& model, const Scales& resolved, const Job* job);
+  /// The same for a model of one structure with struts and no skin. `shape`: the nodes in the shape
+  /// alone. `points`: uses the struts.
+  void find_nodes(const PlaneStruts& struts, const ContourGrid& shape, ContourPoints& points);
   const ContourAxis& u_nodes() const { return u_; }
   const ContourAxis& v_nodes() const { return v_; }
 

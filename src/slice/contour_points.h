@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "base/job.h"
 #include "base/vec2.h"
 #include "model/model.h"
@@ -27,9 +28,9 @@ class ContourPoints {
   /// outlive this.
   void use_struts(const PlaneStruts& struts) { struts_ = &struts; }
 
-  void clear() { points_.clear(); }
-  void add(Vec2 p) { points_.push_back(p); }
-  size_t count() const { return points_.size(); }
+  void clear() { memory_->points.clear(); }
+  void add(Vec2 p) { memory_->points.push_back(p); }
+  size_t count() const { return memory_->points.size(); }
   /// Of the points added since clear().
   const std::vector<uint8_t>& find_inside();
 
@@ -41,10 +42,19 @@ class ContourPoints {
   LayerPlane plane_;
   const Job* job_;
   const PlaneStruts* struts_ = nullptr;
-  std::vector<Vec2> points_;
-  std::vector<Vec3> asked_;
-  std::vector<uint8_t> inside_, answers_;
-  std::vector<uint32_t> held_, doubtful_;
+  // Kept between calls: fresh memory of this size takes a while to get.
+  struct Memory {
+    std::vector<Vec2> points;
+    std::vector<Vec3> asked;
+    std::vector<uint8_t> inside, answers;
+    std::vector<uint32_t> held, doubtful;
+    size_t bytes() const {
+      return points.capacity() * sizeof(Vec2) + asked.capacity() * sizeof(Vec3) +
+             inside.capacity() + answers.capacity() +
+             (held.capacity() + doubtful.capacity()) * sizeof(uint32_t);
+    }
+  };
+  const Borrowed<Memory> memory_;
 };
 
 }  // namespace msq

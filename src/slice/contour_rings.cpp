@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slice/contour_rings.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace msq {
 
 ContourRings::ContourRings(ContourSection& section, const Job* job)
-    : grid_(section.grid()), margin_(section.margin()) {
-  memory_->crossings.clear();
-  memory_->kinds.clear();
-  memory_->crossings.reserve(section.count());
-  memory_->kinds.reserve(section.count());
+    : grid_(section.grid()),
+      axes_{{grid_.u_nodes().first(), grid_.pitch(), grid_.u_nodes().low(), grid_.u_nodes().high(),
+             ContourGrid::first_inner, ContourGrid::left_beyond, ContourGrid::left_edge,
+             grid_.right_edge()},
+            {grid_.v_nodes().first(), grid_.pitch(), grid_.v_nodes().low(), grid_.v_nodes().high(),
+             ContourGrid::first_inner_row, 0, ContourGrid::bottom_row, grid_.top_edge()}},
+      margin_(section.margin()) {
+  if (memory_->x.size() < section.count()) {
+    memory_->x.resize(section.count());
+    memory_->y.resize(section.count());
+    memory_->edges.resize(section.count());
+    memory_->kinds.resize(section.count());
+  }
   const EdgeCrossing* const crossings = section.crossings();
   uint32_t id = 0;
   for (uint32_t r = 0; r < grid_.rows(); ++r) {
@@ -47,42 +56,59 @@ bool ContourRings::follow(ContourSection& section, uint32_t id, uint32_t column,
                              {first_inside, 0, 0, -1, 0}};
   const uint32_t number = static_cast<uint32_t>(rings_.size());
   EdgeCrossing* const crossings = section.crossings();
-  const uint32_t bottom_edge = grid_.bottom_edge(), top_edge = grid_.top_edge();
-  const uint32_t left_edge = ContourGrid::left_edge, right_edge = grid_.right_edge();
+  const double* const ends = section.ends();
+  double* const x = memory_->x.data();
+  double* const y = memory_->y.data();
+  RingEdge* const edges = memory_->edges.data();
+  uint8_t* const out_kinds = memory_->kinds.data();
   const bool goes_up = grid_.inside(column, row);
   uint8_t kind = goes_up ? horizontal | first_inside : horizontal;
   uint8_t kinds = 0;
   uint32_t cell_column = column, cell_row = goes_up ? row : row - 1;
+  uint32_t n = count_;
   CancelPoll poll(job);
-  for (;;) {
+  for (;; ++n) {
     poll();
     EdgeCrossing& c = crossings[id];
-    if (c.way == ContourSection::visited) break;
-    const bool is_horizontal = kind & horizontal;
-    const bool is_on_seam = is_horizontal ? row == bottom_edge || row == top_edge
-                                          : column == left_edge || column == right_edge;
-    if (is_on_seam) kind |= seam;
-    if (grid_.is_beyond(is_horizontal, column, row)) kind |= beyond;
-    if (ContourSection::enters_saddle(c.way)) kind |= saddle;
+    const uint32_t way = c.way;
+    if (way == ContourSection::visited) break;
+    // Horizontal and vertical edges alternate in no order: indices instead of branches.
+    const uint32_t place[2] = {column, row};
+    const uint32_t along = ~kind & horizontal, across = along ^ 1;
+    const Axis &a = axes_[along], &b = axes_[across];
+    const uint32_t at_along = place[along], at_across = place[across];
+    if (b.is_edge(at_across)) kind |= seam;
+    const double low = a.at(at_along), high = a.at(at_along + 1);
+    const uint64_t sign = static_cast<uint64_t>(kind & first_inside) << (63 - first_inside_bit);
+    const double end = std::bit_cast<double>(std::bit_cast<uint64_t>(ends[id]) ^ sign);
+    double at[2];
+    at[across] = b.at(at_across);
+    at[along] = std::min(std::max(end, low + margin_), high - margin_);
+    if (a.is_beyond(at_along)) {
+      kind |= beyond;
+      at[along] = low;
+    }
+    if (ContourSection::enters_saddle(way)) kind |= saddle;
     kinds |= kind;
-    memory_->crossings.push_back(
-        {is_horizontal ? Vec2{c.at, grid_.v(row)} : Vec2{grid_.u(column), c.at}, column, row});
-    memory_->kinds.push_back(kind);
-    const Step& step = steps[static_cast<size_t>(ContourSection::side_of(c.way))];
+    x[n] = at[0];
+    y[n] = at[1];
+    edges[n] = {column, row};
+    out_kinds[n] = kind;
+    const Step& step = steps[static_cast<size_t>(ContourSection::side_of(way))];
     id = c.next;
-    c.next = number;
-    c.way = ContourSection::visited;
+    c = {number, ContourSection::visited};
     kind = step.kind;
     column = cell_column + step.right;
     row = cell_row + step.up;
     cell_column += static_cast<uint32_t>(static_cast<int32_t>(step.next_right));
     cell_row += static_cast<uint32_t>(static_cast<int32_t>(step.next_up));
   }
+  count_ = n;
   return !(kinds & beyond);
 }
 
 ContourRings::Cell ContourRings::cell_of(uint32_t i) const {
-  uint32_t column = memory_->crossings[i].column, row = memory_->crossings[i].row;
+  uint32_t column = memory_->edges[i].column, row = memory_->edges[i].row;
   if (is_horizontal(i) && !starts_inside(i)) --row;     // it comes down
   if (!is_horizontal(i) && starts_inside(i)) --column;  // it comes from the right
   return {{grid_.u(column), grid_.v(row)}, {grid_.u(column + 1), grid_.v(row + 1)}};

@@ -13,9 +13,8 @@
 
 namespace msq {
 
-/// A crossing in its ring, and its edge.
-struct RingCrossing {
-  Vec2 at;
+/// The edge of a crossing.
+struct RingEdge {
   uint32_t column, row;
 };
 
@@ -36,8 +35,11 @@ class ContourRings {
 
   const ContourGrid& grid() const { return grid_; }
   double margin() const { return margin_; }
-  uint32_t count() const { return static_cast<uint32_t>(memory_->crossings.size()); }
-  const RingCrossing& operator[](uint32_t i) const { return memory_->crossings[i]; }
+  uint32_t count() const { return count_; }
+  Vec2 at(uint32_t i) const { return {memory_->x[i], memory_->y[i]}; }
+  /// Coordinates of all crossings.
+  const double* x() const { return memory_->x.data(); }
+  const double* y() const { return memory_->y.data(); }
 
   bool is_horizontal(uint32_t i) const { return memory_->kinds[i] & horizontal; }
   /// Whether the first node of its edge is inside.
@@ -53,33 +55,56 @@ class ContourRings {
   };
   Cell cell_of(uint32_t i) const;
   /// Ends of the edge.
-  double low(uint32_t i) const {
-    const RingCrossing& c = memory_->crossings[i];
-    return is_horizontal(i) ? grid_.u(c.column) : grid_.v(c.row);
-  }
-  double high(uint32_t i) const {
-    const RingCrossing& c = memory_->crossings[i];
-    return is_horizontal(i) ? grid_.u(c.column + 1) : grid_.v(c.row + 1);
-  }
+  double low(uint32_t i) const { return axes_[axis_along(i)].at(place_along(i)); }
+  double high(uint32_t i) const { return axes_[axis_along(i)].at(place_along(i) + 1); }
+  /// Of the edge: 0 if it is horizontal, else 1.
+  uint32_t axis_along(uint32_t i) const { return ~uint32_t{memory_->kinds[i]} & horizontal; }
 
-  static constexpr uint64_t bytes_of_crossing = sizeof(RingCrossing) + 1;
+  static constexpr uint64_t bytes_of_crossing = 2 * sizeof(double) + sizeof(RingEdge) + 1;
 
  private:
   enum : uint8_t { horizontal = 1, first_inside = 2, beyond = 4, seam = 8, saddle = 16 };
+  static constexpr int first_inside_bit = 1;
+
+  /// Nodes along an axis, by their columns or rows; what the grid says of them, but without calls.
+  struct Axis {
+    double first, pitch, low, high;
+    uint32_t first_inner, beyond, edge,
+        end;  // beyond and edge: the lower ones; end: the upper edge
+
+    double at(uint32_t n) const {
+      return n >= end          ? high
+             : n < first_inner ? low
+                               : first + static_cast<double>(n - first_inner) * pitch;
+    }
+    bool is_edge(uint32_t n) const { return n == edge || n == end; }
+    /// Of an edge of the grid, by its first node.
+    bool is_beyond(uint32_t n) const { return n == beyond || n == end; }
+  };
 
   /// Whether the ring is closed.
   bool follow(ContourSection& section, uint32_t id, uint32_t column, uint32_t row, const Job* job);
+  uint32_t place_along(uint32_t i) const {
+    const RingEdge& e = memory_->edges[i];
+    return is_horizontal(i) ? e.column : e.row;
+  }
 
   const ContourGrid& grid_;
+  const Axis axes_[2];
   const double margin_;
   std::vector<Ring> rings_;
-  // Kept between calls: fresh memory of this size takes a while to get.
+  // Kept between calls: fresh memory of this size takes a while to get. May hold more than count_.
   struct Memory {
-    std::vector<RingCrossing> crossings;
+    std::vector<double> x, y;
+    std::vector<RingEdge> edges;
     std::vector<uint8_t> kinds;
-    size_t bytes() const { return crossings.capacity() * sizeof(RingCrossing) + kinds.capacity(); }
+    size_t bytes() const {
+      return (x.capacity() + y.capacity()) * sizeof(double) + edges.capacity() * sizeof(RingEdge) +
+             kinds.capacity();
+    }
   };
   const Borrowed<Memory> memory_;
+  uint32_t count_ = 0;
 };
 
 }  // namespace msq

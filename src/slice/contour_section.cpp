@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slice/contour_section.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "base/status.h"
 
@@ -26,11 +26,8 @@ constexpr Piece piece_of[16] = {
 };
 constexpr unsigned rising = 0b0101, falling = 0b1010;
 
-/// Crossings that no strut has been found for.
+/// The end of crossings that no strut has been found for.
 constexpr double unknown = std::numeric_limits<double>::infinity();
-/// By the side of the cell that the boundary comes in by. With the inside on its left, it comes up
-/// and from the right where the first node of the edge is inside: then struts leave the edge.
-constexpr double unknown_of[4] = {-unknown, -unknown, unknown, unknown};
 
 }  // namespace
 
@@ -60,10 +57,14 @@ uint64_t ContourSection::count_crossings(const Job* job) {
   return sum;
 }
 
-void ContourSection::trace(ContourPoints& points, double accuracy, double around) {
-  if (crossings_->size() < crossing_count_) crossings_->resize(crossing_count_);
+void ContourSection::trace(ContourPoints& points, double accuracy, const PlaneStruts* struts,
+                           const ContourGrid* shape) {
+  if (memory_->crossings.size() < crossing_count_) {
+    memory_->crossings.resize(crossing_count_);
+    memory_->ends.resize(crossing_count_);
+  }
   link(points.job());
-  locate(points, accuracy, around);
+  locate(points, accuracy, struts, shape);
 }
 
 void ContourSection::link(const Job* job) {
@@ -94,7 +95,7 @@ void ContourSection::link(const Job* job) {
                               code == rising});
         } else {
           const Piece piece = piece_of[code];
-          crossings[ids[piece.in]] = {unknown_of[piece.in], ids[piece.out], piece.out};
+          crossings[ids[piece.in]] = {ids[piece.out], piece.out};
         }
         low += b;
         high += t;
@@ -129,8 +130,8 @@ void ContourSection::settle_saddles(ContourPoints& points) {
   }
 }
 
-void ContourSection::count_unseen(ContourPoints& points) {
-  const std::vector<PlaneStruts::Unseen> unseen = struts_->find_unseen(grid_, points.job());
+void ContourSection::count_unseen(const PlaneStruts& struts, ContourPoints& points) {
+  const std::vector<PlaneStruts::Unseen> unseen = struts.find_unseen(grid_, points.job());
   points.clear();
   for (const PlaneStruts::Unseen& u : unseen) points.add(u.at);
   const std::vector<uint8_t>& inside = points.find_inside();
@@ -143,67 +144,89 @@ void ContourSection::count_unseen(ContourPoints& points) {
   }
 }
 
-void ContourSection::locate(ContourPoints& points, double accuracy, double around) {
-  for (const Saddle& s : saddles_)
-    for (const uint32_t in : {s.is_rising ? bottom : left, s.is_rising ? top : right})
-      crossings()[s.ids[in]].at = unknown_of[in];
-
-  // Struts give their ends. On edges that the shape ends on, membership tells.
-  const Scales& resolved = points.resolved();
-  std::optional<ContourGrid> shape;
-  // Of cells smaller than that few are asked about.
-  const auto has_large_cells = [&](const Structure& s) {
-    return s.cell_length() >= 2 * grid_.pitch();
+/// Calls take(id, column, row, is_horizontal) for the crossings that struts do not give: those that
+/// they missed, and those where the node outside is outside the shape, too.
+template <class Take>
+void ContourSection::for_open_edges(const ContourGrid& shape, const Job* job, Take&& take) const {
+  const double* const ends = this->ends();
+  const size_t words = grid_.row_words();
+  const auto look_at = [&](auto&& edges, auto&& holds, const std::vector<uint32_t>& starts,
+                           uint32_t rows, uint32_t end_id, bool is_horizontal) {
+    for (uint32_t r = 0; r < rows; ++r) {
+      if (r % 64 == 0) check_cancelled(job);
+      const uint32_t* const first = starts.data() + r * words;
+      uint32_t missed = 0;
+      for (uint32_t id = first[0], end = r + 1 < rows ? first[words] : end_id; id < end; ++id)
+        missed += ends[id] == unknown;
+      for (size_t w = 0; w < words; ++w) {
+        const uint64_t crossings = edges(r, w), beside = crossings & ~holds(r, w);
+        if (missed == 0 && beside == 0) continue;
+        uint32_t id = first[w];
+        for (uint64_t rest = crossings; rest; rest &= rest - 1, ++id) {
+          const unsigned bit = static_cast<unsigned>(std::countr_zero(rest));
+          if (ends[id] == unknown || (beside >> bit & 1))
+            take(id, static_cast<uint32_t>(w * 64) + bit, r, is_horizontal);
+        }
+      }
+    }
   };
-  if (resolved.size() == 1 && resolved[0]->skin.is_none() && resolved[0]->structure->has_struts() &&
-      has_large_cells(*resolved[0]->structure)) {
-    struts_ = std::make_unique<PlaneStruts>(*resolved[0]->structure, grid_, around,
-                                            points.model().context().budget, points.job());
-    points.use_struts(*struts_);
-    struts_->propose(
-        grid_, {grid_.row(0), grid_.row_words(), horizontal_.data(), vertical_.data(), crossings()},
-        points.job());
-    count_unseen(points);
-    shape.emplace(grid_);
-    shape->find_nodes(points.model(), {}, points.job());
-  }
-  settle_saddles(points);
+  // Whether the shape holds the node outside of an edge, as bits of edges: the first node, or the
+  // second one where the first is inside.
+  const auto choose = [&](uint64_t nodes, uint64_t first, uint64_t second) {
+    return (nodes & second) | (~nodes & first);
+  };
+  look_at([&](uint32_t r, size_t w) { return horizontal(r, w); },
+          [&](uint32_t r, size_t w) {
+            const uint64_t* const bits = shape.row(r);
+            const uint64_t beyond = w + 1 < words ? bits[w + 1] << 63 : 0;
+            return choose(grid_.row(r)[w], bits[w], bits[w] >> 1 | beyond);
+          },
+          horizontal_, grid_.rows(), horizontal_count_, true);
+  look_at([&](uint32_t r, size_t w) { return vertical(r, w); },
+          [&](uint32_t r, size_t w) {
+            return choose(grid_.row(r)[w], shape.row(r)[w], shape.row(r + 1)[w]);
+          },
+          vertical_, grid_.rows() - 1, crossing_count_, false);
+}
 
+void ContourSection::locate(ContourPoints& points, double accuracy, const PlaneStruts* struts,
+                            const ContourGrid* shape) {
   constexpr size_t at_once = size_t{1} << 16;
   std::vector<Edge> open;
   const auto take = [&](uint32_t id, uint32_t column, uint32_t row, bool is_horizontal) {
-    EdgeCrossing& c = crossings()[id];
-    if (grid_.is_beyond(is_horizontal, column, row)) {
-      c.at = is_horizontal ? grid_.u(column) : grid_.v(row);
-      return;
-    }
-    // The node outside.
-    const bool is_second = grid_.inside(column, row);
-    if (std::isfinite(c.at) &&
-        shape->inside(column + (is_second && is_horizontal), row + (is_second && !is_horizontal))) {
-      const double low = is_horizontal ? grid_.u(column) : grid_.v(row);
-      const double high = is_horizontal ? grid_.u(column + 1) : grid_.v(row + 1);
-      c.at = std::clamp(c.at, low + margin_, high - margin_);
-      return;
-    }
+    if (grid_.is_beyond(is_horizontal, column, row)) return;
     open.push_back({id, column, row, is_horizontal});
     if (open.size() == at_once) {
       locate_some(points, open, accuracy);
       open.clear();
     }
   };
-  const auto take_all = [&](auto&& edges, uint32_t id, uint32_t end, bool is_horizontal) {
-    for (uint32_t r = 0; r < end; ++r) {
-      if (r % 64 == 0) check_cancelled(points.job());
-      for (size_t w = 0; w < grid_.row_words(); ++w)
-        for (uint64_t rest = edges(r, w); rest; rest &= rest - 1)
-          take(id++, static_cast<uint32_t>(w * 64) + static_cast<uint32_t>(std::countr_zero(rest)),
-               r, is_horizontal);
-    }
-  };
-  take_all([&](uint32_t r, size_t w) { return horizontal(r, w); }, 0, grid_.rows(), true);
-  take_all([&](uint32_t r, size_t w) { return vertical(r, w); }, horizontal_count_,
-           grid_.rows() - 1, false);
+  // Struts give their ends. On edges that the shape ends on, membership tells.
+  if (struts) {
+    double* const ends = memory_->ends.data();
+    std::fill(ends, ends + crossing_count_, unknown);
+    struts->propose(grid_,
+                    {grid_.row(0), grid_.row_words(), horizontal_.data(), vertical_.data(), ends},
+                    points.job());
+    count_unseen(*struts, points);
+    settle_saddles(points);
+    for_open_edges(*shape, points.job(), take);
+  } else {
+    settle_saddles(points);
+    const auto take_all = [&](auto&& edges, uint32_t id, uint32_t end, bool is_horizontal) {
+      for (uint32_t r = 0; r < end; ++r) {
+        if (r % 64 == 0) check_cancelled(points.job());
+        for (size_t w = 0; w < grid_.row_words(); ++w)
+          for (uint64_t rest = edges(r, w); rest; rest &= rest - 1)
+            take(id++,
+                 static_cast<uint32_t>(w * 64) + static_cast<uint32_t>(std::countr_zero(rest)), r,
+                 is_horizontal);
+      }
+    };
+    take_all([&](uint32_t r, size_t w) { return horizontal(r, w); }, 0, grid_.rows(), true);
+    take_all([&](uint32_t r, size_t w) { return vertical(r, w); }, horizontal_count_,
+             grid_.rows() - 1, false);
+  }
   locate_some(points, open, accuracy);
 }
 
@@ -241,9 +264,11 @@ void ContourSection::locate_some(ContourPoints& points, const std::vector<Edge>&
     }
     open.resize(kept);
   }
-  for (size_t i = 0; i < edges.size(); ++i)
-    crossings()[edges[i].id].at = std::clamp(0.5 * (ends[i].inside + ends[i].outside),
-                                             low(edges[i]) + margin_, high(edges[i]) - margin_);
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const double at = std::clamp(0.5 * (ends[i].inside + ends[i].outside), low(edges[i]) + margin_,
+                                 high(edges[i]) - margin_);
+    memory_->ends[edges[i].id] = grid_.inside(edges[i].column, edges[i].row) ? -at : at;
+  }
 }
 
 }  // namespace msq

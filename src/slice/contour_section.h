@@ -13,7 +13,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "base/borrowed.h"
@@ -22,6 +21,13 @@
 #include "slice/contour_struts.h"
 
 namespace msq {
+
+/// On an edge of the grid between a node inside and one outside.
+struct EdgeCrossing {
+  uint32_t
+      next;      ///< the next one along the boundary; after rings were made: the number of its ring
+  uint32_t way;  ///< see contour_section.cpp
+};
 
 /// Of a cell.
 enum class CellSide : uint8_t { bottom, right, top, left };
@@ -33,10 +39,10 @@ class ContourSection {
 
   /// Counts crossings. Throws Error(limit) for 2^32 of them.
   uint64_t count_crossings(const Job* job);
-  /// Finds where they are, within `accuracy`, and links them. After count_crossings(). Points will
-  /// be asked about in the window and within `around` of it. From then on, `points` uses struts if
-  /// the model has some; they live as long as this.
-  void trace(ContourPoints& points, double accuracy, double around);
+  /// Finds where they are, within `accuracy`, and links them. After count_crossings(). `struts`: of
+  /// the only structure, which `points` uses, too; `shape`: nodes in the shape alone. Or both null.
+  void trace(ContourPoints& points, double accuracy, const PlaneStruts* struts,
+             const ContourGrid* shape);
 
   const ContourGrid& grid() const { return grid_; }
   double margin() const { return margin_; }
@@ -55,7 +61,11 @@ class ContourSection {
   }
 
   /// As many as count().
-  EdgeCrossing* crossings() { return crossings_->data(); }
+  EdgeCrossing* crossings() { return memory_->crossings.data(); }
+  /// u or v of each crossing, and its negative where the first node of the edge is inside. Struts
+  /// give some that are nearer to a node than the margin, or beyond it. Those beyond the window
+  /// have no meaning.
+  const double* ends() const { return memory_->ends.data(); }
   /// By which side the boundary leaves the cell that it enters at a crossing.
   static CellSide side_of(uint32_t way) { return static_cast<CellSide>(way & 3); }
   /// Whether that cell is a saddle.
@@ -67,7 +77,7 @@ class ContourSection {
   uint64_t unresolved() const { return saddles_.size() + unseen_; }
 
   /// Bytes of a crossing.
-  static constexpr uint64_t bytes_of_crossing = sizeof(EdgeCrossing);
+  static constexpr uint64_t bytes_of_crossing = sizeof(EdgeCrossing) + sizeof(double);
 
  private:
   struct Saddle {
@@ -81,8 +91,11 @@ class ContourSection {
   };
   void link(const Job* job);
   void settle_saddles(ContourPoints& points);
-  void count_unseen(ContourPoints& points);
-  void locate(ContourPoints& points, double accuracy, double around);
+  void count_unseen(const PlaneStruts& struts, ContourPoints& points);
+  void locate(ContourPoints& points, double accuracy, const PlaneStruts* struts,
+              const ContourGrid* shape);
+  template <class Take>
+  void for_open_edges(const ContourGrid& shape, const Job* job, Take&& take) const;
   void locate_some(ContourPoints& points, const std::vector<Edge>& edges, double accuracy);
 
   const ContourGrid& grid_;
@@ -90,10 +103,16 @@ class ContourSection {
   uint32_t horizontal_count_ = 0, crossing_count_ = 0;
   std::vector<uint32_t> horizontal_, vertical_;  // the first crossing of each word of edges
   // Kept between calls: fresh memory of this size takes a while to get. May hold more than count().
-  const Borrowed<std::vector<EdgeCrossing>> crossings_;
+  struct Memory {
+    std::vector<EdgeCrossing> crossings;
+    std::vector<double> ends;
+    size_t bytes() const {
+      return crossings.capacity() * sizeof(EdgeCrossing) + ends.capacity() * sizeof(double);
+    }
+  };
+  const Borrowed<Memory> memory_;
   std::vector<Saddle> saddles_;
   uint64_t unseen_ = 0;
-  std::unique_ptr<PlaneStruts> struts_;
 };
 
 }  // namespace msq

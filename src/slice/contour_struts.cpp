@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "slice/contour_struts.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -25,19 +26,21 @@ using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 
-/// Lines of nodes: rows where horizontal, else columns.
-template <bool horizontal>
+/// Where lines of nodes (rows where horizontal, else columns) enter and leave a strut goes to a
+/// sink: put_line() takes one line, put_lines() several inner lines by their numbers.
+template <bool horizontal, class Sink>
 class Lines {
  public:
-  Lines(const ContourAxis& along, const ContourAxis& across, const CrossingTable& table)
-      : along_(along), across_(across), table_(table) {}
+  Lines(const ContourAxis& across, Sink& sink) : across_(across), sink_(sink) {}
 
-  HWY_INLINE void meet(const PlaneStrut& strut, const AxisPart& part) const {
+  /// `part`: of the axis, within the radius of the plane.
+  HWY_INLINE void meet(const PlaneStrut& strut, const AxisPart& part, double radius) const {
     const double a_s = horizontal ? strut.a_u : strut.a_v, a_t = horizontal ? strut.a_v : strut.a_u;
     const double d_s = horizontal ? strut.d_u : strut.d_v, d_t = horizontal ? strut.d_v : strut.d_u;
-    const CapsuleLines capsule(a_s, a_t, strut.w, d_s, d_t, strut.d_w, strut.radius);
+    const CapsuleLines capsule(a_s, a_t, strut.w, d_s, d_t, strut.d_w, radius);
     const double p = a_t + part.from * d_t, q = a_t + part.to * d_t;
-    const double low = std::min(p, q) - strut.radius, high = std::max(p, q) + strut.radius;
+    const double low = std::min(p, q) - radius, high = std::max(p, q) + radius;
+    sink_.begin(capsule);
     if (capsule.inverse == 0) {
       across_.for_nodes(low, high, [&](uint32_t line, double at) { meet_line(capsule, line, at); });
       return;
@@ -52,15 +55,12 @@ class Lines {
  private:
   HWY_INLINE void meet_line(const CapsuleLines& capsule, uint32_t line, double at) const {
     double low, high;
-    if (!capsule.meet(at, low, high)) return;
-    if (low >= along_.low() && low < along_.high()) put(line, along_.edge_of(low), true, low);
-    if (high >= along_.low() && high < along_.high()) put(line, along_.edge_of(high), false, high);
+    if (capsule.meet(at, low, high)) sink_.put_line(capsule, line, at, low, high);
   }
 
   /// Inner lines, several at a time; the arithmetic is that of CapsuleLines::meet().
   HWY_INLINE void meet_lines(const CapsuleLines& capsule, double first, double last) const {
     const D d;
-    const hn::Rebind<int32_t, D> di;
     const auto set = [&](double x) HWY_ATTR { return hn::Set(d, x); };
     const V zero = hn::Zero(d), squared = set(capsule.squared), radius2 = set(capsule.radius2);
     const V d_s = set(capsule.d_s), d_t = set(capsule.d_t), a_s = set(capsule.a_s);
@@ -94,27 +94,52 @@ class Lines {
       };
       const V low = end(hn::Mul(hn::Sub(b, root), inverse), false);
       const V high = end(hn::Mul(hn::Add(b, root), inverse), true);
-      const auto put_ends = [&](V ends, bool enters) HWY_ATTR {
-        const M in = hn::And(
-            met, hn::And(hn::Ge(ends, set(along_.low())), hn::Lt(ends, set(along_.high()))));
-        uint64_t rest = bits_of(d, in);
-        if (!rest) return;
-        const V edge = hn::Add(
-            hn::Mul(hn::Sub(ends, set(along_.first())), set(along_.inverse_pitch())), set(1));
-        HWY_ALIGN double places[max_simd_doubles];
-        HWY_ALIGN int32_t edges[max_simd_doubles];
-        hn::Store(ends, d, places);
-        hn::Store(hn::DemoteTo(
-                      di, hn::Min(hn::Max(edge, zero), set(static_cast<double>(along_.inner())))),
-                  di, edges);
-        const uint32_t line = static_cast<uint32_t>(i) + 1;
-        for (; rest; rest &= rest - 1) {
-          const unsigned lane = static_cast<unsigned>(std::countr_zero(rest));
-          put(line + lane, static_cast<uint32_t>(edges[lane]), enters, places[lane]);
-        }
-      };
-      put_ends(low, true);
-      put_ends(high, false);
+      sink_.put_lines(low, high, number, met);
+    }
+  }
+
+  const ContourAxis& across_;
+  Sink& sink_;
+};
+
+/// Moves the crossings of a table to where struts are entered and left.
+template <bool horizontal>
+class Proposals {
+ public:
+  Proposals(const ContourAxis& along, const CrossingTable& table) : along_(along), table_(table) {}
+
+  HWY_INLINE void begin(const CapsuleLines&) const {}
+  HWY_INLINE void put_line(const CapsuleLines&, uint32_t line, double, double low,
+                           double high) const {
+    if (low >= along_.low() && low < along_.high()) put(line, along_.edge_of(low), true, low);
+    if (high >= along_.low() && high < along_.high()) put(line, along_.edge_of(high), false, high);
+  }
+  HWY_INLINE void put_lines(V low, V high, V number, M met) const {
+    put_ends(low, number, met, true);
+    put_ends(high, number, met, false);
+  }
+
+ private:
+  /// put() for inner lines. Vectors that gather the words of bits took longer.
+  HWY_INLINE void put_ends(V ends, V number, M met, bool enters) const {
+    const D d;
+    const hn::Rebind<int32_t, D> di;
+    const auto set = [&](double x) HWY_ATTR { return hn::Set(d, x); };
+    const M in =
+        hn::And(met, hn::And(hn::Ge(ends, set(along_.low())), hn::Lt(ends, set(along_.high()))));
+    uint64_t rest = bits_of(d, in);
+    if (!rest) return;
+    const V steps =
+        hn::Add(hn::Mul(hn::Sub(ends, set(along_.first())), set(along_.inverse_pitch())), set(1));
+    const V edge = hn::Min(hn::Max(steps, hn::Zero(d)), set(static_cast<double>(along_.inner())));
+    HWY_ALIGN double places[max_simd_doubles];
+    HWY_ALIGN int32_t edges[max_simd_doubles];
+    hn::Store(ends, d, places);
+    hn::Store(hn::DemoteTo(di, edge), di, edges);
+    const uint32_t line = static_cast<uint32_t>(hn::GetLane(number)) + 1;
+    for (; rest; rest &= rest - 1) {
+      const unsigned lane = static_cast<unsigned>(std::countr_zero(rest));
+      put(line + lane, static_cast<uint32_t>(edges[lane]), enters, places[lane]);
     }
   }
 
@@ -132,21 +157,164 @@ class Lines {
     const uint64_t before = (first ^ second) & ((uint64_t{1} << bit) - 1);
     const uint32_t id = (horizontal ? table_.horizontal : table_.vertical)[word] +
                         static_cast<uint32_t>(std::popcount(before));
-    double& known = table_.crossings[id].at;
-    known = enters ? std::min(known, at) : std::max(known, at);
+    double& known = table_.ends[id];
+    known = std::min(known, enters ? at : -at);
   }
 
-  const ContourAxis &along_, &across_;
+  const ContourAxis& along_;
   const CrossingTable& table_;
 };
 
 void propose_struts(const PlaneStrut* struts, const AxisPart* parts, size_t count,
                     const ContourGrid& grid, const CrossingTable& table) {
-  const Lines<true> rows(grid.u_nodes(), grid.v_nodes(), table);
-  const Lines<false> columns(grid.v_nodes(), grid.u_nodes(), table);
+  const ContourAxis &u = grid.u_nodes(), &v = grid.v_nodes();
+  Proposals<true> of_rows(u, table);
+  Proposals<false> of_columns(v, table);
+  const Lines<true, Proposals<true>> rows(v, of_rows);
+  const Lines<false, Proposals<false>> columns(u, of_columns);
   for (size_t i = 0; i < count; ++i) {
-    rows.meet(struts[i], parts[i]);
-    columns.meet(struts[i], parts[i]);
+    rows.meet(struts[i], parts[i], struts[i].radius);
+    columns.meet(struts[i], parts[i], struts[i].radius);
+  }
+}
+
+/// Sets the bits of nodes that struts hold by a margin, and lists those near a strut's surface.
+//
+// Along a line, the squared distance from the axis is convex, and bends at least as the cylinder
+// about the axis does: by 2 k, where k is the squared sine between line and axis (a sphere's is 1).
+// Where the line is in the wider capsule of radius R for a length of L, a point t <= L / 2 from
+// an end has a squared distance of at most R^2 - k t (L - t) <= R^2 - k t L / 2. So from t = 2 K /
+// L on, with k K = R^2 - r^2, it is within r.
+class Drawing {
+ public:
+  Drawing(const ContourAxis& along, const NodeDrawing& out) : along_(along), out_(out) {}
+
+  /// `wide`, `narrow`: the radii.
+  HWY_INLINE void set_radii(double wide, double narrow) {
+    shell_ = narrow > 0 ? wide * wide - narrow * narrow : std::numeric_limits<double>::infinity();
+    narrow2_ = narrow > 0 ? narrow * narrow : -1;
+  }
+  HWY_INLINE void begin(const CapsuleLines& capsule) {
+    inset_ = capsule.inverse == 0 ? 0 : 2 * shell_ * capsule.squared * capsule.inverse;
+  }
+
+  HWY_INLINE void put_line(const CapsuleLines& capsule, uint32_t line, double at, double low,
+                           double high) {
+    double inner_low, inner_high;
+    if (capsule.inverse != 0) {
+      const double inset = inset_ / (high - low);
+      inner_low = low + inset;
+      inner_high = high - inset;
+    } else {
+      // Nearly along the line: as far as both ends of the axis are near it.
+      const double t = at - capsule.a_t, w = capsule.w;
+      const double t_b = t - capsule.d_t, w_b = w - capsule.d_w;
+      const bool is_near = std::max(t * t + w * w, t_b * t_b + w_b * w_b) <= narrow2_;
+      inner_low = is_near ? capsule.a_s + std::min(0.0, capsule.d_s) : high;
+      inner_high = is_near ? capsule.a_s + std::max(0.0, capsule.d_s) : low;
+    }
+    const uint32_t row = ContourGrid::bottom_row + line;
+    look_at_ends(row, low, high);
+    double i0, i1, j0, j1;
+    if (!along_.inner_between(low, high, i0, i1)) return;
+    if (!along_.inner_between(inner_low, inner_high, j0, j1)) j0 = i1 + 1, j1 = i1;
+    put_run(row, i0, i1, j0, j1);
+  }
+
+  HWY_INLINE void put_lines(V low, V high, V number, M met) {
+    const D d;
+    const auto set = [&](double x) HWY_ATTR { return hn::Set(d, x); };
+    const V last = set(static_cast<double>(along_.inner()) - 1);
+    const V inset = hn::Div(set(inset_), hn::Sub(high, low));
+    const auto steps = [&](V x) HWY_ATTR {
+      return hn::Mul(hn::Sub(x, set(along_.first())), set(along_.inverse_pitch()));
+    };
+    const V i0 = hn::Max(hn::Ceil(steps(low)), hn::Zero(d));
+    const V i1 = hn::Min(hn::Floor(steps(high)), last);
+    const V j0 = hn::Max(hn::Ceil(steps(hn::Add(low, inset))), i0);
+    const V j1 = hn::Min(hn::Floor(steps(hn::Sub(high, inset))), i1);
+    const M at_ends =
+        hn::And(met, hn::Or(hn::Le(low, set(along_.low())), hn::Ge(high, set(along_.high()))));
+    HWY_ALIGN double numbers[max_simd_doubles], first[max_simd_doubles], end[max_simd_doubles];
+    hn::Store(number, d, numbers);
+    if (!hn::AllFalse(d, at_ends)) {
+      hn::Store(low, d, first);
+      hn::Store(high, d, end);
+      for (uint64_t rest = bits_of(d, at_ends); rest; rest &= rest - 1) {
+        const unsigned lane = static_cast<unsigned>(std::countr_zero(rest));
+        look_at_ends(ContourGrid::first_inner_row + static_cast<uint32_t>(numbers[lane]),
+                     first[lane], end[lane]);
+      }
+    }
+    HWY_ALIGN double inner_first[max_simd_doubles], inner_end[max_simd_doubles];
+    hn::Store(i0, d, first);
+    hn::Store(i1, d, end);
+    hn::Store(j0, d, inner_first);
+    hn::Store(j1, d, inner_end);
+    for (uint64_t rest = bits_of(d, hn::And(met, hn::Le(i0, i1))); rest; rest &= rest - 1) {
+      const unsigned lane = static_cast<unsigned>(std::countr_zero(rest));
+      put_run(ContourGrid::first_inner_row + static_cast<uint32_t>(numbers[lane]), first[lane],
+              end[lane], inner_first[lane], inner_end[lane]);
+    }
+  }
+
+ private:
+  /// The nodes on both edges of the window.
+  HWY_INLINE void look_at_ends(uint32_t row, double low, double high) {
+    if (low <= along_.low() && along_.low() <= high)
+      out_.doubtful.push_back({ContourGrid::left_edge, row});
+    if (low <= along_.high() && along_.high() <= high)
+      out_.doubtful.push_back(
+          {static_cast<uint32_t>(ContourGrid::first_inner + along_.inner()), row});
+  }
+  /// Inner nodes i0 to i1 lie in the wide capsule, j0 to j1 also in the narrow one.
+  HWY_INLINE void put_run(uint32_t row, double i0, double i1, double j0, double j1) {
+    if (!(j0 <= j1)) {
+      look_at(row, i0, i1);
+      return;
+    }
+    if (i0 < j0) look_at(row, i0, j0 - 1);
+    if (j1 < i1) look_at(row, j1 + 1, i1);
+    uint64_t* const words = out_.bits + row * out_.row_words;
+    const uint32_t first = ContourGrid::first_inner + static_cast<uint32_t>(j0);
+    const uint32_t last = ContourGrid::first_inner + static_cast<uint32_t>(j1);
+    const uint64_t from = ~uint64_t{0} << (first % 64), to = ~uint64_t{0} >> (63 - last % 64);
+    if (first / 64 == last / 64) {
+      words[first / 64] |= from & to;
+      return;
+    }
+    words[first / 64] |= from;
+    for (uint32_t w = first / 64 + 1; w < last / 64; ++w) words[w] = ~uint64_t{0};
+    words[last / 64] |= to;
+  }
+  void look_at(uint32_t row, double i0, double i1) {
+    for (double i = i0; i <= i1; ++i)
+      out_.doubtful.push_back({ContourGrid::first_inner + static_cast<uint32_t>(i), row});
+  }
+
+  const ContourAxis& along_;
+  const NodeDrawing& out_;
+  double shell_ = 0, narrow2_ = 0, inset_ = 0;
+};
+
+void draw_plane_struts(const PlaneStrut* struts, size_t count, double margin,
+                       const ContourGrid& grid, const NodeDrawing& out) {
+  Drawing drawing(grid.u_nodes(), out);
+  const Lines<true, Drawing> rows(grid.v_nodes(), drawing);
+  for (size_t i = 0; i < count; ++i) {
+    const PlaneStrut& s = struts[i];
+    // Lines nearly along an axis are taken to be parallel to it (CapsuleLines).
+    const double size2 = s.d_u * s.d_u + s.d_v * s.d_v + s.d_w * s.d_w;
+    const double wide = s.radius + 2 * margin + 2e-6 * std::sqrt(size2);
+    AxisPart part{0, 1};
+    if (s.d_w != 0) {
+      const double p = (s.w - wide) / s.d_w, q = (s.w + wide) / s.d_w;
+      part.from = std::max(part.from, std::min(p, q));
+      part.to = std::min(part.to, std::max(p, q));
+      if (!(part.from <= part.to)) continue;
+    }
+    drawing.set_radii(wide, s.radius - margin);
+    rows.meet(s, part, wide);
   }
 }
 
@@ -161,6 +329,7 @@ namespace msq {
 namespace {
 
 HWY_EXPORT(propose_struts);
+HWY_EXPORT(draw_plane_struts);
 
 /// Along an axis.
 constexpr double max_cells_of_tile = 64;
@@ -181,6 +350,8 @@ PlaneStruts::PlaneStruts(const Structure& structure, const ContourGrid& grid, do
             0x1p-40 * (max_magnitude(plane.at(u_.low, v_.low)) +
                        max_magnitude(plane.at(u_.high, v_.high)) +
                        max_magnitude(structure.neighbourhood().origin));
+  memory_->struts.clear();
+  memory_->parts.clear();
   collect(structure, plane, job);
   set_squares(grid.pitch());
   sort(job);
@@ -205,17 +376,19 @@ void PlaneStruts::add(const LayerPlane& plane, Vec3 a, Vec3 b, double radius) {
     from = to = d_w != 0 ? near / d_w : 0;
     if (d_w == 0) to = 1;
   }
-  if (struts_.size() == struts_.capacity()) {
-    const size_t room = std::max<size_t>(1024, 2 * struts_.capacity());
+  std::vector<PlaneStrut>& struts = memory_->struts;
+  if (struts.size() == room_) {
+    const size_t room = std::max<size_t>(1024, 2 * room_);
     Reservation more(budget_, room * bytes_of_strut, "the struts of a layer");
-    struts_.reserve(room);
-    parts_.reserve(room);
+    struts.reserve(room);
+    memory_->parts.reserve(room);
     held_ = std::move(more);
+    room_ = room;
   }
   const double squared = dot(d, d);
   const int u = plane.u_axis(), v = plane.v_axis();
-  struts_.push_back({a[u], a[v], w, d[u], d[v], d_w, radius, squared > 0 ? 1 / squared : 0});
-  parts_.push_back({from, to});
+  struts.push_back({a[u], a[v], w, d[u], d[v], d_w, radius, squared > 0 ? 1 / squared : 0});
+  memory_->parts.push_back({from, to});
 }
 
 void PlaneStruts::collect(const Structure& structure, const LayerPlane& plane, const Job* job) {
@@ -244,7 +417,7 @@ void PlaneStruts::collect(const Structure& structure, const LayerPlane& plane, c
 
 void PlaneStruts::set_squares(double min_side) {
   const double width = u_.high - u_.low, height = v_.high - v_.low;
-  const double count = static_cast<double>(struts_.size()) + 1;
+  const double count = static_cast<double>(memory_->struts.size()) + 1;
   const double side =
       std::max({min_side, std::sqrt(width * height / count), width / count, height / count});
   for (Squares* axis : {&u_, &v_}) {
@@ -255,86 +428,106 @@ void PlaneStruts::set_squares(double min_side) {
 
 /// Rings and points come row by row, so struts that are near each other lie near in memory, too.
 void PlaneStruts::sort(const Job* job) {
+  const Borrowed<Unsorted> unsorted;
+  std::vector<PlaneStrut>&from = unsorted->struts, &to = memory_->struts;
+  std::vector<AxisPart>&parts_from = unsorted->parts, &parts_to = memory_->parts;
+  std::swap(from, to);
+  std::swap(parts_from, parts_to);
+  const size_t squares = size_t{u_.count} * v_.count, count = from.size();
+  if (count > UINT32_MAX)
+    fail(Status::limit, "%zu struts of the layer; the limit is %u", count, UINT32_MAX);
+  const Reservation held(budget_, count * bytes_of_strut + (squares + 1) * sizeof(uint32_t),
+                         "the struts of a layer");
   const auto square_of = [&](size_t n) {
-    const PlaneStrut& s = struts_[n];
-    const double middle = 0.5 * (parts_[n].from + parts_[n].to);
+    const PlaneStrut& s = from[n];
+    const double middle = 0.5 * (parts_from[n].from + parts_from[n].to);
     return size_t{v_.at(s.a_v + middle * s.d_v)} * u_.count + u_.at(s.a_u + middle * s.d_u);
   };
-  const size_t squares = size_t{u_.count} * v_.count;
-  Reservation held(budget_, struts_.size() * bytes_of_strut + (squares + 1) * sizeof(size_t),
-                   "the struts of a layer");
-  std::vector<size_t> starts(squares + 1);
+  std::vector<uint32_t>& starts = unsorted->starts;
+  starts.assign(squares + 1, 0);
   CancelPoll poll(job);
-  for (size_t n = 0; n < struts_.size(); ++n) {
+  for (size_t n = 0; n < count; ++n) {
     poll();
     ++starts[square_of(n) + 1];
   }
   for (size_t i = 0; i < squares; ++i) starts[i + 1] += starts[i];
-  std::vector<PlaneStrut> struts(struts_.size());
-  std::vector<AxisPart> parts(struts_.size());
-  for (size_t n = 0; n < struts_.size(); ++n) {
+  to.resize(count);
+  parts_to.resize(count);
+  for (size_t n = 0; n < count; ++n) {
     poll();
-    const size_t to = starts[square_of(n)]++;
-    struts[to] = struts_[n];
-    parts[to] = parts_[n];
+    const uint32_t at = starts[square_of(n)]++;
+    to[at] = from[n];
+    parts_to[at] = parts_from[n];
   }
-  struts_ = std::move(struts);
-  parts_ = std::move(parts);
-  held_ = std::move(held);
 }
 
 void PlaneStruts::list_by_square(const Job* job) {
-  const auto for_squares = [&](size_t n, auto&& visit) {
-    const PlaneStrut& s = struts_[n];
-    const AxisPart& part = parts_[n];
-    const auto range = [&](const Squares& axis, double a, double d, uint32_t& first,
-                           uint32_t& last) {
-      const double p = a + part.from * d, q = a + part.to * d, reach = s.radius + 2 * margin_;
-      const double low = std::min(p, q) - reach, high = std::max(p, q) + reach;
-      if (high < axis.low || low > axis.high) return false;
-      first = axis.at(low);
-      last = axis.at(high);
-      return true;
-    };
-    uint32_t u0, u1, v0, v1;
-    if (!range(u_, s.a_u, s.d_u, u0, u1) || !range(v_, s.a_v, s.d_v, v0, v1)) return;
-    for (uint32_t j = v0; j <= v1; ++j)
-      for (uint32_t i = u0; i <= u1; ++i) visit(size_t{j} * u_.count + i);
+  const std::vector<PlaneStrut>& struts = memory_->struts;
+  const auto range = [&](const Squares& axis, double a, double d, AxisPart part, double reach,
+                         uint32_t& first, uint32_t& last) {
+    const double p = a + part.from * d, q = a + part.to * d;
+    const double low = std::min(p, q) - reach, high = std::max(p, q) + reach;
+    if (high < axis.low || low > axis.high) return false;
+    first = axis.at(low);
+    last = axis.at(high);
+    return true;
   };
-  const size_t squares = size_t{u_.count} * v_.count;
-  std::vector<uint32_t> ends(squares + 1);
+  const size_t squares = size_t{u_.count} * v_.count, count = struts.size();
+  std::vector<uint32_t>& ends = memory_->starts;
+  ends.assign(squares + 1, 0);
+  memory_->squares.resize(count);
   CancelPoll poll(job);
   uint64_t total = 0;
-  for (size_t n = 0; n < struts_.size(); ++n) {
+  for (size_t n = 0; n < count; ++n) {
     poll();
-    for_squares(n, [&](size_t at) {
-      ++ends[at];
-      ++total;
-    });
+    const PlaneStrut& s = struts[n];
+    const AxisPart& part = memory_->parts[n];
+    const double reach = s.radius + 2 * margin_;
+    SquareRange& at = memory_->squares[n];
+    if (!range(u_, s.a_u, s.d_u, part, reach, at.first_u, at.last_u) ||
+        !range(v_, s.a_v, s.d_v, part, reach, at.first_v, at.last_v))
+      at = {1, 0, 1, 0};
+    for (uint32_t j = at.first_v; j <= at.last_v; ++j)
+      for (uint32_t i = at.first_u; i <= at.last_u; ++i) ++ends[size_t{j} * u_.count + i];
+    total += uint64_t{at.last_u + 1 - at.first_u} * (at.last_v + 1 - at.first_v);
   }
-  if (total > UINT32_MAX || struts_.size() > UINT32_MAX)
+  if (total > UINT32_MAX || count > UINT32_MAX)
     fail(Status::limit, "%llu entries of struts in squares of the layer; the limit is %u",
          static_cast<unsigned long long>(total), UINT32_MAX);
   held_lists_ =
-      Reservation(budget_, (squares + 1 + total) * sizeof(uint32_t), "the struts of a layer");
+      Reservation(budget_, (squares + 1 + total) * sizeof(uint32_t) + count * sizeof(SquareRange),
+                  "the struts of a layer");
   uint32_t sum = 0;
   for (uint32_t& end : ends) sum = end += sum;
-  lists_.resize(sum);
-  for (size_t n = struts_.size(); n-- > 0;) {
+  memory_->lists.resize(sum);
+  for (size_t n = count; n-- > 0;) {
     poll();
-    for_squares(n, [&](size_t at) { lists_[--ends[at]] = static_cast<uint32_t>(n); });
+    const SquareRange& at = memory_->squares[n];
+    for (uint32_t j = at.first_v; j <= at.last_v; ++j)
+      for (uint32_t i = at.first_u; i <= at.last_u; ++i)
+        memory_->lists[--ends[size_t{j} * u_.count + i]] = static_cast<uint32_t>(n);
   }
-  starts_ = std::move(ends);
 }
 
 void PlaneStruts::propose(const ContourGrid& grid, const CrossingTable& table,
                           const Job* job) const {
   constexpr size_t at_once = 1024;
-  for (size_t first = 0; first < struts_.size(); first += at_once) {
+  const std::vector<PlaneStrut>& struts = memory_->struts;
+  for (size_t first = 0; first < struts.size(); first += at_once) {
     check_cancelled(job);
     HWY_DYNAMIC_DISPATCH(propose_struts)
-    (struts_.data() + first, parts_.data() + first, std::min(at_once, struts_.size() - first), grid,
-     table);
+    (struts.data() + first, memory_->parts.data() + first, std::min(at_once, struts.size() - first),
+     grid, table);
+  }
+}
+
+void PlaneStruts::draw(const ContourGrid& grid, const NodeDrawing& out, const Job* job) const {
+  constexpr size_t at_once = 1024;
+  const std::vector<PlaneStrut>& struts = memory_->struts;
+  for (size_t first = 0; first < struts.size(); first += at_once) {
+    check_cancelled(job);
+    HWY_DYNAMIC_DISPATCH(draw_plane_struts)
+    (struts.data() + first, std::min(at_once, struts.size() - first), margin_, grid, out);
   }
 }
 
@@ -346,10 +539,10 @@ std::vector<PlaneStruts::Unseen> PlaneStruts::find_unseen(const ContourGrid& gri
   const ContourAxis &u = grid.u_nodes(), &v = grid.v_nodes();
   const double holds_node = 0.5 * grid.pitch() * grid.pitch();
   CancelPoll poll(job);
-  for (size_t n = 0; n < struts_.size(); ++n) {
+  for (size_t n = 0; n < memory_->struts.size(); ++n) {
     poll();
-    const PlaneStrut& s = struts_[n];
-    const AxisPart& part = parts_[n];
+    const PlaneStrut& s = memory_->struts[n];
+    const AxisPart& part = memory_->parts[n];
     const auto disc = [&](double t) {  // its squared radius
       const double off = s.w - t * s.d_w;
       return s.radius * s.radius - off * off;
@@ -381,22 +574,63 @@ std::vector<PlaneStruts::Unseen> PlaneStruts::find_unseen(const ContourGrid& gri
 }
 
 PlaneStruts::Found PlaneStruts::find(Vec2 p) const {
-  if (!(p.x >= u_.low && p.x <= u_.high && p.y >= v_.low && p.y <= v_.high)) return Found::doubtful;
-  const size_t square = size_t{v_.at(p.y)} * u_.count + u_.at(p.x);
-  bool is_near = false;
-  for (uint32_t i = starts_[square]; i < starts_[square + 1]; ++i) {
-    const PlaneStrut& s = struts_[lists_[i]];
+  Found found;
+  find(&p, 1, &found);
+  return found;
+}
+
+void PlaneStruts::find(const Vec2* points, size_t count, Found* found) const {
+  struct List {
+    uint32_t first, end;
+    bool is_known;
+  };
+  constexpr size_t at_once = 32;
+  List some[at_once];
+  const PlaneStrut* const struts = memory_->struts.data();
+  const uint32_t *const starts = memory_->starts.data(), *const lists = memory_->lists.data();
+  for (size_t done = 0; done < count; done += at_once) {
+    const size_t end = std::min(count - done, at_once);
+    for (size_t n = 0; n < end; ++n) {
+      const Vec2 p = points[done + n];
+      some[n].is_known = p.x >= u_.low && p.x <= u_.high && p.y >= v_.low && p.y <= v_.high;
+      const size_t square = some[n].is_known ? size_t{v_.at(p.y)} * u_.count + u_.at(p.x) : 0;
+      some[n].first = starts[square];
+      some[n].end = starts[square + 1];
+    }
+    // Most of the time would go by waiting for struts, one after the other.
+    for (size_t n = 0; n < end; ++n)
+      for (uint32_t i = some[n].first; i < some[n].end; ++i) hwy::Prefetch(struts + lists[i]);
+    for (size_t n = 0; n < end; ++n)
+      found[done + n] = some[n].is_known ? find_among(lists + some[n].first, lists + some[n].end,
+                                                      points[done + n])
+                                         : Found::doubtful;
+  }
+}
+
+PlaneStruts::Found PlaneStruts::find_among(const uint32_t* first, const uint32_t* end,
+                                           Vec2 p) const {
+  const PlaneStrut* const struts = memory_->struts.data();
+  // All struts of the list, since branches on each one would cost more.
+  bool is_near = false, is_inside = false;
+  for (; first < end; ++first) {
+    const PlaneStrut& s = struts[*first];
     const double x = p.x - s.a_u, y = p.y - s.a_v;
-    const double t =
-        std::clamp((x * s.d_u + y * s.d_v + s.w * s.d_w) * s.inverse_length_squared, 0.0, 1.0);
+    const double along = (x * s.d_u + y * s.d_v + s.w * s.d_w) * s.inverse_length_squared;
+    const double above = along > 0 ? along : 0, t = above < 1 ? above : 1;
     const double dx = x - t * s.d_u, dy = y - t * s.d_v, dw = s.w - t * s.d_w;
     const double squared = dx * dx + dy * dy + dw * dw;
-    const double low = s.radius - margin_, high = s.radius + margin_;
-    if (squared > high * high) continue;
-    if (low > 0 && squared < low * low) return Found::inside;
-    is_near = true;
+    const double less = s.radius - margin_, high = s.radius + margin_;
+    const double low = less > 0 ? less : 0;
+    is_near |= squared <= high * high;
+    is_inside |= squared < low * low;
   }
-  return is_near ? Found::doubtful : Found::outside;
+  return is_inside ? Found::inside : is_near ? Found::doubtful : Found::outside;
+}
+
+size_t PlaneStruts::Memory::bytes() const {
+  return struts.capacity() * sizeof(PlaneStrut) + parts.capacity() * sizeof(AxisPart) +
+         squares.capacity() * sizeof(SquareRange) +
+         (starts.capacity() + lists.capacity()) * sizeof(uint32_t);
 }
 
 }  // namespace msq

@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "base/job.h"
 #include "base/memory.h"
 #include "base/vec2.h"
@@ -22,14 +23,6 @@
 #include "structure/structure.h"
 
 namespace msq {
-
-/// On an edge of the grid between a node inside and one outside.
-struct EdgeCrossing {
-  double at;  ///< u or v
-  uint32_t
-      next;      ///< the next one along the boundary; after rings were made: the number of its ring
-  uint32_t way;  ///< see contour_section.cpp
-};
 
 /// A strut in coordinates u, v and along the normal of the plane, from its end a. One
 /// cache line, since points meet them in any order.
@@ -49,7 +42,16 @@ struct CrossingTable {
   const uint64_t* bits;  ///< nodes inside
   size_t row_words;
   const uint32_t *horizontal, *vertical;  ///< the first crossing of each word of edges
-  EdgeCrossing* crossings;
+  /// u or v of each crossing, and its negative where the first node of the edge is inside. So both
+  /// kinds are lowered by what struts propose.
+  double* ends;
+};
+
+/// Where struts draw nodes.
+struct NodeDrawing {
+  uint64_t* bits;
+  size_t row_words;
+  std::vector<GridNode>& doubtful;  ///< with repetitions
 };
 
 class PlaneStruts {
@@ -58,7 +60,10 @@ class PlaneStruts {
   PlaneStruts(const Structure& structure, const ContourGrid& grid, double around,
               std::shared_ptr<MemoryBudget> budget, const Job* job);
 
-  /// Lowers the crossings where struts are entered, and raises those where struts are left.
+  /// Sets the bits of nodes that struts hold. Lists those near a surface, for find().
+  void draw(const ContourGrid& grid, const NodeDrawing& out, const Job* job) const;
+
+  /// Lowers the ends of the table to where struts are entered and left.
   void propose(const ContourGrid& grid, const CrossingTable& table, const Job* job) const;
 
   /// A point that a strut holds, in a cell whose nodes are all outside.
@@ -73,6 +78,7 @@ class PlaneStruts {
   enum class Found : uint8_t { outside, inside, doubtful };
   /// Whether any strut holds a point of the plane.
   Found find(Vec2 p) const;
+  void find(const Vec2* points, size_t count, Found* found) const;
 
  private:
   struct Squares {
@@ -84,19 +90,40 @@ class PlaneStruts {
     }
   };
 
+  struct SquareRange {
+    uint32_t first_u, last_u, first_v, last_v;
+  };
+
   void collect(const Structure& structure, const LayerPlane& plane, const Job* job);
   void add(const LayerPlane& plane, Vec3 a, Vec3 b, double radius);
+  Found find_among(const uint32_t* first, const uint32_t* end, Vec2 p) const;
   void set_squares(double min_side);
   void sort(const Job* job);
   void list_by_square(const Job* job);
 
   std::shared_ptr<MemoryBudget> budget_;
   Reservation held_, held_lists_;
-  std::vector<PlaneStrut> struts_;  // by the square of their section's middle
-  std::vector<AxisPart> parts_;
+  size_t room_ = 0;  // struts that are reserved
+  // Kept between calls: fresh memory of this size takes a while to get.
+  struct Memory {
+    std::vector<PlaneStrut> struts;  // by the square of their section's middle
+    std::vector<AxisPart> parts;
+    std::vector<SquareRange> squares;     // that a strut is listed in
+    std::vector<uint32_t> starts, lists;  // by square: numbers of struts
+    size_t bytes() const;
+  };
+  const Borrowed<Memory> memory_;
+  struct Unsorted {
+    std::vector<PlaneStrut> struts;
+    std::vector<AxisPart> parts;
+    std::vector<uint32_t> starts;  // by square
+    size_t bytes() const {
+      return struts.capacity() * sizeof(PlaneStrut) + parts.capacity() * sizeof(AxisPart) +
+             starts.capacity() * sizeof(uint32_t);
+    }
+  };
   Squares u_, v_;
   double margin_;
-  std::vector<uint32_t> starts_, lists_;  // by square: numbers of struts
 };
 
 }  // namespace msq

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "base/borrowed.h"
 #include "base/memory.h"
 #include "base/status.h"
 #include "slice/contour_details.h"
@@ -77,7 +79,7 @@ class RingBuilder {
   }
 
   void add_crossing(uint32_t id, bool is_fixed) {
-    const Vec2 at = rings_[id].at;
+    const Vec2 at = rings_.at(id);
     if (rings_.is_beyond(id)) {
       // Of these only the corners of the window count: once, though two crossings lie there.
       if (rings_.is_horizontal(id) && rings_.is_on_seam(id)) line_.push_back({at, true, {}, {}});
@@ -87,17 +89,18 @@ class RingBuilder {
       line_.push_back({at, true, {}, {}});
       return;
     }
-    const bool is_horizontal = rings_.is_horizontal(id);
-    const double middle = is_horizontal ? at.x : at.y;
+    // Horizontal and vertical edges alternate in no order: indices instead of branches.
+    const uint32_t along = rings_.axis_along(id);
+    const double both[2] = {at.x, at.y};
+    const double middle = both[along];
     const double low = std::max(middle - tolerance_, rings_.low(id) + rings_.margin());
     const double high = std::min(middle + tolerance_, rings_.high(id) - rings_.margin());
-    Vec2 first = at, second = at;
-    (is_horizontal ? first.x : first.y) = low;
-    (is_horizontal ? second.x : second.y) = high;
-    if (rings_.starts_inside(id))
-      line_.push_back({at, false, first, second});
-    else
-      line_.push_back({at, false, second, first});
+    const bool starts_inside = rings_.starts_inside(id);
+    const double ends[2] = {low, high};
+    double left[2] = {at.x, at.y}, right[2] = {at.x, at.y};
+    left[along] = ends[!starts_inside];
+    right[along] = ends[starts_inside];
+    line_.push_back({at, false, {left[0], left[1]}, {right[0], right[1]}});
   }
 
   /// The points that follow the last crossing. Whether the next crossing must stay.
@@ -118,6 +121,27 @@ class RingBuilder {
   std::vector<Written> written_;
   std::vector<LinePoint> line_;
   std::vector<Vec2> points_;
+};
+
+/// Whether crossings come from struts: of cells that are not smaller than this, few are asked
+/// about.
+bool gives_struts(const Scales& resolved, double pitch) {
+  return resolved.size() == 1 && resolved[0]->skin.is_none() &&
+         resolved[0]->structure->has_struts() && resolved[0]->structure->cell_length() >= 2 * pitch;
+}
+
+/// The struts of a layer, and its nodes in the shape alone.
+struct LayerStruts {
+  LayerStruts(const Model& model, const Structure& structure, const ContourGrid& grid,
+              double around, const Job* job)
+      : held(model.context().budget, grid.words() * sizeof(uint64_t), "the nodes of a layer"),
+        shape(grid),
+        all(structure, grid, around, model.context().budget, job) {
+    shape.find_nodes(model, {}, job);
+  }
+  const Reservation held;
+  ContourGrid shape;
+  const PlaneStruts all;
 };
 
 /// The window, no larger than what is around the model. False if there is nothing in it.
@@ -158,11 +182,11 @@ void check_units(const ContourPlan& plan, double pitch, const double low[2], con
 const void* Contours::points() const {
   switch (format_) {
     case ContourFormat::int32:
-      return int32_.data();
+      return numbers_.int32.data();
     case ContourFormat::int64:
-      return int64_.data();
+      return numbers_.int64.data();
     default:
-      return float64_.data();
+      return numbers_.float64.data();
   }
 }
 
@@ -190,19 +214,26 @@ bool Contours::add_ring(const std::vector<Vec2>& ring, int64_t parent, bool is_h
     starts_.push_back(out.size() / 2);
     return true;
   };
-  const bool is_added = format_ == ContourFormat::int32   ? add(int32_)
-                        : format_ == ContourFormat::int64 ? add(int64_)
-                                                          : add(float64_);
+  const bool is_added = format_ == ContourFormat::int32   ? add(numbers_.int32)
+                        : format_ == ContourFormat::int64 ? add(numbers_.int64)
+                                                          : add(numbers_.float64);
   if (!is_added) return false;
   parents_.push_back(parent);
   holes_.push_back(is_hole);
   return true;
 }
 
-void Contours::close() {
-  int32_.shrink_to_fit();
-  int64_.shrink_to_fit();
-  float64_.shrink_to_fit();
+void Contours::begin(ContourNumbers& room) {
+  room.int32.clear();
+  room.int64.clear();
+  room.float64.clear();
+  std::swap(numbers_, room);
+}
+
+void Contours::close(ContourNumbers& room) {
+  ContourNumbers own = numbers_;  // copies take no more memory than needed
+  std::swap(numbers_, room);
+  std::swap(numbers_, own);
 }
 
 Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* job) {
@@ -221,7 +252,20 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   ContourGrid grid(plan.plane, low, high, pitch);
   const std::shared_ptr<MemoryBudget>& budget = model.context().budget;
   const Reservation nodes(budget, grid.bytes(model, resolved), "the nodes of a layer");
-  grid.find_nodes(model, resolved, job);
+  ContourPoints points(model, resolved, plan.plane, job);
+  std::optional<LayerStruts> struts;
+  if (gives_struts(resolved, pitch)) {
+    const Structure& structure = *resolved[0]->structure;
+    struts.emplace(model, structure, grid, 2 * plan.tolerance, job);
+    points.use_struts(struts->all);
+    // Else rows of lattices cost less.
+    if (structure.gains_by_layers())
+      grid.find_nodes(struts->all, struts->shape, points);
+    else
+      grid.find_nodes(model, resolved, job);
+  } else {
+    grid.find_nodes(model, resolved, job);
+  }
   if (job) job->set_progress(0.25);
 
   const bool is_integer = plan.format != ContourFormat::float64;
@@ -235,17 +279,18 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   const Reservation crossings(
       budget, section.count_crossings(job) * bytes + 2 * sizeof(uint32_t) * grid.words(),
       "the crossings of a layer");
-  ContourPoints points(model, resolved, plan.plane, job);
   section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch),
-                2 * plan.tolerance);
+                struts ? &struts->all : nullptr, struts ? &struts->shape : nullptr);
   if (job) job->set_progress(0.75);
   const ContourRings rings(section, job);
   ContourDetails details(rings, part, is_integer ? plan.units : 0);
   details.find(points);
   if (job) job->set_progress(0.9);
+  const Borrowed<ContourNumbers> room;
+  out->begin(*room);
   RingBuilder(rings, details, part, plan.units, *out).build(job);
   out->set_unresolved(section.unresolved() + details.unresolved());
-  out->close();
+  out->close(*room);
   scope.done();
   return out;
 }

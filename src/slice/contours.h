@@ -26,6 +26,17 @@ struct ContourPlan {
   double length_scale = 0;
 };
 
+/// Coordinates of points; of one of the types.
+struct ContourNumbers {
+  std::vector<int32_t> int32;
+  std::vector<int64_t> int64;
+  std::vector<double> float64;
+  size_t bytes() const {
+    return int32.capacity() * sizeof(int32_t) + int64.capacity() * sizeof(int64_t) +
+           float64.capacity() * sizeof(double);
+  }
+};
+
 class Contours final : public RefCounted {
  public:
   explicit Contours(ContourFormat format) : format_(format) {}
@@ -45,17 +56,17 @@ class Contours final : public RefCounted {
 
   /// Adds a ring of points in units; false if fewer than three remain when they are rounded.
   bool add_ring(const std::vector<Vec2>& ring, int64_t parent, bool is_hole);
-  /// Gives back memory that no ring needs.
-  void close();
+  /// From now on, points are written into `room`, whose memory is warm.
+  void begin(ContourNumbers& room);
+  /// Copies the points into memory of their own and gives `room` back.
+  void close(ContourNumbers& room);
 
  private:
   ContourFormat format_;
   std::vector<uint64_t> starts_{0};
   std::vector<int64_t> parents_;
   std::vector<uint8_t> holes_;
-  std::vector<int32_t> int32_;
-  std::vector<int64_t> int64_;
-  std::vector<double> float64_;
+  ContourNumbers numbers_;
   uint64_t unresolved_ = 0;
   double pitch_ = 0;
 };

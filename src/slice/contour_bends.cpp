@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "slice/contour_bends.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "base/mask_bits-inl.h"
+#include "base/simd.h"
+#include "slice/contour_bends.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace msq {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+namespace {
+
+using D = hn::ScalableTag<double>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+
+HWY_INLINE V cross_of(V ax, V ay, V bx, V by) {
+  return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx));
+}
+HWY_INLINE V squared(V x, V y) {
+  return hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+}
+
+/// The arithmetic is that of ContourDetails::suspect().
+void find_some_bends(const double* x, const double* y, size_t count, double tolerance, double close,
+                     uint64_t* bits) {
+  const D d;
+  const size_t lanes = hn::Lanes(d);
+  const V zero = hn::Zero(d), limit2 = hn::Set(d, tolerance * tolerance);
+  const V close2 = hn::Set(d, close * close), limit2_4 = hn::Set(d, 4 * (tolerance * tolerance));
+  const size_t words = (count + 63) / 64;
+  for (size_t w = 0; w < words; ++w) {
+    // Whole words alone, with a point before and two behind.
+    if (w == 0 || w * 64 + 66 > count) {
+      bits[w] = ~uint64_t{0};
+      continue;
+    }
+    uint64_t word = 0;
+    for (size_t i = 0; i < 64; i += lanes) {
+      const double *const at_x = x + w * 64 + i, *const at_y = y + w * 64 + i;
+      const V ax = hn::LoadU(d, at_x), ay = hn::LoadU(d, at_y);
+      const V bx = hn::LoadU(d, at_x + 1), by = hn::LoadU(d, at_y + 1);
+      const V d1_x = hn::Sub(ax, hn::LoadU(d, at_x - 1));
+      const V d1_y = hn::Sub(ay, hn::LoadU(d, at_y - 1));
+      const V ab_x = hn::Sub(bx, ax), ab_y = hn::Sub(by, ay);
+      const V d2_x = hn::Sub(hn::LoadU(d, at_x + 2), bx);
+      const V d2_y = hn::Sub(hn::LoadU(d, at_y + 2), by);
+      const V size1 = squared(d1_x, d1_y), size = squared(ab_x, ab_y), size2 = squared(d2_x, d2_y);
+      const V turn1 = cross_of(d1_x, d1_y, ab_x, ab_y), turn2 = cross_of(ab_x, ab_y, d2_x, d2_y);
+      const V turn = cross_of(d1_x, d1_y, d2_x, d2_y), area = hn::Mul(turn1, turn2);
+      const M is_close = hn::Or(hn::Lt(size1, close2), hn::Lt(size2, close2));
+      const M is_inflection = hn::Le(area, zero);
+      const M bends_either_way = hn::Or(hn::Gt(hn::Mul(turn1, turn1), hn::Mul(limit2_4, size1)),
+                                        hn::Gt(hn::Mul(turn2, turn2), hn::Mul(limit2_4, size2)));
+      const M is_flat =
+          hn::And(hn::Gt(hn::Mul(turn, turn1), zero),
+                  hn::Le(hn::Mul(area, area), hn::Mul(hn::Mul(hn::Mul(limit2, turn), turn), size)));
+      const M bends =
+          hn::Or(hn::And(is_inflection, bends_either_way), hn::Not(hn::Or(is_inflection, is_flat)));
+      word |= bits_of(d, hn::And(hn::Gt(size, limit2), hn::Or(is_close, bends))) << i;
+    }
+    bits[w] = word;
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace msq
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace msq {
+
+namespace {
+
+HWY_EXPORT(find_some_bends);
+
+}  // namespace
+
+void find_bends(const double* x, const double* y, size_t count, double tolerance, double close,
+                uint64_t* bits) {
+  HWY_DYNAMIC_DISPATCH(find_some_bends)(x, y, count, tolerance, close, bits);
+}
+
+}  // namespace msq
+#endif  // HWY_ONCE
