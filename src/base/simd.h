@@ -4,6 +4,7 @@
 #pragma once
 
 #include <hwy/aligned_allocator.h>
+#include <hwy/cache_control.h>
 
 #include <cstddef>
 #include <new>
