@@ -27,7 +27,8 @@ using Values = ValuesOf<double>;
 
 /// Whether an operation can be done in single precision.
 constexpr bool is_rational(Op op) {
-  return op >= Op::add && op <= Op::absolute && op != Op::divide;
+  return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::minimum ||
+         op == Op::maximum || op == Op::negate || op == Op::absolute;
 }
 
 /// In double precision, as the scalar evaluator; or, for rational operations, in single precision.

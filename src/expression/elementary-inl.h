@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sine, cosine, exponential and logarithm from IEEE additions, products, quotients and comparisons
-// alone. They are written once for scalars and for vectors. Their bits are the same on every
-// instruction set; those of the C library depend on its version and on the machine. Included once
-// for each instruction set.
+// Sine, cosine, exponential, logarithm, angle and hyperbolic tangent from IEEE additions, products,
+// quotients and comparisons alone. They are written once for scalars and for vectors. Their bits
+// are the same on every instruction set; those of the C library depend on its version and on the
+// machine. Included once for each instruction set.
 //
 // Source: Cody and Waite, "Software Manual for the Elementary Functions", 1980. Arguments are
 // reduced by multiples of pi/2 and ln 2 in parts whose products are exact. The polynomials are
 // Taylor series, whose remainders on the reduced arguments are below 2^-54 of the result. Errors of
 // the results are below 2^-50: absolute for sines and cosines of arguments up to 2^19 and for
-// logarithms about 0, relative for the others (tests/unit/test_expression_elementary.cpp).
+// logarithms about 0, absolute for hyperbolic tangents, relative for the others; of angles, below
+// 2^-49 absolute (tests/unit/test_expression_elementary.cpp).
 #if defined(MSQ_EXPRESSION_ELEMENTARY_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_EXPRESSION_ELEMENTARY_INL_H
 #undef MSQ_EXPRESSION_ELEMENTARY_INL_H
@@ -206,6 +207,40 @@ HWY_INLINE typename A::V logarithm(const A& a, typename A::V x) {
   return a.choose(a.less(x, a.set(0)), a.set(std::numeric_limits<double>::quiet_NaN()), v);
 }
 
+/// The angle of the point (x, y), with atan(t) = pi/4 + atan((t - 1) / (t + 1)) for large slopes t.
+template <class A>
+HWY_INLINE typename A::V arctangent(const A& a, typename A::V y, typename A::V x) {
+  static constexpr double terms[] = {1.0,      -1.0 / 3,  1.0 / 5,  -1.0 / 7,  1.0 / 9,  -1.0 / 11,
+                                     1.0 / 13, -1.0 / 15, 1.0 / 17, -1.0 / 19, 1.0 / 21, -1.0 / 23,
+                                     1.0 / 25, -1.0 / 27, 1.0 / 29, -1.0 / 31, 1.0 / 33, -1.0 / 35,
+                                     1.0 / 37, -1.0 / 39, 1.0 / 41};
+  constexpr double pi = 0x1.921fb54442d18p+1;
+  const auto zero = a.set(0), one = a.set(1);
+  const auto wide = a.absolute(x), high = a.absolute(y);
+  const auto is_steep = a.less(wide, high);
+  const auto most = a.choose(is_steep, high, wide);
+  const auto least = a.choose(is_steep, wide, high);
+  // The origin has the slope 0.
+  const auto t = a.divide(least, a.choose(a.equal(most, zero), one, most));
+  const auto is_large = a.less(a.set(0.4142135623730950), t);
+  const auto s = a.choose(is_large, a.divide(a.subtract(t, one), a.add(t, one)), t);
+  auto v = a.multiply(s, polynomial(a, a.multiply(s, s), terms));
+  v = a.choose(is_large, a.add(a.set(pi / 4), v), v);
+  v = a.choose(is_steep, a.subtract(a.set(pi / 2), v), v);
+  v = a.choose(a.less(x, zero), a.subtract(a.set(pi), v), v);
+  v = a.choose(a.less(y, zero), a.negate(v), v);
+  v = a.choose(a.equal(x, x), v, x);  // NaN
+  return a.choose(a.equal(y, y), v, y);
+}
+
+template <class A>
+HWY_INLINE typename A::V tangent_hyperbolic(const A& a, typename A::V x) {
+  const auto one = a.set(1);
+  const auto t = exponential(a, a.multiply(a.set(-2), a.absolute(x)));
+  const auto v = a.divide(a.subtract(one, t), a.add(one, t));
+  return a.choose(a.less(x, a.set(0)), a.negate(v), v);
+}
+
 /// The smaller of two numbers. Either order of the operands is a valid minimum. If the operands are
 /// equal, or one is NaN, the two orders return different operands. The bitwise or of both is then
 /// -0 if one is -0, and NaN if one is NaN.
@@ -223,6 +258,16 @@ HWY_INLINE typename A::V result(const A& a, typename A::V p, typename A::V q) {
   if constexpr (op == Op::divide) return a.divide(p, q);
   if constexpr (op == Op::minimum) return minimum(a, p, q);
   if constexpr (op == Op::maximum) return a.negate(minimum(a, a.negate(p), a.negate(q)));
+  if constexpr (op == Op::arctangent) return arctangent(a, p, q);
+  if constexpr (op == Op::hypotenuse) return a.root(a.add(a.multiply(p, p), a.multiply(q, q)));
+  if constexpr (op == Op::less) {
+    const auto v = a.choose(a.less(p, q), a.set(1), a.set(0));
+    return a.choose(a.equal(p, p), a.choose(a.equal(q, q), v, q), p);
+  }
+  if constexpr (op == Op::keep)
+    return a.choose(a.less(a.set(0.5), p), q, a.choose(a.equal(p, p), a.set(-0.0), p));
+  if constexpr (op == Op::drop)
+    return a.choose(a.less(a.set(0.5), p), a.set(-0.0), a.choose(a.equal(p, p), q, p));
   if constexpr (op == Op::negate) return a.negate(p);
   if constexpr (op == Op::absolute) return a.absolute(p);
   if constexpr (op == Op::square_root) return a.root(p);
@@ -230,6 +275,9 @@ HWY_INLINE typename A::V result(const A& a, typename A::V p, typename A::V q) {
   if constexpr (op == Op::cosine) return sine(a, p, 1);
   if constexpr (op == Op::exponential) return exponential(a, p);
   if constexpr (op == Op::logarithm) return logarithm(a, p);
+  if constexpr (op == Op::tangent_hyperbolic) return tangent_hyperbolic(a, p);
+  // The sum turns -0 into 0: instruction sets differ in the sign of a floor that is 0.
+  if constexpr (op == Op::floor) return a.add(a.floor(p), a.set(0));
 }
 
 /// Calls body(std::integral_constant<Op, op>) for an operation with operands.
@@ -262,6 +310,20 @@ HWY_INLINE void with_op(Op op, Body&& body) {
       return body(std::integral_constant<Op, Op::exponential>());
     case Op::logarithm:
       return body(std::integral_constant<Op, Op::logarithm>());
+    case Op::tangent_hyperbolic:
+      return body(std::integral_constant<Op, Op::tangent_hyperbolic>());
+    case Op::floor:
+      return body(std::integral_constant<Op, Op::floor>());
+    case Op::arctangent:
+      return body(std::integral_constant<Op, Op::arctangent>());
+    case Op::hypotenuse:
+      return body(std::integral_constant<Op, Op::hypotenuse>());
+    case Op::less:
+      return body(std::integral_constant<Op, Op::less>());
+    case Op::keep:
+      return body(std::integral_constant<Op, Op::keep>());
+    case Op::drop:
+      return body(std::integral_constant<Op, Op::drop>());
     default:
       return;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rounding is monotone. So the ends of a sum, a difference, a product, a quotient or a root,
 // rounded as the evaluator rounds them, enclose its results without any slack. Sines, cosines,
-// exponentials and logarithms are not known to be monotone in the last bits: their ends move out by
-// `slack`, which is more than twice their error (elementary-inl.h).
+// exponentials, logarithms, angles and hyperbolic tangents are not known to be monotone in the last
+// bits: their ends move out by `slack`, which is more than twice their error (elementary-inl.h).
 #include "expression/enclosure.h"
 
 #include <algorithm>
@@ -53,6 +53,29 @@ Enclosure magnitude(const Enclosure& p) {
   return {p.low <= 0 && p.high >= 0 ? 0 : std::min(a, b), std::max(a, b)};
 }
 
+/// Of the angle of (x, y).
+Enclosure angle(const Enclosure& y, const Enclosure& x) {
+  constexpr double pi = two_pi / 2, wide = 0x1p-46;
+  // The angle jumps from -pi to pi on the negative x axis, to which pi belongs. Elsewhere the ends
+  // are at corners.
+  if (x.low <= 0 && y.low < 0 && y.high >= 0) return {-pi - wide, pi + wide};
+  const double all[] = {apply(Op::arctangent, y.low, x.low), apply(Op::arctangent, y.low, x.high),
+                        apply(Op::arctangent, y.high, x.low),
+                        apply(Op::arctangent, y.high, x.high)};
+  return {*std::min_element(all, all + 4) - wide, *std::max_element(all, all + 4) + wide};
+}
+
+Enclosure hypotenuse(const Enclosure& p, const Enclosure& q) {
+  const Enclosure a = magnitude(p), b = magnitude(q);
+  return {apply(Op::hypotenuse, a.low, b.low) * (1 - slack),
+          apply(Op::hypotenuse, a.high, b.high) * (1 + slack) + 0x1p-500};
+}
+
+/// -0 included.
+Enclosure with_zero(const Enclosure& p) {
+  return {std::min(p.low, 0.0), std::max(p.high, 0.0)};
+}
+
 Enclosure exponential(const Enclosure& p) {
   return {apply(Op::exponential, p.low, 0) * (1 - slack),
           apply(Op::exponential, p.high, 0) * (1 + slack) + std::numeric_limits<double>::min()};
@@ -83,6 +106,16 @@ Enclosure enclose_result(Op op, const Enclosure& p, const Enclosure& q, bool is_
       return {std::min(p.low, q.low), std::min(p.high, q.high)};
     case Op::maximum:
       return {std::max(p.low, q.low), std::max(p.high, q.high)};
+    case Op::arctangent:
+      return angle(p, q);
+    case Op::hypotenuse:
+      return hypotenuse(p, q);
+    case Op::less:
+      return {p.high < q.low ? 1.0 : 0.0, p.low < q.high ? 1.0 : 0.0};
+    case Op::keep:
+      return p.low > 0.5 ? q : p.high <= 0.5 ? Enclosure{0, 0} : with_zero(q);
+    case Op::drop:
+      return p.low > 0.5 ? Enclosure{0, 0} : p.high <= 0.5 ? q : with_zero(q);
     case Op::negate:
       return {-p.high, -p.low};
     case Op::absolute:
@@ -97,6 +130,10 @@ Enclosure enclose_result(Op op, const Enclosure& p, const Enclosure& q, bool is_
       return exponential(p);
     case Op::logarithm:
       return logarithm(p);
+    case Op::tangent_hyperbolic:
+      return {apply(op, p.low, 0) - slack, apply(op, p.high, 0) + slack};
+    case Op::floor:
+      return {std::floor(p.low), std::floor(p.high)};
     default:
       return unbounded;
   }
@@ -119,6 +156,14 @@ void enclose(const Tape& tape, const Interval (&box)[3], std::vector<Enclosure>&
     nodes[i] = is_bounded(e) ? e : unbounded;  // NaN is not bounded either
   }
 }
+
+namespace {
+
+bool is_minus_zero(const Node& node) {
+  return node.op == Op::constant && node.value == 0 && std::signbit(node.value);
+}
+
+}  // namespace
 
 Tape shortened(const Tape& tape, const std::vector<Enclosure>& nodes) {
   TapeBuilder builder;
@@ -146,6 +191,17 @@ Tape shortened(const Tape& tape, const std::vector<Enclosure>& nodes) {
     else if (is_known && node.op == Op::maximum && p.high < q.low)
       number[i] = b;
     else if (is_known && node.op == Op::absolute && p.low > 0)
+      number[i] = a;
+    else if (is_known && node.op == Op::less && (p.high < q.low || p.low >= q.high))
+      number[i] = builder.constant(p.high < q.low ? 1 : 0);
+    else if (is_known && node.op == Op::floor && std::floor(p.low) == std::floor(p.high))
+      number[i] = builder.constant(std::floor(p.low) + 0.0);
+    else if (is_bounded(p) && (node.op == Op::keep || node.op == Op::drop) &&
+             (p.low > 0.5 || p.high <= 0.5))
+      number[i] = (p.low > 0.5) == (node.op == Op::keep) ? b : builder.constant(-0.0);
+    else if (node.op == Op::add && is_minus_zero(builder[a]))
+      number[i] = b;
+    else if (node.op == Op::add && is_minus_zero(builder[b]))
       number[i] = a;
     else
       number[i] = builder.apply(node.op, a, b);

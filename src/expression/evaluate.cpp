@@ -2,6 +2,7 @@
 // The scalar evaluator.
 #include <hwy/highway.h>
 
+#include "base/borrowed.h"
 #include "expression/elementary-inl.h"
 #include "expression/tape.h"
 
@@ -23,8 +24,10 @@ HWY_AFTER_NAMESPACE();
 
 namespace msq {
 
-double evaluate(const Tape& tape, Vec3 position) {
-  double values[max_tape_nodes];
+namespace {
+
+/// `values`: room for one per node.
+double evaluate_into(double* values, const Tape& tape, Vec3 position) {
   const size_t count = tape.nodes.size();
   for (size_t i = 0; i < count; ++i) {
     const Node& node = tape.nodes[i];
@@ -46,6 +49,19 @@ double evaluate(const Tape& tape, Vec3 position) {
     }
   }
   return values[count - 1];
+}
+
+}  // namespace
+
+double evaluate(const Tape& tape, Vec3 position) {
+  constexpr size_t few = 1024;
+  if (tape.nodes.size() > few) {
+    const Borrowed<std::vector<double>> values;
+    values->resize(tape.nodes.size());
+    return evaluate_into(values->data(), tape, position);
+  }
+  double values[few];
+  return evaluate_into(values, tape, position);
 }
 
 }  // namespace msq

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A parser by recursive descent: each rule of the grammar is a function.
 //
+//   whole   = sum [ ("<" | "<=" | ">" | ">=" | "==" | "!=") sum ]
 //   sum     = product { ("+" | "-") product }
 //   product = signed { ("*" | "/") signed }
 //   signed  = ("-" | "+") signed | power
 //   power   = primary [ "^" signed ]
-//   primary = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
+//   primary = number | name | function "(" whole { "," whole } ")" | "(" whole ")"
 #include "expression/parser.h"
 
 #include <charconv>
@@ -24,11 +25,17 @@ struct Function {
   Op op;
   int operands;
 };
-/// pow has no operation of its own.
+/// Those with Op::constant are made of several operations.
 constexpr Function functions[] = {
-    {"pow", Op::constant, 2}, {"min", Op::minimum, 2},      {"max", Op::maximum, 2},
-    {"abs", Op::absolute, 1}, {"sqrt", Op::square_root, 1}, {"sin", Op::sine, 1},
-    {"cos", Op::cosine, 1},   {"exp", Op::exponential, 1},  {"log", Op::logarithm, 1},
+    {"pow", Op::constant, 2},     {"min", Op::minimum, 2},
+    {"max", Op::maximum, 2},      {"abs", Op::absolute, 1},
+    {"sqrt", Op::square_root, 1}, {"sin", Op::sine, 1},
+    {"cos", Op::cosine, 1},       {"exp", Op::exponential, 1},
+    {"log", Op::logarithm, 1},    {"tanh", Op::tangent_hyperbolic, 1},
+    {"atan2", Op::arctangent, 2}, {"hypot", Op::hypotenuse, 2},
+    {"floor", Op::floor, 1},      {"ceil", Op::constant, 1},
+    {"round", Op::constant, 1},   {"mod", Op::constant, 2},
+    {"select", Op::constant, 3},
 };
 
 constexpr double max_whole_exponent = 65536;
@@ -60,7 +67,7 @@ class Parser {
       : text_(text), parameters_(parameters) {}
 
   Tape parse() {
-    const uint32_t root = sum();
+    const uint32_t root = whole();
     peek();
     if (at_ < text_.size())
       refuse(at_, "expected an operator or the end, found %s", found().c_str());
@@ -108,6 +115,26 @@ class Parser {
       fail(Status::limit, "expression, character %zu: more than %u operations", at_ + 1,
            max_tape_nodes);
     return node;
+  }
+
+  /// 1 less a number that is 0 or 1.
+  uint32_t unless(uint32_t node) { return apply(Op::subtract, builder_.constant(1), node); }
+
+  /// Comparisons do not associate: a second one is refused.
+  uint32_t whole() {
+    const uint32_t left = sum();
+    const char c = peek();
+    const bool has_equal = c && at_ + 1 < text_.size() && text_[at_ + 1] == '=';
+    if (c != '<' && c != '>' && !(has_equal && (c == '=' || c == '!'))) return left;
+    at_ += has_equal ? 2 : 1;
+    const uint32_t right = sum();
+    if (c == '<')
+      return has_equal ? unless(apply(Op::less, right, left)) : apply(Op::less, left, right);
+    if (c == '>')
+      return has_equal ? unless(apply(Op::less, left, right)) : apply(Op::less, right, left);
+    const uint32_t differ =
+        apply(Op::add, apply(Op::less, left, right), apply(Op::less, right, left));
+    return c == '!' ? differ : unless(differ);
   }
 
   uint32_t sum() {
@@ -174,7 +201,7 @@ class Parser {
   uint32_t primary() {
     const char c = peek();
     if (take('(')) {
-      const uint32_t node = sum();
+      const uint32_t node = whole();
       expect(')');
       return node;
     }
@@ -209,14 +236,21 @@ class Parser {
 
   uint32_t call(const Function& f) {
     expect('(');
-    const uint32_t a = sum();
-    uint32_t b = 0;
-    if (f.operands == 2) {
+    uint32_t of[3] = {whole(), 0, 0};
+    for (int i = 1; i < f.operands; ++i) {
       expect(',');
-      b = sum();
+      of[i] = whole();
     }
     expect(')');
-    return f.name == "pow" ? power_of(a, b) : apply(f.op, a, b);
+    if (f.op != Op::constant) return apply(f.op, of[0], of[1]);
+    if (f.name == "pow") return power_of(of[0], of[1]);
+    if (f.name == "ceil") return apply(Op::negate, apply(Op::floor, apply(Op::negate, of[0])));
+    if (f.name == "round") return apply(Op::floor, apply(Op::add, of[0], builder_.constant(0.5)));
+    if (f.name == "mod") {
+      const uint32_t times = apply(Op::floor, apply(Op::divide, of[0], of[1]));
+      return apply(Op::subtract, of[0], apply(Op::multiply, of[1], times));
+    }
+    return apply(Op::add, apply(Op::keep, of[0], of[1]), apply(Op::drop, of[0], of[2]));
   }
 
   std::string_view text_;

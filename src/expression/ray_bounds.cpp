@@ -185,6 +185,99 @@ class Kernel {
             hn::IfThenElse(is_decided, w.error, both.error)};
   }
 
+  /// How far an operand may be from its value at the start, on the piece.
+  static HWY_INLINE V reach_of(const Part& p, V span) {
+    return hn::Mul(set(1 + 0x1p-45), hn::Add(hn::Mul(spread(p, span), span), p.error));
+  }
+
+  /// A value that does not change if `is_known`; otherwise nothing is known.
+  template <class M>
+  static HWY_INLINE Part step(V v, M is_known) {
+    const V zero = hn::Zero(d);
+    const V bend = hn::IfThenElse(is_known, zero, set(std::numeric_limits<double>::infinity()));
+    return {v, zero, zero, bend, zero};
+  }
+
+  static HWY_INLINE Part floor_of(const Part& p, V span, V v) {
+    const V reach = hn::Add(reach_of(p, span), hn::Mul(set(0x1p-50), hn::Abs(p.v)));
+    return step(v, hn::Eq(hn::Floor(hn::Sub(p.v, reach)), hn::Floor(hn::Add(p.v, reach))));
+  }
+
+  static HWY_INLINE Part less(const Part& p, const Part& q, V span, V v) {
+    const V gap = hn::Mul(set(1 - 0x1p-50), hn::Abs(hn::Sub(p.v, q.v)));
+    return step(v, hn::Gt(gap, hn::Add(reach_of(p, span), reach_of(q, span))));
+  }
+
+  /// q where the choice p stays above 1/2 (`is_keep`), or not above.
+  template <bool is_keep>
+  static HWY_INLINE Part kept(const Part& p, const Part& q, V span, V v) {
+    const V half = set(0.5), reach = reach_of(p, span);
+    const auto is_above = hn::Gt(hn::Mul(set(1 - 0x1p-50), hn::Sub(p.v, half)), reach);
+    const auto is_below = hn::Gt(hn::Mul(set(1 - 0x1p-50), hn::Sub(half, p.v)), reach);
+    const auto is_kept = is_keep ? is_above : is_below;
+    Part out = step(v, is_keep ? is_below : is_above);
+    out.low = hn::IfThenElse(is_kept, q.low, out.low);
+    out.high = hn::IfThenElse(is_kept, q.high, out.high);
+    out.bend = hn::IfThenElse(is_kept, q.bend, out.bend);
+    out.error = hn::IfThenElse(is_kept, q.error, out.error);
+    return out;
+  }
+
+  /// f(p, q) with the slopes a and b at the start, and `half` a bound of half of the norm of its
+  /// second derivatives over the reach.
+  static HWY_INLINE Part of_plane(const Part& p, const Part& q, V span, V v, V a, V b, V half,
+                                  V rounding) {
+    Part out, r;
+    out.v = v;
+    scale_slope(p, a, out);
+    scale_slope(q, b, r);
+    out.low = hn::Add(out.low, r.low);
+    if (!is_smooth) out.high = hn::Add(out.high, r.high);
+    const V x = spread(p, span), y = spread(q, span);
+    out.bend = hn::Add(hn::Add(hn::Mul(hn::Abs(a), p.bend), hn::Mul(hn::Abs(b), q.bend)),
+                       hn::Mul(half, hn::Add(hn::Mul(x, x), hn::Mul(y, y))));
+    const auto of_error = [&](V slope, const Part& part, V spread) HWY_ATTR {
+      const V twice = hn::Add(hn::Mul(set(2), hn::Mul(spread, span)), part.error);
+      return hn::Mul(part.error, hn::Add(hn::Abs(slope), hn::Mul(half, twice)));
+    };
+    out.error = hn::Add(hn::Add(of_error(a, p, x), of_error(b, q, y)), rounding);
+    return out;
+  }
+
+  /// The second derivatives of the distance r from the origin have the norm 1 / r. Near the origin
+  /// it changes by no more than the operands do.
+  static HWY_INLINE Part hypotenuse(const Part& p, const Part& q, V span, V v) {
+    const V reach = hn::Add(reach_of(p, span), reach_of(q, span));
+    const V least = hn::Mul(set(1 - 0x1p-45), hn::Sub(v, reach));
+    const V rounding = hn::Add(hn::Mul(set(0x1p-47), hn::Add(v, reach)), set(0x1p-500));
+    const auto is_apart = hn::Gt(least, set(0x1p-400));
+    const V by = hn::IfThenElse(is_apart, v, set(1));
+    const V half = hn::Div(set(0.5 * (1 + 0x1p-45)), hn::IfThenElse(is_apart, least, set(1)));
+    Part out = of_plane(p, q, span, v, hn::Div(p.v, by), hn::Div(q.v, by), half, rounding);
+    const V all = hn::Mul(set(1 + 0x1p-45), hn::Add(steep(p), steep(q)));
+    out.low = hn::IfThenElse(is_apart, out.low, hn::Neg(all));
+    if (!is_smooth) out.high = hn::IfThenElse(is_apart, out.high, all);
+    out.bend = hn::IfThenElse(is_apart, out.bend, hn::Add(p.bend, q.bend));
+    out.error = hn::IfThenElse(is_apart, out.error, hn::Add(hn::Add(p.error, q.error), rounding));
+    return out;
+  }
+
+  /// The angle of (q, p). Its slopes are 1 / r, its second derivatives have the norm 1 / r^2.
+  static HWY_INLINE Part arctangent(const Part& p, const Part& q, V span, V v) {
+    const V square = hn::Add(hn::Mul(p.v, p.v), hn::Mul(q.v, q.v));
+    const V reach_p = reach_of(p, span), reach_q = reach_of(q, span);
+    const V reach = hn::Add(reach_p, reach_q);
+    const V least = hn::Mul(set(1 - 0x1p-45), hn::Sub(hn::Sqrt(square), reach));
+    // Off the negative axis, where the angle jumps, and the origin.
+    const auto is_clear = hn::Or(hn::Gt(q.v, reach_q), hn::Gt(hn::Abs(p.v), reach_p));
+    const auto is_known = hn::And(is_clear, hn::Gt(least, set(0x1p-400)));
+    const V half = hn::IfThenElse(is_known, hn::Div(set(0.5), hn::Mul(least, least)),
+                                  set(std::numeric_limits<double>::infinity()));
+    const V rounding = hn::Mul(set(0x1p-47), hn::Add(set(4), hn::Div(reach, least)));
+    return of_plane(p, q, span, v, hn::Div(q.v, square), hn::Neg(hn::Div(p.v, square)), half,
+                    rounding);
+  }
+
   static HWY_INLINE Part negated(const Part& p) {
     return {hn::Neg(p.v), hn::Neg(p.high), hn::Neg(p.low), p.bend, p.error};
   }
@@ -198,6 +291,7 @@ class Kernel {
       return out;
     }
     const V v = result<op>(lanes, p.v, p.v);
+    if constexpr (op == Op::floor) return floor_of(p, span, v);
     const V reach = hn::Add(hn::Mul(spread(p, span), span), p.error);
     const V least = hn::Mul(set(1 - 0x1p-45), hn::Sub(p.v, reach));
     if constexpr (op == Op::square_root) {
@@ -211,6 +305,12 @@ class Kernel {
       const V rounding =
           hn::Add(hn::Mul(hn::Mul(set(0x1p-48), most), hn::Add(set(1), reach)), set(0x1p-1000));
       return smooth(p, span, v, v, hn::Mul(set(0.5), most), rounding);
+    }
+    if constexpr (op == Op::tangent_hyperbolic) {
+      const V slope = hn::Sub(set(1), hn::Mul(v, v));
+      // The second derivative is -2 v (1 - v v), of which the magnitude is below 0.77.
+      const V rounding = hn::Mul(set(0x1p-48), hn::Add(set(1), reach));
+      return smooth(p, span, v, slope, set(0.385), rounding);
     }
     if constexpr (op == Op::logarithm) {
       const V slope = hn::Div(set(1), p.v);
@@ -230,9 +330,15 @@ class Kernel {
       return out;
     }
     if constexpr (op == Op::multiply) return product(p, q, span);
+    const V v = result<op>(lanes, p.v, q.v);
+    if constexpr (op == Op::less) return less(p, q, span, v);
+    if constexpr (op == Op::keep) return kept<true>(p, q, span, v);
+    if constexpr (op == Op::drop) return kept<false>(p, q, span, v);
+    if constexpr (op == Op::hypotenuse) return hypotenuse(p, q, span, v);
+    if constexpr (op == Op::arctangent) return arctangent(p, q, span, v);
     if constexpr (op == Op::add || op == Op::subtract) {
       Part out;
-      out.v = result<op>(lanes, p.v, q.v);
+      out.v = v;
       out.low = op == Op::add ? hn::Add(p.low, q.low) : hn::Sub(p.low, q.high);
       out.high = op == Op::add ? hn::Add(p.high, q.high) : hn::Sub(p.high, q.low);
       out.bend = hn::Add(p.bend, q.bend);
@@ -321,8 +427,8 @@ RayProgram::RayProgram(const Tape& tape) : program_(compile(tape)) {
       instruction.waves = found->second;
       instruction.is_first = is_new;
     }
-    is_smooth_ =
-        is_smooth_ && node.op != Op::minimum && node.op != Op::maximum && node.op != Op::absolute;
+    is_smooth_ = is_smooth_ && node.op != Op::minimum && node.op != Op::maximum &&
+                 node.op != Op::absolute && node.op != Op::hypotenuse;
     code_.push_back(instruction);
   }
   waves_ = waves.size();

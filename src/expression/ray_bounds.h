@@ -34,7 +34,7 @@ class RayProgram {
   const Program& program() const { return program_; }
   const std::vector<Instruction>& code() const { return code_; }
   size_t waves() const { return waves_; }
-  /// True if there are no minima, maxima or magnitudes: then slopes are numbers.
+  /// True if there are no minima, maxima, magnitudes or hypotenuses: then slopes are numbers.
   bool is_smooth() const { return is_smooth_; }
 
  private:

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each node has three bounds: the enclosure of its computed values (enclosure.cpp), enclosures of
 // the derivatives of its true value, and a bound of the difference of the two values. An IEEE
-// operation loses u = 2^-53 of its result. Sines, cosines, exponentials and logarithms lose up to
-// 2^-50 (elementary-inl.h). Every interval of true values is widened by 2^-50 of its ends, which
-// exceeds the rounding of the few operations that compute it.
+// operation loses u = 2^-53 of its result. Sines, cosines, exponentials, logarithms and
+// hyperbolic tangents lose up to 2^-50, angles up to 2^-49 (elementary-inl.h). Every interval of
+// true values is widened by 2^-50 of its ends, which exceeds the rounding of the few operations
+// that compute it.
 #include "expression/slope.h"
 
 #include <algorithm>
@@ -131,6 +132,65 @@ class Differentiation {
         for (int k = 0; k < 3; ++k)
           part.along[k] = is_a ? a.along[k] : is_b ? b.along[k] : hull(a.along[k], b.along[k]);
         part.error = std::max(a.error, b.error);
+        break;
+      }
+      case Op::arctangent: {
+        // a is y and b is x. Across the negative x axis the angle jumps.
+        const Interval &y = a.value, &x = b.value;
+        const double nearest = std::hypot(distance_from_zero(x), distance_from_zero(y));
+        const double square = (1 - 0x1p-50) * nearest * nearest;
+        if ((x.low <= 0 && y.low <= 0 && y.high >= 0) || !(square > 0x1p-900)) return false;
+        const Interval over{0, 1 / square};
+        const double most = (1 + 0x1p-40) / nearest;
+        // Each of x / (x x + y y) and y / (x x + y y) is at most 1 / nearest.
+        const auto factor = [&](Interval v) {
+          const Interval all = product_of(v, over);
+          return Interval{std::max(all.low, -most), std::min(all.high, most)};
+        };
+        const Interval by = factor(x), ax = factor(y);
+        for (int k = 0; k < 3; ++k)
+          part.along[k] = sum(product_of(by, a.along[k]), negative(product_of(ax, b.along[k])));
+        part.error = (a.error + b.error) * most + 4 * of_function;
+        break;
+      }
+      case Op::hypotenuse: {
+        // Its gradient is a unit vector; where both are 0, any vector of length 1 or less.
+        const double nearest =
+            std::hypot(distance_from_zero(a.value), distance_from_zero(b.value)) * (1 - 0x1p-50);
+        const auto factor = [&](Interval v) {
+          if (!(nearest > 0)) return Interval{v.low < 0 ? -1.0 : 0.0, v.high > 0 ? 1.0 : 0.0};
+          const Interval all = product_of(v, {0, 1 / nearest});
+          return Interval{std::max(all.low, -1.0), std::min(all.high, 1.0)};
+        };
+        const Interval p = factor(a.value), q = factor(b.value);
+        for (int k = 0; k < 3; ++k)
+          part.along[k] = sum(product_of(p, a.along[k]), product_of(q, b.along[k]));
+        part.error = a.error + b.error + 4 * rounding + 0x1p-500;
+        break;
+      }
+      // Steps: true and computed operands must be on one side of each.
+      case Op::less:
+        if (!(a.value.high < b.value.low || a.value.low >= b.value.high)) return false;
+        break;
+      case Op::floor:
+        if (std::floor(a.value.low) != std::floor(a.value.high)) return false;
+        break;
+      case Op::keep:
+      case Op::drop: {
+        const bool is_above = a.value.low > 0.5;
+        if (!is_above && !(a.value.high <= 0.5)) return false;
+        if (is_above != (node.op == Op::keep)) break;
+        for (int k = 0; k < 3; ++k) part.along[k] = b.along[k];
+        part.error = b.error;
+        break;
+      }
+      case Op::tangent_hyperbolic: {
+        // The slope is 1 - v v.
+        const Interval v = widened(computed_[i], a.error + of_function);
+        const double low = distance_from_zero(v), high = max_magnitude(v);
+        const Interval slope{std::max(0.0, 1 - high * high - 0x1p-50), 1 - low * low + 0x1p-50};
+        for (int k = 0; k < 3; ++k) part.along[k] = product_of(a.along[k], slope);
+        part.error = a.error + of_function;
         break;
       }
       case Op::negate:

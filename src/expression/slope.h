@@ -12,8 +12,8 @@
 namespace msq {
 
 /// Bounds for the function that a tape stands for in exact arithmetic, over a box. They are
-/// infinite if nothing is known: near jumps, poles, and roots and logarithms of arguments that may
-/// reach 0.
+/// infinite if nothing is known: where floors, comparisons, selections or angles jump, near poles,
+/// and roots and logarithms of arguments that may reach 0.
 struct Slope {
   /// The values of two points differ by at most this times their distance, where each coordinate's
   /// difference is multiplied by 1 / scale.

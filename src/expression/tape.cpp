@@ -73,6 +73,16 @@ const char* name_of(Op op) {
       return "min";
     case Op::maximum:
       return "max";
+    case Op::arctangent:
+      return "atan2";
+    case Op::hypotenuse:
+      return "hypot";
+    case Op::less:
+      return "<";
+    case Op::keep:
+      return "keep";
+    case Op::drop:
+      return "drop";
     case Op::negate:
       return "negate";
     case Op::absolute:
@@ -87,6 +97,10 @@ const char* name_of(Op op) {
       return "exp";
     case Op::logarithm:
       return "log";
+    case Op::tangent_hyperbolic:
+      return "tanh";
+    case Op::floor:
+      return "floor";
   }
   return "";
 }

@@ -24,16 +24,24 @@ enum class Op : uint8_t {
   subtract,
   multiply,
   divide,
-  minimum,  // of IEEE 754-2019: NaN if either operand is NaN; -0 is below 0
-  maximum,  // likewise
-  negate,   // from here on with one operand
+  minimum,     // of IEEE 754-2019: NaN if either operand is NaN; -0 is below 0
+  maximum,     // likewise
+  arctangent,  // the angle of the point (b, a), of atan2(a, b): above -pi to pi; 0 for the origin
+  hypotenuse,  // the root of a a + b b
+  less,        // 1 if a is below b, otherwise 0
+  keep,        // b if a is above 1/2, otherwise -0: adding -0 changes no number
+  drop,        // -0 if a is above 1/2, otherwise b
+  negate,      // from here on with one operand
   absolute,
   square_root,
   sine,
   cosine,
   exponential,
   logarithm,
+  tangent_hyperbolic,
+  floor,
 };
+constexpr Op last_op = Op::floor;
 
 constexpr bool has_one_operand(Op op) {
   return op >= Op::negate;
@@ -44,6 +52,12 @@ constexpr bool has_two_operands(Op op) {
 /// Whether the operation gives the same bits with its operands swapped, if they are not NaN.
 constexpr bool is_symmetric(Op op) {
   return op == Op::add || op == Op::multiply || op == Op::minimum || op == Op::maximum;
+}
+
+/// Whether bounds of the operands may decide which operand, or which number, is the result.
+constexpr bool is_choice(Op op) {
+  return op == Op::minimum || op == Op::maximum || op == Op::absolute || op == Op::less ||
+         op == Op::keep || op == Op::drop || op == Op::floor;
 }
 
 struct Node {
@@ -60,7 +74,7 @@ struct Tape {
   void describe(HashInput& input) const;
 };
 
-constexpr uint32_t max_tape_nodes = 1024;
+constexpr uint32_t max_tape_nodes = 8192;
 
 class TapeBuilder {
  public:
@@ -82,7 +96,8 @@ class TapeBuilder {
 };
 
 /// The result of an operation: IEEE additions, products, quotients, roots and comparisons in double
-/// precision, and sines, cosines, exponentials and logarithms built from those. So the bits are the
+/// precision, and sines, cosines, exponentials, logarithms and angles built from those. NaN if an
+/// operand is NaN, except of the operand that keep or drop leaves out. So the bits are the
 /// same on every machine (elementary-inl.h).
 double apply(Op op, double a, double b);
 

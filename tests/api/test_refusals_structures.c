@@ -115,7 +115,7 @@ static msq_functional_def* functional_of(int32_t function, double level) {
 }
 
 static void functions(void** state) {
-  static char text[20000];
+  static char text[70000];
   msq_field* both_signs = ramp_of(context, -0.1, 0.1);
   (void)state;
   REFUSALS("msq_structure_functional") {
@@ -171,7 +171,7 @@ static void functions(void** state) {
     WRONG(ARGUMENT, "character 12|'q'", def->expression = "sin(x)+cos(q)");
     WRONG(ARGUMENT, "character 1", def->expression = "");
     WRONG(ARGUMENT, "expression is NULL", def->expression = NULL);
-    WRONG(LIMIT, "4096", def->expression = text);
+    WRONG(LIMIT, "65536", def->expression = text);
     WRONG(LIMIT, "nested deeper than 100", text[4000] = 0; def->expression = text);
     WRONG(ARGUMENT, "parameters is NULL", def->parameters = NULL);
     WRONG(ARGUMENT, "parameter 1 is NULL", values[1].name = NULL);

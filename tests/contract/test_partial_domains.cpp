@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functional structures whose expressions are no number somewhere: a point is outside there, and
-// points, sets, grids and rays agree on where that is, whichever way round operands stand.
+// Functional structures whose expressions are no number somewhere, or jump: a point is outside where
+// there is no number, and points, sets, grids and rays agree on where that is, and where jumps are,
+// whichever way round operands stand.
 #include "bit_rows.h"
 #include "expression/parser.h"
 #include "field/gradient.h"
@@ -42,6 +43,10 @@ constexpr Pair pairs[] = {
     {"min(0*(1e9*sin(x))^64,y-3)", "min(y-3,(1e9*sin(x))^64*0)"},
     {"min(0/0,x)", "min(x,0/0)"},
     {"max(0/0,0*x)", "max(x*0,0/0)"},
+    {"select(x>4,sqrt(x-4),y-3)-0.5", "select(4<x,sqrt(x-4),y-3)-0.5"},
+    {"mod(x,1.5)-floor(y)*0.2-0.5", "mod(x,1.5)-0.2*floor(y)-0.5"},
+    {"(x<=4)*(y!=z)-0.5", "(z!=y)*(4>=x)-0.5"},
+    {"0.3*atan2(y-3,x-3)+hypot(x-3,z-3)-1", "hypot(z-3,x-3)+atan2(y-3,x-3)*0.3-1"},
 };
 
 enum class LevelKind { number, linear, bent };

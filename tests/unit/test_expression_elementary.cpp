@@ -18,9 +18,26 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-constexpr Op all_ops[] = {Op::add,     Op::subtract,    Op::multiply, Op::divide,      Op::minimum,
-                          Op::maximum, Op::negate,      Op::absolute, Op::square_root, Op::sine,
-                          Op::cosine,  Op::exponential, Op::logarithm};
+constexpr Op all_ops[] = {Op::add,
+                          Op::subtract,
+                          Op::multiply,
+                          Op::divide,
+                          Op::minimum,
+                          Op::maximum,
+                          Op::negate,
+                          Op::absolute,
+                          Op::square_root,
+                          Op::sine,
+                          Op::cosine,
+                          Op::exponential,
+                          Op::logarithm,
+                          Op::arctangent,
+                          Op::hypotenuse,
+                          Op::less,
+                          Op::keep,
+                          Op::drop,
+                          Op::tangent_hyperbolic,
+                          Op::floor};
 
 using Real = long double;
 
@@ -46,12 +63,19 @@ void values_are_near_the_true_ones(void**) {
     bool is_absolute;
   };
   const Case cases[] = {
-      {Op::sine, std::sin, 0, two_pi, true},       {Op::sine, std::sin, -1e-3, 1e-3, false},
-      {Op::sine, std::sin, -0x1p19, 0x1p19, true}, {Op::cosine, std::cos, 0, two_pi, true},
-      {Op::cosine, std::cos, -100, 100, true},     {Op::cosine, std::cos, -0x1p19, 0x1p19, true},
-      {Op::exponential, std::exp, -1, 1, false},   {Op::exponential, std::exp, -700, 700, false},
-      {Op::logarithm, std::log, 1e-10, 2, true},   {Op::logarithm, std::log, 0.9, 1.1, false},
+      {Op::sine, std::sin, 0, two_pi, true},
+      {Op::sine, std::sin, -1e-3, 1e-3, false},
+      {Op::sine, std::sin, -0x1p19, 0x1p19, true},
+      {Op::cosine, std::cos, 0, two_pi, true},
+      {Op::cosine, std::cos, -100, 100, true},
+      {Op::cosine, std::cos, -0x1p19, 0x1p19, true},
+      {Op::exponential, std::exp, -1, 1, false},
+      {Op::exponential, std::exp, -700, 700, false},
+      {Op::logarithm, std::log, 1e-10, 2, true},
+      {Op::logarithm, std::log, 0.9, 1.1, false},
       {Op::logarithm, std::log, 2, 1e300, false},
+      {Op::tangent_hyperbolic, std::tanh, -3, 3, true},
+      {Op::tangent_hyperbolic, std::tanh, -40, 40, true},
   };
   for (const Case& c : cases) {
     const double worst = worst_error(c.op, c.truth, c.low, c.high, c.is_absolute);
@@ -59,6 +83,22 @@ void values_are_near_the_true_ones(void**) {
                   c.high, worst);
     assert_true(worst < 0x1p-50);
   }
+}
+
+void angles_are_near_the_true_ones(void**) {
+  Random random(17);
+  double worst = 0;
+  for (size_t i = test_count(600000); i > 0; --i) {
+    const double scale = std::exp2(random.between(-60, 60));
+    const double y = random.between(-1, 1) * (i % 2 ? scale : 1), x = random.between(-1, 1);
+    const Real wanted = std::atan2(Real(y), Real(x));
+    const double got = apply(Op::arctangent, y, x);
+    worst = std::max(worst, static_cast<double>(std::abs(got - wanted)));
+    if (std::abs(y) < std::abs(x) && x > 0)  // relative to small angles
+      assert_true(std::abs(got - wanted) <= 0x1p-50L * std::abs(wanted));
+  }
+  print_message("angles: error up to %.3g\n", worst);
+  assert_true(worst < 0x1p-49);
 }
 
 void special_values(void**) {
@@ -81,6 +121,14 @@ void special_values(void**) {
   is(apply(Op::logarithm, -infinity, 0), nan);
   is(apply(Op::logarithm, infinity, 0), infinity);
   is(apply(Op::logarithm, nan, 0), nan);
+  is(apply(Op::arctangent, 0, 0), 0);
+  is(apply(Op::arctangent, 1, infinity), 0);
+  is(apply(Op::arctangent, nan, 1), nan);
+  is(apply(Op::hypotenuse, infinity, 1), infinity);
+  is(apply(Op::tangent_hyperbolic, infinity, 0), 1);
+  is(apply(Op::tangent_hyperbolic, -infinity, 0), -1);
+  is(apply(Op::floor, -infinity, 0), -infinity);
+  is(apply(Op::less, 1, infinity), 1);
   assert_true(std::abs(apply(Op::logarithm, 0x1p-1074, 0) - std::log(0x1p-1074)) < 1e-12);
   assert_true(std::abs(apply(Op::exponential, -744, 0) / 0x1p-1074 - 2) < 1);
   // Huge arguments have no accuracy left, but a sine they have.
@@ -173,6 +221,7 @@ void all_instruction_sets_find_the_same_angles(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(values_are_near_the_true_ones),
+      cmocka_unit_test(angles_are_near_the_true_ones),
       cmocka_unit_test(special_values),
       cmocka_unit_test(all_instruction_sets_give_the_scalar_bits),
       cmocka_unit_test(all_instruction_sets_find_the_same_angles),

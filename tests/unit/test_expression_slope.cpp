@@ -74,6 +74,27 @@ Real exact(const Tape& tape, const Real (&at)[3]) {
       case Op::logarithm:
         v.push_back(std::log(a));
         break;
+      case Op::tangent_hyperbolic:
+        v.push_back(std::tanh(a));
+        break;
+      case Op::floor:
+        v.push_back(std::floor(a));
+        break;
+      case Op::arctangent:
+        v.push_back(std::atan2(a, b));
+        break;
+      case Op::hypotenuse:
+        v.push_back(std::hypot(a, b));
+        break;
+      case Op::less:
+        v.push_back(a < b);
+        break;
+      case Op::keep:
+        v.push_back(a > 0.5L ? b : 0);
+        break;
+      case Op::drop:
+        v.push_back(a > 0.5L ? 0 : b);
+        break;
     }
   }
   return v.back();
@@ -81,10 +102,30 @@ Real exact(const Tape& tape, const Real (&at)[3]) {
 
 std::vector<std::string> texts() {
   std::vector<std::string> all(std::begin(preset_expressions), std::end(preset_expressions));
-  for (const char* text :
-       {"x", "x*y*z", "x/(y+1)", "min(sin(x), cos(y)*z)", "max(x*x, abs(y-3))", "abs(sin(3*x))-y",
-        "sqrt(1+x*y)", "exp(sin(x)*y/4)", "log(1.5+cos(x)*cos(y))", "1/(2+sin(x+2*y-z))^3",
-        "exp(-x*x-y*y)*cos(20*z)", "(1e6+x)-1e6", "sin(1e4*x)"})
+  for (const char* text : {"x",
+                           "x*y*z",
+                           "x/(y+1)",
+                           "min(sin(x), cos(y)*z)",
+                           "max(x*x, abs(y-3))",
+                           "abs(sin(3*x))-y",
+                           "sqrt(1+x*y)",
+                           "exp(sin(x)*y/4)",
+                           "log(1.5+cos(x)*cos(y))",
+                           "1/(2+sin(x+2*y-z))^3",
+                           "exp(-x*x-y*y)*cos(20*z)",
+                           "(1e6+x)-1e6",
+                           "sin(1e4*x)",
+                           "tanh(3*sin(x))*y",
+                           "hypot(x-3,y-3)-z",
+                           "hypot(sin(x),hypot(cos(y),z))",
+                           "atan2(y+1,x-3)",
+                           "atan2(sin(z),1.5+cos(x))",
+                           "floor(x/7+0.05)+y",
+                           "mod(x+1,8)*z",
+                           "select(x<7,y*z,z)",
+                           "select(x>7,y*z,sin(z))",
+                           "round(0.1*sin(x))+z",
+                           "(x<=9)*y+(x==9)"})
     all.push_back(text);
   return all;
 }
@@ -132,13 +173,40 @@ void slopes_are_near(void**) {
   is("log(x+0.5)", 2);
   is("exp(x)", std::exp(two_pi));
   is("1/(1+x)", 1);
+  is("tanh(x)", 1);
+  is("atan2(y-8,x-8)", 1 / std::hypot(8 - two_pi, 8 - two_pi));
+  is("select(x<9,2*x,5*y)", 2);
 }
 
 void what_is_not_bounded(void**) {
-  for (const char* text : {"1/x", "sqrt(x)", "log(x)", "sqrt(sin(x))", "1/sin(x+0.1)", "sqrt(x-1)",
-                           "0/x", "exp(1000*x)", "min(1, 1/(x-y))", "min(sqrt(x-4), 0.5)",
-                           "min(0.5, sqrt(x-4))", "max(log(y-1), x)", "max(x, log(y-1))", "0/(x-x)",
-                           "min(0/0, x)", "log(-1-x)", "x^0.5", "sin(1e7*x)"})
+  for (const char* text : {"1/x",
+                           "sqrt(x)",
+                           "log(x)",
+                           "sqrt(sin(x))",
+                           "1/sin(x+0.1)",
+                           "sqrt(x-1)",
+                           "0/x",
+                           "exp(1000*x)",
+                           "min(1, 1/(x-y))",
+                           "min(sqrt(x-4), 0.5)",
+                           "min(0.5, sqrt(x-4))",
+                           "max(log(y-1), x)",
+                           "max(x, log(y-1))",
+                           "0/(x-x)",
+                           "min(0/0, x)",
+                           "log(-1-x)",
+                           "floor(x)",
+                           "round(sin(x))",
+                           "mod(x,3)",
+                           "x<3",
+                           "x==3",
+                           "select(x<3,1,2)",
+                           "atan2(y-3,x-3)",
+                           "atan2(y-3,-1-x)",
+                           "atan2(x,y)",
+                           "select(x<9,y,sqrt(-x))",
+                           "x^0.5",
+                           "sin(1e7*x)"})
     if (std::isfinite(bound_slope(parse_expression(text, {}), cell, {1, 1, 1}, 0).most))
       fail_msg("%s has a bound", text);
 }

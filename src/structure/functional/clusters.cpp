@@ -34,9 +34,7 @@ Clusters::Clusters(const Tape& tape, int side, Interval levels) {
   if (side == 1) return;
   std::vector<Cluster>& clusters = grids_[0].clusters;
   bool has_choices = false;
-  for (const Node& node : tape.nodes)
-    has_choices =
-        has_choices || node.op == Op::minimum || node.op == Op::maximum || node.op == Op::absolute;
+  for (const Node& node : tape.nodes) has_choices = has_choices || is_choice(node.op);
   std::map<std::vector<uint64_t>, uint16_t> known{{key_of(tape), 0}};
   const auto extent = [side](int i) {
     // Wider than the rounding of number().

@@ -68,14 +68,17 @@ class Splitter {
   size_t size() const { return builder_.size(); }
   uint32_t zero() { return builder_.constant(0); }
 
-  std::optional<LinearForm> linear(uint32_t i) {
+  /// Deeper tapes have none, so that stacks hold.
+  std::optional<LinearForm> linear(uint32_t i, int depth = 0) {
+    constexpr int max_depth = 512;
+    if (depth > max_depth) return std::nullopt;
     if (is_of_row(i)) return LinearForm{{}, i, most(i)};
     if (is_of_table(i)) return LinearForm{{{i, builder_.constant(1)}}, zero(), most(i)};
     const Node node = builder_[i];
     switch (node.op) {
       case Op::add:
       case Op::subtract: {
-        std::optional<LinearForm> a = linear(node.a), b = linear(node.b);
+        std::optional<LinearForm> a = linear(node.a, depth + 1), b = linear(node.b, depth + 1);
         if (!a || !b) return std::nullopt;
         for (const auto& [table, coefficient] : b->coefficients) {
           const auto found = a->coefficients.try_emplace(table, zero()).first;
@@ -86,10 +89,10 @@ class Splitter {
         return checked(a);
       }
       case Op::negate:
-        return scaled(linear(node.a), builder_.constant(-1), 1);
+        return scaled(linear(node.a, depth + 1), builder_.constant(-1), 1);
       case Op::multiply:
-        if (is_of_row(node.b)) return scaled(linear(node.a), node.b, most(node.b));
-        if (is_of_row(node.a)) return scaled(linear(node.b), node.a, most(node.a));
+        if (is_of_row(node.b)) return scaled(linear(node.a, depth + 1), node.b, most(node.b));
+        if (is_of_row(node.a)) return scaled(linear(node.b, depth + 1), node.a, most(node.a));
         return std::nullopt;
       default:
         return std::nullopt;
