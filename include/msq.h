@@ -1278,7 +1278,32 @@ enum msq_function {
   MSQ_FUNCTION_LIDINOID = 7,
   /** 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x)
    * - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) - 0.4 (cos 2x + cos 2y + cos 2z) */
-  MSQ_FUNCTION_SPLIT_P = 8
+  MSQ_FUNCTION_SPLIT_P = 8,
+  /** cos 2x sin y cos z + cos 2y sin z cos x + cos 2z sin x cos y. Since 0.2. */
+  MSQ_FUNCTION_FISCHER_KOCH_S = 9,
+  /** sin 2x sin y + sin 2y sin z + sin 2z sin x + sin 2x cos z + sin 2y cos x + sin 2z cos y
+   * - sin x sin y sin z - cos x cos y cos z: C(Y). Since 0.2. */
+  MSQ_FUNCTION_C_Y = 10,
+  /** sin 2x sin y + sin 2y sin z + sin 2z sin x - 2 cos x cos y cos z: C(+-Y). Since 0.2. */
+  MSQ_FUNCTION_C_PLUS_MINUS_Y = 11,
+  /** 0.3 (cos x + cos y + cos z) + 0.3 (cos x cos y + cos y cos z + cos z cos x)
+   * - 0.4 (cos 2x + cos 2y + cos 2z) + 0.2. Since 0.2. */
+  MSQ_FUNCTION_KARCHER_K = 12,
+  /** sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'. Since 0.2. */
+  MSQ_FUNCTION_G_PRIME = 13,
+  /** cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x
+   * - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two
+   * labyrinths that do not touch, as those of the next two. Since 0.2. */
+  MSQ_FUNCTION_DOUBLE_GYROID = 14,
+  /** -0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. Since 0.2. */
+  MSQ_FUNCTION_DOUBLE_DIAMOND = 15,
+  /** -0.5 (cos x cos y + cos y cos z + cos z cos x) - 0.2 (cos 2x + cos 2y + cos 2z). Since 0.2. */
+  MSQ_FUNCTION_DOUBLE_P = 16,
+  /** cos 2y + 2 cos x cos y + 0.5: columns along z with hexagonal holes, regular if the cell is
+   * sqrt(3) times as long along y as along x. Since 0.2. */
+  MSQ_FUNCTION_HONEYCOMB = 17,
+  /** 1 - cos x - cos y: rods along z. Since 0.2. */
+  MSQ_FUNCTION_RODS = 18
 };
 
 /** Which points of a functional structure are solid. */
@@ -1323,14 +1348,25 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
 /** Creates a functional structure: the points where a function of the position in the cell is at
  * most a level. def must not be NULL.
  *
- * Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, and pow(a, b),
- * min(a, b), max(a, b), abs, sqrt, sin, cos, exp and log (natural). ^ binds tighter than a sign
- * before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is
- * not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are
- * evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. A NaN
- * operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE
- * 754-2019). Points where the value is NaN are outside. Limits: 4096 bytes; 100 nested parentheses,
- * signs and exponents; 1024 distinct operations, numbers and variables in total.
+ * Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, comparisons, and
+ * pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp, log (natural), tanh, atan2(y, x),
+ * hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign before
+ * it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not
+ * periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated
+ * as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. Since 0.2:
+ * - Comparisons, < <= > >= == !=, bind weakest, do not associate, and are 1 or 0.
+ * - select(c, a, b) is a where c is above 0.5, otherwise b.
+ * - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b).
+ * - atan2 is above -pi and at most pi, and 0 where x and y are 0. hypot is sqrt(a a + b b).
+ *
+ * A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum
+ * of IEEE 754-2019); an operand that select leaves out does not count. Points where the value is
+ * NaN are outside. Limits: 65536 bytes; 100 nested parentheses, signs and exponents; 8192 distinct
+ * operations, numbers and variables in total.
+ *
+ * Where floor, a comparison, select or atan2 may jump within the cell the slope has no bound.
+ * Distances to such a structure are 0, and rays cross jumps in steps of up to 1/1024 of a cell, as
+ * they do where a function has a pole or is NaN.
  *
  * Thickness is the volume of the walls divided by the area of their middle surface, where the
  * function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of
@@ -1354,7 +1390,8 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * with the index; for expressions the message gives the position, from 1, and the reason), LIMIT
  * (limits of expressions; more than 2^24 cells between the grid's origin and a position of the
  * period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section
- * "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and Nesper 1991. */
+ * "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von
+ * Schnering and Nesper 1991; Wohlgemuth et al. 2001. */
 MSQ_API msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def,
                                             msq_structure** structure);
 

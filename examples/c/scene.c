@@ -133,8 +133,9 @@ static int make_structure(scene* s, const term* t, msq_param size, const char* d
                           msq_structure** structure) {
   static const char* const cells[] = {"cubic",  "bcc",     "octet",  "fcc",
                                       "kelvin", "diamond", "dodeca", "reentrant"};
-  static const char* const surfaces[] = {"gyroid",  "p",   "d",        "iwp",
-                                         "neovius", "frd", "lidinoid", "splitp"};
+  static const char* const surfaces[] = {
+      "gyroid", "p",    "d", "iwp",    "neovius", "frd",     "lidinoid", "splitp",    "s",
+      "cy",     "cpmy", "k", "gprime", "doubleg", "doubled", "doublep",  "honeycomb", "rods"};
   if (strcmp(t->name, "foam") == 0) return make_foam(s, t, size, density, structure);
   for (int i = 0; i < 8; ++i) {
     if (strcmp(t->name, cells[i]) == 0) {
@@ -146,11 +147,15 @@ static int make_structure(scene* s, const term* t, msq_param size, const char* d
       TRY(msq_structure_lattice(s->context, &lattice, structure));
       return 0;
     }
+  }
+  for (int i = 0; i < MSQ_FUNCTION_RODS; ++i) {
     if (strcmp(t->name, surfaces[i]) == 0) {
       msq_functional_def surface;
       TRY(msq_functional_def_init(&surface, sizeof surface));
       surface.function = MSQ_FUNCTION_GYROID + i;
       for (int a = 0; a < 3; ++a) surface.grid.cell_size[a] = t->cell;
+      if (surface.function == MSQ_FUNCTION_HONEYCOMB)
+        surface.grid.cell_size[1] *= 1.7320508075688772;
       if (t->low > 0) {
         surface.kind = MSQ_FUNCTIONAL_SHEET;
         surface.thickness = size;

@@ -20,7 +20,9 @@ KINDS = [("FOAM", "Foam", "Struts on the edges of a Voronoi diagram"),
          ("LATTICE", "Lattice", "Struts of a periodic cell"),
          ("SHEET", "TPMS sheet", "A triply periodic surface of some thickness")]
 UNIT_CELLS = ["bcc", "cubic", "octet", "fcc", "kelvin", "diamond", "rhombic dodecahedron", "reentrant"]
-FUNCTIONS = ["gyroid", "schwarz p", "diamond", "i wp", "neovius", "f rd", "lidinoid", "split p"]
+FUNCTIONS = ["gyroid", "schwarz p", "diamond", "i wp", "neovius", "f rd", "lidinoid", "split p",
+             "fischer koch s", "c y", "c plus minus y", "karcher k", "g prime",
+             "double gyroid", "double diamond", "double p", "honeycomb", "rods"]
 
 
 def named(names):

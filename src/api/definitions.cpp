@@ -39,7 +39,17 @@ constexpr Choice functions[] = {{"expression", MSQ_FUNCTION_EXPRESSION},
                                 {"neovius", MSQ_FUNCTION_NEOVIUS},
                                 {"f_rd", MSQ_FUNCTION_F_RD},
                                 {"lidinoid", MSQ_FUNCTION_LIDINOID},
-                                {"split_p", MSQ_FUNCTION_SPLIT_P}};
+                                {"split_p", MSQ_FUNCTION_SPLIT_P},
+                                {"fischer_koch_s", MSQ_FUNCTION_FISCHER_KOCH_S},
+                                {"c_y", MSQ_FUNCTION_C_Y},
+                                {"c_plus_minus_y", MSQ_FUNCTION_C_PLUS_MINUS_Y},
+                                {"karcher_k", MSQ_FUNCTION_KARCHER_K},
+                                {"g_prime", MSQ_FUNCTION_G_PRIME},
+                                {"double_gyroid", MSQ_FUNCTION_DOUBLE_GYROID},
+                                {"double_diamond", MSQ_FUNCTION_DOUBLE_DIAMOND},
+                                {"double_p", MSQ_FUNCTION_DOUBLE_P},
+                                {"honeycomb", MSQ_FUNCTION_HONEYCOMB},
+                                {"rods", MSQ_FUNCTION_RODS}};
 constexpr Choice kinds[] = {{"network", MSQ_FUNCTIONAL_NETWORK}, {"sheet", MSQ_FUNCTIONAL_SHEET}};
 constexpr Choice caps[] = {
     {"sphere", MSQ_CAP_SPHERE}, {"hemisphere", MSQ_CAP_HEMISPHERE}, {"butt", MSQ_CAP_BUTT}};

@@ -49,9 +49,11 @@ std::optional<GradedPeriod> read_period(const msq_period_def*& def, msq_period_d
   return GradedPeriod(known.axis, knots);
 }
 
+static_assert(preset_count == MSQ_FUNCTION_RODS);
+
 Tape read_function(const msq_functional_def& def) {
   const int32_t preset =
-      require_range(def.function, MSQ_FUNCTION_EXPRESSION, MSQ_FUNCTION_SPLIT_P, "function");
+      require_range(def.function, MSQ_FUNCTION_EXPRESSION, MSQ_FUNCTION_RODS, "function");
   if (preset != MSQ_FUNCTION_EXPRESSION) {
     if (def.expression) fail(Status::argument, "expression is given, but function is %d", preset);
     if (def.parameter_count)

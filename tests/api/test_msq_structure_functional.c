@@ -63,6 +63,28 @@ static double function_at(int32_t function, double x, double y, double z) {
     case MSQ_FUNCTION_SPLIT_P:
       return 1.1 * (s2x * sz * cy + s2y * sx * cz + s2z * sy * cx) - 0.2 * pairs -
              0.4 * (c2x + c2y + c2z);
+    case MSQ_FUNCTION_FISCHER_KOCH_S:
+      return c2x * sy * cz + c2y * sz * cx + c2z * sx * cy;
+    case MSQ_FUNCTION_C_Y:
+      return s2x * sy + s2y * sz + s2z * sx + s2x * cz + s2y * cx + s2z * cy - sx * sy * sz -
+             cx * cy * cz;
+    case MSQ_FUNCTION_C_PLUS_MINUS_Y:
+      return s2x * sy + s2y * sz + s2z * sx - 2 * cx * cy * cz;
+    case MSQ_FUNCTION_KARCHER_K:
+      return 0.3 * (cx + cy + cz) + 0.3 * (cx * cy + cy * cz + cz * cx) - 0.4 * (c2x + c2y + c2z) +
+             0.2;
+    case MSQ_FUNCTION_G_PRIME:
+      return s2x * cy * sz + s2y * cz * sx + s2z * cx * sy + 0.32;
+    case MSQ_FUNCTION_DOUBLE_GYROID:
+      return pairs - 2.75 * (s2x * cy * sz + s2y * cz * sx + s2z * cx * sy) + 0.95;
+    case MSQ_FUNCTION_DOUBLE_DIAMOND:
+      return -0.5 * (sx * sy + sy * sz + sz * sx) - 0.5 * cx * cy * cz;
+    case MSQ_FUNCTION_DOUBLE_P:
+      return -0.5 * (cx * cy + cy * cz + cz * cx) - 0.2 * (c2x + c2y + c2z);
+    case MSQ_FUNCTION_HONEYCOMB:
+      return c2y + 2 * cx * cy + 0.5;
+    case MSQ_FUNCTION_RODS:
+      return 1 - cx - cy;
     default:
       return NAN;
   }
@@ -114,7 +136,7 @@ static void named_functions_are_those_of_the_header(void** state) {
   const double c = cos(0.5), s = sin(0.5);
   const double rotation[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
   (void)state;
-  for (int32_t function = MSQ_FUNCTION_GYROID; function <= MSQ_FUNCTION_SPLIT_P; ++function)
+  for (int32_t function = MSQ_FUNCTION_GYROID; function <= MSQ_FUNCTION_RODS; ++function)
     for (int kind = MSQ_FUNCTIONAL_NETWORK; kind <= MSQ_FUNCTIONAL_SHEET; ++kind)
       for (int is_turned = 0; is_turned < 2; ++is_turned) {
         msq_functional_def def = functional_def(function, 0.25);
@@ -273,20 +295,81 @@ static void thickness_may_be_a_field(void** state) {
   msq_context_release(context);
 }
 
+/* A sum of waves, of which the text is longer than 4096 bytes, against the C library. */
+static void expressions_may_be_long(void** state) {
+  enum { waves = 300 };
+  msq_context* context = make_context();
+  char text[65536] = "0";
+  size_t length = 1;
+  msq_functional_def def = expression_def(text);
+  (void)state;
+  for (int i = 0; i < waves; ++i)
+    length += (size_t)snprintf(text + length, sizeof text - length,
+                               "+0.05*cos(%d*x+%d*y-%d*z+0.%d)", i % 5, i / 5 % 4, i / 20 % 3, i);
+  assert_true(length > 4096);
+  def.level.value = 0.25;
+  def.clusters = 4;
+  msq_model* model = fill_box(context, &def);
+  sample(model, points, first);
+  int held = 0;
+  for (int n = 0; n < samples; ++n) {
+    double sum = 0;
+    for (int i = 0; i < waves; ++i) {
+      const double phase = i < 10 ? i / 10.0 : i < 100 ? i / 100.0 : i / 1000.0;
+      sum +=
+          0.05 *
+          cos(turn * (i % 5 * points[n][0] + i / 5 % 4 * points[n][1] - i / 20 % 3 * points[n][2]) +
+              phase);
+    }
+    if (fabs(sum - 0.25) > 1e-10) assert_int_equal(first[n], sum <= 0.25);
+    held += first[n];
+  }
+  assert_in_range(held, samples / 10, samples - 1);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
+/* Steps, a mean of two functions by a choice, and what 3MF calls select: against C. */
+static void expressions_may_choose(void** state) {
+  msq_context* context = make_context();
+  msq_functional_def def = expression_def(
+      "select(mod(x, pi) < 1, 0.6 - hypot(sin(y), cos(z)), tanh(2*cos(x)) * atan2(sin(y), cos(z)))"
+      "+ 0.2*round(2*sin(z)) - (y >= z)");
+  (void)state;
+  msq_model* model = fill_box(context, &def);
+  sample(model, points, first);
+  int held = 0;
+  for (int n = 0; n < samples; ++n) {
+    double a[3];
+    for (int k = 0; k < 3; ++k) a[k] = turn * (points[n][k] - floor(points[n][k]));
+    const double part = fmod(a[0], turn / 2), steps = 2 * sin(a[2]) + 0.5;
+    const double chosen = part < 1 ? 0.6 - hypot(sin(a[1]), cos(a[2]))
+                                   : tanh(2 * cos(a[0])) * atan2(sin(a[1]), cos(a[2]));
+    const double sum = chosen + 0.2 * floor(steps) - (a[1] >= a[2]);
+    const int is_near = fabs(part - 1) < 1e-9 || fabs(part) < 1e-9 || fabs(sum) < 1e-9 ||
+                        fabs(steps - round(steps)) < 1e-9 || fabs(a[1] - a[2]) < 1e-9;
+    if (!is_near) assert_int_equal(first[n], sum <= 0);
+    held += first[n];
+  }
+  assert_in_range(held, samples / 10, samples - samples / 10);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 /* ---- refusals */
 
 /* Numbers and variables count, equal ones once. */
-static void at_most_1024_different_operations(void** state) {
+static void at_most_8192_different_operations(void** state) {
   msq_context* context = make_context();
-  char text[4096] = "x";
+  static char text[65536] = "x";
   int operations = 1;
   msq_functional_def def = expression_def(text);
   (void)state;
-  for (int n = 2; operations + 2 <= 1024; ++n, operations += 2)
+  for (int n = 2; operations + 2 <= 8192; ++n, operations += 2)
     snprintf(text + strlen(text), sizeof text - strlen(text), "+%d", n);
-  assert_int_equal(operations, 1023);
+  assert_int_equal(operations, 8191);
   strcat(text, "+2+x"); /* two sums of known operands */
-  assert_refused(create(context, &def), MSQ_E_LIMIT, "more than 1024 operations");
+  assert_refused(create(context, &def), MSQ_E_LIMIT, "more than 8192 operations");
   text[strlen(text) - 2] = 0;
   assert_ok(create(context, &def));
   msq_context_release(context);
@@ -310,11 +393,13 @@ int main(void) {
       cmocka_unit_test(named_functions_are_those_of_the_header),
       cmocka_unit_test(an_expression_is_its_function),
       cmocka_unit_test(expressions_repeat_with_the_cell),
+      cmocka_unit_test(expressions_may_be_long),
+      cmocka_unit_test(expressions_may_choose),
       cmocka_unit_test(inputs_are_copied),
       cmocka_unit_test(level_may_be_a_field),
       cmocka_unit_test(thickness_is_that_of_the_walls),
       cmocka_unit_test(thickness_may_be_a_field),
-      cmocka_unit_test(at_most_1024_different_operations),
+      cmocka_unit_test(at_most_8192_different_operations),
       cmocka_unit_test(cells_may_be_as_small_and_as_large_as_the_header_says),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

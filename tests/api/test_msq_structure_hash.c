@@ -237,7 +237,7 @@ static void functional_structures_hash_their_function(void** state) {
   def.level.value = 0.25;
   HASHES(context, "msq_functional_def", &def, sizeof def, hash_functional) {
     NOT_HASHED(def.struct_size);
-    for (int32_t f = MSQ_FUNCTION_SCHWARZ_P; f <= MSQ_FUNCTION_SPLIT_P; ++f)
+    for (int32_t f = MSQ_FUNCTION_SCHWARZ_P; f <= MSQ_FUNCTION_RODS; ++f)
       CHANGES(def.function, def.function = f);
     CHANGES(def.kind, def.kind = MSQ_FUNCTIONAL_NETWORK);
     KEEPS(def.clusters, def.clusters = 4);

@@ -126,7 +126,7 @@ static void functions(void** state) {
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "structure is NULL", structure = NULL);
     WRONG(ARGUMENT, "function", def->function = -1);
-    WRONG(ARGUMENT, "function", def->function = 9);
+    WRONG(ARGUMENT, "function", def->function = 19);
     wrong_enum(table, &def->kind, "kind", 1, 2);
     RIGHT(def->clusters = 64);
     WRONG(ARGUMENT, "clusters is 65", def->clusters = 65);

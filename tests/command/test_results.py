@@ -64,7 +64,8 @@ class Structures(Case):
             self.assertEqual(self.hash("--lattice", name, "--cell", "2", "--radius", "0.2"),
                              model_of(lattice).hash)
         for name in ("gyroid", "schwarz-p", "diamond", "i-wp", "neovius", "f-rd", "lidinoid",
-                     "split-p"):
+                     "split-p", "fischer-koch-s", "c-y", "c-plus-minus-y", "karcher-k", "g-prime",
+                     "double-gyroid", "double-diamond", "double-p", "honeycomb", "rods"):
             surface = msq.Functional(name.replace("-", "_"), cell_size=2, context=CONTEXT)
             self.assertEqual(self.hash("--function", name, "--cell", "2"), model_of(surface).hash)
 

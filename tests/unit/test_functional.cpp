@@ -17,7 +17,26 @@ using namespace msq::test;
 
 namespace {
 
-enum Preset { gyroid, schwarz_p, diamond, i_wp, neovius, f_rd, lidinoid, split_p };
+enum Preset {
+  gyroid,
+  schwarz_p,
+  diamond,
+  i_wp,
+  neovius,
+  f_rd,
+  lidinoid,
+  split_p,
+  fischer_koch_s,
+  c_y,
+  c_plus_minus_y,
+  karcher_k,
+  g_prime,
+  double_gyroid,
+  double_diamond,
+  double_p,
+  honeycomb,
+  rods,
+};
 
 /// Cells of 1 with corners at whole numbers.
 Ref<Functional> make(Preset preset, double level, FunctionalKind kind = FunctionalKind::network) {
@@ -64,6 +83,72 @@ void volume_fractions(void**) {
       check("the other side", *make(column.preset, -c), 1 - phi);
       check("sheet", *make(column.preset, c, FunctionalKind::sheet), 2 * phi - 1);
     }
+}
+
+/// Those of docs/concepts.md, by tests/golden/make_fractions.py.
+void volume_fractions_of_the_documents(void**) {
+  struct Row {
+    double network, sheet;  // at the levels 0 and 0.2
+  };
+  constexpr Row rows[preset_count] = {
+      {.5000, .1288}, {.5000, .1142}, {.5000, .1638}, {.4693, .0526}, {.5000, .0869},
+      {.4323, .0854}, {.3845, .3037}, {.5103, .1451}, {.5000, .1966}, {.5000, .0880},
+      {.5000, .0996}, {.4102, .2100}, {.3693, .2336}, {.3170, .0470}, {.4146, .2448},
+      {.3507, .3096}, {.4760, .1223}, {.1848, .0877}};
+  const size_t count = test_count(400000);
+  for (int i = 0; i < preset_count; ++i)
+    for (const FunctionalKind kind : {FunctionalKind::network, FunctionalKind::sheet}) {
+      const bool is_sheet = kind == FunctionalKind::sheet;
+      const Ref<Functional> structure = make(static_cast<Preset>(i), is_sheet ? 0.2 : 0, kind);
+      const double expected = is_sheet ? rows[i].sheet : rows[i].network;
+      const double got =
+          fraction_of(*structure, count, 100 + static_cast<uint64_t>(2 * i + is_sheet));
+      const double error = std::sqrt(expected * (1 - expected) / static_cast<double>(count));
+      if (std::abs(got - expected) > 4 * error + 1e-4)
+        fail_msg("function %d, kind %d: %.4f, expected %.4f, standard error %.5f", i + 1,
+                 static_cast<int>(kind), got, expected, error);
+    }
+}
+
+/// The network of a double function is two parts that mirror or shift onto each other: on the torus
+/// of two cells along each axis (a shift by one exchanges those of the double diamond), cut into
+/// cubes, it has two components of about the same volume.
+void double_networks_are_two(void**) {
+  constexpr int side = 64;
+  for (const Preset preset : {double_gyroid, double_diamond, double_p}) {
+    const Ref<Functional> structure = make(preset, 0);
+    std::vector<int> label(side * side * side);
+    const auto at = [](int x, int y, int z) {
+      return static_cast<size_t>(((z + side) % side * side + (y + side) % side) * side +
+                                 (x + side) % side);
+    };
+    for (int z = 0; z < side; ++z)
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+          label[at(x, y, z)] =
+              structure->inside(Vec3{x + 0.5, y + 0.5, z + 0.5} * (2.0 / side)) ? -1 : 0;
+    std::vector<size_t> volumes;
+    for (int start = 0; start < side * side * side; ++start) {
+      if (label[static_cast<size_t>(start)] >= 0) continue;
+      std::vector<int> todo{start};
+      volumes.push_back(0);
+      label[static_cast<size_t>(start)] = 1;
+      while (!todo.empty()) {
+        const int i = todo.back(), x = i % side, y = i / side % side, z = i / side / side;
+        todo.pop_back();
+        ++volumes.back();
+        for (const size_t next : {at(x + 1, y, z), at(x - 1, y, z), at(x, y + 1, z),
+                                  at(x, y - 1, z), at(x, y, z + 1), at(x, y, z - 1)})
+          if (label[next] < 0) {
+            label[next] = 1;
+            todo.push_back(static_cast<int>(next));
+          }
+      }
+    }
+    assert_int_equal(volumes.size(), 2);
+    const double ratio = static_cast<double>(volumes[0]) / static_cast<double>(volumes[1]);
+    assert_true(ratio > 0.98 && ratio < 1.02);
+  }
 }
 
 /// A symmetry of space in cells, and whether it swaps the two sides of the surface.
@@ -138,6 +223,16 @@ void symmetries(void**) {
   check_symmetries(f_rd, {turn, inversion, mirror, diagonal, face});
   check_symmetries(lidinoid, {turn});
   check_symmetries(split_p, {turn});
+  check_symmetries(fischer_koch_s, {turn, odd});
+  check_symmetries(c_y, {turn});
+  check_symmetries(c_plus_minus_y, {turn});
+  check_symmetries(karcher_k, {turn, inversion, mirror, diagonal});
+  check_symmetries(g_prime, {turn, inversion});
+  check_symmetries(double_gyroid, {turn, inversion, body});
+  check_symmetries(double_diamond, {turn, inversion, diagonal});
+  check_symmetries(double_p, {turn, body, inversion, mirror, diagonal});
+  check_symmetries(honeycomb, {inversion, mirror, face});
+  check_symmetries(rods, {inversion, mirror, diagonal});
 }
 
 /// What no choice of clusters may change.
@@ -210,6 +305,8 @@ void rows_that_repeat(void**) {
 int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(volume_fractions),
+      cmocka_unit_test(volume_fractions_of_the_documents),
+      cmocka_unit_test(double_networks_are_two),
       cmocka_unit_test(symmetries),
       cmocka_unit_test(clusters_change_nothing),
       cmocka_unit_test(rows_that_repeat),

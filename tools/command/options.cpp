@@ -44,7 +44,8 @@ constexpr Option STRUCTURE[] = {
      "cubic bcc octet fcc kelvin diamond dodecahedron reentrant",
      "a lattice of struts; needs --cell and --radius"},
     {"function", 0, "NAME", Value::WORDS,
-     "gyroid schwarz-p diamond i-wp neovius f-rd lidinoid split-p",
+     "gyroid schwarz-p diamond i-wp neovius f-rd lidinoid split-p fischer-koch-s c-y "
+     "c-plus-minus-y karcher-k g-prime double-gyroid double-diamond double-p honeycomb rods",
      "a periodic surface; needs --cell"},
     {"expression", 0, "TEXT", Value::TEXT, "",
      "a surface by a function of the angles x, y, z, 0 to 2 pi in a cell; needs --cell"},

@@ -308,7 +308,8 @@ class Functional(Structure):
     or its magnitude is (`sheet`).
 
     function: a name (`gyroid`, `schwarz_p`, `diamond`, `i_wp`, `neovius`, `f_rd`, `lidinoid`,
-    `split_p`); or give an expression in x, y, z (angles, 0 to 2 pi) with the values of its
+    `split_p`, `fischer_koch_s`, `c_y`, `c_plus_minus_y`, `karcher_k`, `g_prime`, `double_gyroid`,
+    `double_diamond`, `double_p`, `honeycomb`, `rods`); or give an expression in x, y, z (angles, 0 to 2 pi) with the values of its
     parameters. Of sheets thickness, the mean one of the walls, may be given instead of level.
     period: a Period, for cells whose size varies along an axis; cell_size along it is ignored.
     """

@@ -26,7 +26,7 @@ _msq() {
     --up) mapfile -t COMPREPLY < <(compgen -W 'x -x y -y z -z' -- "$word"); return ;;
     --foam) return ;;
     --lattice) mapfile -t COMPREPLY < <(compgen -W 'cubic bcc octet fcc kelvin diamond dodecahedron reentrant' -- "$word"); return ;;
-    --function) mapfile -t COMPREPLY < <(compgen -W 'gyroid schwarz-p diamond i-wp neovius f-rd lidinoid split-p' -- "$word"); return ;;
+    --function) mapfile -t COMPREPLY < <(compgen -W 'gyroid schwarz-p diamond i-wp neovius f-rd lidinoid split-p fischer-koch-s c-y c-plus-minus-y karcher-k g-prime double-gyroid double-diamond double-p honeycomb rods' -- "$word"); return ;;
     --expression) return ;;
     --cell) return ;;
     -r | --radius) return ;;

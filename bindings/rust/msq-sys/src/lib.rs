@@ -190,6 +190,36 @@ pub const MSQ_FUNCTION_LIDINOID: i32 = 7;
 /// 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x) - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) - 0.4 (cos 2x + cos 2y + cos 2z)
 pub const MSQ_FUNCTION_SPLIT_P: i32 = 8;
 
+/// cos 2x sin y cos z + cos 2y sin z cos x + cos 2z sin x cos y. Since 0.2.
+pub const MSQ_FUNCTION_FISCHER_KOCH_S: i32 = 9;
+
+/// sin 2x sin y + sin 2y sin z + sin 2z sin x + sin 2x cos z + sin 2y cos x + sin 2z cos y - sin x sin y sin z - cos x cos y cos z: C(Y). Since 0.2.
+pub const MSQ_FUNCTION_C_Y: i32 = 10;
+
+/// sin 2x sin y + sin 2y sin z + sin 2z sin x - 2 cos x cos y cos z: C(+-Y). Since 0.2.
+pub const MSQ_FUNCTION_C_PLUS_MINUS_Y: i32 = 11;
+
+/// 0.3 (cos x + cos y + cos z) + 0.3 (cos x cos y + cos y cos z + cos z cos x) - 0.4 (cos 2x + cos 2y + cos 2z) + 0.2. Since 0.2.
+pub const MSQ_FUNCTION_KARCHER_K: i32 = 12;
+
+/// sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'. Since 0.2.
+pub const MSQ_FUNCTION_G_PRIME: i32 = 13;
+
+/// cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two labyrinths that do not touch, as those of the next two. Since 0.2.
+pub const MSQ_FUNCTION_DOUBLE_GYROID: i32 = 14;
+
+/// -0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. Since 0.2.
+pub const MSQ_FUNCTION_DOUBLE_DIAMOND: i32 = 15;
+
+/// -0.5 (cos x cos y + cos y cos z + cos z cos x) - 0.2 (cos 2x + cos 2y + cos 2z). Since 0.2.
+pub const MSQ_FUNCTION_DOUBLE_P: i32 = 16;
+
+/// cos 2y + 2 cos x cos y + 0.5: columns along z with hexagonal holes, regular if the cell is sqrt(3) times as long along y as along x. Since 0.2.
+pub const MSQ_FUNCTION_HONEYCOMB: i32 = 17;
+
+/// 1 - cos x - cos y: rods along z. Since 0.2.
+pub const MSQ_FUNCTION_RODS: i32 = 18;
+
 /// Where the function is at most the level.
 pub const MSQ_FUNCTIONAL_NETWORK: i32 = 1;
 
@@ -2131,13 +2161,17 @@ extern "C" {
     pub fn msq_functional_def_init(def: *mut msq_functional_def, size: usize) -> msq_status;
     /// Creates a functional structure: the points where a function of the position in the cell is at most a level. def must not be NULL.
     ///
-    /// Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp and log (natural). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE 754-2019). Points where the value is NaN are outside. Limits: 4096 bytes; 100 nested parentheses, signs and exponents; 1024 distinct operations, numbers and variables in total.
+    /// Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, comparisons, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp, log (natural), tanh, atan2(y, x), hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. Since 0.2: - Comparisons, < <= > >= == !=, bind weakest, do not associate, and are 1 or 0. - select(c, a, b) is a where c is above 0.5, otherwise b. - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b). - atan2 is above -pi and at most pi, and 0 where x and y are 0. hypot is sqrt(a a + b b).
+    ///
+    /// A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE 754-2019); an operand that select leaves out does not count. Points where the value is NaN are outside. Limits: 65536 bytes; 100 nested parentheses, signs and exponents; 8192 distinct operations, numbers and variables in total.
+    ///
+    /// Where floor, a comparison, select or atan2 may jump within the cell the slope has no bound. Distances to such a structure are 0, and rays cross jumps in steps of up to 1/1024 of a cell, as they do where a function has a pole or is NaN.
     ///
     /// Thickness is the volume of the walls divided by the area of their middle surface, where the function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of the function, accurate to about 0.3 % for the named functions (docs/concepts.md). Walls are thicker where the function is flatter. A field of thickness selects at each point the level of that thickness.
     ///
     /// With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness selects at each position along the axis the level of walls that thick in cells of the size there: the thickness stays, the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost what those of a structure do whose cells hold no whole number of samples.
     ///
-    /// Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and Nesper 1991.
+    /// Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001.
     pub fn msq_structure_functional(context: *mut msq_context, def: *const msq_functional_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_beams_def_init(def: *mut msq_beams_def, size: usize) -> msq_status;

@@ -9,7 +9,9 @@ from .properties import HIDDEN, SHOWN, Property, Proxy, add, number
 
 KINDS = ["Foam", "Closed foam", "Lattice", "TPMS sheet", "TPMS network"]
 UNIT_CELLS = ["bcc", "cubic", "octet", "fcc", "kelvin", "diamond", "rhombic dodecahedron", "reentrant"]
-FUNCTIONS = ["gyroid", "schwarz p", "diamond", "i wp", "neovius", "f rd", "lidinoid", "split p"]
+FUNCTIONS = ["gyroid", "schwarz p", "diamond", "i wp", "neovius", "f rd", "lidinoid", "split p",
+             "fischer koch s", "c y", "c plus minus y", "karcher k", "g prime",
+             "double gyroid", "double diamond", "double p", "honeycomb", "rods"]
 
 # The properties that a kind has beside those that all have.
 OF_KIND = {"Foam": ("Radius", "TopRadius", "Jitter", "Seed"),
