@@ -119,6 +119,26 @@ export declare const MSQ_FUNCTION_F_RD = 6;
 export declare const MSQ_FUNCTION_LIDINOID = 7;
 /** 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x) - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) - 0.4 (cos 2x + cos 2y + cos 2z) */
 export declare const MSQ_FUNCTION_SPLIT_P = 8;
+/** cos 2x sin y cos z + cos 2y sin z cos x + cos 2z sin x cos y. Since 0.2. */
+export declare const MSQ_FUNCTION_FISCHER_KOCH_S = 9;
+/** sin 2x sin y + sin 2y sin z + sin 2z sin x + sin 2x cos z + sin 2y cos x + sin 2z cos y - sin x sin y sin z - cos x cos y cos z: C(Y). Since 0.2. */
+export declare const MSQ_FUNCTION_C_Y = 10;
+/** sin 2x sin y + sin 2y sin z + sin 2z sin x - 2 cos x cos y cos z: C(+-Y). Since 0.2. */
+export declare const MSQ_FUNCTION_C_PLUS_MINUS_Y = 11;
+/** 0.3 (cos x + cos y + cos z) + 0.3 (cos x cos y + cos y cos z + cos z cos x) - 0.4 (cos 2x + cos 2y + cos 2z) + 0.2. Since 0.2. */
+export declare const MSQ_FUNCTION_KARCHER_K = 12;
+/** sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'. Since 0.2. */
+export declare const MSQ_FUNCTION_G_PRIME = 13;
+/** cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two labyrinths that do not touch, as those of the next two. Since 0.2. */
+export declare const MSQ_FUNCTION_DOUBLE_GYROID = 14;
+/** -0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. Since 0.2. */
+export declare const MSQ_FUNCTION_DOUBLE_DIAMOND = 15;
+/** -0.5 (cos x cos y + cos y cos z + cos z cos x) - 0.2 (cos 2x + cos 2y + cos 2z). Since 0.2. */
+export declare const MSQ_FUNCTION_DOUBLE_P = 16;
+/** cos 2y + 2 cos x cos y + 0.5: columns along z with hexagonal holes, regular if the cell is sqrt(3) times as long along y as along x. Since 0.2. */
+export declare const MSQ_FUNCTION_HONEYCOMB = 17;
+/** 1 - cos x - cos y: rods along z. Since 0.2. */
+export declare const MSQ_FUNCTION_RODS = 18;
 /** Where the function is at most the level. */
 export declare const MSQ_FUNCTIONAL_NETWORK = 1;
 /** Where the magnitude of the function is at most the level. */
@@ -176,6 +196,8 @@ export declare const MSQ_LAYER_MATERIAL = 5;
 export declare const MSQ_LAYER_ONSET = 6;
 /** No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs. */
 export declare const MSQ_LAYER_CONTOURS = 7;
+/** 1 float32 per pixel: the value of a channel of the material at its centre, as msq_set_material returns it, rounded to the nearest float32; 0 outside, and where the material has no such channel. Only in msq_slicer_def.outputs. Since 0.2. */
+export declare const MSQ_LAYER_CHANNEL = 8;
 export declare const MSQ_LAYER_MIRROR_X = 1;
 export declare const MSQ_LAYER_MIRROR_Y = 2;
 export declare const MSQ_LAYER_TRANSPOSE = 4;
@@ -187,6 +209,10 @@ export declare const MSQ_FINDING_LOOSE = 2;
 export declare const MSQ_FINDING_VOID = 4;
 /** Connected samples where the solid is thinner in its layer than a given width. */
 export declare const MSQ_FINDING_THIN = 8;
+/** A cup: a void that is closed except where the next layer is printed, so it sucks at the film of a resin printer. In other words, empty samples that are connected within the layers up to one, reach that layer, and reach neither a side of the grid nor, without a plate, its bottom. Each is listed once, as it is in the last layer before it opens; last_layer is that one. Voids that close are listed as VOID alone. */
+export declare const MSQ_FINDING_CUP = 16;
+/** Connected samples of a layer with none below them, and none in the layer below within a given horizontal distance. */
+export declare const MSQ_FINDING_OVERHANG = 32;
 /** Binary STL: triangles without common vertices, coordinates as float32. */
 export declare const MSQ_SURFACE_STL = 1;
 /** Binary PLY, low bytes first: vertices with normals, as float32, and triangles. */
@@ -1086,12 +1112,14 @@ export interface msq_output_def {
   onset_value: number;
   /** CONTOURS: as msq_slicer_contours takes it. Copied. Other outputs: NULL (default). */
   contours: Memory;
+  /** CHANNEL: its name, in UTF-8, copied. A material of a resolved scale must have it. Other outputs: NULL (default). Since 0.2. */
+  channel: string | null;
 }
 
 /** Definition of a slicer. */
 export interface msq_slicer_def {
   struct_size: number;
-  /** An msq_layer_output except CONTOURS. Default MSQ_LAYER_BITS, which it must be if outputs are given. */
+  /** An msq_layer_output except CONTOURS and CHANNEL. Default MSQ_LAYER_BITS, which it must be if outputs are given. */
   output: number;
   /** Pixel size in x and y. 0 (default): from region and resolution. */
   pitch: ArrayLike<number>;
@@ -1103,7 +1131,7 @@ export interface msq_slicer_def {
   layer_count: number | bigint;
   /** 0 (default): the region is the bounding box of the model, centred in the pixels; region_min and region_max must be 0. 1: the region below. A model of all space needs 1. */
   has_region: number;
-  /** Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures that do not gain by more; at least one. Except for these, the first slab of a run has an eighth of the layers, so that the host has its first layer soon. Does not change results. */
+  /** Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures that do not gain by more; at least one; in a run, fewer where the limit leaves less. Except for these, the first slab of a run has an eighth of the layers, so that the host has its first layer soon. Where a slab is one layer and that is still too large, bands of its rows are computed one after the other. Does not change results. */
   slab_layers: number;
   /** Corner of pixel (0, 0) and bottom of layer 0. */
   region_min: ArrayLike<number>;
@@ -1235,6 +1263,8 @@ export interface msq_printability_def {
   width: number;
   /** Findings of less volume are ignored. In model units cubed, at least 0. Default 0. */
   min_volume: number;
+  /** OVERHANG: the distance in model units, 0 (default) to 31 pixels along x and y. Solid that leans by an angle reaches layer_height * tan(angle) beyond the layer below. Otherwise 0. */
+  overhang: number;
 }
 
 /** Something doubtful. A sample stands for the box of a pixel and its layer's height, which reaches half-way to the layers around it. */
@@ -1280,6 +1310,10 @@ export interface msq_printability_report {
   loose_volume: number;
   void_volume: number;
   thin_volume: number;
+  cup_count: number | bigint;
+  overhang_count: number | bigint;
+  cup_volume: number;
+  overhang_volume: number;
 }
 
 /** A ring of a polygon. */
@@ -1783,13 +1817,17 @@ export interface Functions {
   /**
    * Creates a functional structure: the points where a function of the position in the cell is at most a level. def must not be NULL.
    *
-   * Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp and log (natural). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE 754-2019). Points where the value is NaN are outside. Limits: 4096 bytes; 100 nested parentheses, signs and exponents; 1024 distinct operations, numbers and variables in total.
+   * Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, comparisons, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp, log (natural), tanh, atan2(y, x), hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. Since 0.2: - Comparisons, < <= > >= == !=, bind weakest, do not associate, and are 1 or 0. - select(c, a, b) is a where c is above 0.5, otherwise b. - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b). - atan2 is above -pi and at most pi, and 0 where x and y are 0. hypot is sqrt(a a + b b).
+   *
+   * A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE 754-2019); an operand that select leaves out does not count. Points where the value is NaN are outside. Limits: 65536 bytes; 100 nested parentheses, signs and exponents; 8192 distinct operations, numbers and variables in total.
+   *
+   * Where floor, a comparison, select or atan2 may jump within the cell the slope has no bound. Distances to such a structure are 0, and rays cross jumps in steps of up to 1/1024 of a cell, as they do where a function has a pole or is NaN.
    *
    * Thickness is the volume of the walls divided by the area of their middle surface, where the function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of the function, accurate to about 0.3 % for the named functions (docs/concepts.md). Walls are thicker where the function is flatter. A field of thickness selects at each point the level of that thickness.
    *
    * With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness selects at each position along the axis the level of walls that thick in cells of the size there: the thickness stays, the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost what those of a structure do whose cells hold no whole number of samples.
    *
-   * Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; von Schnering and Nesper 1991.
+   * Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001.
    */
   msq_structure_functional(context: Memory, def: msq_functional_def | null, structure: [Pointer]): number;
   /** Sets the defaults. Errors: ARGUMENT. */
@@ -1898,6 +1936,8 @@ export interface Functions {
   msq_model_bounds(model: Memory, min: Memory, max: Memory): number;
   /** Returns the characteristic length of a scale: its largest cell size; the length_scale of beams, which have no cells; infinity for scale 0. Errors: ARGUMENT (no such scale). */
   msq_model_scale_length(model: Memory, scale: number, length: Memory): number;
+  /** Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0 also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such region or scale). Since 0.2. */
+  msq_model_scale(model: Memory, region: number, scale: number, shape: [Pointer], structure: [Pointer]): number;
   /** Sets the defaults. Errors: ARGUMENT. */
   msq_query_def_init(def: Partial<msq_query_def>, size: number | bigint): number;
   /** Sets the defaults. Errors: ARGUMENT. */
@@ -1982,9 +2022,9 @@ export interface Functions {
   msq_slicer_info(slicer: Memory, report: Partial<msq_slicer_report>): number;
   /** Returns z of the samples of a layer. Errors: ARGUMENT (index out of range). */
   msq_slicer_layer_z(slicer: Memory, index: number | bigint, z: Memory): number;
-  /** Computes layers first to first + count - 1 and passes each to the callback, in ascending order, on the calling thread. Workers compute the next slab meanwhile and wait for the callback. (With the host's parallel_for, the next slab is computed after the callbacks of the slab.) count UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the plan is split into calls or processes, nor on its other outputs. Memory, accounted to the context: two slabs, one layer and a few tiles per thread, for any height of the stack; foams keep cells in the cache in addition. With contours, workers compute those of as many layers at once as there are threads, and as many wait for the callback. Where memory_limit does not hold these, they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section "Slicing". */
+  /** Computes layers first to first + count - 1 and passes each to the callback, in ascending order, on the calling thread. Workers compute the next slab meanwhile and wait for the callback. (With the host's parallel_for, the next slab is computed after the callbacks of the slab.) count UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the plan is split into calls or processes, nor on its other outputs. Memory, accounted to the context: two slabs, one layer and a few tiles per thread, for any height of the stack. Where memory_limit does not hold two slabs of one layer: one layer, two bands of its rows, at least 16 rows of samples each, and a few tiles per thread; LIMIT if that does not fit either, and then windows do. Foams keep cells in the cache in addition. With contours, workers compute those of as many layers at once as there are threads, and as many wait for the callback. Where memory_limit does not hold these, they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section "Slicing". */
   msq_slicer_run(slicer: Memory, first: number | bigint, count: number | bigint, fn: msq_layer_fn | bigint | null, user: Memory, job: Memory): number;
-  /** Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask for them; for others up to three times that. Memory: one layer and a few tiles per thread; layers that are filled ahead take at most two slabs until the slicer is freed or a call needs the memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY. */
+  /** Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask for them; for others up to three times that. Memory: the bits of one layer and a few tiles per thread, or where memory_limit does not hold these one layer and a band of its rows; layers that are filled ahead take at most two slabs until the slicer is freed or a call needs the memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY. */
   msq_slice_layer(slicer: Memory, index: number | bigint, buffer: Memory, buffer_bytes: number | bigint, job: Memory): number;
   /**
    * Computes the contours of the section of a model at a height along the axis.
@@ -2005,11 +2045,11 @@ export interface Functions {
   /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
   msq_printability_def_init(def: Partial<msq_printability_def>, size: number | bigint): number;
   /**
-   * Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids, thin places.
+   * Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids, thin places, cups, overhangs.
    *
    * It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation of the slicer are ignored. What is smaller than a pixel may lie between samples: to find it, use a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners, empty ones across sides; samples of two layers are connected if one is on the other.
    *
-   * def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 16 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack; of these, runs and totals are not accounted to the context. Cost: 1.3 to 1.8 times that of msq_slicer_run for bits, up to 3 times with thousands of enclosed voids in a layer. THIN adds 0.2 to 1.5 ns per sample. All but the bits runs on the calling thread. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2.
+   * def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack. Runs and totals are accounted to the context after each layer. Workers share the rows of each layer. Cost: 1.1 to 1.9 times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2.
    */
   msq_printability(slicer: Memory, def: msq_printability_def | null, fn: msq_findings_fn | bigint | null, user: Memory, report: Partial<msq_printability_report>, job: Memory): number;
   /** Sets the defaults. Errors: ARGUMENT. */

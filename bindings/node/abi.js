@@ -67,6 +67,16 @@ export const MSQ_FUNCTION_NEOVIUS = 5;
 export const MSQ_FUNCTION_F_RD = 6;
 export const MSQ_FUNCTION_LIDINOID = 7;
 export const MSQ_FUNCTION_SPLIT_P = 8;
+export const MSQ_FUNCTION_FISCHER_KOCH_S = 9;
+export const MSQ_FUNCTION_C_Y = 10;
+export const MSQ_FUNCTION_C_PLUS_MINUS_Y = 11;
+export const MSQ_FUNCTION_KARCHER_K = 12;
+export const MSQ_FUNCTION_G_PRIME = 13;
+export const MSQ_FUNCTION_DOUBLE_GYROID = 14;
+export const MSQ_FUNCTION_DOUBLE_DIAMOND = 15;
+export const MSQ_FUNCTION_DOUBLE_P = 16;
+export const MSQ_FUNCTION_HONEYCOMB = 17;
+export const MSQ_FUNCTION_RODS = 18;
 export const MSQ_FUNCTIONAL_NETWORK = 1;
 export const MSQ_FUNCTIONAL_SHEET = 2;
 export const MSQ_CAP_SPHERE = 0;
@@ -100,6 +110,7 @@ export const MSQ_LAYER_DISTANCE = 4;
 export const MSQ_LAYER_MATERIAL = 5;
 export const MSQ_LAYER_ONSET = 6;
 export const MSQ_LAYER_CONTOURS = 7;
+export const MSQ_LAYER_CHANNEL = 8;
 export const MSQ_LAYER_MIRROR_X = 1;
 export const MSQ_LAYER_MIRROR_Y = 2;
 export const MSQ_LAYER_TRANSPOSE = 4;
@@ -107,6 +118,8 @@ export const MSQ_FINDING_ISLAND = 1;
 export const MSQ_FINDING_LOOSE = 2;
 export const MSQ_FINDING_VOID = 4;
 export const MSQ_FINDING_THIN = 8;
+export const MSQ_FINDING_CUP = 16;
+export const MSQ_FINDING_OVERHANG = 32;
 export const MSQ_SURFACE_STL = 1;
 export const MSQ_SURFACE_PLY = 2;
 export const MSQ_CAMERA_ORTHOGRAPHIC = 0;
@@ -589,6 +602,7 @@ export function types(koffi) {
     onset_scale: 'uint32_t',
     onset_value: 'int32_t',
     contours: 'void *',
+    channel: 'str',
   });
   T.msq_slicer_def = koffi.struct('msq_slicer_def', {
     struct_size: 'uint32_t',
@@ -668,6 +682,7 @@ export function types(koffi) {
     reserved: 'uint32_t',
     width: 'double',
     min_volume: 'double',
+    overhang: 'double',
   });
   T.msq_finding = koffi.struct('msq_finding', {
     kind: 'int32_t',
@@ -695,6 +710,10 @@ export function types(koffi) {
     loose_volume: 'double',
     void_volume: 'double',
     thin_volume: 'double',
+    cup_count: 'uint64_t',
+    overhang_count: 'uint64_t',
+    cup_volume: 'double',
+    overhang_volume: 'double',
   });
   T.msq_ring = koffi.struct('msq_ring', {
     points: 'void *',
@@ -959,6 +978,7 @@ export function functions(koffi, library, T) {
     msq_model_release: library.func('msq_model_release', 'void', ['void *']),
     msq_model_bounds: library.func('msq_model_bounds', 'int32_t', ['void *', 'void *', 'void *']),
     msq_model_scale_length: library.func('msq_model_scale_length', 'int32_t', ['void *', 'uint32_t', 'void *']),
+    msq_model_scale: library.func('msq_model_scale', 'int32_t', ['void *', 'uint32_t', 'uint32_t', koffi.out(koffi.pointer('void *')), koffi.out(koffi.pointer('void *'))]),
     msq_query_def_init: library.func('msq_query_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_query_def)), 'size_t']),
     msq_points_def_init: library.func('msq_points_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_points_def)), 'size_t']),
     msq_points_generate: library.func('msq_points_generate', 'int32_t', [koffi.pointer(T.msq_points_def), 'uint64_t', 'uint64_t', 'void *']),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -129,7 +130,7 @@ class Inspection {
     ++counts_.layers;
     counts_.solid_samples += layer.main().inside_count;
     counts_.solid_volume += static_cast<double>(layer.main().inside_count) * pixel_area() * height;
-    const uint64_t* rows = layer.main().words;
+    const uint64_t* rows = rows_of(layer.main());
     const uint64_t tasks = analyses_.size() * bands_;
     executor_.for_each(tasks, [&](uint64_t i) {
       Analysis& analysis = analyses_[i / bands_];
@@ -170,6 +171,16 @@ class Inspection {
 
   bool finds(FindingKind kind) const { return (plan_.kinds & static_cast<uint32_t>(kind)) != 0; }
   double pixel_area() const { return grid_.spacing.x * grid_.spacing.y; }
+
+  const uint64_t* rows_of(const LayerPart& bits) {
+    if (bits.words) return bits.words;
+    if (rows_.empty()) {
+      reserve(words_ * grid_.ny * sizeof(uint64_t), "masks of layers");
+      rows_.resize(words_ * grid_.ny);
+    }
+    std::memcpy(rows_.data(), bits.data, rows_.size() * sizeof(uint64_t));
+    return rows_.data();
+  }
 
   void reserve(uint64_t bytes, const char* what) {
     reservations_.push_back(Reservation(slicer_.model().context().budget, bytes, what));
@@ -285,6 +296,7 @@ class Inspection {
   uint64_t held_ = 0;
   std::vector<Analysis> analyses_;
   std::vector<uint64_t> below_;  ///< the layer before, for overhangs
+  std::vector<uint64_t> rows_;   ///< the layer, if it was filled in bands
   std::optional<ThinSamples> thin_;
   std::optional<OverhangSamples> overhangs_;
   std::optional<ComponentTotals> part_;

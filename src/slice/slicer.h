@@ -37,7 +37,8 @@ struct SlicePlan {
 /// What one of the outputs is in a layer.
 struct LayerPart {
   const uint8_t* data = nullptr;  ///< null: contours
-  /// Rows of the bits that the output is made of, before they are turned; null: it has none.
+  /// Rows of the bits that the output is made of, before they are turned; null: it has none, or
+  /// the layer was filled in bands.
   const uint64_t* words = nullptr;
   uint64_t inside_count = 0;
   Contours* contours = nullptr;
