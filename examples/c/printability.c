@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Is it printable? A block with a closed-cell foam, once without and once with holes in its walls:
- * islands, loose parts, voids that trap resin, thin places.
+ * islands, loose parts, voids and cups that trap resin, thin places.
  *
  * usage: printability [PITCH] */
 #include <msq.h>
@@ -46,10 +46,20 @@ static msq_model* make_block(msq_context* context, double vent_radius) {
 }
 
 static const char* name_of(int32_t kind) {
-  return kind == MSQ_FINDING_ISLAND  ? "island"
-         : kind == MSQ_FINDING_LOOSE ? "loose part"
-         : kind == MSQ_FINDING_VOID  ? "void"
-                                     : "thin place";
+  switch (kind) {
+    case MSQ_FINDING_ISLAND:
+      return "island";
+    case MSQ_FINDING_LOOSE:
+      return "loose part";
+    case MSQ_FINDING_VOID:
+      return "void";
+    case MSQ_FINDING_CUP:
+      return "cup";
+    case MSQ_FINDING_OVERHANG:
+      return "overhang";
+    default:
+      return "thin place";
+  }
 }
 
 static int32_t show(void* user, const msq_finding* findings, uint64_t count) {
@@ -73,16 +83,19 @@ static msq_printability_report inspect(const msq_model* model, double pitch) {
 
   msq_printability_def def;
   check(msq_printability_def_init(&def, sizeof def));
-  def.kinds |= MSQ_FINDING_THIN;
+  def.kinds |= MSQ_FINDING_THIN | MSQ_FINDING_CUP;
   def.width = 3 * pitch;
   def.min_volume = 10 * pitch * pitch * pitch;
   msq_printability_report report = {.struct_size = sizeof report};
   uint64_t shown = 0;
   check(msq_printability(slicer, &def, show, &shown, &report, NULL));
-  printf("%llu layers: %llu islands, %llu loose parts, %llu voids of %.1f mm3, %llu thin places\n",
-         (unsigned long long)report.layer_count, (unsigned long long)report.island_count,
-         (unsigned long long)report.loose_count, (unsigned long long)report.void_count,
-         report.void_volume, (unsigned long long)report.thin_count);
+  printf(
+      "%llu layers: %llu islands, %llu loose parts, %llu voids of %.1f mm3, %llu cups, "
+      "%llu thin places\n",
+      (unsigned long long)report.layer_count, (unsigned long long)report.island_count,
+      (unsigned long long)report.loose_count, (unsigned long long)report.void_count,
+      report.void_volume, (unsigned long long)report.cup_count,
+      (unsigned long long)report.thin_count);
   msq_slicer_release(slicer);
   return report;
 }
