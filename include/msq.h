@@ -1292,8 +1292,8 @@ enum msq_function {
   /** sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'. Since 0.2. */
   MSQ_FUNCTION_G_PRIME = 13,
   /** cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x
-   * - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two
-   * labyrinths that do not touch, as those of the next two. Since 0.2. */
+   * - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is
+   * two labyrinths that do not touch, as those of the next two. Since 0.2. */
   MSQ_FUNCTION_DOUBLE_GYROID = 14,
   /** -0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. Since 0.2. */
   MSQ_FUNCTION_DOUBLE_DIAMOND = 15,
@@ -1350,10 +1350,11 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  *
  * Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, comparisons, and
  * pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp, log (natural), tanh, atan2(y, x),
- * hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign before
- * it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not
- * periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated
- * as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. Since 0.2:
+ * hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign
+ * before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is
+ * not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are
+ * evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. Since
+ * 0.2:
  * - Comparisons, < <= > >= == !=, bind weakest, do not associate, and are 1 or 0.
  * - select(c, a, b) is a where c is above 0.5, otherwise b.
  * - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b).

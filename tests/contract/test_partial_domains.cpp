@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functional structures whose expressions are no number somewhere, or jump: a point is outside where
-// there is no number, and points, sets, grids and rays agree on where that is, and where jumps are,
-// whichever way round operands stand.
+// Functional structures whose expressions are no number somewhere, or jump: a point is outside
+// where there is no number, and points, sets, grids and rays agree on where that is, and where
+// jumps are, whichever way round operands stand.
 #include "bit_rows.h"
 #include "expression/parser.h"
 #include "field/gradient.h"

@@ -19,9 +19,8 @@ std::vector<Scenario> printability_scenarios() {
              const msq_slicer* slicer =
                  world.slicer(world.model(world.mesh(), kinds()[0].make(world)));
              msq_printability_def def = make_def(msq_printability_def_init);
-             def.kinds =
-                 MSQ_FINDING_ISLAND | MSQ_FINDING_LOOSE | MSQ_FINDING_VOID | MSQ_FINDING_THIN |
-                 MSQ_FINDING_CUP | MSQ_FINDING_OVERHANG;
+             def.kinds = MSQ_FINDING_ISLAND | MSQ_FINDING_LOOSE | MSQ_FINDING_VOID |
+                         MSQ_FINDING_THIN | MSQ_FINDING_CUP | MSQ_FINDING_OVERHANG;
              def.overhang = plan_of(slicer).pitch[0];
              def.width = 2.5 * plan_of(slicer).pitch[1];
              msq_printability_report report{};
