@@ -311,7 +311,6 @@ static void overhangs_reach_beyond_the_layer_below(void** state) {
 
 /* Runs and totals count, not only masks. */
 static void memory_is_accounted(void** state) {
-  msq_memory_report memory;
   uint64_t peaks[2];
   (void)state;
   for (int fine = 0; fine < 2; ++fine) {
@@ -326,10 +325,7 @@ static void memory_is_accounted(void** state) {
     slicer = make_slicer(model, &plan);
     def.width = 0.2;
     inspect(slicer, &def, &list);
-    memset(&memory, 0, sizeof memory);
-    memory.struct_size = sizeof memory;
-    assert_ok(msq_context_memory(context, &memory));
-    peaks[fine] = memory.peak_bytes;
+    peaks[fine] = memory_of(context).peak_bytes;
     msq_slicer_release(slicer);
     msq_model_release(model);
     msq_context_release(context);
@@ -435,6 +431,36 @@ static void results_do_not_depend_on_threads_and_output(void** state) {
   }
 }
 
+/* Layers of 4096 x 4096 pixels, 2 MiB each, that a limit makes the slicer fill one by one, in
+ * bands. */
+static void limits_of_memory_change_nothing(void** state) {
+  msq_printability_def def = printability_def(MSQ_FINDING_ISLAND + MSQ_FINDING_LOOSE, 1);
+  msq_printability_report reports[2];
+  uint64_t peaks[2];
+  (void)state;
+  for (int limited = 0; limited < 2; ++limited) {
+    const double center[3] = {2, 2, 2};
+    msq_context* context =
+        make_context_of(2, limited ? 1 << 20 : 1 << 28, limited ? (uint64_t)16 << 20 : 0);
+    msq_shape* ball;
+    msq_model* model;
+    msq_slicer_def plan = slicer_def(MSQ_LAYER_BITS, 4096, 4096, 0.5);
+    msq_slicer* slicer;
+    assert_ok(msq_shape_from_sphere(context, center, 2, &ball));
+    model = make_model(context, ball, make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.1), NULL);
+    slicer = make_slicer(model, &plan);
+    reports[limited] = inspect(slicer, &def, limited ? &other_list : &list);
+    peaks[limited] = memory_of(context).peak_bytes;
+    msq_slicer_release(slicer);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+  assert_true(list.count > 8);
+  assert_memory_equal(&reports[0], &reports[1], sizeof reports[0]);
+  assert_memory_equal(list.findings, other_list.findings, sizeof list.findings);
+  assert_true(peaks[1] <= (uint64_t)16 << 20 && peaks[1] < peaks[0]);
+}
+
 static void callbacks_stop_the_call(void** state) {
   msq_context* context = make_context();
   msq_shape* parts[2] = {box_of(context, 0, 0, 0, 8, 8, 8), box_of(context, 2, 2, 2, 5, 5, 5)};
@@ -473,6 +499,7 @@ int main(void) {
       cmocka_unit_test(memory_is_accounted),
       cmocka_unit_test(volumes_follow_listed_heights),
       cmocka_unit_test(results_do_not_depend_on_threads_and_output),
+      cmocka_unit_test(limits_of_memory_change_nothing),
       cmocka_unit_test(callbacks_stop_the_call),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
