@@ -161,7 +161,7 @@ class Model(Handle):
             raise ValueError("scale is 0, which has a shape and no structure")
         return self._part(Structure, scale, region)
 
-    def shape(self, *, region: int = 0) -> Shape:
+    def region_shape(self, region: int = 0) -> Shape:
         """The coarse shape, of a region if the model has several."""
         return self._part(Shape, 0, region)
 

@@ -61,7 +61,7 @@ class Documents(unittest.TestCase):
         self.assertEqual(model.structure(2).hash, lattice.hash)
         self.assertEqual(model.structure(region=1).hash, lattice.hash)
         self.assertEqual(model.structure().hash, msq.Foam(radius=0.2, cell_size=2).hash)
-        self.assertEqual(model.shape(region=1).hash, msq.Shape.box((0, 0, 0), (4, 4, 4)).hash)
+        self.assertEqual(model.region_shape(1).hash, msq.Shape.box((0, 0, 0), (4, 4, 4)).hash)
         structure, fraction = model.structure(2), lattice.calibrate(0.2)
         del model  # the structure keeps what it needs
         self.assertEqual(structure.calibrate(0.2).parameter, fraction.parameter)
