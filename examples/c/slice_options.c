@@ -21,8 +21,9 @@ static const char usage[] =
     "                     (rhombic dodecahedron) or reentrant; several, as bcc,octet: one after\n"
     "                     the other from left to right\n"
     "  --cell MM          its cell size (default 4)\n"
-    "  --tpms NAME        minimal surface instead: gyroid, p, d, iwp, neovius, frd, lidinoid or\n"
-    "                     splitp, in cells of --cell; the space on one side of it\n"
+    "  --tpms NAME        function instead: gyroid, p, d, iwp, neovius, frd, lidinoid, splitp, s,\n"
+    "                     cy, cpmy, k, gprime, doubleg, doubled, doublep, honeycomb or rods, in\n"
+    "                     cells of --cell; the space on one side of it\n"
     "  --wall MM          its sheet instead, with walls of this mean thickness; of a foam, walls\n"
     "                     of this thickness that close its cells\n"
     "  --solid            the part alone, unfilled by any structure\n"
@@ -92,9 +93,10 @@ static int read_unit_cells(const char* text, slice_options* o) {
 }
 
 static int read_tpms(const char* text, int32_t* function) {
-  static const char* const names[] = {"gyroid",  "p",   "d",        "iwp",
-                                      "neovius", "frd", "lidinoid", "splitp"};
-  for (int32_t i = 0; i < 8; ++i) {
+  static const char* const names[] = {
+      "gyroid", "p",    "d", "iwp",    "neovius", "frd",     "lidinoid", "splitp",    "s",
+      "cy",     "cpmy", "k", "gprime", "doubleg", "doubled", "doublep",  "honeycomb", "rods"};
+  for (int32_t i = 0; i < MSQ_FUNCTION_RODS; ++i) {
     if (strcmp(text, names[i]) != 0) continue;
     *function = MSQ_FUNCTION_GYROID + i;
     return 0;

@@ -96,6 +96,7 @@ static msq_status make_surface(scene* s, const slice_options* o) {
   if (o->wall > 0) surface.kind = MSQ_FUNCTIONAL_SHEET;
   surface.thickness.value = o->wall;
   for (int a = 0; a < 3; ++a) surface.grid.cell_size[a] = o->cell;
+  if (o->tpms == MSQ_FUNCTION_HONEYCOMB) surface.grid.cell_size[1] *= 1.7320508075688772;
   return msq_structure_functional(s->context, &surface, &s->filling);
 }
 
