@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Named functions, as expressions in x, y, z: level sets that come close to triply periodic minimal
 // surfaces, and columns.
-// Source: Schoen, "Infinite periodic minimal surfaces without self-intersections", NASA TN D-5541,
-// 1970 (surfaces); von Schnering and Nesper, "Nodal surfaces of Fourier series", 1991 (functions);
-// Fischer and Koch, "On 3-periodic minimal surfaces", 1987 (S, C(Y), C(+-Y)); Karcher, "The triply
-// periodic minimal surfaces of Alan Schoen and their constant mean curvature companions", 1989 (K);
-// Wohlgemuth, Yufa, Hoffman and Thomas, "Triply periodic bicontinuous cubic microdomain
-// morphologies by symmetries", 2001 (functions from C(Y) to double P; here the double ones have the
-// other sign, so that their networks are the two labyrinths).
+// Surfaces: Schoen, "Infinite periodic minimal surfaces without self-intersections", NASA TN
+// D-5541, 1970; Fischer and Koch, "On 3-periodic minimal surfaces", Z. Kristallogr. 179, 1987 (S,
+// C(Y), C(+-Y)); Karcher, "The triply periodic minimal surfaces of Alan Schoen and their constant
+// mean curvature companions", Manuscripta Math. 64, 1989 (K).
+// Functions: von Schnering and Nesper, "Nodal surfaces of Fourier series", Z. Phys. B 83, 1991 (the
+// first ones, S, C(Y), C(+-Y)); Wohlgemuth, Yufa, Hoffman and Thomas, "Triply periodic bicontinuous
+// cubic microdomain morphologies by symmetries", Macromolecules 34, 2001 (G'); Fisher, Miller,
+// Bartolai, Simpson and Yukish, "Catalog of triply periodic minimal surfaces, equation-based
+// lattice structures, and their homogenized property data", Data in Brief 49, 2023 (K). Lidinoid,
+// split P and the double functions are as programs for lattices have them; their first source is
+// not known to us. The double functions have the other sign here, so that their networks are the
+// two labyrinths.
 #pragma once
 
 namespace msq {
