@@ -47,13 +47,9 @@ configure_package_config_file(cmake/msqConfig.cmake.in ${CMAKE_CURRENT_BINARY_DI
                               INSTALL_DESTINATION ${MSQ_CMAKE_DIR}
                               NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 # The ABI is frozen with 0.2 (docs/abi.md).
-set(MSQ_COMPATIBILITY SameMajorVersion)
-if(PROJECT_VERSION VERSION_LESS 0.2)
-  set(MSQ_COMPATIBILITY SameMinorVersion)
-endif()
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/msqConfigVersion.cmake
                                  VERSION ${PROJECT_VERSION}
-                                 COMPATIBILITY ${MSQ_COMPATIBILITY})
+                                 COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/msqConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/msqConfigVersion.cmake
         DESTINATION ${MSQ_CMAKE_DIR} COMPONENT msq_development)

@@ -86,7 +86,7 @@ extern "C" {
 /* ---- Version, status, errors ----------------------------------------------------------------- */
 
 #define MSQ_VERSION_MAJOR 0
-#define MSQ_VERSION_MINOR 1
+#define MSQ_VERSION_MINOR 2
 #define MSQ_VERSION_PATCH 0
 /** Version of this header: major * 10000 + minor * 100 + patch. */
 #define MSQ_VERSION 100

@@ -6,7 +6,7 @@ export type Pointer = bigint | null;
 /** An address, or memory of JavaScript that C reads or writes during the call. */
 export type Memory = Pointer | NodeJS.TypedArray | ArrayBuffer;
 export declare const MSQ_VERSION_MAJOR = 0;
-export declare const MSQ_VERSION_MINOR = 1;
+export declare const MSQ_VERSION_MINOR = 2;
 export declare const MSQ_VERSION_PATCH = 0;
 export declare const MSQ_VERSION = 100;
 export declare const MSQ_OK = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Made from msq.h by bindings/make_bindings.py: change those.
 export const MSQ_VERSION_MAJOR = 0;
-export const MSQ_VERSION_MINOR = 1;
+export const MSQ_VERSION_MINOR = 2;
 export const MSQ_VERSION_PATCH = 0;
 export const MSQ_VERSION = 100;
 export const MSQ_OK = 0;

@@ -22,7 +22,7 @@ IO_LIBRARY = os.environ.get("MSQ_IO_LIBRARY") if LIBRARY else None  # it needs t
 
 
 def name_of(library: pathlib.Path) -> str:
-    """The name under which the package finds it: libmsq.so.0.1.0 becomes libmsq.so.0."""
+    """The name under which the package finds it: libmsq.so.0.2.0 becomes libmsq.so.0."""
     if sys.platform.startswith("linux"):
         return ".".join(library.name.split(".")[:3])
     return library.name

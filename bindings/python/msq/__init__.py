@@ -37,7 +37,7 @@ from .strut_graph import StrutGraph
 from .surface import Mesh
 from .unit_cell import UnitCell, UnitCellInfo
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "ArgumentError", "BeamFile", "BeamLattice", "Beams", "BuildInfo", "CacheInfo", "Calibration",

@@ -4,7 +4,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, 
                     c_size_t, c_uint32, c_uint64, c_uint8, c_void_p)
 
 MSQ_VERSION_MAJOR = 0
-MSQ_VERSION_MINOR = 1
+MSQ_VERSION_MINOR = 2
 MSQ_VERSION_PATCH = 0
 MSQ_VERSION = 100
 MSQ_OK = 0

@@ -540,7 +540,7 @@ class Loading(unittest.TestCase):
                               stderr=subprocess.PIPE, check=False)
 
     def test_takes_the_library_that_is_named(self):
-        self.assertEqual(self.load(os.environ["MSQ_LIBRARY"]).stdout, "0.1.0\n")
+        self.assertEqual(self.load(os.environ["MSQ_LIBRARY"]).stdout, "0.2.0\n")
         missing = self.load("/no/such/libmsq.so")
         self.assertIn("ImportError", missing.stderr)
         self.assertIn("/no/such/libmsq.so", missing.stderr)
@@ -557,7 +557,7 @@ class Loading(unittest.TestCase):
             for file in pathlib.Path(msq.__file__).parent.glob("*.py"):
                 (package / file.name).write_bytes(file.read_bytes())
             (package / "libmsq.so.0").symlink_to(os.path.realpath(os.environ["MSQ_LIBRARY"]))
-            self.assertEqual(self.load("", PYTHONPATH=folder).stdout, "0.1.0\n")
+            self.assertEqual(self.load("", PYTHONPATH=folder).stdout, "0.2.0\n")
             (package / "libmsq.so.0").unlink()
             (package / "libmsq.so.0").write_bytes(b"no library")
             self.assertIn("ImportError", self.load("", PYTHONPATH=folder).stderr)

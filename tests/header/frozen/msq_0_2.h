@@ -25,7 +25,7 @@ extern "C" {
 #endif
 
 #define MSQ_VERSION_MAJOR 0
-#define MSQ_VERSION_MINOR 1
+#define MSQ_VERSION_MINOR 2
 #define MSQ_VERSION_PATCH 0
 
 #define MSQ_VERSION 100

@@ -11,7 +11,7 @@ pub type msq_status = i32;
 
 pub const MSQ_VERSION_MAJOR: u32 = 0;
 
-pub const MSQ_VERSION_MINOR: u32 = 1;
+pub const MSQ_VERSION_MINOR: u32 = 2;
 
 pub const MSQ_VERSION_PATCH: u32 = 0;
 
