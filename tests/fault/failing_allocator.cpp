@@ -132,6 +132,7 @@ void operator delete[](void* block, const std::nothrow_t&) noexcept {
 
 const bool msq::test::replaces_malloc = true;
 
+#pragma GCC visibility push(default)  // libraries are to find these too
 extern "C" {
 
 void* __libc_malloc(size_t bytes);
@@ -186,5 +187,7 @@ void free(void* block) {
 }
 
 }  // extern "C"
+
+#pragma GCC visibility pop
 
 #endif
