@@ -12,7 +12,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "bindings/python/README.md",
-         ROOT / "integrations/freecad/README.md", ROOT / "integrations/blender/README.md",
+         ROOT / "integrations/freecad/README.md", ROOT / "integrations/blender/README.md", ROOT / "bindings/README.md",
+         ROOT / "integrations/prusaslicer/README.md",
          *sorted((ROOT / "docs").glob("*.md")), *sorted((ROOT / "docs").glob("*/*.md"))]
 
 
