@@ -1392,7 +1392,7 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * (limits of expressions; more than 2^24 cells between the grid's origin and a position of the
  * period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section
  * "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von
- * Schnering and Nesper 1991; Wohlgemuth et al. 2001. */
+ * Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md). */
 MSQ_API msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def,
                                             msq_structure** structure);
 
