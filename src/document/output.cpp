@@ -77,7 +77,9 @@ void Output::print(std::string& to, size_t indent) const {
     to += json_quoted(key) + ": ";
     value.print(to, indent + 2);
   }
-  to += "\n" + std::string(indent, ' ') + (kind == Kind::list ? "]" : "}");
+  to += '\n';
+  to.append(indent, ' ');
+  to += kind == Kind::list ? ']' : '}';
 }
 
 std::string Output::print() const {
