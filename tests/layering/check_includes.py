@@ -54,7 +54,7 @@ C_HEADERS = {f"{name}.h" for name in
 LINES_WARN, LINES_FAIL = 400, 600
 LINES_IN = ["src", "include", "tests", "examples", "bench", "bindings", "tools"]
 # One header for hosts in each language, however much it declares, and what is made from it.
-LINES_FREE = {"include/msq.h", "bindings/cpp/msq.hpp", "bindings/python/msq/_abi.py"}
+LINES_FREE = {"include/msq.h", "tests/header/frozen/msq_0_2.h", "bindings/cpp/msq.hpp", "bindings/python/msq/_abi.py"}
 LINES_OF = {".h", ".hpp", ".c", ".cpp", ".py"}
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
