@@ -1396,6 +1396,53 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
 MSQ_API msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def,
                                             msq_structure** structure);
 
+/** A sum of waves. */
+typedef struct msq_waves_def {
+  uint32_t struct_size;
+  /** An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK. */
+  int32_t kind;
+  /** Picks the directions and phases. Default 0. */
+  uint64_t seed;
+  /** Number of waves, 1 to 4096. Default 256. */
+  uint32_t count;
+  /** Cells along each axis of the grid after which the structure repeats, up to 2^20. 0 (default):
+   * it need not. Wave vectors are rounded to those that fit. */
+  uint32_t tile[3];
+  /** Half-angles of cones about the axes of the grid, in degrees: 0 (no cone) or 0.1 to 90, at
+   * least one above 0. The waves have directions in these cones. Default 90, 0, 0: all directions.
+   * One small cone: layers across the axis; two: columns along the third axis; three: a cubic
+   * structure. */
+  double cone_angles[3];
+  /** cell_size: the wavelength along each axis of the grid. */
+  msq_neighbourhood grid;
+  /** Value of the sum, of which the variance is 1; not a length. Default 0: half of the volume.
+   * SHEET: a constant must be > 0, a field >= 0 and not 0 everywhere. */
+  msq_param level;
+  /** In place of a level: the volume fraction of a Gaussian random field, above 0 and below 1. 0
+   * (default): level is used. */
+  double volume_fraction;
+} msq_waves_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_waves_def_init(msq_waves_def* def, size_t size);
+
+/** Creates a spinodal structure: the points where a sum of cosines of one wavelength, with random
+ * directions and phases, is at most the level (NETWORK), or its magnitude is (SHEET). def must not
+ * be NULL. Since 0.2.
+ *
+ * Directions and phases are a function of the seed, equal on every machine. With many waves the sum
+ * is a Gaussian random field. volume_fraction is then met on average: the level is the inverse of
+ * the normal distribution. Samples of few wavelengths, or few waves, differ from it;
+ * msq_structure_calibrate finds the level for a sample. A grid with different cell sizes stretches
+ * the structure. docs/concepts.md defines the sum.
+ *
+ * Cost: a sample of a slice or a grid takes about a nanosecond at any number of waves, if a
+ * wavelength has 30 samples or more; other points take about 2 ns for each wave. Errors: ARGUMENT
+ * (also: both a level and a volume fraction), MEMORY. Source: Cahn 1965; Kumar, Tan, Zheng and
+ * Kochmann 2020. */
+MSQ_API msq_status msq_structure_waves(msq_context* context, const msq_waves_def* def,
+                                       msq_structure** structure);
+
 /** How a beam ends. */
 enum msq_cap {
   /** With the ball of its radius there. With unlike radii the ball of the thicker end protrudes

@@ -213,6 +213,7 @@ using UnitCellDef = detail::Definition<msq_unit_cell_def, msq_unit_cell_def_init
 using LatticeDef = detail::Definition<msq_lattice_def, msq_lattice_def_init>;
 using FoamDef = detail::Definition<msq_foam_def, msq_foam_def_init>;
 using FunctionalDef = detail::Definition<msq_functional_def, msq_functional_def_init>;
+using WavesDef = detail::Definition<msq_waves_def, msq_waves_def_init>;
 using BeamsDef = detail::Definition<msq_beams_def, msq_beams_def_init>;
 using DocumentDef = detail::Definition<msq_document_def, msq_document_def_init>;
 using JsonDef = detail::Definition<msq_json_def, msq_json_def_init>;
@@ -782,6 +783,10 @@ class Structure
     return Structure(std::in_place, [&](auto** made) {
       return msq_structure_functional(context.get(), &def, made);
     });
+  }
+  static Structure waves(const Context& context, const WavesDef& def) {
+    return Structure(std::in_place,
+                     [&](auto** made) { return msq_structure_waves(context.get(), &def, made); });
   }
   static Structure beams(const Context& context, const BeamsDef& def, const Job& job = {}) {
     return Structure(std::in_place, [&](auto** made) {

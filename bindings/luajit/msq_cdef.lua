@@ -80,6 +80,7 @@ typedef struct msq_lattice_def { uint32_t struct_size; int32_t unit_cell; msq_ne
 typedef struct msq_lattice_faces_report { uint32_t struct_size; int32_t axis; uint64_t cells; uint64_t faces; uint64_t unmatched; int32_t cell[3]; uint32_t reserved; uint32_t types[2]; double point[3]; } msq_lattice_faces_report;
 typedef struct msq_foam_def { uint32_t struct_size; int32_t method; msq_neighbourhood grid; msq_param radius; double jitter; uint64_t seed; msq_param density; msq_param wall_thickness; msq_param vent_radius; } msq_foam_def;
 typedef struct msq_functional_def { uint32_t struct_size; int32_t function; int32_t kind; uint32_t clusters; msq_neighbourhood grid; msq_param level; const char* expression; const msq_named_value* parameters; uint64_t parameter_count; msq_param thickness; const msq_period_def* period; } msq_functional_def;
+typedef struct msq_waves_def { uint32_t struct_size; int32_t kind; uint64_t seed; uint32_t count; uint32_t tile[3]; double cone_angles[3]; msq_neighbourhood grid; msq_param level; double volume_fraction; } msq_waves_def;
 typedef struct msq_beams_def { uint32_t struct_size; int32_t cap; int32_t coordinate_type; uint32_t reserved; const void* nodes; uint64_t node_count; uint64_t node_stride; const uint32_t* beams; uint64_t beam_count; uint64_t beam_stride; const void* radii; uint64_t radius_stride; const uint8_t* caps; uint64_t cap_stride; const uint32_t* balls; uint64_t ball_count; uint64_t ball_stride; const void* ball_radii; uint64_t ball_radius_stride; double radius; double ball_radius; double min_length; double length_scale; } msq_beams_def;
 typedef struct msq_beam_file_report { uint32_t struct_size; int32_t clipping; uint64_t lattice_count; uint64_t mesh_triangle_count; uint64_t node_count; uint64_t beam_count; uint64_t ball_count; uint64_t clipping_triangle_count; double min[3]; double max[3]; } msq_beam_file_report;
 typedef struct msq_host_points { uint32_t struct_size; uint32_t reserved; uint64_t count; const double* points; const double* positions; const int32_t* cells; } msq_host_points;
@@ -200,6 +201,8 @@ msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
 msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def, msq_structure** structure);
 msq_status msq_functional_def_init(msq_functional_def* def, size_t size);
 msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def, msq_structure** structure);
+msq_status msq_waves_def_init(msq_waves_def* def, size_t size);
+msq_status msq_structure_waves(msq_context* context, const msq_waves_def* def, msq_structure** structure);
 msq_status msq_beams_def_init(msq_beams_def* def, size_t size);
 msq_status msq_structure_beams(msq_context* context, const msq_beams_def* def, msq_structure** structure, msq_job* job);
 msq_status msq_beam_file_open(msq_context* context, const char* path, const msq_file_def* def, msq_beam_file** file, msq_job* job);

@@ -398,6 +398,17 @@ export function types(koffi) {
     thickness: T.msq_param,
     period: 'void *',
   });
+  T.msq_waves_def = koffi.struct('msq_waves_def', {
+    struct_size: 'uint32_t',
+    kind: 'int32_t',
+    seed: 'uint64_t',
+    count: 'uint32_t',
+    tile: koffi.array('uint32_t', 3),
+    cone_angles: koffi.array('double', 3),
+    grid: T.msq_neighbourhood,
+    level: T.msq_param,
+    volume_fraction: 'double',
+  });
   T.msq_beams_def = koffi.struct('msq_beams_def', {
     struct_size: 'uint32_t',
     cap: 'int32_t',
@@ -942,6 +953,8 @@ export function functions(koffi, library, T) {
     msq_structure_foam: library.func('msq_structure_foam', 'int32_t', ['void *', koffi.pointer(T.msq_foam_def), koffi.out(koffi.pointer('void *'))]),
     msq_functional_def_init: library.func('msq_functional_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_functional_def)), 'size_t']),
     msq_structure_functional: library.func('msq_structure_functional', 'int32_t', ['void *', koffi.pointer(T.msq_functional_def), koffi.out(koffi.pointer('void *'))]),
+    msq_waves_def_init: library.func('msq_waves_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_waves_def)), 'size_t']),
+    msq_structure_waves: library.func('msq_structure_waves', 'int32_t', ['void *', koffi.pointer(T.msq_waves_def), koffi.out(koffi.pointer('void *'))]),
     msq_beams_def_init: library.func('msq_beams_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_beams_def)), 'size_t']),
     msq_structure_beams: library.func('msq_structure_beams', 'int32_t', ['void *', koffi.pointer(T.msq_beams_def), koffi.out(koffi.pointer('void *')), 'void *']),
     msq_beam_file_open: library.func('msq_beam_file_open', 'int32_t', ['void *', 'str', koffi.pointer(T.msq_file_def), koffi.out(koffi.pointer('void *')), 'void *']),

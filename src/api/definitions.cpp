@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/definitions.h"
 
+#include <algorithm>
+
 namespace msq::api {
 
 namespace {
@@ -128,6 +130,7 @@ MSQ_DEFAULTS(msq_lattice_def, msq_lattice_def_init)
 MSQ_DEFAULTS(msq_foam_def, msq_foam_def_init)
 MSQ_DEFAULTS(msq_period_def, msq_period_def_init)
 MSQ_DEFAULTS(msq_functional_def, msq_functional_def_init)
+MSQ_DEFAULTS(msq_waves_def, msq_waves_def_init)
 MSQ_DEFAULTS(msq_beams_def, msq_beams_def_init)
 MSQ_DEFAULTS(msq_material_def, msq_material_def_init)
 #undef MSQ_DEFAULTS
@@ -302,6 +305,20 @@ void walk(DefinitionWalk& in, msq_functional_def& def) {
   in.named_values("parameters", def.parameters, def.parameter_count);
   in.param("thickness", def.thickness);
   in.optional("period", def.period, defaults_of<msq_period_def>(), walk_period);
+}
+
+void walk(DefinitionWalk& in, msq_waves_def& def) {
+  in.choice("kind", def.kind, kinds);
+  in.whole("seed", def.seed);
+  in.whole("count", def.count);
+  uint64_t tile[3];
+  std::copy_n(def.tile, 3, tile);
+  in.wholes("tile", tile, UINT32_MAX);
+  for (int axis = 0; axis < 3; ++axis) def.tile[axis] = static_cast<uint32_t>(tile[axis]);
+  in.numbers("cone_angles", def.cone_angles);
+  walk_grid(in, def.grid);
+  in.param("level", def.level);
+  in.number("volume_fraction", def.volume_fraction);
 }
 
 void walk(DefinitionWalk& in, msq_beams_def& def) {

@@ -120,6 +120,8 @@ msq_period_def defaults_of();
 template <>
 msq_functional_def defaults_of();
 template <>
+msq_waves_def defaults_of();
+template <>
 msq_beams_def defaults_of();
 template <>
 msq_material_def defaults_of();
@@ -163,6 +165,7 @@ void walk(DefinitionWalk& in, msq_shape_distance_field_def& def);
 void walk(DefinitionWalk& in, msq_lattice_def& def);
 void walk(DefinitionWalk& in, msq_foam_def& def);
 void walk(DefinitionWalk& in, msq_functional_def& def);
+void walk(DefinitionWalk& in, msq_waves_def& def);
 /// Tightly packed, of doubles.
 void walk(DefinitionWalk& in, msq_beams_def& def);
 void walk(DefinitionWalk& in, msq_material_def& def);

@@ -89,6 +89,9 @@ msq_status create(Builder& builder, msq_foam_def& def, msq_structure** structure
 msq_status create(Builder& builder, msq_functional_def& def, msq_structure** structure) {
   return msq_structure_functional(builder.context(), &def, structure);
 }
+msq_status create(Builder& builder, msq_waves_def& def, msq_structure** structure) {
+  return msq_structure_waves(builder.context(), &def, structure);
+}
 msq_status create(Builder& builder, msq_beams_def& def, msq_structure** structure) {
   return msq_structure_beams(builder.context(), &def, structure, builder.job());
 }
@@ -176,6 +179,7 @@ constexpr KindOf<msq_structure> structure_kinds[] = {
     {"lattice", make_of<msq_structure, msq_lattice_def>},
     {"foam", make_of<msq_structure, msq_foam_def>},
     {"functional", make_of<msq_structure, msq_functional_def>},
+    {"waves", make_of<msq_structure, msq_waves_def>},
     {"beams", make_of<msq_structure, msq_beams_def>}};
 constexpr KindOf<msq_material> material_kinds[] = {
     {"plain", make_of<msq_material, msq_material_def>}, {"blend", make_of<msq_material, BlendDef>}};

@@ -94,6 +94,7 @@ void visit(const Structure& structure, Body&& body) {
   if (!(if_kept<msq_lattice_def>(structure, "lattice", body) ||
         if_kept<msq_foam_def>(structure, "foam", body) ||
         if_kept<msq_functional_def>(structure, "functional", body) ||
+        if_kept<msq_waves_def>(structure, "waves", body) ||
         if_kept<msq_beams_def>(structure, "beams", body)))
     refuse("a structure");
 }

@@ -73,6 +73,10 @@ static const char* const documents[] = {
            "\"positions\": [0, 2], \"cell_sizes\": [1, 2]}}}"),
     IN_BOX("{\"functional\": {\"function\": \"expression\", \"expression\": \"sin(x) + k\", "
            "\"parameters\": {\"k\": 0.25}}}"),
+    IN_BOX("{\"waves\": {\"kind\": \"sheet\", \"seed\": 18446744073709551615, \"count\": 30, "
+           "\"tile\": [4, 0, 2], \"cone_angles\": [0, 20, 30.5], \"volume_fraction\": 0.25}}"),
+    IN_BOX("{\"waves\": {\"count\": 20, \"grid\": {\"cell_size\": [1, 2, 3]}, \"level\": "
+           "{\"radial\": {\"from_value\": 0.1, \"to_value\": 0.2}}}}"),
     IN_BOX(
         "{\"beams\": {\"nodes\": [[0, 0, 0], [4, 4, 4], [4, 0, 0]], \"beams\": [[0, 1], [1, 2]], "
         "\"radii\": [[0.1, 0.2], [0.2, 0.1]], \"caps\": [[\"sphere\", \"butt\"], [\"hemisphere\", "

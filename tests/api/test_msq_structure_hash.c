@@ -208,6 +208,38 @@ static void walls_hash_seeds_and_sizes(void** state) {
   }
 }
 
+/* ---- waves ------------------------------------------------------------------------------------ */
+
+static void hash_waves(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
+  msq_structure* structure;
+  assert_ok(msq_structure_waves(in, (const msq_waves_def*)def, &structure));
+  hash_and_release(structure, hash);
+}
+
+static void waves_hash_what_they_are_made_of(void** state) {
+  msq_waves_def def;
+  (void)state;
+  assert_ok(msq_waves_def_init(&def, sizeof def));
+  def.count = 20;
+  def.level.value = 0.25;
+  HASHES(context, "msq_waves_def", &def, sizeof def, hash_waves) {
+    NOT_HASHED(def.struct_size);
+    CHANGES(def.kind, def.kind = MSQ_FUNCTIONAL_SHEET);
+    CHANGES(def.seed, def.seed = 1);
+    CHANGES(def.count, def.count = 21);
+    CHANGES(def.tile[0], def.tile[0] = 4);
+    CHANGES(def.tile[1], def.tile[1] = 4);
+    CHANGES(def.tile[2], def.tile[2] = 4);
+    CHANGES(def.cone_angles[0], def.cone_angles[0] = 45);
+    CHANGES(def.cone_angles[1], def.cone_angles[1] = 45);
+    CHANGES(def.cone_angles[2], def.cone_angles[2] = 45);
+    GRID_CHANGES(def.grid);
+    CHANGES(def.level.value, def.level.value = 0.5);
+    PARAM_CHANGES(def.level, ramp, steep_ramp);
+    CHANGES(def.volume_fraction, def.level.value = 0; def.volume_fraction = 0.25);
+  }
+}
+
 /* ---- functional structures ------------------------------------------------------------------- */
 
 static void hash_functional(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
@@ -292,6 +324,7 @@ int main(void) {
       cmocka_unit_test(foams_hash_seeds_and_sizes),
       cmocka_unit_test(walls_hash_seeds_and_sizes),
       cmocka_unit_test(functional_structures_hash_their_function),
+      cmocka_unit_test(waves_hash_what_they_are_made_of),
       cmocka_unit_test(periods_hash_axis_and_sizes),
   };
   if (!MSQ_WITH_XXHASH) return 0;

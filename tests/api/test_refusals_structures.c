@@ -105,6 +105,49 @@ static void foams(void** state) {
   release_fields(dense);
 }
 
+static void sums_of_waves(void** state) {
+  msq_field* both_signs = ramp_of(context, -0.1, 0.1);
+  (void)state;
+  REFUSALS("msq_structure_waves") {
+    msq_context* in = context;
+    msq_waves_def* def = (msq_waves_def*)definition(0);
+    msq_structure** structure = (msq_structure**)output(0);
+    assert_ok(msq_waves_def_init(def, sizeof *def));
+    def->count = 8;
+    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    WRONG(ARGUMENT, "context is NULL", in = NULL);
+    WRONG(ARGUMENT, "structure is NULL", structure = NULL);
+    wrong_enum(table, &def->kind, "kind", 1, 2);
+    RIGHT(def->count = 1);
+    WRONG(ARGUMENT, "count is 0|from 1 to 4096", def->count = 0);
+    WRONG(ARGUMENT, "count is 4097", def->count = 4097);
+    RIGHT(def->tile[2] = 1 << 20);
+    WRONG(ARGUMENT, "tile[2] is 1048577|1048576", def->tile[2] = (1 << 20) + 1);
+    WRONG(ARGUMENT, "cone_angles[0] is 91", def->cone_angles[0] = 91);
+    WRONG(ARGUMENT, "cone_angles[1] is 0.05|0.1 to 90", def->cone_angles[1] = 0.05);
+    WRONG(ARGUMENT, "cone_angles[2] is nan", def->cone_angles[2] = NAN);
+    WRONG(ARGUMENT, "cone_angles[2] is -1", def->cone_angles[2] = -1);
+    WRONG(ARGUMENT, "cone_angles are all 0", def->cone_angles[0] = 0);
+    wrong_grid(table, &def->grid);
+    wrong_number(table, &def->level.value, "level is ");
+    WRONG(ARGUMENT, "level|-1.5", def->kind = MSQ_FUNCTIONAL_SHEET; def->level.value = -1.5);
+    WRONG(ARGUMENT, "0 everywhere", def->kind = MSQ_FUNCTIONAL_SHEET);
+    WRONG(ARGUMENT, "level runs from -0.1", def->kind = MSQ_FUNCTIONAL_SHEET;
+          def->level.field = both_signs);
+    RIGHT(def->volume_fraction = 0.999);
+    WRONG(ARGUMENT, "volume_fraction is 1;", def->volume_fraction = 1);
+    WRONG(ARGUMENT, "volume_fraction is -0.5", def->volume_fraction = -0.5);
+    WRONG(ARGUMENT, "volume_fraction is nan", def->volume_fraction = NAN);
+    WRONG(ARGUMENT, "both level and volume_fraction", def->volume_fraction = 0.5;
+          def->level.value = 0.1);
+    WRONG(ARGUMENT, "both level and volume_fraction", def->volume_fraction = 0.5;
+          def->level.field = both_signs);
+    WRONG(ARGUMENT, "def is NULL", def = NULL);
+    if (TRY(msq_structure_waves(in, def, structure))) msq_structure_release(*structure);
+  }
+  msq_field_release(both_signs);
+}
+
 static msq_functional_def* functional_of(int32_t function, double level) {
   msq_functional_def* def = (msq_functional_def*)definition(0);
   assert_ok(msq_functional_def_init(def, sizeof *def));
@@ -455,7 +498,8 @@ static void struts(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(foams),      cmocka_unit_test(struts),          cmocka_unit_test(functions),
+      cmocka_unit_test(foams),      cmocka_unit_test(struts),
+      cmocka_unit_test(functions),  cmocka_unit_test(sums_of_waves),
       cmocka_unit_test(host_kinds), cmocka_unit_test(beam_structures),
   };
   context = make_context();

@@ -22,6 +22,7 @@
   DO(foam_def, offsetof(msq_foam_def, density))                      \
   DO(functional_def, offsetof(msq_functional_def, period))           \
   DO(period_def, sizeof(msq_period_def))                             \
+  DO(waves_def, sizeof(msq_waves_def))                               \
   DO(beams_def, sizeof(msq_beams_def))                               \
   DO(struts_def, sizeof(msq_struts_def))                             \
   DO(host_structure_def, offsetof(msq_host_structure_def, hash_key)) \

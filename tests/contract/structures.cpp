@@ -22,6 +22,7 @@
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
 #include "structure/lattice/mixed/mixed_lattice.h"
+#include "structure/waves/waves.h"
 
 namespace msq::test {
 
@@ -262,6 +263,17 @@ Factory beams_factory(BeamSort sort) {
   };
 }
 
+/// In cones about the axes, so that some waves are nearly parallel.
+Factory waves_factory(WavesKind kind, uint32_t count) {
+  return [=](const Neighbourhood& grid, Parameter level) {
+    WaveDirections directions;
+    directions.seed = 11;
+    directions.count = count;
+    directions.half_angles = {0.5, 0.3, 1.2};
+    return Ref<const Structure>(make_ref<Waves>(grid, directions, kind, std::move(level)));
+  };
+}
+
 std::vector<Kind> kinds() {
   std::vector<Kind> kinds = {
       {"cubic", "thin", 0.08, 1, lattice_factory(cubic_unit_cell())},
@@ -294,6 +306,8 @@ std::vector<Kind> kinds() {
                    graded_functional_factory(preset_expressions[7], sheet, 0)});
   kinds.push_back(
       {"graded period", "choice along y", 0.05, 1, graded_functional_factory(choice, network, 1)});
+  kinds.push_back({"waves", "network", 0.2, 1, waves_factory(WavesKind::network, 40)});
+  kinds.push_back({"waves", "sheet", 0.15, 1, waves_factory(WavesKind::sheet, 15)});
   for (bool by_cell : {false, true})
     kinds.push_back({"host", by_cell ? "lattice by cells" : "lattice by points", 0.12, 1,
                      [=](const Neighbourhood& grid, Parameter radius) {

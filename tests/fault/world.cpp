@@ -57,6 +57,15 @@ MakeStructure beams(World& world) {
   };
 }
 
+MakeStructure waves(World& world) {
+  msq_waves_def def = make_def(msq_waves_def_init);
+  def.count = 20;
+  def.level.field = world.gradient();
+  return [&world, def](msq_structure** made) {
+    return msq_structure_waves(world.context, &def, made);
+  };
+}
+
 MakeStructure foam(World& world, int32_t method, msq_param radius, msq_param density = {1, nullptr},
                    double cell_height = 1) {
   msq_foam_def def = make_def(msq_foam_def_init);
@@ -401,6 +410,7 @@ const std::vector<Kind>& kinds() {
          }},
         {"host structure", [](World& w) { return host_structure(w, false); }, false},
         {"host structure with cells", [](World& w) { return host_structure(w, true); }, false},
+        {"waves", waves},
         {"beams", beams, false},
         {"host function", host_functional, false},
     };

@@ -32,7 +32,7 @@ from .shape import Shape, ShapeInfo
 from .slicer import Layer, Output, Slicer
 from .statistics import Calibration, Estimate
 from .structure import (Beams, Foam, Functional, HostFunctional, HostStructure, Lattice,
-                        LatticeFaces, Structure)
+                        LatticeFaces, Structure, Waves)
 from .strut_graph import StrutGraph
 from .surface import Mesh
 from .unit_cell import UnitCell, UnitCellInfo
@@ -50,5 +50,5 @@ __all__ = [
     "OutOfMemoryError", "Output", "Param", "Period", "Picture", "PointGrid", "PointSet",
     "Printability", "RenderPass", "Scale",
     "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
-    "UnsupportedError", "build_info", "progress",
+    "UnsupportedError", "Waves", "build_info", "progress",
 ]

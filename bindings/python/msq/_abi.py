@@ -372,6 +372,12 @@ class msq_functional_def(Structure):
                 ("period", POINTER(msq_period_def))]
 
 
+class msq_waves_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("seed", c_uint64),
+                ("count", c_uint32), ("tile", c_uint32 * 3), ("cone_angles", c_double * 3),
+                ("grid", msq_neighbourhood), ("level", msq_param), ("volume_fraction", c_double)]
+
+
 class msq_beams_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("cap", c_int32), ("coordinate_type", c_int32),
                 ("reserved", c_uint32), ("nodes", c_void_p), ("node_count", c_uint64),
@@ -779,6 +785,9 @@ FUNCTIONS = {
     "msq_functional_def_init": [c_int32, POINTER(msq_functional_def), c_size_t],
     "msq_structure_functional": [c_int32, POINTER(msq_context), POINTER(msq_functional_def),
                                  POINTER(POINTER(msq_structure))],
+    "msq_waves_def_init": [c_int32, POINTER(msq_waves_def), c_size_t],
+    "msq_structure_waves": [c_int32, POINTER(msq_context), POINTER(msq_waves_def),
+                            POINTER(POINTER(msq_structure))],
     "msq_beams_def_init": [c_int32, POINTER(msq_beams_def), c_size_t],
     "msq_structure_beams": [c_int32, POINTER(msq_context), POINTER(msq_beams_def),
                             POINTER(POINTER(msq_structure)), POINTER(msq_job)],

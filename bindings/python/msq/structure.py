@@ -351,6 +351,36 @@ class Functional(Structure):
         del kept  # the call copies it
 
 
+class Waves(Structure):
+    """A spinodal structure: the points where a sum of waves with random directions and phases is at
+    most the level (`network`), or its magnitude is (`sheet`).
+
+    wavelength: a number, or one for each axis. volume_fraction: in place of a level, the fraction of
+    the volume. cone_angles: half-angles of cones about the axes, in degrees, in which the waves'
+    directions are; one small cone makes layers, two make columns, three a cubic structure. tile:
+    wavelengths along each axis after which the structure repeats; 0: it need not.
+    """
+
+    def __init__(self, wavelength: Cell = 1.0, *, count: int = 256, seed: int = 0,
+                 kind: str = "network", level: Param = 0.0, volume_fraction: float = 0.0,
+                 cone_angles: Sequence[float] = (90, 0, 0), tile: Sequence[int] = (0, 0, 0),
+                 origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
+                 context: Optional[Context] = None) -> None:
+        definition = defaults(_abi.msq_waves_def)
+        set_grid(definition.grid, wavelength, origin, rotation)
+        set_param(definition.level, level)
+        definition.kind = constant("MSQ_FUNCTIONAL_", kind, "kind")
+        definition.count = unsigned(count, 32, "count")
+        definition.seed = unsigned(seed, 64, "seed")
+        if len(cone_angles) != 3 or len(tile) != 3:
+            raise ValueError("cone_angles and tile have three numbers each")
+        for axis in range(3):
+            definition.cone_angles[axis] = cone_angles[axis]
+            definition.tile[axis] = unsigned(tile[axis], 32, "tile")
+        definition.volume_fraction = volume_fraction
+        self._make(context_of(context, level), lib.msq_structure_waves, definition)
+
+
 class HostStructure(Structure):
     """A structure that functions of Python compute.
 

@@ -150,6 +150,10 @@ static msq_model* formula(Kit* kit) {
   return filled(kit, box(kit), functional(kit, &def));
 }
 
+static msq_model* spinodal(Kit* kit) {
+  return filled(kit, box(kit), waves(kit));
+}
+
 static msq_model* beam_list(Kit* kit) {
   return filled(kit, box(kit), beams(kit));
 }
@@ -203,6 +207,7 @@ static const struct {
     {"nested", nested},
     {"cut", cut},
     {"regions", regions},
+    {"waves", spinodal},
 };
 
 const char* model_name(int i) {

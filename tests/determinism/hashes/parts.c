@@ -240,6 +240,21 @@ const msq_structure* functional(Kit* kit, const msq_functional_def* def) {
   return keep_structure(kit, structure);
 }
 
+const msq_structure* waves(Kit* kit) {
+  msq_waves_def def;
+  must(msq_waves_def_init(&def, sizeof def));
+  def.seed = 9;
+  def.count = 60;
+  def.cone_angles[0] = 70;
+  def.cone_angles[2] = 25;
+  set_cells(&def.grid, 5, 4, 7);
+  turn(&def.grid);
+  def.level = gradient(kit, -0.6, 0.4);
+  msq_structure* structure;
+  must(msq_structure_waves(kit->context, &def, &structure));
+  return keep_structure(kit, structure);
+}
+
 const msq_structure* beams(Kit* kit) {
   enum { node_total = 40, beam_total = 60 };
   static double at[node_total][3], radii[beam_total][2];

@@ -58,5 +58,6 @@ const msq_structure* foam(Kit* kit, const msq_foam_def* def);
 msq_functional_def functional_def(int32_t function, int32_t kind, double cell);
 const msq_structure* functional(Kit* kit, const msq_functional_def* def);
 const msq_structure* beams(Kit* kit);
+const msq_structure* waves(Kit* kit);
 
 #endif

@@ -1009,6 +1009,29 @@ pub struct msq_functional_def {
     pub period: *const msq_period_def,
 }
 
+/// A sum of waves.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_waves_def {
+    pub struct_size: u32,
+    /// An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK.
+    pub kind: i32,
+    /// Picks the directions and phases. Default 0.
+    pub seed: u64,
+    /// Number of waves, 1 to 4096. Default 256.
+    pub count: u32,
+    /// Cells along each axis of the grid after which the structure repeats, up to 2^20. 0 (default): it need not. Wave vectors are rounded to those that fit.
+    pub tile: [u32; 3],
+    /// Half-angles of cones about the axes of the grid, in degrees: 0 (no cone) or 0.1 to 90, at least one above 0. The waves have directions in these cones. Default 90, 0, 0: all directions. One small cone: layers across the axis; two: columns along the third axis; three: a cubic structure.
+    pub cone_angles: [f64; 3],
+    /// cell_size: the wavelength along each axis of the grid.
+    pub grid: msq_neighbourhood,
+    /// Value of the sum, of which the variance is 1; not a length. Default 0: half of the volume. SHEET: a constant must be > 0, a field >= 0 and not 0 everywhere.
+    pub level: msq_param,
+    /// In place of a level: the volume fraction of a Gaussian random field, above 0 and below 1. 0 (default): level is used.
+    pub volume_fraction: f64,
+}
+
 /// A list of beams. Strides are bytes from one element to the next; 0 (default): tightly packed. No alignment is needed.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -2174,6 +2197,14 @@ extern "C" {
     /// Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).
     pub fn msq_structure_functional(context: *mut msq_context, def: *const msq_functional_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_waves_def_init(def: *mut msq_waves_def, size: usize) -> msq_status;
+    /// Creates a spinodal structure: the points where a sum of cosines of one wavelength, with random directions and phases, is at most the level (NETWORK), or its magnitude is (SHEET). def must not be NULL. Since 0.2.
+    ///
+    /// Directions and phases are a function of the seed, equal on every machine. With many waves the sum is a Gaussian random field. volume_fraction is then met on average: the level is the inverse of the normal distribution. Samples of few wavelengths, or few waves, differ from it; msq_structure_calibrate finds the level for a sample. A grid with different cell sizes stretches the structure. docs/concepts.md defines the sum.
+    ///
+    /// Cost: a sample of a slice or a grid takes about a nanosecond at any number of waves, if a wavelength has 30 samples or more; other points take about 2 ns for each wave. Errors: ARGUMENT (also: both a level and a volume fraction), MEMORY. Source: Cahn 1965; Kumar, Tan, Zheng and Kochmann 2020.
+    pub fn msq_structure_waves(context: *mut msq_context, def: *const msq_waves_def, structure: *mut *mut msq_structure) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_beams_def_init(def: *mut msq_beams_def, size: usize) -> msq_status;
     /// Creates a structure of beams: the points in at least one beam or ball of a list. It has no grid and is empty elsewhere. def must not be NULL. job NULL: no job.
     ///
@@ -2493,6 +2524,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_lattice_faces_report>(), 80);
     assert_eq!(std::mem::size_of::<msq_foam_def>(), 208);
     assert_eq!(std::mem::size_of::<msq_functional_def>(), 200);
+    assert_eq!(std::mem::size_of::<msq_waves_def>(), 200);
     assert_eq!(std::mem::size_of::<msq_beams_def>(), 168);
     assert_eq!(std::mem::size_of::<msq_beam_file_report>(), 104);
     assert_eq!(std::mem::size_of::<msq_host_points>(), 40);

@@ -112,6 +112,25 @@ impl Structure {
         Structure::make(|raw| unsafe { sys::msq_structure_functional(context.as_ptr(), &def, raw) })
     }
 
+    /// A spinodal network: a sum of `count` waves, solid where it is at most the level of a volume
+    /// fraction. cone_angles: half-angles in degrees; [90, 0, 0] for all directions.
+    pub fn waves(
+        context: &Context,
+        wavelength: f64,
+        count: u32,
+        seed: u64,
+        cone_angles: [f64; 3],
+        volume_fraction: f64,
+    ) -> Result<Structure> {
+        let mut def = definition!(msq_waves_def_init, msq_waves_def);
+        def.count = count;
+        def.seed = seed;
+        def.cone_angles = cone_angles;
+        def.grid.cell_size = [wavelength; 3];
+        def.volume_fraction = volume_fraction;
+        Structure::make(|raw| unsafe { sys::msq_structure_waves(context.as_ptr(), &def, raw) })
+    }
+
     /// Finite struts of one radius between nodes.
     pub fn beams(
         context: &Context,
