@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums of waves in the unit cube, layers as bits.
+// Sums of waves in the unit cube, layers as bits; also in processor time, which neighbours on the
+// machine change less.
 //
-// usage: waves [results.json] [samples along a side, default 2048]
+// usage: waves [results.json] [samples along a side, default 2048] [part of the names of the works]
 #include <cstdlib>
 #include <string>
 
+#include "cliff_report.h"
 #include "setup.h"
 
 namespace {
@@ -16,8 +18,12 @@ struct Setting {
   int32_t kind = MSQ_FUNCTIONAL_NETWORK;
 };
 
-/// Seconds for the first `layers` of resolution^3 samples, on two threads.
-double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layers) {
+struct Seconds {
+  double wall, processor;
+};
+
+/// For the first `layers` of resolution^3 samples, on two threads.
+Seconds slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layers) {
   msq_context* context = bench::make_context();
   msq_waves_def def;
   bench::check(msq_waves_def_init(&def, sizeof def));
@@ -43,9 +49,10 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   msq_slicer* slicer;
   bench::check(msq_slicer_create(model, &slicer_def, &slicer));
   bench::Reader reader;
-  const double seconds = bench::median_seconds([&] {
+  const auto run = [&] {
     bench::check(msq_slicer_run(slicer, 0, layers, bench::Reader::take, &reader, nullptr));
-  });
+  };
+  const Seconds seconds{bench::median_seconds(run), bench::min_processor_seconds(run)};
   msq_slicer_release(slicer);
   msq_model_release(model);
   msq_field_release(field);
@@ -57,12 +64,16 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
 
 int main(int count, char** arguments) try {
   const uint32_t resolution = count > 2 ? static_cast<uint32_t>(std::atoi(arguments[2])) : 2048;
+  const std::string part = count > 3 ? arguments[3] : "";
   bench::Report report("Sums of waves, two threads");
   const auto add = [&](const std::string& name, const Setting& setting,
                        uint64_t layers = UINT64_MAX) {
+    if (name.find(part) == std::string::npos) return;
     const double deep = layers == UINT64_MAX ? double(resolution) : double(layers);
-    report.add(name, slice_seconds(setting, resolution, layers),
-               double(resolution) * resolution * deep, "sample");
+    const double samples = double(resolution) * resolution * deep;
+    const Seconds seconds = slice_seconds(setting, resolution, layers);
+    report.add(name, seconds.wall, samples, "sample");
+    report.add(name + ", processor", seconds.processor, samples, "sample");
   };
   Setting setting;
   add("400 waves, 32 wavelengths", setting);

@@ -176,7 +176,7 @@ export declare const MSQ_QUERY_SET = 2;
 export declare const MSQ_POINTS_ARRAY = 1;
 export declare const MSQ_POINTS_GRID = 2;
 export declare const MSQ_POINTS_STRATIFIED = 3;
-/** The onset: the smallest radius or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units; with factors of struts the least of these distances over the factors. Functional structures: the function; sheets: its magnitude. */
+/** The onset: the smallest radius or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units, the least over the factors of struts. Functional structures: the function; waves: the sum; sheets: the magnitude of these. */
 export declare const MSQ_ONSET_PLAIN = 0;
 /** The onset minus the structure's radius or level at the point: at most 0 inside, positive outside. */
 export declare const MSQ_ONSET_SIGNED = 1;
@@ -1858,7 +1858,7 @@ export interface Functions {
    *
    * Directions and phases are a function of the seed, equal on every machine. With many waves the sum is a Gaussian random field. volume_fraction is then met on average: the level is the inverse of the normal distribution. Samples of few wavelengths, or few waves, differ from it; msq_structure_calibrate finds the level for a sample. A grid with different cell sizes stretches the structure. docs/concepts.md defines the sum.
    *
-   * Cost: a sample of a slice or a grid takes about a nanosecond at any number of waves, if a wavelength has 30 samples or more; other points take about 2 ns for each wave. Errors: ARGUMENT (also: both a level and a volume fraction), MEMORY. Source: Cahn 1965; Kumar, Tan, Zheng and Kochmann 2020.
+   * Cost: where a wavelength has 60 samples, a sample of a slice or a grid takes 0.5 ns, and 0.1 ns more for each 100 waves; any other point takes about 2 ns for each wave. Errors: ARGUMENT (also: both a level and a volume fraction), MEMORY. Source: Cahn 1965; Kumar, Tan, Zheng and Kochmann 2020.
    */
   msq_structure_waves(context: Memory, def: msq_waves_def | null, structure: [Pointer]): number;
   /** Sets the defaults. Errors: ARGUMENT. */
@@ -2014,7 +2014,7 @@ export interface Functions {
    *
    * gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central difference over 2^-17 of the smallest cell size on either side: off by about 1e-8 of the largest slope where the function is smooth, a mean of both sides along ridges, and 0 where it is not finite.
    *
-   * MSQ_ONSET_SIGNED agrees in sign with membership; for lattices and foams except within 1e-9 of a cell of the boundary. job NULL: no job. ARGUMENT, LIMIT and UNSUPPORTED write nothing; CANCELLED, HOST and MEMORY may leave the arrays partly written. Cost: in parallel, lattices and functions about 0.1 us, foams 1.5 us per point, seven times that with gradients; foams less if points of a cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index), UNSUPPORTED (kinds without onset, as in msq_structure_calibrate), LIMIT (a point 2^24 cells from the origin of the grid), HOST (fields), CANCELLED, MEMORY.
+   * MSQ_ONSET_SIGNED agrees in sign with membership; for lattices and foams except within 1e-9 of a cell of the boundary. job NULL: no job. ARGUMENT, LIMIT and UNSUPPORTED write nothing; CANCELLED, HOST and MEMORY may leave the arrays partly written. Cost: in parallel, lattices and functions about 0.1 us per point, foams 1.5 us, a wave 2 ns; seven times that with gradients; foams less if points of a cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index), UNSUPPORTED (kinds without onset, as in msq_structure_calibrate), LIMIT (a point 2^24 cells from the origin of the grid), HOST (fields), CANCELLED, MEMORY.
    */
   msq_set_onset(context: Memory, structure: Memory, points: msq_points_def | null, value: number, onsets: Memory, onset_count: number | bigint, gradients: Memory, gradient_count: number | bigint, job: Memory): number;
   /** Writes the value of a field at each point of a set: values[i] of point i, the number that msq uses there. value_count must be the number of points. job NULL: no job. ARGUMENT writes nothing; CANCELLED, HOST and MEMORY may leave values partly written. Cost: that of the field (docs/concepts.md), in parallel. Errors: ARGUMENT (also points that are not finite, with their index), HOST, CANCELLED, MEMORY. */
@@ -2034,7 +2034,7 @@ export interface Functions {
   /**
    * Finds the constant parameter (radius of struts, level of a function) at which a structure has a target volume fraction, and the curve between the two. The parameter of the structure itself is ignored.
    *
-   * target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20), parameters[i], in model units, has fraction fractions[i] = i / (pair_count - 1) * max_fraction. The fractions ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2 points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells (foams; with a period, of the smallest size), from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host structures and functions, beams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.
+   * target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20), parameters[i], in model units, has fraction fractions[i] = i / (pair_count - 1) * max_fraction. The fractions ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2 points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells (foams, waves; with a period, of the smallest size), from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host structures and functions, beams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.
    */
   msq_structure_calibrate(context: Memory, structure: Memory, sample: msq_points_def | null, target: number, parameters: Memory, fractions: Memory, pair_count: number | bigint, report: Partial<msq_calibration_report> | null, job: Memory): number;
   /** Sets the defaults. Errors: ARGUMENT. */

@@ -13,6 +13,7 @@
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
+#include "structure/waves/waves.h"
 #include "suite.h"
 
 using namespace msq;
@@ -30,6 +31,13 @@ Neighbourhood few_samples() {
   Neighbourhood grid = turned();
   grid.cell_size = grid.cell_size * 0.05;
   return grid;
+}
+
+WaveDirections waves_of(uint32_t count) {
+  WaveDirections directions;
+  directions.count = count;
+  directions.half_angles = {1.2, 0.5, 0};
+  return directions;
 }
 
 uint64_t hash_of(const std::function<Ref<const Structure>(Ref<Context>)>& make) {
@@ -113,6 +121,15 @@ void all_instruction_sets_give_the_same_layers(void**) {
         const char* const text = "min(exp(sin(x)*cos(y))-1,max(log(2+cos(z)),sqrt(x+y)-2))";
         return make_ref<Functional>(Neighbourhood{}, parse_expression(text, {}),
                                     FunctionalKind::sheet, Parameter(0.2), 0);
+      },
+      [](Ref<Context>) {
+        return make_ref<Waves>(turned(), waves_of(50), WavesKind::network, Parameter(0.2));
+      },
+      [](Ref<Context>) {  // of few samples
+        const Ref<const Field> field =
+            make_ref<GradientField>(Vec3{0, 0, 0}, 0.1, Vec3{1, 0.5, 0.2}, 0.9);
+        return make_ref<Waves>(Neighbourhood{{}, {0.05, 0.04, 0.06}, {}}, waves_of(20),
+                               WavesKind::sheet, Parameter(field));
       },
   };
   std::vector<int64_t> targets;

@@ -48,6 +48,8 @@ CASES = {
     "expression": model(structure("functional", function="expression", level=0.25,
                                   expression="cos(2*pi*x) + cos(2*pi*y) - z",
                                   grid={"cell_size": 5})),
+    "waves": model(structure("waves", kind="sheet", count=40, seed=9, volume_fraction=0.4,
+                             cone_angles=[30, 30, 0], tile=[0, 0, 3], grid={"cell_size": [3, 4, 5]})),
     "beams": model(structure("beams", cap="sphere", radius=1.25,
                              nodes=[[0, 0, 0], [10, 8, 6], [10, 0, 0], [0, 8, 6]],
                              beams=[[0, 1], [2, 3]])),

@@ -126,33 +126,62 @@ void products(Complex a, Complex b, size_t count, Complex to) {
   }
 }
 
-/// Two vectors of knots in four rows.
-void knots(const Complex (&p)[4], size_t count, const double* cosines, const double* sines_at,
-           size_t width, double* const (&to)[4]) {
+void factors(Complex layer, Complex along_y, size_t count, KnotFactors to) {
   const D d;
-  const size_t lanes = hn::Lanes(d);
-  for (size_t j = 0; j < width; j += 2 * lanes) {
-    V a0 = hn::Zero(d), a1 = a0, b0 = a0, b1 = a0, c0 = a0, c1 = a0, e0 = a0, e1 = a0;
-    for (size_t i = 0; i < count; ++i) {
-      const double* const c = cosines + i * width + j;
-      const double* const s = sines_at + i * width + j;
-      const V u = hn::LoadU(d, c), v = hn::LoadU(d, c + lanes);
-      const V w = hn::LoadU(d, s), x = hn::LoadU(d, s + lanes);
-      const auto add = [&](const Complex& row, V& low, V& high) HWY_ATTR {
-        const V real = hn::Set(d, row.real[i]), imaginary = hn::Set(d, row.imaginary[i]);
-        low = hn::NegMulAdd(imaginary, w, hn::MulAdd(real, u, low));
-        high = hn::NegMulAdd(imaginary, x, hn::MulAdd(real, v, high));
-      };
-      add(p[0], a0, a1);
-      add(p[1], b0, b1);
-      add(p[2], c0, c1);
-      add(p[3], e0, e1);
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const V real = hn::LoadU(d, layer.real + i), imaginary = hn::LoadU(d, layer.imaginary + i);
+    const V c = hn::LoadU(d, along_y.real + i), s = hn::LoadU(d, along_y.imaginary + i);
+    const V minus = hn::Neg(imaginary);
+    hn::StoreU(hn::Mul(real, c), d, to.even_even + i);
+    hn::StoreU(hn::Mul(minus, c), d, to.even_odd + i);
+    hn::StoreU(hn::Mul(minus, s), d, to.odd_even + i);
+    hn::StoreU(hn::Neg(hn::Mul(real, s)), d, to.odd_odd + i);
+  }
+}
+
+/// The waves of one vector of knots, of one pair of rows or, to hide the latency of the sums, two.
+void knots(const KnotFactors& first, const KnotFactors* second, size_t count, const double* cosines,
+           const double* sines_at, size_t width, double* to_first, double* to_second) {
+  const D d;
+  const KnotFactors p = first, q = second ? *second : first;
+  for (size_t j = 0; j < width; j += hn::Lanes(d)) {
+    const double* const c = cosines + j;
+    const double* const s = sines_at + j;
+    double* const at = to_first + j;
+    V a0 = hn::LoadU(d, at), a1 = hn::LoadU(d, at + width);
+    V a2 = hn::LoadU(d, at + 2 * width), a3 = hn::LoadU(d, at + 3 * width);
+    if (second) {
+      double* const there = to_second + j;
+      V b0 = hn::LoadU(d, there), b1 = hn::LoadU(d, there + width);
+      V b2 = hn::LoadU(d, there + 2 * width), b3 = hn::LoadU(d, there + 3 * width);
+      for (size_t i = 0; i < count; ++i) {
+        const V u = hn::LoadU(d, c + i * width), v = hn::LoadU(d, s + i * width);
+        a0 = hn::MulAdd(hn::Set(d, p.even_even[i]), u, a0);
+        a1 = hn::MulAdd(hn::Set(d, p.even_odd[i]), v, a1);
+        a2 = hn::MulAdd(hn::Set(d, p.odd_even[i]), u, a2);
+        a3 = hn::MulAdd(hn::Set(d, p.odd_odd[i]), v, a3);
+        b0 = hn::MulAdd(hn::Set(d, q.even_even[i]), u, b0);
+        b1 = hn::MulAdd(hn::Set(d, q.even_odd[i]), v, b1);
+        b2 = hn::MulAdd(hn::Set(d, q.odd_even[i]), u, b2);
+        b3 = hn::MulAdd(hn::Set(d, q.odd_odd[i]), v, b3);
+      }
+      hn::StoreU(b0, d, there);
+      hn::StoreU(b1, d, there + width);
+      hn::StoreU(b2, d, there + 2 * width);
+      hn::StoreU(b3, d, there + 3 * width);
+    } else {
+      for (size_t i = 0; i < count; ++i) {
+        const V u = hn::LoadU(d, c + i * width), v = hn::LoadU(d, s + i * width);
+        a0 = hn::MulAdd(hn::Set(d, p.even_even[i]), u, a0);
+        a1 = hn::MulAdd(hn::Set(d, p.even_odd[i]), v, a1);
+        a2 = hn::MulAdd(hn::Set(d, p.odd_even[i]), u, a2);
+        a3 = hn::MulAdd(hn::Set(d, p.odd_odd[i]), v, a3);
+      }
     }
-    const V low[4] = {a0, b0, c0, e0}, high[4] = {a1, b1, c1, e1};
-    for (size_t r = 0; r < 4; ++r) {
-      hn::StoreU(low[r], d, to[r] + j);
-      hn::StoreU(high[r], d, to[r] + j + lanes);
-    }
+    hn::StoreU(a0, d, at);
+    hn::StoreU(a1, d, at + width);
+    hn::StoreU(a2, d, at + 2 * width);
+    hn::StoreU(a3, d, at + 3 * width);
   }
 }
 
@@ -182,44 +211,81 @@ double largest_of(const double* numbers, size_t count) {
   return *std::max_element(all, all + 8);
 }
 
-template <bool is_absolute>
-WordBits word(const float* knot_values, const float* weights, size_t terms, float low, float high,
-              float* values) {
+HWY_INLINE void find_rows(const KnotRows& rows, float* upper, float* lower) {
+  const D d;
+  const hn::Rebind<float, D> narrow;
+  const size_t lanes = hn::Lanes(d), width = 2 * rows.width;
+  for (size_t j = 0; j < width; j += 2 * lanes) {
+    V a0 = hn::Zero(d), a1 = a0, b0 = a0, b1 = a0;
+    for (size_t k = 0; k < rows.terms; ++k) {
+      const double* const at = rows.layer + 2 * k * width + j;
+      const V w = hn::Set(d, rows.even[k]), x = hn::Set(d, rows.odd[k]);
+      a0 = hn::MulAdd(w, hn::LoadU(d, at), a0);
+      a1 = hn::MulAdd(w, hn::LoadU(d, at + lanes), a1);
+      b0 = hn::MulAdd(x, hn::LoadU(d, at + width), b0);
+      b1 = hn::MulAdd(x, hn::LoadU(d, at + width + lanes), b1);
+    }
+    hn::StoreU(hn::DemoteTo(narrow, hn::Add(a0, b0)), narrow, upper + j);
+    hn::StoreU(hn::DemoteTo(narrow, hn::Add(a1, b1)), narrow, upper + j + lanes);
+    hn::StoreU(hn::DemoteTo(narrow, hn::Sub(a0, b0)), narrow, lower + j);
+    hn::StoreU(hn::DemoteTo(narrow, hn::Sub(a1, b1)), narrow, lower + j + lanes);
+  }
+}
+
+template <bool is_absolute, bool has_values>
+void words(const KnotRows& knot_rows, const float* weights, size_t terms,
+           const WordLimits (&limits)[2], float* values, WordBits (&to)[2]) {
+  HWY_ALIGN float rows[2][64];
+  find_rows(knot_rows, rows[0], rows[1]);
+  const size_t odd = knot_rows.width;
   const hn::CappedTag<float, 16> d;
   using F = hn::Vec<decltype(d)>;
   const size_t lanes = hn::Lanes(d);
-  const F at_low = hn::Set(d, low), at_high = hn::Set(d, high);
-  WordBits bits{0, 0};
-  // Four vectors at once hide the latency of the sums.
-  const size_t vectors = std::min<size_t>(4, 64 / lanes);
-  for (size_t s = 0; s < 64; s += vectors * lanes) {
-    F a = hn::Zero(d), b = a, c = a, e = a;
+  constexpr size_t half = 32;
+  to[0] = to[1] = {0, 0};
+  // Eight sums at once hide their latency.
+  for (size_t s = 0; s < half; s += 2 * lanes) {
+    F a0 = hn::Zero(d), a1 = a0, b0 = a0, b1 = a0, c0 = a0, c1 = a0, e0 = a0, e1 = a0;
     for (size_t k = 0; k < terms; ++k) {
-      const F knot = hn::Set(d, knot_values[k]);
-      const float* const w = weights + k * 64 + s;
-      a = hn::MulAdd(knot, hn::LoadU(d, w), a);
-      b = hn::MulAdd(knot, hn::LoadU(d, w + lanes), b);
-      c = hn::MulAdd(knot, hn::LoadU(d, w + 2 * lanes), c);
-      e = hn::MulAdd(knot, hn::LoadU(d, w + 3 * lanes), e);
+      const float* const at = weights + 2 * half * k + s;
+      const F u0 = hn::LoadU(d, at), u1 = hn::LoadU(d, at + lanes);
+      const F v0 = hn::LoadU(d, at + half), v1 = hn::LoadU(d, at + half + lanes);
+      const F p = hn::Set(d, rows[0][k]), q = hn::Set(d, rows[1][k]);
+      a0 = hn::MulAdd(p, u0, a0);
+      a1 = hn::MulAdd(p, u1, a1);
+      c0 = hn::MulAdd(q, u0, c0);
+      c1 = hn::MulAdd(q, u1, c1);
+      const F r = hn::Set(d, rows[0][odd + k]), t = hn::Set(d, rows[1][odd + k]);
+      b0 = hn::MulAdd(r, v0, b0);
+      b1 = hn::MulAdd(r, v1, b1);
+      e0 = hn::MulAdd(t, v0, e0);
+      e1 = hn::MulAdd(t, v1, e1);
     }
-    const auto compare = [&](F v, size_t at) HWY_ATTR {
+    const auto compare = [&](size_t row, F v, size_t at) HWY_ATTR {
       if (is_absolute) v = hn::Abs(v);
-      hn::StoreU(v, d, values + at);
-      bits.at_most_low |= bits_of(d, hn::Le(v, at_low)) << at;
-      bits.at_most_high |= bits_of(d, hn::Le(v, at_high)) << at;
+      if (has_values) hn::StoreU(v, d, values + 2 * half * row + at);
+      to[row].at_most_low |= bits_of(d, hn::Le(v, hn::Set(d, limits[row].low))) << at;
+      to[row].above_high |= bits_of(d, hn::Gt(v, hn::Set(d, limits[row].high))) << at;
     };
-    compare(a, s);
-    compare(b, s + lanes);
-    compare(c, s + 2 * lanes);
-    compare(e, s + 3 * lanes);
+    const auto both = [&](size_t row, F even, F odd_part, size_t at) HWY_ATTR {
+      compare(row, hn::Add(even, odd_part), half + at);
+      compare(row, hn::Reverse(d, hn::Sub(even, odd_part)), half - lanes - at);
+    };
+    both(0, a0, b0, s);
+    both(0, a1, b1, s + lanes);
+    both(1, c0, e0, s);
+    both(1, c1, e1, s + lanes);
   }
-  return bits;
 }
 
-WordBits any_word(const float* knot_values, const float* weights, size_t terms, bool is_absolute,
-                  float low, float high, float* values) {
-  return is_absolute ? word<true>(knot_values, weights, terms, low, high, values)
-                     : word<false>(knot_values, weights, terms, low, high, values);
+void any_words(const KnotRows& rows, const float* weights, size_t terms, bool is_absolute,
+               const WordLimits (&limits)[2], float* values, WordBits (&to)[2]) {
+  if (values)
+    is_absolute ? words<true, true>(rows, weights, terms, limits, values, to)
+                : words<false, true>(rows, weights, terms, limits, values, to);
+  else
+    is_absolute ? words<true, false>(rows, weights, terms, limits, values, to)
+                : words<false, false>(rows, weights, terms, limits, values, to);
 }
 
 }  // namespace
@@ -235,10 +301,11 @@ HWY_EXPORT(expand);
 HWY_EXPORT(gradient_of);
 HWY_EXPORT(sines);
 HWY_EXPORT(products);
+HWY_EXPORT(factors);
 HWY_EXPORT(knots);
 HWY_EXPORT(weighted);
 HWY_EXPORT(largest_of);
-HWY_EXPORT(any_word);
+HWY_EXPORT(any_words);
 
 double wave_sum(const WaveSet& waves, Vec3 u) {
   return HWY_DYNAMIC_DISPATCH(sum)(waves, u);
@@ -255,9 +322,14 @@ void sines_of_turns(const double* turns, size_t count, double* to_sines, double*
 void complex_products(Complex a, Complex b, size_t count, Complex to) {
   HWY_DYNAMIC_DISPATCH(products)(a, b, count, to);
 }
-void knot_sums(const Complex (&p)[4], size_t count, const double* cosines, const double* sines_at,
-               size_t width, double* const (&to)[4]) {
-  HWY_DYNAMIC_DISPATCH(knots)(p, count, cosines, sines_at, width, to);
+void knot_factors(Complex layer, Complex along_y, size_t count, KnotFactors to) {
+  HWY_DYNAMIC_DISPATCH(factors)(layer, along_y, count, to);
+}
+void add_knots(const KnotFactors& first, const KnotFactors* second, size_t count,
+               const double* cosines, const double* sines_at, size_t width, double* to_first,
+               double* to_second) {
+  HWY_DYNAMIC_DISPATCH(knots)
+  (first, second, count, cosines, sines_at, width, to_first, to_second);
 }
 void weighted_sum(const double* rows, size_t stride, const double* weights, size_t terms,
                   size_t width, double* to) {
@@ -266,9 +338,9 @@ void weighted_sum(const double* rows, size_t stride, const double* weights, size
 double largest(const double* numbers, size_t count) {
   return HWY_DYNAMIC_DISPATCH(largest_of)(numbers, count);
 }
-WordBits row_word(const float* knots, const float* weights, size_t terms, bool is_absolute,
-                  float low, float high, float* values) {
-  return HWY_DYNAMIC_DISPATCH(any_word)(knots, weights, terms, is_absolute, low, high, values);
+void pair_words(const KnotRows& rows, const float* weights, size_t terms, bool is_absolute,
+                const WordLimits (&limits)[2], float* values, WordBits (&to)[2]) {
+  HWY_DYNAMIC_DISPATCH(any_words)(rows, weights, terms, is_absolute, limits, values, to);
 }
 
 }  // namespace msq

@@ -6,18 +6,15 @@
 #include <cmath>
 #include <limits>
 
-#include "base/pi.h"
-
 namespace msq {
 
 namespace {
 
-/// The interpolation's error, above which more knots are used; and the part of the samples above
-/// which all of them are knots.
-constexpr double enough = 2e-6, max_part = 0.6;
+/// The largest number of waves whose tables stay in the nearest cache.
+constexpr size_t max_part = 128;
 
-size_t padded_to_16(size_t n) {
-  return (n + 15) / 16 * 16;
+size_t padded_to(size_t step, size_t n) {
+  return (n + step - 1) / step * step;
 }
 
 /// The largest single-precision number of at most v.
@@ -25,20 +22,6 @@ float at_most(double v) {
   const float f = static_cast<float>(v);
   return static_cast<double>(f) > v ? std::nextafter(f, -std::numeric_limits<float>::infinity())
                                     : f;
-}
-
-/// Weights of the zeros of the Chebyshev polynomial of degree m at s, from -1 to 1: by the discrete
-/// orthogonality of the lower polynomials.
-void chebyshev_weights(size_t m, double s, const std::vector<double>& table, double* weights) {
-  double t[64];
-  t[0] = 1;
-  if (m > 1) t[1] = s;
-  for (size_t k = 2; k < m; ++k) t[k] = 2 * s * t[k - 1] - t[k - 2];
-  for (size_t j = 0; j < m; ++j) {
-    double sum = 0.5;
-    for (size_t k = 1; k < m; ++k) sum += t[k] * table[k * m + j];
-    weights[j] = 2 * sum / static_cast<double>(m);
-  }
 }
 
 }  // namespace
@@ -57,87 +40,58 @@ WaveRows::WaveRows(const Waves& structure, const RowBlock& block, const Job* job
         {n.x / cells.cell_size.x, n.y / cells.cell_size.y, n.z / cells.cell_size.z});
     for (int axis = 0; axis < 3; ++axis) rates_[axis][i] = w[axis];
   }
-  double positions[side];
-  for (size_t i = 0; i < side; ++i) positions[i] = static_cast<double>(i) * grid_.spacing.x;
-  prepare(0, positions, side, x_);
-  width_ = padded_to_16(x_.knots);
-  x_cosines_.resize(waves_ * width_);
-  x_sines_.resize(waves_ * width_);
-  for (size_t j = 0; j < x_.knots; ++j)
-    for (size_t i = 0; i < waves_; ++i) {
-      x_cosines_[i * width_ + j] = x_.real[j * waves_ + i];
-      x_sines_[i * width_ + j] = x_.imaginary[j * waves_ + i];
-    }
-  x_weights_.resize(x_.knots * side);
-  for (size_t s = 0; s < side; ++s)
-    for (size_t j = 0; j < x_.knots; ++j)
-      x_weights_[j * side + s] = static_cast<float>(x_.weights[s * x_.knots + j]);
-  work_.resize(10 * waves_);
-  row_.resize(width_);
-  unused_.resize(width_);
-  // Knots are sums of 2 products for each wave; weights, of at most 64 knots with 64 terms each.
-  const double terms = 2 * static_cast<double>(waves_) + 64 * 64;
-  double magnitude = grid_.magnitude();
+  prepare_words();
+  const size_t parts = (waves_ + max_part - 1) / max_part;
+  part_ = padded_to(WaveSet::sums, (waves_ + parts - 1) / parts);
+  work_ = allocate_aligned<double>(3 * waves_ + 10 * part_);
+  // The last word may reach beyond the grid.
+  double magnitude = grid_.magnitude() + side * grid_.spacing.x;
   if (grid_.heights)
     magnitude = std::max({magnitude, std::abs(grid_.z(0)), std::abs(grid_.z(grid_.nz - 1))});
-  double_error_ = 4 * structure.error(magnitude) + 0x1p-50 * terms * structure.waves().most();
+  const double roundings = static_cast<double>(waves_ + max_knots * max_knots * max_knots);
+  double_error_ = 4 * structure.error(magnitude) + 0x1p-50 * roundings * structure.waves().most();
+}
+
+AxisWaves WaveRows::along(int axis) const {
+  const WaveSet& waves = structure_.waves();
+  return {rates_[axis].data(), waves.count(), waves.amplitude()};
 }
 
 void WaveRows::find_waves(int axis, Axis& to) const {
-  to.real.resize(to.knots * waves_);
-  to.imaginary.resize(to.knots * waves_);
-  std::vector<double> turns(waves_);
-  for (size_t j = 0; j < to.knots; ++j) {
-    for (size_t i = 0; i < waves_; ++i) turns[i] = rates_[axis][i] * to.offsets[j];
-    sines_of_turns(turns.data(), waves_, to.imaginary.data() + j * waves_,
-                   to.real.data() + j * waves_);
-  }
+  const size_t count = to.knots.count() * waves_;
+  std::vector<double> turns(count);
+  for (size_t j = 0; j < to.knots.count(); ++j)
+    for (size_t i = 0; i < waves_; ++i)
+      turns[j * waves_ + i] = rates_[axis][i] * to.knots.offsets[j];
+  to.cosines = allocate_aligned<double>(count);
+  to.sines = allocate_aligned<double>(count);
+  sines_of_turns(turns.data(), count, to.sines.get(), to.cosines.get());
 }
 
-void WaveRows::prepare(int axis, const double* positions, size_t count, Axis& to) const {
-  to.samples = count;
-  to.centre = 0.5 * (positions[0] + positions[count - 1]);
-  const double half = 0.5 * (positions[count - 1] - positions[0]);
-  const double amplitude = structure_.waves().amplitude();
-  // With m knots: the sum over waves of a 2 (k h / 2)^m / m!.
-  std::vector<double> terms(waves_, 2 * amplitude);
-  size_t m = 0;
-  do {
-    ++m;
-    to.error = 0;
-    for (size_t i = 0; i < structure_.waves().count(); ++i) {
-      terms[i] *= two_pi / 2 * std::abs(rates_[axis][i]) * half / static_cast<double>(m);
-      to.error += terms[i];
+/// What all words along x have in common.
+void WaveRows::prepare_words() {
+  double positions[side];
+  for (size_t i = 0; i < side; ++i) positions[i] = static_cast<double>(i) * grid_.spacing.x;
+  x_.knots = knot_pairs_for(along(0), positions, side);
+  find_waves(0, x_);
+  const size_t count = x_.knots.count();
+  width_ = padded_to(8, count);
+  cosines_ = allocate_aligned<double>(waves_ * width_);
+  sines_ = allocate_aligned<double>(waves_ * width_);
+  std::fill_n(cosines_.get(), waves_ * width_, 0.0);
+  std::fill_n(sines_.get(), waves_ * width_, 0.0);
+  for (size_t j = 0; j < count; ++j)
+    for (size_t i = 0; i < waves_; ++i) {
+      cosines_[i * width_ + j] = x_.cosines[j * waves_ + i];
+      sines_[i * width_ + j] = x_.sines[j * waves_ + i];
     }
-    to.error *= 1 + 0x1p-30;
-  } while (!(to.error < enough) && static_cast<double>(m) < max_part * static_cast<double>(count));
-  const double m_real = static_cast<double>(m);
-  if (!(to.error < enough) || m >= count) {
-    to.knots = count;
-    to.error = 0;
-    to.constant = 1;
-    to.offsets.resize(count);
-    to.weights.assign(count * count, 0);
-    for (size_t j = 0; j < count; ++j) {
-      to.offsets[j] = positions[j] - to.centre;
-      to.weights[j * count + j] = 1;
-    }
-    return find_waves(axis, to);
-  }
-  to.knots = m;
-  to.constant = (1 + 0x1p-30) * (1 + 2 / pi * std::log(m_real));
-  to.offsets.resize(m);
-  std::vector<double> table(m * m);
-  for (size_t j = 0; j < m; ++j) {
-    const double angle = (static_cast<double>(j) + 0.5) * pi / m_real;
-    to.offsets[j] = half * std::cos(angle);
-    for (size_t k = 0; k < m; ++k) table[k * m + j] = std::cos(static_cast<double>(k) * angle);
-  }
-  to.weights.resize(count * m);
-  for (size_t s = 0; s < count; ++s)
-    chebyshev_weights(m, std::clamp((positions[s] - to.centre) / half, -1.0, 1.0), table,
-                      to.weights.data() + s * m);
-  find_waves(axis, to);
+  x_.cosines.reset();
+  x_.sines.reset();
+  weights_ = allocate_aligned<float>(count * side);
+  for (size_t p = 0; p < side / 2; ++p)
+    for (size_t j = 0; j < 2 * count; ++j)
+      weights_[(j % count) * side + j / count * (side / 2) + p] =
+          static_cast<float>(x_.knots.weights[p * 2 * count + j]);
 }
 
 void WaveRows::keep() {
@@ -161,30 +115,30 @@ void WaveRows::keep_chunk(uint64_t y0, uint64_t y1, uint64_t z0, uint64_t z1) {
     if (!is_alive(word, y0, y1, z0, z1)) continue;
     if (!is_prepared) {
       for (uint64_t j = y0; j < y1; ++j) positions[j - y0] = grid_.y(j);
-      prepare(1, positions, static_cast<size_t>(y1 - y0), y_);
+      y_.knots = knot_pairs_for(along(1), positions, static_cast<size_t>(y1 - y0));
+      find_waves(1, y_);
       for (uint64_t k = z0; k < z1; ++k) positions[k - z0] = grid_.z(k);
-      prepare(2, positions, static_cast<size_t>(z1 - z0), z_);
-      const size_t rows = (y_.knots + 3) / 4 * 4;
-      knots_.assign(z_.knots * rows * width_, 0);
-      layer_.resize(rows * width_);
+      z_.knots = knots_for(along(2), positions, static_cast<size_t>(z1 - z0));
+      find_waves(2, z_);
+      const size_t layer = 4 * y_.knots.count() * width_;
+      knots_ = allocate_aligned<double>(z_.knots.count() * layer);
+      layer_ = allocate_aligned<double>(layer);
       is_prepared = true;
     }
-    find_knots(grid_.x(word * side) + x_.centre);
-    keep_word(word, y0, z0);
+    find_knots(grid_.x(word * side) + x_.knots.centre);
+    keep_word(word, y0, y1, z0, z1);
   }
 }
 
-/// The sums at the knots of a word, whose middle is at x.
+/// The sums at the knots of a word, whose middle is at x: layer by layer; in these pair by pair,
+/// the even part along y and then the odd one; and of both the even part along x and then the odd
+/// one.
 void WaveRows::find_knots(double x) {
-  const Vec3 from_origin = Vec3{x, y_.centre, z_.centre} - structure_.neighbourhood().origin;
-  double* const at = work_.data();
-  const auto part = [&](size_t n) {
-    return Complex{at + 2 * n * waves_, at + (2 * n + 1) * waves_};
-  };
-  const Complex middle = part(0);
+  const Vec3 from_origin =
+      Vec3{x, y_.knots.centre, z_.knots.centre} - structure_.neighbourhood().origin;
   const WaveSet& waves = structure_.waves();
-  // The turns stand where the first product comes.
-  double* const turns = part(1).real;
+  double* const turns = work_.get();
+  const Complex middle{turns + waves_, turns + 2 * waves_};
   for (size_t i = 0; i < waves_; ++i)
     turns[i] = rates_[0][i] * from_origin.x + rates_[1][i] * from_origin.y +
                rates_[2][i] * from_origin.z + waves.phases()[i];
@@ -193,61 +147,81 @@ void WaveRows::find_knots(double x) {
     middle.real[i] *= waves.amplitudes()[i];
     middle.imaginary[i] *= waves.amplitudes()[i];
   }
-  const size_t rows = (y_.knots + 3) / 4 * 4;
-  const auto wave_at = [&](Axis& axis, size_t knot) {
-    return Complex{axis.real.data() + knot * waves_, axis.imaginary.data() + knot * waves_};
+  double* const parts = turns + 3 * waves_;
+  const auto array = [&](size_t n) { return parts + n * part_; };
+  const Complex layer{array(0), array(1)};
+  const KnotFactors factors[2] = {{array(2), array(3), array(4), array(5)},
+                                  {array(6), array(7), array(8), array(9)}};
+  const auto at = [&](const Axis& axis, size_t knot, size_t first) {
+    return Complex{axis.cosines.get() + knot * waves_ + first,
+                   axis.sines.get() + knot * waves_ + first};
   };
-  std::vector<double> of_layer(2 * waves_);
-  const Complex layer{of_layer.data(), of_layer.data() + waves_};
-  for (size_t k = 0; k < z_.knots; ++k) {
-    complex_products(middle, wave_at(z_, k), waves_, layer);
-    for (size_t j = 0; j < y_.knots; j += 4) {
-      Complex four[4];
-      double* to[4];
-      for (size_t r = 0; r < 4; ++r) {
-        four[r] = part(1 + r);
-        to[r] = knots_.data() + (k * rows + j + r) * width_;
-        // The last knot stands for those that pad the rows.
-        complex_products(layer, wave_at(y_, std::min(j + r, y_.knots - 1)), waves_, four[r]);
+  const size_t pairs = y_.knots.count(), pair = 4 * width_;
+  std::fill_n(knots_.get(), z_.knots.count() * pairs * pair, 0.0);
+  for (size_t first = 0; first < waves_; first += part_) {
+    const size_t count = std::min(part_, waves_ - first);
+    const double* const c = cosines_.get() + first * width_;
+    const double* const s = sines_.get() + first * width_;
+    for (size_t k = 0; k < z_.knots.count(); ++k) {
+      complex_products({middle.real + first, middle.imaginary + first}, at(z_, k, first), count,
+                       layer);
+      for (size_t j = 0; j < pairs; j += 2) {
+        const bool are_two = j + 1 < pairs;
+        knot_factors(layer, at(y_, j, first), count, factors[0]);
+        if (are_two) knot_factors(layer, at(y_, j + 1, first), count, factors[1]);
+        double* const to = knots_.get() + (k * pairs + j) * pair;
+        add_knots(factors[0], are_two ? &factors[1] : nullptr, count, c, s, width_, to, to + pair);
       }
-      knot_sums(four, waves_, x_cosines_.data(), x_sines_.data(), width_, to);
     }
   }
 }
 
-void WaveRows::keep_word(size_t word, uint64_t y0, uint64_t z0) {
-  const size_t rows = (y_.knots + 3) / 4 * 4, layer_size = rows * width_;
-  const Parameter& level = structure_.level();
-  const double error = double_error_ * x_.constant * y_.constant * z_.constant + x_.error +
-                       x_.constant * (y_.error + y_.constant * z_.error);
-  float floats[side], values[side];
-  for (size_t k = 0; k < z_.samples; ++k) {
-    weighted_sum(knots_.data(), layer_size, z_.weights.data() + k * z_.knots, z_.knots, layer_size,
-                 layer_.data());
-    const double most = largest(layer_.data(), layer_size) * y_.constant;
-    const double slack =
-        error + 0x1p-24 * 1.01 * static_cast<double>(x_.knots + 3) * x_.constant * most + 0x1p-100;
-    const auto thresholds = [&](Interval levels, float& low, float& high) {
-      low = at_most(levels.low - slack);
-      high = -at_most(-(levels.high + slack));
-    };
-    float low = 0, high = 0;
-    if (level.is_constant()) thresholds(level.range(), low, high);
-    for (size_t j = 0; j < y_.samples; ++j) {
-      uint64_t& bits = block_.row(y0 + j, z0 + k)[word];
-      if (!bits) continue;
-      weighted_sum(layer_.data(), width_, y_.weights.data() + j * y_.knots, y_.knots, width_,
-                   row_.data());
-      for (size_t i = 0; i < x_.knots; ++i) floats[i] = static_cast<float>(row_[i]);
-      if (!level.is_constant()) {
-        const uint64_t first = word * side, last = std::min(first + side, grid_.nx) - 1;
-        thresholds(level.range({grid_.at(first, y0 + j, z0 + k), grid_.at(last, y0 + j, z0 + k)}),
-                   low, high);
-      }
-      const WordBits found =
-          row_word(floats, x_weights_.data(), x_.knots, structure_.is_sheet(), low, high, values);
-      bits = decide(word, y0 + j, z0 + k, bits, found, values, slack);
+void WaveRows::keep_word(size_t word, uint64_t y0, uint64_t y1, uint64_t z0, uint64_t z1) {
+  const size_t terms = z_.knots.count(), size = 4 * y_.knots.count() * width_;
+  for (uint64_t k = z0; k < z1; ++k) {
+    if (!is_alive(word, y0, y1, k, k + 1)) continue;
+    const double* layer = knots_.get() + (k - z0) * size;
+    if (!z_.knots.are_samples) {
+      weighted_sum(knots_.get(), size, z_.knots.weights.data() + (k - z0) * terms, terms, size,
+                   layer_.get());
+      layer = layer_.get();
     }
+    keep_layer(word, y0, y1, k, layer);
+  }
+}
+
+void WaveRows::keep_layer(size_t word, uint64_t y0, uint64_t y1, uint64_t k, const double* layer) {
+  const Knots &x = x_.knots, &y = y_.knots, &z = z_.knots;
+  const size_t terms = y.count(), rows = static_cast<size_t>(y1 - y0);
+  const double error = double_error_ * x.constant * y.constant * z.constant + x.error +
+                       x.constant * (y.error + y.constant * z.error);
+  const double most = y.spread * largest(layer, 4 * terms * width_);
+  const double slack =
+      error + 0x1p-24 * 1.01 * static_cast<double>(x.count() + 3) * x.spread * most + 0x1p-100;
+  const auto limits_of = [&](Interval levels) {
+    return WordLimits{at_most(levels.low - slack), -at_most(-(levels.high + slack))};
+  };
+  const Parameter& level = structure_.level();
+  const bool is_constant = level.is_constant();
+  WordLimits limits[2] = {};
+  if (is_constant) limits[0] = limits[1] = limits_of(level.range());
+  const uint64_t first = word * side, last = std::min(first + side, grid_.nx) - 1;
+  float values[2 * side];
+  for (size_t p = 0; p < (rows + 1) / 2; ++p) {
+    const uint64_t pair[2] = {y0 + rows / 2 + p, y0 + (rows - 1) / 2 - p};
+    uint64_t* const bits[2] = {block_.row(pair[0], k) + word, block_.row(pair[1], k) + word};
+    if (!*bits[0] && !*bits[1]) continue;
+    const double* const even = y.weights.data() + p * 2 * terms;
+    if (!is_constant)
+      for (int row = 0; row < 2; ++row)
+        if (*bits[row])
+          limits[row] =
+              limits_of(level.range({grid_.at(first, pair[row], k), grid_.at(last, pair[row], k)}));
+    WordBits found[2];
+    pair_words({layer, width_, even, even + terms, terms}, weights_.get(), x.count(),
+               structure_.is_sheet(), limits, is_constant ? nullptr : values, found);
+    for (size_t row = 0; row < (pair[0] == pair[1] ? 1u : 2u); ++row)
+      *bits[row] = decide(word, pair[row], k, *bits[row], found[row], values + side * row, slack);
   }
 }
 
@@ -256,7 +230,7 @@ uint64_t WaveRows::decide(size_t word, uint64_t j, uint64_t k, uint64_t alive, c
                           const float* values, double slack) const {
   uint64_t kept = alive & bits.at_most_low;
   const Parameter& level = structure_.level();
-  for (uint64_t doubt = alive & bits.at_most_high & ~bits.at_most_low; doubt; doubt &= doubt - 1) {
+  for (uint64_t doubt = alive & ~bits.above_high & ~bits.at_most_low; doubt; doubt &= doubt - 1) {
     const auto bit = static_cast<size_t>(std::countr_zero(doubt));
     const Vec3 p = grid_.at(word * side + bit, j, k);
     bool is_inside;

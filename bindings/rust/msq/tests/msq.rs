@@ -35,6 +35,21 @@ fn spheres_have_their_volume() {
 }
 
 #[test]
+fn waves_fill_about_the_fraction() {
+    let context = Context::new().unwrap();
+    for (cones, fraction) in [([90.0, 0.0, 0.0], 0.3), ([0.0, 20.0, 20.0], 0.6)] {
+        let waves = Structure::waves(&context, 0.5, 200, 7, cones, fraction).unwrap();
+        let model = Model::new(&context, &cube(&context), &[&waves]).unwrap();
+        let grid = Grid { origin: [0.1; 3], spacing: [0.2; 3], counts: [50; 3] };
+        let inside = model.grid_membership(&grid, None).unwrap();
+        let share = inside.iter().map(|x| *x as f64).sum::<f64>() / inside.len() as f64;
+        assert!((share - fraction).abs() < 0.03, "{share}");
+    }
+    let error = Structure::waves(&context, 0.5, 0, 7, [90.0, 0.0, 0.0], 0.5).err().unwrap();
+    assert!(error.to_string().contains("count is 0"), "{error}");
+}
+
+#[test]
 fn sets_points_and_layers_agree() {
     let context = Context::new().unwrap();
     let model = foam_model(&context);
