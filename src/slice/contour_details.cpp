@@ -14,6 +14,8 @@ namespace {
 
 /// Halvings of a piece.
 constexpr int max_depth = 4;
+/// Rings are looked into together until there are so many.
+constexpr size_t pieces_at_once = 4096;
 
 Vec2 unit(Vec2 d) {
   const double size = length(d);
@@ -78,14 +80,19 @@ bool is_tangled(std::span<const Vec2> p) {
 }  // namespace
 
 void ContourDetails::find(ContourPoints& points) {
-  find_suspects(points.job());
+  find_suspects(points);
+  drop_tangles();
+}
+
+/// Looks into the pieces that there are. Some rings at a time: their pieces stay in the core's
+/// cache.
+void ContourDetails::settle(ContourPoints& points) {
   while (!memory_->pieces.empty()) {
     keep_bent(points);
     take_corners(points);
     split(points);
   }
   merge_runs();
-  drop_tangles();
 }
 
 /// Begins a run of points in the order of crossings.
@@ -109,6 +116,7 @@ void ContourDetails::merge_runs() {
     runs.pop_back();
     std::inplace_merge(at(runs.back()), at(middle), at(end), is_before);
   }
+  runs.clear();
 }
 
 bool ContourDetails::is_in_cell(uint32_t id, Vec2 p) const {
@@ -118,7 +126,8 @@ bool ContourDetails::is_in_cell(uint32_t id, Vec2 p) const {
          p.y <= cell.high.y - margin;
 }
 
-void ContourDetails::find_suspects(const Job* job) {
+void ContourDetails::find_suspects(ContourPoints& points) {
+  const Job* const job = points.job();
   const size_t count = rings_.count();
   memory_->bends.resize((count + 63) / 64);
   constexpr size_t at_once = size_t{1} << 18;
@@ -127,8 +136,8 @@ void ContourDetails::find_suspects(const Job* job) {
     find_bends(rings_.x() + first, rings_.y() + first, std::min(at_once, count - first), tolerance_,
                close(), memory_->bends.data() + first / 64);
   }
-  begin_run();
   CancelPoll poll(job);
+  begin_run();
   for (const ContourRings::Ring& ring : rings_.rings()) {
     poll();
     if (ring.is_closed)
@@ -138,7 +147,11 @@ void ContourDetails::find_suspects(const Job* job) {
         poll();
         suspect(ring, id);
       }
+    if (memory_->pieces.size() < pieces_at_once) continue;
+    settle(points);
+    begin_run();
   }
+  settle(points);
 }
 
 /// suspect() for all crossings of a closed ring, but for those that `bends` excludes: most pieces

@@ -62,7 +62,8 @@ class ContourDetails {
   };
   using Cell = ContourRings::Cell;
 
-  void find_suspects(const Job* job);
+  void find_suspects(ContourPoints& points);
+  void settle(ContourPoints& points);
   void look_along(const ContourRings::Ring& ring, CancelPoll& poll);
   void suspect(const ContourRings::Ring& ring, uint32_t id);
   void keep_bent(ContourPoints& points);

@@ -77,17 +77,23 @@ bool ContourRings::follow(ContourSection& section, uint32_t id, uint32_t column,
     const uint32_t along = ~kind & horizontal, across = along ^ 1;
     const Axis &a = axes_[along], &b = axes_[across];
     const uint32_t at_along = place[along], at_across = place[across];
-    if (b.is_edge(at_across)) kind |= seam;
-    const double low = a.at(at_along), high = a.at(at_along + 1);
+    double low, high, line;
+    if (a.are_inner(at_along) && b.are_inner(at_across)) {
+      low = a.inner_at(at_along);
+      high = a.inner_at(at_along + 1);
+      line = b.inner_at(at_across);
+    } else {
+      low = a.at(at_along);
+      high = a.at(at_along + 1);
+      line = b.at(at_across);
+      if (b.is_edge(at_across)) kind |= seam;
+      if (a.is_beyond(at_along)) kind |= beyond;
+    }
     const uint64_t sign = static_cast<uint64_t>(kind & first_inside) << (63 - first_inside_bit);
     const double end = std::bit_cast<double>(std::bit_cast<uint64_t>(ends[id]) ^ sign);
     double at[2];
-    at[across] = b.at(at_across);
-    at[along] = std::min(std::max(end, low + margin_), high - margin_);
-    if (a.is_beyond(at_along)) {
-      kind |= beyond;
-      at[along] = low;
-    }
+    at[across] = line;
+    at[along] = kind & beyond ? low : std::min(std::max(end, low + margin_), high - margin_);
     if (ContourSection::enters_saddle(way)) kind |= saddle;
     kinds |= kind;
     x[n] = at[0];

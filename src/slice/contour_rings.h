@@ -54,9 +54,16 @@ class ContourRings {
     Vec2 low, high;
   };
   Cell cell_of(uint32_t i) const;
-  /// Ends of the edge.
-  double low(uint32_t i) const { return axes_[axis_along(i)].at(place_along(i)); }
-  double high(uint32_t i) const { return axes_[axis_along(i)].at(place_along(i) + 1); }
+  struct Ends {
+    double low, high;
+  };
+  /// Of the edge.
+  Ends ends(uint32_t i) const {
+    const Axis& axis = axes_[axis_along(i)];
+    const uint32_t n = place_along(i);
+    if (axis.are_inner(n)) return {axis.inner_at(n), axis.inner_at(n + 1)};
+    return {axis.at(n), axis.at(n + 1)};
+  }
   /// Of the edge: 0 if it is horizontal, else 1.
   uint32_t axis_along(uint32_t i) const { return ~uint32_t{memory_->kinds[i]} & horizontal; }
 
@@ -72,11 +79,12 @@ class ContourRings {
     uint32_t first_inner, beyond, edge,
         end;  // beyond and edge: the lower ones; end: the upper edge
 
-    double at(uint32_t n) const {
-      return n >= end          ? high
-             : n < first_inner ? low
-                               : first + static_cast<double>(n - first_inner) * pitch;
+    double at(uint32_t n) const { return n >= end ? high : n < first_inner ? low : inner_at(n); }
+    double inner_at(uint32_t n) const {
+      return first + static_cast<double>(static_cast<int32_t>(n - first_inner)) * pitch;
     }
+    /// Whether a node and the next one lie between the edges. Nearly all do.
+    bool are_inner(uint32_t n) const { return n >= first_inner && n + 1 < end; }
     bool is_edge(uint32_t n) const { return n == edge || n == end; }
     /// Of an edge of the grid, by its first node.
     bool is_beyond(uint32_t n) const { return n == beyond || n == end; }

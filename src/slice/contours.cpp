@@ -93,8 +93,9 @@ class RingBuilder {
     const uint32_t along = rings_.axis_along(id);
     const double both[2] = {at.x, at.y};
     const double middle = both[along];
-    const double low = std::max(middle - tolerance_, rings_.low(id) + rings_.margin());
-    const double high = std::min(middle + tolerance_, rings_.high(id) - rings_.margin());
+    const auto [edge_low, edge_high] = rings_.ends(id);
+    const double low = std::max(middle - tolerance_, edge_low + rings_.margin());
+    const double high = std::min(middle + tolerance_, edge_high - rings_.margin());
     const bool starts_inside = rings_.starts_inside(id);
     const double ends[2] = {low, high};
     double left[2] = {at.x, at.y}, right[2] = {at.x, at.y};
