@@ -2423,6 +2423,10 @@ typedef struct msq_contours_def {
   double units;
   /** As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0. */
   double length_scale;
+  /** 0 (default): topology_count of the report is not computed. Otherwise 2, 4, 8 or 16: the rings
+   * are compared with a mask of so many samples along each side of the grid's cells. The rings are
+   * the same. Costs about as much as the bits of that mask; memory: a band of its rows. */
+  uint32_t topology_samples;
 } msq_contours_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -2684,6 +2688,14 @@ typedef struct msq_contours_report {
   uint64_t unresolved_count;
   /** Distance of the nodes, as rounded. */
   double pitch;
+  /** With topology_samples: an upper bound of how many parts must appear, vanish, be cut or be
+   * joined until the rings have the topology of the mask of topology_samples samples to a pitch.
+   * The numbers of outer rings and of parts of the mask differ by no more, nor do those of holes
+   * and of enclosed parts of the void. 0: both have the same topology.
+   * What the mask does not show is not counted. 0 without topology_samples. */
+  uint64_t topology_count;
+  /** As in the definition. */
+  uint32_t topology_samples;
 } msq_contours_report;
 
 /** Reports what contours hold. Errors: ARGUMENT. */

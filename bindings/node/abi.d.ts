@@ -1116,6 +1116,8 @@ export interface msq_contours_def {
   units: number;
   /** As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0. */
   length_scale: number;
+  /** 0 (default): topology_count of the report is not computed. Otherwise 2, 4, 8 or 16: the rings are compared with a mask of so many samples along each side of the grid's cells. The rings are the same. Costs about as much as the bits of that mask; memory: a band of its rows. */
+  topology_samples: number;
 }
 
 /** Definition of one of the outputs of a slicer. */
@@ -1269,6 +1271,10 @@ export interface msq_contours_report {
   unresolved_count: number | bigint;
   /** Distance of the nodes, as rounded. */
   pitch: number;
+  /** With topology_samples: an upper bound of how many parts must appear, vanish, be cut or be joined until the rings have the topology of the mask of topology_samples samples to a pitch. The numbers of outer rings and of parts of the mask differ by no more, nor do those of holes and of enclosed parts of the void. 0: both have the same topology. What the mask does not show is not counted. 0 without topology_samples. */
+  topology_count: number | bigint;
+  /** As in the definition. */
+  topology_samples: number;
 }
 
 /** What is looked for. */

@@ -603,6 +603,7 @@ export function types(koffi) {
     pitch: 'double',
     units: 'double',
     length_scale: 'double',
+    topology_samples: 'uint32_t',
   });
   T.msq_output_def = koffi.struct('msq_output_def', {
     struct_size: 'uint32_t',
@@ -685,6 +686,8 @@ export function types(koffi) {
     holes: 'void *',
     unresolved_count: 'uint64_t',
     pitch: 'double',
+    topology_count: 'uint64_t',
+    topology_samples: 'uint32_t',
   });
   T.msq_printability_def = koffi.struct('msq_printability_def', {
     struct_size: 'uint32_t',

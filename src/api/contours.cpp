@@ -54,6 +54,11 @@ ContourPlan read_plan(const msq_contours_def& def) {
   if (!(def.length_scale >= 0))
     fail(Status::argument, "length_scale is %g; it must not be negative", def.length_scale);
   plan.length_scale = def.length_scale;
+  plan.topology_samples = def.topology_samples;
+  if (plan.topology_samples != 0 && plan.topology_samples != 2 && plan.topology_samples != 4 &&
+      plan.topology_samples != 8 && plan.topology_samples != 16)
+    fail(Status::argument, "topology_samples is %u; it must be 0, 2, 4, 8 or 16",
+         plan.topology_samples);
   return plan;
 }
 
@@ -130,6 +135,8 @@ msq_status msq_contours_info(const msq_contours* contours, msq_contours_report* 
     written.holes = known.holes();
     written.unresolved_count = known.unresolved();
     written.pitch = known.pitch();
+    written.topology_count = known.topology();
+    written.topology_samples = known.topology_samples();
     write_report(report, written, "report");
   });
 }

@@ -139,6 +139,11 @@ inline constexpr size_t first_size<msq_host_function_def> = offsetof(msq_host_fu
 template <>
 inline constexpr size_t first_size<msq_cache_report> = offsetof(msq_cache_report, building_bytes);
 template <>
+inline constexpr size_t first_size<msq_contours_def> = offsetof(msq_contours_def, topology_samples);
+template <>
+inline constexpr size_t first_size<msq_contours_report> = offsetof(msq_contours_report,
+                                                                   topology_count);
+template <>
 inline constexpr size_t first_size<msq_printability_def> = offsetof(msq_printability_def, overhang);
 template <>
 inline constexpr size_t first_size<msq_printability_report> = offsetof(msq_printability_report,

@@ -40,6 +40,7 @@ void walk_contours(DefinitionWalk& in, msq_contours_def& def) {
   in.number("pitch", def.pitch);
   in.number("units", def.units);
   in.number("length_scale", def.length_scale);
+  in.whole("topology_samples", def.topology_samples);
 }
 
 void walk_output(DefinitionWalk& in, msq_output_def& def) {

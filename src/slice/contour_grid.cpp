@@ -2,22 +2,15 @@
 #include "slice/contour_grid.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/sample_grid.h"
 #include "base/status.h"
 #include "query/membership.h"
 #include "slice/contour_points.h"
+#include "slice/contour_samples.h"
 #include "slice/contour_struts.h"
 
 namespace msq {
-
-namespace {
-
-/// Of a band of rows that are found at a time where the plane is not normal to z.
-constexpr uint64_t band_words = uint64_t{1} << 21;
-
-}  // namespace
 
 ContourAxis::ContourAxis(double low, double high, double pitch, const char* name)
     : low_(low), high_(high), pitch_(pitch), inverse_pitch_(1 / pitch) {
@@ -91,11 +84,10 @@ void ContourGrid::find_nodes(const PlaneStruts& struts, const ContourGrid& shape
 
 void ContourGrid::find_part(const Model& model, const Scales& resolved, const Part& part,
                             const Job* job) {
-  if (part.across == 0 || part.rows == 0) return;
-  if (plane_.axis == 2)
-    find_layer(model, resolved, part, job);
-  else
-    find_bands(model, resolved, part, job);
+  const SampleBlock block{part.u, part.v, pitch_, pitch_, part.across, part.rows};
+  for_sample_rows(model, resolved, plane_, block, job, [&](uint64_t j, const uint64_t* words) {
+    put_row(words, part, part.row + static_cast<uint32_t>(j));
+  });
 }
 
 void ContourGrid::put_row(const uint64_t* words, const Part& part, uint32_t row) {
@@ -104,50 +96,6 @@ void ContourGrid::put_row(const uint64_t* words, const Part& part, uint32_t row)
     for (size_t w = 0; w < words_for(part.across); ++w) out[w] |= words[w];
   else
     *out |= words[0] << (part.column % 64);  // an edge: one node
-}
-
-void ContourGrid::find_layer(const Model& model, const Scales& resolved, const Part& part,
-                             const Job* job) {
-  SampleGrid grid;
-  grid.origin = plane_.at(part.u, part.v);
-  grid.spacing = {pitch_, pitch_, pitch_};
-  grid.nx = part.across;
-  grid.ny = part.rows;
-  grid.nz = 1;
-  const size_t row_words = words_for(grid.nx);
-  std::vector<uint64_t> words(row_words * grid.ny);
-  fill_slab(model, resolved, grid, 0, 1, words.data(), job);
-  for (uint64_t j = 0; j < part.rows; ++j)
-    put_row(words.data() + j * row_words, part, part.row + static_cast<uint32_t>(j));
-}
-
-// Rows of nodes are layers of the engine's grid: with one row of samples where the plane is normal
-// to y, with rows of one sample where it is normal to x.
-void ContourGrid::find_bands(const Model& model, const Scales& resolved, const Part& part,
-                             const Job* job) {
-  const bool is_x = plane_.axis == 0;
-  SampleGrid grid;
-  grid.origin = plane_.at(part.u, part.v);
-  grid.spacing = {pitch_, pitch_, pitch_};
-  grid.nx = is_x ? 1 : part.across;
-  grid.ny = is_x ? part.across : 1;
-  grid.nz = part.rows;
-  const size_t layer_words = words_for(grid.nx) * grid.ny;
-  const uint64_t deep = std::clamp<uint64_t>(band_words / layer_words, 1, part.rows);
-  std::vector<uint64_t> words(layer_words * deep), packed(words_for(part.across));
-  for (uint64_t k0 = 0; k0 < part.rows; k0 += deep) {
-    const uint64_t k1 = std::min(part.rows, k0 + deep);
-    fill_slab(model, resolved, grid, k0, k1, words.data(), job);
-    for (uint64_t k = k0; k < k1; ++k) {
-      const uint64_t* row = words.data() + (k - k0) * layer_words;
-      if (is_x) {
-        std::fill(packed.begin(), packed.end(), 0);
-        for (uint64_t j = 0; j < part.across; ++j) packed[j / 64] |= row[j] << (j % 64);
-        row = packed.data();
-      }
-      put_row(row, part, part.row + static_cast<uint32_t>(k));
-    }
-  }
 }
 
 }  // namespace msq

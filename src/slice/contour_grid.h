@@ -140,8 +140,6 @@ class ContourGrid {
     uint32_t column, row;  // of the first
   };
   void find_part(const Model& model, const Scales& resolved, const Part& part, const Job* job);
-  void find_layer(const Model& model, const Scales& resolved, const Part& part, const Job* job);
-  void find_bands(const Model& model, const Scales& resolved, const Part& part, const Job* job);
   void put_row(const uint64_t* words, const Part& part, uint32_t row);
 
   LayerPlane plane_;

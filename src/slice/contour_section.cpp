@@ -92,7 +92,8 @@ void ContourSection::link(const Job* job) {
           saddles_.push_back({static_cast<uint32_t>(w * 64 + bit),
                               r,
                               {ids[0], ids[1], ids[2], ids[3]},
-                              code == rising});
+                              code == rising,
+                              false});
         } else {
           const Piece piece = piece_of[code];
           crossings[ids[piece.in]] = {ids[piece.out], piece.out};
@@ -120,6 +121,7 @@ void ContourSection::settle_saddles(ContourPoints& points) {
     };
     // Rising: in by bottom and top; around the nodes outside where the centre is inside.
     const bool turns_right = saddles_[i].is_rising == (inside[i] != 0);
+    saddles_[i].turns_right = turns_right;
     if (saddles_[i].is_rising) {
       connect(bottom, turns_right ? right : left);
       connect(top, turns_right ? left : right);

@@ -72,6 +72,16 @@ class ContourSection {
   static bool enters_saddle(uint32_t way) { return way >> 2 & 1; }
   static constexpr uint32_t visited = UINT32_MAX;  ///< as a way: set by ContourRings
 
+  /// A cell with four crossings.
+  struct Saddle {
+    uint32_t column, row;
+    uint32_t ids[4];   ///< bottom, right, top, left
+    bool is_rising;    ///< the nodes at the lower left and the upper right are inside
+    bool turns_right;  ///< bottom and right belong together, and top and left; else the others do
+  };
+  /// In the order of rows and columns.
+  const std::vector<Saddle>& saddles() const { return saddles_; }
+
   /// Cells where one sample decided what belongs together, and those that a strut passes through
   /// without a node in it.
   uint64_t unresolved() const { return saddles_.size() + unseen_; }
@@ -80,11 +90,6 @@ class ContourSection {
   static constexpr uint64_t bytes_of_crossing = sizeof(EdgeCrossing) + sizeof(double);
 
  private:
-  struct Saddle {
-    uint32_t column, row;
-    uint32_t ids[4];  ///< bottom, right, top, left
-    bool is_rising;   ///< the nodes at the lower left and the upper right are inside
-  };
   struct Edge {
     uint32_t id, column, row;
     bool is_horizontal;

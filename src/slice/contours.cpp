@@ -13,6 +13,7 @@
 #include "slice/contour_points.h"
 #include "slice/contour_rings.h"
 #include "slice/contour_section.h"
+#include "slice/contour_topology.h"
 #include "slice/nearest_unit.h"
 
 namespace msq {
@@ -50,6 +51,8 @@ class RingBuilder {
       add_ring(ring);
     }
   }
+  /// Rings that could not be drawn.
+  uint64_t dropped() const { return dropped_; }
 
  private:
   struct Written {
@@ -74,7 +77,9 @@ class RingBuilder {
     for (Vec2& p : points_) p = p * units_;
     const int64_t index = static_cast<int64_t>(out_.ring_count());
     // What cannot be drawn stands for what is around it.
-    ring.index = out_.add_ring(points_, ring.parent, ring.is_hole) ? index : ring.parent;
+    const bool is_drawn = out_.add_ring(points_, ring.parent, ring.is_hole);
+    dropped_ += !is_drawn;
+    ring.index = is_drawn ? index : ring.parent;
     written_.push_back(ring);
   }
 
@@ -119,6 +124,7 @@ class RingBuilder {
   const DetailPoint *detail_, *const end_;
   const double tolerance_, units_;
   Contours& out_;
+  uint64_t dropped_ = 0;
   std::vector<Written> written_;
   std::vector<LinePoint> line_;
   std::vector<Vec2> points_;
@@ -240,7 +246,7 @@ void Contours::close(ContourNumbers& room) {
 Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* job) {
   JobScope scope(job);
   const double pitch = three_digits(plan.pitch > 0 ? plan.pitch : plan.tolerance);
-  Ref<Contours> out = make_ref<Contours>(plan.format);
+  Ref<Contours> out = make_ref<Contours>(plan.format, plan.topology_samples);
   out->set_pitch(pitch);
   double low[2], high[2];
   const bool is_empty = !find_window(model, plan, pitch, low, high);
@@ -289,9 +295,13 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   if (job) job->set_progress(0.9);
   const Borrowed<ContourNumbers> room;
   out->begin(*room);
-  RingBuilder(rings, details, part, plan.units, *out).build(job);
+  RingBuilder builder(rings, details, part, plan.units, *out);
+  builder.build(job);
   out->set_unresolved(section.unresolved() + details.unresolved());
   out->close(*room);
+  if (plan.topology_samples != 0)
+    out->set_topology(builder.dropped() +
+                      count_topology_steps(model, resolved, section, plan.topology_samples, job));
   scope.done();
   return out;
 }

@@ -24,6 +24,7 @@ struct ContourPlan {
   ContourFormat format = ContourFormat::float64;
   double units = 1;
   double length_scale = 0;
+  uint32_t topology_samples = 0;  ///< 0, 2, 4, 8 or 16
 };
 
 /// Coordinates of points; of one of the types.
@@ -39,7 +40,8 @@ struct ContourNumbers {
 
 class Contours final : public RefCounted {
  public:
-  explicit Contours(ContourFormat format) : format_(format) {}
+  Contours(ContourFormat format, uint32_t topology_samples)
+      : format_(format), topology_samples_(topology_samples) {}
 
   ContourFormat format() const { return format_; }
   uint64_t point_count() const { return starts_.back(); }
@@ -51,6 +53,10 @@ class Contours final : public RefCounted {
   const uint8_t* holes() const { return holes_.data(); }
   uint64_t unresolved() const { return unresolved_; }
   void set_unresolved(uint64_t count) { unresolved_ = count; }
+  /// See msq_contours_report.
+  uint64_t topology() const { return topology_; }
+  uint32_t topology_samples() const { return topology_samples_; }
+  void set_topology(uint64_t count) { topology_ = count; }
   double pitch() const { return pitch_; }
   void set_pitch(double pitch) { pitch_ = pitch; }
 
@@ -63,11 +69,12 @@ class Contours final : public RefCounted {
 
  private:
   ContourFormat format_;
+  uint32_t topology_samples_;
   std::vector<uint64_t> starts_{0};
   std::vector<int64_t> parents_;
   std::vector<uint8_t> holes_;
   ContourNumbers numbers_;
-  uint64_t unresolved_ = 0;
+  uint64_t unresolved_ = 0, topology_ = 0;
   double pitch_ = 0;
 };
 

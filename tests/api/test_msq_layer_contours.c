@@ -81,6 +81,41 @@ static void types_have_the_same_rings(void** state) {
   msq_context_release(context);
 }
 
+/* A comparison with a mask changes no ring. It counts what is thinner than the pitch. */
+static void topology_is_counted_on_demand(void** state) {
+  msq_context* context = make_context();
+  msq_model* model = make_lattice_model(context);
+  msq_contours_def def = contours_def(MSQ_FLOAT64, 0.02);
+  double low[3], high[3];
+  (void)state;
+  assert_ok(msq_model_bounds(model, low, high));
+  for (int i = 0; i < 2; ++i) {
+    const double height = low[2] + 0.3 * (high[2] - low[2]);
+    msq_contours *plain, *compared;
+    msq_contours_report a, b;
+    def.pitch = i == 0 ? 0.02 : 0.5;
+    def.topology_samples = 0;
+    assert_ok(msq_layer_contours(model, height, &def, &plain, NULL));
+    def.topology_samples = 8;
+    assert_ok(msq_layer_contours(model, height, &def, &compared, NULL));
+    a = contents_of(plain);
+    b = contents_of(compared);
+    assert_int_equal(a.topology_samples, 0);
+    assert_int_equal(a.topology_count, 0);
+    assert_int_equal(b.topology_samples, 8);
+    if (i == 0)
+      assert_int_equal(b.topology_count, 0);
+    else
+      assert_true(b.topology_count > 0);
+    assert_int_equal(a.point_count, b.point_count);
+    assert_memory_equal(a.points, b.points, a.point_count * 2 * sizeof(double));
+    msq_contours_release(plain);
+    msq_contours_release(compared);
+  }
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void layers_of_slicers_are_those_of_models(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_lattice_model(context);
@@ -164,6 +199,7 @@ static void release_of_null_does_nothing(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(types_have_the_same_rings),
+      cmocka_unit_test(topology_is_counted_on_demand),
       cmocka_unit_test(layers_of_slicers_are_those_of_models),
       cmocka_unit_test(layers_beside_the_model_are_empty),
       cmocka_unit_test(memory_is_limited),

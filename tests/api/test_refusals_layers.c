@@ -376,12 +376,17 @@ static void contours(void** state) {
     msq_contours_def* def = contours_of(MSQ_FLOAT64);
     msq_contours** contours = (msq_contours**)output(0);
     msq_job* job = NULL;
-    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    wrong_sizes(table, def, offsetof(msq_contours_def, topology_samples), sizeof *def);
     WRONG(ARGUMENT, "model is NULL", model = NULL);
     WRONG(ARGUMENT, "contours is NULL", contours = NULL);
     wrong_number(table, &height, "height is ");
     WRONG(ARGUMENT, "type is 4", def->type = 4);
     WRONG(ARGUMENT, "type is -1", def->type = -1);
+    WRONG(ARGUMENT, "topology_samples is 3; it must be 0, 2, 4, 8 or 16",
+          def->topology_samples = 3);
+    WRONG(ARGUMENT, "topology_samples is 1;", def->topology_samples = 1);
+    WRONG(ARGUMENT, "topology_samples is 32;", def->topology_samples = 32);
+    RIGHT(def->topology_samples = 16);
     wrong_enum(table, &def->axis, "axis", 0, 2);
     wrong_enum(table, &def->has_window, "has_window", 0, 1);
     WRONG(ARGUMENT, "has_window is 0", def->window_max[1] = 2);
@@ -425,7 +430,7 @@ static void contours(void** state) {
     msq_contours_def* def = contours_of(MSQ_INT64);
     msq_contours** contours = (msq_contours**)output(0);
     msq_job* job = NULL;
-    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    wrong_sizes(table, def, offsetof(msq_contours_def, topology_samples), sizeof *def);
     WRONG(ARGUMENT, "slicer is NULL", slicer = NULL);
     WRONG(ARGUMENT, "contours is NULL", contours = NULL);
     WRONG(ARGUMENT, "layer 16", index = 16);

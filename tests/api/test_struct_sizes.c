@@ -34,7 +34,7 @@
   DO(segments_def, sizeof(msq_segments_def))                         \
   DO(slicer_def, offsetof(msq_slicer_def, window))                   \
   DO(output_def, sizeof(msq_output_def))                             \
-  DO(contours_def, sizeof(msq_contours_def))                         \
+  DO(contours_def, offsetof(msq_contours_def, topology_samples))     \
   DO(printability_def, offsetof(msq_printability_def, overhang))     \
   DO(fill_def, sizeof(msq_fill_def))                                 \
   DO(surface_def, sizeof(msq_surface_def))                           \
@@ -181,7 +181,7 @@ static void reports_are_filled(void** state) {
     REPORT(unit_cell_report, sizeof(msq_unit_cell_report)),
     REPORT(lattice_faces_report, sizeof(msq_lattice_faces_report)),
     REPORT(slicer_report, offsetof(msq_slicer_report, window)),
-    REPORT(contours_report, sizeof(msq_contours_report)),
+    REPORT(contours_report, offsetof(msq_contours_report, topology_count)),
     REPORT(printability_report, offsetof(msq_printability_report, cup_count)),
     REPORT(fill_report, sizeof(msq_fill_report)),
     REPORT(strut_graph_report, sizeof(msq_strut_graph_report)),

@@ -29,7 +29,7 @@ struct Rings {
   std::vector<std::vector<RingPoint>> rings;
   std::vector<int64_t> parents;
   std::vector<uint8_t> holes;
-  uint64_t unresolved = 0;
+  uint64_t unresolved = 0, topology = 0;
   double pitch = 0;
 
   size_t points() const {
@@ -83,6 +83,7 @@ inline Rings rings_of(const msq_contours* contours) {
   assert_ok(msq_contours_info(contours, &report));
   Rings out;
   out.unresolved = report.unresolved_count;
+  out.topology = report.topology_count;
   out.pitch = report.pitch;
   for (uint64_t r = 0; r < report.ring_count; ++r) {
     out.parents.push_back(report.parents[r]);

@@ -512,7 +512,7 @@ class msq_contours_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("type", c_int32), ("axis", c_int32),
                 ("has_window", c_int32), ("window_min", c_double * 2), ("window_max", c_double * 2),
                 ("tolerance", c_double), ("pitch", c_double), ("units", c_double),
-                ("length_scale", c_double)]
+                ("length_scale", c_double), ("topology_samples", c_uint32)]
 
 
 class msq_output_def(Structure):
@@ -561,7 +561,8 @@ class msq_contours_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("type", c_int32), ("ring_count", c_uint64),
                 ("point_count", c_uint64), ("points", c_void_p), ("starts", POINTER(c_uint64)),
                 ("parents", POINTER(c_int64)), ("holes", POINTER(c_uint8)),
-                ("unresolved_count", c_uint64), ("pitch", c_double)]
+                ("unresolved_count", c_uint64), ("pitch", c_double), ("topology_count", c_uint64),
+                ("topology_samples", c_uint32)]
 
 
 class msq_printability_def(Structure):

@@ -21,7 +21,8 @@ _DTYPES = {_abi.MSQ_INT32: np.int32, _abi.MSQ_INT64: np.int64,
 
 
 def contours_definition(tolerance: float, *, axis: int, window: Optional[Window], pitch: float,
-                        type: str, units: float, length_scale: float) -> Any:
+                        type: str, units: float, length_scale: float,
+                        topology_samples: int = 0) -> Any:
     """An msq_contours_def."""
     definition = defaults(_abi.msq_contours_def)
     if type not in _TYPES:
@@ -39,6 +40,7 @@ def contours_definition(tolerance: float, *, axis: int, window: Optional[Window]
     definition.pitch = pitch
     definition.units = units
     definition.length_scale = length_scale
+    definition.topology_samples = topology_samples
     return definition
 
 
@@ -52,6 +54,8 @@ class Contours(Handle):
     rings, where features are wider than the pitch. pitch 0: the tolerance. axis: the plane's normal;
     its coordinates are the other two axes, in order. window: (min, max), else the model's bounds.
     type: `int32`, `int64` or `float64`; coordinates are the model's times units, rounded for integers.
+    topology_samples: 2, 4, 8 or 16: compares the rings with a mask of so many samples to a pitch, for
+    topology_count.
 
     Contours are sequences of rings: len(contours), contours[i] and iteration. Arrays are read-only
     views of msq's memory, which they keep.
@@ -61,9 +65,10 @@ class Contours(Handle):
 
     def __init__(self, subject: Any, place: Any, tolerance: float, *, axis: int,
                  window: Optional[Window], pitch: float, type: str, units: float,
-                 length_scale: float, job: Optional[Job]) -> None:
+                 length_scale: float, topology_samples: int, job: Optional[Job]) -> None:
         definition = contours_definition(tolerance, axis=axis, window=window, pitch=pitch, type=type,
-                                         units=units, length_scale=length_scale)
+                                         units=units, length_scale=length_scale,
+                                         topology_samples=topology_samples)
         function = (lib.msq_slicer_contours if subject._kind == "slicer"
                     else lib.msq_layer_contours)
         made = ctypes.POINTER(_abi.msq_contours)()
@@ -89,6 +94,10 @@ class Contours(Handle):
         count = held.ring_count
         self.unresolved_count: int = held.unresolved_count  #: see msq_contours_report
         self.pitch: float = held.pitch  #: distance of the nodes
+        #: parts that appear, vanish, are cut or joined in the mask of topology_samples, at most; None
+        #: without topology_samples
+        self.topology_count: Optional[int] = (held.topology_count if held.topology_samples
+                                              else None)
         #: (n, 2): u, v of all rings, one after the other
         self.points = self._view(held.points, 2 * held.point_count,
                                  _DTYPES[held.type]).reshape(-1, 2)

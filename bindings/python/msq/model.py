@@ -356,11 +356,12 @@ class Model(Handle):
 
     def contours(self, height: float, tolerance: float, *, axis: int = 2,
                  window: Optional[Window] = None, pitch: float = 0.0, type: str = "float64",
-                 units: float = 1.0, length_scale: float = 0.0,
+                 units: float = 1.0, length_scale: float = 0.0, topology_samples: int = 0,
                  job: Optional[Job] = None) -> Contours:
         """The section with a plane normal to the axis, as rings: see Contours."""
         return Contours(self, height, tolerance, axis=axis, window=window, pitch=pitch, type=type,
-                        units=units, length_scale=length_scale, job=job)
+                        units=units, length_scale=length_scale,
+                        topology_samples=topology_samples, job=job)
 
     def mesh(self, pitch: float, *, box: Optional[Box] = None, length_scale: float = 0.0,
              slab_layers: int = 0, job: Optional[Job] = None) -> Mesh:

@@ -371,11 +371,12 @@ class Slicer(Handle):
 
     def contours(self, index: int, tolerance: float, *, window: Optional[Window] = None,
                  pitch: float = 0.0, type: str = "float64", units: float = 1.0,
-                 job: Optional[Job] = None) -> Contours:
+                 topology_samples: int = 0, job: Optional[Job] = None) -> Contours:
         """The rings of one layer, in the rectangle of its pixels unless there is a window: see
         Contours."""
         return Contours(self, self._index(index), tolerance, axis=2, window=window, pitch=pitch,
-                        type=type, units=units, length_scale=0.0, job=job)
+                        type=type, units=units, length_scale=0.0,
+                        topology_samples=topology_samples, job=job)
 
     def printability(self, kinds: Sequence[str] = ("island", "loose", "void"), *,
                      has_plate: bool = True, width: float = 0.0, min_volume: float = 0.0,

@@ -42,6 +42,17 @@ class ContoursTest(unittest.TestCase):
         with self.assertRaises(ValueError):
             ring[0, 0] = 1
 
+    def test_topology(self):
+        foam = msq.Model(msq.Shape.box((0, 0, 0), (4, 4, 4)), [msq.Foam(cell_size=1, radius=0.1)])
+        plain = foam.contours(2.0, 0.2)
+        self.assertIsNone(plain.topology_count)
+        counted = foam.contours(2.0, 0.2, topology_samples=8)
+        self.assertGreater(counted.topology_count, 0)
+        np.testing.assert_array_equal(counted.points, plain.points)
+        self.assertEqual(self.ball.contours(3.0, 0.01, topology_samples=4).topology_count, 0)
+        with self.assertRaisesRegex(ValueError, "topology_samples is 3"):
+            foam.contours(2.0, 0.2, topology_samples=3)
+
     def test_windows_and_axes(self):
         half = self.ball.contours(1.0, 0.01, axis=0, window=((0, 0), (2, 10)), pitch=0.1)
         self.assertAlmostEqual(area(half[0]), 2 * np.pi, delta=0.2)

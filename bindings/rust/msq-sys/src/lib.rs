@@ -1438,6 +1438,8 @@ pub struct msq_contours_def {
     pub units: f64,
     /// As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0.
     pub length_scale: f64,
+    /// 0 (default): topology_count of the report is not computed. Otherwise 2, 4, 8 or 16: the rings are compared with a mask of so many samples along each side of the grid's cells. The rings are the same. Costs about as much as the bits of that mask; memory: a band of its rows.
+    pub topology_samples: u32,
 }
 
 /// Definition of one of the outputs of a slicer.
@@ -1605,6 +1607,10 @@ pub struct msq_contours_report {
     pub unresolved_count: u64,
     /// Distance of the nodes, as rounded.
     pub pitch: f64,
+    /// With topology_samples: an upper bound of how many parts must appear, vanish, be cut or be joined until the rings have the topology of the mask of topology_samples samples to a pitch. The numbers of outer rings and of parts of the mask differ by no more, nor do those of holes and of enclosed parts of the void. 0: both have the same topology. What the mask does not show is not counted. 0 without topology_samples.
+    pub topology_count: u64,
+    /// As in the definition.
+    pub topology_samples: u32,
 }
 
 /// What is looked for.
@@ -2542,13 +2548,13 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_estimate>(), 32);
     assert_eq!(std::mem::size_of::<msq_segments_def>(), 56);
     assert_eq!(std::mem::size_of::<msq_calibration_report>(), 64);
-    assert_eq!(std::mem::size_of::<msq_contours_def>(), 80);
+    assert_eq!(std::mem::size_of::<msq_contours_def>(), 88);
     assert_eq!(std::mem::size_of::<msq_output_def>(), 48);
     assert_eq!(std::mem::size_of::<msq_slicer_def>(), 304);
     assert_eq!(std::mem::size_of::<msq_slicer_report>(), 144);
     assert_eq!(std::mem::size_of::<msq_output>(), 40);
     assert_eq!(std::mem::size_of::<msq_layer>(), 72);
-    assert_eq!(std::mem::size_of::<msq_contours_report>(), 72);
+    assert_eq!(std::mem::size_of::<msq_contours_report>(), 88);
     assert_eq!(std::mem::size_of::<msq_printability_def>(), 40);
     assert_eq!(std::mem::size_of::<msq_finding>(), 112);
     assert_eq!(std::mem::size_of::<msq_printability_report>(), 128);
