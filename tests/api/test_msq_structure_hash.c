@@ -208,7 +208,8 @@ static void walls_hash_seeds_and_sizes(void** state) {
   }
 }
 
-/* ---- waves ------------------------------------------------------------------------------------ */
+/* ---- waves ------------------------------------------------------------------------------------
+ */
 
 static void hash_waves(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
   msq_structure* structure;

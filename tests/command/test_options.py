@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The table of options: help, manual page, completions, refusals."""
-import re
 import os
+import re
 import shutil
 import subprocess
 import unittest
