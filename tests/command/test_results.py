@@ -49,6 +49,11 @@ class Structures(Case):
                  ["--function", "i-wp", "--cell", "2,3,4", "--level", "0.2", "--sheet"]),
                 (msq.Functional(expression="sin(x)+cos(y)*z", **cell),
                  ["--expression", "sin(x)+cos(y)*z", "--cell", "2,3,4"]),
+                (msq.Waves((2, 3, 4), volume_fraction=0.3, count=20, context=CONTEXT),
+                 ["--waves", "2,3,4", "--volume-fraction", "0.3", "--count", "20"]),
+                (msq.Waves(2, level=0.5, kind="sheet", seed=3, cone_angles=(0, 0, 15),
+                           context=CONTEXT),
+                 ["--waves", "2", "--level", "0.5", "--sheet", "--seed", "3", "--cones", "0,0,15"]),
         ):
             self.assertEqual(self.hash(*options), model_of(structure).hash, options)
 
@@ -225,6 +230,10 @@ class Measures(Case):
         found = json.loads(self.msq("calibrate", "--function", "gyroid", "--sheet", "--cell", "2",
                                     "--fraction", "0.3", "--json"))
         self.assertEqual(found["level"], sheet.calibrate(0.3).parameter)
+        waves = msq.Waves(2, count=16, level=0.1, kind="sheet", context=CONTEXT)
+        found = json.loads(self.msq("calibrate", "--waves", "2", "--count", "16", "--sheet",
+                                    "--fraction", "0.3", "--json"))
+        self.assertEqual(found["level"], waves.calibrate(0.3).parameter)
 
     def test_struts(self):
         foam = msq.Foam(cell_size=2, radius=0.3, seed=7, jitter=0.5, context=CONTEXT)

@@ -10,7 +10,9 @@ namespace {
 
 // What the parameter is that msq_structure_calibrate varies.
 std::string_view parameter_of(const Arguments& arguments) {
-  if (arguments.has("function") || arguments.has("expression")) return "level";
+  for (const char* option : {"function", "expression", "waves"}) {
+    if (arguments.has(option)) return "level";
+  }
   return arguments.has("thickness") ? "thickness" : "radius";
 }
 
@@ -33,7 +35,7 @@ Scene make_scene(const Arguments& arguments) {
   scene.structure = make_structure(arguments, scene.context.get(), 0, 0, true);
   if (!scene.structure) {
     throw UsageError(
-        "msq calibrate needs --foam, --lattice, --function, --expression or a model file");
+        "msq calibrate needs --foam, --lattice, --function, --expression, --waves or a model file");
   }
   return scene;
 }

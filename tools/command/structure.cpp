@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The structure that the options describe.
+#include <algorithm>
 #include <span>
 
 #include "scene.h"
@@ -21,10 +22,13 @@ constexpr std::string_view FOAM_TAKES[] = {"radius", "radius-top", "thickness", 
                                            "jitter", "seed",       "vent",      "skin"};
 constexpr std::string_view LATTICE_TAKES[] = {"cell", "radius", "radius-top", "skin"};
 constexpr std::string_view FUNCTION_TAKES[] = {"cell", "thickness", "level", "sheet", "skin"};
+constexpr std::string_view WAVES_TAKES[] = {"level", "sheet", "volume-fraction", "count", "cones",
+                                            "seed",  "skin"};
 constexpr Kind KINDS[] = {{"foam", FOAM_TAKES},
                           {"lattice", LATTICE_TAKES},
                           {"function", FUNCTION_TAKES},
-                          {"expression", FUNCTION_TAKES}};
+                          {"expression", FUNCTION_TAKES},
+                          {"waves", WAVES_TAKES}};
 
 bool takes(const Kind& kind, std::string_view option) {
   for (const std::string_view one : kind.takes) {
@@ -49,8 +53,8 @@ const Kind* find_kind(const Arguments& arguments) {
     for (const std::string_view option : kind.takes) {
       if (!arguments.has(option)) continue;
       if (!found) {
-        arguments.refuse(option,
-                         "needs a structure: --foam, --lattice, --function or --expression");
+        arguments.refuse(
+            option, "needs a structure: --foam, --lattice, --function, --expression or --waves");
       }
       if (!takes(*found, option)) {
         arguments.refuse(option, "does not go with " + dashed(found->option));
@@ -142,6 +146,35 @@ Structure make_surface(const Arguments& arguments, const Place& place, std::stri
   return structure;
 }
 
+Structure make_waves(const Arguments& arguments, const Place& place) {
+  if (arguments.has("level") && arguments.has("volume-fraction")) {
+    arguments.refuse("volume-fraction", "does not go with --level");
+  }
+  const bool has_level = arguments.has("level") || arguments.has("volume-fraction");
+  if (arguments.has("sheet") && !has_level && !place.is_calibrated) {
+    arguments.refuse("sheet", "needs --level or --volume-fraction");
+  }
+  auto def = defaults(msq_waves_def_init);
+  arguments.sizes("waves", def.grid.cell_size);
+  if (arguments.has("sheet")) def.kind = MSQ_FUNCTIONAL_SHEET;
+  def.level.value =
+      arguments.number("level", arguments.has("sheet") && !has_level ? ANY_RADIUS : 0);
+  def.volume_fraction = arguments.number("volume-fraction", 0);
+  if (arguments.has("volume-fraction") && def.volume_fraction == 0) {
+    arguments.refuse("volume-fraction", "0 is not above 0");
+  }
+  def.seed = arguments.count("seed", 0);
+  def.count =
+      static_cast<uint32_t>(std::min<uint64_t>(arguments.count("count", def.count), UINT32_MAX));
+  if (arguments.has("cones")) {
+    const std::vector<double> angles = arguments.numbers("cones", {3});
+    std::copy(angles.begin(), angles.end(), def.cone_angles);
+  }
+  Structure structure;
+  check(msq_structure_waves(place.context, &def, structure.out()), "--waves");
+  return structure;
+}
+
 }  // namespace
 
 Structure make_structure(const Arguments& arguments, msq_context* context, double bottom,
@@ -151,6 +184,7 @@ Structure make_structure(const Arguments& arguments, msq_context* context, doubl
   if (!kind) return {};
   if (kind->option == "foam") return make_foam(arguments, place);
   if (kind->option == "lattice") return make_lattice(arguments, place);
+  if (kind->option == "waves") return make_waves(arguments, place);
   return make_surface(arguments, place, kind->option);
 }
 

@@ -28,11 +28,15 @@ _msq() {
     --lattice) mapfile -t COMPREPLY < <(compgen -W 'cubic bcc octet fcc kelvin diamond dodecahedron reentrant' -- "$word"); return ;;
     --function) mapfile -t COMPREPLY < <(compgen -W 'gyroid schwarz-p diamond i-wp neovius f-rd lidinoid split-p fischer-koch-s c-y c-plus-minus-y karcher-k g-prime double-gyroid double-diamond double-p honeycomb rods' -- "$word"); return ;;
     --expression) return ;;
+    --waves) return ;;
     --cell) return ;;
     -r | --radius) return ;;
     --radius-top) return ;;
     --thickness) return ;;
     --level) return ;;
+    --volume-fraction) return ;;
+    --count) return ;;
+    --cones) return ;;
     --density) return ;;
     --jitter) return ;;
     --seed) return ;;
@@ -63,15 +67,15 @@ _msq() {
     --curve) return ;;
   esac
   case ${COMP_WORDS[1]} in
-    slice) options='--output --format --pitch --layer-height --layers --grey --mirror --tolerance --panel --panel-size --landscape --exposure --first-exposure --fade --material --no-thumbnails --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
-    mesh) options='--output --pitch --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
-    render) options='--output --size --view --zoom --at --perspective --samples --glass --plain --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
-    model) options='--output --title --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
-    info) options='--self-intersections --json --output --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
-    stats) options='--samples --sample-seed --phase --two-point --lineal-path --direction --surface --json --output --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
-    query) options='--output --what --channels --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --length-scale --threads --memory --quiet --help' ;;
-    struts) options='--output --whole --unit --up --any-files --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --scale --region --box --threads --memory --quiet --help' ;;
-    calibrate) options='--fraction --curve --json --output --foam --lattice --function --expression --cell --radius --radius-top --thickness --level --sheet --density --jitter --seed --vent --skin --scale --region --any-files --threads --memory --quiet --help' ;;
+    slice) options='--output --format --pitch --layer-height --layers --grey --mirror --tolerance --panel --panel-size --landscape --exposure --first-exposure --fade --material --no-thumbnails --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
+    mesh) options='--output --pitch --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
+    render) options='--output --size --view --zoom --at --perspective --samples --glass --plain --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
+    model) options='--output --title --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
+    info) options='--self-intersections --json --output --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --skin --threads --memory --quiet --help' ;;
+    stats) options='--samples --sample-seed --phase --two-point --lineal-path --direction --surface --json --output --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --skin --box --length-scale --threads --memory --quiet --help' ;;
+    query) options='--output --what --channels --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --skin --length-scale --threads --memory --quiet --help' ;;
+    struts) options='--output --whole --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --skin --scale --region --box --threads --memory --quiet --help' ;;
+    calibrate) options='--fraction --curve --json --output --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --skin --scale --region --any-files --threads --memory --quiet --help' ;;
   esac
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
