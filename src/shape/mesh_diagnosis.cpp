@@ -100,12 +100,15 @@ uint64_t weld(TriangleSoup& soup, const Job* job) {
   size_t kept = 0;
   for (Triangle t : soup.triangles) {
     poll();
+    // Vertices of triangles that are dropped count for nothing, not even for the numbers of others.
+    const Vec3 &a = soup.vertices[t[0]], &b = soup.vertices[t[1]], &c = soup.vertices[t[2]];
+    if (a == b || b == c || c == a) continue;
     for (uint32_t& v : t) {
       if (merged[v] == UINT32_MAX)
         merged[v] = table.number(soup.vertices[v] + Vec3{0, 0, 0});  // -0 + 0 is 0
       v = merged[v];
     }
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) soup.triangles[kept++] = t;
+    soup.triangles[kept++] = t;
   }
   const uint64_t dropped = soup.triangles.size() - kept;
   soup.triangles.resize(kept);

@@ -202,7 +202,8 @@ uint32_t TriangleTree::build(std::vector<uint32_t>& order,
                      const double a = centre(i)[axis], b = centre(j)[axis];
                      return a < b || (a == b && i < j);
                    });
-  const Run halves[2] = {{range.begin, middle}, {middle, range.end}};
+  // No half is empty, which would count as an inner node: a single triangle is in both.
+  const Run halves[2] = {{range.begin, std::max(middle, range.begin + 1)}, {middle, range.end}};
   for (int side = 0; side < 2; ++side) {
     const Run half = halves[side];
     const uint32_t size = half.end - half.begin;

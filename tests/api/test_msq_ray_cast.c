@@ -373,6 +373,44 @@ static void hits_do_not_depend_on_the_order_of_rays(void** state) {
   }
 }
 
+/* Rays through the bounding box of a triangle, along no axis. */
+static void ends_in_a_mesh_of_one_triangle(void** state) {
+  const double corners[3][3] = {{0, 0, 0}, {2, 0, 1}, {0, 2, 1}};
+  const uint32_t triangle[1][3] = {{0, 1, 2}};
+  msq_context* context = make_context();
+  (void)state;
+  for (int32_t rule = MSQ_WINDING_NONZERO; rule <= MSQ_WINDING_AUTO; ++rule) {
+    msq_mesh_def mesh = mesh_def(corners, 3, triangle, 1);
+    mesh.winding_rule = rule;
+    msq_model* model = make_model(context, make_mesh(context, &mesh), NULL, NULL);
+    const double origins[2][3] = {{0.2, 0.3, -1}, {-1, 0.4, 0.1}};
+    const double directions[2][3] = {{0.1, 0.2, 1}, {1, 0.1, 0.2}};
+    msq_rays_def def;
+    msq_ray_hit hits[2];
+    assert_ok(msq_rays_def_init(&def, sizeof def));
+    def.count = 2;
+    def.origins = origins;
+    def.directions = directions;
+    assert_ok(msq_ray_cast(model, &def, NULL, hits, 2, NULL));
+    for (int i = 0; i < 2; ++i) {
+      assert_int_equal(hits[i].starts_inside, 0);
+      if (hits[i].scale < 0) continue;
+      double beyond[3];
+      int32_t inside;
+      for (int axis = 0; axis < 3; ++axis)
+        beyond[axis] = origins[i][axis] + (hits[i].t + 1e-9) * directions[i][axis];
+      assert_ok(msq_point_membership(model, beyond, NULL, &inside));
+      assert_int_equal(inside, 1);
+    }
+    /* Along +x from the second origin a part is inside, except by the generalised winding number.
+     */
+    assert_int_equal(hits[1].scale,
+                     rule == MSQ_WINDING_NONZERO || rule == MSQ_WINDING_EVEN_ODD ? 0 : -1);
+    msq_model_release(model);
+  }
+  msq_context_release(context);
+}
+
 static void can_be_cancelled(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_unit_box_model(context, NULL);
@@ -402,6 +440,7 @@ int main(void) {
       cmocka_unit_test(meets_struts_beside_others_along_the_ray),
       cmocka_unit_test(tells_the_material),
       cmocka_unit_test(hits_do_not_depend_on_the_order_of_rays),
+      cmocka_unit_test(ends_in_a_mesh_of_one_triangle),
       cmocka_unit_test(can_be_cancelled),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -72,10 +72,14 @@ static void hash_mesh(msq_context* in, const void* def, uint8_t hash[hash_bytes]
 static void meshes_hash_vertices_and_triangles(void** state) {
   static double corners[8][3], spread[9][4], more[9][3];
   static float single[8][3];
-  static uint32_t triangles[12][3], turned[12][3];
+  static uint32_t triangles[12][3], turned[12][3], dropped[13][3];
   (void)state;
   cube_corners(0, 4, corners);
   memcpy(triangles, cube_triangles(), sizeof triangles);
+  /* After one of two vertices, which no other numbers go by. */
+  memcpy(dropped + 1, cube_triangles(), sizeof triangles);
+  dropped[0][0] = dropped[0][2] = 6;
+  dropped[0][1] = 5;
   for (int i = 0; i < 12; ++i)
     for (int k = 0; k < 3; ++k) turned[i][k] = triangles[i][(k + 1) % 3];
   for (int i = 0; i < 8; ++i)
@@ -91,6 +95,7 @@ static void meshes_hash_vertices_and_triangles(void** state) {
     KEEPS(def.coordinate_type, def.coordinate_type = MSQ_FLOAT32; def.vertices = single);
     KEEPS(def.vertex_stride, def.vertices = spread; def.vertex_stride = sizeof spread[0]);
     KEEPS(def.vertex_count, def.vertices = more; def.vertex_count = 9);
+    KEEPS(def.triangle_count, def.triangles = dropped[0]; def.triangle_count = 13);
     /* A closed mesh has one winding number everywhere, so AUTO is NONZERO. */
     KEEPS(def.winding_rule, def.winding_rule = MSQ_WINDING_NONZERO);
     CHANGES(def.winding_rule, def.winding_rule = MSQ_WINDING_EVEN_ODD);

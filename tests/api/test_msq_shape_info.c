@@ -135,6 +135,19 @@ static void triangle_of_two_vertices_is_dropped(void** state) {
   assert_edges(&report, 0, 0, 0, 1);
 }
 
+static void vertices_of_dropped_triangles_are_not_of_the_mesh(void** state) {
+  soup mesh = unit_cube();
+  (void)state;
+  const uint32_t far_away = add_vertex(&mesh, 9, -9, 9);
+  add_triangle(&mesh, far_away, far_away, 3);
+  const msq_shape_report report = diagnosis(&mesh);
+  assert_counts(&report, 8, 12, 1, 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    assert_true(report.min[axis] == 0);
+    assert_true(report.max[axis] == 1);
+  }
+}
+
 /* A vertex on the edge from corner 0 to corner 1, on one side of it alone: the triangle without
  * area between them closes the surface. */
 static void collinear_triangle_is_kept_where_it_closes_the_surface(void** state) {
@@ -190,6 +203,7 @@ int main(void) {
       cmocka_unit_test(duplicate_triangle_is_kept_and_counted),
       cmocka_unit_test(cubes_that_share_an_edge_are_not_manifold),
       cmocka_unit_test(triangle_of_two_vertices_is_dropped),
+      cmocka_unit_test(vertices_of_dropped_triangles_are_not_of_the_mesh),
       cmocka_unit_test(collinear_triangle_is_kept_where_it_closes_the_surface),
       cmocka_unit_test(equal_vertices_are_welded),
       cmocka_unit_test(unused_vertices_count_for_nothing),
