@@ -125,8 +125,8 @@ MSQ_API uint32_t msq_version(void);
  * The string is static. */
 MSQ_API const char* msq_status_name(msq_status status);
 
-/** Returns the message of the last failure on the calling thread, in UTF-8; "" before the first
- * failure. The string is valid until the next failure on this thread. */
+/** Returns the message of the last failure on the calling thread, one line in UTF-8; "" before the
+ * first failure. The string is valid until the next failure on this thread. */
 MSQ_API const char* msq_error_message(void);
 
 /** Returns the code that a host callback returned at the last MSQ_E_HOST on the calling thread; 0
@@ -2416,7 +2416,7 @@ typedef struct msq_contours_def {
   double tolerance;
   /** Distance of the nodes at which the model is sampled. Rounded down to three binary digits.
    * Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost;
-   * narrower ones may be. 0 (default): the tolerance. */
+   * narrower ones may be. 0 (default): the tolerance. Up to 2^18 times each side of the window. */
   double pitch;
   /** Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest.
    * Then a pitch must have at least 64 units, and a tolerance 4. */

@@ -99,14 +99,16 @@ size_t character_length(const unsigned char* s) {
   return length;
 }
 
-/// Copies whole characters as far as they fit; bytes that are none, as paths may have, become '?'.
+/// Copies whole characters as far as they fit. Bytes that are none, as paths may have, become '?',
+/// and so do control characters, which names in files may have: a message is one line in any log or
+/// terminal.
 void copy_utf8(const char* from, char* to, size_t room) {
   const auto* s = reinterpret_cast<const unsigned char*>(from);
   size_t used = 0;
   while (*s) {
     const size_t length = character_length(s), taken = length ? length : 1;
     if (used + taken >= room) break;
-    if (length)
+    if (length && *s >= ' ' && *s != 0x7f)
       std::memcpy(to + used, s, length);
     else
       to[used] = '?';

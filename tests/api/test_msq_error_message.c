@@ -53,6 +53,17 @@ static void success_leaves_the_message(void** state) {
   assert_string_equal(msq_error_message(), kept);
 }
 
+/* Names in files may have any bytes. */
+static void message_has_no_control_characters(void** state) {
+  msq_context* context = make_context();
+  (void)state;
+  assert_makes_nothing(
+      msq_shape,
+      msq_shape_from_file(context, "no\n\r\033[31mfile\177\xc3\xa9\xff.stl", NULL, &made, NULL),
+      MSQ_E_IO, "no???[31mfile?\xc3\xa9?.stl");
+  msq_context_release(context);
+}
+
 typedef struct other_thread {
   msq_context* context;
   char first[64], last[512];
@@ -90,6 +101,7 @@ int main(void) {
       cmocka_unit_test(message_names_value_and_limit),
       cmocka_unit_test(message_is_that_of_the_last_failure),
       cmocka_unit_test(success_leaves_the_message),
+      cmocka_unit_test(message_has_no_control_characters),
       cmocka_unit_test(message_is_per_thread),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1432,7 +1432,7 @@ pub struct msq_contours_def {
     pub window_max: [f64; 2],
     /// Greatest distance between boundary and rings, in model units, where features are wider than the pitch. Positive; there is no default.
     pub tolerance: f64,
-    /// Distance of the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. 0 (default): the tolerance.
+    /// Distance of the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. 0 (default): the tolerance. Up to 2^18 times each side of the window.
     pub pitch: f64,
     /// Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest. Then a pitch must have at least 64 units, and a tolerance 4.
     pub units: f64,
@@ -2018,7 +2018,7 @@ extern "C" {
     pub fn msq_version() -> u32;
     /// Returns the name of a status, for example "MSQ_E_LIMIT"; "MSQ_E_UNKNOWN" for other values. The string is static.
     pub fn msq_status_name(status: msq_status) -> *const c_char;
-    /// Returns the message of the last failure on the calling thread, in UTF-8; "" before the first failure. The string is valid until the next failure on this thread.
+    /// Returns the message of the last failure on the calling thread, one line in UTF-8; "" before the first failure. The string is valid until the next failure on this thread.
     pub fn msq_error_message() -> *const c_char;
     /// Returns the code that a host callback returned at the last MSQ_E_HOST on the calling thread; 0 before the first one.
     pub fn msq_error_host_code() -> i32;
