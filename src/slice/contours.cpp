@@ -133,7 +133,7 @@ class RingBuilder {
 /// Whether crossings come from struts: of cells that are not smaller than this, few are asked
 /// about.
 bool gives_struts(const Scales& resolved, double pitch) {
-  return resolved.size() == 1 && resolved[0]->skin.is_none() &&
+  return resolved.regions.empty() && resolved.size() == 1 && resolved[0]->skin.is_none() &&
          resolved[0]->structure->has_struts() && resolved[0]->structure->cell_length() >= 2 * pitch;
 }
 
@@ -162,9 +162,24 @@ bool find_window(const Model& model, const ContourPlan& plan, double pitch, doub
     const double a = box.min[axes[i]], b = box.max[axes[i]];
     low[i] = plan.has_window ? std::max(plan.window_min[i], a - 2 * pitch) : a;
     high[i] = plan.has_window ? std::min(plan.window_max[i], b + 2 * pitch) : b;
-    is_empty = is_empty || !(low[i] < high[i]);
+    is_empty = is_empty || !(low[i] < high[i]) || high[i] < a || low[i] > b;
   }
   return !is_empty;
+}
+
+/// How far crossings keep from nodes.
+double margin_of(const ContourPlan& plan, double pitch) {
+  const bool is_integer = plan.format != ContourFormat::float64;
+  return std::max(0x1p-20 * pitch, is_integer ? 2 / plan.units : 0);
+}
+
+/// A side is the only edge along an axis that has no node but at its ends.
+void check_sides(double margin, double pitch, const double low[2], const double high[2]) {
+  for (int i = 0; i < 2; ++i)
+    if (!(high[i] - low[i] >= 4 * margin))
+      fail(Status::argument,
+           "a side of the window is %g; with a pitch of %g and these units it must be at least %g",
+           high[i] - low[i], pitch, 4 * margin);
 }
 
 void check_units(const ContourPlan& plan, double pitch, const double low[2], const double high[2]) {
@@ -255,6 +270,8 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
     scope.done();
     return out;
   }
+  const double margin = margin_of(plan, pitch);
+  check_sides(margin, pitch, low, high);
   const Scales resolved = model.resolved(plan.length_scale);
   ContourGrid grid(plan.plane, low, high, pitch);
   const std::shared_ptr<MemoryBudget>& budget = model.context().budget;
@@ -275,8 +292,6 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   }
   if (job) job->set_progress(0.25);
 
-  const bool is_integer = plan.format != ContourFormat::float64;
-  const double margin = std::max(0x1p-20 * pitch, is_integer ? 2 / plan.units : 0);
   // Half of the tolerance is for what the boundary does between crossings, half for leaving points
   // out.
   const double part = 0.5 * plan.tolerance;
@@ -290,7 +305,7 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
                 struts ? &struts->all : nullptr, struts ? &struts->shape : nullptr);
   if (job) job->set_progress(0.75);
   const ContourRings rings(section, job);
-  ContourDetails details(rings, part, is_integer ? plan.units : 0);
+  ContourDetails details(rings, part, plan.format != ContourFormat::float64 ? plan.units : 0);
   details.find(points);
   if (job) job->set_progress(0.9);
   const Borrowed<ContourNumbers> room;

@@ -179,6 +179,78 @@ static void layers_beside_the_model_are_empty(void** state) {
   msq_context_release(context);
 }
 
+static double area_of_model(const msq_model* model) {
+  const msq_contours_def def = contours_def(MSQ_FLOAT64, 0.02);
+  msq_contours* contours;
+  assert_ok(msq_layer_contours(model, 1.1, &def, &contours, NULL));
+  const msq_contours_report report = contents_of(contours);
+  const double area = area_of(&report);
+  msq_contours_release(contours);
+  return area;
+}
+
+/* Regions with one scale of struts among them: the area of the model is that of its regions. */
+static void regions_have_struts_of_their_own(void** state) {
+  msq_context* context = make_context();
+  (void)state;
+  for (int is_foam = 0; is_foam < 2; ++is_foam) {
+    msq_structure* struts = is_foam ? make_foam(context, MSQ_FOAM_AUTO) : make_lattice(context);
+    msq_model* of_struts = make_model(context, make_box(context), struts, NULL);
+    msq_model* solid = make_shape_model(context, make_box_of(context, 0.5, 6));
+    double low[3] = {6.5, 0, 0}, high[3] = {8, 3, 4};
+    msq_shape* apart;
+    assert_ok(msq_shape_from_box(context, low, high, &apart));
+    msq_model* block = make_shape_model(context, apart);
+    const msq_model* const regions[2][2] = {{of_struts, block}, {solid, of_struts}};
+    msq_model* model;
+    assert_ok(msq_model_regions(context, regions[0], 2, &model));
+    assert_near(area_of_model(model), area_of_model(of_struts) + 4.5, 0.02);
+    msq_model_release(model);
+    /* Where the first region is solid, struts count for nothing. */
+    assert_ok(msq_model_regions(context, regions[1], 2, &model));
+    assert_true(area_of_model(model) > 5.5 * 5.5 - 0.01);
+    assert_true(area_of_model(model) < 5.5 * 5.5 + 0.5 * 8);
+    msq_model_release(model);
+    msq_model_release(of_struts);
+    msq_model_release(solid);
+    msq_model_release(block);
+  }
+  msq_context_release(context);
+}
+
+/* Crossings keep a part of the pitch away from nodes, which must be less than the window. */
+static void rings_stay_in_windows_below_the_pitch(void** state) {
+  msq_context* context = make_context();
+  msq_shape* ball;
+  const double center[3] = {0, 0, 0};
+  msq_contours* contours = NULL;
+  (void)state;
+  assert_ok(msq_shape_from_sphere(context, center, 2, &ball));
+  msq_model* model = make_shape_model(context, ball);
+  msq_contours_def def = contours_def(MSQ_FLOAT64, 0.05);
+  def.has_window = 1;
+  for (int i = 0; i < 2; ++i) {
+    def.window_min[i] = 0.25;
+    def.window_max[i] = 2.25;
+  }
+  for (double pitch = 1; pitch <= 0x1p18; pitch *= 8) {
+    def.pitch = pitch;
+    assert_ok(msq_layer_contours(model, 0.5, &def, &contours, NULL));
+    const msq_contours_report report = contents_of(contours);
+    assert_true(report.ring_count == 1);
+    for (uint64_t n = 0; n < 2 * report.point_count; ++n) {
+      assert_true(coordinate(&report, n) >= 0.25);
+      assert_true(coordinate(&report, n) <= 2.25);
+    }
+    msq_contours_release(contours);
+  }
+  def.pitch = 0x1p20;
+  assert_int_equal(msq_layer_contours(model, 0.5, &def, &contours, NULL), MSQ_E_ARGUMENT);
+  assert_message_has("side of the window is 2");
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void memory_is_limited(void** state) {
   msq_context* context = make_context_of(1, 1 << 20, 8 << 20);
   msq_model* model = make_lattice_model(context);
@@ -202,6 +274,8 @@ int main(void) {
       cmocka_unit_test(topology_is_counted_on_demand),
       cmocka_unit_test(layers_of_slicers_are_those_of_models),
       cmocka_unit_test(layers_beside_the_model_are_empty),
+      cmocka_unit_test(regions_have_struts_of_their_own),
+      cmocka_unit_test(rings_stay_in_windows_below_the_pitch),
       cmocka_unit_test(memory_is_limited),
       cmocka_unit_test(release_of_null_does_nothing),
   };
