@@ -724,14 +724,13 @@ MSQ_API msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_
 MSQ_API msq_status msq_shape_placed(const msq_shape* original, const double matrix[12],
                                     msq_shape** shape);
 
-/** Boolean operations on shapes. */
+/** Boolean operations on shapes and on structures. */
 enum msq_boolean_operation {
-  /** Points in any of the shapes. */
+  /** Points in any of them. */
   MSQ_BOOLEAN_UNION = 1,
-  /** Points in all of the shapes. */
+  /** Points in all of them. */
   MSQ_BOOLEAN_INTERSECTION = 2,
-  /** Points of the first shape that are in no other. The boundary of a subtracted shape is outside.
-   */
+  /** Points of the first that are in no other. The boundary of what is subtracted is outside. */
   MSQ_BOOLEAN_DIFFERENCE = 3
 };
 
@@ -1733,6 +1732,20 @@ MSQ_API msq_status msq_host_function_def_init(msq_host_function_def* def, size_t
 MSQ_API msq_status msq_structure_host_function(msq_context* context,
                                                const msq_host_function_def* def,
                                                msq_structure** structure);
+
+/** Creates the union, intersection or difference of structures (operation: an
+ * msq_boolean_operation) from their memberships. structures: count structures, 1 to 4096, each on
+ * its own grid or on none. They may be of any kind, also made of structures themselves.
+ *
+ * The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no
+ * onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of
+ * their signed distances, exact outside if theirs are, a bound inside; of an intersection the
+ * largest, a bound; of a difference as of an intersection with complements. The limit on cells
+ * (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs.
+ * Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than
+ * 4096 structures in total, counted with repetition), MEMORY. Since 0.2. */
+MSQ_API msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* structures,
+                                         uint64_t count, msq_structure** structure);
 
 /** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count.
  * Errors: as msq_shape_hash. Since 0.2. */

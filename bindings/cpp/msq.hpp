@@ -793,6 +793,14 @@ class Structure
       return msq_structure_beams(context.get(), &def, made, job.get());
     });
   }
+  /// operation: an msq_boolean_operation.
+  static Structure boolean(int32_t operation, const std::vector<Structure>& structures) {
+    std::vector<const msq_structure*> handles;
+    for (const Structure& structure : structures) handles.push_back(structure.get());
+    return Structure(std::in_place, [&](auto** made) {
+      return msq_structure_boolean(operation, handles.data(), handles.size(), made);
+    });
+  }
   /// def: grid, concurrent, hash_key.
   static Structure host(const Context& context, HostStructureDef def,
                         StructureCallbacks callbacks) {

@@ -67,11 +67,11 @@ export declare const MSQ_FORMAT_AMF = 6;
 export declare const MSQ_FORMAT_GLTF = 7;
 export declare const MSQ_SOLID_ABOVE = 0;
 export declare const MSQ_SOLID_BELOW = 1;
-/** Points in any of the shapes. */
+/** Points in any of them. */
 export declare const MSQ_BOOLEAN_UNION = 1;
-/** Points in all of the shapes. */
+/** Points in all of them. */
 export declare const MSQ_BOOLEAN_INTERSECTION = 2;
-/** Points of the first shape that are in no other. The boundary of a subtracted shape is outside. */
+/** Points of the first that are in no other. The boundary of what is subtracted is outside. */
 export declare const MSQ_BOOLEAN_DIFFERENCE = 3;
 /** Nodes and struts of the definition. */
 export declare const MSQ_UNIT_CELL_CUSTOM = 0;
@@ -1909,6 +1909,12 @@ export interface Functions {
   msq_host_function_def_init(def: Partial<msq_host_function_def>, size: number | bigint): number;
   /** Creates a functional structure from callbacks, see msq_structure_functional. def must not be NULL. The function may be infinite but not NaN. With range or lipschitz, blocks that are entirely inside or outside are decided without evaluating points. Distances to its surface are 0. Cost: clusters^3 calls of range (32768 by default), and as many points of evaluate with lipschitz. Errors: ARGUMENT, HOST, MEMORY. Calls that use the structure: HOST. Source: paper, section "Preprocessing for Repeating Structures". */
   msq_structure_host_function(context: Memory, def: msq_host_function_def | null, structure: [Pointer]): number;
+  /**
+   * Creates the union, intersection or difference of structures (operation: an msq_boolean_operation) from their memberships. structures: count structures, 1 to 4096, each on its own grid or on none. They may be of any kind, also made of structures themselves.
+   *
+   * The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of their signed distances, exact outside if theirs are, a bound inside; of an intersection the largest, a bound; of a difference as of an intersection with complements. The limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY. Since 0.2.
+   */
+  msq_structure_boolean(operation: number, structures: Memory, count: number | bigint, structure: [Pointer]): number;
   /** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. Since 0.2. */
   msq_structure_hash(structure: Memory, hash: Memory): number;
   /** Adds a reference. */

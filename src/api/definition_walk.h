@@ -59,6 +59,7 @@ class DefinitionWalk {
   virtual void object(const char* key, const msq_structure*& value) = 0;
   virtual void object(const char* key, const msq_material*& value) = 0;
   virtual void objects(const char* key, const msq_shape* const*& values, uint64_t& count) = 0;
+  virtual void objects(const char* key, const msq_structure* const*& values, uint64_t& count) = 0;
   virtual void objects(const char* key, const msq_model* const*& values, uint64_t& count) = 0;
 
   /// Arrays of `count` tuples of `width` numbers. Null: none.

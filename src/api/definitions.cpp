@@ -165,6 +165,7 @@ MSQ_DEFAULTS(CylinderDef)
 MSQ_DEFAULTS(AllSpaceDef)
 MSQ_DEFAULTS(PlacedDef)
 MSQ_DEFAULTS(BooleanDef)
+MSQ_DEFAULTS(StructureBooleanDef)
 MSQ_DEFAULTS(OffsetDef)
 MSQ_DEFAULTS(GradientDef)
 MSQ_DEFAULTS(MapDef)
@@ -225,6 +226,11 @@ void walk(DefinitionWalk& in, PlacedDef& def) {
 void walk(DefinitionWalk& in, BooleanDef& def) {
   in.choice("operation", def.operation, operations);
   in.objects("shapes", def.shapes, def.count);
+}
+
+void walk(DefinitionWalk& in, StructureBooleanDef& def) {
+  in.choice("operation", def.operation, operations);
+  in.objects("structures", def.structures, def.count);
 }
 
 void walk(DefinitionWalk& in, OffsetDef& def) {

@@ -38,6 +38,11 @@ struct BooleanDef {
   const msq_shape* const* shapes;
   uint64_t count;
 };
+struct StructureBooleanDef {
+  int32_t operation;
+  const msq_structure* const* structures;
+  uint64_t count;
+};
 struct OffsetDef {
   const msq_shape* original;
   double distance;
@@ -95,6 +100,8 @@ template <>
 PlacedDef defaults_of();
 template <>
 BooleanDef defaults_of();
+template <>
+StructureBooleanDef defaults_of();
 template <>
 OffsetDef defaults_of();
 template <>
@@ -155,6 +162,7 @@ void walk(DefinitionWalk& in, AllSpaceDef& def);
 void walk(DefinitionWalk& in, VoxelsDef& def);
 void walk(DefinitionWalk& in, PlacedDef& def);
 void walk(DefinitionWalk& in, BooleanDef& def);
+void walk(DefinitionWalk& in, StructureBooleanDef& def);
 void walk(DefinitionWalk& in, OffsetDef& def);
 void walk(DefinitionWalk& in, GradientDef& def);
 void walk(DefinitionWalk& in, msq_radial_field_def& def);

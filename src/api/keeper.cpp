@@ -30,6 +30,9 @@ class Keeper final : public PassiveWalk {
   void objects(const char*, const msq_shape* const*& values, uint64_t& count) override {
     hold_all(values, count);
   }
+  void objects(const char*, const msq_structure* const*& values, uint64_t& count) override {
+    hold_all(values, count);
+  }
   void objects(const char*, const msq_model* const*& values, uint64_t& count) override {
     hold_all(values, count);
   }
@@ -112,6 +115,7 @@ MSQ_KEPT(AllSpaceDef)
 MSQ_KEPT(VoxelsDef)
 MSQ_KEPT(PlacedDef)
 MSQ_KEPT(BooleanDef)
+MSQ_KEPT(StructureBooleanDef)
 MSQ_KEPT(OffsetDef)
 MSQ_KEPT(GradientDef)
 MSQ_KEPT(msq_radial_field_def)

@@ -6,6 +6,7 @@
 
 #include "api/guard.h"
 #include "base/attributes.h"
+#include "base/infinity.h"
 #include "structure/lattice/cell/unit_cell_faces.h"
 
 namespace msq::api {
@@ -32,9 +33,11 @@ unsigned long long number(uint64_t n) {
 
 /// Whether the smallest cells of a scale have too few samples across; then it warns.
 bool is_coarse(const Slicer& slicer, const Model& model, const Scale& scale) {
-  if (!scale.structure->is_on_grid()) return false;
+  double cell = infinity;
+  scale.structure->for_each_grid([&](const Neighbourhood& of_structure) {
+    cell = std::min(cell, min_component(of_structure.cell_size));
+  });
   const SampleGrid& grid = slicer.grid();
-  const double cell = min_component(scale.structure->neighbourhood().cell_size);
   const auto count = static_cast<double>(grid.nz);
   const double height = grid.nz > 1 ? (grid.z(grid.nz - 1) - grid.z(0)) / (count - 1) : 0;
   const double pitches[3] = {grid.spacing.x, grid.spacing.y, height};

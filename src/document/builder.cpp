@@ -96,6 +96,10 @@ msq_status create(Builder& builder, msq_beams_def& def, msq_structure** structur
   return msq_structure_beams(builder.context(), &def, structure, builder.job());
 }
 
+msq_status create(Builder&, StructureBooleanDef& def, msq_structure** structure) {
+  return msq_structure_boolean(def.operation, def.structures, def.count, structure);
+}
+
 msq_status create(Builder& builder, msq_material_def& def, msq_material** material) {
   return msq_material_create(builder.context(), &def, material);
 }
@@ -180,7 +184,8 @@ constexpr KindOf<msq_structure> structure_kinds[] = {
     {"foam", make_of<msq_structure, msq_foam_def>},
     {"functional", make_of<msq_structure, msq_functional_def>},
     {"waves", make_of<msq_structure, msq_waves_def>},
-    {"beams", make_of<msq_structure, msq_beams_def>}};
+    {"beams", make_of<msq_structure, msq_beams_def>},
+    {"boolean", make_of<msq_structure, StructureBooleanDef>}};
 constexpr KindOf<msq_material> material_kinds[] = {
     {"plain", make_of<msq_material, msq_material_def>}, {"blend", make_of<msq_material, BlendDef>}};
 

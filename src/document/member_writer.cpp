@@ -98,6 +98,9 @@ class MemberWriter final : public DefinitionWalk {
   void objects(const char* key, const msq_shape* const*& values, uint64_t& count) override {
     put_all(key, values, count);
   }
+  void objects(const char* key, const msq_structure* const*& values, uint64_t& count) override {
+    put_all(key, values, count);
+  }
   void objects(const char* key, const msq_model* const*& values, uint64_t& count) override {
     put_all(key, values, count);
   }

@@ -213,6 +213,10 @@ void Reader::objects(const char* key, const msq_shape* const*& values, uint64_t&
   read_objects(key, values, count, [&](uint32_t value) { return builder_.shape(value); });
 }
 
+void Reader::objects(const char* key, const msq_structure* const*& values, uint64_t& count) {
+  read_objects(key, values, count, [&](uint32_t value) { return builder_.structure(value); });
+}
+
 void Reader::objects(const char* key, const msq_model* const*& values, uint64_t& count) {
   read_objects(key, values, count, [&](uint32_t value) { return builder_.model(value); });
 }

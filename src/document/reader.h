@@ -38,6 +38,7 @@ class Reader final : public api::DefinitionWalk {
   void object(const char* key, const msq_structure*& value) override;
   void object(const char* key, const msq_material*& value) override;
   void objects(const char* key, const msq_shape* const*& values, uint64_t& count) override;
+  void objects(const char* key, const msq_structure* const*& values, uint64_t& count) override;
   void objects(const char* key, const msq_model* const*& values, uint64_t& count) override;
   void tuples(const char* key, const double*& values, uint64_t& count, size_t width) override;
   void tuples(const char* key, const uint32_t*& values, uint64_t& count, size_t width) override;

@@ -95,7 +95,8 @@ void visit(const Structure& structure, Body&& body) {
         if_kept<msq_foam_def>(structure, "foam", body) ||
         if_kept<msq_functional_def>(structure, "functional", body) ||
         if_kept<msq_waves_def>(structure, "waves", body) ||
-        if_kept<msq_beams_def>(structure, "beams", body)))
+        if_kept<msq_beams_def>(structure, "beams", body) ||
+        if_kept<StructureBooleanDef>(structure, "boolean", body)))
     refuse("a structure");
 }
 
@@ -123,6 +124,9 @@ class ModelWriter::Counter final : public PassiveWalk {
   void object(const char*, const msq_structure*& value) override { count(value); }
   void object(const char*, const msq_material*& value) override { count(value); }
   void objects(const char*, const msq_shape* const*& values, uint64_t& count) override {
+    for (uint64_t i = 0; values && i < count; ++i) this->count(values[i]);
+  }
+  void objects(const char*, const msq_structure* const*& values, uint64_t& count) override {
     for (uint64_t i = 0; values && i < count; ++i) this->count(values[i]);
   }
   void objects(const char*, const msq_model* const*& values, uint64_t& count) override {

@@ -19,18 +19,19 @@ Model::Model(Ref<Context> context, Ref<const Shape> shape, std::vector<ScalePart
         is_concurrent_ && parts.structure->is_concurrent() && parts.skin.is_concurrent();
     for (const Ref<const Material>& m : {parts.material, parts.skin_material})
       is_concurrent_ = is_concurrent_ && (!m || m->is_concurrent());
-    const Neighbourhood& grid = parts.structure->neighbourhood();
-    const Box3 box = grid.to_grid(bounds());
-    const bool is_limited = shape_->is_bounded() && parts.structure->is_on_grid();
-    for (int axis = 0; axis < 3 && is_limited; ++axis) {
-      const double cells =
-          std::max(std::abs(box.min[axis]), std::abs(box.max[axis])) / grid.cell_size[axis];
-      if (!(cells < max_cell_index))
-        fail(Status::limit,
-             "the shape reaches %g cells of scale %zu from its grid's origin along axis %d; the "
-             "limit is %g",
-             cells, scales_.size() + 1, axis, max_cell_index);
-    }
+    parts.structure->for_each_grid([&](const Neighbourhood& grid) {
+      if (!shape_->is_bounded()) return;
+      const Box3 box = grid.to_grid(bounds());
+      for (int axis = 0; axis < 3; ++axis) {
+        const double cells =
+            std::max(std::abs(box.min[axis]), std::abs(box.max[axis])) / grid.cell_size[axis];
+        if (!(cells < max_cell_index))
+          fail(Status::limit,
+               "the shape reaches %g cells of scale %zu from its grid's origin along axis %d; the "
+               "limit is %g",
+               cells, scales_.size() + 1, axis, max_cell_index);
+      }
+    });
     scales_.push_back({std::move(parts.structure), Skin(shape_, std::move(parts.skin)),
                        std::move(parts.material), std::move(parts.skin_material)});
     if (!scales_.back().skin.is_none() && !shape_->is_bounded())

@@ -40,14 +40,16 @@ TooFar too_far(const LimitedBy& limits, const Box3& box) {
     if (!(far <= max_far_coordinate)) return {nullptr, far, axis};
   }
   for (const Limited& limited : limits) {
-    if (!limited.structure->is_on_grid()) continue;
-    const Neighbourhood& grid = limited.structure->neighbourhood();
-    const Box3 reached = grid.to_grid(box);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double cells =
-          std::max(std::abs(reached.min[axis]), std::abs(reached.max[axis])) / grid.cell_size[axis];
-      if (!(cells < max_cell_index)) return {&limited, cells, axis};
-    }
+    TooFar found;
+    limited.structure->for_each_grid([&](const Neighbourhood& grid) {
+      const Box3 reached = grid.to_grid(box);
+      for (int axis = 0; axis < 3 && found.axis < 0; ++axis) {
+        const double cells = std::max(std::abs(reached.min[axis]), std::abs(reached.max[axis])) /
+                             grid.cell_size[axis];
+        if (!(cells < max_cell_index)) found = {&limited, cells, axis};
+      }
+    });
+    if (found.axis >= 0) return found;
   }
   return {};
 }

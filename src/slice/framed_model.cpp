@@ -127,6 +127,10 @@ class FramedStructure final : public Structure {
         frame_(frame),
         model_axes_(frame.model_axes()) {}
 
+  void for_each_grid(const TakeGrid& take) const override {
+    structure_->for_each_grid([&](const Neighbourhood& grid) { take(framed(grid, frame_)); });
+  }
+  unsigned nesting() const override { return structure_->nesting(); }
   bool inside(Vec3 p) const override { return structure_->inside(frame_.to_model(p)); }
   bool is_concurrent() const override { return structure_->is_concurrent(); }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override {

@@ -31,23 +31,35 @@ struct StrutSelection;
 class Structure : public Described {
  public:
   explicit Structure(const Neighbourhood& neighbourhood)
-      : neighbourhood_(neighbourhood), characteristic_length_(cell_length()) {}
+      : neighbourhood_(neighbourhood),
+        cell_length_(max_component(neighbourhood.cell_size)),
+        characteristic_length_(cell_length_) {}
 
   /// The grid. For kinds without a grid, cubes by which points are grouped. If cells vary in size,
   /// the grid of the smallest ones.
   const Neighbourhood& neighbourhood() const { return neighbourhood_; }
   /// If false, cells have no meaning: their indices are not limited, and hits name no cell.
   bool is_on_grid() const { return is_on_grid_; }
+  using TakeGrid = std::function<void(const Neighbourhood&)>;
+  /// Calls take() for each grid in which the indices of cells are limited: that of a kind on a
+  /// grid, those of the structures that it is made of.
+  virtual void for_each_grid(const TakeGrid& take) const {
+    if (is_on_grid_) take(neighbourhood_);
+  }
   /// The cell that contains a point, for kinds on a grid.
   virtual CellIndex cell_of(Vec3 p) const { return neighbourhood_.locate(p).cell; }
-  /// The largest cell size of the grid: the unit of tolerances and steps.
-  double cell_length() const { return max_component(neighbourhood_.cell_size); }
+  /// The largest cell size of the grid: the unit of tolerances and steps. The largest of those that
+  /// a structure is made of.
+  double cell_length() const { return cell_length_; }
   /// The largest cell size; for kinds without a grid, or with cells of varying size, the length
   /// given at construction.
   double characteristic_length() const { return characteristic_length_; }
 
-  /// Membership of a point. The boundary is inside. Kinds on a grid take points whose cell index is
-  /// below max_cell_index, other kinds any point.
+  /// How many structures made of other structures are within each other.
+  virtual unsigned nesting() const { return 0; }
+
+  /// Membership of a point. The boundary is inside. Points have a cell index below max_cell_index
+  /// in each grid (for_each_grid()).
   virtual bool inside(Vec3 p) const = 0;
 
   /// Whether several threads at once may evaluate the structure. Otherwise only the thread that
@@ -65,6 +77,9 @@ class Structure : public Described {
   /// distance, unless a parameter has a Lipschitz constant in boxes only. Each kind documents where
   /// its bound is exact. The default, 0, is always valid.
   virtual double distance_bound(Vec3) const { return 0; }
+  /// Whether distance_bound() has the Lipschitz constant 1 everywhere, and is more than 0 away from
+  /// the boundary, rounding, and borders of cells where a function jumps.
+  virtual bool has_steady_distance() const { return false; }
 
   /// Whether onset() is implemented.
   virtual bool has_onset() const { return false; }
@@ -114,7 +129,7 @@ class Structure : public Described {
   double ray_tolerance() const { return 0x1p-36 * cell_length(); }
   /// The same for a ray up to `to`: larger if the coordinates are so large that their rounding is.
   /// Membership rounds them in the model's frame, and then relative to the grid's origin.
-  double ray_tolerance(const Ray& ray, double to) const {
+  virtual double ray_tolerance(const Ray& ray, double to) const {
     // Most rays: no coordinate exceeds this sum, which is rounded by far less than a factor of 2.
     const double reach =
         max_magnitude(ray.origin) + std::abs(to) + max_magnitude(neighbourhood_.origin);
@@ -154,10 +169,20 @@ class Structure : public Described {
  protected:
   /// A kind whose cells vary in size.
   Structure(const Neighbourhood& smallest, double characteristic_length)
-      : neighbourhood_(smallest), characteristic_length_(characteristic_length) {}
+      : neighbourhood_(smallest),
+        cell_length_(max_component(smallest.cell_size)),
+        characteristic_length_(characteristic_length) {}
   /// A kind without a grid. The cubes have a side about as long as the kind's parts.
   Structure(Vec3 origin, double side, double characteristic_length)
       : neighbourhood_{origin, {side, side, side}, {}},
+        cell_length_(side),
+        characteristic_length_(characteristic_length),
+        is_on_grid_(false) {}
+  /// A kind made of other structures: no grid of its own. Points are grouped by the cells of
+  /// `groups`.
+  Structure(const Neighbourhood& groups, double cell_length, double characteristic_length)
+      : neighbourhood_(groups),
+        cell_length_(cell_length),
         characteristic_length_(characteristic_length),
         is_on_grid_(false) {}
 
@@ -167,7 +192,7 @@ class Structure : public Described {
 
  private:
   Neighbourhood neighbourhood_;
-  double characteristic_length_;
+  double cell_length_, characteristic_length_;
   bool is_on_grid_ = true;
 };
 

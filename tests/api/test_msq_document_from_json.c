@@ -84,6 +84,9 @@ static const char* const documents[] = {
         "\"length_scale\": 3}}"),
     IN_BOX("{\"beams\": {\"nodes\": [[0, 0, 0], [4, 4, 4]], \"beams\": [[0, 1]], \"radius\": 0.2, "
            "\"cap\": \"butt\", \"balls\": [1], \"ball_radius\": 0.4}}"),
+    IN_BOX("{\"boolean\": {\"operation\": \"difference\", \"structures\": [" GYROID
+           ", {\"lattice\": {\"radius\": 0.1}}, {\"boolean\": {\"operation\": \"union\", "
+           "\"structures\": [{\"foam\": {\"radius\": 0.1}}]}}]}}"),
     "{\"msq_model\": 1, \"materials\": {\"b\": {\"plain\": {\"id\": 2, \"channels\": [{\"name\": "
     "\"E\", \"value\": 2}]}}}, \"scales\": [{\"shape\": " BOX
     ", \"material\": {\"plain\": {\"id\": 7}}}, {\"structure\": " GYROID

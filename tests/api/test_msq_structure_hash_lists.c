@@ -229,12 +229,48 @@ static void host_functions_hash_their_key(void** state) {
   }
 }
 
+/* ---- booleans -------------------------------------------------------------------------------- */
+
+typedef struct boolean_def {
+  const msq_structure* structures[2];
+  int32_t operation, count;
+} boolean_def;
+
+static void hash_boolean(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
+  const boolean_def* of = (const boolean_def*)def;
+  msq_structure* structure;
+  (void)in;
+  assert_ok(msq_structure_boolean(of->operation, of->structures, (uint64_t)of->count, &structure));
+  hash_and_release(structure, hash);
+}
+
+static void booleans_hash_their_members(void** state) {
+  msq_structure* thin = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.1);
+  msq_structure* thick = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.2);
+  msq_structure* same = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.1);
+  boolean_def def = {{thin, thick}, MSQ_BOOLEAN_UNION, 2};
+  (void)state;
+  HASHES(context, "msq_structure_boolean", &def, sizeof def, hash_boolean) {
+    CHANGES(def.structures[0], def.structures[0] = thick);
+    CHANGES(def.structures[1], def.structures[1] = thin);
+    KEEPS(def.structures[0], def.structures[0] = same);
+    CHANGES(def.structures, def.structures[0] = thick; def.structures[1] = thin);
+    CHANGES(def.operation, def.operation = MSQ_BOOLEAN_INTERSECTION);
+    CHANGES(def.operation, def.operation = MSQ_BOOLEAN_DIFFERENCE);
+    CHANGES(def.count, def.count = 1);
+  }
+  msq_structure_release(same);
+  msq_structure_release(thick);
+  msq_structure_release(thin);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(beams_hash_their_list),
       cmocka_unit_test(beams_have_one_hash_on_any_number_of_threads),
       cmocka_unit_test(host_structures_hash_their_key),
       cmocka_unit_test(host_functions_hash_their_key),
+      cmocka_unit_test(booleans_hash_their_members),
   };
   if (!MSQ_WITH_XXHASH) return 0;
   context = make_context();

@@ -416,6 +416,45 @@ static void beam_structures(void** state) {
   }
 }
 
+static void structures_of_structures(void** state) {
+  msq_structure *lattice = make_lattice(context), *gyroid = make_gyroid(context), *nested[65];
+  msq_structure* twice[13]; /* of 2^i lattices */
+  (void)state;
+  nested[0] = lattice;
+  for (int i = 1; i < 65; ++i) {
+    const msq_structure* const pair[2] = {nested[i - 1], gyroid};
+    assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, pair, 2, &nested[i]));
+  }
+  msq_structure_retain(twice[0] = lattice);
+  for (int i = 1; i < 13; ++i) {
+    const msq_structure* const pair[2] = {twice[i - 1], twice[i - 1]};
+    assert_ok(msq_structure_boolean(MSQ_BOOLEAN_INTERSECTION, pair, 2, &twice[i]));
+  }
+  REFUSALS("msq_structure_boolean") {
+    const msq_structure* list[2] = {lattice, gyroid};
+    const msq_structure* const* structures = list;
+    int32_t operation = MSQ_BOOLEAN_UNION;
+    uint64_t count = 2;
+    msq_structure** structure = (msq_structure**)output(0);
+    wrong_enum(table, &operation, "operation", 1, 3);
+    WRONG(ARGUMENT, "structures is NULL", structures = NULL);
+    WRONG(ARGUMENT, "count is 0", count = 0);
+    WRONG(ARGUMENT, "4097|4096", count = 4097);
+    WRONG(ARGUMENT, "structures[0] is NULL", list[0] = NULL);
+    WRONG(ARGUMENT, "structures[1] is NULL", list[1] = NULL);
+    WRONG(ARGUMENT, "structure is NULL", structure = NULL);
+    RIGHT(list[1] = nested[63]);
+    WRONG(LIMIT, "65 structures|the limit is 64", list[1] = nested[64]);
+    RIGHT(list[0] = list[1] = twice[11]);
+    WRONG(LIMIT, "4097 structures|the limit is 4096", list[0] = twice[12]);
+    if (TRY(msq_structure_boolean(operation, structures, count, structure)))
+      msq_structure_release(*structure);
+  }
+  for (int i = 0; i < 65; ++i) msq_structure_release(nested[i]);
+  for (int i = 0; i < 13; ++i) msq_structure_release(twice[i]);
+  msq_structure_release(gyroid);
+}
+
 static int32_t take_no_struts(void* user, const msq_strut* struts, uint64_t count) {
   (void)user, (void)struts, (void)count;
   return 0;
@@ -498,9 +537,13 @@ static void struts(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(foams),      cmocka_unit_test(struts),
-      cmocka_unit_test(functions),  cmocka_unit_test(sums_of_waves),
-      cmocka_unit_test(host_kinds), cmocka_unit_test(beam_structures),
+      cmocka_unit_test(foams),
+      cmocka_unit_test(struts),
+      cmocka_unit_test(functions),
+      cmocka_unit_test(sums_of_waves),
+      cmocka_unit_test(host_kinds),
+      cmocka_unit_test(beam_structures),
+      cmocka_unit_test(structures_of_structures),
   };
   context = make_context();
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,6 +15,7 @@
 #include "images.h"
 #include "random.h"
 #include "structure/beams/beams.h"
+#include "structure/combined/boolean_structure.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/paper/delaunay.h"
 #include "structure/foam/walled_foam.h"
@@ -257,6 +258,44 @@ Ref<const Beams> make_beams(const std::vector<Beam>& beams) {
 
 namespace {
 
+/// A turned grid with smaller cells.
+Neighbourhood other_grid(const Neighbourhood& grid) {
+  return {grid.origin + grid.cell_size * 0.3, grid.cell_size * 0.8, skew_rotation()};
+}
+
+using Operation = BooleanStructure::Operation;
+
+/// Two structures, the second on a grid of its own. What is subtracted does not grow with the
+/// radius.
+Factory boolean_factory(Operation operation, const Factory& first, const Factory& second) {
+  return [=](const Neighbourhood& grid, const Parameter& radius) {
+    const bool grows = operation != Operation::subtracted;
+    const Parameter fixed(0.137 * max_component(grid.cell_size));
+    return Ref<const Structure>(make_ref<BooleanStructure>(
+        operation,
+        StructureList{first(grid, radius), second(other_grid(grid), grows ? radius : fixed)}));
+  };
+}
+
+/// Of more than two, some within each other. What is subtracted does not grow.
+Factory nested_factory() {
+  return [](const Neighbourhood& grid, const Parameter& radius) {
+    const Ref<const Structure> gyroid =
+        functional_factory(preset_expressions[0], FunctionalKind::network, 0)(grid, radius);
+    const Parameter fixed(0.1 * max_component(grid.cell_size));
+    const Ref<const Structure> octet = lattice_factory(octet_unit_cell())(other_grid(grid), fixed);
+    const Ref<const Structure> foam = foam_factory(FoamMethod::direct, 1)(grid, radius);
+    const auto beams = [&](const Parameter& of_radius) {
+      return Ref<const Structure>(make_beams(random_beams(grid, of_radius, BeamSort::all)));
+    };
+    const auto make = [](Operation operation, const StructureList& members) {
+      return Ref<const Structure>(make_ref<BooleanStructure>(operation, members));
+    };
+    return make(Operation::united, {make(Operation::subtracted, {gyroid, octet, beams(fixed)}),
+                                    make(Operation::intersected, {foam, gyroid}), beams(radius)});
+  };
+}
+
 Factory beams_factory(BeamSort sort) {
   return [=](const Neighbourhood& grid, Parameter radius) {
     return Ref<const Structure>(make_beams(random_beams(grid, radius, sort)));
@@ -369,6 +408,20 @@ std::vector<Kind> kinds() {
   kinds.push_back({"beams", "half balls", 0.14, 1, beams_factory(BeamSort::half_balls)});
   kinds.push_back({"beams", "flat ends", 0.12, 1, beams_factory(BeamSort::flat)});
   kinds.push_back({"beams", "all sorts", 0.12, 1, beams_factory(BeamSort::all)});
+  kinds.push_back({"combined", "BCC or gyroid", 0.12, 1,
+                   boolean_factory(Operation::united, lattice_factory(bcc_unit_cell()),
+                                   functional_factory(preset_expressions[0], sheet, 0))});
+  kinds.push_back({"combined", "foam and octet", 0.2, 1,
+                   boolean_factory(Operation::intersected, foam_factory(FoamMethod::direct, 1),
+                                   lattice_factory(octet_unit_cell()))});
+  kinds.push_back(
+      {"combined", "gyroid without foam", 0.2, 1,
+       boolean_factory(Operation::subtracted, functional_factory(preset_expressions[0], network, 0),
+                       foam_factory(FoamMethod::direct, 1))});
+  kinds.push_back({"combined", "walls without struts", 0.1, 1,
+                   boolean_factory(Operation::subtracted, walls_factory(1),
+                                   lattice_factory(cubic_unit_cell()))});
+  kinds.push_back({"combined", "nested", 0.1, 1, nested_factory()});
   // Fields that are not linear.
   kinds.push_back({"BCC", "mapped radius", 0.15, 1, lattice_factory(bcc_unit_cell()), mapped});
   kinds.push_back({"functional", "gyroid, sampled level", 0.2, 1,

@@ -67,7 +67,24 @@ MakeStructure waves(World& world) {
 }
 
 MakeStructure foam(World& world, int32_t method, msq_param radius, msq_param density = {1, nullptr},
-                   double cell_height = 1) {
+                   double cell_height = 1);
+
+/// A lattice, a foam and beams.
+MakeStructure boolean(World& world, int32_t operation) {
+  std::vector<msq_structure*> members(3);
+  require_ok(lattice(world, MSQ_UNIT_CELL_BCC, {0.2, nullptr})(&members[0]));
+  world.keep(members[0]);
+  require_ok(foam(world, MSQ_FOAM_AUTO, {0.15, nullptr})(&members[1]));
+  world.keep(members[1]);
+  require_ok(beams(world)(&members[2]));
+  world.keep(members[2]);
+  return [members, operation](msq_structure** made) {
+    return msq_structure_boolean(operation, members.data(), members.size(), made);
+  };
+}
+
+MakeStructure foam(World& world, int32_t method, msq_param radius, msq_param density,
+                   double cell_height) {
   msq_foam_def def = make_def(msq_foam_def_init);
   def.method = method;
   def.radius = radius;
@@ -413,6 +430,8 @@ const std::vector<Kind>& kinds() {
         {"waves", waves},
         {"beams", beams, false},
         {"host function", host_functional, false},
+        {"union", [](World& w) { return boolean(w, MSQ_BOOLEAN_UNION); }, false},
+        {"difference", [](World& w) { return boolean(w, MSQ_BOOLEAN_DIFFERENCE); }, false},
     };
 #if MSQ_WITH_CGAL
     all.push_back(

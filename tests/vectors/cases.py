@@ -53,6 +53,12 @@ CASES = {
     "beams": model(structure("beams", cap="sphere", radius=1.25,
                              nodes=[[0, 0, 0], [10, 8, 6], [10, 0, 0], [0, 8, 6]],
                              beams=[[0, 1], [2, 3]])),
+    "boolean": model(structure("boolean", operation="union", structures=[
+        {"boolean": {"operation": "difference", "structures": [
+            {"functional": {"function": "gyroid", "level": 0.4, "grid": {"cell_size": 4}}},
+            {"foam": {"grid": {"cell_size": 3}, "radius": 0.4}}]}},
+        {"lattice": {"unit_cell": "bcc", "grid": {"cell_size": 2.5, "rotation": TURN},
+                     "radius": 0.25}}])),
     "voxels": model(structure("lattice", unit_cell="bcc", grid={"cell_size": 2}, radius=0.35),
                     shape={"shape": {"voxels": {"image": IMAGE, "threshold": 90}}}),
     "nested": model(structure("lattice", unit_cell="cubic", grid={"cell_size": 5}, radius=1.2),

@@ -99,14 +99,14 @@ namespace Msq
         Below = 1,
     }
 
-    /// <summary>Boolean operations on shapes.</summary>
+    /// <summary>Boolean operations on shapes and on structures.</summary>
     public enum BooleanOperation
     {
-        /// <summary>Points in any of the shapes.</summary>
+        /// <summary>Points in any of them.</summary>
         Union = 1,
-        /// <summary>Points in all of the shapes.</summary>
+        /// <summary>Points in all of them.</summary>
         Intersection = 2,
-        /// <summary>Points of the first shape that are in no other. The boundary of a subtracted shape is outside.</summary>
+        /// <summary>Points of the first that are in no other. The boundary of what is subtracted is outside.</summary>
         Difference = 3,
     }
 
@@ -1619,7 +1619,7 @@ namespace Msq.Interop
         public fixed double window_max[2];
         /// <summary>Greatest distance between boundary and rings, in model units, where features are wider than the pitch. Positive; there is no default.</summary>
         public double tolerance;
-        /// <summary>Distance of the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. 0 (default): the tolerance.</summary>
+        /// <summary>Distance of the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. 0 (default): the tolerance. Up to 2^18 times each side of the window.</summary>
         public double pitch;
         /// <summary>Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest. Then a pitch must have at least 64 units, and a tolerance 4.</summary>
         public double units;
@@ -2446,7 +2446,7 @@ namespace Msq.Interop
 #endif
         byte* msq_status_name(int status);
 
-        /// <summary>Returns the message of the last failure on the calling thread, in UTF-8; "" before the first failure. The string is valid until the next failure on this thread.</summary>
+        /// <summary>Returns the message of the last failure on the calling thread, one line in UTF-8; "" before the first failure. The string is valid until the next failure on this thread.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3312,6 +3312,19 @@ namespace Msq.Interop
         public static extern
 #endif
         int msq_structure_host_function(msq_context* context, msq_host_function_def* def, msq_structure** structure);
+
+        /// <summary>Creates the union, intersection or difference of structures (operation: an msq_boolean_operation) from their memberships. structures: count structures, 1 to 4096, each on its own grid or on none. They may be of any kind, also made of structures themselves.</summary>
+        /// <remarks>
+        /// <para>The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of their signed distances, exact outside if theirs are, a bound inside; of an intersection the largest, a bound; of a difference as of an intersection with complements. The limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY. Since 0.2.</para>
+        /// </remarks>
+#if NET7_0_OR_GREATER
+        [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
+        public static partial
+#else
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern
+#endif
+        int msq_structure_boolean(int operation, msq_structure** structures, ulong count, msq_structure** structure);
 
         /// <summary>Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. Since 0.2.</summary>
 #if NET7_0_OR_GREATER

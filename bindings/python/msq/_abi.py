@@ -810,6 +810,8 @@ FUNCTIONS = {
     "msq_host_function_def_init": [c_int32, POINTER(msq_host_function_def), c_size_t],
     "msq_structure_host_function": [c_int32, POINTER(msq_context), POINTER(msq_host_function_def),
                                     POINTER(POINTER(msq_structure))],
+    "msq_structure_boolean": [c_int32, c_int32, POINTER(POINTER(msq_structure)), c_uint64,
+                              POINTER(POINTER(msq_structure))],
     "msq_structure_hash": [c_int32, POINTER(msq_structure), POINTER(c_uint8)],
     "msq_structure_retain": [None, POINTER(msq_structure)],
     "msq_structure_release": [None, POINTER(msq_structure)],

@@ -30,7 +30,7 @@ from .unit_cell import unit_cell as as_unit_cell
 
 class Structure(Handle):
     """A fine-scale structure, on a grid of neighbourhood cells unless it is Beams. Made as one of the
-    kinds.
+    kinds, or from others: a | b, a & b and a - b hold the points in any, in both, and in a alone.
 
     Cell (i, j, k) of the grid holds the points origin + rotation @ (((i, j, k) + u) * cell_size),
     0 <= u < 1; rotation is an orthonormal 3 x 3 matrix.
@@ -45,6 +45,49 @@ class Structure(Handle):
     def _make(self, context: Context, create: Any, definition: ctypes.Structure) -> None:
         self._reference = self._create(create, context._ref, ctypes.byref(definition))
         self.context = context
+
+    @staticmethod
+    @remembers
+    def union(*structures: Structure) -> Structure:
+        """Points in any of the structures."""
+        return Structure._boolean("union", structures)
+
+    @staticmethod
+    @remembers
+    def intersection(*structures: Structure) -> Structure:
+        """Points in all of the structures."""
+        return Structure._boolean("intersection", structures)
+
+    @staticmethod
+    @remembers
+    def difference(*structures: Structure) -> Structure:
+        """Points of the first structure that are in no other."""
+        return Structure._boolean("difference", structures)
+
+    def __or__(self, other: Structure) -> Structure:
+        return Structure.union(self, other)
+
+    def __and__(self, other: Structure) -> Structure:
+        return Structure.intersection(self, other)
+
+    def __sub__(self, other: Structure) -> Structure:
+        return Structure.difference(self, other)
+
+    @staticmethod
+    def _boolean(operation: str, structures: Sequence[Structure]) -> Structure:
+        for structure in structures:
+            if not isinstance(structure, Structure):
+                raise TypeError(f"a structure is a {type(structure).__name__}; it must be a "
+                                "Structure")
+        if not structures:
+            raise ValueError(f"a {operation} of no structures; there must be at least one")
+        pointers = (type(structures[0]._pointer) * len(structures))(
+            *(s._pointer for s in structures))
+        made = Structure._wrap(Structure._create(
+            lib.msq_structure_boolean, constant("MSQ_BOOLEAN_", operation, "operation"), pointers,
+            len(structures)))
+        made.context = structures[0].context
+        return made
 
     @property
     def hash(self) -> str:

@@ -71,6 +71,32 @@ class ShapesOfShapes(unittest.TestCase):
             grid.placed([(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, -1, 0)])
 
 
+class StructuresOfStructures(unittest.TestCase):
+    def setUp(self):
+        self.points = random_points(5000)
+        self.lattice = msq.Lattice("bcc", cell_size=2, radius=0.3)
+        self.gyroid = msq.Functional("gyroid", cell_size=3, level=0.2)
+
+    def contains(self, structure):
+        return msq.Model(msq.Shape.all_space(), structure).contains(self.points)
+
+    def test_booleans(self):
+        a, b = self.contains(self.lattice), self.contains(self.gyroid)
+        for structure, wanted in ((self.lattice | self.gyroid, a | b),
+                                  (self.lattice & self.gyroid, a & b),
+                                  (self.lattice - self.gyroid, a & ~b),
+                                  (self.lattice | self.gyroid - self.lattice, a | b),
+                                  (msq.Structure.union(self.lattice), a)):
+            np.testing.assert_array_equal(self.contains(structure), wanted)
+            self.assertIs(structure.context, self.lattice.context)
+        with self.assertRaisesRegex(TypeError, "int"):
+            self.lattice | 3
+        with self.assertRaisesRegex(ValueError, "no structures"):
+            msq.Structure.union()
+        with self.assertRaisesRegex(msq.UnsupportedError, "no onset"):
+            (self.lattice | self.gyroid).onset((0, 0, 0))
+
+
 class Regions(unittest.TestCase):
     def test_first_shape_decides(self):
         points = random_points(5000)

@@ -24,6 +24,7 @@ class Beams final : public Structure {
   bool inside(Vec3 p) const override;
   /// Exact outside.
   double distance_bound(Vec3 p) const override;
+  bool has_steady_distance() const override { return true; }
   double min_ray_step() const override { return ray_tolerance(); }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;

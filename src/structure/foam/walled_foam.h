@@ -19,6 +19,9 @@ class WalledFoam final : public Structure {
   }
   /// Exact in the voids where radius and thickness are constant.
   double distance_bound(Vec3 p) const override;
+  bool has_steady_distance() const override {
+    return walls_->has_steady_distance() && struts_->has_steady_distance();
+  }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return true; }
   uint64_t critical_count() const override { return struts_->critical_count(); }

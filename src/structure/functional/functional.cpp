@@ -155,6 +155,10 @@ double Functional::steady_distance_of(double gap, Vec3 p) const {
   return best;
 }
 
+bool Functional::has_steady_distance() const {
+  return std::isfinite(steepest().most) && std::isfinite(level_.lipschitz());
+}
+
 double Functional::distance_bound(Vec3 p) const {
   const Neighbourhood& grid = neighbourhood();
   const Slope& slope = steepest();

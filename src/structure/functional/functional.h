@@ -39,6 +39,7 @@ class Functional final : public Structure {
   /// the distance. Along axes on which the function is not periodic by
   /// itself, at most the distance to the cell's border. 0 everywhere if the slope is unbounded.
   double distance_bound(Vec3 p) const override;
+  bool has_steady_distance() const override;
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;

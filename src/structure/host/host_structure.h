@@ -45,6 +45,7 @@ class HostStructure final : public Structure {
 
   bool inside(Vec3 p) const override;
   double distance_bound(Vec3 p) const override;
+  bool has_steady_distance() const override { return static_cast<bool>(calls_.distance); }
   bool is_concurrent() const override { return is_concurrent_; }
   bool gains_by_layers() const override { return true; }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;

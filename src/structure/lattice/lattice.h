@@ -38,6 +38,9 @@ class Lattice final : public Structure {
   /// Exact outside if the radius is constant and the cell sizes differ by a factor of at most 8 (4
   /// if struts' factors differ).
   double distance_bound(Vec3 p) const override;
+  bool has_steady_distance() const override {
+    return radius_.lipschitz() < std::numeric_limits<double>::infinity();
+  }
   double min_ray_step() const override {
     return radius_.lipschitz() < std::numeric_limits<double>::infinity()
                ? ray_tolerance()

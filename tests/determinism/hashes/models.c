@@ -158,6 +158,22 @@ static msq_model* beam_list(Kit* kit) {
   return filled(kit, box(kit), beams(kit));
 }
 
+static msq_model* lattice_or_gyroid(Kit* kit) {
+  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_BCC, 5, gradient(kit, 0.2, 0.6));
+  turn(&def.grid);
+  msq_functional_def sheet_def = functional_def(MSQ_FUNCTION_GYROID, MSQ_FUNCTIONAL_SHEET, 6);
+  sheet_def.level = number(0.3);
+  const msq_structure* const of_struts = lattice(kit, &def);
+  return filled(kit, box(kit),
+                joined(kit, MSQ_BOOLEAN_UNION, of_struts, functional(kit, &sheet_def)));
+}
+
+static msq_model* foam_without_beams(Kit* kit) {
+  const msq_foam_def def = foam_def(4, number(0.7));
+  const msq_structure* const struts = foam(kit, &def);
+  return filled(kit, mesh(kit, 0), joined(kit, MSQ_BOOLEAN_DIFFERENCE, struts, beams(kit)));
+}
+
 static msq_model* nested(Kit* kit) {
   const msq_lattice_def coarse = lattice_def(MSQ_UNIT_CELL_OCTET, 9, number(1.4));
   const msq_foam_def fine = foam_def(1.5, number(0.25));
@@ -205,6 +221,8 @@ static const struct {
     {"formula", formula},
     {"beams", beam_list},
     {"nested", nested},
+    {"lattice-or-gyroid", lattice_or_gyroid},
+    {"foam-without-beams", foam_without_beams},
     {"cut", cut},
     {"regions", regions},
     {"waves", spinodal},

@@ -5,7 +5,7 @@
 
 #include <msq.h>
 
-enum { model_count = 23 };
+enum { model_count = 25 };
 
 /** One word. */
 const char* model_name(int i);

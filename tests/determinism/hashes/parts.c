@@ -280,3 +280,11 @@ const msq_structure* beams(Kit* kit) {
   must(msq_structure_beams(kit->context, &def, &structure, NULL));
   return keep_structure(kit, structure);
 }
+
+const msq_structure* joined(Kit* kit, int32_t operation, const msq_structure* a,
+                            const msq_structure* b) {
+  const msq_structure* both[2] = {a, b};
+  msq_structure* structure;
+  must(msq_structure_boolean(operation, both, 2, &structure));
+  return keep_structure(kit, structure);
+}

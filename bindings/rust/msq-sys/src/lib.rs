@@ -112,13 +112,13 @@ pub const MSQ_SOLID_ABOVE: i32 = 0;
 
 pub const MSQ_SOLID_BELOW: i32 = 1;
 
-/// Points in any of the shapes.
+/// Points in any of them.
 pub const MSQ_BOOLEAN_UNION: i32 = 1;
 
-/// Points in all of the shapes.
+/// Points in all of them.
 pub const MSQ_BOOLEAN_INTERSECTION: i32 = 2;
 
-/// Points of the first shape that are in no other. The boundary of a subtracted shape is outside.
+/// Points of the first that are in no other. The boundary of what is subtracted is outside.
 pub const MSQ_BOOLEAN_DIFFERENCE: i32 = 3;
 
 /// Nodes and struts of the definition.
@@ -2246,6 +2246,10 @@ extern "C" {
     pub fn msq_host_function_def_init(def: *mut msq_host_function_def, size: usize) -> msq_status;
     /// Creates a functional structure from callbacks, see msq_structure_functional. def must not be NULL. The function may be infinite but not NaN. With range or lipschitz, blocks that are entirely inside or outside are decided without evaluating points. Distances to its surface are 0. Cost: clusters^3 calls of range (32768 by default), and as many points of evaluate with lipschitz. Errors: ARGUMENT, HOST, MEMORY. Calls that use the structure: HOST. Source: paper, section "Preprocessing for Repeating Structures".
     pub fn msq_structure_host_function(context: *mut msq_context, def: *const msq_host_function_def, structure: *mut *mut msq_structure) -> msq_status;
+    /// Creates the union, intersection or difference of structures (operation: an msq_boolean_operation) from their memberships. structures: count structures, 1 to 4096, each on its own grid or on none. They may be of any kind, also made of structures themselves.
+    ///
+    /// The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of their signed distances, exact outside if theirs are, a bound inside; of an intersection the largest, a bound; of a difference as of an intersection with complements. The limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY. Since 0.2.
+    pub fn msq_structure_boolean(operation: i32, structures: *const *const msq_structure, count: u64, structure: *mut *mut msq_structure) -> msq_status;
     /// Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. Since 0.2.
     pub fn msq_structure_hash(structure: *const msq_structure, hash: *mut u8) -> msq_status;
     /// Adds a reference.

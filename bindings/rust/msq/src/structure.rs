@@ -131,6 +131,15 @@ impl Structure {
         Structure::make(|raw| unsafe { sys::msq_structure_waves(context.as_ptr(), &def, raw) })
     }
 
+    /// operation: an `MSQ_BOOLEAN_*`.
+    pub fn boolean(operation: i32, structures: &[&Structure]) -> Result<Structure> {
+        let raws: Vec<*const sys::msq_structure> =
+            structures.iter().map(|structure| structure.as_ptr() as *const _).collect();
+        Structure::make(|raw| unsafe {
+            sys::msq_structure_boolean(operation, raws.as_ptr(), raws.len() as u64, raw)
+        })
+    }
+
     /// Finite struts of one radius between nodes.
     pub fn beams(
         context: &Context,

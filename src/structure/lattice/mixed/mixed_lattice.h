@@ -61,6 +61,9 @@ class MixedLattice final : public Structure {
   std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   /// Exact outside if the radius is constant, up to twice the smallest cell size.
   double distance_bound(Vec3 p) const override;
+  bool has_steady_distance() const override {
+    return radius_.lipschitz() < std::numeric_limits<double>::infinity();
+  }
   double min_ray_step() const override {
     return radius_.lipschitz() < std::numeric_limits<double>::infinity()
                ? ray_tolerance()

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structures made of other structures.
+#include "api/defined_handle.h"
+#include "api/guard.h"
+#include "structure/combined/boolean_structure.h"
+
+using namespace msq;
+using namespace msq::api;
+
+namespace {
+
+constexpr unsigned max_nesting = 64;
+constexpr uint64_t max_members = 4096;
+
+/// A new structure made of others, if these are not too many or too deep within each other.
+template <class Def>
+msq_structure* made_of_structures(const Ref<CombinedStructure>& structure, const Def& def) {
+  if (structure->nesting() > max_nesting)
+    fail(Status::limit,
+         "%u structures made of structures would be within each other; the limit is %u",
+         structure->nesting(), max_nesting);
+  if (structure->terms() > max_members)
+    fail(
+        Status::limit,
+        "it would be made of %llu structures, the same counted as often as it occurs; the limit is "
+        "%llu",
+        static_cast<unsigned long long>(structure->terms()),
+        static_cast<unsigned long long>(max_members));
+  return defined_handle<msq_structure>(structure, def);
+}
+
+}  // namespace
+
+msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* structures,
+                                 uint64_t count, msq_structure** structure) {
+  return guard([&] {
+    const auto known = static_cast<BooleanStructure::Operation>(
+        require_range(operation, MSQ_BOOLEAN_UNION, MSQ_BOOLEAN_DIFFERENCE, "operation"));
+    if (count < 1 || count > max_members)
+      fail(Status::argument, "count is %llu; it must be from 1 to %llu",
+           static_cast<unsigned long long>(count), static_cast<unsigned long long>(max_members));
+    require(structures, "structures");
+    require(structure, "structure");
+    StructureList members;
+    for (uint64_t i = 0; i < count; ++i) {
+      if (!structures[i])
+        fail(Status::argument, "structures[%llu] is NULL", static_cast<unsigned long long>(i));
+      members.emplace_back(&object(structures[i], "structures"));
+    }
+    *structure = made_of_structures(make_ref<BooleanStructure>(known, std::move(members)),
+                                    StructureBooleanDef{operation, structures, count});
+  });
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/combined/boolean_structure.h"
+
+#include <algorithm>
+
+#include "base/hash_input.h"
+#include "base/infinity.h"
+
+namespace msq {
+
+bool BooleanStructure::inside(Vec3 p) const {
+  for (size_t i = 0; i < members().size(); ++i)
+    if ((members()[i]->inside(p) == is_wanted(i)) == is_union()) return is_union();
+  return !is_union();
+}
+
+double BooleanStructure::distance_bound(Vec3 p) const {
+  double bound = is_union() ? infinity : -infinity;
+  for (size_t i = 0; i < members().size(); ++i) {
+    const double own = members()[i]->distance(p), distance = is_wanted(i) ? own : 0.0 - own;
+    bound = is_union() ? std::min(bound, distance) : std::max(bound, distance);
+  }
+  return std::abs(bound);
+}
+
+BoxClass BooleanStructure::classify(const Box3& box) const {
+  const BoxClass deciding = is_union() ? BoxClass::inside : BoxClass::outside;
+  bool is_mixed = false;
+  for (size_t i = 0; i < members().size(); ++i) {
+    BoxClass found = members()[i]->classify(box);
+    if (!is_wanted(i) && found != BoxClass::mixed)
+      found = found == BoxClass::inside ? BoxClass::outside : BoxClass::inside;
+    if (found == deciding) return deciding;
+    is_mixed = is_mixed || found == BoxClass::mixed;
+  }
+  if (is_mixed) return BoxClass::mixed;
+  return is_union() ? BoxClass::outside : BoxClass::inside;
+}
+
+// Each member evaluates only what those before it leave open.
+void BooleanStructure::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  if (operation_ == Operation::intersected) {
+    for (const Ref<const Structure>& member : members())
+      keep_points_of(*member, points, alive, count);
+    return;
+  }
+  std::vector<uint8_t> open(alive, alive + count), held;
+  keep_points_of(*members()[0], points, alive, count);
+  for (size_t m = 1; m < members().size(); ++m) {
+    // Of a difference those that are inside so far, of a union those that are not.
+    for (size_t i = 0; i < count; ++i)
+      open[i] = static_cast<uint8_t>(is_union() ? open[i] & (alive[i] ^ 1) : alive[i]);
+    held = open;
+    keep_points_of(*members()[m], points, held.data(), count);
+    for (size_t i = 0; i < count; ++i)
+      alive[i] = static_cast<uint8_t>(is_union() ? alive[i] | held[i] : alive[i] & (held[i] ^ 1));
+  }
+}
+
+void BooleanStructure::keep_rows(const RowBlock& block, const Job* job) const {
+  if (operation_ == Operation::intersected) {
+    for (const Ref<const Structure>& member : members()) member->keep_rows(block, job);
+    return;
+  }
+  if (operation_ == Operation::subtracted) {
+    members()[0]->keep_rows(block, job);
+    for (size_t m = 1; m < members().size(); ++m) {
+      const RowCopy held(block);
+      members()[m]->keep_rows(held.block(), job);
+      for_each_word(block, held.block(),
+                    [](uint64_t& inside, uint64_t subtracted) { inside &= ~subtracted; });
+    }
+    return;
+  }
+  const RowCopy open(block);
+  members()[0]->keep_rows(block, job);
+  for (size_t m = 1; m < members().size(); ++m) {
+    for_each_word(block, open.block(), [](uint64_t inside, uint64_t& left) { left &= ~inside; });
+    if (m + 1 == members().size()) {
+      members()[m]->keep_rows(open.block(), job);
+      for_each_word(block, open.block(), [](uint64_t& inside, uint64_t held) { inside |= held; });
+    } else {
+      const RowCopy held(open.block());
+      members()[m]->keep_rows(held.block(), job);
+      for_each_word(block, held.block(), [](uint64_t& inside, uint64_t more) { inside |= more; });
+    }
+  }
+}
+
+void BooleanStructure::describe(HashInput& input) const {
+  input.kind("structure: boolean");
+  input.integer(static_cast<uint64_t>(operation_));
+  input.integer(members().size());
+  for (const Ref<const Structure>& member : members()) input.object(*member);
+}
+
+}  // namespace msq

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Union, intersection and difference of structures: the memberships of the members, put together.
+// Rows are the bits of the members' rows; distances are the smallest or the largest of theirs;
+// along a ray membership changes only where that of a member does.
+#pragma once
+
+#include "structure/combined/members.h"
+
+namespace msq {
+
+class BooleanStructure final : public CombinedStructure {
+ public:
+  /// Difference: the first member without the points of the others.
+  enum class Operation { united = 1, intersected = 2, subtracted = 3 };
+
+  BooleanStructure(Operation operation, StructureList members)
+      : CombinedStructure(std::move(members)), operation_(operation) {}
+
+  bool inside(Vec3 p) const override;
+  /// A bound of a member's signed distance holds for the complement with the sign changed. Unions
+  /// have the smallest signed distance, intersections and differences the largest: the solid does
+  /// not change within it, and its Lipschitz constant is theirs. Exact outside unions if theirs
+  /// are.
+  double distance_bound(Vec3 p) const override;
+  void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  BoxClass classify(const Box3& box) const override;
+  void keep_rows(const RowBlock& block, const Job* job) const override;
+  void enter(RaySearch* searches, size_t count, const Job* job) const override;
+  double leave(const Ray& ray, double from, double to, const Job* job) const override;
+  Vec3 normal(const Ray& ray, double t) const override;
+
+ private:
+  void describe(HashInput& input) const override;
+  bool is_union() const { return operation_ == Operation::united; }
+  /// Whether a point that a member holds can be inside.
+  bool is_wanted(size_t member) const { return member == 0 || operation_ != Operation::subtracted; }
+  /// The first t in [from, to] at which the ray is inside.
+  bool find_entry(const Ray& ray, double from, double to, double& t, const Job* job) const;
+  double leave_union(const Ray& ray, double from, double to, const Job* job) const;
+
+  Operation operation_;
+};
+
+}  // namespace msq
