@@ -1747,6 +1747,22 @@ MSQ_API msq_status msq_structure_host_function(msq_context* context,
 MSQ_API msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* structures,
                                          uint64_t count, msq_structure** structure);
 
+/** Creates a structure that becomes another one. fraction: f, a number or a field, 0 to 1: where it
+ * is 0 the solid is that of a, where it is 1 that of b. In between it holds the points with (1 - f)
+ * da + f db <= 0, where da and db are the signed distances of a and b as msq returns them
+ * (docs/accuracy.md). So it holds what both hold and nothing that neither holds, and surfaces move
+ * from those of a to those of b as f grows. On the same grid with like nodes struts stay whole;
+ * otherwise parts of the one shrink while those of the other grow.
+ *
+ * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound,
+ * with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two
+ * distances at each sample that one of them holds and 0 < f < 1. Errors: ARGUMENT (also a fraction
+ * that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no
+ * Lipschitz constant: their radius, level or thickness is a field without one, a function has no
+ * bounded slope, or the host gives no distance), MEMORY. Since 0.2. */
+MSQ_API msq_status msq_structure_blend(const msq_structure* a, const msq_structure* b,
+                                       const msq_param* fraction, msq_structure** structure);
+
 /** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count.
  * Errors: as msq_shape_hash. Since 0.2. */
 MSQ_API msq_status msq_structure_hash(const msq_structure* structure, uint8_t hash[16]);

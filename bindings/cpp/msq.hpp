@@ -801,6 +801,11 @@ class Structure
       return msq_structure_boolean(operation, handles.data(), handles.size(), made);
     });
   }
+  static Structure blend(const Structure& a, const Structure& b, msq_param fraction) {
+    return Structure(std::in_place, [&](auto** made) {
+      return msq_structure_blend(a.get(), b.get(), &fraction, made);
+    });
+  }
   /// def: grid, concurrent, hash_key.
   static Structure host(const Context& context, HostStructureDef def,
                         StructureCallbacks callbacks) {

@@ -1915,6 +1915,12 @@ export interface Functions {
    * The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of their signed distances, exact outside if theirs are, a bound inside; of an intersection the largest, a bound; of a difference as of an intersection with complements. The limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY. Since 0.2.
    */
   msq_structure_boolean(operation: number, structures: Memory, count: number | bigint, structure: [Pointer]): number;
+  /**
+   * Creates a structure that becomes another one. fraction: f, a number or a field, 0 to 1: where it is 0 the solid is that of a, where it is 1 that of b. In between it holds the points with (1 - f) da + f db <= 0, where da and db are the signed distances of a and b as msq returns them (docs/accuracy.md). So it holds what both hold and nothing that neither holds, and surfaces move from those of a to those of b as f grows. On the same grid with like nodes struts stay whole; otherwise parts of the one shrink while those of the other grow.
+   *
+   * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two distances at each sample that one of them holds and 0 < f < 1. Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is a field without one, a function has no bounded slope, or the host gives no distance), MEMORY. Since 0.2.
+   */
+  msq_structure_blend(a: Memory, b: Memory, fraction: msq_param | null, structure: [Pointer]): number;
   /** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. Since 0.2. */
   msq_structure_hash(structure: Memory, hash: Memory): number;
   /** Adds a reference. */

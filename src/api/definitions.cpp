@@ -166,6 +166,7 @@ MSQ_DEFAULTS(AllSpaceDef)
 MSQ_DEFAULTS(PlacedDef)
 MSQ_DEFAULTS(BooleanDef)
 MSQ_DEFAULTS(StructureBooleanDef)
+MSQ_DEFAULTS(StructureBlendDef)
 MSQ_DEFAULTS(OffsetDef)
 MSQ_DEFAULTS(GradientDef)
 MSQ_DEFAULTS(MapDef)
@@ -231,6 +232,12 @@ void walk(DefinitionWalk& in, BooleanDef& def) {
 void walk(DefinitionWalk& in, StructureBooleanDef& def) {
   in.choice("operation", def.operation, operations);
   in.objects("structures", def.structures, def.count);
+}
+
+void walk(DefinitionWalk& in, StructureBlendDef& def) {
+  in.object("a", def.a);
+  in.object("b", def.b);
+  in.param("fraction", def.fraction);
 }
 
 void walk(DefinitionWalk& in, OffsetDef& def) {

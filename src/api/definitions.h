@@ -43,6 +43,10 @@ struct StructureBooleanDef {
   const msq_structure* const* structures;
   uint64_t count;
 };
+struct StructureBlendDef {
+  const msq_structure *a, *b;
+  msq_param fraction;
+};
 struct OffsetDef {
   const msq_shape* original;
   double distance;
@@ -102,6 +106,8 @@ template <>
 BooleanDef defaults_of();
 template <>
 StructureBooleanDef defaults_of();
+template <>
+StructureBlendDef defaults_of();
 template <>
 OffsetDef defaults_of();
 template <>
@@ -163,6 +169,7 @@ void walk(DefinitionWalk& in, VoxelsDef& def);
 void walk(DefinitionWalk& in, PlacedDef& def);
 void walk(DefinitionWalk& in, BooleanDef& def);
 void walk(DefinitionWalk& in, StructureBooleanDef& def);
+void walk(DefinitionWalk& in, StructureBlendDef& def);
 void walk(DefinitionWalk& in, OffsetDef& def);
 void walk(DefinitionWalk& in, GradientDef& def);
 void walk(DefinitionWalk& in, msq_radial_field_def& def);

@@ -2,6 +2,7 @@
 // Structures made of other structures.
 #include "api/defined_handle.h"
 #include "api/guard.h"
+#include "structure/combined/blended_structure.h"
 #include "structure/combined/boolean_structure.h"
 
 using namespace msq;
@@ -29,6 +30,17 @@ msq_structure* made_of_structures(const Ref<CombinedStructure>& structure, const
   return defined_handle<msq_structure>(structure, def);
 }
 
+/// One of two structures to blend.
+Ref<const Structure> read_steady(const msq_structure* structure, const char* name) {
+  const Structure& known = object(structure, name);
+  if (!known.has_steady_distance())
+    fail(Status::unsupported,
+         "the distance of %s has no Lipschitz constant: its radius, level or thickness is a field "
+         "without one, its function has no bounded slope, or the host gives no distance",
+         name);
+  return Ref<const Structure>(&known);
+}
+
 }  // namespace
 
 msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* structures,
@@ -49,5 +61,23 @@ msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* 
     }
     *structure = made_of_structures(make_ref<BooleanStructure>(known, std::move(members)),
                                     StructureBooleanDef{operation, structures, count});
+  });
+}
+
+msq_status msq_structure_blend(const msq_structure* a, const msq_structure* b,
+                               const msq_param* fraction, msq_structure** structure) {
+  return guard([&] {
+    const Ref<const Structure> first = read_steady(a, "a"), second = read_steady(b, "b");
+    require(fraction, "fraction");
+    require(structure, "structure");
+    const Parameter part = fraction->field
+                               ? Parameter(Ref<const Field>(&object(fraction->field, "field")))
+                               : Parameter(require_finite(fraction->value, "fraction"));
+    const Interval range = part.range();
+    if (!(range.low >= 0 && range.high <= 1))
+      fail(Status::argument, "fraction is from %g to %g; it must be within 0 and 1", range.low,
+           range.high);
+    *structure = made_of_structures(make_ref<BlendedStructure>(first, second, part),
+                                    StructureBlendDef{a, b, *fraction});
   });
 }

@@ -100,6 +100,10 @@ msq_status create(Builder&, StructureBooleanDef& def, msq_structure** structure)
   return msq_structure_boolean(def.operation, def.structures, def.count, structure);
 }
 
+msq_status create(Builder&, StructureBlendDef& def, msq_structure** structure) {
+  return msq_structure_blend(def.a, def.b, &def.fraction, structure);
+}
+
 msq_status create(Builder& builder, msq_material_def& def, msq_material** material) {
   return msq_material_create(builder.context(), &def, material);
 }
@@ -185,7 +189,8 @@ constexpr KindOf<msq_structure> structure_kinds[] = {
     {"functional", make_of<msq_structure, msq_functional_def>},
     {"waves", make_of<msq_structure, msq_waves_def>},
     {"beams", make_of<msq_structure, msq_beams_def>},
-    {"boolean", make_of<msq_structure, StructureBooleanDef>}};
+    {"boolean", make_of<msq_structure, StructureBooleanDef>},
+    {"blend", make_of<msq_structure, StructureBlendDef>}};
 constexpr KindOf<msq_material> material_kinds[] = {
     {"plain", make_of<msq_material, msq_material_def>}, {"blend", make_of<msq_material, BlendDef>}};
 

@@ -96,7 +96,8 @@ void visit(const Structure& structure, Body&& body) {
         if_kept<msq_functional_def>(structure, "functional", body) ||
         if_kept<msq_waves_def>(structure, "waves", body) ||
         if_kept<msq_beams_def>(structure, "beams", body) ||
-        if_kept<StructureBooleanDef>(structure, "boolean", body)))
+        if_kept<StructureBooleanDef>(structure, "boolean", body) ||
+        if_kept<StructureBlendDef>(structure, "blend", body)))
     refuse("a structure");
 }
 

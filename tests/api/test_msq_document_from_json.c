@@ -84,6 +84,9 @@ static const char* const documents[] = {
         "\"length_scale\": 3}}"),
     IN_BOX("{\"beams\": {\"nodes\": [[0, 0, 0], [4, 4, 4]], \"beams\": [[0, 1]], \"radius\": 0.2, "
            "\"cap\": \"butt\", \"balls\": [1], \"ball_radius\": 0.4}}"),
+    IN_BOX("{\"blend\": {\"a\": " GYROID
+           ", \"b\": {\"foam\": {\"radius\": 0.1}}, \"fraction\": {\"gradient\": {\"from\": [0, 0, "
+           "0], \"from_value\": 0.1, \"to\": [4, 0, 0], \"to_value\": 0.75}}}}"),
     IN_BOX("{\"boolean\": {\"operation\": \"difference\", \"structures\": [" GYROID
            ", {\"lattice\": {\"radius\": 0.1}}, {\"boolean\": {\"operation\": \"union\", "
            "\"structures\": [{\"foam\": {\"radius\": 0.1}}]}}]}}"),

@@ -264,6 +264,38 @@ static void booleans_hash_their_members(void** state) {
   msq_structure_release(thin);
 }
 
+typedef struct blend_def {
+  const msq_structure *a, *b;
+  msq_param fraction;
+} blend_def;
+
+static void hash_blend(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
+  const blend_def* of = (const blend_def*)def;
+  msq_structure* structure;
+  (void)in;
+  assert_ok(msq_structure_blend(of->a, of->b, &of->fraction, &structure));
+  hash_and_release(structure, hash);
+}
+
+static void blends_hash_their_fraction(void** state) {
+  msq_structure* thin = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.1);
+  msq_structure* thick = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.2);
+  msq_structure* same = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.1);
+  blend_def def = {thin, thick, {0.25, NULL}};
+  (void)state;
+  HASHES(context, "msq_structure_blend", &def, sizeof def, hash_blend) {
+    CHANGES(def.a, def.a = thick);
+    CHANGES(def.b, def.b = thin);
+    KEEPS(def.a, def.a = same);
+    CHANGES(def.a, def.a = thick; def.b = thin);
+    CHANGES(def.fraction.value, def.fraction.value = 0.5);
+    PARAM_CHANGES(def.fraction, ramp, steep_ramp);
+  }
+  msq_structure_release(same);
+  msq_structure_release(thick);
+  msq_structure_release(thin);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(beams_hash_their_list),
@@ -271,6 +303,7 @@ int main(void) {
       cmocka_unit_test(host_structures_hash_their_key),
       cmocka_unit_test(host_functions_hash_their_key),
       cmocka_unit_test(booleans_hash_their_members),
+      cmocka_unit_test(blends_hash_their_fraction),
   };
   if (!MSQ_WITH_XXHASH) return 0;
   context = make_context();

@@ -450,6 +450,48 @@ static void structures_of_structures(void** state) {
     if (TRY(msq_structure_boolean(operation, structures, count, structure)))
       msq_structure_release(*structure);
   }
+  msq_field *ramp = ramp_of(context, 0, 1), *low = ramp_of(context, -0.25, 1),
+            *high = ramp_of(context, 0, 1.25);
+  msq_expression_field_def expression;
+  msq_field* waves;
+  assert_ok(msq_expression_field_def_init(&expression, sizeof expression));
+  expression.expression = "0.2 + 0.1 * sin(x)";
+  expression.low = 0.1;
+  expression.high = 0.3;
+  assert_ok(msq_field_expression(context, &expression, &waves));
+  msq_lattice_def wavy_def;
+  msq_structure* wavy;
+  assert_ok(msq_lattice_def_init(&wavy_def, sizeof wavy_def));
+  wavy_def.radius.field = waves;
+  assert_ok(msq_structure_lattice(context, &wavy_def, &wavy));
+  REFUSALS("msq_structure_blend") {
+    const msq_structure *a = lattice, *b = gyroid;
+    msq_param own = {0.5, NULL}, *fraction = &own;
+    msq_structure** structure = (msq_structure**)output(0);
+    WRONG(ARGUMENT, "a is NULL", a = NULL);
+    WRONG(ARGUMENT, "b is NULL", b = NULL);
+    WRONG(ARGUMENT, "fraction is NULL", fraction = NULL);
+    WRONG(ARGUMENT, "structure is NULL", structure = NULL);
+    wrong_number(table, &own.value, "fraction");
+    WRONG(ARGUMENT, "fraction is from -0.5 to -0.5", own.value = -0.5);
+    WRONG(ARGUMENT, "fraction is from 1.5 to 1.5|within 0 and 1", own.value = 1.5);
+    RIGHT(own.value = 0);
+    RIGHT(own.value = 1);
+    RIGHT(own.field = ramp);
+    RIGHT(own.field = waves);
+    WRONG(ARGUMENT, "fraction is from -0.25 to 1", own.field = low);
+    WRONG(ARGUMENT, "fraction is from 0 to 1.25", own.field = high);
+    WRONG(UNSUPPORTED, "the distance of a has no Lipschitz constant", a = wavy);
+    WRONG(UNSUPPORTED, "the distance of b has no Lipschitz constant", b = wavy);
+    WRONG(LIMIT, "65 structures|the limit is 64", b = nested[64]);
+    WRONG(LIMIT, "4097 structures|the limit is 4096", b = twice[12]);
+    if (TRY(msq_structure_blend(a, b, fraction, structure))) msq_structure_release(*structure);
+  }
+  msq_structure_release(wavy);
+  msq_field_release(waves);
+  msq_field_release(high);
+  msq_field_release(low);
+  msq_field_release(ramp);
   for (int i = 0; i < 65; ++i) msq_structure_release(nested[i]);
   for (int i = 0; i < 13; ++i) msq_structure_release(twice[i]);
   msq_structure_release(gyroid);

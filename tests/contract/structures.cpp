@@ -15,6 +15,7 @@
 #include "images.h"
 #include "random.h"
 #include "structure/beams/beams.h"
+#include "structure/combined/blended_structure.h"
 #include "structure/combined/boolean_structure.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/paper/delaunay.h"
@@ -277,6 +278,17 @@ Factory boolean_factory(Operation operation, const Factory& first, const Factory
   };
 }
 
+/// Of two structures, by a fraction that rises along an oblique line.
+Factory blend_factory(const Factory& first, const Factory& second, double low, double high) {
+  return [=](const Neighbourhood& grid, const Parameter& radius) {
+    const Vec3 half = Vec3{1.4, 0.8, 0.5} * grid.cell_size;
+    const FieldRef field =
+        make_ref<GradientField>(grid.from_grid(half * -1.0), low, grid.from_grid(half), high);
+    return Ref<const Structure>(make_ref<BlendedStructure>(
+        first(grid, radius), second(other_grid(grid), radius), Parameter(field)));
+  };
+}
+
 /// Of more than two, some within each other. What is subtracted does not grow.
 Factory nested_factory() {
   return [](const Neighbourhood& grid, const Parameter& radius) {
@@ -422,6 +434,24 @@ std::vector<Kind> kinds() {
                    boolean_factory(Operation::subtracted, walls_factory(1),
                                    lattice_factory(cubic_unit_cell()))});
   kinds.push_back({"combined", "nested", 0.1, 1, nested_factory()});
+  kinds.push_back({"blended", "BCC to gyroid", 0.15, 1,
+                   blend_factory(lattice_factory(bcc_unit_cell()),
+                                 functional_factory(preset_expressions[0], sheet, 0), 0, 1)});
+  kinds.push_back({"blended", "foam to octet", 0.12, 1,
+                   blend_factory(foam_factory(FoamMethod::direct, 1),
+                                 lattice_factory(octet_unit_cell()), 0, 1)});
+  kinds.push_back({"blended", "walls to beams", 0.15, 1,
+                   blend_factory(walls_factory(1), beams_factory(BeamSort::capsules), 0.2, 0.7)});
+  kinds.push_back({"blended", "gyroid to diamond", 0.2, 1,
+                   blend_factory(functional_factory(preset_expressions[0], network, 0),
+                                 functional_factory(preset_expressions[2], network, 0), 0.1, 1)});
+  kinds.push_back(
+      {"blended", "nested", 0.12, 1,
+       blend_factory(blend_factory(lattice_factory(cubic_unit_cell()),
+                                   foam_factory(FoamMethod::direct, 1), 0.3, 0.6),
+                     boolean_factory(Operation::united, lattice_factory(bcc_unit_cell()),
+                                     beams_factory(BeamSort::cones)),
+                     0, 1)});
   // Fields that are not linear.
   kinds.push_back({"BCC", "mapped radius", 0.15, 1, lattice_factory(bcc_unit_cell()), mapped});
   kinds.push_back({"functional", "gyroid, sampled level", 0.2, 1,

@@ -69,6 +69,20 @@ MakeStructure waves(World& world) {
 MakeStructure foam(World& world, int32_t method, msq_param radius, msq_param density = {1, nullptr},
                    double cell_height = 1);
 
+/// Of a lattice to a foam.
+MakeStructure blend(World& world) {
+  msq_structure *a, *b;
+  require_ok(lattice(world, MSQ_UNIT_CELL_BCC, {0.2, nullptr})(&a));
+  world.keep(a);
+  require_ok(foam(world, MSQ_FOAM_AUTO, {0.2, nullptr})(&b));
+  world.keep(b);
+  const msq_field* fraction = world.gradient();
+  return [a, b, fraction](msq_structure** made) {
+    const msq_param part = {0, fraction};
+    return msq_structure_blend(a, b, &part, made);
+  };
+}
+
 /// A lattice, a foam and beams.
 MakeStructure boolean(World& world, int32_t operation) {
   std::vector<msq_structure*> members(3);
@@ -432,6 +446,7 @@ const std::vector<Kind>& kinds() {
         {"host function", host_functional, false},
         {"union", [](World& w) { return boolean(w, MSQ_BOOLEAN_UNION); }, false},
         {"difference", [](World& w) { return boolean(w, MSQ_BOOLEAN_DIFFERENCE); }, false},
+        {"blend", blend, false},
     };
 #if MSQ_WITH_CGAL
     all.push_back(

@@ -3326,6 +3326,19 @@ namespace Msq.Interop
 #endif
         int msq_structure_boolean(int operation, msq_structure** structures, ulong count, msq_structure** structure);
 
+        /// <summary>Creates a structure that becomes another one. fraction: f, a number or a field, 0 to 1: where it is 0 the solid is that of a, where it is 1 that of b. In between it holds the points with (1 - f) da + f db &lt;= 0, where da and db are the signed distances of a and b as msq returns them (docs/accuracy.md). So it holds what both hold and nothing that neither holds, and surfaces move from those of a to those of b as f grows. On the same grid with like nodes struts stay whole; otherwise parts of the one shrink while those of the other grow.</summary>
+        /// <remarks>
+        /// <para>Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two distances at each sample that one of them holds and 0 &lt; f &lt; 1. Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is a field without one, a function has no bounded slope, or the host gives no distance), MEMORY. Since 0.2.</para>
+        /// </remarks>
+#if NET7_0_OR_GREATER
+        [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
+        public static partial
+#else
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern
+#endif
+        int msq_structure_blend(msq_structure* a, msq_structure* b, msq_param* fraction, msq_structure** structure);
+
         /// <summary>Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. Since 0.2.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]

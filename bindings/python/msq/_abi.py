@@ -812,6 +812,8 @@ FUNCTIONS = {
                                     POINTER(POINTER(msq_structure))],
     "msq_structure_boolean": [c_int32, c_int32, POINTER(POINTER(msq_structure)), c_uint64,
                               POINTER(POINTER(msq_structure))],
+    "msq_structure_blend": [c_int32, POINTER(msq_structure), POINTER(msq_structure),
+                            POINTER(msq_param), POINTER(POINTER(msq_structure))],
     "msq_structure_hash": [c_int32, POINTER(msq_structure), POINTER(c_uint8)],
     "msq_structure_retain": [None, POINTER(msq_structure)],
     "msq_structure_release": [None, POINTER(msq_structure)],

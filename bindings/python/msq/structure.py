@@ -64,6 +64,22 @@ class Structure(Handle):
         """Points of the first structure that are in no other."""
         return Structure._boolean("difference", structures)
 
+    @staticmethod
+    @remembers
+    def blend(a: Structure, b: Structure, fraction: Param) -> Structure:
+        """A structure that becomes another one: a where the fraction is 0, b where it is 1. In between
+        it holds the points where (1 - f) times the signed distance of a plus f times that of b is
+        at most 0."""
+        for structure, name in ((a, "a"), (b, "b")):
+            if not isinstance(structure, Structure):
+                raise TypeError(f"{name} is a {type(structure).__name__}; it must be a Structure")
+        part = _abi.msq_param()
+        set_param(part, fraction)
+        made = Structure._wrap(Structure._create(lib.msq_structure_blend, a._ref, b._ref,
+                                                 ctypes.byref(part)))
+        made.context = a.context
+        return made
+
     def __or__(self, other: Structure) -> Structure:
         return Structure.union(self, other)
 

@@ -97,6 +97,21 @@ class StructuresOfStructures(unittest.TestCase):
             (self.lattice | self.gyroid).onset((0, 0, 0))
 
 
+    def test_blend(self):
+        a, b = self.contains(self.lattice), self.contains(self.gyroid)
+        rising = msq.Field.gradient((2, 0, 0), 0, (6, 0, 0), 1)
+        found = self.contains(msq.Structure.blend(self.lattice, self.gyroid, rising))
+        x = self.points[:, 0]
+        np.testing.assert_array_equal(found[x <= 2], a[x <= 2])
+        np.testing.assert_array_equal(found[x >= 6], b[x >= 6])
+        self.assertTrue(np.all(found[a & b]) and not np.any(found[~(a | b)]))
+        self.assertTrue(np.any(found[a & ~b]) and np.any(~found[a & ~b]))
+        with self.assertRaisesRegex(TypeError, "b is a int"):
+            msq.Structure.blend(self.lattice, 3, 0.5)
+        with self.assertRaisesRegex(msq.ArgumentError, "fraction"):
+            msq.Structure.blend(self.lattice, self.gyroid, 1.5)
+
+
 class Regions(unittest.TestCase):
     def test_first_shape_decides(self):
         points = random_points(5000)

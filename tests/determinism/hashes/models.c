@@ -174,6 +174,15 @@ static msq_model* foam_without_beams(Kit* kit) {
   return filled(kit, mesh(kit, 0), joined(kit, MSQ_BOOLEAN_DIFFERENCE, struts, beams(kit)));
 }
 
+static msq_model* foam_to_gyroid(Kit* kit) {
+  const msq_foam_def def = foam_def(4, number(0.5));
+  const msq_functional_def gyroid_def =
+      functional_def(MSQ_FUNCTION_GYROID, MSQ_FUNCTIONAL_NETWORK, 5);
+  const msq_structure* const struts = foam(kit, &def);
+  const msq_structure* const surface = functional(kit, &gyroid_def);
+  return filled(kit, box(kit), blended(kit, struts, surface, gradient(kit, 0, 1)));
+}
+
 static msq_model* nested(Kit* kit) {
   const msq_lattice_def coarse = lattice_def(MSQ_UNIT_CELL_OCTET, 9, number(1.4));
   const msq_foam_def fine = foam_def(1.5, number(0.25));
@@ -223,6 +232,7 @@ static const struct {
     {"nested", nested},
     {"lattice-or-gyroid", lattice_or_gyroid},
     {"foam-without-beams", foam_without_beams},
+    {"foam-to-gyroid", foam_to_gyroid},
     {"cut", cut},
     {"regions", regions},
     {"waves", spinodal},

@@ -288,3 +288,10 @@ const msq_structure* joined(Kit* kit, int32_t operation, const msq_structure* a,
   must(msq_structure_boolean(operation, both, 2, &structure));
   return keep_structure(kit, structure);
 }
+
+const msq_structure* blended(Kit* kit, const msq_structure* a, const msq_structure* b,
+                             msq_param fraction) {
+  msq_structure* structure;
+  must(msq_structure_blend(a, b, &fraction, &structure));
+  return keep_structure(kit, structure);
+}

@@ -140,6 +140,14 @@ impl Structure {
         })
     }
 
+    /// Becomes b as the fraction, 0 to 1, grows.
+    pub fn blend(a: &Structure, b: &Structure, fraction: impl Into<Param>) -> Result<Structure> {
+        let fraction = fraction.into();
+        Structure::make(|raw| unsafe {
+            sys::msq_structure_blend(a.as_ptr(), b.as_ptr(), &fraction.raw(), raw)
+        })
+    }
+
     /// Finite struts of one radius between nodes.
     pub fn beams(
         context: &Context,

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/combined/blended_structure.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/hash_input.h"
+#include "base/infinity.h"
+#include "base/ray_normal.h"
+#include "base/signed_distance.h"
+
+namespace msq {
+
+namespace {
+
+/// Boxes of samples whose fractions are enclosed together: one word of so many rows and layers.
+constexpr uint64_t box_rows = 8, box_layers = 8;
+
+}  // namespace
+
+// Distances are known to 1e-9 of a cell (docs/accuracy.md), and are smaller by as much. So the
+// difference of two values may be off by four times that, once more for each blend within another.
+BlendedStructure::BlendedStructure(const Ref<const Structure>& a, const Ref<const Structure>& b,
+                                   Parameter fraction)
+    : CombinedStructure({a, b}),
+      fraction_(std::move(fraction)),
+      slack_(std::ldexp(cell_length(), -27 + 2 * (static_cast<int>(nesting()) - 1))),
+      farthest_origin_(0) {
+  for_each_grid([this](const Neighbourhood& grid) {
+    farthest_origin_ = std::max(farthest_origin_, max_magnitude(grid.origin));
+  });
+}
+
+BlendedStructure::Pair BlendedStructure::distances(Vec3 p, bool in_a, bool in_b) const {
+  return {signed_distance(in_a, a().distance_bound(p)),
+          signed_distance(in_b, b().distance_bound(p))};
+}
+
+bool BlendedStructure::inside(Vec3 p) const {
+  const double f = fraction_.at(p);
+  if (f <= 0) return a().inside(p);
+  if (f >= 1) return b().inside(p);
+  const bool in_a = a().inside(p), in_b = b().inside(p);
+  return in_a == in_b ? in_a : distances(p, in_a, in_b).blended(f) <= 0;
+}
+
+double BlendedStructure::steady_distance_of(double gap, double apart, Vec3 p) const {
+  const auto root = [&](double slope) {
+    const double k = 1 + slope * apart, found = k + std::sqrt(k * k + 8 * slope * gap);
+    return std::isfinite(found) ? (1 - 0x1p-40) * 2 * gap / found : 0.0;
+  };
+  const double everywhere = fraction_.lipschitz();
+  if (std::isfinite(everywhere)) return root(everywhere);
+  // As steady_distance() in common/strut_distance_bound.h.
+  gap -= 0x1p-41 * (apart + 2 * gap);
+  if (!(gap > 0)) return 0;
+  constexpr int max_boxes = 12;
+  double reach = gap, best = 0;
+  for (int n = 0; n < max_boxes; ++n) {
+    const double slope = fraction_.lipschitz(Box3{p, p}.grown(reach * (1 + 0x1p-40)));
+    best = std::max(best, std::min(reach, root(slope)));
+    if (best >= 0.5 * reach) break;
+    reach = std::max(0.25 * reach, best);
+  }
+  return best;
+}
+
+double BlendedStructure::bound_of(const Pair& pair, double f, Vec3 p) const {
+  const double apart = std::abs(pair.b - pair.a), sum = std::abs(pair.a) + std::abs(pair.b);
+  const double agreed =
+      (pair.a <= 0) == (pair.b <= 0) ? std::min(std::abs(pair.a), std::abs(pair.b)) : 0;
+  const Interval range = fraction_.range(Box3{p, p});
+  const double value = std::abs(pair.blended(f));
+  const double slack = slack_ + 0x1p-40 * (max_magnitude(p) + farthest_origin_ + sum) +
+                       2 * (range.high - range.low) * (apart + 2 * value);
+  const double gap = value - slack;
+  return gap > 0 ? std::max(agreed, steady_distance_of(gap, apart, p)) : agreed;
+}
+
+double BlendedStructure::distance_bound(Vec3 p) const {
+  return bound_of(distances(p), fraction_.at(p), p);
+}
+
+void BlendedStructure::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  std::vector<double> f(count);
+  fraction_.values(points, count, f.data());
+  std::vector<uint8_t> in_b(count);
+  std::vector<uint8_t> in_a(alive, alive + count);
+  for (size_t i = 0; i < count; ++i) {
+    in_b[i] = static_cast<uint8_t>(alive[i] && f[i] > 0);
+    if (f[i] >= 1) in_a[i] = 0;
+  }
+  keep_points_of(a(), points, in_a.data(), count);
+  keep_points_of(b(), points, in_b.data(), count);
+  for (size_t i = 0; i < count; ++i) {
+    if (i % 16 == 0) check_cancelled();
+    if (!alive[i]) continue;
+    if (f[i] <= 0 || f[i] >= 1 || in_a[i] == in_b[i])
+      alive[i] = f[i] <= 0 ? in_a[i] : in_b[i];
+    else
+      alive[i] = distances(points[i], in_a[i] != 0, in_b[i] != 0).blended(f[i]) <= 0;
+  }
+}
+
+BoxClass BlendedStructure::classify(const Box3& box) const {
+  const Interval f = fraction_.range(box);
+  if (f.high <= 0) return a().classify(box);
+  if (f.low >= 1) return b().classify(box);
+  const BoxClass of_a = a().classify(box);
+  return of_a != BoxClass::mixed && of_a == b().classify(box) ? of_a : BoxClass::mixed;
+}
+
+uint64_t BlendedStructure::decide(const SampleGrid& grid, uint64_t w, uint64_t j, uint64_t k,
+                                  uint64_t in_a, uint64_t in_b) const {
+  uint64_t held = 0;
+  for (uint64_t open = in_a ^ in_b; open;) {
+    const auto bit = static_cast<unsigned>(std::countr_zero(open));
+    const Vec3 p = grid.at(w * bits_per_word + bit, j, k);
+    const double f = fraction_.at(p);
+    const Pair pair = distances(p, (in_a >> bit & 1) != 0, (in_b >> bit & 1) != 0);
+    // All samples of the row within the bound have the same result.
+    const double reach = (bound_of(pair, f, p) - grid.rounding()) / grid.spacing.x;
+    uint64_t same = ~uint64_t{0} << bit;
+    if (!(reach >= static_cast<double>(bits_per_word - bit)))
+      same &= ~uint64_t{0} >> (bits_per_word - 1 - bit - (reach >= 1 ? unsigned(reach) : 0));
+    if (pair.blended(f) <= 0) held |= open & same;
+    open &= ~same;
+  }
+  return held;
+}
+
+void BlendedStructure::keep_rows(const RowBlock& block, const Job* job) const {
+  const RowCopy copy(block);
+  const RowBlock& of_b = copy.block();
+  const SampleGrid& grid = *block.grid;
+  const size_t words = block.row_words();
+  // Calls visit(range, w, y, y_end, z, z_end) for each box, with the range of its fractions.
+  const auto for_each_box = [&](auto&& visit) {
+    for (uint64_t z = block.z0; z < block.z1; z += box_layers)
+      for (uint64_t y = block.y0; y < block.y1; y += box_rows) {
+        check_cancelled(job);
+        const uint64_t z_end = std::min(z + box_layers, block.z1),
+                       y_end = std::min(y + box_rows, block.y1);
+        for (uint64_t w = 0; w < words; ++w) {
+          const uint64_t last = std::min((w + 1) * bits_per_word, grid.nx) - 1;
+          const Box3 box{grid.at(w * bits_per_word, y, z), grid.at(last, y_end - 1, z_end - 1)};
+          visit(fraction_.range(box), w, y, y_end, z, z_end);
+        }
+      }
+  };
+  // Each structure evaluates only the samples to which it matters.
+  for_each_box([&](Interval f, uint64_t w, uint64_t y, uint64_t y_end, uint64_t z, uint64_t z_end) {
+    if (f.low < 1 && f.high > 0) return;
+    const RowBlock& other = f.low >= 1 ? block : of_b;
+    for (uint64_t k = z; k < z_end; ++k)
+      for (uint64_t j = y; j < y_end; ++j) other.row(j, k)[w] = 0;
+  });
+  a().keep_rows(block, job);
+  b().keep_rows(of_b, job);
+  for_each_box([&](Interval f, uint64_t w, uint64_t y, uint64_t y_end, uint64_t z, uint64_t z_end) {
+    const bool is_pure = f.low >= 1 || f.high <= 0;
+    for (uint64_t k = z; k < z_end; ++k)
+      for (uint64_t j = y; j < y_end; ++j) {
+        uint64_t& in_a = block.row(j, k)[w];
+        const uint64_t in_b = of_b.row(j, k)[w];
+        in_a = is_pure ? in_a | in_b : (in_a & in_b) | decide(grid, w, j, k, in_a, in_b);
+      }
+  });
+}
+
+// Far smaller than min_ray_step(), so that only rays that creep along a surface lose parts. Near it
+// the bound is 0 over as much of such a ray.
+bool BlendedStructure::march_finely(bool wanted, const Ray& ray, double from, double to, double& t,
+                                    const Job* job) const {
+  const double tolerance = ray_tolerance(ray, to);
+  const double least = has_steady_distance() ? 0x1p-16 * smallest_cell() : min_ray_step();
+  const RayMarch steps{std::max(least, tolerance), tolerance};
+  return steps.find(
+      wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
+      [this](Vec3 p) { return distance_bound(p); }, t, job);
+}
+
+// What neither structure holds, the blend does not hold: the march begins where one is entered.
+void BlendedStructure::enter(RaySearch* searches, size_t count, const Job* job) const {
+  enter_any(members(), searches, count, job);
+  for (size_t i = 0; i < count; ++i) {
+    RaySearch& s = searches[i];
+    s.normal = {};
+    if (s.found) s.found = march_finely(true, s.ray, std::min(s.t, s.to), s.to, s.t, job);
+  }
+}
+
+double BlendedStructure::leave(const Ray& ray, double from, double to, const Job* job) const {
+  double t;
+  return march_finely(false, ray, from, to, t, job) ? t : to;
+}
+
+Vec3 BlendedStructure::normal(const Ray& ray, double t) const {
+  const Vec3 p = ray.at(t);
+  const double f = fraction_.at(p), step = normal_distance_of_members();
+  if (f <= 0) return a().normal(ray, t);
+  if (f >= 1) return b().normal(ray, t);
+  const auto value = [this](Vec3 q) { return distances(q).blended(fraction_.at(q)); };
+  Vec3 gradient;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 before = p, beyond = p;
+    before[axis] -= step;
+    beyond[axis] += step;
+    gradient[axis] = (value(beyond) - value(before)) / (beyond[axis] - before[axis]);
+  }
+  const double size = length(gradient);
+  if (size > 0x1p-10 && std::isfinite(size) && dot(gradient, ray.direction) < 0)
+    return gradient * (1 / size);
+  return normal_by_membership([this](Vec3 q) { return inside(q); }, ray, t, step);
+}
+
+void BlendedStructure::describe(HashInput& input) const {
+  input.kind("structure: blend");
+  input.object(a());
+  input.object(b());
+  fraction_.describe(input);
+}
+
+}  // namespace msq

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_structure_blend. */
+#include "layers.h"
+#include "struts.h"
+
+/* From 0 at x = 1 to 1 at x = 3. */
+static msq_field* rising(msq_context* context) {
+  const double from[3] = {1, 0, 0}, to[3] = {3, 0, 0};
+  msq_field* field;
+  assert_ok(msq_field_gradient(context, from, 0, to, 1, &field));
+  return field;
+}
+
+/* Keeps the structure. */
+static msq_model* model_with(msq_context* context, msq_shape* shape, msq_structure* structure) {
+  msq_structure_retain(structure);
+  return make_model(context, shape, structure, NULL);
+}
+
+static msq_model* in_all_space(msq_context* context, msq_structure* structure) {
+  msq_shape* shape;
+  assert_ok(msq_shape_all_space(context, &shape));
+  return model_with(context, shape, structure);
+}
+
+static msq_structure* blend_of(const msq_structure* a, const msq_structure* b, double fraction,
+                               const msq_field* field) {
+  const msq_param part = {fraction, field};
+  msq_structure* made;
+  assert_ok(msq_structure_blend(a, b, &part, &made));
+  return made;
+}
+
+/* The sign of the blended distances is the membership. */
+static void distances_are_blended(void** state) {
+  msq_context* context = make_context();
+  msq_structure* foam = make_foam_with(context, 0.15, 0);
+  msq_structure* gyroid = make_gyroid(context);
+  msq_field* field = rising(context);
+  msq_structure* made = blend_of(foam, gyroid, 0, field);
+  msq_model *a = in_all_space(context, foam), *b = in_all_space(context, gyroid);
+  msq_model* model = in_all_space(context, made);
+  uint64_t random = 3;
+  size_t held = 0, between = 0;
+  (void)state;
+  for (size_t n = 0; n < 5000; ++n) {
+    double p[3], of_a, of_b, distance;
+    for (int axis = 0; axis < 3; ++axis) p[axis] = random_between(&random, 0, 4);
+    const double f = fmin(fmax((p[0] - 1) / 2, 0), 1);
+    assert_ok(msq_point_distance(a, p, NULL, &of_a));
+    assert_ok(msq_point_distance(b, p, NULL, &of_b));
+    assert_ok(msq_point_distance(model, p, NULL, &distance));
+    const int in = is_inside(model, p[0], p[1], p[2]);
+    const double value = (1 - f) * of_a + f * of_b;
+    if (fabs(value) > 1e-12) assert_int_equal(in, value <= 0);
+    assert_true(in ? distance <= 0 : distance > 0);
+    assert_true(fabs(distance) <= fmax(fabs(value), fmin(fabs(of_a), fabs(of_b))) + 1e-12);
+    if ((of_a <= 0) == (of_b <= 0)) assert_int_equal(in, of_a <= 0);
+    between += (of_a <= 0) != (of_b <= 0) && in;
+    held += (size_t)in;
+  }
+  assert_in_range(held, 100, 4900);
+  assert_true(between > 50);
+  msq_model_release(model);
+  msq_model_release(b);
+  msq_model_release(a);
+  msq_structure_release(made);
+  msq_field_release(field);
+  msq_structure_release(gyroid);
+  msq_structure_release(foam);
+  msq_context_release(context);
+}
+
+static layer_stack layers_of(msq_context* context, msq_structure* structure) {
+  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 150, 40, 0.4);
+  msq_model* model = model_with(context, make_box(context), structure);
+  msq_slicer* slicer = make_slicer(model, &def);
+  layer_stack all = run_all(slicer, MSQ_LAYER_BITS);
+  msq_slicer_release(slicer);
+  msq_model_release(model);
+  return all;
+}
+
+/* Layers are those of a where the fraction is 0, those of b where it is 1, and between the two in
+ * between; with a number that is 0 or 1 they are the bytes of one of them. */
+static void layers_change_from_one_to_the_other(void** state) {
+  msq_context* context = make_context();
+  msq_structure* lattice = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.2);
+  msq_structure* foam = make_foam_with(context, 0.2, 0);
+  msq_field* field = rising(context);
+  msq_structure* made[4] = {blend_of(lattice, foam, 0, NULL), blend_of(lattice, foam, 1, NULL),
+                            blend_of(lattice, foam, 0, field), blend_of(lattice, foam, 0.5, NULL)};
+  layer_stack a = layers_of(context, lattice), b = layers_of(context, foam), of[4];
+  const uint64_t bytes = a.taken * a.plan.layer_bytes;
+  size_t mixed = 0;
+  (void)state;
+  for (int i = 0; i < 4; ++i) of[i] = layers_of(context, made[i]);
+  assert_memory_equal(of[0].data, a.data, bytes);
+  assert_memory_equal(of[1].data, b.data, bytes);
+  for (uint64_t i = 0; i < bytes; ++i)
+    for (int n = 2; n < 4; ++n) {
+      const unsigned in = of[n].data[i], both = a.data[i] & b.data[i];
+      assert_int_equal(in & both, both);
+      assert_int_equal(in & ~(a.data[i] | b.data[i]), 0);
+      if (n == 2) {
+        const uint64_t first = i % a.plan.stride * 8; /* 150 pixels over 4 */
+        if (first + 7 < 37) assert_int_equal(in, a.data[i]);
+        if (first > 112) assert_int_equal(in, b.data[i]);
+      }
+      mixed += in != a.data[i] && in != b.data[i];
+    }
+  assert_true(mixed > 20);
+  for (int i = 0; i < 4; ++i) {
+    free_stack(&of[i]);
+    msq_structure_release(made[i]);
+  }
+  free_stack(&a);
+  free_stack(&b);
+  msq_field_release(field);
+  msq_structure_release(foam);
+  msq_structure_release(lattice);
+  msq_context_release(context);
+}
+
+/* A fraction that has no Lipschitz constant, or one in boxes only: the same membership in sets,
+ * grids and points, and a distance whose balls meet no boundary. */
+static void any_field_may_blend(void** state) {
+  msq_context* context = make_context();
+  msq_structure* lattice = make_lattice_of(context, MSQ_UNIT_CELL_OCTET, 1, 0.1);
+  msq_structure* gyroid = make_gyroid(context);
+  const char* const texts[2] = {"0.5 + 0.5 * sin(2 * x + y) * cos(z)", "sqrt(max(0, x - 2) / 2)"};
+  (void)state;
+  for (int n = 0; n < 2; ++n) {
+    msq_expression_field_def def;
+    msq_field* field;
+    assert_ok(msq_expression_field_def_init(&def, sizeof def));
+    def.expression = texts[n];
+    def.low = 0;
+    def.high = 1;
+    assert_ok(msq_field_expression(context, &def, &field));
+    msq_structure* made = blend_of(lattice, gyroid, 0, field);
+    msq_model* model = model_with(context, make_box(context), made);
+    const msq_points_def points = grid_points(0.3, 3.7, 23);
+    int32_t* inside = (int32_t*)calloc(23 * 23 * 23, sizeof *inside);
+    uint8_t* bytes = (uint8_t*)inside;
+    uint64_t random = 11;
+    size_t held = 0;
+    assert_ok(msq_set_membership(model, &points, NULL, bytes, 23 * 23 * 23, NULL));
+    for (int i = 0; i < 23 * 23 * 23; ++i) {
+      double p[3];
+      for (int axis = 0, rest = i; axis < 3; ++axis, rest /= 23)
+        p[axis] = points.origin[axis] + rest % 23 * points.spacing[axis];
+      assert_int_equal(bytes[i], is_inside(model, p[0], p[1], p[2]));
+      held += bytes[i];
+      if (i % 7) continue;
+      double distance, way[3], length = 0;
+      assert_ok(msq_point_distance(model, p, NULL, &distance));
+      for (int axis = 0; axis < 3; ++axis) {
+        way[axis] = random_between(&random, -1, 1);
+        length += way[axis] * way[axis];
+      }
+      const double s = fabs(distance) * (1 - 1e-9) / sqrt(length);
+      if (fabs(distance) > 1e-12)
+        assert_int_equal(bytes[i],
+                         is_inside(model, p[0] + s * way[0], p[1] + s * way[1], p[2] + s * way[2]));
+    }
+    assert_in_range(held, 500, 11000);
+    free(inside);
+    msq_model_release(model);
+    msq_structure_release(made);
+    msq_field_release(field);
+  }
+  msq_structure_release(gyroid);
+  msq_structure_release(lattice);
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(distances_are_blended),
+      cmocka_unit_test(layers_change_from_one_to_the_other),
+      cmocka_unit_test(any_field_may_blend),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
