@@ -25,14 +25,16 @@ int main(void) {
   msq_slicer_def plan;
   msq_scale_def scales[2] = {{0}, {0}};
   uint64_t solid = 0;
-  int ok = check(msq_context_create(NULL, &context)) && check(msq_shape_from_box(context, min, max, &box)) &&
+  int ok = check(msq_context_create(NULL, &context)) &&
+           check(msq_shape_from_box(context, min, max, &box)) &&
            check(msq_lattice_def_init(&def, sizeof def));
   if (ok) {
     int i;
     def.unit_cell = MSQ_UNIT_CELL_BCC;
     for (i = 0; i < 3; ++i) def.grid.cell_size[i] = 5;
     def.radius.value = 0.8;
-    ok = check(msq_structure_lattice(context, &def, &lattice)) && check(msq_model_def_init(&filled, sizeof filled));
+    ok = check(msq_structure_lattice(context, &def, &lattice)) &&
+         check(msq_model_def_init(&filled, sizeof filled));
   }
   if (ok) {
     scales[0].shape = box;
@@ -40,7 +42,8 @@ int main(void) {
     filled.scales = scales;
     filled.scale_count = 2;
     filled.scale_size = sizeof scales[0];
-    ok = check(msq_model_create(context, &filled, &model)) && check(msq_slicer_def_init(&plan, sizeof plan));
+    ok = check(msq_model_create(context, &filled, &model)) &&
+         check(msq_slicer_def_init(&plan, sizeof plan));
   }
   if (ok) {
     plan.pitch[0] = plan.pitch[1] = plan.layer_height = 0.5;
