@@ -37,6 +37,30 @@ static void message_is_that_of_the_last_failure(void** state) {
   msq_context_release(context);
 }
 
+/* Characters of a path stay whole; bytes that are none become question marks. */
+static void message_is_utf8(void** state) {
+  const struct {
+    const char *path, *shown;
+  } paths[] = {
+      {"/\xc3\xa4.stl", "/\xc3\xa4.stl"},
+      {"/\xe2\x82\xac.stl", "/\xe2\x82\xac.stl"},
+      {"/\xf0\x9f\x98\x80.stl", "/\xf0\x9f\x98\x80.stl"},
+      {"/\xff\x80.stl", "/??.stl"},           /* no first bytes */
+      {"/\xe2\x82.stl", "/??.stl"},           /* the third is missing */
+      {"/\xe0\x80\xaf.stl", "/???.stl"},      /* overlong */
+      {"/\xf0\x80\x80\xaf.stl", "/????.stl"}, /* the same of four */
+      {"/\xed\xa0\x80.stl", "/???.stl"},      /* a surrogate */
+      {"/\xf4\x90\x80\x80.stl", "/????.stl"}, /* beyond Unicode */
+  };
+  msq_context* context = make_context();
+  (void)state;
+  for (size_t i = 0; i < sizeof paths / sizeof *paths; ++i) {
+    assert_makes_nothing(msq_shape, msq_shape_from_file(context, paths[i].path, NULL, &made, NULL),
+                         MSQ_E_IO, paths[i].shown);
+  }
+  msq_context_release(context);
+}
+
 static void success_leaves_the_message(void** state) {
   msq_context* context = make_context();
   char kept[512];
@@ -100,6 +124,7 @@ int main(void) {
       cmocka_unit_test(message_is_empty_before_the_first_failure),
       cmocka_unit_test(message_names_value_and_limit),
       cmocka_unit_test(message_is_that_of_the_last_failure),
+      cmocka_unit_test(message_is_utf8),
       cmocka_unit_test(success_leaves_the_message),
       cmocka_unit_test(message_has_no_control_characters),
       cmocka_unit_test(message_is_per_thread),

@@ -35,6 +35,7 @@ static void fill_lines(void** state) {
     WRONG(ARGUMENT, "rings is NULL", def->rings = NULL);
     WRONG(ARGUMENT, "ring 1 has 2 points", rings[1].count = 2);
     WRONG(ARGUMENT, "ring 1 are NULL", rings[1].points = NULL);
+    WRONG(LIMIT, "the rings up to ring 1|2147483648", rings[1].count = (uint64_t)1 << 31);
     WRONG(ARGUMENT, "ring 1 are on one line", hole[0][0] = 3; hole[0][1] = 1; hole[1][0] = 6;
           hole[1][1] = 2; hole[2][0] = 6; hole[2][1] = 2; hole[3][0] = 300000003;
           hole[3][1] = 100000001);

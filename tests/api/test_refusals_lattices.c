@@ -96,6 +96,9 @@ static void lattices(void** state) {
     WRONG(ARGUMENT, "unit cell 2: unit_cell is 9", cells[2].unit_cell = 9);
     WRONG(ARGUMENT, "unit cell 2: node_count is 0", cells[2].unit_cell = MSQ_UNIT_CELL_CUSTOM);
     WRONG(ARGUMENT, "unit cell 1: |struct_size", cells[1].struct_size -= 8);
+    /* As if of a later version, whose fields are zero; but elements have one size. */
+    WRONG(ARGUMENT, "unit cell 2: struct_size is|that of the first", cells[2].struct_size += 8;
+          memset(&cells[3], 0, sizeof cells[3]));
     WRONG(ARGUMENT, "must be NULL", def->nodes = node);
     wrong_number(table, &def->cell_choice.value, "cell_choice is ");
     WRONG(ARGUMENT, "clusters is 65", def->clusters = 65);

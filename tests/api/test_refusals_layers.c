@@ -87,6 +87,7 @@ static void slicers(void** state) {
           def->layer_count = INT32_MAX; def->layer_height = 1e-8);
     WRONG(ARGUMENT, "material", def->output = MSQ_LAYER_MATERIAL);
     WRONG(ARGUMENT, "region", model = everywhere);
+    WRONG(ARGUMENT, "axis 1|has_region is 0", def->region_max[1] = 2);
     WRONG(ARGUMENT, "def is NULL", def = NULL);
     if (TRY(msq_slicer_create(model, def, slicer))) msq_slicer_release(*slicer);
   }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * What functions of models refuse. */
+#include "materials.h"
 #include "wrong_values.h"
 
 static msq_context* context;
@@ -14,6 +15,7 @@ static void models(void** state) {
   msq_structure* fine = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 0x1p-22, 0x1p-25);
   msq_structure* coarser = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 0x1p-21, 0x1p-24);
   msq_field* skin = ramp_of(context, -0.25, 1);
+  msq_material* steel = make_material(context, 1, 7.8, 0);
   (void)state;
   REFUSALS("msq_model_create") {
     msq_context* in = context;
@@ -52,9 +54,11 @@ static void models(void** state) {
     wrong_number(table, &scales[1].skin.value, "skin");
     WRONG(ARGUMENT, "-0.25 somewhere", scales[1].skin.field = skin);
     WRONG(ARGUMENT, "scale 0", scales[0].skin.value = 1);
+    WRONG(ARGUMENT, "scale 0 has a skin_material", scales[0].skin_material = steel);
     WRONG(ARGUMENT, "def is NULL", def = NULL);
     if (TRY(msq_model_create(in, def, model))) msq_model_release(*model);
   }
+  msq_material_release(steel);
   msq_field_release(skin);
   msq_structure_release(coarser);
   msq_structure_release(fine);
@@ -64,10 +68,13 @@ static void models(void** state) {
 
 static void parts_of_models(void** state) {
   static const msq_model* many[4097];
-  msq_model *part = make_box_model(context), *most;
+  msq_model *part = make_box_model(context), *most, *everywhere;
+  msq_shape* space;
   (void)state;
   for (int i = 0; i < 4097; ++i) many[i] = part;
   assert_ok(msq_model_regions(context, many, 4096, &most));
+  assert_ok(msq_shape_all_space(context, &space));
+  everywhere = make_model(context, space, make_lattice(context), NULL);
   REFUSALS("msq_model_regions") {
     msq_context* in = context;
     const msq_model* list[2] = {part, part};
@@ -83,8 +90,10 @@ static void parts_of_models(void** state) {
     WRONG(ARGUMENT, "regions[1] is NULL", list[1] = NULL);
     RIGHT(regions = many; count = 4096);
     WRONG(LIMIT, "4097", list[0] = most);
+    WRONG(UNSUPPORTED, "regions[1]|bounds", list[1] = everywhere);
     if (TRY(msq_model_regions(in, regions, count, model))) msq_model_release(*model);
   }
+  msq_model_release(everywhere);
   msq_model_release(most);
   REFUSALS("msq_model_bounds") {
     const msq_model* model = part;

@@ -304,8 +304,10 @@ static void shapes_of_shapes(void** state) {
   const double flat[12] = {1, 1, 0, 0, 1, 1 + 1e-9, 0, 0, 0, 0, 1, 0};
   const double exact[12] = {0, -2, 0, 5, 2, 0, 0, 6, 0, 0, 2, 7};
   msq_shape *box = make_box(context), *far = make_box_of(context, 5, 6), *ball, *both, *stretched;
+  msq_shape* space;
   msq_shape* nested[65];
   (void)state;
+  assert_ok(msq_shape_all_space(context, &space));
   assert_ok(msq_shape_from_sphere(context, center, 2, &ball));
   const msq_shape* const pair[2] = {box, ball};
   assert_ok(msq_shape_boolean(MSQ_BOOLEAN_UNION, pair, 2, &both));
@@ -332,6 +334,7 @@ static void shapes_of_shapes(void** state) {
           numbers[0] = numbers[5] = numbers[10] = 1e-76);
     RIGHT(original = nested[63]);
     WRONG(LIMIT, "64", original = nested[64]);
+    WRONG(UNSUPPORTED, "original is all space", original = space);
     if (TRY(msq_shape_placed(original, matrix, shape))) msq_shape_release(*shape);
   }
   REFUSALS("msq_shape_boolean") {
@@ -347,6 +350,7 @@ static void shapes_of_shapes(void** state) {
     WRONG(ARGUMENT, "shapes[0] is NULL", list[0] = NULL);
     WRONG(ARGUMENT, "shapes[1] is NULL", list[1] = NULL);
     WRONG(ARGUMENT, "shape is NULL", shape = NULL);
+    WRONG(UNSUPPORTED, "shapes|all space", list[1] = space);
     WRONG(ARGUMENT, "do not meet", operation = MSQ_BOOLEAN_INTERSECTION; list[1] = far);
     RIGHT(operation = MSQ_BOOLEAN_INTERSECTION);
     if (TRY(msq_shape_boolean(operation, shapes, count, shape))) msq_shape_release(*shape);
@@ -363,10 +367,12 @@ static void shapes_of_shapes(void** state) {
     WRONG(ARGUMENT, "2e+75", distance = 2e75);
     WRONG(UNSUPPORTED, "-0.5", original = both; distance = -0.5);
     WRONG(UNSUPPORTED, "bound", original = stretched);
+    WRONG(UNSUPPORTED, "original is all space", original = space);
     RIGHT(distance = -0.5);
     if (TRY(msq_shape_offset(original, distance, shape))) msq_shape_release(*shape);
   }
   for (int i = 0; i < 65; ++i) msq_shape_release(nested[i]);
+  msq_shape_release(space);
   msq_shape_release(stretched);
   msq_shape_release(both);
   msq_shape_release(ball);

@@ -91,6 +91,8 @@ static void wrong_segments(const char* function, segments_fn ask) {
     WRONG(ARGUMENT, "4097", def->length_count = 4097);
     for (int i = 0; i < 4; ++i) WRONG(ARGUMENT, "length 1 is ", own[1] = wrong[i]);
     wrong_vector(table, def->direction, "direction");
+    WRONG(ARGUMENT, "too short", memset(def->direction, 0, sizeof def->direction);
+          def->direction[1] = 5e-324);
     WRONG(CANCELLED, "cancelled", job = cancelled_job());
     wrong_sizes(table, def, sizeof *def, sizeof *def);
     wrong_sample(table, sample);
