@@ -176,8 +176,27 @@ static void expressions_hash_their_operations(void** state) {
     /* 1 / -0 is not 1 / 0. */
     CHANGES(def.expression, def.expression = "max(x, -0)");
     CHANGES(def.expression, def.expression = "x + 0 / 0");
-    const char* const functions[] = {"-x",     "abs(x)", "sqrt(x)", "sin(x)",
-                                     "cos(x)", "exp(x)", "log(x)"};
+    const char* const functions[] = {"-x",
+                                     "abs(x)",
+                                     "sqrt(x)",
+                                     "sin(x)",
+                                     "cos(x)",
+                                     "exp(x)",
+                                     "log(x)",
+                                     "tanh(x)",
+                                     "floor(x)",
+                                     "ceil(x)",
+                                     "round(x)",
+                                     "mod(x, 3)",
+                                     "x < 0",
+                                     "x <= 0",
+                                     "x > 0",
+                                     "x >= 0",
+                                     "atan2(x, y)",
+                                     "atan2(y, x)",
+                                     "hypot(x, y)",
+                                     "select(x < 0, y, z)",
+                                     "select(x < 0, z, y)"};
     for (size_t f = 0; f < COUNT_OF(functions); ++f)
       CHANGES(def.expression, def.expression = functions[f]);
     CHANGES(def.low, def.low = 0.25);
