@@ -89,7 +89,7 @@ extern "C" {
 #define MSQ_VERSION_MINOR 2
 #define MSQ_VERSION_PATCH 0
 /** Version of this header: major * 10000 + minor * 100 + patch. */
-#define MSQ_VERSION 100
+#define MSQ_VERSION 200
 
 /** Result of a function: MSQ_OK or a negative MSQ_E_*. */
 typedef int32_t msq_status;

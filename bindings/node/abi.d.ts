@@ -8,7 +8,7 @@ export type Memory = Pointer | NodeJS.TypedArray | ArrayBuffer;
 export declare const MSQ_VERSION_MAJOR = 0;
 export declare const MSQ_VERSION_MINOR = 2;
 export declare const MSQ_VERSION_PATCH = 0;
-export declare const MSQ_VERSION = 100;
+export declare const MSQ_VERSION = 200;
 export declare const MSQ_OK = 0;
 /** An argument is NULL, not finite, out of range, or inconsistent with another. */
 export declare const MSQ_E_ARGUMENT = -1;

@@ -3,7 +3,7 @@
 export const MSQ_VERSION_MAJOR = 0;
 export const MSQ_VERSION_MINOR = 2;
 export const MSQ_VERSION_PATCH = 0;
-export const MSQ_VERSION = 100;
+export const MSQ_VERSION = 200;
 export const MSQ_OK = 0;
 export const MSQ_E_ARGUMENT = -1;
 export const MSQ_E_MEMORY = -2;

@@ -2297,7 +2297,7 @@ namespace Msq.Interop
         public const uint MSQ_VERSION_MAJOR = 0;
         public const uint MSQ_VERSION_MINOR = 2;
         public const uint MSQ_VERSION_PATCH = 0;
-        public const uint MSQ_VERSION = 100;
+        public const uint MSQ_VERSION = 200;
         public const int MSQ_OK = 0;
         public const int MSQ_E_ARGUMENT = -1;
         public const int MSQ_E_MEMORY = -2;

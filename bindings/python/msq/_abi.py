@@ -6,7 +6,7 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_float, 
 MSQ_VERSION_MAJOR = 0
 MSQ_VERSION_MINOR = 2
 MSQ_VERSION_PATCH = 0
-MSQ_VERSION = 100
+MSQ_VERSION = 200
 MSQ_OK = 0
 MSQ_E_ARGUMENT = -1
 MSQ_E_MEMORY = -2

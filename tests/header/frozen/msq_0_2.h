@@ -28,7 +28,7 @@ extern "C" {
 #define MSQ_VERSION_MINOR 2
 #define MSQ_VERSION_PATCH 0
 
-#define MSQ_VERSION 100
+#define MSQ_VERSION 200
 
 typedef int32_t msq_status;
 

@@ -15,7 +15,7 @@ pub const MSQ_VERSION_MINOR: u32 = 2;
 
 pub const MSQ_VERSION_PATCH: u32 = 0;
 
-pub const MSQ_VERSION: u32 = 100;
+pub const MSQ_VERSION: u32 = 200;
 
 pub const MSQ_OK: i32 = 0;
 
