@@ -54,7 +54,8 @@ std::vector<Scenario> contour_scenarios() {
          World world(stage);
          msq_model* model = world.model(world.box(), kinds()[0].make(world));
          const msq_slicer* slicer = world.slicer(model, false);
-         const msq_contours_def def = coarse();
+         msq_contours_def def = coarse();
+         def.topology_samples = 2;
          msq_contours* contours;
          std::vector<double> first(4);
          stage.watch_handle(contours);

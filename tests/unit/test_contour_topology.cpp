@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The topology of contours against that of a mask of 16 x 16 samples to a cell.
-#include "slice/contour_topology.h"
+#include "slice/contour_topology_cells.h"
 
 #include <functional>
 #include <string>
