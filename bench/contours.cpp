@@ -73,14 +73,20 @@ void measure(bench::Report& report, const Setup& setup, uint32_t resolution) {
       report.add(name + ": bits", seconds, double(resolution) * resolution, "sample");
       msq_slicer_release(slicer);
     }
-    for (const double tolerance : {0.5, 0.25, 0.1}) {
-      if (!by_struts && tolerance != 0.5) continue;
+    struct Way {
+      double tolerance;
+      uint32_t topology_samples;
+    };
+    for (const auto [tolerance, samples] :
+         {Way{0.5, 0}, Way{0.25, 0}, Way{0.1, 0}, Way{0.5, 4}, Way{0.5, 16}}) {
+      if (!by_struts && (tolerance != 0.5 || samples != 0)) continue;
       msq_contours_def def;
       bench::check(msq_contours_def_init(&def, sizeof def));
       def.type = MSQ_INT64;
       def.units = 1e6;
       def.pitch = pitch;
       def.tolerance = tolerance * pitch;
+      def.topology_samples = samples;
       msq_contours_report made{};
       const double seconds = bench::median_seconds([&] {
         msq_contours* contours;
@@ -90,11 +96,13 @@ void measure(bench::Report& report, const Setup& setup, uint32_t resolution) {
         msq_contours_release(contours);
       });
       char text[120];
-      std::snprintf(text, sizeof text, ": %s, %.2f px, %llu rings, %llu unresolved",
+      std::snprintf(text, sizeof text, ": %s, %.2f px, %llu rings, ",
                     by_struts ? "contours" : "by bisection", tolerance,
-                    static_cast<unsigned long long>(made.ring_count),
-                    static_cast<unsigned long long>(made.unresolved_count));
-      report.add(name + text, seconds, double(made.point_count), "point");
+                    static_cast<unsigned long long>(made.ring_count));
+      const std::string counted = samples ? "topology " + std::to_string(made.topology_count) +
+                                                " by " + std::to_string(samples)
+                                          : std::to_string(made.unresolved_count) + " unresolved";
+      report.add(name + text + counted, seconds, double(made.point_count), "point");
     }
     msq_model_release(model);
     msq_context_release(context);
