@@ -5,9 +5,9 @@
 // Lines through the crossings before and behind a piece meet at a point X. The triangle of X and
 // the piece's crossings holds the boundary where it turns one way, so only pieces whose triangle is
 // higher than the tolerance are looked into. Where the curvature through the crossings around is
-// about even, an arc tells how far the boundary is, and its middle is taken. Elsewhere membership
-// on either side of the middle of the piece tells whether it is near enough. If not, X is a corner
-// where membership around X and around the middles of both sides says so. Otherwise the point on
+// about even, an arc tells how far the boundary is, and its middle is taken where membership on
+// both sides confirms it. Elsewhere membership beside the middle of the piece and its quarters tells
+// whether it is near enough. If not, X is a corner where membership around X and around the middles of both sides says so. Otherwise the point on
 // the boundary beside the piece's middle is found by bisection, and both halves are looked into
 // likewise.
 //
@@ -55,8 +55,8 @@ class ContourDetails {
     uint32_t id, next;  // crossings
     int depth;
     int turn;  // where known: 1: the boundary turns left between its ends, -1: right; else 0
-    bool has_corner, is_inside;
-    Vec2 a, b, corner;
+    bool has_arc, has_corner, is_inside, is_bent;
+    Vec2 a, b, arc, corner;
     double begin, end;  // orders of a and b
     Vec2 middle() const { return (a + b) * 0.5; }
   };
@@ -66,6 +66,7 @@ class ContourDetails {
   void settle(ContourPoints& points);
   void look_along(const ContourRings::Ring& ring, CancelPoll& poll);
   void suspect(const ContourRings::Ring& ring, uint32_t id);
+  void take_arcs(ContourPoints& points);
   void keep_bent(ContourPoints& points);
   void take_corners(ContourPoints& points);
   void split(ContourPoints& points);
