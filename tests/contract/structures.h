@@ -66,9 +66,14 @@ struct StructureRow {
   bool is_method_1() const { return kind.family == "foam METHOD_1"; }
   bool has_dear_cells() const { return is_method_1() || is_method_2(); }
   bool has_dear_points() const { return kind.family == "foam POINT"; }
+  /// Made of other rows' structures, which have tests of their own.
+  bool is_made_of_others() const { return kind.family == "combined" || kind.family == "blended"; }
   /// A test's number of samples, cut down where they are dear.
   size_t samples(size_t full) const {
-    const size_t part = has_dear_points() ? 1000 : is_method_1() ? 10 : is_method_2() ? 4 : 1;
+    const size_t part = has_dear_points()                      ? 1000
+                        : is_method_1() || is_made_of_others() ? 10
+                        : is_method_2()                        ? 4
+                                                               : 1;
     return test_count(full / part) / family_rows + 2;
   }
   double unit() const { return max_component(variant.grid.cell_size); }
