@@ -25,6 +25,7 @@ class Maker {
   const Sight& sight() const { return sight_; }
 
  private:
+  const char* formula();
   msq_param param(double low, double high);
   Owner<msq_shape> shape_of_kind(uint32_t kind, int depth);
   Owner<msq_structure> lattice();
