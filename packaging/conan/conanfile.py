@@ -98,6 +98,7 @@ class MsqConan(ConanFile):
             "MSQ_WITH_PYTHON": False,
             "MSQ_BUILD_EXAMPLES": False,
             "MSQ_BUILD_TESTS": False,
+            "MSQ_BUILD_FUZZERS": False,
         }
         for name, value in chosen.items():
             toolchain.cache_variables[name] = bool(value)

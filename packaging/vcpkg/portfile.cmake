@@ -19,6 +19,7 @@ vcpkg_cmake_configure(
         "-DPKG_CONFIG_EXECUTABLE=${PKGCONFIG}"
         -DMSQ_BUILD_EXAMPLES=OFF
         -DMSQ_BUILD_TESTS=OFF
+        -DMSQ_BUILD_FUZZERS=OFF
         -DMSQ_WITH_PYTHON=OFF
 )
 vcpkg_cmake_install()

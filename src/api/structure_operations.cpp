@@ -10,23 +10,23 @@ using namespace msq::api;
 
 namespace {
 
-constexpr unsigned max_nesting = 64;
-constexpr uint64_t max_members = 4096;
+constexpr unsigned max_structure_nesting = 64;
+constexpr uint64_t max_structure_members = 4096;
 
 /// A new structure made of others, if these are not too many or too deep within each other.
 template <class Def>
 msq_structure* made_of_structures(const Ref<CombinedStructure>& structure, const Def& def) {
-  if (structure->nesting() > max_nesting)
+  if (structure->nesting() > max_structure_nesting)
     fail(Status::limit,
          "%u structures made of structures would be within each other; the limit is %u",
-         structure->nesting(), max_nesting);
-  if (structure->terms() > max_members)
+         structure->nesting(), max_structure_nesting);
+  if (structure->terms() > max_structure_members)
     fail(
         Status::limit,
         "it would be made of %llu structures, the same counted as often as it occurs; the limit is "
         "%llu",
         static_cast<unsigned long long>(structure->terms()),
-        static_cast<unsigned long long>(max_members));
+        static_cast<unsigned long long>(max_structure_members));
   return defined_handle<msq_structure>(structure, def);
 }
 
@@ -48,9 +48,10 @@ msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* 
   return guard([&] {
     const auto known = static_cast<BooleanStructure::Operation>(
         require_range(operation, MSQ_BOOLEAN_UNION, MSQ_BOOLEAN_DIFFERENCE, "operation"));
-    if (count < 1 || count > max_members)
+    if (count < 1 || count > max_structure_members)
       fail(Status::argument, "count is %llu; it must be from 1 to %llu",
-           static_cast<unsigned long long>(count), static_cast<unsigned long long>(max_members));
+           static_cast<unsigned long long>(count),
+           static_cast<unsigned long long>(max_structure_members));
     require(structures, "structures");
     require(structure, "structure");
     StructureList members;

@@ -67,6 +67,11 @@ struct StructureRow {
   bool has_dear_cells() const { return is_method_1() || is_method_2(); }
   bool has_dear_points() const { return kind.family == "foam POINT"; }
   /// Made of other rows' structures, which have tests of their own.
+  /// Radii of beams are taken at their ends.
+  bool holds_beams() const {
+    return is_beams() || (is_made_of_others() && (kind.name.find("beams") != std::string::npos ||
+                                                  kind.name.find("nested") != std::string::npos));
+  }
   bool is_made_of_others() const { return kind.family == "combined" || kind.family == "blended"; }
   /// A test's number of samples, cut down where they are dear.
   size_t samples(size_t full) const {
