@@ -147,9 +147,9 @@ typedef struct msq_build_report {
   const char* licence;
   /** Instruction set that the kernels use on this machine, for example "AVX3". Static. */
   const char* simd;
-  /** 1 if msq_shape_hash and its like are available. Since 0.2. */
+  /** 1 if msq_shape_hash and its like are available. */
   int32_t with_xxhash;
-  /** 1 if documents are read and written (msq_document_from_json). Since 0.2. */
+  /** 1 if documents are read and written (msq_document_from_json). */
   int32_t with_json;
 } msq_build_report;
 
@@ -196,7 +196,7 @@ enum msq_warning_code {
  *
  * It is called on the thread that called msq, when the work of the function that gives the warning
  * is done and before it returns; never with a lock held, so it may call msq. A constructor has not
- * written its handle yet. Exceptions of the host's language must not leave it. Since 0.2. */
+ * written its handle yet. Exceptions of the host's language must not leave it. */
 typedef void (*msq_warning_fn)(void* user, int32_t code, const char* message);
 
 /** Called once when an object is freed. */
@@ -405,7 +405,7 @@ typedef struct msq_window {
  * Hashes. msq cannot see what callbacks compute. hash_key, 128 bits that the host chooses, stands
  * for it in msq_shape_hash and its like: the host changes the key whenever results of the callbacks
  * change, in any of its runs. Both words 0 (default): no key, and such hashes are refused. Other
- * results do not depend on the key. Since 0.2. */
+ * results do not depend on the key. */
 
 /** Writes values[i], the value at point i, for i < count. */
 typedef int32_t (*msq_values_fn)(void* user, const double* points, uint64_t count, double* values);
@@ -455,7 +455,7 @@ enum msq_format {
   MSQ_FORMAT_OFF = 4,
   MSQ_FORMAT_3MF = 5,
   MSQ_FORMAT_AMF = 6,
-  /** glTF 2.0, text or binary (GLB). Since 0.2. */
+  /** glTF 2.0, text or binary (GLB). */
   MSQ_FORMAT_GLTF = 7
 };
 
@@ -477,7 +477,7 @@ typedef struct msq_neighbourhood {
  * as lengths are, is the same structure at another place: seeds and unit cells go with the cells.
  * Fields and beams are the host's to move. Without this call a structure stays fixed to the model's
  * frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that
- * mirrors, shears or stretches by more than 1e-9). Since 0.2. */
+ * mirrors, shears or stretches by more than 1e-9). */
 MSQ_API msq_status msq_neighbourhood_placed(const msq_neighbourhood* grid, const double matrix[12],
                                             msq_neighbourhood* placed);
 
@@ -489,7 +489,7 @@ MSQ_API msq_status msq_neighbourhood_placed(const msq_neighbourhood* grid, const
  * grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not
  * fold. The size of the grid along this axis is ignored; its origin is a corner of cells. The
  * largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit
- * for bit. The arrays are copied. Since 0.2. */
+ * for bit. The arrays are copied. */
 typedef struct msq_period_def {
   uint32_t struct_size;
   /** Axis of the grid, 0 to 2. Default 2. */
@@ -504,7 +504,7 @@ typedef struct msq_period_def {
   uint64_t count;
 } msq_period_def;
 
-/** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+/** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_period_def_init(msq_period_def* def, size_t size);
 
 /** Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about
@@ -664,7 +664,7 @@ typedef struct msq_host_shape_def {
   msq_release_fn release;
   /** Bounding box, with the limits of msq_shape_from_box. No default. */
   double min[3], max[3];
-  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  /** Stands for the callbacks in hashes. Both 0 (default): none. */
   uint64_t hash_key[2];
 } msq_host_shape_def;
 
@@ -720,7 +720,7 @@ MSQ_API msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_
  * few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors:
  * ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6;
  * lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64
- * shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. Since 0.2. */
+ * shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. */
 MSQ_API msq_status msq_shape_placed(const msq_shape* original, const double matrix[12],
                                     msq_shape** shape);
 
@@ -743,7 +743,7 @@ enum msq_boolean_operation {
  * shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do
  * not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an
  * intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed),
- * UNSUPPORTED (all space), MEMORY. Since 0.2. */
+ * UNSUPPORTED (all space), MEMORY. */
 MSQ_API msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* shapes,
                                      uint64_t count, msq_shape** shape);
 
@@ -759,7 +759,7 @@ MSQ_API msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* 
  * tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not
  * finite, an offset inwards by more than half the bounding box, coordinates above 1e75),
  * UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as
- * msq_shape_placed; memory), MEMORY. Since 0.2. */
+ * msq_shape_placed; memory), MEMORY. */
 MSQ_API msq_status msq_shape_offset(const msq_shape* original, double distance, msq_shape** shape);
 
 /** Adds a reference. */
@@ -822,7 +822,7 @@ MSQ_API msq_status msq_shape_info(const msq_shape* shape, msq_shape_report* repo
  * It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash
  * by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per
  * second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without
- * a hash_key in it; a build without xxHash), MEMORY. Since 0.2. */
+ * a hash_key in it; a build without xxHash), MEMORY. */
 MSQ_API msq_status msq_shape_hash(const msq_shape* shape, uint8_t hash[16]);
 
 /** Counts the pairs of triangles in which a mesh intersects itself. Other shapes: 0.
@@ -902,7 +902,7 @@ typedef struct msq_host_field_def {
   double low, high;
   /** Lipschitz constant of the values. Infinity (default): unknown. */
   double lipschitz;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  /** Stands for the callbacks in hashes. Both 0 (default): none. */
   uint64_t hash_key[2];
 } msq_host_field_def;
 
@@ -1006,7 +1006,7 @@ MSQ_API msq_status msq_field_shape_distance(msq_context* context,
                                             msq_field** field, msq_job* job);
 
 /** Hashes a field, as msq_shape_hash does. A field by the distance to a shape that was sampled with
- * a step is hashed from its samples. Errors: as msq_shape_hash. Since 0.2. */
+ * a step is hashed from its samples. Errors: as msq_shape_hash. */
 MSQ_API msq_status msq_field_hash(const msq_field* field, uint8_t hash[16]);
 /** Adds a reference. */
 MSQ_API void msq_field_retain(msq_field* field);
@@ -1278,30 +1278,30 @@ enum msq_function {
   /** 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x)
    * - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) - 0.4 (cos 2x + cos 2y + cos 2z) */
   MSQ_FUNCTION_SPLIT_P = 8,
-  /** cos 2x sin y cos z + cos 2y sin z cos x + cos 2z sin x cos y. Since 0.2. */
+  /** cos 2x sin y cos z + cos 2y sin z cos x + cos 2z sin x cos y. */
   MSQ_FUNCTION_FISCHER_KOCH_S = 9,
   /** sin 2x sin y + sin 2y sin z + sin 2z sin x + sin 2x cos z + sin 2y cos x + sin 2z cos y
-   * - sin x sin y sin z - cos x cos y cos z: C(Y). Since 0.2. */
+   * - sin x sin y sin z - cos x cos y cos z: C(Y). */
   MSQ_FUNCTION_C_Y = 10,
-  /** sin 2x sin y + sin 2y sin z + sin 2z sin x - 2 cos x cos y cos z: C(+-Y). Since 0.2. */
+  /** sin 2x sin y + sin 2y sin z + sin 2z sin x - 2 cos x cos y cos z: C(+-Y). */
   MSQ_FUNCTION_C_PLUS_MINUS_Y = 11,
   /** 0.3 (cos x + cos y + cos z) + 0.3 (cos x cos y + cos y cos z + cos z cos x)
-   * - 0.4 (cos 2x + cos 2y + cos 2z) + 0.2. Since 0.2. */
+   * - 0.4 (cos 2x + cos 2y + cos 2z) + 0.2. */
   MSQ_FUNCTION_KARCHER_K = 12,
-  /** sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'. Since 0.2. */
+  /** sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'. */
   MSQ_FUNCTION_G_PRIME = 13,
   /** cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x
    * - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is
-   * two labyrinths that do not touch, as those of the next two. Since 0.2. */
+   * two labyrinths that do not touch, as those of the next two. */
   MSQ_FUNCTION_DOUBLE_GYROID = 14,
-  /** -0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. Since 0.2. */
+  /** -0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. */
   MSQ_FUNCTION_DOUBLE_DIAMOND = 15,
-  /** -0.5 (cos x cos y + cos y cos z + cos z cos x) - 0.2 (cos 2x + cos 2y + cos 2z). Since 0.2. */
+  /** -0.5 (cos x cos y + cos y cos z + cos z cos x) - 0.2 (cos 2x + cos 2y + cos 2z). */
   MSQ_FUNCTION_DOUBLE_P = 16,
   /** cos 2y + 2 cos x cos y + 0.5: columns along z with hexagonal holes, regular if the cell is
-   * sqrt(3) times as long along y as along x. Since 0.2. */
+   * sqrt(3) times as long along y as along x. */
   MSQ_FUNCTION_HONEYCOMB = 17,
-  /** 1 - cos x - cos y: rods along z. Since 0.2. */
+  /** 1 - cos x - cos y: rods along z. */
   MSQ_FUNCTION_RODS = 18
 };
 
@@ -1337,7 +1337,7 @@ typedef struct msq_functional_def {
   /** SHEET, instead of level: mean wall thickness in model units. A constant must be > 0, a field
    * >= 0 and not 0 everywhere. With a period it must be a constant. Default 0: level is used. */
   msq_param thickness;
-  /** Cells of varying size. NULL (default): all cells have the size of the grid. Since 0.2. */
+  /** Cells of varying size. NULL (default): all cells have the size of the grid. */
   const msq_period_def* period;
 } msq_functional_def;
 
@@ -1352,8 +1352,7 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign
  * before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is
  * not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are
- * evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. Since
- * 0.2:
+ * evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0.
  * - Comparisons, < <= > >= == !=, bind weakest, do not associate, and are 1 or 0.
  * - select(c, a, b) is a where c is above 0.5, otherwise b.
  * - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b).
@@ -1427,7 +1426,7 @@ MSQ_API msq_status msq_waves_def_init(msq_waves_def* def, size_t size);
 
 /** Creates a spinodal structure: the points where a sum of cosines of one wavelength, with random
  * directions and phases, is at most the level (NETWORK), or its magnitude is (SHEET). def must not
- * be NULL. Since 0.2.
+ * be NULL.
  *
  * Directions and phases are a function of the seed, equal on every machine. With many waves the sum
  * is a Gaussian random field. volume_fraction is then met on average: the level is the inverse of
@@ -1513,7 +1512,7 @@ MSQ_API msq_status msq_beams_def_init(msq_beams_def* def, size_t size);
 MSQ_API msq_status msq_structure_beams(msq_context* context, const msq_beams_def* def,
                                        msq_structure** structure, msq_job* job);
 
-/** The beam lattices of a file, and its mesh. Immutable; any thread may read it. Since 0.2. */
+/** The beam lattices of a file, and its mesh. Immutable; any thread may read it. */
 typedef struct msq_beam_file msq_beam_file;
 
 /** Reads beam lattices from a 3MF file. def NULL: defaults; format must be MSQ_FORMAT_AUTO or
@@ -1536,18 +1535,18 @@ typedef struct msq_beam_file msq_beam_file;
  * Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has
  * components or beams, and transforms that scale some directions by over 1e-4 more than others;
  * MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses.
- * Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0. */
+ * Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0. */
 MSQ_API msq_status msq_beam_file_open(msq_context* context, const char* path,
                                       const msq_file_def* def, msq_beam_file** file, msq_job* job);
 
 /** Reads beam lattices from bytes in memory. def must name the format and must not be NULL. See
- * msq_beam_file_open. Errors: as msq_beam_file_open. Since 0.2. */
+ * msq_beam_file_open. Errors: as msq_beam_file_open. */
 MSQ_API msq_status msq_beam_file_open_memory(msq_context* context, const void* data, uint64_t bytes,
                                              const msq_file_def* def, msq_beam_file** file,
                                              msq_job* job);
-/** Adds a reference. Since 0.2. */
+/** Adds a reference. */
 MSQ_API void msq_beam_file_retain(msq_beam_file* file);
-/** Drops a reference. Since 0.2. */
+/** Drops a reference. */
 MSQ_API void msq_beam_file_release(msq_beam_file* file);
 
 /** Which part of the beams of a file belongs to the solid. */
@@ -1580,14 +1579,13 @@ typedef struct msq_beam_file_report {
 } msq_beam_file_report;
 
 /** Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than
- * lattice_count). Since 0.2. */
+ * lattice_count). */
 MSQ_API msq_status msq_beam_file_info(const msq_beam_file* file, uint64_t lattice,
                                       msq_beam_file_report* report);
 
 /** Fills in the definition of a lattice for msq_structure_beams, unclipped. The caller sets
  * struct_size. The arrays of the definition belong to the file and are valid as long as it is; the
- * other fields have their defaults. Errors: ARGUMENT (lattice is not less than lattice_count).
- * Since 0.2. */
+ * other fields have their defaults. Errors: ARGUMENT (lattice is not less than lattice_count). */
 MSQ_API msq_status msq_beam_file_beams(const msq_beam_file* file, uint64_t lattice,
                                        msq_beams_def* def);
 
@@ -1601,7 +1599,7 @@ enum msq_beam_file_mesh {
 
 /** Creates a shape from a mesh of a file of beams, in millimetres. mesh: an msq_beam_file_mesh.
  * winding_rule: an msq_winding. Cost and errors: as msq_shape_from_mesh; ARGUMENT also for
- * lattice; MESH if the file has no such mesh. Since 0.2. */
+ * lattice; MESH if the file has no such mesh. */
 MSQ_API msq_status msq_beam_file_shape(msq_context* context, const msq_beam_file* file,
                                        uint64_t lattice, int32_t mesh, int32_t winding_rule,
                                        msq_shape** shape);
@@ -1674,7 +1672,7 @@ typedef struct msq_host_structure_def {
   void* user;
   /** May be NULL. */
   msq_release_fn release;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  /** Stands for the callbacks in hashes. Both 0 (default): none. */
   uint64_t hash_key[2];
 } msq_host_structure_def;
 
@@ -1716,7 +1714,7 @@ typedef struct msq_host_function_def {
   msq_release_fn release;
   /** Lipschitz constant of the values with respect to the angles. Infinity (default): unknown. */
   double lipschitz;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  /** Stands for the callbacks in hashes. Both 0 (default): none. */
   uint64_t hash_key[2];
 } msq_host_function_def;
 
@@ -1743,7 +1741,7 @@ MSQ_API msq_status msq_structure_host_function(msq_context* context,
  * largest, a bound; of a difference as of an intersection with complements. The limit on cells
  * (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs.
  * Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than
- * 4096 structures in total, counted with repetition), MEMORY. Since 0.2. */
+ * 4096 structures in total, counted with repetition), MEMORY. */
 MSQ_API msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* structures,
                                          uint64_t count, msq_structure** structure);
 
@@ -1759,12 +1757,12 @@ MSQ_API msq_status msq_structure_boolean(int32_t operation, const msq_structure*
  * distances at each sample that one of them holds and 0 < f < 1. Errors: ARGUMENT (also a fraction
  * that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no
  * Lipschitz constant: their radius, level or thickness is a field without one, a function has no
- * bounded slope, or the host gives no distance), MEMORY. Since 0.2. */
+ * bounded slope, or the host gives no distance), MEMORY. */
 MSQ_API msq_status msq_structure_blend(const msq_structure* a, const msq_structure* b,
                                        const msq_param* fraction, msq_structure** structure);
 
 /** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count.
- * Errors: as msq_shape_hash. Since 0.2. */
+ * Errors: as msq_shape_hash. */
 MSQ_API msq_status msq_structure_hash(const msq_structure* structure, uint8_t hash[16]);
 /** Adds a reference. */
 MSQ_API void msq_structure_retain(msq_structure* structure);
@@ -1855,7 +1853,7 @@ MSQ_API msq_status msq_struts_def_init(msq_struts_def* def, size_t size);
  * microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around
  * it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone: they
  * have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED,
- * MEMORY. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams:
+ * MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams:
  * Aurenhammer 1991. */
 MSQ_API msq_status msq_structure_struts(msq_context* context, const msq_structure* structure,
                                         const msq_struts_def* def, msq_struts_fn callback,
@@ -1868,7 +1866,7 @@ typedef struct msq_strut_graph msq_strut_graph;
  * in the order in which they first occur. Cost: as msq_structure_struts, and a table of the nodes
  * on the calling thread. Memory: 56 bytes per strut and 40 per node, accounted to the context;
  * while the call lasts, up to four times as much. Errors: as msq_structure_struts; LIMIT also for
- * memory or more than 2^32 - 2 nodes. Since 0.2. */
+ * memory or more than 2^32 - 2 nodes. */
 MSQ_API msq_status msq_structure_strut_graph(msq_context* context, const msq_structure* structure,
                                              const msq_struts_def* def, msq_strut_graph** graph,
                                              msq_job* job);
@@ -1901,7 +1899,7 @@ typedef struct msq_strut_graph_report {
   const uint8_t* cuts;
 } msq_strut_graph_report;
 
-/** Reports what a graph holds. Errors: ARGUMENT. Since 0.2. */
+/** Reports what a graph holds. Errors: ARGUMENT. */
 MSQ_API msq_status msq_strut_graph_info(const msq_strut_graph* graph,
                                         msq_strut_graph_report* report);
 
@@ -1947,7 +1945,7 @@ MSQ_API msq_status msq_material_blend(msq_context* context, uint32_t id, const m
                                       const msq_material* b, const msq_param* fraction,
                                       msq_material** material);
 /** Hashes a material, as msq_shape_hash does: its id, and its channels in their order. Errors: as
- * msq_shape_hash. Since 0.2. */
+ * msq_shape_hash. */
 MSQ_API msq_status msq_material_hash(const msq_material* material, uint8_t hash[16]);
 /** Adds a reference. */
 MSQ_API void msq_material_retain(msq_material* material);
@@ -2016,11 +2014,11 @@ MSQ_API msq_status msq_model_create(msq_context* context, const msq_model_def* d
  * Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups,
  * so a sample costs the memberships in the shapes before its region, and its region. Two bits per
  * sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a
- * region of all space), MEMORY. Since 0.2. */
+ * region of all space), MEMORY. */
 MSQ_API msq_status msq_model_regions(msq_context* context, const msq_model* const* regions,
                                      uint64_t count, msq_model** model);
 /** Hashes a model, as msq_shape_hash does: its shape, and the structure, skin and materials of each
- * scale; or its regions in their order. Errors: as msq_shape_hash. Since 0.2. */
+ * scale; or its regions in their order. Errors: as msq_shape_hash. */
 MSQ_API msq_status msq_model_hash(const msq_model* model, uint8_t hash[16]);
 /** Adds a reference. */
 MSQ_API void msq_model_retain(msq_model* model);
@@ -2039,7 +2037,7 @@ MSQ_API msq_status msq_model_scale_length(const msq_model* model, uint32_t scale
 /** Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the
  * scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0
  * also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such
- * region or scale). Since 0.2. */
+ * region or scale). */
 MSQ_API msq_status msq_model_scale(const msq_model* model, uint32_t region, uint32_t scale,
                                    msq_shape** shape, msq_structure** structure);
 
@@ -2159,15 +2157,13 @@ MSQ_API msq_status msq_set_membership(const msq_model* model, const msq_points_d
 
 /** Region of one point: *region receives the index of the first region whose shape contains it, -1
  * if none does. The point need not be in the solid of the region. A model that is not made of
- * regions is region 0. Regions of regions are counted in their order. Errors: ARGUMENT, MEMORY.
- * Since 0.2. */
+ * regions is region 0. Regions of regions are counted in their order. Errors: ARGUMENT, MEMORY. */
 MSQ_API msq_status msq_point_region(const msq_model* model, const double point[3], int32_t* region);
 
 /** Regions of a set: regions[i] receives the result of msq_point_region for point i. region_count
  * must be the number of points. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and
  * MEMORY may leave regions partly written. Cost: in parallel, the memberships in the shapes.
  * Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY.
- * Since 0.2.
  */
 MSQ_API msq_status msq_set_region(const msq_model* model, const msq_points_def* points,
                                   int32_t* regions, uint64_t region_count, msq_job* job);
@@ -2407,7 +2403,7 @@ enum msq_layer_output {
   MSQ_LAYER_CONTOURS = 7,
   /** 1 float32 per pixel: the value of a channel of the material at its centre, as msq_set_material
    * returns it, rounded to the nearest float32; 0 outside, and where the material has no such
-   * channel. Only in msq_slicer_def.outputs. Since 0.2. */
+   * channel. Only in msq_slicer_def.outputs. */
   MSQ_LAYER_CHANNEL = 8
 };
 
@@ -2478,7 +2474,7 @@ typedef struct msq_output_def {
   /** CONTOURS: as msq_slicer_contours takes it. Copied. Other outputs: NULL (default). */
   const msq_contours_def* contours;
   /** CHANNEL: its name, in UTF-8, copied. A material of a resolved scale must have it. Other
-   * outputs: NULL (default). Since 0.2. */
+   * outputs: NULL (default). */
   const char* channel;
 } msq_output_def;
 
@@ -2775,7 +2771,7 @@ typedef struct msq_printability_def {
   double overhang;
 } msq_printability_def;
 
-/** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+/** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_printability_def_init(msq_printability_def* def, size_t size);
 
 /** Something doubtful. A sample stands for the box of a pixel and its layer's height, which reaches
@@ -2835,7 +2831,7 @@ typedef struct msq_printability_report {
  * times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a
  * layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md.
  * Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer),
- * MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2. */
+ * MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. */
 MSQ_API msq_status msq_printability(const msq_slicer* slicer, const msq_printability_def* def,
                                     msq_findings_fn fn, void* user, msq_printability_report* report,
                                     msq_job* job);
@@ -2885,7 +2881,7 @@ typedef struct msq_fill_def {
    * paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the
    * length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice.
    * Shorter walls are taken first, none is taken where a line of the two would leave the polygon,
-   * and the two may cross. Default 0: no wall is printed twice. Since 0.2. */
+   * and the two may cross. Default 0: no wall is printed twice. */
   double pair_distance;
 } msq_fill_def;
 
@@ -2988,7 +2984,7 @@ typedef struct msq_surface_def {
   uint32_t reserved;
 } msq_surface_def;
 
-/** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+/** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_surface_def_init(msq_surface_def* def, size_t size);
 
 /** A part of a mesh. The arrays are valid until the callback returns. The parts, one behind the
@@ -3031,7 +3027,7 @@ typedef int32_t (*msq_surface_fn)(void* user, const msq_surface_slab* slab);
  * be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory:
  * about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors:
  * ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes
- * along an axis; 2^32 vertices; memory), MEMORY. Since 0.2. Source: Schaefer, Ju and Warren,
+ * along an axis; 2^32 vertices; memory), MEMORY. Source: Schaefer, Ju and Warren,
  * "Manifold dual contouring", 2007. */
 MSQ_API msq_status msq_surface_mesh(const msq_model* model, const msq_surface_def* def,
                                     msq_surface_fn fn, void* user, msq_job* job);
@@ -3072,7 +3068,7 @@ typedef int32_t (*msq_file_fn)(void* user, const msq_file_part* part);
  *
  * Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is
  * written. A model without a point at a node yields a file without triangles. Errors: as
- * msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices. Since 0.2. */
+ * msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices. */
 MSQ_API msq_status msq_surface_file(const msq_model* model, const msq_surface_def* def,
                                     int32_t format, msq_file_fn fn, void* user, msq_job* job);
 
@@ -3307,7 +3303,7 @@ MSQ_API msq_status msq_render(const msq_model* model, const msq_camera* camera,
 /* ---- Documents ------------------------------------------------------------------------------- */
 
 /** A model with settings for slices and pictures, read from a text in JSON. docs/model_file.md
- * defines the format, docs/model.schema.json is its schema. Since 0.2. */
+ * defines the format, docs/model.schema.json is its schema. */
 typedef struct msq_document msq_document;
 
 /** Which files a document may name. */
@@ -3320,7 +3316,7 @@ enum msq_document_files {
   MSQ_DOCUMENT_FILES_ANY = 2
 };
 
-/** How a document is read. The limits protect the host from hostile documents. Since 0.2. */
+/** How a document is read. The limits protect the host from hostile documents. */
 typedef struct msq_document_def {
   uint32_t struct_size;
   /** An msq_document_files. Default MSQ_DOCUMENT_FILES_BELOW. */
@@ -3344,7 +3340,7 @@ typedef struct msq_document_def {
   uint64_t max_triangles;
 } msq_document_def;
 
-/** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+/** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_document_def_init(msq_document_def* def, size_t size);
 
 /** Reads a document from text in memory: JSON in UTF-8, of `bytes` bytes. def NULL: defaults. job
@@ -3359,13 +3355,13 @@ MSQ_API msq_status msq_document_def_init(msq_document_def* def, size_t size);
  * Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the
  * objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path
  * that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build
- * without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY. Since 0.2. */
+ * without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY. */
 MSQ_API msq_status msq_document_from_json(msq_context* context, const char* text, uint64_t bytes,
                                           const msq_document_def* def, msq_document** document,
                                           msq_job* job);
 
 /** Reads a document from a file. path: as in msq_shape_from_file. Its messages begin with the path.
- * The rest is as in msq_document_from_json. Errors: as msq_document_from_json. Since 0.2. */
+ * The rest is as in msq_document_from_json. Errors: as msq_document_from_json. */
 MSQ_API msq_status msq_document_from_file(msq_context* context, const char* path,
                                           const msq_document_def* def, msq_document** document,
                                           msq_job* job);
@@ -3375,7 +3371,7 @@ MSQ_API void msq_document_retain(msq_document* document);
 /** Drops a reference. */
 MSQ_API void msq_document_release(msq_document* document);
 
-/** What a document holds. Since 0.2. */
+/** What a document holds. */
 typedef struct msq_document_report {
   uint32_t struct_size;
   /** Version of the format that the document names; now 1. */
@@ -3389,27 +3385,26 @@ typedef struct msq_document_report {
   const char* title;
 } msq_document_report;
 
-/** Reports what a document holds. Errors: ARGUMENT. Since 0.2. */
+/** Reports what a document holds. Errors: ARGUMENT. */
 MSQ_API msq_status msq_document_info(const msq_document* document, msq_document_report* report);
 
 /** Returns the model of a document, with a reference for the caller to release. It does not need
- * the document any more. Errors: ARGUMENT. Since 0.2. */
+ * the document any more. Errors: ARGUMENT. */
 MSQ_API msq_status msq_document_model(const msq_document* document, msq_model** model);
 
 /** Writes the settings for slices to *def, whose struct_size the caller has set; what the document
  * does not say has its default. The pointers in it are valid as long as the document. The host may
  * change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without
- * slicing). Since 0.2. */
+ * slicing). */
 MSQ_API msq_status msq_document_slicing(const msq_document* document, msq_slicer_def* def);
 
 /** Writes the settings for pictures to *camera and *render, whose struct_size the caller has set.
  * A view along a direction is already fitted to the model, as by msq_camera_fit. The pointers in
- * *render are valid as long as the document. Errors: ARGUMENT (also a document without view). Since
- * 0.2. */
+ * *render are valid as long as the document. Errors: ARGUMENT (also a document without view). */
 MSQ_API msq_status msq_document_view(const msq_document* document, msq_camera* camera,
                                      msq_render_def* render);
 
-/** How a model is written. Since 0.2. */
+/** How a model is written. */
 typedef struct msq_json_def {
   uint32_t struct_size;
   /** Must be 0. */
@@ -3428,7 +3423,7 @@ typedef struct msq_json_def {
   uint64_t max_numbers;
 } msq_json_def;
 
-/** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+/** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_json_def_init(msq_json_def* def, size_t size);
 
 /** Writes a model as a document in JSON: its objects as they were defined, whether by the functions
@@ -3443,7 +3438,7 @@ MSQ_API msq_status msq_json_def_init(msq_json_def* def, size_t size);
  * enough, with a terminating 0 if room is larger; NULL if room is 0. Errors: ARGUMENT (also room
  * that is neither 0 nor enough), UNSUPPORTED (an object of the host; beams of more than 4 MiB,
  * whose definition msq does not keep; a path or a name that is not UTF-8; a build without
- * nlohmann-json), LIMIT (max_numbers), MEMORY. Since 0.2. */
+ * nlohmann-json), LIMIT (max_numbers), MEMORY. */
 MSQ_API msq_status msq_model_to_json(const msq_model* model, const msq_json_def* def, char* text,
                                      uint64_t room, uint64_t* bytes);
 

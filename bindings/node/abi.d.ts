@@ -63,7 +63,7 @@ export declare const MSQ_FORMAT_PLY = 3;
 export declare const MSQ_FORMAT_OFF = 4;
 export declare const MSQ_FORMAT_3MF = 5;
 export declare const MSQ_FORMAT_AMF = 6;
-/** glTF 2.0, text or binary (GLB). Since 0.2. */
+/** glTF 2.0, text or binary (GLB). */
 export declare const MSQ_FORMAT_GLTF = 7;
 export declare const MSQ_SOLID_ABOVE = 0;
 export declare const MSQ_SOLID_BELOW = 1;
@@ -119,25 +119,25 @@ export declare const MSQ_FUNCTION_F_RD = 6;
 export declare const MSQ_FUNCTION_LIDINOID = 7;
 /** 1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x) - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) - 0.4 (cos 2x + cos 2y + cos 2z) */
 export declare const MSQ_FUNCTION_SPLIT_P = 8;
-/** cos 2x sin y cos z + cos 2y sin z cos x + cos 2z sin x cos y. Since 0.2. */
+/** cos 2x sin y cos z + cos 2y sin z cos x + cos 2z sin x cos y. */
 export declare const MSQ_FUNCTION_FISCHER_KOCH_S = 9;
-/** sin 2x sin y + sin 2y sin z + sin 2z sin x + sin 2x cos z + sin 2y cos x + sin 2z cos y - sin x sin y sin z - cos x cos y cos z: C(Y). Since 0.2. */
+/** sin 2x sin y + sin 2y sin z + sin 2z sin x + sin 2x cos z + sin 2y cos x + sin 2z cos y - sin x sin y sin z - cos x cos y cos z: C(Y). */
 export declare const MSQ_FUNCTION_C_Y = 10;
-/** sin 2x sin y + sin 2y sin z + sin 2z sin x - 2 cos x cos y cos z: C(+-Y). Since 0.2. */
+/** sin 2x sin y + sin 2y sin z + sin 2z sin x - 2 cos x cos y cos z: C(+-Y). */
 export declare const MSQ_FUNCTION_C_PLUS_MINUS_Y = 11;
-/** 0.3 (cos x + cos y + cos z) + 0.3 (cos x cos y + cos y cos z + cos z cos x) - 0.4 (cos 2x + cos 2y + cos 2z) + 0.2. Since 0.2. */
+/** 0.3 (cos x + cos y + cos z) + 0.3 (cos x cos y + cos y cos z + cos z cos x) - 0.4 (cos 2x + cos 2y + cos 2z) + 0.2. */
 export declare const MSQ_FUNCTION_KARCHER_K = 12;
-/** sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'. Since 0.2. */
+/** sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'. */
 export declare const MSQ_FUNCTION_G_PRIME = 13;
-/** cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two labyrinths that do not touch, as those of the next two. Since 0.2. */
+/** cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two labyrinths that do not touch, as those of the next two. */
 export declare const MSQ_FUNCTION_DOUBLE_GYROID = 14;
-/** -0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. Since 0.2. */
+/** -0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. */
 export declare const MSQ_FUNCTION_DOUBLE_DIAMOND = 15;
-/** -0.5 (cos x cos y + cos y cos z + cos z cos x) - 0.2 (cos 2x + cos 2y + cos 2z). Since 0.2. */
+/** -0.5 (cos x cos y + cos y cos z + cos z cos x) - 0.2 (cos 2x + cos 2y + cos 2z). */
 export declare const MSQ_FUNCTION_DOUBLE_P = 16;
-/** cos 2y + 2 cos x cos y + 0.5: columns along z with hexagonal holes, regular if the cell is sqrt(3) times as long along y as along x. Since 0.2. */
+/** cos 2y + 2 cos x cos y + 0.5: columns along z with hexagonal holes, regular if the cell is sqrt(3) times as long along y as along x. */
 export declare const MSQ_FUNCTION_HONEYCOMB = 17;
-/** 1 - cos x - cos y: rods along z. Since 0.2. */
+/** 1 - cos x - cos y: rods along z. */
 export declare const MSQ_FUNCTION_RODS = 18;
 /** Where the function is at most the level. */
 export declare const MSQ_FUNCTIONAL_NETWORK = 1;
@@ -196,7 +196,7 @@ export declare const MSQ_LAYER_MATERIAL = 5;
 export declare const MSQ_LAYER_ONSET = 6;
 /** No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs. */
 export declare const MSQ_LAYER_CONTOURS = 7;
-/** 1 float32 per pixel: the value of a channel of the material at its centre, as msq_set_material returns it, rounded to the nearest float32; 0 outside, and where the material has no such channel. Only in msq_slicer_def.outputs. Since 0.2. */
+/** 1 float32 per pixel: the value of a channel of the material at its centre, as msq_set_material returns it, rounded to the nearest float32; 0 outside, and where the material has no such channel. Only in msq_slicer_def.outputs. */
 export declare const MSQ_LAYER_CHANNEL = 8;
 export declare const MSQ_LAYER_MIRROR_X = 1;
 export declare const MSQ_LAYER_MIRROR_Y = 2;
@@ -248,16 +248,16 @@ export interface msq_build_report {
   licence: string | null;
   /** Instruction set that the kernels use on this machine, for example "AVX3". Static. */
   simd: string | null;
-  /** 1 if msq_shape_hash and its like are available. Since 0.2. */
+  /** 1 if msq_shape_hash and its like are available. */
   with_xxhash: number;
-  /** 1 if documents are read and written (msq_document_from_json). Since 0.2. */
+  /** 1 if documents are read and written (msq_document_from_json). */
   with_json: number;
 }
 
 /**
  * Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may add some. message: in UTF-8, with the values, valid until the callback returns.
  *
- * It is called on the thread that called msq, when the work of the function that gives the warning is done and before it returns; never with a lock held, so it may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it. Since 0.2.
+ * It is called on the thread that called msq, when the work of the function that gives the warning is done and before it returns; never with a lock held, so it may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it.
  */
 export type msq_warning_fn = (user: bigint | null, code: number, message: bigint | null) => void;
 
@@ -386,7 +386,7 @@ export interface msq_neighbourhood {
 /**
  * A graded period: cells whose size varies along one axis of a structure's grid, for example to vary the spacing of walls that are printed with lines of constant width.
  *
- * The number of cells per unit length, 1 / size, is linear between positions and constant before the first and beyond the last. So the map from the coordinate to the number of cells from the grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not fold. The size of the grid along this axis is ignored; its origin is a corner of cells. The largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit for bit. The arrays are copied. Since 0.2.
+ * The number of cells per unit length, 1 / size, is linear between positions and constant before the first and beyond the last. So the map from the coordinate to the number of cells from the grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not fold. The size of the grid along this axis is ignored; its origin is a corner of cells. The largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit for bit. The arrays are copied.
  */
 export interface msq_period_def {
   struct_size: number;
@@ -472,7 +472,7 @@ export interface msq_host_shape_def {
   min: ArrayLike<number>;
   /** Bounding box, with the limits of msq_shape_from_box. No default. */
   max: ArrayLike<number>;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  /** Stands for the callbacks in hashes. Both 0 (default): none. */
   hash_key: ArrayLike<number | bigint>;
 }
 
@@ -551,7 +551,7 @@ export interface msq_host_field_def {
   high: number;
   /** Lipschitz constant of the values. Infinity (default): unknown. */
   lipschitz: number;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  /** Stands for the callbacks in hashes. Both 0 (default): none. */
   hash_key: ArrayLike<number | bigint>;
 }
 
@@ -733,7 +733,7 @@ export interface msq_functional_def {
   parameter_count: number | bigint;
   /** SHEET, instead of level: mean wall thickness in model units. A constant must be > 0, a field >= 0 and not 0 everywhere. With a period it must be a constant. Default 0: level is used. */
   thickness: msq_param;
-  /** Cells of varying size. NULL (default): all cells have the size of the grid. Since 0.2. */
+  /** Cells of varying size. NULL (default): all cells have the size of the grid. */
   period: Memory;
 }
 
@@ -869,7 +869,7 @@ export interface msq_host_structure_def {
   user: Memory;
   /** May be NULL. */
   release: msq_release_fn | bigint | null;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  /** Stands for the callbacks in hashes. Both 0 (default): none. */
   hash_key: ArrayLike<number | bigint>;
 }
 
@@ -894,7 +894,7 @@ export interface msq_host_function_def {
   release: msq_release_fn | bigint | null;
   /** Lipschitz constant of the values with respect to the angles. Infinity (default): unknown. */
   lipschitz: number;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2. */
+  /** Stands for the callbacks in hashes. Both 0 (default): none. */
   hash_key: ArrayLike<number | bigint>;
 }
 
@@ -1135,7 +1135,7 @@ export interface msq_output_def {
   onset_value: number;
   /** CONTOURS: as msq_slicer_contours takes it. Copied. Other outputs: NULL (default). */
   contours: Memory;
-  /** CHANNEL: its name, in UTF-8, copied. A material of a resolved scale must have it. Other outputs: NULL (default). Since 0.2. */
+  /** CHANNEL: its name, in UTF-8, copied. A material of a resolved scale must have it. Other outputs: NULL (default). */
   channel: string | null;
 }
 
@@ -1371,7 +1371,7 @@ export interface msq_fill_def {
   tolerance: number;
   /** In model units. Shorter paths are dropped. A shorter line between two points where an odd number of lines meet is dropped too, as this saves a path: the lines that go on at both its ends are so close that they touch if min_length is at most the width of a line. Default 0. */
   min_length: number;
-  /** In model units, about the width of a line. If positive, walls between points where an odd number of lines meet are printed as two lines, side by side at this distance, where that joins paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter walls are taken first, none is taken where a line of the two would leave the polygon, and the two may cross. Default 0: no wall is printed twice. Since 0.2. */
+  /** In model units, about the width of a line. If positive, walls between points where an odd number of lines meet are printed as two lines, side by side at this distance, where that joins paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter walls are taken first, none is taken where a line of the two would leave the polygon, and the two may cross. Default 0: no wall is printed twice. */
   pair_distance: number;
 }
 
@@ -1579,7 +1579,7 @@ export interface msq_render_pass {
 /** Receives a pass. The frame holds a whole picture, to show or copy; the host must not change it before the last pass. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it. */
 export type msq_render_fn = (user: bigint | null, pass: bigint | null) => number;
 
-/** How a document is read. The limits protect the host from hostile documents. Since 0.2. */
+/** How a document is read. The limits protect the host from hostile documents. */
 export interface msq_document_def {
   struct_size: number;
   /** An msq_document_files. Default MSQ_DOCUMENT_FILES_BELOW. */
@@ -1600,7 +1600,7 @@ export interface msq_document_def {
   max_triangles: number | bigint;
 }
 
-/** What a document holds. Since 0.2. */
+/** What a document holds. */
 export interface msq_document_report {
   struct_size: number;
   /** Version of the format that the document names; now 1. */
@@ -1616,7 +1616,7 @@ export interface msq_document_report {
   title: string | null;
 }
 
-/** How a model is written. Since 0.2. */
+/** How a model is written. */
 export interface msq_json_def {
   struct_size: number;
   /** Must be 0. */
@@ -1675,9 +1675,9 @@ export interface Functions {
   msq_job_progress(job: Memory, fraction: Memory): number;
   /** Reports the counters of the last set query or statistic under the job; zeros for other calls. Errors: ARGUMENT. Source: paper, section "Structured and Unstructured Set Queries" (critical number of points). */
   msq_job_info(job: Memory, report: Partial<msq_job_report>): number;
-  /** Moves a grid along with a part: *placed receives the grid whose cells are those of grid, placed by a matrix as in msq_shape_placed. A structure on that grid, with its radius or thickness scaled as lengths are, is the same structure at another place: seeds and unit cells go with the cells. Fields and beams are the host's to move. Without this call a structure stays fixed to the model's frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that mirrors, shears or stretches by more than 1e-9). Since 0.2. */
+  /** Moves a grid along with a part: *placed receives the grid whose cells are those of grid, placed by a matrix as in msq_shape_placed. A structure on that grid, with its radius or thickness scaled as lengths are, is the same structure at another place: seeds and unit cells go with the cells. Fields and beams are the host's to move. Without this call a structure stays fixed to the model's frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that mirrors, shears or stretches by more than 1e-9). */
   msq_neighbourhood_placed(grid: msq_neighbourhood | null, matrix: Memory, placed: Partial<msq_neighbourhood>): number;
-  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  /** Sets the defaults. Errors: ARGUMENT. */
   msq_period_def_init(def: Partial<msq_period_def>, size: number | bigint): number;
   /** Sets the defaults. Errors: ARGUMENT. */
   msq_file_def_init(def: Partial<msq_file_def>, size: number | bigint): number;
@@ -1726,19 +1726,19 @@ export interface Functions {
    *
    * A point p is inside if the original holds B * (p - b), where B is the inverse of the first three columns, computed once in double precision, and b the last column. Lengths keep the unit of the model. Distance and depth are those of the original where all lengths grow alike (within 1e-6); otherwise the distance is at least the original's times the smallest growth of a length, and the shape has no depth, so no scale can leave a skin in it: transform the vertices of a mesh instead. Bounds enclose the placed bounding box of the original.
    *
-   * Cost: constant. Points and rays cost what they cost in the original. Layers ask the distance at a few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. Since 0.2.
+   * Cost: constant. Points and rays cost what they cost in the original. Layers ask the distance at a few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY.
    */
   msq_shape_placed(original: Memory, matrix: Memory, shape: [Pointer]): number;
   /**
    * Creates the union, intersection or difference of shapes (operation: an msq_boolean_operation) from their memberships. shapes: count shapes, 1 to 4096.
    *
-   * Distance. Of a union: the smallest of the shapes' signed distances, exact outside if theirs are, a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference: as an intersection with complements. Depth, and hence skin: intersections and differences of shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY. Since 0.2.
+   * Distance. Of a union: the smallest of the shapes' signed distances, exact outside if theirs are, a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference: as an intersection with complements. Depth, and hence skin: intersections and differences of shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY.
    */
   msq_shape_boolean(operation: number, shapes: Memory, count: number | bigint, shape: [Pointer]): number;
   /**
    * Creates a shape from another one by moving its surface by a distance, outwards if it is positive and inwards if it is negative: the points whose signed distance to the original (msq_point_distance) is at most distance. Outwards, edges become round.
    *
-   * The original's distance must be exact on the side to which the surface moves: primitives, closed meshes, uniformly placed ones of these, outwards unions, inwards intersections and differences of these, and offsets once more to the same side. Triangles of a mesh that bound nothing count as its surface. The distance of the new shape is exact beyond its surface on that side, a bound on the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not finite, an offset inwards by more than half the bounding box, coordinates above 1e75), UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as msq_shape_placed; memory), MEMORY. Since 0.2.
+   * The original's distance must be exact on the side to which the surface moves: primitives, closed meshes, uniformly placed ones of these, outwards unions, inwards intersections and differences of these, and offsets once more to the same side. Triangles of a mesh that bound nothing count as its surface. The distance of the new shape is exact beyond its surface on that side, a bound on the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not finite, an offset inwards by more than half the bounding box, coordinates above 1e75), UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as msq_shape_placed; memory), MEMORY.
    */
   msq_shape_offset(original: Memory, distance: number, shape: [Pointer]): number;
   /** Adds a reference. */
@@ -1752,7 +1752,7 @@ export interface Functions {
    *
    * They are the same in each run and on each machine, with any number of threads and in all builds of a version of msq; another version may change them. What results do not depend on does not count: names of files, the context, options that say "Does not change results". All other fields of a definition count, so do the vertices and triangles of a mesh after welding, in their order, the values of images with their type, and the operations of an expression, not its spaces and names. 0 and -0 are equal numbers. Shapes, fields, structures and materials within an object count by their hashes. docs/howto/caching.md says more.
    *
-   * It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without a hash_key in it; a build without xxHash), MEMORY. Since 0.2.
+   * It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without a hash_key in it; a build without xxHash), MEMORY.
    */
   msq_shape_hash(shape: Memory, hash: Memory): number;
   /**
@@ -1799,7 +1799,7 @@ export interface Functions {
    * With a step, msq samples the distance once over the bounding box of the shape and a step around it, on the threads of the context, in single precision. Outside, the field has the value of the nearest point of the border. The error inside is below step * sqrt(3), and far smaller away from edges and medial surfaces. Cost: without a step, that of msq_point_distance per point and strut (microseconds); with a step, that of msq_field_grid with 4-byte values. Errors: ARGUMENT (also more than 2^20 steps along an axis), LIMIT (memory limit of the context), HOST, CANCELLED, MEMORY.
    */
   msq_field_shape_distance(context: Memory, def: msq_shape_distance_field_def | null, field: [Pointer], job: Memory): number;
-  /** Hashes a field, as msq_shape_hash does. A field by the distance to a shape that was sampled with a step is hashed from its samples. Errors: as msq_shape_hash. Since 0.2. */
+  /** Hashes a field, as msq_shape_hash does. A field by the distance to a shape that was sampled with a step is hashed from its samples. Errors: as msq_shape_hash. */
   msq_field_hash(field: Memory, hash: Memory): number;
   /** Adds a reference. */
   msq_field_retain(field: Memory): void;
@@ -1844,7 +1844,7 @@ export interface Functions {
   /**
    * Creates a functional structure: the points where a function of the position in the cell is at most a level. def must not be NULL.
    *
-   * Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, comparisons, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp, log (natural), tanh, atan2(y, x), hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. Since 0.2: - Comparisons, < <= > >= == !=, bind weakest, do not associate, and are 1 or 0. - select(c, a, b) is a where c is above 0.5, otherwise b. - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b). - atan2 is above -pi and at most pi, and 0 where x and y are 0. hypot is sqrt(a a + b b).
+   * Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, comparisons, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp, log (natural), tanh, atan2(y, x), hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a > 0. - Comparisons, < <= > >= == !=, bind weakest, do not associate, and are 1 or 0. - select(c, a, b) is a where c is above 0.5, otherwise b. - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b). - atan2 is above -pi and at most pi, and 0 where x and y are 0. hypot is sqrt(a a + b b).
    *
    * A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE 754-2019); an operand that select leaves out does not count. Points where the value is NaN are outside. Limits: 65536 bytes; 100 nested parentheses, signs and exponents; 8192 distinct operations, numbers and variables in total.
    *
@@ -1860,7 +1860,7 @@ export interface Functions {
   /** Sets the defaults. Errors: ARGUMENT. */
   msq_waves_def_init(def: Partial<msq_waves_def>, size: number | bigint): number;
   /**
-   * Creates a spinodal structure: the points where a sum of cosines of one wavelength, with random directions and phases, is at most the level (NETWORK), or its magnitude is (SHEET). def must not be NULL. Since 0.2.
+   * Creates a spinodal structure: the points where a sum of cosines of one wavelength, with random directions and phases, is at most the level (NETWORK), or its magnitude is (SHEET). def must not be NULL.
    *
    * Directions and phases are a function of the seed, equal on every machine. With many waves the sum is a Gaussian random field. volume_fraction is then met on average: the level is the inverse of the normal distribution. Samples of few wavelengths, or few waves, differ from it; msq_structure_calibrate finds the level for a sample. A grid with different cell sizes stretches the structure. docs/concepts.md defines the sum.
    *
@@ -1882,20 +1882,20 @@ export interface Functions {
    *
    * Read are vertices, beams, radii at the ends, caps, balls and their three modes, minlength (shorter beams are dropped) and the clipping mode with its mesh. In ball mode "all", the vertices at which beams end have balls. Beam sets, properties and representation meshes do not change the solid and are passed over. Numbers become the nearest doubles.
    *
-   * Limits: those of def; max_triangles is also the maximum number of beams and balls, and of triangles that clip. Cost: linear in the size of the file, about 1 us per beam on one thread. Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that. Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has components or beams, and transforms that scale some directions by over 1e-4 more than others; MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0.
+   * Limits: those of def; max_triangles is also the maximum number of beams and balls, and of triangles that clip. Cost: linear in the size of the file, about 1 us per beam on one thread. Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that. Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has components or beams, and transforms that scale some directions by over 1e-4 more than others; MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0.
    */
   msq_beam_file_open(context: Memory, path: string | null, def: msq_file_def | null, file: [Pointer], job: Memory): number;
-  /** Reads beam lattices from bytes in memory. def must name the format and must not be NULL. See msq_beam_file_open. Errors: as msq_beam_file_open. Since 0.2. */
+  /** Reads beam lattices from bytes in memory. def must name the format and must not be NULL. See msq_beam_file_open. Errors: as msq_beam_file_open. */
   msq_beam_file_open_memory(context: Memory, data: Memory, bytes: number | bigint, def: msq_file_def | null, file: [Pointer], job: Memory): number;
-  /** Adds a reference. Since 0.2. */
+  /** Adds a reference. */
   msq_beam_file_retain(file: Memory): void;
-  /** Drops a reference. Since 0.2. */
+  /** Drops a reference. */
   msq_beam_file_release(file: Memory): void;
-  /** Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than lattice_count). Since 0.2. */
+  /** Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than lattice_count). */
   msq_beam_file_info(file: Memory, lattice: number | bigint, report: Partial<msq_beam_file_report>): number;
-  /** Fills in the definition of a lattice for msq_structure_beams, unclipped. The caller sets struct_size. The arrays of the definition belong to the file and are valid as long as it is; the other fields have their defaults. Errors: ARGUMENT (lattice is not less than lattice_count). Since 0.2. */
+  /** Fills in the definition of a lattice for msq_structure_beams, unclipped. The caller sets struct_size. The arrays of the definition belong to the file and are valid as long as it is; the other fields have their defaults. Errors: ARGUMENT (lattice is not less than lattice_count). */
   msq_beam_file_beams(file: Memory, lattice: number | bigint, def: Partial<msq_beams_def>): number;
-  /** Creates a shape from a mesh of a file of beams, in millimetres. mesh: an msq_beam_file_mesh. winding_rule: an msq_winding. Cost and errors: as msq_shape_from_mesh; ARGUMENT also for lattice; MESH if the file has no such mesh. Since 0.2. */
+  /** Creates a shape from a mesh of a file of beams, in millimetres. mesh: an msq_beam_file_mesh. winding_rule: an msq_winding. Cost and errors: as msq_shape_from_mesh; ARGUMENT also for lattice; MESH if the file has no such mesh. */
   msq_beam_file_shape(context: Memory, file: Memory, lattice: number | bigint, mesh: number, winding_rule: number, shape: [Pointer]): number;
   /** Sets the defaults. Errors: ARGUMENT. */
   msq_host_structure_def_init(def: Partial<msq_host_structure_def>, size: number | bigint): number;
@@ -1912,16 +1912,16 @@ export interface Functions {
   /**
    * Creates the union, intersection or difference of structures (operation: an msq_boolean_operation) from their memberships. structures: count structures, 1 to 4096, each on its own grid or on none. They may be of any kind, also made of structures themselves.
    *
-   * The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of their signed distances, exact outside if theirs are, a bound inside; of an intersection the largest, a bound; of a difference as of an intersection with complements. The limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY. Since 0.2.
+   * The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of their signed distances, exact outside if theirs are, a bound inside; of an intersection the largest, a bound; of a difference as of an intersection with complements. The limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY.
    */
   msq_structure_boolean(operation: number, structures: Memory, count: number | bigint, structure: [Pointer]): number;
   /**
    * Creates a structure that becomes another one. fraction: f, a number or a field, 0 to 1: where it is 0 the solid is that of a, where it is 1 that of b. In between it holds the points with (1 - f) da + f db <= 0, where da and db are the signed distances of a and b as msq returns them (docs/accuracy.md). So it holds what both hold and nothing that neither holds, and surfaces move from those of a to those of b as f grows. On the same grid with like nodes struts stay whole; otherwise parts of the one shrink while those of the other grow.
    *
-   * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two distances at each sample that one of them holds and 0 < f < 1. Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is a field without one, a function has no bounded slope, or the host gives no distance), MEMORY. Since 0.2.
+   * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two distances at each sample that one of them holds and 0 < f < 1. Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is a field without one, a function has no bounded slope, or the host gives no distance), MEMORY.
    */
   msq_structure_blend(a: Memory, b: Memory, fraction: msq_param | null, structure: [Pointer]): number;
-  /** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. Since 0.2. */
+  /** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. */
   msq_structure_hash(structure: Memory, hash: Memory): number;
   /** Adds a reference. */
   msq_structure_retain(structure: Memory): void;
@@ -1936,16 +1936,16 @@ export interface Functions {
    *
    * With a shape, the parts of a strut's centre line whose points are inside the shape come instead, in the order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and coordinates of the place where membership changes on the line, found as rays find it (msq_ray_cast); parts and gaps shorter than that may be overlooked. The solid around the line is not cut. Radii at cut ends are evaluated there. The first piece has the id of the strut, others have an id and each cut end a node of its own.
    *
-   * The order of struts and their bytes are the same on every call and on any number of threads. callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone: they have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991.
+   * The order of struts and their bytes are the same on every call and on any number of threads. callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone: they have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991.
    */
   msq_structure_struts(context: Memory, structure: Memory, def: msq_struts_def | null, callback: msq_struts_fn | bigint | null, user: Memory, job: Memory): number;
-  /** Collects the struts that msq_structure_struts passes, in the same order, and numbers their nodes in the order in which they first occur. Cost: as msq_structure_struts, and a table of the nodes on the calling thread. Memory: 56 bytes per strut and 40 per node, accounted to the context; while the call lasts, up to four times as much. Errors: as msq_structure_struts; LIMIT also for memory or more than 2^32 - 2 nodes. Since 0.2. */
+  /** Collects the struts that msq_structure_struts passes, in the same order, and numbers their nodes in the order in which they first occur. Cost: as msq_structure_struts, and a table of the nodes on the calling thread. Memory: 56 bytes per strut and 40 per node, accounted to the context; while the call lasts, up to four times as much. Errors: as msq_structure_struts; LIMIT also for memory or more than 2^32 - 2 nodes. */
   msq_structure_strut_graph(context: Memory, structure: Memory, def: msq_struts_def | null, graph: [Pointer], job: Memory): number;
   /** Adds a reference. */
   msq_strut_graph_retain(graph: Memory): void;
   /** Drops a reference. */
   msq_strut_graph_release(graph: Memory): void;
-  /** Reports what a graph holds. Errors: ARGUMENT. Since 0.2. */
+  /** Reports what a graph holds. Errors: ARGUMENT. */
   msq_strut_graph_info(graph: Memory, report: Partial<msq_strut_graph_report>): number;
   /** Sets the defaults. Errors: ARGUMENT. */
   msq_material_def_init(def: Partial<msq_material_def>, size: number | bigint): number;
@@ -1953,7 +1953,7 @@ export interface Functions {
   msq_material_create(context: Memory, def: msq_material_def | null, material: [Pointer]): number;
   /** Creates a blend of two materials: each channel is (1 - f) * a + f * b, where f is the fraction at the point, 0 to 1 everywhere. id: positive, of the blend. Errors: ARGUMENT (also if one material has a channel that the other lacks), LIMIT (more than 64 nested blends, or more than 4096 materials in a blend, counted with repetition), MEMORY. */
   msq_material_blend(context: Memory, id: number, a: Memory, b: Memory, fraction: msq_param | null, material: [Pointer]): number;
-  /** Hashes a material, as msq_shape_hash does: its id, and its channels in their order. Errors: as msq_shape_hash. Since 0.2. */
+  /** Hashes a material, as msq_shape_hash does: its id, and its channels in their order. Errors: as msq_shape_hash. */
   msq_material_hash(material: Memory, hash: Memory): number;
   /** Adds a reference. */
   msq_material_retain(material: Memory): void;
@@ -1972,10 +1972,10 @@ export interface Functions {
    *
    * A point belongs to the first region whose shape contains it, and is inside where that region is: later regions count for nothing there, also where the region is empty. A region that is itself a model of regions is replaced by these, in their order. All functions take the model: one slice, ray or query serves a whole plate. Its coarse shape is the union of those of its regions. Scales are numbered by region: hits name the scale of the region that they are in, and msq_model_scale_length returns the largest length of any region.
    *
-   * Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups, so a sample costs the memberships in the shapes before its region, and its region. Two bits per sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a region of all space), MEMORY. Since 0.2.
+   * Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups, so a sample costs the memberships in the shapes before its region, and its region. Two bits per sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a region of all space), MEMORY.
    */
   msq_model_regions(context: Memory, regions: Memory, count: number | bigint, model: [Pointer]): number;
-  /** Hashes a model, as msq_shape_hash does: its shape, and the structure, skin and materials of each scale; or its regions in their order. Errors: as msq_shape_hash. Since 0.2. */
+  /** Hashes a model, as msq_shape_hash does: its shape, and the structure, skin and materials of each scale; or its regions in their order. Errors: as msq_shape_hash. */
   msq_model_hash(model: Memory, hash: Memory): number;
   /** Adds a reference. */
   msq_model_retain(model: Memory): void;
@@ -1985,7 +1985,7 @@ export interface Functions {
   msq_model_bounds(model: Memory, min: Memory, max: Memory): number;
   /** Returns the characteristic length of a scale: its largest cell size; the length_scale of beams, which have no cells; infinity for scale 0. Errors: ARGUMENT (no such scale). */
   msq_model_scale_length(model: Memory, scale: number, length: Memory): number;
-  /** Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0 also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such region or scale). Since 0.2. */
+  /** Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0 also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such region or scale). */
   msq_model_scale(model: Memory, region: number, scale: number, shape: [Pointer], structure: [Pointer]): number;
   /** Sets the defaults. Errors: ARGUMENT. */
   msq_query_def_init(def: Partial<msq_query_def>, size: number | bigint): number;
@@ -2005,9 +2005,9 @@ export interface Functions {
    * Scales are evaluated from coarse to fine. A finer scale does not evaluate points that a coarser one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in any order, with 6 bytes per point and at most 15 MB, or less if the memory limit leaves no room. Grids cost far less per point, as slices. Stratified samples need no grouping and no memory. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
    */
   msq_set_membership(model: Memory, points: msq_points_def | null, query: msq_query_def | null, inside: Memory, inside_count: number | bigint, job: Memory): number;
-  /** Region of one point: *region receives the index of the first region whose shape contains it, -1 if none does. The point need not be in the solid of the region. A model that is not made of regions is region 0. Regions of regions are counted in their order. Errors: ARGUMENT, MEMORY. Since 0.2. */
+  /** Region of one point: *region receives the index of the first region whose shape contains it, -1 if none does. The point need not be in the solid of the region. A model that is not made of regions is region 0. Regions of regions are counted in their order. Errors: ARGUMENT, MEMORY. */
   msq_point_region(model: Memory, point: Memory, region: Memory): number;
-  /** Regions of a set: regions[i] receives the result of msq_point_region for point i. region_count must be the number of points. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave regions partly written. Cost: in parallel, the memberships in the shapes. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Since 0.2. */
+  /** Regions of a set: regions[i] receives the result of msq_point_region for point i. region_count must be the number of points. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave regions partly written. Cost: in parallel, the memberships in the shapes. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. */
   msq_set_region(model: Memory, points: msq_points_def | null, regions: Memory, region_count: number | bigint, job: Memory): number;
   /**
    * Material of one point. *id receives the id of its material, or MSQ_MATERIAL_VOID outside the model. values[c] receives the value of the channel named channels[c]; 0 outside, and where the material has no such channel. query NULL: defaults. channels and values may be NULL if channel_count is 0.
@@ -2091,14 +2091,14 @@ export interface Functions {
   msq_contours_release(contours: Memory): void;
   /** Reports what contours hold. Errors: ARGUMENT. */
   msq_contours_info(contours: Memory, report: Partial<msq_contours_report>): number;
-  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  /** Sets the defaults. Errors: ARGUMENT. */
   msq_printability_def_init(def: Partial<msq_printability_def>, size: number | bigint): number;
   /**
    * Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids, thin places, cups, overhangs.
    *
    * It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation of the slicer are ignored. What is smaller than a pixel may lie between samples: to find it, use a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners, empty ones across sides; samples of two layers are connected if one is on the other.
    *
-   * def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack. Runs and totals are accounted to the context after each layer. Workers share the rows of each layer. Cost: 1.1 to 1.9 times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2.
+   * def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack. Runs and totals are accounted to the context after each layer. Workers share the rows of each layer. Cost: 1.1 to 1.9 times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976.
    */
   msq_printability(slicer: Memory, def: msq_printability_def | null, fn: msq_findings_fn | bigint | null, user: Memory, report: Partial<msq_printability_report>, job: Memory): number;
   /** Sets the defaults. Errors: ARGUMENT. */
@@ -2127,14 +2127,14 @@ export interface Functions {
    * The density of lines is their length per area times their width, on average over all heights. It is inversely proportional to the cell size. cell_size receives those of the structure's grid, all times the same factor: create the structure anew with them, and the same rotation. density: more than 0, at most 1. job NULL: no job. Single layers differ, of a gyroid by a tenth. The length is measured on the structure as it is: one cell at 64 heights; 8 x 8 if the grid is turned; 32 x 32 cells of a foam at 32 heights, accurate to about 0.5 %. A foam with a field of density: calibrate it without the field; d seeds per cell volume then multiply the density of lines by about the cube root of d. Cost: up to 0.5 s for a foam. Errors: ARGUMENT, UNSUPPORTED (no thin walls; a field of density, or of the level of a network), LIMIT (no lines), CANCELLED, HOST, MEMORY.
    */
   msq_fill_calibrate(context: Memory, structure: Memory, line_width: number, density: number, cell_size: Memory, job: Memory): number;
-  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  /** Sets the defaults. Errors: ARGUMENT. */
   msq_surface_def_init(def: Partial<msq_surface_def>, size: number | bigint): number;
   /**
    * Computes triangles of the boundary of a model within a box, to look at and to hand on to programs that take nothing else. Layers, contours, rays and distances come from the model itself, faster and exactly.
    *
    * The mesh is closed, and a manifold: each edge has two triangles, which run through it in opposite directions, and the triangles around a vertex are one ring. Each vertex is within pitch / 1000 of the boundary of the model cut with the box. Edges and corners of the model that are wider apart than the pitch are kept. Triangles may intersect where the boundary is bent within a pitch.
    *
-   * Callbacks run on the calling thread, from low z to high z. The parts together do not depend on slab_layers, threads or calls. A model without a point at a node yields no callback. def must not be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory: about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors: ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 vertices; memory), MEMORY. Since 0.2. Source: Schaefer, Ju and Warren, "Manifold dual contouring", 2007.
+   * Callbacks run on the calling thread, from low z to high z. The parts together do not depend on slab_layers, threads or calls. A model without a point at a node yields no callback. def must not be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory: about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors: ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 vertices; memory), MEMORY. Source: Schaefer, Ju and Warren, "Manifold dual contouring", 2007.
    */
   msq_surface_mesh(model: Memory, def: msq_surface_def | null, fn: msq_surface_fn | bigint | null, user: Memory, job: Memory): number;
   /**
@@ -2142,7 +2142,7 @@ export interface Functions {
    *
    * Each byte of the file is in one part. Parts of MSQ_SURFACE_STL come in the order of the file. In MSQ_SURFACE_PLY vertices come before triangles, so its parts alternate between two places: seek to offset, or copy to it in memory of total bytes. The bytes of the file do not depend on slab_layers or threads. Coordinates are rounded to float32: far from the origin, vertices closer together than that may coincide.
    *
-   * Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is written. A model without a point at a node yields a file without triangles. Errors: as msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices. Since 0.2.
+   * Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is written. A model without a point at a node yields a file without triangles. Errors: as msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices.
    */
   msq_surface_file(model: Memory, def: msq_surface_def | null, format: number, fn: msq_file_fn | bigint | null, user: Memory, job: Memory): number;
   /** Sets the defaults. Errors: ARGUMENT. */
@@ -2179,38 +2179,38 @@ export interface Functions {
    * Cost: one ray per pixel and samples^2 more if samples > 1, each with its shadow and occlusion rays; in parallel, in tiles of 32 x 32 rays. A mesh builds its tree first, as for msq_point_distance. Memory: about 1 MB per thread, kept for the next call. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting".
    */
   msq_render(model: Memory, camera: msq_camera | null, def: msq_render_def | null, query: msq_query_def | null, frame: msq_frame | null, fn: msq_render_fn | bigint | null, user: Memory, job: Memory): number;
-  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  /** Sets the defaults. Errors: ARGUMENT. */
   msq_document_def_init(def: Partial<msq_document_def>, size: number | bigint): number;
   /**
    * Reads a document from text in memory: JSON in UTF-8, of `bytes` bytes. def NULL: defaults. job NULL: no job; its progress is that of the file which is being read.
    *
    * msq builds every object of the document by the functions above, with their checks and their warnings. Lengths are in the model's unit. Unknown keys, keys that occur twice and definitions that contain themselves are refused. A message begins with line, column and path of the value that is at fault, for example "12:17: scales[1].structure.foam.radius: ...". Lines and columns begin at 1; columns count bytes.
    *
-   * Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY. Since 0.2.
+   * Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY.
    */
   msq_document_from_json(context: Memory, text: string | null, bytes: number | bigint, def: msq_document_def | null, document: [Pointer], job: Memory): number;
-  /** Reads a document from a file. path: as in msq_shape_from_file. Its messages begin with the path. The rest is as in msq_document_from_json. Errors: as msq_document_from_json. Since 0.2. */
+  /** Reads a document from a file. path: as in msq_shape_from_file. Its messages begin with the path. The rest is as in msq_document_from_json. Errors: as msq_document_from_json. */
   msq_document_from_file(context: Memory, path: string | null, def: msq_document_def | null, document: [Pointer], job: Memory): number;
   /** Adds a reference. */
   msq_document_retain(document: Memory): void;
   /** Drops a reference. */
   msq_document_release(document: Memory): void;
-  /** Reports what a document holds. Errors: ARGUMENT. Since 0.2. */
+  /** Reports what a document holds. Errors: ARGUMENT. */
   msq_document_info(document: Memory, report: Partial<msq_document_report>): number;
-  /** Returns the model of a document, with a reference for the caller to release. It does not need the document any more. Errors: ARGUMENT. Since 0.2. */
+  /** Returns the model of a document, with a reference for the caller to release. It does not need the document any more. Errors: ARGUMENT. */
   msq_document_model(document: Memory, model: [Pointer]): number;
-  /** Writes the settings for slices to *def, whose struct_size the caller has set; what the document does not say has its default. The pointers in it are valid as long as the document. The host may change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without slicing). Since 0.2. */
+  /** Writes the settings for slices to *def, whose struct_size the caller has set; what the document does not say has its default. The pointers in it are valid as long as the document. The host may change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without slicing). */
   msq_document_slicing(document: Memory, def: Partial<msq_slicer_def>): number;
-  /** Writes the settings for pictures to *camera and *render, whose struct_size the caller has set. A view along a direction is already fitted to the model, as by msq_camera_fit. The pointers in *render are valid as long as the document. Errors: ARGUMENT (also a document without view). Since 0.2. */
+  /** Writes the settings for pictures to *camera and *render, whose struct_size the caller has set. A view along a direction is already fitted to the model, as by msq_camera_fit. The pointers in *render are valid as long as the document. Errors: ARGUMENT (also a document without view). */
   msq_document_view(document: Memory, camera: Partial<msq_camera>, render: Partial<msq_render_def>): number;
-  /** Sets the defaults. Errors: ARGUMENT. Since 0.2. */
+  /** Sets the defaults. Errors: ARGUMENT. */
   msq_json_def_init(def: Partial<msq_json_def>, size: number | bigint): number;
   /**
    * Writes a model as a document in JSON: its objects as they were defined, whether by the functions of this header or by a document. msq_document_from_json makes a model of it with the same msq_model_hash, as long as the files that it names are the same. def NULL: defaults.
    *
    * Meshes from files are written as the path of the file with its options. Other meshes, and images that no document read from a file, are written as numbers. Objects that are used more than once are written once, under a name.
    *
-   * *bytes: receives the size of the text, without a terminating 0. text: receives it if room is enough, with a terminating 0 if room is larger; NULL if room is 0. Errors: ARGUMENT (also room that is neither 0 nor enough), UNSUPPORTED (an object of the host; beams of more than 4 MiB, whose definition msq does not keep; a path or a name that is not UTF-8; a build without nlohmann-json), LIMIT (max_numbers), MEMORY. Since 0.2.
+   * *bytes: receives the size of the text, without a terminating 0. text: receives it if room is enough, with a terminating 0 if room is larger; NULL if room is 0. Errors: ARGUMENT (also room that is neither 0 nor enough), UNSUPPORTED (an object of the host; beams of more than 4 MiB, whose definition msq does not keep; a path or a name that is not UTF-8; a build without nlohmann-json), LIMIT (max_numbers), MEMORY.
    */
   msq_model_to_json(model: Memory, def: msq_json_def | null, text: Memory, room: number | bigint, bytes: Memory): number;
 }

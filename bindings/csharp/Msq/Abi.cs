@@ -88,7 +88,7 @@ namespace Msq
         Off = 4,
         Format3mf = 5,
         Amf = 6,
-        /// <summary>glTF 2.0, text or binary (GLB). Since 0.2.</summary>
+        /// <summary>glTF 2.0, text or binary (GLB).</summary>
         Gltf = 7,
     }
 
@@ -169,25 +169,25 @@ namespace Msq
         Lidinoid = 7,
         /// <summary>1.1 (sin 2x sin z cos y + sin 2y sin x cos z + sin 2z sin y cos x) - 0.2 (cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x) - 0.4 (cos 2x + cos 2y + cos 2z)</summary>
         SplitP = 8,
-        /// <summary>cos 2x sin y cos z + cos 2y sin z cos x + cos 2z sin x cos y. Since 0.2.</summary>
+        /// <summary>cos 2x sin y cos z + cos 2y sin z cos x + cos 2z sin x cos y.</summary>
         FischerKochS = 9,
-        /// <summary>sin 2x sin y + sin 2y sin z + sin 2z sin x + sin 2x cos z + sin 2y cos x + sin 2z cos y - sin x sin y sin z - cos x cos y cos z: C(Y). Since 0.2.</summary>
+        /// <summary>sin 2x sin y + sin 2y sin z + sin 2z sin x + sin 2x cos z + sin 2y cos x + sin 2z cos y - sin x sin y sin z - cos x cos y cos z: C(Y).</summary>
         CY = 10,
-        /// <summary>sin 2x sin y + sin 2y sin z + sin 2z sin x - 2 cos x cos y cos z: C(+-Y). Since 0.2.</summary>
+        /// <summary>sin 2x sin y + sin 2y sin z + sin 2z sin x - 2 cos x cos y cos z: C(+-Y).</summary>
         CPlusMinusY = 11,
-        /// <summary>0.3 (cos x + cos y + cos z) + 0.3 (cos x cos y + cos y cos z + cos z cos x) - 0.4 (cos 2x + cos 2y + cos 2z) + 0.2. Since 0.2.</summary>
+        /// <summary>0.3 (cos x + cos y + cos z) + 0.3 (cos x cos y + cos y cos z + cos z cos x) - 0.4 (cos 2x + cos 2y + cos 2z) + 0.2.</summary>
         KarcherK = 12,
-        /// <summary>sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'. Since 0.2.</summary>
+        /// <summary>sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'.</summary>
         GPrime = 13,
-        /// <summary>cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two labyrinths that do not touch, as those of the next two. Since 0.2.</summary>
+        /// <summary>cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two labyrinths that do not touch, as those of the next two.</summary>
         DoubleGyroid = 14,
-        /// <summary>-0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. Since 0.2.</summary>
+        /// <summary>-0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z.</summary>
         DoubleDiamond = 15,
-        /// <summary>-0.5 (cos x cos y + cos y cos z + cos z cos x) - 0.2 (cos 2x + cos 2y + cos 2z). Since 0.2.</summary>
+        /// <summary>-0.5 (cos x cos y + cos y cos z + cos z cos x) - 0.2 (cos 2x + cos 2y + cos 2z).</summary>
         DoubleP = 16,
-        /// <summary>cos 2y + 2 cos x cos y + 0.5: columns along z with hexagonal holes, regular if the cell is sqrt(3) times as long along y as along x. Since 0.2.</summary>
+        /// <summary>cos 2y + 2 cos x cos y + 0.5: columns along z with hexagonal holes, regular if the cell is sqrt(3) times as long along y as along x.</summary>
         Honeycomb = 17,
-        /// <summary>1 - cos x - cos y: rods along z. Since 0.2.</summary>
+        /// <summary>1 - cos x - cos y: rods along z.</summary>
         Rods = 18,
     }
 
@@ -306,7 +306,7 @@ namespace Msq
         Onset = 6,
         /// <summary>No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs.</summary>
         Contours = 7,
-        /// <summary>1 float32 per pixel: the value of a channel of the material at its centre, as msq_set_material returns it, rounded to the nearest float32; 0 outside, and where the material has no such channel. Only in msq_slicer_def.outputs. Since 0.2.</summary>
+        /// <summary>1 float32 per pixel: the value of a channel of the material at its centre, as msq_set_material returns it, rounded to the nearest float32; 0 outside, and where the material has no such channel. Only in msq_slicer_def.outputs.</summary>
         Channel = 8,
     }
 
@@ -403,7 +403,7 @@ namespace Msq.Interop
     {
     }
 
-    /// <summary>The beam lattices of a file, and its mesh. Immutable; any thread may read it. Since 0.2.</summary>
+    /// <summary>The beam lattices of a file, and its mesh. Immutable; any thread may read it.</summary>
     public struct msq_beam_file
     {
     }
@@ -438,7 +438,7 @@ namespace Msq.Interop
     {
     }
 
-    /// <summary>A model with settings for slices and pictures, read from a text in JSON. docs/model_file.md defines the format, docs/model.schema.json is its schema. Since 0.2.</summary>
+    /// <summary>A model with settings for slices and pictures, read from a text in JSON. docs/model_file.md defines the format, docs/model.schema.json is its schema.</summary>
     public struct msq_document
     {
     }
@@ -459,15 +459,15 @@ namespace Msq.Interop
         public byte* licence;
         /// <summary>Instruction set that the kernels use on this machine, for example "AVX3". Static.</summary>
         public byte* simd;
-        /// <summary>1 if msq_shape_hash and its like are available. Since 0.2.</summary>
+        /// <summary>1 if msq_shape_hash and its like are available.</summary>
         public int with_xxhash;
-        /// <summary>1 if documents are read and written (msq_document_from_json). Since 0.2.</summary>
+        /// <summary>1 if documents are read and written (msq_document_from_json).</summary>
         public int with_json;
     }
 
     /// <summary>Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may add some. message: in UTF-8, with the values, valid until the callback returns.</summary>
     /// <remarks>
-    /// <para>It is called on the thread that called msq, when the work of the function that gives the warning is done and before it returns; never with a lock held, so it may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it. Since 0.2.</para>
+    /// <para>It is called on the thread that called msq, when the work of the function that gives the warning is done and before it returns; never with a lock held, so it may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it.</para>
     /// </remarks>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void msq_warning_fn(void* user, int code, byte* message);
@@ -618,7 +618,7 @@ namespace Msq.Interop
 
     /// <summary>A graded period: cells whose size varies along one axis of a structure's grid, for example to vary the spacing of walls that are printed with lines of constant width.</summary>
     /// <remarks>
-    /// <para>The number of cells per unit length, 1 / size, is linear between positions and constant before the first and beyond the last. So the map from the coordinate to the number of cells from the grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not fold. The size of the grid along this axis is ignored; its origin is a corner of cells. The largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit for bit. The arrays are copied. Since 0.2.</para>
+    /// <para>The number of cells per unit length, 1 / size, is linear between positions and constant before the first and beyond the last. So the map from the coordinate to the number of cells from the grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not fold. The size of the grid along this axis is ignored; its origin is a corner of cells. The largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit for bit. The arrays are copied.</para>
     /// </remarks>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_period_def
@@ -739,7 +739,7 @@ namespace Msq.Interop
         public fixed double min[3];
         /// <summary>Bounding box, with the limits of msq_shape_from_box. No default.</summary>
         public fixed double max[3];
-        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2.</summary>
+        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none.</summary>
         public fixed ulong hash_key[2];
 
         /// <summary>One with the defaults of msq.</summary>
@@ -850,7 +850,7 @@ namespace Msq.Interop
         public double high;
         /// <summary>Lipschitz constant of the values. Infinity (default): unknown.</summary>
         public double lipschitz;
-        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2.</summary>
+        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none.</summary>
         public fixed ulong hash_key[2];
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1110,7 +1110,7 @@ namespace Msq.Interop
         public ulong parameter_count;
         /// <summary>SHEET, instead of level: mean wall thickness in model units. A constant must be &gt; 0, a field &gt;= 0 and not 0 everywhere. With a period it must be a constant. Default 0: level is used.</summary>
         public msq_param thickness;
-        /// <summary>Cells of varying size. NULL (default): all cells have the size of the grid. Since 0.2.</summary>
+        /// <summary>Cells of varying size. NULL (default): all cells have the size of the grid.</summary>
         public msq_period_def* period;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1286,7 +1286,7 @@ namespace Msq.Interop
         public void* user;
         /// <summary>May be NULL.</summary>
         public IntPtr release;
-        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2.</summary>
+        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none.</summary>
         public fixed ulong hash_key[2];
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1321,7 +1321,7 @@ namespace Msq.Interop
         public IntPtr release;
         /// <summary>Lipschitz constant of the values with respect to the angles. Infinity (default): unknown.</summary>
         public double lipschitz;
-        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none. Since 0.2.</summary>
+        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none.</summary>
         public fixed ulong hash_key[2];
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1654,7 +1654,7 @@ namespace Msq.Interop
         public int onset_value;
         /// <summary>CONTOURS: as msq_slicer_contours takes it. Copied. Other outputs: NULL (default).</summary>
         public msq_contours_def* contours;
-        /// <summary>CHANNEL: its name, in UTF-8, copied. A material of a resolved scale must have it. Other outputs: NULL (default). Since 0.2.</summary>
+        /// <summary>CHANNEL: its name, in UTF-8, copied. A material of a resolved scale must have it. Other outputs: NULL (default).</summary>
         public byte* channel;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1936,7 +1936,7 @@ namespace Msq.Interop
         public double tolerance;
         /// <summary>In model units. Shorter paths are dropped. A shorter line between two points where an odd number of lines meet is dropped too, as this saves a path: the lines that go on at both its ends are so close that they touch if min_length is at most the width of a line. Default 0.</summary>
         public double min_length;
-        /// <summary>In model units, about the width of a line. If positive, walls between points where an odd number of lines meet are printed as two lines, side by side at this distance, where that joins paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter walls are taken first, none is taken where a line of the two would leave the polygon, and the two may cross. Default 0: no wall is printed twice. Since 0.2.</summary>
+        /// <summary>In model units, about the width of a line. If positive, walls between points where an odd number of lines meet are printed as two lines, side by side at this distance, where that joins paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter walls are taken first, none is taken where a line of the two would leave the polygon, and the two may cross. Default 0: no wall is printed twice.</summary>
         public double pair_distance;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -2215,7 +2215,7 @@ namespace Msq.Interop
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int msq_render_fn(void* user, msq_render_pass* pass);
 
-    /// <summary>How a document is read. The limits protect the host from hostile documents. Since 0.2.</summary>
+    /// <summary>How a document is read. The limits protect the host from hostile documents.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_document_def
     {
@@ -2246,7 +2246,7 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>What a document holds. Since 0.2.</summary>
+    /// <summary>What a document holds.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_document_report
     {
@@ -2264,7 +2264,7 @@ namespace Msq.Interop
         public byte* title;
     }
 
-    /// <summary>How a model is written. Since 0.2.</summary>
+    /// <summary>How a model is written.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_json_def
     {
@@ -2609,7 +2609,7 @@ namespace Msq.Interop
 #endif
         int msq_job_info(msq_job* job, msq_job_report* report);
 
-        /// <summary>Moves a grid along with a part: *placed receives the grid whose cells are those of grid, placed by a matrix as in msq_shape_placed. A structure on that grid, with its radius or thickness scaled as lengths are, is the same structure at another place: seeds and unit cells go with the cells. Fields and beams are the host's to move. Without this call a structure stays fixed to the model's frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that mirrors, shears or stretches by more than 1e-9). Since 0.2.</summary>
+        /// <summary>Moves a grid along with a part: *placed receives the grid whose cells are those of grid, placed by a matrix as in msq_shape_placed. A structure on that grid, with its radius or thickness scaled as lengths are, is the same structure at another place: seeds and unit cells go with the cells. Fields and beams are the host's to move. Without this call a structure stays fixed to the model's frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that mirrors, shears or stretches by more than 1e-9).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -2619,7 +2619,7 @@ namespace Msq.Interop
 #endif
         int msq_neighbourhood_placed(msq_neighbourhood* grid, double* matrix, msq_neighbourhood* placed);
 
-        /// <summary>Sets the defaults. Errors: ARGUMENT. Since 0.2.</summary>
+        /// <summary>Sets the defaults. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -2773,7 +2773,7 @@ namespace Msq.Interop
         /// <summary>Creates a shape from another one by an affine map, for example an instance of a part on a plate. The two share mesh, image and trees. matrix: three rows of four numbers, row-major; a point q of the original is placed at matrix * (q, 1). Rotations, scalings, mirror images and shears are allowed.</summary>
         /// <remarks>
         /// <para>A point p is inside if the original holds B * (p - b), where B is the inverse of the first three columns, computed once in double precision, and b the last column. Lengths keep the unit of the model. Distance and depth are those of the original where all lengths grow alike (within 1e-6); otherwise the distance is at least the original's times the smallest growth of a length, and the shape has no depth, so no scale can leave a skin in it: transform the vertices of a mesh instead. Bounds enclose the placed bounding box of the original.</para>
-        /// <para>Cost: constant. Points and rays cost what they cost in the original. Layers ask the distance at a few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. Since 0.2.</para>
+        /// <para>Cost: constant. Points and rays cost what they cost in the original. Layers ask the distance at a few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2786,7 +2786,7 @@ namespace Msq.Interop
 
         /// <summary>Creates the union, intersection or difference of shapes (operation: an msq_boolean_operation) from their memberships. shapes: count shapes, 1 to 4096.</summary>
         /// <remarks>
-        /// <para>Distance. Of a union: the smallest of the shapes' signed distances, exact outside if theirs are, a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference: as an intersection with complements. Depth, and hence skin: intersections and differences of shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY. Since 0.2.</para>
+        /// <para>Distance. Of a union: the smallest of the shapes' signed distances, exact outside if theirs are, a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference: as an intersection with complements. Depth, and hence skin: intersections and differences of shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2799,7 +2799,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a shape from another one by moving its surface by a distance, outwards if it is positive and inwards if it is negative: the points whose signed distance to the original (msq_point_distance) is at most distance. Outwards, edges become round.</summary>
         /// <remarks>
-        /// <para>The original's distance must be exact on the side to which the surface moves: primitives, closed meshes, uniformly placed ones of these, outwards unions, inwards intersections and differences of these, and offsets once more to the same side. Triangles of a mesh that bound nothing count as its surface. The distance of the new shape is exact beyond its surface on that side, a bound on the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not finite, an offset inwards by more than half the bounding box, coordinates above 1e75), UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as msq_shape_placed; memory), MEMORY. Since 0.2.</para>
+        /// <para>The original's distance must be exact on the side to which the surface moves: primitives, closed meshes, uniformly placed ones of these, outwards unions, inwards intersections and differences of these, and offsets once more to the same side. Triangles of a mesh that bound nothing count as its surface. The distance of the new shape is exact beyond its surface on that side, a bound on the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not finite, an offset inwards by more than half the bounding box, coordinates above 1e75), UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as msq_shape_placed; memory), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2843,7 +2843,7 @@ namespace Msq.Interop
         /// <summary>Hashes a shape: 16 bytes that are equal for equal definitions with equal inputs and differ otherwise, for a host to know whether what it computed from the shape is still valid.</summary>
         /// <remarks>
         /// <para>They are the same in each run and on each machine, with any number of threads and in all builds of a version of msq; another version may change them. What results do not depend on does not count: names of files, the context, options that say "Does not change results". All other fields of a definition count, so do the vertices and triangles of a mesh after welding, in their order, the values of images with their type, and the operations of an expression, not its spaces and names. 0 and -0 are equal numbers. Shapes, fields, structures and materials within an object count by their hashes. docs/howto/caching.md says more.</para>
-        /// <para>It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without a hash_key in it; a build without xxHash), MEMORY. Since 0.2.</para>
+        /// <para>It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without a hash_key in it; a build without xxHash), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2997,7 +2997,7 @@ namespace Msq.Interop
 #endif
         int msq_field_shape_distance(msq_context* context, msq_shape_distance_field_def* def, msq_field** field, msq_job* job);
 
-        /// <summary>Hashes a field, as msq_shape_hash does. A field by the distance to a shape that was sampled with a step is hashed from its samples. Errors: as msq_shape_hash. Since 0.2.</summary>
+        /// <summary>Hashes a field, as msq_shape_hash does. A field by the distance to a shape that was sampled with a step is hashed from its samples. Errors: as msq_shape_hash.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3132,7 +3132,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a functional structure: the points where a function of the position in the cell is at most a level. def must not be NULL.</summary>
         /// <remarks>
-        /// <para>Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, comparisons, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp, log (natural), tanh, atan2(y, x), hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a &gt; 0. Since 0.2: - Comparisons, &lt; &lt;= &gt; &gt;= == !=, bind weakest, do not associate, and are 1 or 0. - select(c, a, b) is a where c is above 0.5, otherwise b. - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b). - atan2 is above -pi and at most pi, and 0 where x and y are 0. hypot is sqrt(a a + b b).</para>
+        /// <para>Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, comparisons, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp, log (natural), tanh, atan2(y, x), hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a &gt; 0. - Comparisons, &lt; &lt;= &gt; &gt;= == !=, bind weakest, do not associate, and are 1 or 0. - select(c, a, b) is a where c is above 0.5, otherwise b. - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b). - atan2 is above -pi and at most pi, and 0 where x and y are 0. hypot is sqrt(a a + b b).</para>
         /// <para>A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE 754-2019); an operand that select leaves out does not count. Points where the value is NaN are outside. Limits: 65536 bytes; 100 nested parentheses, signs and exponents; 8192 distinct operations, numbers and variables in total.</para>
         /// <para>Where floor, a comparison, select or atan2 may jump within the cell the slope has no bound. Distances to such a structure are 0, and rays cross jumps in steps of up to 1/1024 of a cell, as they do where a function has a pole or is NaN.</para>
         /// <para>Thickness is the volume of the walls divided by the area of their middle surface, where the function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of the function, accurate to about 0.3 % for the named functions (docs/concepts.md). Walls are thicker where the function is flatter. A field of thickness selects at each point the level of that thickness.</para>
@@ -3158,7 +3158,7 @@ namespace Msq.Interop
 #endif
         int msq_waves_def_init(msq_waves_def* def, UIntPtr size);
 
-        /// <summary>Creates a spinodal structure: the points where a sum of cosines of one wavelength, with random directions and phases, is at most the level (NETWORK), or its magnitude is (SHEET). def must not be NULL. Since 0.2.</summary>
+        /// <summary>Creates a spinodal structure: the points where a sum of cosines of one wavelength, with random directions and phases, is at most the level (NETWORK), or its magnitude is (SHEET). def must not be NULL.</summary>
         /// <remarks>
         /// <para>Directions and phases are a function of the seed, equal on every machine. With many waves the sum is a Gaussian random field. volume_fraction is then met on average: the level is the inverse of the normal distribution. Samples of few wavelengths, or few waves, differ from it; msq_structure_calibrate finds the level for a sample. A grid with different cell sizes stretches the structure. docs/concepts.md defines the sum.</para>
         /// <para>Cost: where a wavelength has 60 samples, a sample of a slice or a grid takes 0.5 ns, and 0.1 ns more for each 100 waves; any other point takes about 2 ns for each wave. Errors: ARGUMENT (also: both a level and a volume fraction), MEMORY. Source: Cahn 1965; Kumar, Tan, Zheng and Kochmann 2020.</para>
@@ -3199,7 +3199,7 @@ namespace Msq.Interop
         /// <remarks>
         /// <para>A file has one or more lattices, each for a structure of its own (msq_beam_file_beams). The beams and balls of the build that nothing clips are lattice 0; each placed object whose beams a mesh clips is one more. Everything is in millimetres and placed: units and transforms of items and components are applied. In the file a solid of beams is united with the triangles of its object; msq_beam_file_shape makes a shape of all triangles of the build.</para>
         /// <para>Read are vertices, beams, radii at the ends, caps, balls and their three modes, minlength (shorter beams are dropped) and the clipping mode with its mesh. In ball mode "all", the vertices at which beams end have balls. Beam sets, properties and representation meshes do not change the solid and are passed over. Numbers become the nearest doubles.</para>
-        /// <para>Limits: those of def; max_triangles is also the maximum number of beams and balls, and of triangles that clip. Cost: linear in the size of the file, about 1 us per beam on one thread. Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that. Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has components or beams, and transforms that scale some directions by over 1e-4 more than others; MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0.</para>
+        /// <para>Limits: those of def; max_triangles is also the maximum number of beams and balls, and of triangles that clip. Cost: linear in the size of the file, about 1 us per beam on one thread. Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that. Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has components or beams, and transforms that scale some directions by over 1e-4 more than others; MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3210,7 +3210,7 @@ namespace Msq.Interop
 #endif
         int msq_beam_file_open(msq_context* context, byte* path, msq_file_def* def, msq_beam_file** file, msq_job* job);
 
-        /// <summary>Reads beam lattices from bytes in memory. def must name the format and must not be NULL. See msq_beam_file_open. Errors: as msq_beam_file_open. Since 0.2.</summary>
+        /// <summary>Reads beam lattices from bytes in memory. def must name the format and must not be NULL. See msq_beam_file_open. Errors: as msq_beam_file_open.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3220,7 +3220,7 @@ namespace Msq.Interop
 #endif
         int msq_beam_file_open_memory(msq_context* context, void* data, ulong bytes, msq_file_def* def, msq_beam_file** file, msq_job* job);
 
-        /// <summary>Adds a reference. Since 0.2.</summary>
+        /// <summary>Adds a reference.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3230,7 +3230,7 @@ namespace Msq.Interop
 #endif
         void msq_beam_file_retain(msq_beam_file* file);
 
-        /// <summary>Drops a reference. Since 0.2.</summary>
+        /// <summary>Drops a reference.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3240,7 +3240,7 @@ namespace Msq.Interop
 #endif
         void msq_beam_file_release(msq_beam_file* file);
 
-        /// <summary>Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than lattice_count). Since 0.2.</summary>
+        /// <summary>Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than lattice_count).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3250,7 +3250,7 @@ namespace Msq.Interop
 #endif
         int msq_beam_file_info(msq_beam_file* file, ulong lattice, msq_beam_file_report* report);
 
-        /// <summary>Fills in the definition of a lattice for msq_structure_beams, unclipped. The caller sets struct_size. The arrays of the definition belong to the file and are valid as long as it is; the other fields have their defaults. Errors: ARGUMENT (lattice is not less than lattice_count). Since 0.2.</summary>
+        /// <summary>Fills in the definition of a lattice for msq_structure_beams, unclipped. The caller sets struct_size. The arrays of the definition belong to the file and are valid as long as it is; the other fields have their defaults. Errors: ARGUMENT (lattice is not less than lattice_count).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3260,7 +3260,7 @@ namespace Msq.Interop
 #endif
         int msq_beam_file_beams(msq_beam_file* file, ulong lattice, msq_beams_def* def);
 
-        /// <summary>Creates a shape from a mesh of a file of beams, in millimetres. mesh: an msq_beam_file_mesh. winding_rule: an msq_winding. Cost and errors: as msq_shape_from_mesh; ARGUMENT also for lattice; MESH if the file has no such mesh. Since 0.2.</summary>
+        /// <summary>Creates a shape from a mesh of a file of beams, in millimetres. mesh: an msq_beam_file_mesh. winding_rule: an msq_winding. Cost and errors: as msq_shape_from_mesh; ARGUMENT also for lattice; MESH if the file has no such mesh.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3315,7 +3315,7 @@ namespace Msq.Interop
 
         /// <summary>Creates the union, intersection or difference of structures (operation: an msq_boolean_operation) from their memberships. structures: count structures, 1 to 4096, each on its own grid or on none. They may be of any kind, also made of structures themselves.</summary>
         /// <remarks>
-        /// <para>The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of their signed distances, exact outside if theirs are, a bound inside; of an intersection the largest, a bound; of a difference as of an intersection with complements. The limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY. Since 0.2.</para>
+        /// <para>The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of their signed distances, exact outside if theirs are, a bound inside; of an intersection the largest, a bound; of a difference as of an intersection with complements. The limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3328,7 +3328,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a structure that becomes another one. fraction: f, a number or a field, 0 to 1: where it is 0 the solid is that of a, where it is 1 that of b. In between it holds the points with (1 - f) da + f db &lt;= 0, where da and db are the signed distances of a and b as msq returns them (docs/accuracy.md). So it holds what both hold and nothing that neither holds, and surfaces move from those of a to those of b as f grows. On the same grid with like nodes struts stay whole; otherwise parts of the one shrink while those of the other grow.</summary>
         /// <remarks>
-        /// <para>Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two distances at each sample that one of them holds and 0 &lt; f &lt; 1. Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is a field without one, a function has no bounded slope, or the host gives no distance), MEMORY. Since 0.2.</para>
+        /// <para>Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two distances at each sample that one of them holds and 0 &lt; f &lt; 1. Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is a field without one, a function has no bounded slope, or the host gives no distance), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3339,7 +3339,7 @@ namespace Msq.Interop
 #endif
         int msq_structure_blend(msq_structure* a, msq_structure* b, msq_param* fraction, msq_structure** structure);
 
-        /// <summary>Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. Since 0.2.</summary>
+        /// <summary>Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3383,7 +3383,7 @@ namespace Msq.Interop
         /// <remarks>
         /// <para>Lattices: the struts of the tiled unit cell, each once, where struts coincide with the greatest factor. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the first. Foams: the edges of the Voronoi diagram. A node is a point equally far from four or more seeds; its id comes from their names. Node positions are computed from the seeds in double precision. Nodes and struts whose ids are made from more than 128 bits have a hash as id; it is taken for unique. Beams: all beams and balls, whose a and b are equal; ends at the same coordinates are one node; id[0] is the index of the beam in the definition, after which balls count on. Foams with struts and walls: the struts.</para>
         /// <para>With a shape, the parts of a strut's centre line whose points are inside the shape come instead, in the order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and coordinates of the place where membership changes on the line, found as rays find it (msq_ray_cast); parts and gaps shorter than that may be overlooked. The solid around the line is not cut. Radii at cut ends are evaluated there. The first piece has the id of the strut, others have an id and each cut end a node of its own.</para>
-        /// <para>The order of struts and their bytes are the same on every call and on any number of threads. callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone: they have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Since 0.2. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991.</para>
+        /// <para>The order of struts and their bytes are the same on every call and on any number of threads. callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone: they have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3394,7 +3394,7 @@ namespace Msq.Interop
 #endif
         int msq_structure_struts(msq_context* context, msq_structure* structure, msq_struts_def* def, IntPtr callback, void* user, msq_job* job);
 
-        /// <summary>Collects the struts that msq_structure_struts passes, in the same order, and numbers their nodes in the order in which they first occur. Cost: as msq_structure_struts, and a table of the nodes on the calling thread. Memory: 56 bytes per strut and 40 per node, accounted to the context; while the call lasts, up to four times as much. Errors: as msq_structure_struts; LIMIT also for memory or more than 2^32 - 2 nodes. Since 0.2.</summary>
+        /// <summary>Collects the struts that msq_structure_struts passes, in the same order, and numbers their nodes in the order in which they first occur. Cost: as msq_structure_struts, and a table of the nodes on the calling thread. Memory: 56 bytes per strut and 40 per node, accounted to the context; while the call lasts, up to four times as much. Errors: as msq_structure_struts; LIMIT also for memory or more than 2^32 - 2 nodes.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3424,7 +3424,7 @@ namespace Msq.Interop
 #endif
         void msq_strut_graph_release(msq_strut_graph* graph);
 
-        /// <summary>Reports what a graph holds. Errors: ARGUMENT. Since 0.2.</summary>
+        /// <summary>Reports what a graph holds. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3464,7 +3464,7 @@ namespace Msq.Interop
 #endif
         int msq_material_blend(msq_context* context, uint id, msq_material* a, msq_material* b, msq_param* fraction, msq_material** material);
 
-        /// <summary>Hashes a material, as msq_shape_hash does: its id, and its channels in their order. Errors: as msq_shape_hash. Since 0.2.</summary>
+        /// <summary>Hashes a material, as msq_shape_hash does: its id, and its channels in their order. Errors: as msq_shape_hash.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3520,7 +3520,7 @@ namespace Msq.Interop
         /// <summary>Creates a model of several regions, for example the parts of a plate and the modifier volumes in them. regions: count models, 1 to 4096; each has its own shape, scales, skins and materials.</summary>
         /// <remarks>
         /// <para>A point belongs to the first region whose shape contains it, and is inside where that region is: later regions count for nothing there, also where the region is empty. A region that is itself a model of regions is replaced by these, in their order. All functions take the model: one slice, ray or query serves a whole plate. Its coarse shape is the union of those of its regions. Scales are numbered by region: hits name the scale of the region that they are in, and msq_model_scale_length returns the largest length of any region.</para>
-        /// <para>Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups, so a sample costs the memberships in the shapes before its region, and its region. Two bits per sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a region of all space), MEMORY. Since 0.2.</para>
+        /// <para>Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups, so a sample costs the memberships in the shapes before its region, and its region. Two bits per sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a region of all space), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3531,7 +3531,7 @@ namespace Msq.Interop
 #endif
         int msq_model_regions(msq_context* context, msq_model** regions, ulong count, msq_model** model);
 
-        /// <summary>Hashes a model, as msq_shape_hash does: its shape, and the structure, skin and materials of each scale; or its regions in their order. Errors: as msq_shape_hash. Since 0.2.</summary>
+        /// <summary>Hashes a model, as msq_shape_hash does: its shape, and the structure, skin and materials of each scale; or its regions in their order. Errors: as msq_shape_hash.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3581,7 +3581,7 @@ namespace Msq.Interop
 #endif
         int msq_model_scale_length(msq_model* model, uint scale, double* length);
 
-        /// <summary>Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0 also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such region or scale). Since 0.2.</summary>
+        /// <summary>Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0 also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such region or scale).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3647,7 +3647,7 @@ namespace Msq.Interop
 #endif
         int msq_set_membership(msq_model* model, msq_points_def* points, msq_query_def* query, byte* inside, ulong inside_count, msq_job* job);
 
-        /// <summary>Region of one point: *region receives the index of the first region whose shape contains it, -1 if none does. The point need not be in the solid of the region. A model that is not made of regions is region 0. Regions of regions are counted in their order. Errors: ARGUMENT, MEMORY. Since 0.2.</summary>
+        /// <summary>Region of one point: *region receives the index of the first region whose shape contains it, -1 if none does. The point need not be in the solid of the region. A model that is not made of regions is region 0. Regions of regions are counted in their order. Errors: ARGUMENT, MEMORY.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3657,7 +3657,7 @@ namespace Msq.Interop
 #endif
         int msq_point_region(msq_model* model, double* point, int* region);
 
-        /// <summary>Regions of a set: regions[i] receives the result of msq_point_region for point i. region_count must be the number of points. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave regions partly written. Cost: in parallel, the memberships in the shapes. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Since 0.2.</summary>
+        /// <summary>Regions of a set: regions[i] receives the result of msq_point_region for point i. region_count must be the number of points. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave regions partly written. Cost: in parallel, the memberships in the shapes. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3948,7 +3948,7 @@ namespace Msq.Interop
 #endif
         int msq_contours_info(msq_contours* contours, msq_contours_report* report);
 
-        /// <summary>Sets the defaults. Errors: ARGUMENT. Since 0.2.</summary>
+        /// <summary>Sets the defaults. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3961,7 +3961,7 @@ namespace Msq.Interop
         /// <summary>Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids, thin places, cups, overhangs.</summary>
         /// <remarks>
         /// <para>It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation of the slicer are ignored. What is smaller than a pixel may lie between samples: to find it, use a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners, empty ones across sides; samples of two layers are connected if one is on the other.</para>
-        /// <para>def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack. Runs and totals are accounted to the context after each layer. Workers share the rows of each layer. Cost: 1.1 to 1.9 times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976. Since 0.2.</para>
+        /// <para>def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack. Runs and totals are accounted to the context after each layer. Workers share the rows of each layer. Cost: 1.1 to 1.9 times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4041,7 +4041,7 @@ namespace Msq.Interop
 #endif
         int msq_fill_calibrate(msq_context* context, msq_structure* structure, double line_width, double density, double* cell_size, msq_job* job);
 
-        /// <summary>Sets the defaults. Errors: ARGUMENT. Since 0.2.</summary>
+        /// <summary>Sets the defaults. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4054,7 +4054,7 @@ namespace Msq.Interop
         /// <summary>Computes triangles of the boundary of a model within a box, to look at and to hand on to programs that take nothing else. Layers, contours, rays and distances come from the model itself, faster and exactly.</summary>
         /// <remarks>
         /// <para>The mesh is closed, and a manifold: each edge has two triangles, which run through it in opposite directions, and the triangles around a vertex are one ring. Each vertex is within pitch / 1000 of the boundary of the model cut with the box. Edges and corners of the model that are wider apart than the pitch are kept. Triangles may intersect where the boundary is bent within a pitch.</para>
-        /// <para>Callbacks run on the calling thread, from low z to high z. The parts together do not depend on slab_layers, threads or calls. A model without a point at a node yields no callback. def must not be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory: about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors: ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 vertices; memory), MEMORY. Since 0.2. Source: Schaefer, Ju and Warren, "Manifold dual contouring", 2007.</para>
+        /// <para>Callbacks run on the calling thread, from low z to high z. The parts together do not depend on slab_layers, threads or calls. A model without a point at a node yields no callback. def must not be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory: about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors: ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 vertices; memory), MEMORY. Source: Schaefer, Ju and Warren, "Manifold dual contouring", 2007.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4068,7 +4068,7 @@ namespace Msq.Interop
         /// <summary>Computes the mesh of msq_surface_mesh as the bytes of a file. format: an msq_surface_format.</summary>
         /// <remarks>
         /// <para>Each byte of the file is in one part. Parts of MSQ_SURFACE_STL come in the order of the file. In MSQ_SURFACE_PLY vertices come before triangles, so its parts alternate between two places: seek to offset, or copy to it in memory of total bytes. The bytes of the file do not depend on slab_layers or threads. Coordinates are rounded to float32: far from the origin, vertices closer together than that may coincide.</para>
-        /// <para>Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is written. A model without a point at a node yields a file without triangles. Errors: as msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices. Since 0.2.</para>
+        /// <para>Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is written. A model without a point at a node yields a file without triangles. Errors: as msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4170,7 +4170,7 @@ namespace Msq.Interop
 #endif
         int msq_render(msq_model* model, msq_camera* camera, msq_render_def* def, msq_query_def* query, msq_frame* frame, IntPtr fn, void* user, msq_job* job);
 
-        /// <summary>Sets the defaults. Errors: ARGUMENT. Since 0.2.</summary>
+        /// <summary>Sets the defaults. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4183,7 +4183,7 @@ namespace Msq.Interop
         /// <summary>Reads a document from text in memory: JSON in UTF-8, of `bytes` bytes. def NULL: defaults. job NULL: no job; its progress is that of the file which is being read.</summary>
         /// <remarks>
         /// <para>msq builds every object of the document by the functions above, with their checks and their warnings. Lengths are in the model's unit. Unknown keys, keys that occur twice and definitions that contain themselves are refused. A message begins with line, column and path of the value that is at fault, for example "12:17: scales[1].structure.foam.radius: ...". Lines and columns begin at 1; columns count bytes.</para>
-        /// <para>Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY. Since 0.2.</para>
+        /// <para>Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4194,7 +4194,7 @@ namespace Msq.Interop
 #endif
         int msq_document_from_json(msq_context* context, byte* text, ulong bytes, msq_document_def* def, msq_document** document, msq_job* job);
 
-        /// <summary>Reads a document from a file. path: as in msq_shape_from_file. Its messages begin with the path. The rest is as in msq_document_from_json. Errors: as msq_document_from_json. Since 0.2.</summary>
+        /// <summary>Reads a document from a file. path: as in msq_shape_from_file. Its messages begin with the path. The rest is as in msq_document_from_json. Errors: as msq_document_from_json.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4224,7 +4224,7 @@ namespace Msq.Interop
 #endif
         void msq_document_release(msq_document* document);
 
-        /// <summary>Reports what a document holds. Errors: ARGUMENT. Since 0.2.</summary>
+        /// <summary>Reports what a document holds. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4234,7 +4234,7 @@ namespace Msq.Interop
 #endif
         int msq_document_info(msq_document* document, msq_document_report* report);
 
-        /// <summary>Returns the model of a document, with a reference for the caller to release. It does not need the document any more. Errors: ARGUMENT. Since 0.2.</summary>
+        /// <summary>Returns the model of a document, with a reference for the caller to release. It does not need the document any more. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4244,7 +4244,7 @@ namespace Msq.Interop
 #endif
         int msq_document_model(msq_document* document, msq_model** model);
 
-        /// <summary>Writes the settings for slices to *def, whose struct_size the caller has set; what the document does not say has its default. The pointers in it are valid as long as the document. The host may change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without slicing). Since 0.2.</summary>
+        /// <summary>Writes the settings for slices to *def, whose struct_size the caller has set; what the document does not say has its default. The pointers in it are valid as long as the document. The host may change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without slicing).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4254,7 +4254,7 @@ namespace Msq.Interop
 #endif
         int msq_document_slicing(msq_document* document, msq_slicer_def* def);
 
-        /// <summary>Writes the settings for pictures to *camera and *render, whose struct_size the caller has set. A view along a direction is already fitted to the model, as by msq_camera_fit. The pointers in *render are valid as long as the document. Errors: ARGUMENT (also a document without view). Since 0.2.</summary>
+        /// <summary>Writes the settings for pictures to *camera and *render, whose struct_size the caller has set. A view along a direction is already fitted to the model, as by msq_camera_fit. The pointers in *render are valid as long as the document. Errors: ARGUMENT (also a document without view).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4264,7 +4264,7 @@ namespace Msq.Interop
 #endif
         int msq_document_view(msq_document* document, msq_camera* camera, msq_render_def* render);
 
-        /// <summary>Sets the defaults. Errors: ARGUMENT. Since 0.2.</summary>
+        /// <summary>Sets the defaults. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4277,7 +4277,7 @@ namespace Msq.Interop
         /// <summary>Writes a model as a document in JSON: its objects as they were defined, whether by the functions of this header or by a document. msq_document_from_json makes a model of it with the same msq_model_hash, as long as the files that it names are the same. def NULL: defaults.</summary>
         /// <remarks>
         /// <para>Meshes from files are written as the path of the file with its options. Other meshes, and images that no document read from a file, are written as numbers. Objects that are used more than once are written once, under a name.</para>
-        /// <para>*bytes: receives the size of the text, without a terminating 0. text: receives it if room is enough, with a terminating 0 if room is larger; NULL if room is 0. Errors: ARGUMENT (also room that is neither 0 nor enough), UNSUPPORTED (an object of the host; beams of more than 4 MiB, whose definition msq does not keep; a path or a name that is not UTF-8; a build without nlohmann-json), LIMIT (max_numbers), MEMORY. Since 0.2.</para>
+        /// <para>*bytes: receives the size of the text, without a terminating 0. text: receives it if room is enough, with a terminating 0 if room is larger; NULL if room is 0. Errors: ARGUMENT (also room that is neither 0 nor enough), UNSUPPORTED (an object of the host; beams of more than 4 MiB, whose definition msq does not keep; a path or a name that is not UTF-8; a build without nlohmann-json), LIMIT (max_numbers), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
