@@ -6,12 +6,14 @@
 #include <limits>
 
 #include "base/status.h"
+#include "slice/cell_sides.h"
 
 namespace msq {
 
+using namespace cell_sides;
+
 namespace {
 
-constexpr uint32_t bottom = 0, right = 1, top = 2, left = 3;
 constexpr uint32_t into_saddle = 4;
 
 /// Where a piece of the boundary comes into a cell and leaves it, by which of its nodes are inside:

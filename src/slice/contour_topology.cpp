@@ -8,16 +8,18 @@
 #include "base/sample_grid.h"
 #include "base/status.h"
 #include "query/membership.h"
+#include "slice/cell_sides.h"
 #include "slice/contour_samples.h"
 #include "slice/contour_topology_cells.h"
 
 namespace msq {
 
+using namespace cell_sides;
+
 namespace {
 
-constexpr unsigned bottom = 0, right = 1, top = 2, left = 3;
 /// Of the samples that are held at a time.
-constexpr uint64_t band_words = uint64_t{1} << 19;
+constexpr uint64_t topology_band_words = uint64_t{1} << 19;
 
 /// Samples along an axis of the window: from an edge, between nodes, to the other edge.
 struct AxisPart {
@@ -68,7 +70,7 @@ class TopologySteps {
   }
 
   uint64_t count() {
-    const uint64_t rows = std::clamp<uint64_t>(band_words / (row_words_ * k_), 1, up_);
+    const uint64_t rows = std::clamp<uint64_t>(topology_band_words / (row_words_ * k_), 1, up_);
     const uint64_t words = (rows * k_ + 1) * row_words_;
     // The engine's rows of the same samples, and their scratch memory.
     SampleGrid fine;

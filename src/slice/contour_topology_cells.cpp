@@ -3,18 +3,20 @@
 
 #include <algorithm>
 #include <array>
+#include "slice/cell_sides.h"
 
 namespace msq {
+
+using namespace cell_sides;
 
 namespace {
 
 constexpr uint32_t max_side = 16;
 constexpr uint32_t max_transitions = 4 * max_side;
-constexpr uint32_t none = UINT32_MAX;
+constexpr uint32_t no_neighbour = UINT32_MAX;
 /// Of cells beyond the window.
 constexpr uint32_t beyond_row = UINT32_MAX;
 constexpr uint8_t no_arc = 4;
-constexpr unsigned bottom = 0, right = 1, top = 2, left = 3;
 
 /// Where neighbouring bits differ, of `count` bits.
 uint32_t transitions(uint32_t bits, uint32_t count) {
@@ -110,7 +112,7 @@ void TopologyCells::add(uint32_t column, uint32_t row, const CellMask& mask, boo
   cell.row = row;
   cell.first = arcs_.size();
   for (unsigned c = 0; c < 4; ++c) cell.corners |= static_cast<uint8_t>(corners[c] << c);
-  std::fill(cell.neighbours, cell.neighbours + 4, none);
+  std::fill(cell.neighbours, cell.neighbours + 4, no_neighbour);
   std::fill(cell.main_arcs, cell.main_arcs + 4, no_arc);
 
   // Around the cell, side by side.
@@ -187,7 +189,7 @@ void TopologyCells::add_beyond(uint32_t inner, unsigned side) {
   cell.column = of.column;
   cell.row = of.row;
   cell.first = arcs_.size();
-  std::fill(cell.neighbours, cell.neighbours + 4, none);
+  std::fill(cell.neighbours, cell.neighbours + 4, no_neighbour);
   std::fill(cell.main_arcs, cell.main_arcs + 4, no_arc);
   const unsigned shared = (side + 2) % 4;
   // Counter-clockwise around that cell: the shared side leads from corner `begin` to corner `end`,
@@ -230,15 +232,15 @@ void TopologyCells::add_beyond(uint32_t inner, unsigned side) {
 void TopologyCells::link() {
   // Of the cells of the row below, the first that is not before the current one.
   size_t below = 0;
-  uint32_t before = none;
+  uint32_t before = no_neighbour;
   for (uint32_t n = 0; n < cells_.size(); ++n) {
     Cell& cell = cells_[n];
     if (cell.row == beyond_row) continue;
-    if (is_shared(cell, left) && before != none && cell.neighbours[left] == none) {
+    if (is_shared(cell, left) && before != no_neighbour && cell.neighbours[left] == no_neighbour) {
       cell.neighbours[left] = before;
       cells_[before].neighbours[right] = n;
     }
-    if (is_shared(cell, bottom) && cell.neighbours[bottom] == none) {
+    if (is_shared(cell, bottom) && cell.neighbours[bottom] == no_neighbour) {
       while (cells_[below].row == beyond_row || cells_[below].row + 1 < cell.row ||
              (cells_[below].row + 1 == cell.row && cells_[below].column < cell.column))
         ++below;

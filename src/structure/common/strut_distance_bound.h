@@ -13,6 +13,7 @@
 
 #include <algorithm>
 
+#include "base/infinity.h"
 #include "field/field.h"
 
 namespace msq {
@@ -21,7 +22,6 @@ namespace msq {
 /// a step, L being the parameter's Lipschitz constant. At most gap / own.
 inline double steady_distance(double gap, double own, double factor, const Parameter& parameter,
                               Vec3 p) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double everywhere = parameter.lipschitz();
   if (everywhere < infinity || !(gap > 0)) return gap / (own + factor * everywhere);
   // The slope of a box does not include the rounding of values, there and at the boundary.
