@@ -24,6 +24,7 @@ KINDS = {"function": "Functions", "callback": "Callbacks", "struct": "Structs", 
 # The documents outside of docs/, and their names in the site.
 OTHERS = {"CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md",
           "SECURITY.md": "security.md", "README.md": "readme.md",
+          "tests/coverage/README.md": "coverage.md",
           "bindings/README.md": "bindings.md",
           "bindings/python/README.md": "python.md",
           **{f"integrations/{host}/README.md": f"{host}.md" for host in ("freecad", "blender", "prusaslicer")}}
