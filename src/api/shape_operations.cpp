@@ -2,6 +2,7 @@
 // Shapes made of other shapes.
 #include "api/defined_handle.h"
 #include "api/guard.h"
+#include "api/members.h"
 #include "api/shape_size.h"
 #include "shape/boolean.h"
 #include "shape/offset.h"
@@ -11,9 +12,6 @@ using namespace msq;
 using namespace msq::api;
 
 namespace {
-
-constexpr unsigned max_nesting = 64;
-constexpr uint64_t max_members = 4096;
 
 /// A new shape made of others, if it is not too large and these not too deep within each other.
 template <class Def>
@@ -53,18 +51,12 @@ msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* shapes, 
   return guard([&] {
     const auto known = static_cast<BooleanShape::Operation>(
         require_range(operation, MSQ_BOOLEAN_UNION, MSQ_BOOLEAN_DIFFERENCE, "operation"));
-    if (count < 1 || count > max_members)
-      fail(Status::argument, "count is %llu; it must be from 1 to %llu",
-           static_cast<unsigned long long>(count), static_cast<unsigned long long>(max_members));
-    require(shapes, "shapes");
+    require_members(shapes, count, "shapes");
     require(shape, "shape");
-    std::vector<Ref<const Shape>> members;
-    for (uint64_t i = 0; i < count; ++i) {
-      if (!shapes[i])
-        fail(Status::argument, "shapes[%llu] is NULL", static_cast<unsigned long long>(i));
-      members.emplace_back(&require_bounded(object(shapes[i], "shapes"),
-                                            ("shapes[" + std::to_string(i) + "]").c_str()));
-    }
+    std::vector<Ref<const Shape>> members = read_members<Shape>(
+        shapes, count, "shapes", [](const Shape& member, uint64_t i) -> const Shape& {
+          return require_bounded(member, ("shapes[" + std::to_string(i) + "]").c_str());
+        });
     *shape = made_of_shapes(make_ref<BooleanShape>(known, std::move(members)),
                             BooleanDef{operation, shapes, count});
   });

@@ -2,6 +2,7 @@
 // Structures made of other structures.
 #include "api/defined_handle.h"
 #include "api/guard.h"
+#include "api/members.h"
 #include "structure/combined/blended_structure.h"
 #include "structure/combined/boolean_structure.h"
 
@@ -10,23 +11,20 @@ using namespace msq::api;
 
 namespace {
 
-constexpr unsigned max_structure_nesting = 64;
-constexpr uint64_t max_structure_members = 4096;
-
 /// A new structure made of others, if these are not too many or too deep within each other.
 template <class Def>
 msq_structure* made_of_structures(const Ref<CombinedStructure>& structure, const Def& def) {
-  if (structure->nesting() > max_structure_nesting)
+  if (structure->nesting() > max_nesting)
     fail(Status::limit,
          "%u structures made of structures would be within each other; the limit is %u",
-         structure->nesting(), max_structure_nesting);
-  if (structure->terms() > max_structure_members)
+         structure->nesting(), max_nesting);
+  if (structure->terms() > max_members)
     fail(
         Status::limit,
         "it would be made of %llu structures, the same counted as often as it occurs; the limit is "
         "%llu",
         static_cast<unsigned long long>(structure->terms()),
-        static_cast<unsigned long long>(max_structure_members));
+        static_cast<unsigned long long>(max_members));
   return defined_handle<msq_structure>(structure, def);
 }
 
@@ -48,18 +46,11 @@ msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* 
   return guard([&] {
     const auto known = static_cast<BooleanStructure::Operation>(
         require_range(operation, MSQ_BOOLEAN_UNION, MSQ_BOOLEAN_DIFFERENCE, "operation"));
-    if (count < 1 || count > max_structure_members)
-      fail(Status::argument, "count is %llu; it must be from 1 to %llu",
-           static_cast<unsigned long long>(count),
-           static_cast<unsigned long long>(max_structure_members));
-    require(structures, "structures");
+    require_members(structures, count, "structures");
     require(structure, "structure");
-    StructureList members;
-    for (uint64_t i = 0; i < count; ++i) {
-      if (!structures[i])
-        fail(Status::argument, "structures[%llu] is NULL", static_cast<unsigned long long>(i));
-      members.emplace_back(&object(structures[i], "structures"));
-    }
+    StructureList members = read_members<Structure>(
+        structures, count, "structures",
+        [](const Structure& member, uint64_t) -> const Structure& { return member; });
     *structure = made_of_structures(make_ref<BooleanStructure>(known, std::move(members)),
                                     StructureBooleanDef{operation, structures, count});
   });
