@@ -185,9 +185,7 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   const Vec2 a = rings_.at(id), b = rings_.at(next), ab = b - a;
   if (dot(ab, ab) <= tolerance_ * tolerance_) return;
   uint32_t p = before(id), q = behind(next);
-  const auto make_piece = [&] {
-    return Piece{id, next, 0, 0, false, false, false, false, a, b, {}, {}, 0, 1};
-  };
+  const auto make_piece = [&] { return Piece{.id = id, .next = next, .a = a, .b = b}; };
   if (rings_.is_beyond(p) || rings_.is_beyond(q)) {
     // The direction of the boundary at the edge of a window is not known.
     memory_->pieces.push_back(make_piece());
@@ -407,35 +405,21 @@ void ContourDetails::split(ContourPoints& points) {
     memory_->details.push_back({piece.id, piece.next, order, at});
     // A half as short as that is near enough.
     if (length(at - piece.a) > tolerance_)
-      halves.push_back({piece.id,
-                        piece.next,
-                        piece.depth + 1,
-                        0,
-                        false,
-                        false,
-                        false,
-                        false,
-                        piece.a,
-                        at,
-                        {},
-                        {},
-                        piece.begin,
-                        order});
+      halves.push_back({.id = piece.id,
+                        .next = piece.next,
+                        .depth = piece.depth + 1,
+                        .a = piece.a,
+                        .b = at,
+                        .begin = piece.begin,
+                        .end = order});
     if (length(piece.b - at) > tolerance_)
-      halves.push_back({piece.id,
-                        piece.next,
-                        piece.depth + 1,
-                        0,
-                        false,
-                        false,
-                        false,
-                        false,
-                        at,
-                        piece.b,
-                        {},
-                        {},
-                        order,
-                        piece.end});
+      halves.push_back({.id = piece.id,
+                        .next = piece.next,
+                        .depth = piece.depth + 1,
+                        .a = at,
+                        .b = piece.b,
+                        .begin = order,
+                        .end = piece.end});
   }
   memory_->pieces.swap(halves);
 }

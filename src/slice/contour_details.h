@@ -53,11 +53,12 @@ class ContourDetails {
  private:
   struct Piece {
     uint32_t id, next;  // crossings
-    int depth;
-    int turn;  // where known: 1: the boundary turns left between its ends, -1: right; else 0
-    bool has_arc, has_corner, is_inside, is_bent;
-    Vec2 a, b, arc, corner;
-    double begin, end;  // orders of a and b
+    int depth = 0;
+    int turn = 0;  // where known: 1: the boundary turns left between its ends, -1: right
+    bool has_arc = false, has_corner = false, is_inside = false, is_bent = false;
+    Vec2 a, b;
+    Vec2 arc = {}, corner = {};
+    double begin = 0, end = 1;  // orders of a and b
     Vec2 middle() const { return (a + b) * 0.5; }
   };
   using Cell = ContourRings::Cell;
