@@ -325,6 +325,11 @@ Factory waves_factory(WavesKind kind, uint32_t count) {
   };
 }
 
+Kind holding_beams(Kind kind) {
+  kind.holds_beams = true;
+  return kind;
+}
+
 std::vector<Kind> kinds() {
   std::vector<Kind> kinds = {
       {"cubic", "thin", 0.08, 1, lattice_factory(cubic_unit_cell())},
@@ -415,11 +420,12 @@ std::vector<Kind> kinds() {
   kinds.push_back({"foam walls", "holes, density 1 to 30", 0.06, 1, vented_factory(1, true, true)});
   kinds.push_back({"foam walls", "and struts", 0.09, 1, walled_factory(1)});
   kinds.push_back({"foam walls", "and struts, jitter 0", 0.09, 0, walled_factory(0)});
-  kinds.push_back({"beams", "capsules", 0.1, 1, beams_factory(BeamSort::capsules)});
-  kinds.push_back({"beams", "cones", 0.14, 1, beams_factory(BeamSort::cones)});
-  kinds.push_back({"beams", "half balls", 0.14, 1, beams_factory(BeamSort::half_balls)});
-  kinds.push_back({"beams", "flat ends", 0.12, 1, beams_factory(BeamSort::flat)});
-  kinds.push_back({"beams", "all sorts", 0.12, 1, beams_factory(BeamSort::all)});
+  kinds.push_back(holding_beams({"beams", "capsules", 0.1, 1, beams_factory(BeamSort::capsules)}));
+  kinds.push_back(holding_beams({"beams", "cones", 0.14, 1, beams_factory(BeamSort::cones)}));
+  kinds.push_back(
+      holding_beams({"beams", "half balls", 0.14, 1, beams_factory(BeamSort::half_balls)}));
+  kinds.push_back(holding_beams({"beams", "flat ends", 0.12, 1, beams_factory(BeamSort::flat)}));
+  kinds.push_back(holding_beams({"beams", "all sorts", 0.12, 1, beams_factory(BeamSort::all)}));
   kinds.push_back({"combined", "BCC or gyroid", 0.12, 1,
                    boolean_factory(Operation::united, lattice_factory(bcc_unit_cell()),
                                    functional_factory(preset_expressions[0], sheet, 0))});
@@ -433,25 +439,26 @@ std::vector<Kind> kinds() {
   kinds.push_back({"combined", "walls without struts", 0.1, 1,
                    boolean_factory(Operation::subtracted, walls_factory(1),
                                    lattice_factory(cubic_unit_cell()))});
-  kinds.push_back({"combined", "nested", 0.1, 1, nested_factory()});
+  kinds.push_back(holding_beams({"combined", "nested", 0.1, 1, nested_factory()}));
   kinds.push_back({"blended", "BCC to gyroid", 0.15, 1,
                    blend_factory(lattice_factory(bcc_unit_cell()),
                                  functional_factory(preset_expressions[0], sheet, 0), 0, 1)});
   kinds.push_back({"blended", "foam to octet", 0.12, 1,
                    blend_factory(foam_factory(FoamMethod::direct, 1),
                                  lattice_factory(octet_unit_cell()), 0, 1)});
-  kinds.push_back({"blended", "walls to beams", 0.15, 1,
-                   blend_factory(walls_factory(1), beams_factory(BeamSort::capsules), 0.2, 0.7)});
+  kinds.push_back(holding_beams(
+      {"blended", "walls to beams", 0.15, 1,
+       blend_factory(walls_factory(1), beams_factory(BeamSort::capsules), 0.2, 0.7)}));
   kinds.push_back({"blended", "gyroid to diamond", 0.2, 1,
                    blend_factory(functional_factory(preset_expressions[0], network, 0),
                                  functional_factory(preset_expressions[2], network, 0), 0.1, 1)});
-  kinds.push_back(
+  kinds.push_back(holding_beams(
       {"blended", "nested", 0.12, 1,
        blend_factory(blend_factory(lattice_factory(cubic_unit_cell()),
                                    foam_factory(FoamMethod::direct, 1), 0.3, 0.6),
                      boolean_factory(Operation::united, lattice_factory(bcc_unit_cell()),
                                      beams_factory(BeamSort::cones)),
-                     0, 1)});
+                     0, 1)}));
   // Fields that are not linear.
   kinds.push_back({"BCC", "mapped radius", 0.15, 1, lattice_factory(bcc_unit_cell()), mapped});
   kinds.push_back({"functional", "gyroid, sampled level", 0.2, 1,

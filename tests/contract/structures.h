@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The structures that the contract suite runs over. A new structure is a new row of kinds()
-// in structures.cpp; every
-// kind is crossed with the grids and with a constant and a varying radius.
+// The structures that the contract suite runs over. A new structure is a new row of kinds() in
+// structures.cpp. Every kind is crossed with the grids and with a constant and a varying radius.
 #pragma once
 
 #include <functional>
@@ -34,6 +33,7 @@ struct Kind {
   Factory make;
   /// What a varying radius is in place of a linear one; NULL: that.
   FieldRef (*vary)(const Neighbourhood&, FieldRef linear) = nullptr;
+  bool holds_beams = false;  ///< whose radii are taken at their ends
 };
 
 struct GridVariant {
@@ -67,11 +67,6 @@ struct StructureRow {
   bool has_dear_cells() const { return is_method_1() || is_method_2(); }
   bool has_dear_points() const { return kind.family == "foam POINT"; }
   /// Made of other rows' structures, which have tests of their own.
-  /// Radii of beams are taken at their ends.
-  bool holds_beams() const {
-    return is_beams() || (is_made_of_others() && (kind.name.find("beams") != std::string::npos ||
-                                                  kind.name.find("nested") != std::string::npos));
-  }
   bool is_made_of_others() const { return kind.family == "combined" || kind.family == "blended"; }
   /// A test's number of samples, cut down where they are dear.
   size_t samples(size_t full) const {
