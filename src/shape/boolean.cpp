@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "base/follow_changes.h"
 #include "base/hash_input.h"
 #include "base/infinity.h"
 #include "base/ray_normal.h"
@@ -142,8 +143,6 @@ double BooleanShape::depth_error() const {
   return error;
 }
 
-// Each member is followed from change to change; behind the next one of any of them membership is
-// asked again. A member's change is known within its own tolerance, which is no more than this one.
 bool BooleanShape::find(bool wanted, const Ray& ray, double from, double to, double& t,
                         const Job* job) const {
   const double tolerance = ray_tolerance();
@@ -153,10 +152,7 @@ bool BooleanShape::find(bool wanted, const Ray& ray, double from, double to, dou
     return true;
   }
   std::vector<double> next(members_.size(), -infinity);
-  JobPoll poll(job);
-  LeastStep least(tolerance, tolerance, from);
-  for (double at = from; at < to;) {
-    poll();
+  const auto next_change = [&](double at) -> std::optional<double> {
     double nearest = infinity;
     for (size_t i = 0; i < members_.size(); ++i) {
       const Shape& member = *members_[i];
@@ -168,20 +164,9 @@ bool BooleanShape::find(bool wanted, const Ray& ray, double from, double to, dou
       }
       nearest = std::min(nearest, next[i]);
     }
-    if (!(nearest < infinity)) nearest = to;
-    const double behind = std::min(to, std::max(nearest + tolerance, at + least.of_step(at)));
-    if (!(behind > at)) return false;  // steps vanish in rounding
-    // Entries are found on their far side, ends of parts on their near one.
-    for (const double place : {nearest - tolerance, nearest, behind}) {
-      if (!(place > at && place <= behind)) continue;
-      if (is_there(place)) {
-        t = bisect(at, place, tolerance, is_there);
-        return true;
-      }
-      at = place;
-    }
-  }
-  return false;
+    return nearest;
+  };
+  return follow_changes(from, to, tolerance, job, next_change, is_there, t);
 }
 
 bool BooleanShape::enter(const Ray& ray, double from, double to, double& t, const Job* job) const {

@@ -2,6 +2,7 @@
 // Rays: each member is followed from change to change.
 #include <algorithm>
 
+#include "base/follow_changes.h"
 #include "base/infinity.h"
 #include "base/ray_normal.h"
 #include "structure/combined/boolean_structure.h"
@@ -21,8 +22,6 @@ void BooleanStructure::enter(RaySearch* searches, size_t count, const Job* job) 
   }
 }
 
-// Behind the next change of any member membership is evaluated again. The change of a member is
-// known within its own tolerance, which is no more than this one.
 bool BooleanStructure::find_entry(const Ray& ray, double from, double to, double& t,
                                   const Job* job) const {
   const auto is_inside = [&](double at) { return inside(ray.at(at)); };
@@ -32,10 +31,7 @@ bool BooleanStructure::find_entry(const Ray& ray, double from, double to, double
   }
   const double tolerance = ray_tolerance(ray, to);
   std::vector<double> next(members().size(), -infinity);
-  JobPoll poll(job);
-  LeastStep least(tolerance, tolerance, from);
-  for (double at = from; at < to;) {
-    poll();
+  const auto next_change = [&](double at) -> std::optional<double> {
     double nearest = infinity;
     for (size_t i = 0; i < members().size(); ++i) {
       const Structure& member = *members()[i];
@@ -49,23 +45,12 @@ bool BooleanStructure::find_entry(const Ray& ray, double from, double to, double
         }
       }
       // Only where all are as they must be the ray can be inside: none needs a look before.
-      if (!(next[i] < infinity) && member.inside(ray.at(at)) != is_wanted(i)) return false;
+      if (!(next[i] < infinity) && member.inside(ray.at(at)) != is_wanted(i)) return std::nullopt;
       nearest = std::min(nearest, next[i]);
     }
-    if (!(nearest < infinity)) nearest = to;
-    const double behind = std::min(to, std::max(nearest + tolerance, at + least.of_step(at)));
-    if (!(behind > at)) return false;  // steps vanish in rounding
-    // Entries are found on their far side, ends of parts on their near one.
-    for (const double place : {nearest - tolerance, nearest, behind}) {
-      if (!(place > at && place <= behind)) continue;
-      if (is_inside(place)) {
-        t = bisect(at, place, tolerance, is_inside);
-        return true;
-      }
-      at = place;
-    }
-  }
-  return false;
+    return nearest;
+  };
+  return follow_changes(from, to, tolerance, job, next_change, is_inside, t);
 }
 
 double BooleanStructure::leave(const Ray& ray, double from, double to, const Job* job) const {
