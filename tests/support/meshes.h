@@ -84,4 +84,20 @@ inline TriangleSoup torus_mesh(double ring, double tube, uint32_t around, uint32
   return soup;
 }
 
+/// Turned about two axes: along no axis and no diagonal.
+inline Rotation turned_twice() {
+  const double a = 0.37, b = 0.21;
+  Rotation r;
+  r.m = {std::cos(a),
+         -std::sin(a),
+         0,
+         std::sin(a) * std::cos(b),
+         std::cos(a) * std::cos(b),
+         -std::sin(b),
+         std::sin(a) * std::sin(b),
+         std::cos(a) * std::sin(b),
+         std::cos(b)};
+  return r;
+}
+
 }  // namespace msq::test

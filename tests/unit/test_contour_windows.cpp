@@ -35,27 +35,12 @@ Ref<Context> context() {
   return shared;
 }
 
-Rotation turned() {
-  const double a = 0.37, b = 0.21;
-  Rotation r;
-  r.m = {std::cos(a),
-         -std::sin(a),
-         0,
-         std::sin(a) * std::cos(b),
-         std::cos(a) * std::cos(b),
-         -std::sin(b),
-         std::sin(a) * std::sin(b),
-         std::cos(a) * std::sin(b),
-         std::cos(b)};
-  return r;
-}
-
 Ref<const Shape> box() {
   return make_ref<BoxShape>(Box3{{0, 0, 0}, {6, 5, 4}});
 }
 Ref<const Shape> mesh() {
   TriangleSoup soup = box_mesh({-3, -2, -1.5}, {3, 2, 1.5});
-  for (Vec3& v : soup.vertices) v = turned().apply(v) + Vec3{4, 3, 2};
+  for (Vec3& v : soup.vertices) v = turned_twice().apply(v) + Vec3{4, 3, 2};
   return make_ref<Mesh>(soup, WindingRule::nonzero, context()->budget);
 }
 Ref<const Structure> foam(Parameter radius) {
@@ -96,7 +81,7 @@ std::vector<Kind> kinds() {
        })},
       {"foam with a skin, in a mesh", filled([] { return foam(Parameter(0.1)); }, mesh, 0.2)},
       {"lattice", filled([] { return lattice(0.2, {}); })},
-      {"lattice, turned", filled([] { return lattice(0.15, turned()); })},
+      {"lattice, turned", filled([] { return lattice(0.15, turned_twice()); })},
       {"gyroid network", filled([] { return gyroid(FunctionalKind::network, 0.2); })},
       {"gyroid sheet, in a mesh", filled([] { return gyroid(FunctionalKind::sheet, 0.3); }, mesh)},
       {"mesh", [=] { return alone(mesh())(); }},

@@ -60,18 +60,7 @@ Ref<const Shape> ball() {
 }
 Ref<const Shape> turned_mesh() {
   TriangleSoup soup = box_mesh({-3, -2, -1.5}, {3, 2, 1.5});
-  Rotation r;
-  const double a = 0.37, b = 0.21;
-  r.m = {std::cos(a),
-         -std::sin(a),
-         0,
-         std::sin(a) * std::cos(b),
-         std::cos(a) * std::cos(b),
-         -std::sin(b),
-         std::sin(a) * std::sin(b),
-         std::cos(a) * std::sin(b),
-         std::cos(b)};
-  for (Vec3& v : soup.vertices) v = r.apply(v) + Vec3{4, 3, 2};
+  for (Vec3& v : soup.vertices) v = turned_twice().apply(v) + Vec3{4, 3, 2};
   return make_ref<Mesh>(soup, WindingRule::nonzero, context()->budget);
 }
 
