@@ -112,6 +112,7 @@ std::vector<Beam> random_beams(const Neighbourhood& grid, const Parameter& radiu
 Ref<const Beams> make_beams(const std::vector<Beam>& beams);
 
 std::vector<GridVariant> grid_variants(bool is_lattice);
+/// Each kind on each grid. Slow builds (MSQ_TEST_SCALE below 0.05) take one grid for each kind.
 std::vector<StructureRow> structures();
 /// For tests that ask single points only: inside() is one function for all methods of a foam.
 std::vector<StructureRow> structures_by_point();
