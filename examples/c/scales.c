@@ -4,10 +4,9 @@
  * the same with a finer lattice between the two. Try: scales examples/parts/bracket.stl scales.png
  */
 #include <msq.h>
+#include <msq_io.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "png_image.h"
 
 enum { SIDE = 400, MOST = 4, GAP = 8, WIDTH = MOST * (SIDE + GAP), HEIGHT = 2 * (SIDE + GAP) };
 
@@ -117,8 +116,7 @@ int main(int argc, char** argv) {
   if (status != MSQ_OK) fprintf(stderr, "scales: %s\n", msq_error_message());
   msq_context_release(context);
   if (status != MSQ_OK) return 1;
-  const picture image = {PICTURE_GREY, WIDTH, HEIGHT, pixels[0], WIDTH, 0};
-  const int code = png_image_save(argv[2], &image);
-  if (code) fprintf(stderr, "%s: %s\n", argv[2], strerror(code));
-  return code != 0;
+  if (msq_io_picture_save(argv[2], WIDTH, HEIGHT, 1, pixels[0], 0, 1) == MSQ_OK) return 0;
+  fprintf(stderr, "scales: %s\n", msq_io_error_message());
+  return 1;
 }

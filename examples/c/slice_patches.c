@@ -3,12 +3,12 @@
  * Slices a structure that the host computes: a block of voxels, continued without end (patches.c).
  * Try: slice_patches picture.png */
 #include <math.h>
+#include <msq_io.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "patches.h"
-#include "png_image.h"
 
 enum { pixels = 512 };
 
@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   slicer_def.output = MSQ_LAYER_BYTES;
   slicer_def.resolution[0] = slicer_def.resolution[1] = pixels;
   slicer_def.layer_height = 0.5;
+  slicer_def.orientation = MSQ_LAYER_MIRROR_Y; /* the first row of a picture is its top */
   msq_slicer* slicer;
   check(msq_slicer_create(model, &slicer_def, &slicer));
   static uint8_t layer[pixels * pixels];
@@ -69,13 +70,12 @@ int main(int argc, char** argv) {
     of_block += (example.grey[v] >= block_solid) / (double)block_voxels;
   for (int p = 0; p < pixels * pixels; ++p) of_layer += layer[p] / 255.0 / (pixels * pixels);
   printf("solid: %.3f of the block, %.3f of the layer\n", of_block, of_layer);
-  const picture image = {PICTURE_GREY, pixels, pixels, layer, pixels, 1};
-  const int error = png_image_save(argv[1], &image);
-  if (error) fprintf(stderr, "slice_patches: %s: %s\n", argv[1], strerror(error));
+  const msq_status status = msq_io_picture_save(argv[1], pixels, pixels, 1, layer, 0, 1);
+  if (status != MSQ_OK) fprintf(stderr, "slice_patches: %s\n", msq_io_error_message());
   msq_slicer_release(slicer);
   msq_model_release(model);
   msq_structure_release(structure);
   msq_shape_release(box);
   msq_context_release(context);
-  return error || fabs(of_block - of_layer) > 0.05;
+  return status != MSQ_OK || fabs(of_block - of_layer) > 0.05;
 }

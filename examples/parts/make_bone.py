@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes a CT-like image of the upper end of a thigh bone, for examples/c/slice_voxels.c.
+"""Makes a CT-like image of the upper end of a thigh bone, for
+examples/c/slice_voxels.c and examples/models/bone.json.
 
     python3 examples/parts/make_bone.py bone.nrrd            header and values in one file
     python3 examples/parts/make_bone.py bone.nhdr            values beside it, in bone.raw

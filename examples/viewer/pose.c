@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "pose.h"
 
-#include "../c/orbit.h"
+#include "orbit.h"
 
 static const double FIELD_OF_VIEW = 40;
 

@@ -5,22 +5,23 @@
  */
 #include <SDL.h>
 #include <math.h>
+#include <msq_io.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../c/png_image.h"
-#include "../c/scene.h"
 #include "overlay.h"
 #include "painter.h"
 #include "pose.h"
+#include "scene.h"
 #include "script.h"
 
 static const char usage[] =
     "usage: viewer [PART] [options]\n"
-    "  PART          a mesh file, an NRRD image, or block:MM (default: the bracket of the "
+    "  PART          a mesh file, a model file (.json), or block:MM (default: the bracket of the "
     "examples)\n"
-    "  --fill LIST   structure of key 0, as render takes it: foam:4:0.4, octet:12:1.8+gyroid:1.2\n"
+    "  --fill LIST   structure of key 0: foam:4:0.4, octet:12:1.8+gyroid:1.2 and so on (default:\n"
+    "                that of the model file)\n"
     "  --skin MM     solid skin\n"
     "  --size W H    of the window (default 960 720)\n"
     "  --script TEXT " SCRIPT_HELP "\n";
@@ -174,11 +175,9 @@ static int save_window(const viewer* v, const char* path) {
                                                (int)stride) != 0;
   if (failed) fprintf(stderr, "viewer: %s: %s\n", path, pixels ? SDL_GetError() : "out of memory");
   if (!failed) {
-    const picture image = {
-        PICTURE_RGB, (uint32_t)v->pose.window[0], (uint32_t)v->pose.window[1], pixels, stride, 0};
-    const int code = png_image_save(path, &image);
-    if (code) fprintf(stderr, "viewer: %s: %s\n", path, strerror(code));
-    failed = code != 0;
+    failed = msq_io_picture_save(path, (uint32_t)v->pose.window[0], (uint32_t)v->pose.window[1], 3,
+                                 pixels, stride, 1) != MSQ_OK;
+    if (failed) fprintf(stderr, "viewer: %s\n", msq_io_error_message());
   }
   free(pixels);
   return failed;
@@ -272,9 +271,13 @@ int main(int argc, char** argv) {
     v.fills[i].skin = skin;
   }
   int failed = 0;
-  if (scene_open(&v.scene, part, 250) != 0) {
+  if (scene_open(&v.scene, part) != 0) {
     fprintf(stderr, "viewer: %s\n", v.scene.problem);
     failed = 1;
+  }
+  if (!failed && v.scene.model && !v.fills[0].fill) {
+    v.fills[0].fill = SCENE_OWN;
+    v.fill = 0;
   }
   if (!failed) failed = choose_fill(&v, v.fill) != 0;
   if (!failed && open_window(&v) != 0) {

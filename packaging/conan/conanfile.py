@@ -51,7 +51,7 @@ class MsqConan(ConanFile):
 
     def export_sources(self):
         for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*", "tools/*", "bindings/cpp/*",
-                        "examples/c/*", "docs/man/*", "packaging/debian/*"):
+                        "docs/man/*", "packaging/debian/*"):
             copy(self, pattern, self._root(), self.export_sources_folder)
 
     def configure(self):

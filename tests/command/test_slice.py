@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Layers are those of the library, whole or in windows; pictures show the part."""
+import json
 import re
 import sys
 import unittest
@@ -144,9 +145,32 @@ class Pictures(Case):
         self.assertGreater((np.abs(nearer - staged[0, 0]).max(axis=2) > 40).mean(), drawn.mean())
         glass = np.array(png_pixels.read(self.draw(*lattice, "--glass"))[2], int)
         self.assertFalse((glass == staged).all())
+        # The shadow is on the ground, beside the part.
+        plain = np.array(png_pixels.read(self.draw(*lattice, "--plain"))[2], int)
+        shadow = (np.abs(staged - staged[0, 0]).max(axis=2) > 8) & (plain[..., 3] == 0)
+        self.assertGreater(shadow.mean(), 0.02)
         # Of 26 bytes of IHDR the colour type, 6: with opacity.
         self.assertEqual(self.draw("--plain", "--perspective", "40", "--view", "-30,-20", "--at",
                                    "4,3,2").read_bytes()[25], 6)
+
+    def test_nested_scales_and_a_cut(self):
+        cell = {"grid": {"cell_size": 4}}
+        scales = [{"shape": {"box": {"max": [8, 6, 4]}}},
+                  {"structure": {"lattice": {"unit_cell": "cubic", "radius": 1, **cell}}},
+                  {"structure": {"functional": {"function": "gyroid", "grid": {"cell_size": 0.8}}}},
+                  {"structure": {"functional": {"function": "expression", "expression": "pi-y",
+                                                "grid": {"cell_size": 80,
+                                                         "origin": [-40, -37, -40]}}}}]
+        shares = []
+        for count in (2, 3, 4):
+            path = self.folder / "model.json"
+            path.write_text(json.dumps({"msq_model": 1, "scales": scales[:count]}))
+            out = self.folder / "nested.png"
+            self.msq("render", path, "--plain", "--size", "60,40", "--samples", "1", "-o", out)
+            shares.append((np.array(png_pixels.read(out)[2])[..., 3] > 0).mean())
+        self.assertGreater(shares[0], shares[1])  # holes
+        self.assertGreater(0.9 * shares[1], shares[2])
+        self.assertGreater(shares[2], 0.05)
 
 
 if __name__ == "__main__":

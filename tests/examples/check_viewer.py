@@ -6,6 +6,7 @@ viewer is not there.
 
 usage: check_viewer.py VIEWER|none
 """
+import json
 import os
 import pathlib
 import re
@@ -31,8 +32,8 @@ if not shutil.which("xvfb-run") or not shutil.which("xauth"):
 problems = []
 
 
-def view(folder, script, *options):
-    command = ["xvfb-run", "-a", "-s", "-screen 0 800x600x24", program, "block:20", "--size",
+def view(folder, script, *options, part="block:20"):
+    command = ["xvfb-run", "-a", "-s", "-screen 0 800x600x24", program, part, "--size",
                str(WIDTH), str(HEIGHT), "--script", script, *options]
     # Without OpenGL, whose drivers leak, and differ.
     environment = dict(os.environ, SDL_VIDEODRIVER="x11", SDL_RENDER_DRIVER="software",
@@ -119,6 +120,16 @@ with tempfile.TemporaryDirectory() as temporary:
     done = view(folder, "jump 3; quit", "--fill", "solid")
     expect(done.returncode == 1 and "no command of a script: jump 3" in done.stderr,
            f"a script that makes no sense: {done.returncode}, {done.stderr}")
+    (folder / "ball.json").write_text(json.dumps({"msq_model": 1, "scales": [
+        {"shape": {"sphere": {"radius": 10}}},
+        {"structure": {"lattice": {"unit_cell": "cubic", "radius": 1.5, "grid": {"cell_size": 10}}}}]}))
+    done = view(folder, "key o; wait; shot ball.png; key 3; wait; shot filled.png; quit", part="ball.json")
+    if done.returncode != 0:
+        sys.exit(f"a model file: {done.returncode}:\n{done.stdout}{done.stderr}")
+    ball, part = look(folder, "ball.png")
+    expect_part("ball.png", ball, part)
+    expect_change("filled.png", ball, look(folder, "filled.png")[0], 0.1)
+
     done = view(folder, "quit", "--fill", "cheese:4:1")
     expect(done.returncode == 1 and "cheese: no structure" in done.stderr,
            f"a fill that makes no sense: {done.returncode}, {done.stderr}")

@@ -22,9 +22,9 @@ def read(path):
             packed += body
         at += 12 + size
     width, height, depth, colour, _, _, interlace = header
-    if (depth, colour) not in ((1, 0), (8, 0), (8, 2)) or interlace:
+    if (depth, colour) not in ((1, 0), (8, 0), (8, 2), (8, 6)) or interlace:
         raise ValueError(f"{path}: depth {depth}, colour {colour}, interlace {interlace}")
-    step = 3 if colour == 2 else 1
+    step = {0: 1, 2: 3, 6: 4}[colour]
     raw = zlib.decompress(packed)
     size = (width * step * depth + 7) // 8
     before = bytearray(size)

@@ -8,7 +8,6 @@
 #include "text.h"
 #include "watch.h"
 
-// The ground, its shadow and the glass are those of the example of the same name.
 extern "C" {
 #include "orbit.h"
 #include "stage.h"

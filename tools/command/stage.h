@@ -2,8 +2,8 @@
  *
  * Draws what surrounds a part in a picture: a light ground with its shadow, and the outline of the
  * coarse part as glass. */
-#ifndef MSQ_EXAMPLE_STAGE_H
-#define MSQ_EXAMPLE_STAGE_H
+#ifndef MSQ_COMMAND_STAGE_H
+#define MSQ_COMMAND_STAGE_H
 
 #include <msq.h>
 
