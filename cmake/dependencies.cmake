@@ -1,6 +1,6 @@
 # The libraries that msq stands on. Debian: libtbb-dev libhwy-dev, and for the optional parts
 # libassimp-dev libminizip-dev libpugixml-dev (binary STL, 3MF, AMF), libcgal-dev (foam method 2),
-# libxxhash-dev (hashes), nlohmann-json3-dev (documents).
+# libxxhash-dev (hashes), nlohmann-json3-dev (documents), libtiff-dev (TIFF in documents).
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -20,6 +20,10 @@ if(MSQ_WITH_JSON)
   # Headers alone (Debian: nlohmann-json3-dev).
   find_path(MSQ_JSON_INCLUDE nlohmann/json.hpp REQUIRED)
 endif()
+if(MSQ_WITH_TIFF)
+  # From 4.5 on a file has handlers of its own for what goes wrong, and a limit of its memory.
+  find_package(TIFF 4.5 REQUIRED)
+endif()
 if(MSQ_WITH_CGAL)
   # CGAL's own package file sets build flags for everything; only its headers and GMP are wanted.
   find_path(MSQ_CGAL_INCLUDE CGAL/Delaunay_triangulation_3.h REQUIRED)
@@ -36,6 +40,9 @@ function(msq_link_dependencies target)
   if(MSQ_WITH_ASSIMP)
     target_link_libraries(${target} PRIVATE assimp::assimp pugixml::pugixml PkgConfig::MSQ_MINIZIP
                                             ZLIB::ZLIB)
+  endif()
+  if(MSQ_WITH_TIFF)
+    target_link_libraries(${target} PRIVATE TIFF::TIFF)
   endif()
   if(MSQ_WITH_CGAL)
     target_link_libraries(${target} PRIVATE ${MSQ_GMP} ${MSQ_MPFR})

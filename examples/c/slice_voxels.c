@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Slices a voxel image, for example a CT scan. It is solid from a threshold on, and a foam fills it
  * whose struts are thicker where the image is brighter. Every tenth layer becomes a PBM picture.
- * Files in NRRD are read by model files (docs/model_file.md).
+ * Files in NRRD and TIFF are read by model files (docs/model_file.md).
  *
  * usage: slice_voxels FILE.raw NX,NY,NZ SPACING THRESHOLD [PREFIX]
  *   FILE.raw: NX * NY * NZ values of 16 bits with sign, in the byte order of the machine, x fastest

@@ -95,6 +95,7 @@ class MsqConan(ConanFile):
             "MSQ_WITH_JSON": self.options.with_json,
             "MSQ_BUILD_TOOLS": self.options.tools,
             "MSQ_WITH_ISAL": self.options.get_safe("with_isal", False),
+            "MSQ_WITH_TIFF": False,
             "MSQ_WITH_PYTHON": False,
             "MSQ_BUILD_EXAMPLES": False,
             "MSQ_BUILD_TESTS": False,

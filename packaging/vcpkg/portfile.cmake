@@ -21,6 +21,7 @@ vcpkg_cmake_configure(
         -DMSQ_BUILD_TESTS=OFF
         -DMSQ_BUILD_FUZZERS=OFF
         -DMSQ_WITH_PYTHON=OFF
+        -DMSQ_WITH_TIFF=OFF
 )
 vcpkg_cmake_install()
 vcpkg_copy_pdbs()

@@ -22,11 +22,14 @@ using Choices = std::span<const Choice>;
 
 /// Where the values of an image were read from.
 struct ImageSource {
-  const char* file;     ///< null: from memory
+  const char* file;     ///< null: from memory, or from files
   int32_t is_nrrd;      ///< which says type, size and, without has_grid, the grid
+  int32_t is_tiff;      ///< which says type and size
   int32_t has_grid;     ///< the document says it
   uint64_t skip_bytes;  ///< of a raw file, before the values
   int32_t is_big_endian;
+  const char* const* files;  ///< of TIFF, one above the other
+  uint64_t file_count;
 };
 
 class DefinitionWalk {

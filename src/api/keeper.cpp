@@ -21,6 +21,10 @@ class Keeper final : public PassiveWalk {
   void image(const char* key, msq_image& image, ImageSource& source) override {
     image.values = nullptr;  // the object itself has them
     file(key, source.file);
+    if (source.file_count == 0) return;
+    auto* copies = static_cast<const char**>(copy(source.files, source.file_count * sizeof(char*)));
+    for (uint64_t i = 0; i < source.file_count; ++i) file(key, copies[i]);
+    source.files = copies;
   }
 
   void object(const char*, const msq_shape*& value) override { hold(value); }

@@ -71,14 +71,16 @@ class MemberWriter final : public DefinitionWalk {
     Output of_image;
     MemberWriter in(writer_, of_image);
     in.file("file", source.file);
-    if (!source.file || !source.is_nrrd) {
+    if (source.file_count) in.files("files", source.files, source.file_count);
+    const bool is_file = source.file || source.file_count;
+    if (!is_file || !(source.is_nrrd || source.is_tiff)) {
       int32_t type = image.value_type;
       in.choice("value_type", type, image_types);
       in.wholes("size", image.size, 0);
     }
     if (source.file && source.skip_bytes) in.whole("skip_bytes", source.skip_bytes, 0);
     if (source.file && source.is_big_endian) in.raw("byte_order", "\"big\"");
-    if (!source.file) in.raw("values", values_of(image));
+    if (!is_file) in.raw("values", values_of(image));
     if (!source.is_nrrd || source.has_grid) {
       Output grid = document::written(
           writer_, [&](DefinitionWalk& of) { walk(of, image.grid); },
@@ -149,6 +151,12 @@ class MemberWriter final : public DefinitionWalk {
   }
 
  private:
+  void files(const char* key, const char* const* paths, uint64_t count) {
+    Output list{Output::Kind::list, {}, {}, {}};
+    for (uint64_t i = 0; i < count; ++i)
+      list.items.push_back(Output::of_raw(json_quoted(writer_.path(paths[i]))));
+    to_.add(key, std::move(list));
+  }
   static bool is_known(int32_t value, Choices choices) {
     return std::any_of(choices.begin(), choices.end(),
                        [&](const Choice& choice) { return choice.value == value; });

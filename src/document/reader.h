@@ -69,6 +69,7 @@ class Reader final : public api::DefinitionWalk {
   void read_tuples(const char* key, const T*& values, uint64_t& count, size_t width, Read&& read);
   template <class Handle, class Make>
   void read_objects(const char* key, const Handle* const*& values, uint64_t& count, Make&& make);
+  std::vector<std::string> image_paths(uint32_t value, api::ImageSource& source);
   void read_file(uint32_t object, uint32_t file, msq_image& image, api::ImageSource& source,
                  bool has_layout);
   void read_values(uint32_t list, msq_image& image);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images of a document: values in the text, files in NRRD and raw files.
+// Images of a document: values in the text, files in NRRD and TIFF and raw files.
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "api/definitions.h"
 #include "document/reader.h"
@@ -22,6 +23,12 @@ constexpr struct {
                    {MSQ_FLOAT32, ValueType::float32},
                    {MSQ_FLOAT64, ValueType::float64}};
 
+bool is_tiff(std::string_view path) {
+  for (const char* ending : {".tif", ".tiff", ".TIF", ".TIFF"})
+    if (path.ends_with(ending)) return true;
+  return false;
+}
+
 }  // namespace
 
 void Reader::image(const char* key, msq_image& image, api::ImageSource& source) {
@@ -29,11 +36,14 @@ void Reader::image(const char* key, msq_image& image, api::ImageSource& source) 
   if (!found) builder_.refuse(object_, Status::argument, std::string("has no key ") + key);
   Reader within(builder_, found, arena_);
   const uint32_t file = within.find("file");
+  const uint32_t files = within.find("files");
   const uint32_t values = within.find("values");
-  if (!file == !values)
+  if (!file && !files && !values)
+    builder_.refuse(found, Status::argument, "has neither file nor values, nor files");
+  if ((file && values) || (files && (file || values)))
     builder_.refuse(found, Status::argument,
-                    file ? "has both file and values; it must have one of them"
-                         : "has neither file nor values");
+                    std::string("has both ") + (files ? "files" : "file") + " and " +
+                        (values ? "values" : "file") + "; it must have one of them");
   within.choice("value_type", image.value_type, api::image_types);
   within.wholes("size", image.size, uint64_t{1} << 20);
   within.whole("skip_bytes", source.skip_bytes);
@@ -51,23 +61,48 @@ void Reader::image(const char* key, msq_image& image, api::ImageSource& source) 
   if (values)
     within.read_values(values, image);
   else
-    within.read_file(found, file, image, source,
+    within.read_file(found, files ? files : file, image, source,
                      tree_.member(found, "value_type") || tree_.member(found, "size"));
+}
+
+/// Of a file or of each file of a list. Sets where the image comes from.
+std::vector<std::string> Reader::image_paths(uint32_t value, api::ImageSource& source) {
+  std::vector<std::string> paths;
+  if (tree_[value].kind != JsonValue::Kind::list) {
+    paths.push_back(builder_.path_of_file(value));
+    source.file = arena_.keep(std::string(paths[0])).c_str();
+    source.is_nrrd = paths[0].ends_with(".nrrd");
+    source.is_tiff = is_tiff(paths[0]);
+    return paths;
+  }
+  if (tree_[value].count == 0) builder_.refuse(value, Status::argument, "is an empty list");
+  each(value, [&](uint32_t one) {
+    paths.push_back(builder_.path_of_file(one));
+    if (!is_tiff(paths.back()))
+      builder_.refuse(one, Status::argument,
+                      "is no TIFF file; the names in files end with .tif or .tiff");
+  });
+  const char** kept = arena_.take_array<const char*>(paths.size());
+  for (size_t i = 0; i < paths.size(); ++i) kept[i] = arena_.keep(std::string(paths[i])).c_str();
+  source.files = kept;
+  source.file_count = paths.size();
+  source.is_tiff = true;
+  return paths;
 }
 
 void Reader::read_file(uint32_t object, uint32_t file, msq_image& image, api::ImageSource& source,
                        bool has_layout) {
-  const std::string path = builder_.path_of_file(file);
-  source.file = arena_.keep(std::string(path)).c_str();
-  source.is_nrrd = path.ends_with(".nrrd");
+  const std::vector<std::string> paths = image_paths(file, source);
+  const bool says_layout = source.is_nrrd || source.is_tiff;
   ImageFileOptions options{builder_.bytes_left(), api::object(builder_.context(), "context").budget,
                            builder_.job() ? &api::object(builder_.job(), "job") : nullptr};
-  if (source.is_nrrd && (has_layout || source.skip_bytes || source.is_big_endian))
+  if (says_layout && (has_layout || source.skip_bytes || source.is_big_endian))
     builder_.refuse(object, Status::argument,
                     "has value_type, size, skip_bytes or byte_order, which the file says itself");
-  if (!source.is_nrrd && !(tree_.member(object, "value_type") && tree_.member(object, "size")))
+  if (!says_layout && !(tree_.member(object, "value_type") && tree_.member(object, "size")))
     builder_.refuse(object, Status::argument,
-                    "names a raw file without value_type and size; files in NRRD end with .nrrd");
+                    "names a raw file without value_type and size; files in NRRD end with .nrrd, "
+                    "TIFF with .tif or .tiff");
   try {
     ImageLayout layout;
     layout.skip_bytes = source.skip_bytes;
@@ -75,15 +110,17 @@ void Reader::read_file(uint32_t object, uint32_t file, msq_image& image, api::Im
     for (const auto& known : value_types)
       if (known.type == image.value_type) layout.type = known.value_type;
     std::copy_n(image.size, 3, layout.size);
-    const ImageFile& read = arena_.keep(source.is_nrrd ? read_nrrd_file(path, options)
-                                                       : read_raw_file(path, layout, options));
-    builder_.count_bytes(read.content.size);
+    const ImageFile& read =
+        arena_.keep(source.is_nrrd   ? read_nrrd_file(paths[0], options)
+                    : source.is_tiff ? read_tiff_files(paths, options)
+                                     : read_raw_file(paths[0], layout, options));
+    builder_.count_bytes(read.read_bytes);
     image.values = read.values();
-    if (!source.is_nrrd) return;
+    if (!says_layout) return;
     for (const auto& known : value_types)
       if (known.value_type == read.layout.type) image.value_type = known.type;
     std::copy_n(read.layout.size, 3, image.size);
-    if (source.has_grid) return;
+    if (source.has_grid || source.is_tiff) return;
     std::copy_n(read.origin, 3, image.grid.origin);
     std::copy_n(read.spacing, 3, image.grid.cell_size);
     std::copy_n(read.rotation, 9, image.grid.rotation);

@@ -178,6 +178,7 @@ FileContent read_content(ImageFile& file, const std::string& path,
            static_cast<unsigned long long>(bytes),
            static_cast<unsigned long long>(options.max_bytes));
     if (options.budget) file.reservation = Reservation(options.budget, bytes, "an image file");
+    file.read_bytes = bytes;
   });
 }
 
@@ -197,16 +198,6 @@ void arrange(ImageFile& file) {
   if (width == 1 || layout.is_big_endian == (std::endian::native == std::endian::big)) return;
   char* at = file.content.bytes.get() + layout.skip_bytes;
   for (uint64_t i = 0; i < bytes; i += width) std::reverse(at + i, at + i + width);
-}
-
-/// Puts the path before what a file is refused for.
-template <class Body>
-void of_file(const std::string& path, Body&& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    throw Error(error.status, shown(path) + ": " + error.what());
-  }
 }
 
 }  // namespace

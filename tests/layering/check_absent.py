@@ -5,7 +5,7 @@
 Headers are read from what the compiler recorded for each object of the library, so headers that
 come in through others count too.
 
-usage: check_absent.py cgal|assimp|xxhash|json --source DIR --build DIR --library FILE [--objdump PROGRAM]
+usage: check_absent.py cgal|assimp|xxhash|json|tiff --source DIR --build DIR --library FILE [--objdump PROGRAM]
 """
 import argparse
 import json
@@ -17,9 +17,10 @@ import sys
 HEADERS = {"cgal": r"/(CGAL|boost)/|/(gmp|gmpxx|mpfr)\.h$",
            "assimp": r"/assimp/|/pugixml\.hpp$|/minizip/|/zlib\.h$",
            "xxhash": r"/xxh\w*\.h$",
-           "json": r"/nlohmann/"}
+           "json": r"/nlohmann/",
+           "tiff": r"/tiff\w*\.h$"}
 LIBRARIES = {"cgal": r"lib(CGAL|gmp|mpfr|boost)", "assimp": r"lib(assimp|pugixml|minizip|z\.so)",
-             "xxhash": r"libxxhash", "json": r"libnlohmann"}
+             "xxhash": r"libxxhash", "json": r"libnlohmann", "tiff": r"libtiff"}
 
 
 def recorded_headers(build, entry):

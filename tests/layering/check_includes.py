@@ -37,6 +37,7 @@ OUTSIDE = [
                                 "slice/*.cpp", "printability/*.cpp", "expression/*.cpp"]),
     (r"hwy/.*", ["base/simd.h", "base/simd.cpp"]),
     (r"(oneapi/)?tbb/.*", ["base/parallel.cpp"]),
+    (r"tiff\w*\.h", ["io/tiff_image.cpp"]),
     (r"nlohmann/.*", ["io/json_text_nlohmann.cpp"]),
     (r"xxh.*\.h", ["base/digest_xxhash.cpp"]),
     (r"pthread\.h|windows\.h", ["api/last_error.cpp"]),  # a key whose values are freed with their threads
