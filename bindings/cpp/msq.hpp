@@ -806,6 +806,13 @@ class Structure
       return msq_structure_blend(a.get(), b.get(), &fraction, made);
     });
   }
+  /// operation: an msq_boolean_operation.
+  static Structure smooth_boolean(int32_t operation, const Structure& a, const Structure& b,
+                                  msq_param radius) {
+    return Structure(std::in_place, [&](auto** made) {
+      return msq_structure_smooth_boolean(operation, a.get(), b.get(), &radius, made);
+    });
+  }
   /// def: grid, concurrent, hash_key.
   static Structure host(const Context& context, HostStructureDef def,
                         StructureCallbacks callbacks) {

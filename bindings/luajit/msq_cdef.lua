@@ -218,6 +218,7 @@ msq_status msq_host_function_def_init(msq_host_function_def* def, size_t size);
 msq_status msq_structure_host_function(msq_context* context, const msq_host_function_def* def, msq_structure** structure);
 msq_status msq_structure_boolean(int32_t operation, const msq_structure** structures, uint64_t count, msq_structure** structure);
 msq_status msq_structure_blend(const msq_structure* a, const msq_structure* b, const msq_param* fraction, msq_structure** structure);
+msq_status msq_structure_smooth_boolean(int32_t operation, const msq_structure* a, const msq_structure* b, const msq_param* radius, msq_structure** structure);
 msq_status msq_structure_hash(const msq_structure* structure, uint8_t* hash);
 void msq_structure_retain(msq_structure* structure);
 void msq_structure_release(msq_structure* structure);

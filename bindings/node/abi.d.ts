@@ -1921,6 +1921,12 @@ export interface Functions {
    * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two distances at each sample that one of them holds and 0 < f < 1. Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is a field without one, a function has no bounded slope, or the host gives no distance), MEMORY.
    */
   msq_structure_blend(a: Memory, b: Memory, fraction: msq_param | null, structure: [Pointer]): number;
+  /**
+   * Creates the union, intersection or difference (operation: an msq_boolean_operation; the difference is a without b) of two structures, with fillets where their surfaces meet. radius: k, a number or a field in model units, at least 0. Where it is 0 the solid is that of msq_structure_boolean. With the signed distances u and v to a and b as msq returns them (docs/accuracy.md), h = max(0, k - |u - v|) and s = min(u, v) - h^2 / (4 k), the union holds the points with s <= 0. An intersection takes -u and -v, a difference -u and v, and both hold the points with s >= 0. So a union gains, and the others lose, points with sqrt(|u|) + sqrt(|v|) <= sqrt(k): only where both surfaces are nearer than k. Between two planes at right angles the fillet is a parabola that touches both at the distance k from their edge.
+   *
+   * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, |s| / (1 + L / 4) for a radius with Lipschitz constant L. Rays march by it. Cost: that of msq_structure_boolean, and some distances near the fillets. Errors: ARGUMENT (also a radius that may be negative), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant, as for msq_structure_blend), MEMORY.
+   */
+  msq_structure_smooth_boolean(operation: number, a: Memory, b: Memory, radius: msq_param | null, structure: [Pointer]): number;
   /** Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash. */
   msq_structure_hash(structure: Memory, hash: Memory): number;
   /** Adds a reference. */

@@ -973,6 +973,7 @@ export function functions(koffi, library, T) {
     msq_structure_host_function: library.func('msq_structure_host_function', 'int32_t', ['void *', koffi.pointer(T.msq_host_function_def), koffi.out(koffi.pointer('void *'))]),
     msq_structure_boolean: library.func('msq_structure_boolean', 'int32_t', ['int32_t', 'void *', 'uint64_t', koffi.out(koffi.pointer('void *'))]),
     msq_structure_blend: library.func('msq_structure_blend', 'int32_t', ['void *', 'void *', koffi.pointer(T.msq_param), koffi.out(koffi.pointer('void *'))]),
+    msq_structure_smooth_boolean: library.func('msq_structure_smooth_boolean', 'int32_t', ['int32_t', 'void *', 'void *', koffi.pointer(T.msq_param), koffi.out(koffi.pointer('void *'))]),
     msq_structure_hash: library.func('msq_structure_hash', 'int32_t', ['void *', 'void *']),
     msq_structure_retain: library.func('msq_structure_retain', 'void', ['void *']),
     msq_structure_release: library.func('msq_structure_release', 'void', ['void *']),

@@ -167,6 +167,7 @@ MSQ_DEFAULTS(PlacedDef)
 MSQ_DEFAULTS(BooleanDef)
 MSQ_DEFAULTS(StructureBooleanDef)
 MSQ_DEFAULTS(StructureBlendDef)
+MSQ_DEFAULTS(StructureSmoothBooleanDef)
 MSQ_DEFAULTS(OffsetDef)
 MSQ_DEFAULTS(GradientDef)
 MSQ_DEFAULTS(MapDef)
@@ -238,6 +239,13 @@ void walk(DefinitionWalk& in, StructureBlendDef& def) {
   in.object("a", def.a);
   in.object("b", def.b);
   in.param("fraction", def.fraction);
+}
+
+void walk(DefinitionWalk& in, StructureSmoothBooleanDef& def) {
+  in.choice("operation", def.operation, operations);
+  in.object("a", def.a);
+  in.object("b", def.b);
+  in.param("radius", def.radius);
 }
 
 void walk(DefinitionWalk& in, OffsetDef& def) {

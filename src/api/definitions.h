@@ -47,6 +47,11 @@ struct StructureBlendDef {
   const msq_structure *a, *b;
   msq_param fraction;
 };
+struct StructureSmoothBooleanDef {
+  int32_t operation;
+  const msq_structure *a, *b;
+  msq_param radius;
+};
 struct OffsetDef {
   const msq_shape* original;
   double distance;
@@ -109,6 +114,8 @@ StructureBooleanDef defaults_of();
 template <>
 StructureBlendDef defaults_of();
 template <>
+StructureSmoothBooleanDef defaults_of();
+template <>
 OffsetDef defaults_of();
 template <>
 GradientDef defaults_of();
@@ -170,6 +177,7 @@ void walk(DefinitionWalk& in, PlacedDef& def);
 void walk(DefinitionWalk& in, BooleanDef& def);
 void walk(DefinitionWalk& in, StructureBooleanDef& def);
 void walk(DefinitionWalk& in, StructureBlendDef& def);
+void walk(DefinitionWalk& in, StructureSmoothBooleanDef& def);
 void walk(DefinitionWalk& in, OffsetDef& def);
 void walk(DefinitionWalk& in, GradientDef& def);
 void walk(DefinitionWalk& in, msq_radial_field_def& def);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Structures made of other structures.
+#include <limits>
+
 #include "api/defined_handle.h"
 #include "api/guard.h"
 #include "api/members.h"
 #include "structure/combined/blended_structure.h"
 #include "structure/combined/boolean_structure.h"
+#include "structure/combined/smooth_boolean.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -28,7 +31,18 @@ msq_structure* made_of_structures(const Ref<CombinedStructure>& structure, const
   return defined_handle<msq_structure>(structure, def);
 }
 
-/// One of two structures to blend.
+BooleanStructure::Operation read_operation(int32_t operation) {
+  return static_cast<BooleanStructure::Operation>(
+      require_range(operation, MSQ_BOOLEAN_UNION, MSQ_BOOLEAN_DIFFERENCE, "operation"));
+}
+
+/// A number or a field.
+Parameter read_parameter(const msq_param& param, const char* name) {
+  return param.field ? Parameter(Ref<const Field>(&object(param.field, "field")))
+                     : Parameter(require_finite(param.value, name));
+}
+
+/// One of two structures that are joined by their distances.
 Ref<const Structure> read_steady(const msq_structure* structure, const char* name) {
   const Structure& known = object(structure, name);
   if (!known.has_steady_distance())
@@ -44,8 +58,7 @@ Ref<const Structure> read_steady(const msq_structure* structure, const char* nam
 msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* structures,
                                  uint64_t count, msq_structure** structure) {
   return guard([&] {
-    const auto known = static_cast<BooleanStructure::Operation>(
-        require_range(operation, MSQ_BOOLEAN_UNION, MSQ_BOOLEAN_DIFFERENCE, "operation"));
+    const auto known = read_operation(operation);
     require_members(structures, count, "structures");
     require(structure, "structure");
     StructureList members = read_members<Structure>(
@@ -62,14 +75,30 @@ msq_status msq_structure_blend(const msq_structure* a, const msq_structure* b,
     const Ref<const Structure> first = read_steady(a, "a"), second = read_steady(b, "b");
     require(fraction, "fraction");
     require(structure, "structure");
-    const Parameter part = fraction->field
-                               ? Parameter(Ref<const Field>(&object(fraction->field, "field")))
-                               : Parameter(require_finite(fraction->value, "fraction"));
+    const Parameter part = read_parameter(*fraction, "fraction");
     const Interval range = part.range();
     if (!(range.low >= 0 && range.high <= 1))
       fail(Status::argument, "fraction is from %g to %g; it must be within 0 and 1", range.low,
            range.high);
     *structure = made_of_structures(make_ref<BlendedStructure>(first, second, part),
                                     StructureBlendDef{a, b, *fraction});
+  });
+}
+
+msq_status msq_structure_smooth_boolean(int32_t operation, const msq_structure* a,
+                                        const msq_structure* b, const msq_param* radius,
+                                        msq_structure** structure) {
+  return guard([&] {
+    const auto known = read_operation(operation);
+    const Ref<const Structure> first = read_steady(a, "a"), second = read_steady(b, "b");
+    require(radius, "radius");
+    require(structure, "structure");
+    const Parameter size = read_parameter(*radius, "radius");
+    const Interval range = size.range();
+    if (!(range.low >= 0 && range.high <= std::numeric_limits<double>::max()))
+      fail(Status::argument, "radius is from %g to %g; it must be finite and at least 0", range.low,
+           range.high);
+    *structure = made_of_structures(make_ref<SmoothBoolean>(known, first, second, size),
+                                    StructureSmoothBooleanDef{operation, a, b, *radius});
   });
 }

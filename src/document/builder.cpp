@@ -104,6 +104,10 @@ msq_status create(Builder&, StructureBlendDef& def, msq_structure** structure) {
   return msq_structure_blend(def.a, def.b, &def.fraction, structure);
 }
 
+msq_status create(Builder&, StructureSmoothBooleanDef& def, msq_structure** structure) {
+  return msq_structure_smooth_boolean(def.operation, def.a, def.b, &def.radius, structure);
+}
+
 msq_status create(Builder& builder, msq_material_def& def, msq_material** material) {
   return msq_material_create(builder.context(), &def, material);
 }
@@ -190,7 +194,8 @@ constexpr KindOf<msq_structure> structure_kinds[] = {
     {"waves", make_of<msq_structure, msq_waves_def>},
     {"beams", make_of<msq_structure, msq_beams_def>},
     {"boolean", make_of<msq_structure, StructureBooleanDef>},
-    {"blend", make_of<msq_structure, StructureBlendDef>}};
+    {"blend", make_of<msq_structure, StructureBlendDef>},
+    {"smooth_boolean", make_of<msq_structure, StructureSmoothBooleanDef>}};
 constexpr KindOf<msq_material> material_kinds[] = {
     {"plain", make_of<msq_material, msq_material_def>}, {"blend", make_of<msq_material, BlendDef>}};
 

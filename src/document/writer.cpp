@@ -97,7 +97,8 @@ void visit(const Structure& structure, Body&& body) {
         if_kept<msq_waves_def>(structure, "waves", body) ||
         if_kept<msq_beams_def>(structure, "beams", body) ||
         if_kept<StructureBooleanDef>(structure, "boolean", body) ||
-        if_kept<StructureBlendDef>(structure, "blend", body)))
+        if_kept<StructureBlendDef>(structure, "blend", body) ||
+        if_kept<StructureSmoothBooleanDef>(structure, "smooth_boolean", body)))
     refuse("a structure");
 }
 

@@ -296,6 +296,41 @@ static void blends_hash_their_fraction(void** state) {
   msq_structure_release(thin);
 }
 
+typedef struct smooth_def {
+  const msq_structure *a, *b;
+  msq_param radius;
+  int32_t operation, none;
+} smooth_def;
+
+static void hash_smooth(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
+  const smooth_def* of = (const smooth_def*)def;
+  msq_structure* structure;
+  (void)in;
+  assert_ok(msq_structure_smooth_boolean(of->operation, of->a, of->b, &of->radius, &structure));
+  hash_and_release(structure, hash);
+}
+
+static void smooth_booleans_hash_their_radius(void** state) {
+  msq_structure* thin = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.1);
+  msq_structure* thick = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.2);
+  msq_structure* same = make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.1);
+  smooth_def def = {thin, thick, {0.25, NULL}, MSQ_BOOLEAN_UNION, 0};
+  (void)state;
+  HASHES(context, "msq_structure_smooth_boolean", &def, sizeof def, hash_smooth) {
+    CHANGES(def.a, def.a = thick);
+    CHANGES(def.b, def.b = thin);
+    KEEPS(def.a, def.a = same);
+    CHANGES(def.a, def.a = thick; def.b = thin);
+    CHANGES(def.operation, def.operation = MSQ_BOOLEAN_INTERSECTION);
+    CHANGES(def.operation, def.operation = MSQ_BOOLEAN_DIFFERENCE);
+    CHANGES(def.radius.value, def.radius.value = 0.5);
+    PARAM_CHANGES(def.radius, ramp, steep_ramp);
+  }
+  msq_structure_release(same);
+  msq_structure_release(thick);
+  msq_structure_release(thin);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(beams_hash_their_list),
@@ -304,6 +339,7 @@ int main(void) {
       cmocka_unit_test(host_functions_hash_their_key),
       cmocka_unit_test(booleans_hash_their_members),
       cmocka_unit_test(blends_hash_their_fraction),
+      cmocka_unit_test(smooth_booleans_hash_their_radius),
   };
   if (!MSQ_WITH_XXHASH) return 0;
   context = make_context();

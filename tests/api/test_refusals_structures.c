@@ -487,6 +487,30 @@ static void structures_of_structures(void** state) {
     WRONG(LIMIT, "4097 structures|the limit is 4096", b = twice[12]);
     if (TRY(msq_structure_blend(a, b, fraction, structure))) msq_structure_release(*structure);
   }
+  REFUSALS("msq_structure_smooth_boolean") {
+    const msq_structure *a = lattice, *b = gyroid;
+    int32_t operation = MSQ_BOOLEAN_UNION;
+    msq_param own = {0.5, NULL}, *radius = &own;
+    msq_structure** structure = (msq_structure**)output(0);
+    wrong_enum(table, &operation, "operation", 1, 3);
+    WRONG(ARGUMENT, "a is NULL", a = NULL);
+    WRONG(ARGUMENT, "b is NULL", b = NULL);
+    WRONG(ARGUMENT, "radius is NULL", radius = NULL);
+    WRONG(ARGUMENT, "structure is NULL", structure = NULL);
+    wrong_number(table, &own.value, "radius");
+    WRONG(ARGUMENT, "radius is from -0.5 to -0.5|at least 0", own.value = -0.5);
+    RIGHT(own.value = 0);
+    RIGHT(own.value = 1e300);
+    RIGHT(own.field = ramp);
+    RIGHT(own.field = waves);
+    WRONG(ARGUMENT, "radius is from -0.25 to 1", own.field = low);
+    WRONG(UNSUPPORTED, "the distance of a has no Lipschitz constant", a = wavy);
+    WRONG(UNSUPPORTED, "the distance of b has no Lipschitz constant", b = wavy);
+    WRONG(LIMIT, "65 structures|the limit is 64", b = nested[64]);
+    WRONG(LIMIT, "4097 structures|the limit is 4096", b = twice[12]);
+    if (TRY(msq_structure_smooth_boolean(operation, a, b, radius, structure)))
+      msq_structure_release(*structure);
+  }
   msq_structure_release(wavy);
   msq_field_release(waves);
   msq_field_release(high);

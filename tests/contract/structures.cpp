@@ -17,6 +17,7 @@
 #include "structure/beams/beams.h"
 #include "structure/combined/blended_structure.h"
 #include "structure/combined/boolean_structure.h"
+#include "structure/combined/smooth_boolean.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/paper/delaunay.h"
 #include "structure/foam/walled_foam.h"
@@ -289,6 +290,23 @@ Factory blend_factory(const Factory& first, const Factory& second, double low, d
   };
 }
 
+/// Of two structures, with fillets whose radius rises along an oblique line, in cells. What is
+/// subtracted does not grow.
+Factory smooth_factory(Operation operation, const Factory& first, const Factory& second, double low,
+                       double high) {
+  return [=](const Neighbourhood& grid, const Parameter& radius) {
+    const double cell = max_component(grid.cell_size);
+    const bool grows = operation != Operation::subtracted;
+    const Vec3 half = Vec3{0.9, 0.6, 1.1} * grid.cell_size;
+    const FieldRef field = make_ref<GradientField>(grid.from_grid(half * -1.0), low * cell,
+                                                   grid.from_grid(half), high * cell);
+    return Ref<const Structure>(
+        make_ref<SmoothBoolean>(operation, first(grid, radius),
+                                second(other_grid(grid), grows ? radius : Parameter(0.137 * cell)),
+                                low == high ? Parameter(low * cell) : Parameter(field)));
+  };
+}
+
 /// Of more than two, some within each other. What is subtracted does not grow.
 Factory nested_factory() {
   return [](const Neighbourhood& grid, const Parameter& radius) {
@@ -459,6 +477,28 @@ std::vector<Kind> kinds() {
                      boolean_factory(Operation::united, lattice_factory(bcc_unit_cell()),
                                      beams_factory(BeamSort::cones)),
                      0, 1)}));
+  kinds.push_back({"smooth", "BCC or gyroid", 0.12, 1,
+                   smooth_factory(Operation::united, lattice_factory(bcc_unit_cell()),
+                                  functional_factory(preset_expressions[0], sheet, 0), 0.3, 0.3)});
+  kinds.push_back({"smooth", "foam or walls", 0.1, 1,
+                   smooth_factory(Operation::united, foam_factory(FoamMethod::direct, 1),
+                                  walls_factory(1), 0, 0.5)});
+  kinds.push_back(
+      {"smooth", "gyroid without octet", 0.2, 1,
+       smooth_factory(Operation::subtracted, functional_factory(preset_expressions[0], network, 0),
+                      lattice_factory(octet_unit_cell()), 0.1, 0.1)});
+  kinds.push_back(holding_beams(
+      {"smooth", "diamond and beams", 0.2, 1,
+       smooth_factory(Operation::intersected, functional_factory(preset_expressions[2], network, 0),
+                      beams_factory(BeamSort::all), 0.1, 0.3)}));
+  kinds.push_back(holding_beams(
+      {"smooth", "nested", 0.12, 1,
+       smooth_factory(Operation::united,
+                      smooth_factory(Operation::intersected, lattice_factory(cubic_unit_cell()),
+                                     foam_factory(FoamMethod::direct, 1), 0.05, 0.05),
+                      blend_factory(lattice_factory(bcc_unit_cell()),
+                                    beams_factory(BeamSort::cones), 0.2, 0.8),
+                      0.4, 0.2)}));
   // Fields that are not linear.
   kinds.push_back({"BCC", "mapped radius", 0.15, 1, lattice_factory(bcc_unit_cell()), mapped});
   kinds.push_back({"functional", "gyroid, sampled level", 0.2, 1,
@@ -489,7 +529,7 @@ std::vector<StructureRow> structures() {
     std::vector<GridVariant> variants =
         grid_variants(kind.family.find("foam") == std::string::npos);
     // The second structure is on a turned grid in any case.
-    if (kind.family == "blended")
+    if (kind.family == "blended" || kind.family == "smooth")
       std::erase_if(variants, [](const GridVariant& v) {
         return v.name.find("uneven") != std::string::npos;
       });

@@ -67,7 +67,9 @@ struct StructureRow {
   bool has_dear_cells() const { return is_method_1() || is_method_2(); }
   bool has_dear_points() const { return kind.family == "foam POINT"; }
   /// Made of other rows' structures, which have tests of their own.
-  bool is_made_of_others() const { return kind.family == "combined" || kind.family == "blended"; }
+  bool is_made_of_others() const {
+    return kind.family == "combined" || kind.family == "blended" || kind.family == "smooth";
+  }
   /// A test's number of samples, cut down where they are dear.
   size_t samples(size_t full) const {
     const size_t part = has_dear_points()                      ? 1000

@@ -54,8 +54,8 @@ int main() {
   std::vector<StructureRow> rows = structures_by_point();
   // Neither a varying radius repeats nor varying cells; beams are a list; waves repeat with a tile
   // alone (unit/test_waves.cpp); members of a combination have grids of their own.
-  const std::set<std::string> aperiodic = {"mixed", "graded period", "waves", "combined",
-                                           "blended"};
+  const std::set<std::string> aperiodic = {"mixed",    "graded period", "waves",
+                                           "combined", "blended",       "smooth"};
   std::erase_if(rows, [&](const StructureRow& r) {
     return !r.is_lattice() || r.is_beams() || r.is_graded || aperiodic.count(r.kind.family);
   });

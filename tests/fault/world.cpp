@@ -83,6 +83,19 @@ MakeStructure blend(World& world) {
   };
 }
 
+/// Of a lattice and beams.
+MakeStructure smooth(World& world, int32_t operation) {
+  msq_structure *a, *b;
+  require_ok(lattice(world, MSQ_UNIT_CELL_BCC, {0.2, nullptr})(&a));
+  world.keep(a);
+  require_ok(beams(world)(&b));
+  world.keep(b);
+  return [a, b, operation](msq_structure** made) {
+    const msq_param radius = {0.2, nullptr};
+    return msq_structure_smooth_boolean(operation, a, b, &radius, made);
+  };
+}
+
 /// A lattice, a foam and beams.
 MakeStructure boolean(World& world, int32_t operation) {
   std::vector<msq_structure*> members(3);
@@ -447,6 +460,8 @@ const std::vector<Kind>& kinds() {
         {"union", [](World& w) { return boolean(w, MSQ_BOOLEAN_UNION); }, false},
         {"difference", [](World& w) { return boolean(w, MSQ_BOOLEAN_DIFFERENCE); }, false},
         {"blend", blend, false},
+        {"smooth union", [](World& w) { return smooth(w, MSQ_BOOLEAN_UNION); }, false},
+        {"smooth difference", [](World& w) { return smooth(w, MSQ_BOOLEAN_DIFFERENCE); }, false},
     };
 #if MSQ_WITH_CGAL
     all.push_back(

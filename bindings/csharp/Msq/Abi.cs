@@ -3339,6 +3339,19 @@ namespace Msq.Interop
 #endif
         int msq_structure_blend(msq_structure* a, msq_structure* b, msq_param* fraction, msq_structure** structure);
 
+        /// <summary>Creates the union, intersection or difference (operation: an msq_boolean_operation; the difference is a without b) of two structures, with fillets where their surfaces meet. radius: k, a number or a field in model units, at least 0. Where it is 0 the solid is that of msq_structure_boolean. With the signed distances u and v to a and b as msq returns them (docs/accuracy.md), h = max(0, k - |u - v|) and s = min(u, v) - h^2 / (4 k), the union holds the points with s &lt;= 0. An intersection takes -u and -v, a difference -u and v, and both hold the points with s &gt;= 0. So a union gains, and the others lose, points with sqrt(|u|) + sqrt(|v|) &lt;= sqrt(k): only where both surfaces are nearer than k. Between two planes at right angles the fillet is a parabola that touches both at the distance k from their edge.</summary>
+        /// <remarks>
+        /// <para>Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, |s| / (1 + L / 4) for a radius with Lipschitz constant L. Rays march by it. Cost: that of msq_structure_boolean, and some distances near the fillets. Errors: ARGUMENT (also a radius that may be negative), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant, as for msq_structure_blend), MEMORY.</para>
+        /// </remarks>
+#if NET7_0_OR_GREATER
+        [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
+        public static partial
+#else
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern
+#endif
+        int msq_structure_smooth_boolean(int operation, msq_structure* a, msq_structure* b, msq_param* radius, msq_structure** structure);
+
         /// <summary>Hashes a structure, as msq_shape_hash does. The method of a foam and clusters do not count. Errors: as msq_shape_hash.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]

@@ -70,13 +70,43 @@ class Structure(Handle):
         """A structure that becomes another one: a where the fraction is 0, b where it is 1. In between
         it holds the points where (1 - f) times the signed distance of a plus f times that of b is
         at most 0."""
+        return Structure._of_two(lib.msq_structure_blend, (), a, b, fraction)
+
+    @staticmethod
+    @remembers
+    def smooth_union(a: Structure, b: Structure, radius: Param) -> Structure:
+        """Points in a or b, and fillets where both surfaces are nearer than the radius."""
+        return Structure._smooth("union", a, b, radius)
+
+    @staticmethod
+    @remembers
+    def smooth_intersection(a: Structure, b: Structure, radius: Param) -> Structure:
+        """Points in a and b, with edges that are rounded where both surfaces are nearer than the
+        radius."""
+        return Structure._smooth("intersection", a, b, radius)
+
+    @staticmethod
+    @remembers
+    def smooth_difference(a: Structure, b: Structure, radius: Param) -> Structure:
+        """Points of a that are not in b, with edges that are rounded where both surfaces are nearer
+        than the radius."""
+        return Structure._smooth("difference", a, b, radius)
+
+    @staticmethod
+    def _smooth(operation: str, a: Structure, b: Structure, radius: Param) -> Structure:
+        return Structure._of_two(lib.msq_structure_smooth_boolean,
+                                 (constant("MSQ_BOOLEAN_", operation, "operation"),), a, b, radius)
+
+    @staticmethod
+    def _of_two(function: Any, first: tuple, a: Structure, b: Structure,
+                param: Param) -> Structure:
         for structure, name in ((a, "a"), (b, "b")):
             if not isinstance(structure, Structure):
                 raise TypeError(f"{name} is a {type(structure).__name__}; it must be a Structure")
-        part = _abi.msq_param()
-        set_param(part, fraction)
-        made = Structure._wrap(Structure._create(lib.msq_structure_blend, a._ref, b._ref,
-                                                 ctypes.byref(part)))
+        value = _abi.msq_param()
+        set_param(value, param)
+        made = Structure._wrap(Structure._create(function, *first, a._ref, b._ref,
+                                                 ctypes.byref(value)))
         made.context = a.context
         return made
 

@@ -111,6 +111,24 @@ class StructuresOfStructures(unittest.TestCase):
         with self.assertRaisesRegex(msq.ArgumentError, "fraction"):
             msq.Structure.blend(self.lattice, self.gyroid, 1.5)
 
+    def test_smooth(self):
+        a, b = self.contains(self.lattice), self.contains(self.gyroid)
+        x = self.points[:, 0]
+        for made, plain in ((msq.Structure.smooth_union, a | b),
+                            (msq.Structure.smooth_intersection, a & b),
+                            (msq.Structure.smooth_difference, a & ~b)):
+            np.testing.assert_array_equal(self.contains(made(self.lattice, self.gyroid, 0)), plain)
+            rising = msq.Field.gradient((2, 0, 0), 0, (6, 0, 0), 1)
+            found = self.contains(made(self.lattice, self.gyroid, rising))
+            np.testing.assert_array_equal(found[x <= 2], plain[x <= 2])
+            changed = found != plain
+            self.assertTrue(np.any(changed))
+            self.assertTrue(np.all(found[changed] == (made is msq.Structure.smooth_union)))
+        with self.assertRaisesRegex(TypeError, "a is a int"):
+            msq.Structure.smooth_union(3, self.lattice, 0.5)
+        with self.assertRaisesRegex(msq.ArgumentError, "radius"):
+            msq.Structure.smooth_union(self.lattice, self.gyroid, -1)
+
 
 class Regions(unittest.TestCase):
     def test_first_shape_decides(self):

@@ -6,9 +6,6 @@
 #include <cmath>
 
 #include "base/hash_input.h"
-#include "base/infinity.h"
-#include "base/ray_normal.h"
-#include "base/signed_distance.h"
 
 namespace msq {
 
@@ -18,19 +15,6 @@ namespace {
 constexpr uint64_t box_rows = 8, box_layers = 8;
 
 }  // namespace
-
-// Distances are known to 1e-9 of a cell (docs/accuracy.md), and are smaller by as much. So the
-// difference of two values may be off by four times that, once more for each blend within another.
-BlendedStructure::BlendedStructure(const Ref<const Structure>& a, const Ref<const Structure>& b,
-                                   Parameter fraction)
-    : CombinedStructure({a, b}),
-      fraction_(std::move(fraction)),
-      slack_(std::ldexp(cell_length(), -27 + 2 * (static_cast<int>(nesting()) - 1))),
-      farthest_origin_(0) {
-  for_each_grid([this](const Neighbourhood& grid) {
-    farthest_origin_ = std::max(farthest_origin_, max_magnitude(grid.origin));
-  });
-}
 
 BlendedStructure::Pair BlendedStructure::distances(Vec3 p, bool in_a, bool in_b) const {
   return {signed_distance(in_a, a().distance_bound(p)),
@@ -72,9 +56,7 @@ double BlendedStructure::bound_of(const Pair& pair, double f, Vec3 p) const {
       (pair.a <= 0) == (pair.b <= 0) ? std::min(std::abs(pair.a), std::abs(pair.b)) : 0;
   const Interval range = fraction_.range(Box3{p, p});
   const double value = std::abs(pair.blended(f));
-  const double slack = slack_ + 0x1p-40 * (max_magnitude(p) + farthest_origin_ + sum) +
-                       2 * (range.high - range.low) * (apart + 2 * value);
-  const double gap = value - slack;
+  const double gap = value - (slack(p, sum) + 2 * (range.high - range.low) * (apart + 2 * value));
   return gap > 0 ? std::max(agreed, steady_distance_of(gap, apart, p)) : agreed;
 }
 
@@ -169,18 +151,6 @@ void BlendedStructure::keep_rows(const RowBlock& block, const Job* job) const {
   });
 }
 
-// Far smaller than min_ray_step(), so that only rays that creep along a surface lose parts. Near it
-// the bound is 0 over as much of such a ray.
-bool BlendedStructure::march_finely(bool wanted, const Ray& ray, double from, double to, double& t,
-                                    const Job* job) const {
-  const double tolerance = ray_tolerance(ray, to);
-  const double least = has_steady_distance() ? 0x1p-16 * smallest_cell() : min_ray_step();
-  const RayMarch steps{std::max(least, tolerance), tolerance};
-  return steps.find(
-      wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
-      [this](Vec3 p) { return distance_bound(p); }, t, job);
-}
-
 // What neither structure holds, the blend does not hold: the march begins where one is entered.
 void BlendedStructure::enter(RaySearch* searches, size_t count, const Job* job) const {
   enter_any(members(), searches, count, job);
@@ -191,28 +161,11 @@ void BlendedStructure::enter(RaySearch* searches, size_t count, const Job* job) 
   }
 }
 
-double BlendedStructure::leave(const Ray& ray, double from, double to, const Job* job) const {
-  double t;
-  return march_finely(false, ray, from, to, t, job) ? t : to;
-}
-
 Vec3 BlendedStructure::normal(const Ray& ray, double t) const {
-  const Vec3 p = ray.at(t);
-  const double f = fraction_.at(p), step = normal_distance_of_members();
+  const double f = fraction_.at(ray.at(t));
   if (f <= 0) return a().normal(ray, t);
   if (f >= 1) return b().normal(ray, t);
-  const auto value = [this](Vec3 q) { return distances(q).blended(fraction_.at(q)); };
-  Vec3 gradient;
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec3 before = p, beyond = p;
-    before[axis] -= step;
-    beyond[axis] += step;
-    gradient[axis] = (value(beyond) - value(before)) / (beyond[axis] - before[axis]);
-  }
-  const double size = length(gradient);
-  if (size > 0x1p-10 && std::isfinite(size) && dot(gradient, ray.direction) < 0)
-    return gradient * (1 / size);
-  return normal_by_membership([this](Vec3 q) { return inside(q); }, ray, t, step);
+  return normal_by_value([this](Vec3 q) { return distances(q).blended(fraction_.at(q)); }, ray, t);
 }
 
 void BlendedStructure::describe(HashInput& input) const {

@@ -9,15 +9,15 @@
 #pragma once
 
 #include "field/field.h"
-#include "structure/combined/members.h"
+#include "structure/combined/steady_pair.h"
 
 namespace msq {
 
-class BlendedStructure final : public CombinedStructure {
+class BlendedStructure final : public SteadyPair {
  public:
   /// Both have a steady distance; the range of the fraction is within 0 and 1.
-  BlendedStructure(const Ref<const Structure>& a, const Ref<const Structure>& b,
-                   Parameter fraction);
+  BlendedStructure(const Ref<const Structure>& a, const Ref<const Structure>& b, Parameter fraction)
+      : SteadyPair(a, b), fraction_(std::move(fraction)) {}
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override {
@@ -34,11 +34,7 @@ class BlendedStructure final : public CombinedStructure {
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   BoxClass classify(const Box3& box) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
-  double min_ray_step() const override {
-    return std::max(CombinedStructure::min_ray_step(), smallest_cell() / 64);
-  }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
-  double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 
  private:
@@ -51,13 +47,8 @@ class BlendedStructure final : public CombinedStructure {
   };
 
   void describe(HashInput& input) const override;
-  const Structure& a() const { return *members()[0]; }
-  const Structure& b() const { return *members()[1]; }
   Pair distances(Vec3 p, bool in_a, bool in_b) const;
   Pair distances(Vec3 p) const { return distances(p, a().inside(p), b().inside(p)); }
-  /// As march(), with smaller steps.
-  bool march_finely(bool wanted, const Ray& ray, double from, double to, double& t,
-                    const Job* job) const;
   double bound_of(const Pair& pair, double f, Vec3 p) const;
   /// A distance from p within which the value stays above 0 or below.
   double steady_distance_of(double gap, double apart, Vec3 p) const;
@@ -66,8 +57,6 @@ class BlendedStructure final : public CombinedStructure {
                   uint64_t in_b) const;
 
   Parameter fraction_;
-  double slack_;            // by which the two distances may be off, apart from coordinates
-  double farthest_origin_;  // of the grids
 };
 
 }  // namespace msq

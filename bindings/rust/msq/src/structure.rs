@@ -148,6 +148,25 @@ impl Structure {
         })
     }
 
+    /// With fillets of a radius. operation: an `MSQ_BOOLEAN_*`.
+    pub fn smooth_boolean(
+        operation: i32,
+        a: &Structure,
+        b: &Structure,
+        radius: impl Into<Param>,
+    ) -> Result<Structure> {
+        let radius = radius.into();
+        Structure::make(|raw| unsafe {
+            sys::msq_structure_smooth_boolean(
+                operation,
+                a.as_ptr(),
+                b.as_ptr(),
+                &radius.raw(),
+                raw,
+            )
+        })
+    }
+
     /// Finite struts of one radius between nodes.
     pub fn beams(
         context: &Context,
