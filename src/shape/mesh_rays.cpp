@@ -3,6 +3,7 @@
 // change, so one point between them decides it. False crossings from the tree do no harm. Short
 // rays away from all triangles need no search (decided_cells.h).
 #include "base/ray_normal.h"
+#include "base/unit.h"
 #include "shape/mesh.h"
 
 namespace msq {
@@ -75,8 +76,9 @@ Vec3 Mesh::normal(const Ray& ray, double t) const {
   double at;
   Vec3 normal;
   if (boundary().first_crossing(ray, t - room, t + room, room, at, normal)) {
-    const double size = length(normal);
-    if (size > 0) return normal * ((dot(normal, ray.direction) > 0 ? -1 : 1) / size);
+    // That of a tiny triangle in a large mesh may be too short to be squared.
+    const Vec3 unit = unit_along(normal);
+    if (!(unit == Vec3{})) return dot(unit, ray.direction) > 0 ? unit * -1.0 : unit;
   }
   if (open_) {
     const Vec3 level = open_->normal(ray.at(t));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/pi.h"
+#include "base/unit.h"
 #include "shape/mesh_diagnosis.h"
 
 namespace msq {
@@ -108,9 +109,7 @@ double OpenMesh::steady_way(Vec3 p, Vec3 direction, int64_t beyond) const {
 
 Vec3 OpenMesh::normal(Vec3 p) const {
   if (!is_steady()) return {};
-  const Vec3 gradient = loops_.gradient(p);
-  const double size = length(gradient);
-  return size > 0 && std::isfinite(size) ? gradient * (1 / size) : Vec3{};
+  return unit_along(loops_.gradient(p));
 }
 
 }  // namespace msq

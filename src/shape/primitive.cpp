@@ -6,6 +6,7 @@
 
 #include "base/hash_input.h"
 #include "base/pi.h"
+#include "base/unit.h"
 
 namespace msq {
 
@@ -190,8 +191,8 @@ bool SphereShape::section(const Ray& ray, double grow, double& from, double& to)
 }
 
 Vec3 SphereShape::normal(const Ray& ray, double t) const {
-  const Vec3 d = ray.at(t) - centre_;
-  return d * (1 / length(d));
+  const Vec3 unit = unit_along(ray.at(t) - centre_);
+  return unit == Vec3{} ? ray.direction * -1.0 : unit;
 }
 
 double SphereShape::distance_bound(Vec3 p) const {
@@ -266,7 +267,7 @@ Vec3 CylinderShape::normal(const Ray& ray, double t) const {
   const Vec3 across = w - unit_axis_ * along;
   const double distance = length(across);
   if (std::abs(distance - radius_) < std::min(std::abs(along), std::abs(height_ - along)))
-    return across * (1 / distance);
+    if (const Vec3 unit = unit_along(across); !(unit == Vec3{})) return unit;
   return 2 * along < height_ ? unit_axis_ * -1.0 : unit_axis_;
 }
 

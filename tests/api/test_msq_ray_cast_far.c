@@ -261,8 +261,41 @@ static void a_grazing_ray_does_not_depend_on_others(void** state) {
   msq_context_release(context);
 }
 
+/* The ray goes along x and meets the shape at t = 1, within `tolerance`, head on. */
+static void assert_hit_head_on(msq_context* context, msq_shape* shape, const double from[3],
+                               double way, double tolerance) {
+  const double direction[3] = {way, 0, 0};
+  msq_model* model = make_model(context, shape, NULL, NULL);
+  msq_ray_hit hit;
+  cast_some(model, (const double(*)[3])from, (const double(*)[3])direction, 1, &hit);
+  const double* n = hit.normal;
+  if (!(fabs(hit.t - 1) <= tolerance && fabs(n[0] + 1) < 1e-9 && fabs(n[1]) < 1e-9 &&
+        fabs(n[2]) < 1e-9))
+    fail_msg("by %g: t %.17g, normal (%.17g, %.17g, %.17g)", way, hit.t, n[0], n[1], n[2]);
+  msq_model_release(model);
+}
+
+/* The squares of these lengths vanish. */
+static void normals_of_tiny_faces_have_length_one(void** state) {
+  (void)state;
+  const double width = 1e-80, radius = 3e-161;
+  const double before_rod[3] = {-1, 0.25 * width, 0.5 * width};
+  const double before_ball[3] = {-2 * radius, 0, 0}, middle[3] = {0, 0, 0};
+  msq_context* context = make_context();
+  double corners[8][3];
+  cube_corners(0, 1, corners);
+  for (int i = 0; i < 8; ++i) corners[i][1] *= width, corners[i][2] *= width;
+  const msq_mesh_def rod = mesh_def((const double(*)[3])corners, 8, cube_triangles(), 12);
+  assert_hit_head_on(context, make_mesh(context, &rod), before_rod, 1, 1e-9);
+  msq_shape* ball;
+  assert_ok(msq_shape_from_sphere(context, middle, radius, &ball));
+  assert_hit_head_on(context, ball, before_ball, radius, 0.5); /* as its squared radius */
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(normals_of_tiny_faces_have_length_one),
       cmocka_unit_test(hits_are_right_far_away),
       cmocka_unit_test(a_grazing_ray_does_not_depend_on_others),
   };

@@ -410,6 +410,10 @@ class Checker {
     // In a shape so large that the tolerance is more than cells, nothing is known.
     if (is_hit && !hit.starts_inside && tolerance * speed < 0.01 * sight_.unit) {
       if (!is_inside_about(origin, direction, hit.t, 2 * tolerance, 8, &all, &any)) return false;
+      // A part no deeper than rounding may be seen, too: within some roundings of the ray's point.
+      const double rounding = 0x1p-50 * size / speed;
+      if (!any && !is_inside_about(origin, direction, hit.t, rounding, 64, &all, &any))
+        return false;
       if (!any)
         wrong(
             "nothing is inside about a hit at t = %.17g of (%.17g, %.17g, %.17g) + t (%.17g, "
