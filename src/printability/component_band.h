@@ -76,7 +76,6 @@ struct ComponentBand {
   std::vector<ComponentTotals> totals;
   std::vector<uint32_t> global, global_below;
   std::vector<uint32_t> heirs;  ///< by number - 1 below: the number in this layer; 0: none
-  std::vector<uint32_t> ends;   ///< of the runs of a row
   ComponentTotals known_here;   ///< samples and box of the known component
   uint32_t base = 0;            ///< in Components: component n of the band is node base + n
 

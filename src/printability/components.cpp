@@ -255,8 +255,7 @@ const Components::Events& Components::finish() {
 
 const Components::Events& Components::end() {
   events_.clear();
-  events_.ended = live_;
-  live_.clear();
+  events_.ended.swap(live_);
   if (known_totals_.samples) events_.ended.push_back(known_totals_);
   known_totals_ = {};
   return events_;

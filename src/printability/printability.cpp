@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <vector>
 
 #include "printability/components.h"
 #include "printability/thin.h"
+#include "slice/layer_output.h"
 
 namespace msq {
 
@@ -178,7 +178,7 @@ class Inspection {
       reserve(words_ * grid_.ny * sizeof(uint64_t), "masks of layers");
       rows_.resize(words_ * grid_.ny);
     }
-    std::memcpy(rows_.data(), bits.data, rows_.size() * sizeof(uint64_t));
+    read_bit_output(bits.data, rows_.size(), rows_.data());
     return rows_.data();
   }
 
@@ -277,11 +277,11 @@ class Inspection {
     found.min.z = layer_face(slicer_, totals.first_layer, 0);
     found.max.z = layer_face(slicer_, totals.last_layer, 1);
     findings_.push_back(found);
+    if (findings_.size() == max_batch) flush();
   }
 
   void flush() {
-    for (size_t i = 0; i < findings_.size(); i += max_batch)
-      take_(findings_.data() + i, std::min(max_batch, findings_.size() - i));
+    if (!findings_.empty()) take_(findings_.data(), findings_.size());
     findings_.clear();
   }
 

@@ -108,6 +108,11 @@ std::unique_ptr<const LayerOutput> make_bit_output() {
   return std::make_unique<BitOutput>();
 }
 
+void read_bit_output(const uint8_t* written, size_t words, uint64_t* rows) {
+  std::memcpy(rows, written, words * sizeof(uint64_t));
+  HWY_DYNAMIC_DISPATCH(reverse_bits_of_bytes)(rows, words, reinterpret_cast<uint8_t*>(rows));
+}
+
 std::unique_ptr<const LayerOutput> make_byte_output() {
   return std::make_unique<ByteOutput>();
 }

@@ -86,6 +86,8 @@ std::unique_ptr<const LayerOutput> make_layer_output(const OutputPlan& plan, con
 
 // Of the files of outputs, for make_layer_output().
 std::unique_ptr<const LayerOutput> make_bit_output();
+/// The rows of bits, sample 0 in the lowest bit, that the bit output has written.
+void read_bit_output(const uint8_t* written, size_t words, uint64_t* rows);
 std::unique_ptr<const LayerOutput> make_byte_output();
 std::unique_ptr<const LayerOutput> make_grey_output(const GreyScale& grey);
 std::unique_ptr<const LayerOutput> make_distance_output();

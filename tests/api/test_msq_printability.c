@@ -431,17 +431,18 @@ static void results_do_not_depend_on_threads_and_output(void** state) {
   }
 }
 
-/* Layers of 4096 x 4096 pixels, 2 MiB each, that a limit makes the slicer fill one by one, in
- * bands. */
-static void limits_of_memory_change_nothing(void** state) {
+/* Layers of 4096 x 4096 pixels, 2 MiB each: slabs of several layers; a limit that makes the slicer
+ * fill layers one by one; and one thread, which fills them in bands that stay in its caches. */
+static void limits_and_bands_change_nothing(void** state) {
   msq_printability_def def = printability_def(MSQ_FINDING_ISLAND + MSQ_FINDING_LOOSE, 1);
-  msq_printability_report reports[2];
-  uint64_t peaks[2];
+  msq_printability_report reports[3];
+  uint64_t peaks[3];
   (void)state;
-  for (int limited = 0; limited < 2; ++limited) {
+  for (int part = 0; part < 3; ++part) {
     const double center[3] = {2, 2, 2};
-    msq_context* context =
-        make_context_of(2, limited ? 1 << 20 : 1 << 28, limited ? (uint64_t)16 << 20 : 0);
+    const int limited = part == 1;
+    msq_context* context = make_context_of(part == 2 ? 1 : 2, limited ? 1 << 20 : 1 << 28,
+                                           limited ? (uint64_t)16 << 20 : 0);
     msq_shape* ball;
     msq_model* model;
     msq_slicer_def plan = slicer_def(MSQ_LAYER_BITS, 4096, 4096, 0.5);
@@ -449,15 +450,15 @@ static void limits_of_memory_change_nothing(void** state) {
     assert_ok(msq_shape_from_sphere(context, center, 2, &ball));
     model = make_model(context, ball, make_lattice_of(context, MSQ_UNIT_CELL_BCC, 1, 0.1), NULL);
     slicer = make_slicer(model, &plan);
-    reports[limited] = inspect(slicer, &def, limited ? &other_list : &list);
-    peaks[limited] = memory_of(context).peak_bytes;
+    reports[part] = inspect(slicer, &def, part ? &other_list : &list);
+    peaks[part] = memory_of(context).peak_bytes;
     msq_slicer_release(slicer);
     msq_model_release(model);
     msq_context_release(context);
+    assert_memory_equal(&reports[0], &reports[part], sizeof reports[0]);
+    if (part) assert_memory_equal(list.findings, other_list.findings, sizeof list.findings);
   }
   assert_true(list.count > 8);
-  assert_memory_equal(&reports[0], &reports[1], sizeof reports[0]);
-  assert_memory_equal(list.findings, other_list.findings, sizeof list.findings);
   assert_true(peaks[1] <= (uint64_t)16 << 20 && peaks[1] < peaks[0]);
 }
 
@@ -499,7 +500,7 @@ int main(void) {
       cmocka_unit_test(memory_is_accounted),
       cmocka_unit_test(volumes_follow_listed_heights),
       cmocka_unit_test(results_do_not_depend_on_threads_and_output),
-      cmocka_unit_test(limits_of_memory_change_nothing),
+      cmocka_unit_test(limits_and_bands_change_nothing),
       cmocka_unit_test(callbacks_stop_the_call),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
