@@ -27,8 +27,7 @@ Enclosure enclose_result(Op op, const Enclosure& p, const Enclosure& q, bool is_
 void enclose(const Tape& tape, const Interval (&box)[3], std::vector<Enclosure>& nodes);
 
 /// The tape without the minima, maxima, magnitudes, floors, comparisons and selections that the
-/// enclosures decide: the same bits
-/// throughout the box.
+/// enclosures decide: the same bits throughout the box.
 Tape shortened(const Tape& tape, const std::vector<Enclosure>& nodes);
 
 }  // namespace msq

@@ -96,9 +96,9 @@ class TapeBuilder {
 };
 
 /// The result of an operation: IEEE additions, products, quotients, roots and comparisons in double
-/// precision, and sines, cosines, exponentials, logarithms and angles built from those. NaN if an
-/// operand is NaN, except of the operand that keep or drop leaves out. So the bits are the
-/// same on every machine (elementary-inl.h).
+/// precision, and sines, cosines, exponentials, logarithms, angles and hyperbolic tangents built
+/// from those. NaN if an operand is NaN, except of the operand that keep or drop leaves out. So the
+/// bits are the same on every machine (elementary-inl.h).
 double apply(Op op, double a, double b);
 
 /// The value at a position. This is the definition. All other evaluators agree with it bit for bit.

@@ -312,9 +312,9 @@ const std::vector<Command>& table() {
        "struts, the thickness of the walls of a foam without struts, the level of a surface. It "
        "measures the structure by itself, in whole cells. The structure of a model file may have a "
        "field for its parameter, which plays no part. Of options, radius, thickness and level need "
-       "not be "
-       "given, except to say what is wanted: --thickness for the walls of a foam, --sheet for a "
-       "surface.",
+       "not be given, except to say what is wanted: --thickness for the walls of a foam, --sheet "
+       "for "
+       "a surface.",
        {{"MODEL", false, "a model file (.json), in place of options"}},
        {{"Calibration", CALIBRATE},
         REPORT_GROUP,

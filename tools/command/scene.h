@@ -14,7 +14,7 @@ struct Scene {
   Context context;
   Document document;    // of a model file; none otherwise
   Shape part;           // of a mesh file or a box; of a model file by choose_structure() alone
-  Structure structure;  // of the options, as part; none: the part is solid
+  Structure structure;  // of the options, or by choose_structure(); none: solid
   Model model;
   bool has_slicing = false, has_view = false;  // of the model file
 };
