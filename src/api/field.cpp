@@ -53,9 +53,8 @@ Curve read_curve(const double* curve, uint64_t count) {
       const Curve::Knot& last = knots[i - 1];
       if (!(at > last.at))
         fail(Status::argument,
-             "pair %llu of curve is at %g and the one before at %g; they must "
-             "ascend",
-             number, at, last.at);
+             "pair %llu of curve is at %g and the one before at %g; they must ascend", number, at,
+             last.at);
       require_difference(last.at, at, "places of curve");
       require_difference(last.value, value, "values of curve");
     }

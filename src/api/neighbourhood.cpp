@@ -95,8 +95,7 @@ msq_status msq_neighbourhood_placed(const msq_neighbourhood* grid, const double 
            placement.deviation(), max_deviation);
     if (placement.determinant() < 0)
       fail(Status::argument,
-           "the matrix mirrors: its determinant is %g; that of a grid's must be "
-           "positive",
+           "the matrix mirrors: its determinant is %g; that of a grid's must be positive",
            placement.determinant());
     msq_neighbourhood result;
     const Vec3 origin = placement.to_placed(known.origin);

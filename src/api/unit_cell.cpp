@@ -40,8 +40,7 @@ UnitCell read_custom(const msq_unit_cell_def& def) {
     const uint32_t a = def.struts[2 * i], b = def.struts[2 * i + 1];
     if (a >= def.node_count || b >= def.node_count || a == b)
       fail(Status::argument,
-           "strut %llu joins nodes %u and %u; there are %llu nodes, and they must "
-           "differ",
+           "strut %llu joins nodes %u and %u; there are %llu nodes, and they must differ",
            number(i), a, b, number(def.node_count));
     cell.struts.push_back({a, b});
   }

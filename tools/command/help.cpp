@@ -21,9 +21,8 @@ constexpr char DESCRIPTION[] =
 constexpr char CONDUCT[] =
     "Results go to files or to standard output, everything else to standard error. A file gets its "
     "name when it is complete. A failure leaves none, and an existing one as it was. On a "
-    "terminal, "
-    "work that takes long shows its progress, its rate and the time left. Ctrl-C ends the work in "
-    "good order; a second one ends it at once. Numbers have a point in all locales.";
+    "terminal, work that takes long shows its progress, its rate and the time left. Ctrl-C ends "
+    "the work in good order; a second one ends it at once. Numbers have a point in all locales.";
 
 // Words with at most `width` characters a line. The first line begins at column `at`.
 std::string wrapped(std::string_view text, size_t indent, size_t at, size_t width = WIDTH) {

@@ -7,8 +7,7 @@ namespace {
 
 constexpr char MODEL_HELP[] =
     "a model file (.json), which has structures of its own, a mesh file (STL, OBJ, PLY, OFF, 3MF, "
-    "AMF), or box:X,Y,Z, a box of that "
-    "size with a corner at the origin";
+    "AMF), or box:X,Y,Z, a box of that size with a corner at the origin";
 
 constexpr Option MAIN[] = {
     {"help", 'h', "", Value::NONE, "", "print this text and exit; after a command: its options"},
@@ -104,8 +103,7 @@ constexpr Option INFO[] = {
 
 constexpr Option SLICE[] = {
     {"output", 'o', "PATH", Value::FILE, "",
-     "a folder, for one file a layer, or a file that ends in .sl1, .sl1s, .svg or .3mf; "
-     "required"},
+     "a folder, for one file a layer, or a file that ends in .sl1, .sl1s, .svg or .3mf; required"},
     {"format", 0, "NAME", Value::WORDS, "png svg", "of the files in a folder (default png)"},
     {"pitch", 'p', "MM", Value::TEXT, "",
      "size of a pixel, or of the mesh that contours start from; P or X,Y; required, except for "
@@ -213,11 +211,9 @@ const std::vector<Command>& table() {
       {"slice",
        "write layers as PNG, SVG, SL1 or 3MF",
        "Computes layers from the bottom to the top and writes each while the next ones are "
-       "computed. "
-       "A folder receives layer00000.png, or .svg, and so on. An .svg file holds all layers, a "
-       ".3mf file all as slices. An .sl1 archive is for resin printers. What a model file says of "
-       "slices is used; options take its "
-       "place.",
+       "computed. A folder receives layer00000.png, or .svg, and so on. An .svg file holds all "
+       "layers, a .3mf file all as slices. An .sl1 archive is for resin printers. What a model "
+       "file says of slices is used; options take its place.",
        {MODEL},
        {{"Layers", SLICE},
         {"Printer (.sl1)", PRINTER},
@@ -241,8 +237,7 @@ const std::vector<Command>& table() {
       {"render",
        "draw a picture by casting rays",
        "Draws the model itself; nothing is meshed. What a model file says of pictures is used; "
-       "options "
-       "take its place.",
+       "options take its place.",
        {MODEL},
        {{"Picture", RENDER}, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
        {"msq render bracket.stl --foam 4 --radius 0.4 --samples 1 --size 160,120 -o bracket.png"},
@@ -250,10 +245,8 @@ const std::vector<Command>& table() {
       {"model",
        "write a model file",
        "Writes what the options describe as a model file in JSON, to change it by hand and to use "
-       "it "
-       "in place of the options. A mesh file below the folder of the model file is named from "
-       "there, "
-       "any other by its whole path.",
+       "it in place of the options. A mesh file below the folder of the model file is named from "
+       "there, any other by its whole path.",
        {{"MODEL", true, "a mesh file or a box, as for other commands"}},
        {{"Model file", MODEL_FILE}, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
        {"msq model bracket.stl --foam 4 --radius 0.4 -o bracket.json"},
@@ -300,8 +293,7 @@ const std::vector<Command>& table() {
        "finite elements. CSV has a row for each strut: the numbers of its nodes, their places, the "
        "radii there, 1 for an end where the strut leaves the part, and the cell. JSON lines have "
        "the nodes first, then the struts. Struts of a model file are those of one structure; finer "
-       "and "
-       "coarser ones do not cut them.",
+       "and coarser ones do not cut them.",
        {MODEL},
        {{"Graph", STRUTS}, PART_GROUP, STRUCTURE_GROUP, CHOICE_GROUP, BOX_GROUP, RUNNING_GROUP},
        {"msq struts bracket.stl --foam 4 --radius 0.4 -o struts.csv"},
@@ -313,8 +305,7 @@ const std::vector<Command>& table() {
        "measures the structure by itself, in whole cells. The structure of a model file may have a "
        "field for its parameter, which plays no part. Of options, radius, thickness and level need "
        "not be given, except to say what is wanted: --thickness for the walls of a foam, --sheet "
-       "for "
-       "a surface.",
+       "for a surface.",
        {{"MODEL", false, "a model file (.json), in place of options"}},
        {{"Calibration", CALIBRATE},
         REPORT_GROUP,
