@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "base/borrowed.h"
+#include "base/sample_bounds.h"
 #include "base/simd.h"
 #include "strut/fast_spans-inl.h"
 #include "strut/general_spans-inl.h"
@@ -65,40 +65,19 @@ HWY_EXPORT(raster_struts);
 
 SpanRaster::SpanRaster(const RowBlock& alive) : alive_(alive) {
   const SampleGrid& grid = *alive.grid;
-  const size_t words = alive.row_words();
-  uint64_t j0 = alive.y1, j1 = alive.y0, k0 = alive.z1, k1 = alive.z0;
-  std::vector<uint64_t> any(words, 0);
-  for (uint64_t k = alive.z0; k < alive.z1; ++k)
-    for (uint64_t j = alive.y0; j < alive.y1; ++j) {
-      const uint64_t* row = alive.row(j, k);
-      uint64_t some = 0;
-      for (size_t w = 0; w < words; ++w) {
-        any[w] |= row[w];
-        some |= row[w];
-      }
-      if (!some) continue;
-      j0 = std::min(j0, j);
-      j1 = std::max(j1, j + 1);
-      k0 = std::min(k0, k);
-      k1 = std::max(k1, k + 1);
-    }
-  if (j0 >= j1) return;
+  SampleBounds at;
+  if (!find_bounds(alive, at)) return;
   empty_ = false;
-  size_t w0 = 0, w1 = words;
-  while (!any[w0]) ++w0;
-  while (!any[w1 - 1]) --w1;
-  const uint64_t i0 = w0 * bits_per_word + static_cast<unsigned>(std::countr_zero(any[w0]));
-  const uint64_t i1 = w1 * bits_per_word - static_cast<unsigned>(std::countl_zero(any[w1 - 1]));
-  box_ = {grid.at(i0, j0, k0), grid.at(i1 - 1, j1 - 1, k1 - 1)};
-  samples_ =
-      static_cast<double>(i1 - i0) * static_cast<double>(j1 - j0) * static_cast<double>(k1 - k0);
+  box_ = {grid.at(at.i0, at.j0, at.k0), grid.at(at.i1 - 1, at.j1 - 1, at.k1 - 1)};
+  samples_ = static_cast<double>(at.i1 - at.i0) * static_cast<double>(at.j1 - at.j0) *
+             static_cast<double>(at.k1 - at.k0);
 
   for (uint64_t j = alive.y0; j < alive.y1; ++j) y_.push_back(grid.y(j));
   for (uint64_t k = alive.z0; k < alive.z1; ++k) z_.push_back(grid.z(k));
   y_.resize(y_.size() + max_simd_doubles, y_.back());
   // One more cache line per layer: neighbouring layers then use different cache sets.
-  layer_words_ = alive.rows() * words + 8;
-  certain_.assign(alive.layers() * layer_words_ + 1, 0);  // a word of room for unaligned writes
+  layer_words_ = alive.rows() * alive.row_words() + 8;
+  certain_->assign(alive.layers() * layer_words_ + 1, 0);  // a word of room for unaligned writes
 }
 
 RasterTarget SpanRaster::target(double margin) {
@@ -110,7 +89,7 @@ RasterTarget SpanRaster::target(double margin) {
   target.layers = alive_.layers();
   target.row_words = alive_.row_words();
   target.layer_words = layer_words_;
-  target.certain = certain_.data();
+  target.certain = certain_->data();
   target.x0 = grid.x(0);
   target.inverse_dx = 1 / grid.spacing.x;
   target.dy = grid.spacing.y;

@@ -17,7 +17,9 @@
 #include <bit>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "base/job.h"
+#include "base/restrict_words.h"
 #include "base/sample_grid.h"
 #include "base/vec.h"
 #include "strut/raster_target.h"
@@ -68,7 +70,7 @@ class SpanRaster {
   RasterTarget target(double margin);
   static void draw(const RasterTarget& target, const StrutBatch& struts, DoubtfulSpans& doubts);
   uint64_t* certain_row(size_t j, size_t k) {
-    return certain_.data() + k * layer_words_ + j * alive_.row_words();
+    return certain_->data() + k * layer_words_ + j * alive_.row_words();
   }
   /// Leaves the sample to the predicate.
   void leave(Sample sample);
@@ -79,8 +81,8 @@ class SpanRaster {
   Box3 box_;
   std::vector<double> y_, z_;  // of rows and layers
   size_t layer_words_ = 0;
-  std::vector<uint64_t> certain_;  // rows of the block
-  DoubtfulSpans doubtful_;         // of the current batch
+  const Borrowed<std::vector<uint64_t>> certain_;  // rows of the block
+  DoubtfulSpans doubtful_;                         // of the current batch
   std::vector<Sample> left_;
   size_t max_left_ = size_t{1} << 20;
 };
@@ -147,13 +149,10 @@ void SpanRaster::finish(const Job* job, Inside&& inside) {
     if (!(word & bit) && inside(alive_.grid->at(s.i, alive_.y0 + s.j, alive_.z0 + s.k)))
       word |= bit;
   }
-  const size_t words = alive_.row_words();
   for (uint64_t k = 0; k < alive_.layers(); ++k)
-    for (uint64_t j = 0; j < alive_.rows(); ++j) {
-      const uint64_t* certain = certain_row(j, k);
-      uint64_t* row = alive_.row(alive_.y0 + j, alive_.z0 + k);
-      for (size_t w = 0; w < words; ++w) row[w] &= certain[w];
-    }
+    for (uint64_t j = 0; j < alive_.rows(); ++j)
+      restrict_words(alive_.row(alive_.y0 + j, alive_.z0 + k), certain_row(j, k),
+                     alive_.row_words());
 }
 
 }  // namespace msq

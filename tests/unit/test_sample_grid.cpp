@@ -2,7 +2,7 @@
 // set_bits and first_sample_from, in all small cases, against loops; windows and their refusals.
 #include <vector>
 
-#include "base/sample_grid.h"
+#include "base/sample_bounds.h"
 #include "base/status.h"
 #include "msq_test.h"
 #include "random.h"
@@ -111,6 +111,46 @@ void test_windows_refused(void**) {
     }
 }
 
+/// Of no set bit, one and several, in blocks that are parts of larger ones.
+void test_bounds(void**) {
+  Random random(5);
+  SampleGrid grid;
+  grid.nx = 150;
+  grid.ny = 9;
+  grid.nz = 6;
+  constexpr size_t stride = 5, rows = 7, layers = 4;  // more words than samples need
+  for (int repeat = 0; repeat < 500; ++repeat) {
+    std::vector<uint64_t> words(stride * rows * layers, 0);
+    RowBlock block;
+    block.grid = &grid;
+    block.y0 = 2;
+    block.y1 = 2 + rows - 1;
+    block.z0 = 1;
+    block.z1 = 1 + layers;
+    block.words = words.data();
+    block.row_stride = stride;
+    block.layer_stride = stride * rows;
+    SampleBounds wanted{grid.nx, 0, grid.ny, 0, grid.nz, 0};
+    for (int bit = 0; bit < repeat % 4; ++bit) {
+      const auto i = static_cast<uint64_t>(random.between(0, 149.9));
+      const uint64_t j = block.y0 + static_cast<uint64_t>(random.between(0, 5.9));
+      const uint64_t k = block.z0 + static_cast<uint64_t>(random.between(0, 3.9));
+      set_bits(block.row(j, k), i, i);
+      wanted = {std::min(wanted.i0, i),     std::max(wanted.i1, i + 1), std::min(wanted.j0, j),
+                std::max(wanted.j1, j + 1), std::min(wanted.k0, k),     std::max(wanted.k1, k + 1)};
+    }
+    SampleBounds found;
+    assert_int_equal(find_bounds(block, found), repeat % 4 > 0);
+    if (repeat % 4 == 0) continue;
+    assert_int_equal(found.i0, wanted.i0);
+    assert_int_equal(found.i1, wanted.i1);
+    assert_int_equal(found.j0, wanted.j0);
+    assert_int_equal(found.j1, wanted.j1);
+    assert_int_equal(found.k0, wanted.k0);
+    assert_int_equal(found.k1, wanted.k1);
+  }
+}
+
 void test_words(void**) {
   assert_int_equal(words_for(1), 1);
   assert_int_equal(words_for(64), 1);
@@ -120,8 +160,9 @@ void test_words(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_set_bits), cmocka_unit_test(test_first_sample),
-                              cmocka_unit_test(test_windows),
-                              cmocka_unit_test(test_windows_refused), cmocka_unit_test(test_words)};
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(test_set_bits), cmocka_unit_test(test_first_sample),
+      cmocka_unit_test(test_windows),  cmocka_unit_test(test_windows_refused),
+      cmocka_unit_test(test_bounds),   cmocka_unit_test(test_words)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/borrowed.h"
 #include "structure/structure.h"
 
 namespace msq {
@@ -61,7 +62,7 @@ class RowCopy {
   const RowBlock& block() const { return block_; }
 
  private:
-  std::vector<uint64_t> words_;
+  const Borrowed<std::vector<uint64_t>> words_;
   RowBlock block_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "structure/common/struts.h"
 
 namespace msq {
@@ -27,9 +28,10 @@ void WalledFoam::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
 
 void WalledFoam::keep_rows(const RowBlock& block, const Job* job) const {
   const size_t words = block.row_words();
-  std::vector<uint64_t> copy(words * block.rows() * block.layers());
+  const Borrowed<std::vector<uint64_t>> copy;
+  copy->resize(words * block.rows() * block.layers());
   RowBlock rest = block;
-  rest.words = copy.data();
+  rest.words = copy->data();
   rest.row_stride = words;
   rest.layer_stride = words * block.rows();
   const auto for_each_word = [&](auto&& visit) {

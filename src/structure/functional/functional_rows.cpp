@@ -9,7 +9,7 @@
 #include <bit>
 #include <cmath>
 
-#include "structure/common/restrict_words.h"
+#include "base/restrict_words.h"
 
 namespace msq {
 

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/restrict_words.h"
 #include "base/simd.h"
-#include "structure/common/restrict_words.h"
 
 namespace msq {
 
