@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "base/restrict_words.h"
+#include "base/sample_bounds.h"
 #include "base/simd.h"
 
 namespace msq {
@@ -32,7 +33,14 @@ LatticeRows::LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& ax
       same_(0x1p-40 * struts.extent),
       margin_(4 * same_),
       level_margin_(0x1p-24 * struts.extent) {
-  if (!find_alive()) return;
+  SampleBounds alive;
+  if (!find_bounds(block, alive)) return;
+  i0_ = alive.i0;
+  i1_ = alive.i1;
+  j0_ = alive.j0;
+  j1_ = alive.j1;
+  k0_ = alive.k0;
+  k1_ = alive.k1;
   const Box3 box{grid_.at(i0_, j0_, k0_), grid_.at(i1_ - 1, j1_ - 1, k1_ - 1)};
   is_linear_ = radius.is_linear(box, gradient_);
   if (!is_linear_) return;
@@ -46,37 +54,6 @@ LatticeRows::LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& ax
   const double departure = 0x1p-38 * (range.high - range.low) + 0x1p-48 * slopes * positions;
   margin_ += max_factor * departure;
   level_margin_ += max_factor * departure;
-}
-
-bool LatticeRows::find_alive() {
-  const size_t words = block_.row_words();
-  size_t w0 = words, w1 = 0;
-  j0_ = block_.y1;
-  k0_ = block_.z1;
-  for (uint64_t k = block_.z0; k < block_.z1; ++k)
-    for (uint64_t j = block_.y0; j < block_.y1; ++j) {
-      const uint64_t* row = block_.row(j, k);
-      size_t first = 0;
-      while (first < words && !row[first]) ++first;
-      if (first == words) continue;
-      w0 = std::min(w0, first);
-      for (size_t w = words; w > std::max(w1, first); --w)
-        if (row[w - 1]) w1 = w;
-      j0_ = std::min(j0_, j);
-      j1_ = std::max(j1_, j + 1);
-      k0_ = std::min(k0_, k);
-      k1_ = std::max(k1_, k + 1);
-    }
-  if (w0 >= w1) return false;
-  uint64_t head = 0, tail = 0;
-  for (uint64_t k = k0_; k < k1_; ++k)
-    for (uint64_t j = j0_; j < j1_; ++j) {
-      head |= block_.row(j, k)[w0];
-      tail |= block_.row(j, k)[w1 - 1];
-    }
-  i0_ = w0 * bits_per_word + static_cast<unsigned>(std::countr_zero(head));
-  i1_ = w1 * bits_per_word - static_cast<unsigned>(std::countl_zero(tail));
-  return true;
 }
 
 std::vector<double> LatticeRows::positions(int axis, uint64_t first, uint64_t end) const {
@@ -161,7 +138,7 @@ void LatticeRows::keep_window(size_t first_word, const Job* job,
   }
   const std::shared_ptr<const RowTables::Columns> table =
       tables_->columns(columns, [&] { return make_columns(base, columns.begin, columns.end); });
-  const Window window{first_word, base, begin, end, words_for(end) - first_word, *table};
+  const Window window{first_word, base, begin, end, words_for(end) - first_word, *table, columns};
   const uint64_t max_rows = radius_.is_constant() || is_linear_ ? j1_ - j0_ : bounded_rows;
   for (uint64_t j = j0_; j < j1_; j += max_rows)
     keep_rows(window, j, std::min(j1_, j + max_rows), job, inside);
@@ -191,13 +168,24 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
   task.sample_y = sample_y.data();  // of each row, if they are evaluated one by one
   task.margin = margin_;
   const size_t padded = task.row_words();
-  std::vector<uint64_t> drawn(rows.count() * padded), all(padded);
+  std::vector<uint64_t> all(padded);
   set_bits(all.data(), window.begin - window.base, window.end - 1 - window.base);
-  task.inside = drawn.data();
+  const Borrowed<std::vector<uint64_t>> scratch;
+  scratch->resize(rows.count() * padded);
   std::vector<const uint64_t*> alive(rows.count());
   task.alive = alive.data();
   std::vector<LeftSample> left;
   std::vector<Bit> restored;
+  const auto draw = [&](std::vector<uint64_t>& words, std::vector<LeftSample>& undecided) {
+    std::fill(words.begin(), words.end(), 0);
+    task.inside = words.data();
+    mark_inside(task, undecided);
+  };
+  // Rows that repeat, if those of all layers and windows of the tile find room.
+  const size_t windows = (block_.row_words() + window_words - 1) / window_words;
+  const bool is_kept =
+      radius_.is_constant() && window.is_whole() && 2 * rows.count() <= rows.members.size() &&
+      layers.count() * windows * rows.count() * padded * sizeof(uint64_t) <= RowTables::max_drawn;
 
   for (size_t layer = 0; layer < layers.count(); ++layer) {
     check_cancelled(job);
@@ -212,21 +200,32 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
             visit(row, block_.row(rows.members[m], layers.members[n]) + window.first_word);
     };
     std::fill(alive.begin(), alive.end(), nullptr);
-    bool is_any = false;
+    size_t alive_rows = 0;
     for_each_row([&](size_t row, const uint64_t* words) {
       for (size_t w = 0; w < window.words; ++w) {
         if (!words[w]) continue;
+        alive_rows += !alive[row];
         alive[row] = alive[row] ? all.data() : words;
-        is_any = true;
         return;
       }
     });
-    if (!is_any) continue;
+    if (alive_rows == 0) continue;
     set_levels(task, window, rows, k0);
-    std::fill(drawn.begin(), drawn.end(), 0);
-    mark_inside(task, left);
+    // Positions of rows are then known to 2 * same_, which margin_ exceeds.
+    const RowTables::DrawnFrom from{&struts_, window.line,           task.radius,
+                                    task.z,   rows.positions.data(), rows.count()};
+    const RowTables::DrawnRows* kept_rows = is_kept ? tables_->drawn(from, same_) : nullptr;
+    if (!kept_rows && is_kept && 2 * alive_rows >= rows.count()) {
+      // For all rows and columns, whichever are alive in other tiles.
+      std::fill(alive.begin(), alive.end(), all.data());
+      RowTables::DrawnRows made = tables_->make_drawn(rows.count() * padded);
+      draw(made.words, made.left);
+      kept_rows = &tables_->keep_drawn(from, std::move(made));
+    }
+    if (!kept_rows) draw(*scratch, left);
+    const uint64_t* const drawn = kept_rows ? kept_rows->words.data() : scratch->data();
 
-    for (const LeftSample& sample : left) {
+    for (const LeftSample& sample : kept_rows ? kept_rows->left : left) {
       const size_t w = sample.column / bits_per_word;
       const uint64_t bit = uint64_t{1} << (sample.column % bits_per_word);
       if (drawn[sample.row * padded + w] & bit) continue;
@@ -241,7 +240,7 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
     }
     left.clear();
     for_each_row([&](size_t row, uint64_t* words) {
-      restrict_words(words, drawn.data() + row * padded, window.words);
+      restrict_words(words, drawn + row * padded, window.words);
     });
     for (const Bit& bit : restored) *bit.word |= bit.mask;
     restored.clear();

@@ -32,6 +32,9 @@ class LatticeRows {
     uint64_t base, begin, end;  ///< its first column; the columns that may be alive
     size_t words;
     const RowTables::Columns& columns;
+    const RowTables::Line& line;  ///< of the columns
+    /// All columns of the table may be alive.
+    bool is_whole() const { return line.begin == begin && line.end == end; }
   };
   using Classes = RowTables::Classes;
   struct Bit {
@@ -39,7 +42,6 @@ class LatticeRows {
     uint64_t mask;
   };
 
-  bool find_alive();
   /// Positions of columns, rows or layers in their cell: 0 to 1.
   std::vector<double> positions(int axis, uint64_t first, uint64_t end) const;
   /// Of samples along an axis, for the tables that are kept.

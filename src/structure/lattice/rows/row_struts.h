@@ -14,6 +14,8 @@ namespace msq {
 struct RowStrut {
   std::array<double, 3> a, ab;
   double factor;
+
+  friend bool operator==(const RowStrut&, const RowStrut&) = default;
 };
 
 struct RowStruts {
@@ -25,6 +27,8 @@ struct RowStruts {
   /// of the grid parallel to coordinate i.
   RowStruts(const std::vector<PeriodicStrut>& periodic, Vec3 cell_size, std::array<int, 3> axis,
             double most);
+
+  friend bool operator==(const RowStruts&, const RowStruts&) = default;
 };
 
 }  // namespace msq

@@ -4,12 +4,15 @@
 // them takes longer than to draw a layer of few struts.
 #pragma once
 
+#include <cmath>
 #include <deque>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "cell/neighbourhood.h"
 #include "structure/lattice/rows/column_sets.h"
+#include "structure/lattice/rows/row_kernel.h"
 
 namespace msq {
 
@@ -50,6 +53,58 @@ class RowTables {
     }
   };
 
+  /// What rows of one layer are drawn from, with a constant radius.
+  struct DrawnFrom {
+    const RowStruts* struts;
+    Line columns;
+    double radius;
+    double z;  ///< of the layer, in the cell
+    const double* rows;
+    size_t count;  ///< of rows
+
+    /// Whether what is drawn from one serves the other: the struts, columns and layer are equal,
+    /// and no row is more than `same` off.
+    static bool serves(const DrawnFrom& one, const DrawnFrom& other, double same) {
+      if (one.z != other.z || one.count != other.count || one.radius != other.radius ||
+          !(one.columns == other.columns) || !(*one.struts == *other.struts))
+        return false;
+      for (size_t row = 0; row < one.count; ++row)
+        if (!(std::abs(one.rows[row] - other.rows[row]) <= same)) return false;
+      return true;
+    }
+  };
+  struct DrawnRows {
+    std::vector<uint64_t> words;   ///< samples that are certainly inside
+    std::vector<LeftSample> left;  ///< for the predicate
+  };
+
+  /// Rows that repeat along y: the tiles of a layer after the first one find them drawn. Null if
+  /// there are none.
+  const DrawnRows* drawn(const DrawnFrom& from, double same) const {
+    for (const Drawn& entry : drawn_)
+      if (DrawnFrom::serves(entry.from, from, same)) return &entry.rows;
+    return nullptr;
+  }
+  /// To be drawn: the words are of any value.
+  DrawnRows make_drawn(size_t words) {
+    DrawnRows made;
+    while (!drawn_.empty() &&
+           (drawn_.size() == max_tables || drawn_bytes_ + words * sizeof(uint64_t) > max_drawn)) {
+      drawn_bytes_ -= drawn_.front().bytes();
+      made = std::move(drawn_.front().rows);
+      drawn_.pop_front();
+    }
+    made.words.resize(words);
+    made.left.clear();
+    return made;
+  }
+  const DrawnRows& keep_drawn(const DrawnFrom& from, DrawnRows&& rows) {
+    drawn_.emplace_back(from, std::move(rows));
+    drawn_bytes_ += drawn_.back().bytes();
+    return drawn_.back().rows;
+  }
+  static constexpr size_t max_drawn = size_t{1} << 20;  ///< bytes
+
   template <class Make>
   std::shared_ptr<const Columns> columns(const Line& line, Make&& make) {
     return columns_.find(line, make);
@@ -58,7 +113,7 @@ class RowTables {
   std::shared_ptr<const Classes> classes(const Line& line, Make&& make) {
     return classes_.find(line, make);
   }
-  size_t bytes() const { return columns_.bytes() + classes_.bytes(); }
+  size_t bytes() const { return columns_.bytes() + classes_.bytes() + drawn_bytes_; }
 
  private:
   /// A call looks through all of them.
@@ -93,8 +148,33 @@ class RowTables {
     size_t bytes_ = 0;
   };
 
+  /// With copies of what it is drawn from.
+  struct Drawn {
+    RowStruts struts;
+    std::vector<double> positions;
+    DrawnFrom from;
+    DrawnRows rows;
+
+    Drawn(const DrawnFrom& original, DrawnRows&& drawn)
+        : struts(*original.struts),
+          positions(original.rows, original.rows + original.count),
+          from(original),
+          rows(std::move(drawn)) {
+      from.struts = &struts;
+      from.rows = positions.data();
+    }
+    Drawn(const Drawn&) = delete;
+    size_t bytes() const {
+      return (rows.words.capacity() + positions.capacity()) * sizeof(uint64_t) +
+             rows.left.capacity() * sizeof(LeftSample) +
+             struts.struts.capacity() * sizeof(RowStrut);
+    }
+  };
+
   Latest<Columns, size_t{6} << 20> columns_;  // those of rows of 65536 samples
   Latest<Classes, size_t{1} << 20> classes_;
+  std::deque<Drawn> drawn_;
+  size_t drawn_bytes_ = 0;
 };
 
 }  // namespace msq
