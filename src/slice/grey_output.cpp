@@ -40,91 +40,110 @@ uint64_t write_row(const uint8_t* rows, size_t row_bytes, const uint8_t* greys, 
 #else
 
 using Bytes = hn::ScalableTag<uint8_t>;
-using Counts = hn::VFromD<Bytes>;
+using Vector = hn::VFromD<Bytes>;
+using Sums = hn::Repartition<uint64_t, Bytes>;
 constexpr size_t max_lanes = max_simd_doubles * sizeof(double);
 
-/// Number of bits set in each group of `bits` bits of a byte.
-template <unsigned bits>
-Counts counts_of_groups(Counts v) {
-  const Bytes d;
-  const auto odd = hn::Set(d, uint8_t{0x55}), pairs = hn::Set(d, uint8_t{0x33}),
-             nibble = hn::Set(d, uint8_t{0x0f});
-  v = hn::Sub(v, hn::And(hn::ShiftRight<1>(v), odd));
-  if constexpr (bits >= 4) v = hn::Add(hn::And(v, pairs), hn::And(hn::ShiftRight<2>(v), pairs));
-  if constexpr (bits >= 8) v = hn::And(hn::Add(v, hn::ShiftRight<4>(v)), nibble);
-  return v;
+Vector low_nibbles(Vector v) {
+  return hn::And(v, hn::Set(Bytes(), uint8_t{0x0f}));
+}
+Vector high_nibbles(Vector v) {
+  return low_nibbles(hn::ShiftRight<4>(v));
 }
 
-/// Greys of counts up to 16.
-Counts greys_of(Counts counts, const uint8_t* greys) {
-  const Bytes d;
-  const auto all = hn::Eq(counts, hn::Set(d, uint8_t{16}));
-  return hn::IfThenElse(all, hn::Set(d, greys[16]),
-                        hn::TableLookupBytes(hn::LoadDup128(d, greys), counts));
+HWY_ALIGN constexpr uint8_t counts_of_nibbles[16] = {0, 1, 1, 2, 1, 2, 2, 3,
+                                                     1, 2, 2, 3, 2, 3, 3, 4};
+
+/// Entries of tables of 16 bytes.
+Vector look_up(const uint8_t* table, Vector nibbles) {
+  return hn::TableLookupBytes(hn::LoadDup128(Bytes(), table), nibbles);
 }
+/// Number of bits set in each byte of nibbles.
+Vector counts_of(Vector nibbles) {
+  return look_up(counts_of_nibbles, nibbles);
+}
+
+/// Tables from which pixels are looked up.
+struct Tables {
+  const uint8_t* greys;  ///< of 0 to k * k samples
+  /// Of a pixel of 2 x 2 samples: those of the first row are bits 0 and 1. Of 4 x 4: of one sample
+  /// to 16.
+  alignas(16) uint8_t short_greys[16];
+
+  Tables(unsigned k, const uint8_t* all) : greys(all) {
+    for (size_t i = 0; i < 16; ++i)
+      short_greys[i] = k == 2 ? all[counts_of_nibbles[i]] : k == 4 ? all[i + 1] : uint8_t{0};
+  }
+};
 
 /// Pixels from as many bytes of samples as a vector has, of each of k rows. Adds the number of
 /// samples inside.
 template <unsigned k>
-void write_block(const uint8_t* rows, size_t stride, const uint8_t* greys, uint8_t* out,
-                 uint64_t& inside) {
+HWY_INLINE void write_block(const uint8_t* rows, size_t stride, const Tables& tables, uint8_t* out,
+                            hn::VFromD<Sums>& inside) {
   const Bytes d;
-  const auto load = [&](size_t row) { return hn::LoadU(d, rows + row * stride); };
-  const auto pairs = hn::Set(d, uint8_t{0x33}), nibble = hn::Set(d, uint8_t{0x0f});
-  const auto low = [&](Counts v) { return hn::And(v, nibble); };
-  const auto high = [&](Counts v) { return hn::And(hn::ShiftRight<4>(v), nibble); };
-  Counts sum;
+  const auto load = [&](size_t row) HWY_ATTR { return hn::LoadU(d, rows + row * stride); };
+  Vector sum;
   if constexpr (k == 2) {
-    const auto a = counts_of_groups<2>(load(0)), b = counts_of_groups<2>(load(1));
-    const auto even = hn::Add(hn::And(a, pairs), hn::And(b, pairs));
-    const auto odd =
-        hn::Add(hn::And(hn::ShiftRight<2>(a), pairs), hn::And(hn::ShiftRight<2>(b), pairs));
-    const auto both = hn::Add(even, odd);  // nibbles of at most 8
-    sum = hn::Add(low(both), high(both));
-    hn::StoreInterleaved4(greys_of(low(even), greys), greys_of(low(odd), greys),
-                          greys_of(high(even), greys), greys_of(high(odd), greys), d, out);
+    // Nibbles of both rows' samples of a pixel: of pixels 0 and 2 of a byte, and of 1 and 3.
+    const auto pairs = hn::Set(d, uint8_t{0x33}), others = hn::Set(d, uint8_t{0xcc});
+    const auto a = load(0), b = load(1);
+    const auto even = hn::Or(hn::And(a, pairs), hn::And(hn::ShiftLeft<2>(b), others));
+    const auto odd = hn::Or(hn::And(hn::ShiftRight<2>(a), pairs), hn::And(b, others));
+    const auto p0 = low_nibbles(even), p1 = low_nibbles(odd), p2 = high_nibbles(even),
+               p3 = high_nibbles(odd);
+    sum = hn::Add(hn::Add(counts_of(p0), counts_of(p1)), hn::Add(counts_of(p2), counts_of(p3)));
+    hn::StoreInterleaved4(look_up(tables.short_greys, p0), look_up(tables.short_greys, p1),
+                          look_up(tables.short_greys, p2), look_up(tables.short_greys, p3), d, out);
   } else if constexpr (k == 4) {
-    // Two rows have at most 8 samples in a nibble, four have 16.
-    const auto a = hn::Add(counts_of_groups<4>(load(0)), counts_of_groups<4>(load(1)));
-    const auto b = hn::Add(counts_of_groups<4>(load(2)), counts_of_groups<4>(load(3)));
-    const auto first = hn::Add(low(a), low(b)), second = hn::Add(high(a), high(b));
+    auto first = counts_of(low_nibbles(load(0))), second = counts_of(high_nibbles(load(0)));
+    for (size_t row = 1; row < k; ++row) {
+      first = hn::Add(first, counts_of(low_nibbles(load(row))));
+      second = hn::Add(second, counts_of(high_nibbles(load(row))));
+    }
     sum = hn::Add(first, second);
-    hn::StoreInterleaved2(greys_of(first, greys), greys_of(second, greys), d, out);
+    // 16 entries from one sample on; without samples the index is negative and the grey 0.
+    const auto one = hn::Set(d, uint8_t{1}), greys = hn::LoadDup128(d, tables.short_greys);
+    hn::StoreInterleaved2(hn::TableLookupBytesOr0(greys, hn::Sub(first, one)),
+                          hn::TableLookupBytesOr0(greys, hn::Sub(second, one)), d, out);
   } else {
-    sum = counts_of_groups<8>(load(0));
-    for (size_t row = 1; row < k; ++row) sum = hn::Add(sum, counts_of_groups<8>(load(row)));
+    sum = hn::Zero(d);
+    for (size_t row = 0; row < k; ++row)
+      sum = hn::Add(sum,
+                    hn::Add(counts_of(low_nibbles(load(row))), counts_of(high_nibbles(load(row)))));
     HWY_ALIGN uint8_t counts[max_lanes];
     hn::Store(sum, d, counts);
     if constexpr (k == 8)
-      for (size_t i = 0; i < hn::Lanes(d); ++i) out[i] = greys[counts[i]];
+      for (size_t i = 0; i < hn::Lanes(d); ++i) out[i] = tables.greys[counts[i]];
     else
       for (size_t i = 0; i + 1 < hn::Lanes(d); i += 2)
-        out[i / 2] = greys[counts[i] + counts[i + 1]];
+        out[i / 2] = tables.greys[counts[i] + counts[i + 1]];
   }
-  inside += hn::GetLane(hn::SumOfLanes(hn::Repartition<uint64_t, Bytes>(), hn::SumsOf8(sum)));
+  inside = hn::Add(inside, hn::SumsOf8(sum));
 }
 
 template <unsigned k>
 uint64_t write_row(const uint8_t* rows, size_t row_bytes, const uint8_t* greys, uint8_t* out,
                    size_t out_bytes) {
   const size_t lanes = hn::Lanes(Bytes());
-  uint64_t inside = 0;
+  const Tables tables(k, greys);
+  auto inside = hn::Zero(Sums());
   size_t at = 0, written = 0;
   for (; at + lanes <= row_bytes && written + lanes * 8 / k <= out_bytes;
        at += lanes, written += lanes * 8 / k)
-    write_block<k>(rows + at, row_bytes, greys, out + written, inside);
+    write_block<k>(rows + at, row_bytes, tables, out + written, inside);
   for (; at < row_bytes; at += lanes) {
     uint8_t last[k * max_lanes] = {}, pixels[max_lanes * 8 / k];
     for (size_t row = 0; row < k; ++row)
       std::memcpy(last + row * max_lanes, rows + row * row_bytes + at,
                   std::min(lanes, row_bytes - at));
-    write_block<k>(last, max_lanes, greys, pixels, inside);
+    write_block<k>(last, max_lanes, tables, pixels, inside);
     const size_t fit = std::min(lanes * 8 / k, out_bytes - written);
     std::memcpy(out + written, pixels, fit);
     written += fit;
   }
   std::memset(out + written, 0, out_bytes - written);
-  return inside;
+  return hn::GetLane(hn::SumOfLanes(Sums(), inside));
 }
 
 #endif

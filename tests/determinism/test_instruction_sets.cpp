@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layers of a model are the same bytes whichever vector instructions draw them.
+// The layers of a model, bits and greys, are the same bytes whichever vector instructions draw
+// them.
 #include <hwy/highway.h>
 #include <cstring>
 
@@ -40,13 +41,22 @@ WaveDirections waves_of(uint32_t count) {
   return directions;
 }
 
-uint64_t hash_of(const std::function<Ref<const Structure>(Ref<Context>)>& make) {
+using Make = std::function<Ref<const Structure>(Ref<Context>)>;
+
+/// Of a sphere of a structure. `grey`: samples of a pixel along an axis; 0: bits.
+uint64_t hash_of(const Make& make, unsigned grey = 0) {
   const Ref<Context> context = make_ref<Context>(2u, uint64_t{1} << 28, uint64_t{0});
   const Ref<Model> model = make_ref<Model>(context, make_ref<SphereShape>(Vec3{0.5, 0.5, 0.5}, 1.0),
                                            std::vector<Ref<const Structure>>{make(context)});
   SlicePlan plan;
   plan.pitch[0] = plan.pitch[1] = 0.011;
   plan.layer_height = 0.02;
+  if (grey > 0) {  // several vectors of pixels, and a part of one
+    plan.outputs[0].format = LayerFormat::grey;
+    plan.outputs[0].grey = {grey, 0.7, 20};
+    plan.pitch[0] = plan.pitch[1] = 2.0 / 1237;
+    plan.window = {{17, 600, 40}, {1203, 9, 12}};
+  }
   const Slicer slicer(Ref<const Model>(model.get()), plan);
   uint64_t hash = 0, count = 0;
   const auto take = [&](const Layer& layer) {
@@ -61,8 +71,33 @@ uint64_t hash_of(const std::function<Ref<const Structure>(Ref<Context>)>& make) 
   return hash;
 }
 
+std::vector<int64_t> all_targets() {
+  std::vector<int64_t> targets;
+  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1)
+    targets.push_back(all & -all);
+  return targets;
+}
+
+void all_instruction_sets_give_the_same_greys(void**) {
+  const Make gyroid = [](Ref<Context>) {
+    return make_ref<Functional>(turned(), parse_expression(preset_expressions[0], {}),
+                                FunctionalKind::sheet, Parameter(0.2), 0);
+  };
+  for (const unsigned samples : {2u, 4u, 8u, 16u}) {
+    const uint64_t expected = hash_of(gyroid, samples);
+    for (const int64_t target : all_targets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      const uint64_t hash = hash_of(gyroid, samples);
+      hwy::SetSupportedTargetsForTest(0);
+      if (hash != expected)
+        fail_msg("other greys of %u x %u samples with %s", samples, samples,
+                 hwy::TargetName(target));
+    }
+  }
+}
+
 void all_instruction_sets_give_the_same_layers(void**) {
-  const std::function<Ref<const Structure>(Ref<Context>)> structures[] = {
+  const Make structures[] = {
       [](Ref<Context>) { return make_ref<Lattice>(turned(), octet_unit_cell(), Parameter(0.02)); },
       [](Ref<Context>) {
         const Ref<const Field> field =
@@ -132,10 +167,8 @@ void all_instruction_sets_give_the_same_layers(void**) {
                                WavesKind::sheet, Parameter(field));
       },
   };
-  std::vector<int64_t> targets;
-  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1)
-    targets.push_back(all & -all);
-  for (const auto& make : structures) {
+  const std::vector<int64_t> targets = all_targets();
+  for (const Make& make : structures) {
     const uint64_t expected = hash_of(make);
     for (const int64_t target : targets) {
       hwy::SetSupportedTargetsForTest(target);
@@ -151,6 +184,7 @@ void all_instruction_sets_give_the_same_layers(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(all_instruction_sets_give_the_same_layers)};
+  const CMUnitTest tests[] = {cmocka_unit_test(all_instruction_sets_give_the_same_layers),
+                              cmocka_unit_test(all_instruction_sets_give_the_same_greys)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
