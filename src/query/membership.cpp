@@ -71,6 +71,15 @@ uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, con
 
 namespace {
 
+/// Rows of a block, tightly packed in memory of their own.
+RowBlock copy_of(const RowBlock& block, uint64_t* words) {
+  RowBlock copy = block;
+  copy.words = words;
+  copy.row_stride = block.row_words();
+  copy.layer_stride = copy.row_stride * block.rows();
+  return copy;
+}
+
 /// All rows of a slab of layers, tightly packed.
 RowBlock slab_of(const SampleGrid& grid, uint64_t z0, uint64_t z1, uint64_t* words) {
   RowBlock slab;
@@ -108,12 +117,12 @@ bool has_samples(const RowBlock& block) {
 
 /// Tiles of the rows of a block, one after the other in the order of a slab's.
 template <class Visit>
-void for_each_tile(const Model& model, const Scales& scales, const RowBlock& block, const Job* job,
-                   Visit&& visit) {
+void for_each_tile(const Model& model, const Scales& scales, const RowBlock& block,
+                   const Executor& executor, const Job* job, Visit&& visit) {
   const uint64_t rows = rows_of_tile(model, scales, *block.grid, block.layers());
   const uint64_t across = (block.rows() + rows - 1) / rows;
   const uint64_t deep = (block.layers() + tile_layers - 1) / tile_layers;
-  model.executor().for_each(across * deep, [&](uint64_t n) {
+  executor.for_each(across * deep, [&](uint64_t n) {
     check_cancelled(job);
     RowBlock tile = block;
     tile.y0 = block.y0 + n % across * rows;
@@ -127,17 +136,16 @@ void for_each_tile(const Model& model, const Scales& scales, const RowBlock& blo
 
 /// The samples of each region that no region before it has are filled by themselves, in the rows
 /// that meet its box.
-void fill_regions(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
-                  uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts) {
-  const uint64_t size = words_for(grid.nx) * grid.ny * (z1 - z0);
-  const Executor& executor = model.executor();
+void fill_regions(const Model& model, const Scales& resolved, const RowBlock& block,
+                  const Executor& executor, const Job* job, QueryCounts* counts) {
+  const uint64_t size = block.row_words() * block.rows() * block.layers();
   std::vector<uint64_t> taken_words(size), own_words(size);
-  std::fill_n(words, size, 0);
-  const RowBlock slab = slab_of(grid, z0, z1, words);
-  const RowBlock taken = slab_of(grid, z0, z1, taken_words.data());
-  const RowBlock own = slab_of(grid, z0, z1, own_words.data());
+  for (uint64_t k = block.z0; k < block.z1; ++k)
+    std::fill_n(block.row(block.y0, k), block.rows() * block.row_stride, 0);
+  const RowBlock taken = copy_of(block, taken_words.data());
+  const RowBlock own = copy_of(block, own_words.data());
   if (counts) {
-    const uint64_t points = grid.nx * grid.ny * (z1 - z0);
+    const uint64_t points = block.grid->nx * block.rows() * block.layers();
     counts->points += points;
     counts->by_shape += points;
   }
@@ -148,23 +156,23 @@ void fill_regions(const Model& model, const Scales& resolved, const SampleGrid& 
     if (!clip_to_box(own, region.bounds(), rows)) continue;
     executor.for_each(rows.layers(), [&](uint64_t layer) {
       check_cancelled(job);
-      RowBlock block = rows;
-      block.z0 = rows.z0 + layer;
-      block.z1 = block.z0 + 1;
-      block.words = rows.row(rows.y0, block.z0);
-      std::fill_n(block.words, block.rows() * block.row_stride, 0);
-      region.shape().fill_rows(block);
-      for (uint64_t j = block.y0; j < block.y1; ++j) {
-        uint64_t* found = block.row(j, block.z0);
-        uint64_t* before = taken.row(j, block.z0);
-        for (size_t w = 0; w < block.row_stride; ++w) {
+      RowBlock part = rows;
+      part.z0 = rows.z0 + layer;
+      part.z1 = part.z0 + 1;
+      part.words = rows.row(rows.y0, part.z0);
+      std::fill_n(part.words, part.rows() * part.row_stride, 0);
+      region.shape().fill_rows(part);
+      for (uint64_t j = part.y0; j < part.y1; ++j) {
+        uint64_t* found = part.row(j, part.z0);
+        uint64_t* before = taken.row(j, part.z0);
+        for (size_t w = 0; w < part.row_stride; ++w) {
           const uint64_t in_shape = found[w];
           found[w] &= ~before[w];
           before[w] |= in_shape;
         }
       }
     });
-    for_each_tile(model, scales, rows, job, [&](const RowBlock& tile) {
+    for_each_tile(model, scales, rows, executor, job, [&](const RowBlock& tile) {
       if (!has_samples(tile)) return;
       if (counts && !scales.empty()) counts->by_shape -= samples_of(tile);
       for (const Scale* scale : scales) {
@@ -173,7 +181,7 @@ void fill_regions(const Model& model, const Scales& resolved, const SampleGrid& 
       }
       for (uint64_t k = tile.z0; k < tile.z1; ++k)
         for (uint64_t j = tile.y0; j < tile.y1; ++j) {
-          uint64_t* row = slab.row(j, k);
+          uint64_t* row = block.row(j, k);
           const uint64_t* kept = tile.row(j, k);
           for (size_t w = 0; w < tile.row_stride; ++w) row[w] |= kept[w];
         }
@@ -185,12 +193,12 @@ void fill_regions(const Model& model, const Scales& resolved, const SampleGrid& 
 
 void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
                uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts) {
-  if (!model.regions().empty()) {
-    model.prepare_skins(resolved, job);
-    return fill_regions(model, resolved, grid, z0, z1, words, job, counts);
-  }
   const RowBlock slab = slab_of(grid, z0, z1, words);
   const Executor& executor = model.executor();
+  if (!model.regions().empty()) {
+    model.prepare_skins(resolved, job);
+    return fill_regions(model, resolved, slab, executor, job, counts);
+  }
 
   model.prepare_skins(resolved, job);
   executor.for_each(z1 - z0, [&](uint64_t layer) {
@@ -211,7 +219,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
 
   // In the same order in each slab: what two slabs share is then found again after as many cells as
   // one slab is high, which the cache must hold at least (docs/benchmarks.md).
-  for_each_tile(model, resolved, slab, job, [&](const RowBlock& block) {
+  for_each_tile(model, resolved, slab, executor, job, [&](const RowBlock& block) {
     for (const Scale* scale : resolved) {
       if (const uint64_t living = counts ? samples_of(block) : 0) counts->add_group(living);
       scale->keep_rows(block, job);
@@ -222,6 +230,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
 void fill_rows_of_slab(const Model& model, const Scales& resolved, const SampleGrid& grid,
                        uint64_t z0, uint64_t z1, uint64_t y0, uint64_t y1, uint64_t* words,
                        const Job* job) {
+  const Executor this_thread(1);
   for (uint64_t begin = z0; begin < z1; begin += tile_layers) {
     RowBlock tile = slab_of(grid, z0, z1, words);
     tile.words = tile.row(y0, begin);
@@ -229,6 +238,10 @@ void fill_rows_of_slab(const Model& model, const Scales& resolved, const SampleG
     tile.y1 = y1;
     tile.z0 = begin;
     tile.z1 = std::min(z1, begin + tile_layers);
+    if (!model.regions().empty()) {
+      fill_regions(model, resolved, tile, this_thread, job, nullptr);
+      continue;
+    }
     for (uint64_t k = tile.z0; k < tile.z1; ++k) {
       RowBlock layer = tile;
       layer.words = tile.row(y0, k);

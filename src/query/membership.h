@@ -18,8 +18,8 @@ namespace msq {
 void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
                uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts = nullptr);
 
-/// The same of rows [y0, y1) of the layers alone, of a model of one region, on the calling thread.
-/// `words` are those of whole layers. The model's skins are prepared.
+/// The same of rows [y0, y1) of the layers alone, on the calling thread. `words` are those of whole
+/// layers. The model's skins are prepared.
 void fill_rows_of_slab(const Model& model, const Scales& resolved, const SampleGrid& grid,
                        uint64_t z0, uint64_t z1, uint64_t y0, uint64_t y1, uint64_t* words,
                        const Job* job);

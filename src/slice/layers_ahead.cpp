@@ -92,10 +92,6 @@ LayersAhead::~LayersAhead() {
   model_.context().remove_spare(*this);
 }
 
-bool LayersAhead::pays(const Model& model, const Scales& resolved) {
-  return model.regions().empty() && !resolved.empty();
-}
-
 bool LayersAhead::take(uint64_t layer, uint64_t* words, const Job* job) {
   const BlockRef block = block_for(layer);
   if (!block) return false;

@@ -43,8 +43,7 @@ class LayersAhead final : public SpareMemory {
   ~LayersAhead() override;
 
   /// Whether single layers of a model cost more than those of a slab, as they do with structures.
-  /// Not of regions, which are not filled in parts.
-  static bool pays(const Model& model, const Scales& resolved);
+  static bool pays(const Scales& resolved) { return !resolved.empty(); }
 
   /// Writes the bits of a layer, as fill_slab() does. Returns false if the layer is to be filled by
   /// itself.

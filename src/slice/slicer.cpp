@@ -92,7 +92,7 @@ Slicer::Slicer(Ref<const Model> model, SlicePlan plan)
                 "the region");
   plan_slabs();
   const size_t samples = outputs_.front().samples;
-  if (samples != no_samples && slab_layers_ > 1 && LayersAhead::pays(*framed_, framed_resolved_))
+  if (samples != no_samples && slab_layers_ > 1 && LayersAhead::pays(framed_resolved_))
     ahead_ =
         std::make_unique<LayersAhead>(*framed_, framed_resolved_, samples_[samples], slab_layers_);
 }

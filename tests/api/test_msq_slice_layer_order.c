@@ -40,6 +40,20 @@ static msq_model* make_rich_model(msq_context* context) {
   return model;
 }
 
+/* Where both have points, the one above goes first. */
+static msq_model* make_region_model(msq_context* context) {
+  const double low[3] = {0, 1.9, 0.3}, high[3] = {4, 4, 3.1};
+  msq_shape* box;
+  msq_model *model, *made[2];
+  assert_ok(msq_shape_from_box(context, low, high, &box));
+  made[0] = make_model(context, box, make_lattice_of(context, MSQ_UNIT_CELL_BCC, 0.7, 0.1), NULL);
+  made[1] = make_rich_model(context);
+  const msq_model* regions[2] = {made[0], made[1]};
+  assert_ok(msq_model_regions(context, regions, 2, &model));
+  for (int r = 0; r < 2; ++r) msq_model_release(made[r]);
+  return model;
+}
+
 typedef struct asker {
   const msq_slicer* slicer;
   const layer_stack* wanted;
@@ -90,15 +104,14 @@ static void ask_by_threads(const msq_slicer* slicer, const layer_stack* wanted, 
   }
 }
 
-static void any_order_has_the_bytes_of_a_run(void** state) {
+static void expect_bytes_in_any_order(msq_model* (*make)(msq_context*)) {
   const int32_t outputs[] = {MSQ_LAYER_BITS, MSQ_LAYER_GREY};
   const uint32_t threads[] = {1, 2}, slabs[] = {0, 1, 7};
-  (void)state;
   for (int t = 0; t < 2; ++t)
     for (int o = 0; o < 2; ++o)
       for (int s = 0; s < 3; ++s) {
         msq_context* context = make_context_of(threads[t], 1 << 26, 0);
-        msq_model* model = make_rich_model(context);
+        msq_model* model = make(context);
         msq_slicer* slicer = slicer_of(model, outputs[o], slabs[s]);
         layer_stack wanted = make_stack(slicer, outputs[o], 0, layers);
         assert_ok(msq_slicer_run(slicer, 0, UINT64_MAX, take_layer, &wanted, NULL));
@@ -124,6 +137,16 @@ static void any_order_has_the_bytes_of_a_run(void** state) {
         msq_model_release(model);
         msq_context_release(context);
       }
+}
+
+static void any_order_has_the_bytes_of_a_run(void** state) {
+  (void)state;
+  expect_bytes_in_any_order(make_rich_model);
+}
+
+static void any_order_of_regions_has_the_bytes_of_a_run(void** state) {
+  (void)state;
+  expect_bytes_in_any_order(make_region_model);
 }
 
 /* Asks for `count` layers from `first` on. */
@@ -214,15 +237,34 @@ static msq_model* make_host_model(msq_context* context, host_user* user) {
   return make_model(context, make_box(context), structure, NULL);
 }
 
-static void failures_leave_the_rest(void** state) {
+/* Structures of the host in two regions, of which the first leaves some samples of its rows. */
+static msq_model* make_host_regions(msq_context* context, host_user* user) {
+  const double low[3] = {0.7, 1.2, 0}, high[3] = {4, 2.6, 4};
+  msq_shape* box;
+  msq_model *model, *made[2];
+  msq_host_structure_def def;
+  msq_structure* structure;
+  made[0] = make_host_model(context, user);
+  assert_ok(msq_host_structure_def_init(&def, sizeof def));
+  def.inside = inside;
+  def.user = user;
+  assert_ok(msq_structure_host(context, &def, &structure));
+  assert_ok(msq_shape_from_box(context, low, high, &box));
+  made[1] = make_model(context, box, structure, NULL);
+  const msq_model* regions[2] = {made[1], made[0]};
+  assert_ok(msq_model_regions(context, regions, 2, &model));
+  for (int r = 0; r < 2; ++r) msq_model_release(made[r]);
+  return model;
+}
+
+static void expect_failures_leave_the_rest(msq_model* (*make)(msq_context*, host_user*)) {
   msq_context* context = make_context_of(2, 1 << 20, 0);
   host_user user;
-  msq_model* model = make_host_model(context, &user);
+  msq_model* model = make(context, &user);
   msq_slicer* slicer = slicer_of(model, MSQ_LAYER_BITS, 16);
   layer_stack wanted = run_all(slicer, MSQ_LAYER_BITS);
   const uint64_t bytes = wanted.plan.layer_bytes;
   uint8_t layer[8 * 1024], untouched_layer[8 * 1024];
-  (void)state;
   memset(untouched_layer, struct_pattern, sizeof untouched_layer);
   for (uint64_t fail_at = 1; fail_at < 200; fail_at += 7) {
     uint64_t failed = 0;
@@ -268,11 +310,22 @@ static void failures_leave_the_rest(void** state) {
   msq_context_release(context);
 }
 
-/* How many points of a host's structure are evaluated, of those of the layers that are asked. */
-static double points_per_layer(uint64_t first, uint64_t step, uint64_t count) {
+static void failures_leave_the_rest(void** state) {
+  (void)state;
+  expect_failures_leave_the_rest(make_host_model);
+}
+
+static void failures_in_regions_leave_the_rest(void** state) {
+  (void)state;
+  expect_failures_leave_the_rest(make_host_regions);
+}
+
+/* How many points of a host's structures are evaluated, of those of the layers that are asked. */
+static double points_per_layer(msq_model* (*make)(msq_context*, host_user*), uint64_t first,
+                               uint64_t step, uint64_t count) {
   msq_context* context = make_context_of(1, 1 << 20, 0);
   host_user user;
-  msq_model* model = make_host_model(context, &user);
+  msq_model* model = make(context, &user);
   msq_slicer* slicer = slicer_of(model, MSQ_LAYER_BITS, 16);
   user.points = 0;
   for (uint64_t i = 0; i < count; ++i) ask(slicer, first + i * step, 1);
@@ -283,20 +336,34 @@ static double points_per_layer(uint64_t first, uint64_t step, uint64_t count) {
   return points;
 }
 
+static void expect_little_in_vain(msq_model* (*make)(msq_context*, host_user*)) {
+  assert_near(points_per_layer(make, 0, 1, layers), 1, 1e-9); /* all, once */
+  assert_near(points_per_layer(make, 3, 2, 20), 1, 1e-9);     /* none follows another */
+  /* The second layer begins a block of two, whose other layer nobody asks for. */
+  assert_near(points_per_layer(make, 10, 1, 2), 1.5, 1e-9);
+  for (uint64_t count = 3; count < 50; ++count)
+    assert_true(points_per_layer(make, 5, 1, count) < 2);
+}
+
 static void little_is_filled_in_vain(void** state) {
   (void)state;
-  assert_near(points_per_layer(0, 1, layers), 1, 1e-9); /* all, once */
-  assert_near(points_per_layer(3, 2, 20), 1, 1e-9);     /* none follows another */
-  assert_in_range(points_per_layer(10, 1, 2) * 1000, 1000, 1501);
-  for (uint64_t count = 3; count < 50; ++count) assert_true(points_per_layer(5, 1, count) < 2);
+  expect_little_in_vain(make_host_model);
+}
+
+static void little_of_regions_is_filled_in_vain(void** state) {
+  (void)state;
+  expect_little_in_vain(make_host_regions);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(any_order_has_the_bytes_of_a_run),
+      cmocka_unit_test(any_order_of_regions_has_the_bytes_of_a_run),
       cmocka_unit_test(layers_ahead_take_two_slabs_and_give_way),
       cmocka_unit_test(failures_leave_the_rest),
+      cmocka_unit_test(failures_in_regions_leave_the_rest),
       cmocka_unit_test(little_is_filled_in_vain),
+      cmocka_unit_test(little_of_regions_is_filled_in_vain),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
