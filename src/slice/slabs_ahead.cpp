@@ -14,6 +14,11 @@ uint64_t rows_of_pixel(const SampleGrid& grid, const SlabsAhead::Bands& bands) {
   return grid.ny / bands.rows;
 }
 
+/// A single thread fills one slab, whose memory its caches then hold, when it is needed.
+bool fills_ahead(const Model& model) {
+  return model.executor().threads() > 1;
+}
+
 }  // namespace
 
 SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
@@ -28,14 +33,17 @@ SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
       bands_(bands),
       piece_{first, first + depth.first},
       layer_(first),
+      job_(job),
+      is_ahead_(fills_ahead(model)),
       ahead_job_(job) {
   if (grids_.empty()) return;
   const bool is_one_slab = depth.others == last - first && bands.count() == 1;
   for (const SampleGrid& grid : grids_) {
     const uint64_t words = words_for(grid.nx) * rows_of_pixel(grid, bands) * bands.band_rows;
     layer_words_.push_back(words);
-    current_.emplace_back((is_one_slab ? depth.first : depth.others) * words);
-    next_.emplace_back((is_one_slab ? depth.others - depth.first : depth.others) * words);
+    current_.emplace_back((is_one_slab && is_ahead_ ? depth.first : depth.others) * words);
+    if (is_ahead_)
+      next_.emplace_back((is_one_slab ? depth.others - depth.first : depth.others) * words);
   }
   fill(piece_, current_, job);
   start_next();
@@ -52,7 +60,8 @@ uint64_t SlabsAhead::bytes(const Model& model, const Scales& resolved,
   uint64_t words = 0, scratch = 0;
   for (const SampleGrid& grid : grids) {
     const SampleGrid band = rows_of(grid, 0, rows_of_pixel(grid, bands) * bands.band_rows);
-    words += (is_one_slab ? 1 : 2) * depth.others * words_for(band.nx) * band.ny;
+    words +=
+        (is_one_slab || !fills_ahead(model) ? 1 : 2) * depth.others * words_for(band.nx) * band.ny;
     for (const uint64_t filled : {depth.first, depth.others})
       scratch = std::max(scratch, fill_slab_scratch_words(model, resolved, band, filled));
   }
@@ -77,6 +86,7 @@ SlabsAhead::Piece SlabsAhead::after(const Piece& piece) const {
 }
 
 void SlabsAhead::start_next() {
+  if (!is_ahead_) return;
   const Piece next = after(piece_);
   if (next.begin == last_) return;
   ahead_.emplace(model_.executor(), [this, next] {
@@ -88,10 +98,14 @@ void SlabsAhead::start_next() {
 void SlabsAhead::go_to(uint64_t layer, uint64_t band) {
   if (grids_.empty()) return;
   if (layer == piece_.end || band != piece_.band) {
-    ahead_->wait();
-    ahead_.reset();
-    std::swap(current_, next_);
     piece_ = after(piece_);
+    if (is_ahead_) {
+      ahead_->wait();
+      ahead_.reset();
+      std::swap(current_, next_);
+    } else {
+      fill(piece_, current_, job_);
+    }
     start_next();
   }
   layer_ = layer;

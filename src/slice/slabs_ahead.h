@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bits of layers, slab by slab in ascending order. While the caller uses the layers of a slab,
-// workers fill the next one. Where a slab of one layer is still too large, bands of its rows follow
-// each other in the same way. Source: paper, section "Slicing".
+// workers fill the next one; a single thread fills each when it is needed. Where a slab of one
+// layer is still too large, bands of its rows follow each other in the same way. Source: paper,
+// section "Slicing".
 #pragma once
 
 #include <algorithm>
@@ -32,8 +33,8 @@ class SlabsAhead {
     uint64_t end(uint64_t band) const { return std::min(rows, (band + 1) * band_rows); }
   };
 
-  /// Memory for a run of so many layers: two slabs or bands and what filling them takes. The caller
-  /// reserves it.
+  /// Memory for a run of so many layers: two slabs or bands, of a single thread one, and what
+  /// filling them takes. The caller reserves it.
   static uint64_t bytes(const Model& model, const Scales& resolved,
                         const std::vector<SampleGrid>& grids, Depth depth, Bands bands,
                         uint64_t layers);
@@ -73,6 +74,8 @@ class SlabsAhead {
   Slab current_, next_;
   Piece piece_;  // the current one
   uint64_t layer_;
+  const Job* const job_;
+  const bool is_ahead_;
   Job ahead_job_;  // stops the slab ahead when the caller ends early
   std::optional<Executor::Task> ahead_;
 };

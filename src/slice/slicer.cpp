@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/borrowed.h"
 #include "base/checked.h"
 #include "query/membership.h"
 #include "query/reach.h"
@@ -56,6 +57,23 @@ uint64_t room_in(const Context& context) {
   const uint64_t held = context.budget->held(), cached = context.cache.counters().bytes;
   return limit - std::min(limit, held - std::min(held, cached));
 }
+
+/// Memory of one layer or a part of it. A small one is borrowed: to get fresh pages for each layer
+/// takes about as long as to fill it.
+template <class T>
+class LayerMemory {
+ public:
+  T* of(size_t count) {
+    std::vector<T>& from = count * sizeof(T) <= max_borrowed ? *borrowed_ : own_;
+    if (from.size() < count) from.resize(count);
+    return from.data();
+  }
+
+ private:
+  static constexpr size_t max_borrowed = size_t{4} << 20;  // for each thread of the host
+  const Borrowed<std::vector<T>> borrowed_;
+  std::vector<T> own_;
+};
 
 /// Whether slabs are as deep as memory allows.
 bool gains_by_layers(const Scale& scale) {
@@ -372,24 +390,27 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
            (is_beside(rows) ? layer_bytes(0) : 0);
   };
   const std::shared_ptr<MemoryBudget>& budget = model_->context().budget;
-  const uint64_t band = band_rows(
-      std::max(layer_bytes(0), std::min(automatic_slab_bytes, slab_share(budget->limit()))),
-      bytes_of);
+  uint64_t most =
+      std::max(layer_bytes(0), std::min(automatic_slab_bytes, slab_share(budget->limit())));
+  if (is_shallow() && output.pixels->samples_across() > 1)
+    most = std::min(most, near_band_bytes * model_->executor().threads());
+  const uint64_t band = band_rows(most, bytes_of);
   const Reservation reservation(budget, bytes_of(band), "a layer");
-  std::vector<uint64_t> words(samples ? words_for(samples->nx) * sample_rows(0, band).ny : 0);
+  LayerMemory<uint64_t> word_memory;
+  LayerMemory<uint8_t> byte_memory;
+  uint64_t* const words =
+      samples ? word_memory.of(words_for(samples->nx) * sample_rows(0, band).ny) : nullptr;
   std::vector<uint8_t> plain(plain_bytes(output, band));
-  std::vector<uint8_t> bytes(is_beside(band) ? layer_bytes(0) : 0);
+  uint8_t* const bytes = is_beside(band) ? byte_memory.of(layer_bytes(0)) : out;
   const bool is_ahead = samples && band == grid_.ny && ahead_;
   for (uint64_t begin = 0; begin < grid_.ny; begin += band) {
     check_cancelled(job);
     const uint64_t end = std::min(grid_.ny, begin + band);
-    if (samples && !(is_ahead && ahead_->take(index, words.data(), job)))
-      fill_slab(*framed_, framed_resolved_, sample_rows(begin, end), index, index + 1, words.data(),
-                job);
-    write(output, index, begin, end, words.data(), plain.data(), bytes.empty() ? out : bytes.data(),
-          job);
+    if (samples && !(is_ahead && ahead_->take(index, words, job)))
+      fill_slab(*framed_, framed_resolved_, sample_rows(begin, end), index, index + 1, words, job);
+    write(output, index, begin, end, words, plain.data(), bytes, job);
   }
-  if (!bytes.empty()) std::memcpy(out, bytes.data(), bytes.size());
+  if (bytes != out) std::memcpy(out, bytes, layer_bytes(0));
   scope.done();
 }
 
