@@ -96,6 +96,16 @@ int main(int argc, char** argv) {
   blend("BCC to gyroid", bcc, gyroid);
   blend("foam to BCC", foam, bcc);
   blend("foam to gyroid", foam, gyroid);
+  const msq_param radius = {0.2, nullptr};
+  const auto smooth = [&](const char* name, int32_t operation, const msq_structure* a,
+                          const msq_structure* b) {
+    msq_structure* made;
+    bench::check(msq_structure_smooth_boolean(operation, a, b, &radius, &made));
+    measure(name, made, blend_layers);
+  };
+  smooth("BCC or gyroid, fillets", MSQ_BOOLEAN_UNION, bcc, gyroid);
+  smooth("BCC without gyroid, fillets", MSQ_BOOLEAN_DIFFERENCE, bcc, gyroid);
+  smooth("foam or gyroid, fillets", MSQ_BOOLEAN_UNION, foam, gyroid);
   msq_field_release(field);
   msq_structure_release(foam);
   msq_structure_release(gyroid);

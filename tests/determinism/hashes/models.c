@@ -183,6 +183,15 @@ static msq_model* foam_to_gyroid(Kit* kit) {
   return filled(kit, box(kit), blended(kit, struts, surface, gradient(kit, 0, 1)));
 }
 
+static msq_model* smooth(Kit* kit) {
+  const msq_foam_def foam_of = foam_def(4, number(0.5));
+  const msq_lattice_def lattice_of = lattice_def(MSQ_UNIT_CELL_BCC, 5, number(0.6));
+  const msq_structure* const struts = foam(kit, &foam_of);
+  return filled(
+      kit, box(kit),
+      filleted(kit, MSQ_BOOLEAN_UNION, struts, lattice(kit, &lattice_of), gradient(kit, 0, 2)));
+}
+
 static msq_model* nested(Kit* kit) {
   const msq_lattice_def coarse = lattice_def(MSQ_UNIT_CELL_OCTET, 9, number(1.4));
   const msq_foam_def fine = foam_def(1.5, number(0.25));
@@ -236,6 +245,7 @@ static const struct {
     {"cut", cut},
     {"regions", regions},
     {"waves", spinodal},
+    {"foam-and-lattice-smooth", smooth},
 };
 
 const char* model_name(int i) {

@@ -5,7 +5,7 @@
 
 #include <msq.h>
 
-enum { model_count = 26 };
+enum { model_count = 27 };
 
 /** One word. */
 const char* model_name(int i);

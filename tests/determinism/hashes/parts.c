@@ -295,3 +295,10 @@ const msq_structure* blended(Kit* kit, const msq_structure* a, const msq_structu
   must(msq_structure_blend(a, b, &fraction, &structure));
   return keep_structure(kit, structure);
 }
+
+const msq_structure* filleted(Kit* kit, int32_t operation, const msq_structure* a,
+                              const msq_structure* b, msq_param radius) {
+  msq_structure* structure;
+  must(msq_structure_smooth_boolean(operation, a, b, &radius, &structure));
+  return keep_structure(kit, structure);
+}

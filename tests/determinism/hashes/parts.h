@@ -62,6 +62,8 @@ const msq_structure* waves(Kit* kit);
 /* operation: an msq_boolean_operation. */
 const msq_structure* joined(Kit* kit, int32_t operation, const msq_structure* a,
                             const msq_structure* b);
+const msq_structure* filleted(Kit* kit, int32_t operation, const msq_structure* a,
+                              const msq_structure* b, msq_param radius);
 const msq_structure* blended(Kit* kit, const msq_structure* a, const msq_structure* b,
                              msq_param fraction);
 
