@@ -1736,12 +1736,13 @@ MSQ_API msq_status msq_structure_host_function(msq_context* context,
  * its own grid or on none. They may be of any kind, also made of structures themselves.
  *
  * The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no
- * onset, struts and thin walls: ask the structures themselves. Distance: of a union the smallest of
- * their signed distances, exact outside if theirs are, a bound inside; of an intersection the
- * largest, a bound; of a difference as of an intersection with complements. The limit on cells
- * (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs.
- * Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than
- * 4096 structures in total, counted with repetition), MEMORY. */
+ * thin walls: ask the structures themselves. Unions of structures with struts have struts, and an
+ * onset if all of them have one (msq_structure_struts, msq_set_onset). Distance: of a union the
+ * smallest of their signed distances, exact outside if theirs are, a bound inside; of an
+ * intersection the largest, a bound; of a difference as of an intersection with complements. The
+ * limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of
+ * theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other;
+ * more than 4096 structures in total, counted with repetition), MEMORY. */
 MSQ_API msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* structures,
                                          uint64_t count, msq_structure** structure);
 
@@ -1856,7 +1857,9 @@ MSQ_API msq_status msq_struts_def_init(msq_struts_def* def, size_t size);
  * Nodes and struts whose ids are made from more than 128 bits have a hash as id; it is taken for
  * unique. Beams: all beams and balls, whose a and b are equal; ends at the same coordinates are one
  * node; id[0] is the index of the beam in the definition, after which balls count on. Foams with
- * struts and walls: the struts.
+ * struts and walls: the struts. Unions: the struts of all members, one member after the other, with
+ * hashes of the members' ids as ids; cell is that of the member. Nodes of two members are never
+ * one, also where they coincide.
  *
  * With a shape, the parts of a strut's centre line whose points are inside the shape come instead,
  * in the order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and
@@ -1870,10 +1873,10 @@ MSQ_API msq_status msq_struts_def_init(msq_struts_def* def, size_t size);
  * not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the
  * cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams,
  * microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around
- * it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone: they
- * have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED,
- * MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams:
- * Aurenhammer 1991. */
+ * it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone, and
+ * structures made of others, except unions of those with struts: they have no struts), LIMIT (a box
+ * beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Source: 3MF Consortium,
+ * "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991. */
 MSQ_API msq_status msq_structure_struts(msq_context* context, const msq_structure* structure,
                                         const msq_struts_def* def, msq_struts_fn callback,
                                         void* user, msq_job* job);
@@ -2246,16 +2249,18 @@ MSQ_API msq_status msq_set_distance(const msq_model* model, const msq_points_def
 enum msq_onset_value {
   /** The onset: the smallest radius or level at which the point is inside. Lattices and foams: the
    * distance to the nearest strut axis in model units, the least over the factors of struts.
-   * Functional structures: the function; waves: the sum; sheets: the magnitude of these. */
+   * Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of
+   * lattices and foams: the least of theirs. */
   MSQ_ONSET_PLAIN = 0,
   /** The onset minus the structure's radius or level at the point: at most 0 inside, positive
-   * outside. */
+   * outside. Unions: the least of these. */
   MSQ_ONSET_SIGNED = 1
 };
 
 /** Writes the onset of a structure, of itself and of no model, at each point of a set. value: an
  * msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size
- * (lattices) or is not a number. onset_count must be the number of points.
+ * (lattices; of unions the smallest limit of the members, for foams the smallest cell size) or is
+ * not a number. onset_count must be the number of points.
  *
  * gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives
  * the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central
@@ -2380,11 +2385,12 @@ typedef struct msq_calibration_report {
  * ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of
  * radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2
  * points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells
- * (foams, waves; with a period, of the smallest size), from the origin of the grid. job NULL: no
- * job. Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16
- * bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset:
- * lattices with two or more unit cells, host structures and functions, beams), CANCELLED, LIMIT
- * (target above max_fraction; memory), MEMORY.
+ * (foams, waves; with a period, of the smallest size; unions: of the grid with the largest cells),
+ * from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices 0.1 us,
+ * foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context. Errors:
+ * ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host structures
+ * and functions, beams, and structures made of others, except unions of lattices and foams),
+ * CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.
  */
 MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_structure* structure,
                                            const msq_points_def* sample, double target,

@@ -27,10 +27,13 @@ StratifiedPoints read_sample(const msq_points_def* sample) {
 }
 
 /// 2 points in each of 64^3 cells of a box of the structure's own cells, from its grid's origin:
-/// one cell where all are alike, otherwise 16^3.
+/// one cell where all are alike, otherwise 16^3. Of several grids that with the largest cells.
 StratifiedPoints usual_sample(const Structure& structure) {
   constexpr uint64_t side = 64;
-  const Neighbourhood& grid = structure.neighbourhood();
+  Neighbourhood grid = structure.neighbourhood();
+  structure.for_each_grid([&](const Neighbourhood& other) {
+    if (max_component(other.cell_size) > max_component(grid.cell_size)) grid = other;
+  });
   Strata strata;
   strata.origin = grid.origin;
   strata.rotation = grid.rotation;
@@ -155,7 +158,9 @@ msq_status msq_structure_calibrate(msq_context* context, const msq_structure* st
     const Structure& known = object(structure, "structure");
     const Ref<const Structure> keep(&known);
     if (!known.has_onset())
-      fail(Status::unsupported, "the structure's kind has no onset, so no curve of it is known");
+      fail(Status::unsupported,
+           "the structure's kind has no onset, so no curve of it is known; of structures made of "
+           "others, unions have one whose members all have struts and an onset");
     const StratifiedPoints points = sample ? read_sample(sample) : usual_sample(known);
     if (!(target >= 0 && target <= 1))
       fail(Status::argument, "target is %g; it must be from 0 to 1", target);

@@ -15,7 +15,10 @@ msq_status msq_set_onset(msq_context* context, const msq_structure* structure,
     Context& owner = object(context, "context");
     const Structure& known = object(structure, "structure");
     const Ref<const Structure> keep(&known);  // callbacks may release the host's last reference
-    if (!known.has_onset()) fail(Status::unsupported, "the structure's kind has no onset");
+    if (!known.has_onset())
+      fail(Status::unsupported,
+           "the structure's kind has no onset; of structures made of others, unions have one whose "
+           "members all have struts and an onset");
     const std::unique_ptr<PointSet> set = read_points(points);
     OnsetPlan plan;
     plan.is_signed =

@@ -14,8 +14,8 @@ namespace {
 
 class Cutter {
  public:
-  Cutter(const Shape& shape, const StrutParts& parts, StrutList& pieces, const Job* job)
-      : shape_(shape), parts_(parts), pieces_(pieces), job_(job) {}
+  Cutter(const Shape& shape, const StrutRadii& radii, StrutList& pieces, const Job* job)
+      : shape_(shape), radii_(radii), pieces_(pieces), job_(job) {}
 
   void cut(const Strut& strut, double factor) {
     const Vec3 ab = strut.b - strut.a;
@@ -96,7 +96,7 @@ class Cutter {
       if (!piece.cut[end]) continue;
       const Vec3 p = point(t);
       (end == 0 ? piece.a : piece.b) = p;
-      piece.radii[end] = parts_.radius_at(*strut_, factor_, t / length_, p);
+      piece.radii[end] = radii_.radius_at(*strut_, factor_, t / length_, p);
       piece.nodes[end] = name(2 * count_ + end);
     }
     if (count_ > 0) piece.id = name(count_ << 1 | uint64_t{1} << 63);
@@ -112,7 +112,7 @@ class Cutter {
   }
 
   const Shape& shape_;
-  const StrutParts& parts_;
+  const StrutRadii& radii_;
   StrutList& pieces_;
   const Job* job_;
   const Strut* strut_ = nullptr;
@@ -123,9 +123,9 @@ class Cutter {
 
 }  // namespace
 
-void cut_struts(const Shape& shape, const StrutParts& parts, const StrutList& list,
+void cut_struts(const Shape& shape, const StrutRadii& radii, const StrutList& list,
                 StrutList& pieces, const Job* job) {
-  Cutter cutter(shape, parts, pieces, job);
+  Cutter cutter(shape, radii, pieces, job);
   JobPoll poll(job);
   for (size_t i = 0; i < list.struts.size(); ++i) {
     poll();

@@ -10,7 +10,7 @@ namespace msq {
 
 /// Appends the pieces of the struts of `list` that are inside the shape, strut by strut from a to
 /// b. The job may be null.
-void cut_struts(const Shape& shape, const StrutParts& parts, const StrutList& list,
+void cut_struts(const Shape& shape, const StrutRadii& radii, const StrutList& list,
                 StrutList& pieces, const Job* job);
 
 }  // namespace msq

@@ -13,7 +13,8 @@ void for_each_strut(const Context& context, const StrutQuery& query, Job* job,
   const std::unique_ptr<StrutParts> parts = query.structure.struts(query.selection);
   if (!parts)
     fail(Status::unsupported,
-         "the structure has no struts; lattices, foams with struts, and beams have");
+         "the structure has no struts; lattices, foams with struts, beams, and unions of these "
+         "have");
   const bool is_concurrent =
       query.structure.is_concurrent() && (!query.shape || query.shape->is_concurrent());
   const Executor& executor = context.executor_for(is_concurrent);
@@ -31,7 +32,7 @@ void for_each_strut(const Context& context, const StrutQuery& query, Job* job,
       parts->append(first + i, slot.found);
       if (!query.shape) return;
       slot.cut.clear();
-      cut_struts(*query.shape, *parts, slot.found, slot.cut, job);
+      cut_struts(*query.shape, parts->radii_of(first + i), slot.found, slot.cut, job);
     });
     for (uint64_t i = 0; i < here; ++i) {
       const std::vector<Strut>& struts = query.shape ? slots[i].cut.struts : slots[i].found.struts;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/infinity.h"
 #include "base/run_parts.h"
 
 namespace msq {
@@ -20,7 +21,11 @@ void count_points(Job* job, uint64_t count) {
 // Of a function whose third derivative is about (2 pi)^3 of a cell, this leaves out 4e-9, and
 // rounding adds 2e-11.
 double gradient_step(const Structure& structure) {
-  return 0x1p-17 * min_component(structure.neighbourhood().cell_size);
+  double smallest = infinity;
+  structure.for_each_grid([&](const Neighbourhood& grid) {
+    smallest = std::min(smallest, min_component(grid.cell_size));
+  });
+  return 0x1p-17 * smallest;
 }
 
 void set_onset(const Structure& structure, const PointSet& points, const OnsetPlan& plan,

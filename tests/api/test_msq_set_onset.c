@@ -153,6 +153,69 @@ static void its_sign_is_membership(void** state) {
   }
 }
 
+/* Of a union of struts: the least of the members' onsets, and the least of their differences from
+ * their own radii, whose sign is the union's membership. */
+static void of_unions_is_the_least(void** state) {
+  const double from[3] = {-7, 0, 0}, to[3] = {7, 0, 0};
+  static double least[2][count], slopes[count][3];
+  static uint8_t inside[count], owner[2][count];
+  const msq_points_def def = array_points();
+  msq_field* radius;
+  msq_foam_def foam_def;
+  const msq_structure* members[2];
+  msq_structure *foam, *both, *more;
+  msq_shape* space;
+  int of_foam = 0, unlike = 0, held = 0, bends = 0;
+  (void)state;
+  assert_ok(msq_field_gradient(context, from, 0.05, to, 0.5, &radius));
+  assert_ok(msq_foam_def_init(&foam_def, sizeof foam_def));
+  foam_def.radius.field = radius;
+  for (int axis = 0; axis < 3; ++axis) foam_def.grid.cell_size[axis] = 3;
+  assert_ok(msq_structure_foam(context, &foam_def, &foam));
+  members[0] = make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 2, 0.15);
+  members[1] = foam;
+  for (int value = 0; value < 2; ++value)
+    for (int m = 0; m < 2; ++m) {
+      ask(members[m], value);
+      for (int i = 0; i < count; ++i)
+        if (m == 0 || onsets[i] < least[value][i]) {
+          least[value][i] = onsets[i];
+          if (value == MSQ_ONSET_PLAIN) memcpy(slopes[i], gradients[i], sizeof slopes[i]);
+          owner[value][i] = (uint8_t)m;
+        }
+    }
+  /* The nearest axis need not be that of the nearest surface: radii differ. */
+  for (int i = 0; i < count; ++i) {
+    of_foam += owner[0][i];
+    unlike += owner[0][i] != owner[1][i];
+  }
+  assert_in_range(of_foam, count / 10, count - count / 10);
+  assert_true(unlike > count / 50);
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, members, 2, &both));
+  ask(both, MSQ_ONSET_PLAIN);
+  assert_memory_equal(onsets, least[0], sizeof onsets);
+  for (int i = 0; i < count; ++i)
+    for (int axis = 0; axis < 3; ++axis) bends += fabs(gradients[i][axis] - slopes[i][axis]) > 1e-5;
+  assert_true(bends < count / 100); /* ridges, and steps that are not alike */
+  members[1] = both;
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, members, 2, &more));
+  ask(more, MSQ_ONSET_SIGNED);
+  for (int i = 0; i < count; ++i) assert_float_equal(onsets[i], least[1][i], 1e-12);
+  assert_ok(msq_shape_all_space(context, &space));
+  msq_model* model = make_model(context, space, both, NULL);
+  assert_ok(msq_set_membership(model, &def, NULL, inside, count, NULL));
+  for (int i = 0; i < count; ++i) {
+    held += inside[i];
+    if (fabs(onsets[i]) > 1e-8) assert_int_equal(inside[i], onsets[i] <= 0);
+  }
+  assert_in_range(held, count / 100, count);
+  msq_model_release(model);
+  msq_structure_release(more);
+  msq_structure_release((msq_structure*)members[0]);
+  msq_structure_release(foam);
+  msq_field_release(radius);
+}
+
 static void grids_and_windows_have_the_values_of_their_points(void** state) {
   enum { n = 6 };
   msq_structure* foam = make_foam(context, MSQ_FOAM_DIRECT);
@@ -184,6 +247,7 @@ int main(void) {
       cmocka_unit_test(of_lattices_is_the_distance_to_axes),
       cmocka_unit_test(of_functions_is_the_function),
       cmocka_unit_test(its_sign_is_membership),
+      cmocka_unit_test(of_unions_is_the_least),
       cmocka_unit_test(grids_and_windows_have_the_values_of_their_points),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -149,6 +149,76 @@ static void foams_have_struts(void** state) {
   msq_context_release(context);
 }
 
+/* A union has the struts of its members, one member after the other, with ids of its own. Cut ends
+ * have the radius of the member's field. */
+static void unions_have_the_struts_of_all(void** state) {
+  const double from[3] = {0, 0, 0}, to[3] = {4, 0, 0}, low[3] = {0.3, 0.3, 0.3},
+               high[3] = {3.4, 3.4, 3.4};
+  msq_context* context = make_context();
+  msq_structure* lattice = make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 1, 0.125);
+  msq_struts_def def = struts_def(0, 4);
+  msq_lattice_def graded_def;
+  msq_structure *graded, *both;
+  msq_field* radius;
+  msq_shape* box;
+  msq_strut_graph* graph;
+  msq_strut_graph_report report = {.struct_size = sizeof report};
+  (void)state;
+  assert_ok(msq_field_gradient(context, from, 0.1, to, 0.3, &radius));
+  assert_ok(msq_lattice_def_init(&graded_def, sizeof graded_def));
+  graded_def.unit_cell = MSQ_UNIT_CELL_BCC;
+  graded_def.radius.field = radius;
+  assert_ok(msq_structure_lattice(context, &graded_def, &graded));
+  const msq_structure* const members[3] = {lattice, graded, lattice};
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, members, 3, &both));
+  const taken first = struts_of(context, lattice, &def), second = struts_of(context, graded, &def);
+  const taken all = struts_of(context, both, &def);
+  assert_int_equal(all.count, 2 * first.count + second.count);
+  assert_float_equal(all.length, 2 * first.length + second.length, 1e-9);
+  for (int i = 0; i < 8; ++i) {
+    msq_strut s = all.first[i];
+    assert_memory_not_equal(s.id, first.first[i].id, sizeof s.id);
+    memcpy(s.id, first.first[i].id, 6 * sizeof *s.id);
+    assert_memory_equal(&s, &first.first[i], sizeof s);
+  }
+  /* The same lattice twice: no strut and no node is that of another member. */
+  assert_ok(msq_structure_strut_graph(context, both, &def, &graph, NULL));
+  assert_ok(msq_strut_graph_info(graph, &report));
+  assert_int_equal(report.strut_count, all.count);
+  uint64_t nodes = 0;
+  for (int m = 0; m < 3; ++m) {
+    msq_strut_graph* own;
+    msq_strut_graph_report of_own = {.struct_size = sizeof of_own};
+    assert_ok(msq_structure_strut_graph(context, members[m], &def, &own, NULL));
+    assert_ok(msq_strut_graph_info(own, &of_own));
+    nodes += of_own.node_count;
+    msq_strut_graph_release(own);
+  }
+  assert_int_equal(report.node_count, nodes);
+  msq_strut_graph_release(graph);
+  assert_ok(msq_shape_from_box(context, low, high, &box));
+  def.shape = box;
+  assert_ok(msq_structure_strut_graph(context, both, &def, &graph, NULL));
+  assert_ok(msq_strut_graph_info(graph, &report));
+  uint64_t cut[2] = {0, 0};
+  for (uint64_t i = 0; i < report.strut_count; ++i)
+    for (int end = 0; end < 2; ++end) {
+      const double x = report.nodes[3 * report.struts[2 * i + (uint64_t)end]];
+      const double r = report.radii[2 * i + (uint64_t)end];
+      const int is_graded = r != 0.125;
+      if (is_graded) assert_float_equal(r, 0.1 + 0.05 * x, 1e-12);
+      cut[is_graded] += report.cuts[2 * i + (uint64_t)end];
+    }
+  assert_true(cut[0] > 10 && cut[1] > 10);
+  msq_strut_graph_release(graph);
+  msq_shape_release(box);
+  msq_structure_release(both);
+  msq_structure_release(graded);
+  msq_field_release(radius);
+  msq_structure_release(lattice);
+  msq_context_release(context);
+}
+
 static void callbacks_stop_the_call(void** state) {
   msq_context* context = make_context();
   msq_structure* lattice = make_lattice(context);
@@ -203,9 +273,13 @@ static void references_may_go_in_callbacks(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(lattices_have_struts),      cmocka_unit_test(beams_are_struts),
-      cmocka_unit_test(struts_are_cut_to_a_shape), cmocka_unit_test(foams_have_struts),
-      cmocka_unit_test(callbacks_stop_the_call),   cmocka_unit_test(references_may_go_in_callbacks),
+      cmocka_unit_test(lattices_have_struts),
+      cmocka_unit_test(beams_are_struts),
+      cmocka_unit_test(struts_are_cut_to_a_shape),
+      cmocka_unit_test(foams_have_struts),
+      cmocka_unit_test(callbacks_stop_the_call),
+      cmocka_unit_test(references_may_go_in_callbacks),
+      cmocka_unit_test(unions_have_the_struts_of_all),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -171,12 +171,16 @@ static void sets(void** state) {
 }
 
 static void onsets(void** state) {
-  msq_structure *lattice = make_lattice(context), *host;
+  msq_structure *lattice = make_lattice(context), *host, *joined, *common, *partly;
   msq_host_structure_def def;
   (void)state;
   assert_ok(msq_host_structure_def_init(&def, sizeof def));
   def.inside = no_points_inside;
   assert_ok(msq_structure_host(context, &def, &host));
+  const msq_structure *both[2] = {lattice, lattice}, *one[2] = {lattice, host};
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, both, 2, &joined));
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_DIFFERENCE, both, 2, &common));
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, one, 2, &partly));
   REFUSALS("msq_set_onset") {
     static double odd[some_count][3];
     msq_context* in = context;
@@ -196,6 +200,9 @@ static void onsets(void** state) {
     WRONG(ARGUMENT, "gradient_count is 8", gradient_count = 8);
     WRONG(ARGUMENT, "gradient_count is 24", gradients = NULL);
     WRONG(UNSUPPORTED, "onset", structure = host);
+    RIGHT(structure = joined);
+    WRONG(UNSUPPORTED, "no onset|members all have struts", structure = common);
+    WRONG(UNSUPPORTED, "no onset|members all have struts", structure = partly);
     WRONG(LIMIT, "cells of the structure", set_grid(points); points->origin[2] = 16777215.5);
     WRONG(LIMIT, "point 1", odd[1][1] = -2e7; points->coordinates = odd);
     WRONG(CANCELLED, "cancelled", job = cancelled_job());
@@ -205,6 +212,9 @@ static void onsets(void** state) {
     WRONG(ARGUMENT, "points", points = NULL);
     TRY(msq_set_onset(in, structure, points, value, onsets, count, gradients, gradient_count, job));
   }
+  msq_structure_release(partly);
+  msq_structure_release(common);
+  msq_structure_release(joined);
   msq_structure_release(host);
   msq_structure_release(lattice);
 }

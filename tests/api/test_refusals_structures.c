@@ -549,7 +549,12 @@ static void wrong_struts(refusals* table, msq_struts_def* def) {
 static void struts(void** state) {
   msq_structure *lattice = make_lattice(context), *gyroid = make_gyroid(context),
                 *walls = make_foam_with(context, 0, 0.05), *foam = make_foam_with(context, 0.1, 0);
+  const msq_structure *both[2] = {lattice, foam}, *one[2] = {lattice, gyroid};
+  msq_structure *joined, *common, *partly;
   (void)state;
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, both, 2, &joined));
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_INTERSECTION, both, 2, &common));
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, one, 2, &partly));
   REFUSALS("msq_structure_struts") {
     msq_context* in = context;
     msq_structure* structure = lattice;
@@ -560,6 +565,10 @@ static void struts(void** state) {
     WRONG(LIMIT, "the limit is", structure = foam; def->max[1] = 1e300);
     WRONG(UNSUPPORTED, "no struts", structure = gyroid);
     WRONG(UNSUPPORTED, "no struts", structure = walls);
+    RIGHT(structure = joined);
+    WRONG(LIMIT, "the limit is", structure = joined; def->max[1] = 1e300);
+    WRONG(UNSUPPORTED, "no struts|unions of these", structure = common);
+    WRONG(UNSUPPORTED, "no struts|unions of these", structure = partly);
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "structure is NULL", structure = NULL);
     WRONG(ARGUMENT, "callback is NULL", callback = NULL);
@@ -597,6 +606,9 @@ static void struts(void** state) {
   msq_strut_graph_release(made);
   msq_structure_release(foam);
   msq_structure_release(walls);
+  msq_structure_release(partly);
+  msq_structure_release(common);
+  msq_structure_release(joined);
   msq_structure_release(gyroid);
   msq_structure_release(lattice);
 }

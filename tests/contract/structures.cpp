@@ -447,6 +447,9 @@ std::vector<Kind> kinds() {
   kinds.push_back({"combined", "BCC or gyroid", 0.12, 1,
                    boolean_factory(Operation::united, lattice_factory(bcc_unit_cell()),
                                    functional_factory(preset_expressions[0], sheet, 0))});
+  kinds.push_back({"combined", "BCC or foam", 0.1, 1,
+                   boolean_factory(Operation::united, lattice_factory(bcc_unit_cell()),
+                                   foam_factory(FoamMethod::direct, 1))});
   kinds.push_back({"combined", "foam and octet", 0.2, 1,
                    boolean_factory(Operation::intersected, foam_factory(FoamMethod::direct, 1),
                                    lattice_factory(octet_unit_cell()))});

@@ -95,6 +95,10 @@ class StructuresOfStructures(unittest.TestCase):
             msq.Structure.union()
         with self.assertRaisesRegex(msq.UnsupportedError, "no onset"):
             (self.lattice | self.gyroid).onset((0, 0, 0))
+        foam = msq.Foam(cell_size=2, radius=0.2)
+        np.testing.assert_array_equal(
+            (self.lattice | foam).onset(self.points),
+            np.minimum(self.lattice.onset(self.points), foam.onset(self.points)))
 
 
     def test_blend(self):

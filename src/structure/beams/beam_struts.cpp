@@ -17,7 +17,7 @@ Id node_at(Vec3 p) {
   return hash.id();
 }
 
-class BeamStruts final : public StrutParts {
+class BeamStruts final : public StrutsOfOne {
  public:
   BeamStruts(const Beams& beams, const StrutSelection& selection)
       : beams_(beams), selection_(selection) {

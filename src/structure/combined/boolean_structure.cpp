@@ -5,6 +5,8 @@
 
 #include "base/hash_input.h"
 #include "base/infinity.h"
+#include "structure/combined/union_struts.h"
+#include "structure/common/struts.h"
 
 namespace msq {
 
@@ -21,6 +23,45 @@ double BooleanStructure::distance_bound(Vec3 p) const {
     bound = is_union() ? std::min(bound, distance) : std::max(bound, distance);
   }
   return std::abs(bound);
+}
+
+// Kinds with struts and an onset have the radius of struts as their parameter.
+bool BooleanStructure::has_onset() const {
+  return is_union() &&
+         std::all_of(members().begin(), members().end(), [](const Ref<const Structure>& member) {
+           const Vec3 origin = member->neighbourhood().origin;
+           return member->has_onset() && member->struts({{origin, origin}});
+         });
+}
+
+// Beyond the least limit that of another member may be less.
+double BooleanStructure::onset(Vec3 p) const {
+  double onset = infinity;
+  for (const Ref<const Structure>& member : members()) onset = std::min(onset, member->onset(p));
+  return onset <= onset_limit() ? onset : infinity;
+}
+
+double BooleanStructure::parameter(Vec3 p) const {
+  double least = infinity, difference = infinity, unknown_from = infinity;
+  for (const Ref<const Structure>& member : members()) {
+    const double onset = member->onset(p), own = member->parameter(p);
+    least = std::min(least, onset);
+    difference = std::min(difference, onset - own);
+    if (!(onset < infinity)) unknown_from = std::min(unknown_from, member->onset_limit() - own);
+  }
+  // Where a member's onset is beyond its limit, the least difference may be its own.
+  return difference <= unknown_from ? least - difference : -infinity;
+}
+
+double BooleanStructure::onset_limit() const {
+  double limit = infinity;
+  for (const Ref<const Structure>& member : members())
+    limit = std::min(limit, member->onset_limit());
+  return limit;
+}
+
+std::unique_ptr<StrutParts> BooleanStructure::struts(const StrutSelection& selection) const {
+  return is_union() ? union_struts(members(), selection) : nullptr;
 }
 
 BoxClass BooleanStructure::classify(const Box3& box) const {

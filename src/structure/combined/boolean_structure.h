@@ -23,6 +23,17 @@ class BooleanStructure final : public CombinedStructure {
   /// are.
   double distance_bound(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
+  /// Unions of structures whose parameter is the radius of struts. The onset is the least of
+  /// theirs.
+  bool has_onset() const override;
+  double onset(Vec3 p) const override;
+  /// The onset minus this is the least difference of a member's onset and parameter. As parameters
+  /// may differ, that need not be the member whose onset is least. Minus infinity where a limit of
+  /// onsets hides it.
+  double parameter(Vec3 p) const override;
+  double onset_limit() const override;
+  /// Of unions whose members all have struts.
+  std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   BoxClass classify(const Box3& box) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
   void enter(RaySearch* searches, size_t count, const Job* job) const override;

@@ -51,6 +51,13 @@ struct StrutSelection {
   Box3 around(double reach) const;
 };
 
+class StrutRadii {
+ public:
+  virtual ~StrutRadii() = default;
+  /// The radius of a strut at p, its point a + t (b - a). Does not depend on the strut's ids.
+  virtual double radius_at(const Strut& strut, double factor, double t, Vec3 p) const = 0;
+};
+
 /// The selected struts, in parts that threads can find at the same time.
 class StrutParts {
  public:
@@ -58,8 +65,14 @@ class StrutParts {
   virtual uint64_t count() const = 0;
   /// Appends the struts of a part, in the same order in each call.
   virtual void append(uint64_t part, StrutList& list) const = 0;
-  /// The radius of a strut at p, its point a + t (b - a).
-  virtual double radius_at(const Strut& strut, double factor, double t, Vec3 p) const = 0;
+  /// Of the struts of a part.
+  virtual const StrutRadii& radii_of(uint64_t part) const = 0;
+};
+
+/// Those of one structure, which knows the radii of all parts.
+class StrutsOfOne : public StrutParts, public StrutRadii {
+ public:
+  const StrutRadii& radii_of(uint64_t) const final { return *this; }
 };
 
 /// The first and last cells, in cell sizes, whose closed boxes meet a box in grid coordinates.

@@ -30,7 +30,7 @@ struct Workspace {
   }
 };
 
-class FoamStruts final : public StrutParts {
+class FoamStruts final : public StrutsOfOne {
  public:
   FoamStruts(const FoamData& foam, const StrutSelection& selection)
       : foam_(foam),

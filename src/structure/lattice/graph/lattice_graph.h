@@ -61,7 +61,7 @@ class LatticeGraph {
 };
 
 /// The struts of cells, in blocks of cells. As it is, all cells have the only type of the library.
-class LatticeStruts : public StrutParts {
+class LatticeStruts : public StrutsOfOne {
  public:
   /// Refers to all but the selection.
   LatticeStruts(const LatticeGraph& graph, const Neighbourhood& grid, const Parameter& radius,
