@@ -47,6 +47,36 @@ static void lattices_have_their_closed_forms(void** state) {
   msq_context_release(context);
 }
 
+/* Struts along the edges of cells of 2 are among those along the edges of cells of 1: their union
+ * has the closed form of the latter. The usual sample is one of 16^3 of the larger cells. */
+static void unions_have_one_radius_for_all(void** state) {
+  const double target = 0.1;
+  msq_context* context = make_context();
+  msq_structure* const both[2] = {make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 1, 0.1),
+                                  make_lattice_of(context, MSQ_UNIT_CELL_CUBIC, 2, 0.3)};
+  msq_structure* made;
+  msq_calibration_report found = report_of(), same = report_of();
+  msq_points_def sample;
+  (void)state;
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, (const msq_structure* const*)both, 2, &made));
+  assert_ok(msq_structure_calibrate(context, made, NULL, target, NULL, NULL, 0, &found, NULL));
+  const double r = found.parameter, known = 3 * pi * r * r - 8 * sqrt(2.0) * r * r * r;
+  assert_int_equal(found.samples, 2 * 64 * 64 * 64);
+  check_fraction("union", &found, target, known, known);
+  assert_ok(msq_points_def_init(&sample, sizeof sample));
+  sample.kind = MSQ_POINTS_STRATIFIED;
+  sample.per_cell = 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    sample.spacing[axis] = 0.5;
+    sample.counts[axis] = 64;
+  }
+  assert_ok(msq_structure_calibrate(context, made, &sample, target, NULL, NULL, 0, &same, NULL));
+  assert_true(same.parameter == found.parameter);
+  msq_structure_release(made);
+  for (int i = 0; i < 2; ++i) msq_structure_release(both[i]);
+  msq_context_release(context);
+}
+
 static void functions_have_their_fractions(void** state) {
   static const struct {
     int32_t function;
@@ -258,6 +288,7 @@ static void kinds_without_onset_are_refused(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lattices_have_their_closed_forms),
+      cmocka_unit_test(unions_have_one_radius_for_all),
       cmocka_unit_test(functions_have_their_fractions),
       cmocka_unit_test(thin_foams_have_their_edges),
       cmocka_unit_test(the_curve_ascends_and_threads_do_not_matter),

@@ -213,28 +213,31 @@ static void any_field_may_be_the_radius(void** state) {
   msq_context_release(context);
 }
 
-/* A ray into the fillet of two crossing beams: the parabola, and its normal. */
+/* Rays into two crossing beams, along a diagonal of the plane z = 0: of the union they meet the
+ * fillet, of the intersection the rounded edge. Both distances are k / 4 there. */
 static void rays_meet_the_fillet(void** state) {
+  const double origin[3] = {3, 3, 0}, r = sqrt(0.5), direction[3] = {-r, -r, 0}, k = 0.4;
   msq_context* context = make_context();
   msq_structure *a = beam_along(context, 0, 0, 0.5), *b = beam_along(context, 1, 0, 0.5);
-  msq_structure* made = smooth_of(MSQ_BOOLEAN_UNION, a, b, 0.4, NULL);
-  msq_model* model = model_with(context, make_box_of(context, -4, 4), made);
-  /* Along a diagonal of the plane z = 0, where both distances are k / 4. */
-  const double origin[3] = {3, 3, 0}, r = sqrt(0.5), direction[3] = {-r, -r, 0};
-  const double at = 0.5 + 0.1;
-  msq_rays_def rays;
-  msq_ray_hit hit;
   (void)state;
-  assert_ok(msq_rays_def_init(&rays, sizeof rays));
-  rays.origins = origin;
-  rays.directions = direction;
-  rays.count = 1;
-  assert_ok(msq_ray_cast(model, &rays, NULL, &hit, 1, NULL));
-  assert_int_equal(hit.scale, 1);
-  assert_float_equal(hit.t, (3 - at) / r, 1e-8);
-  for (int axis = 0; axis < 3; ++axis) assert_float_equal(hit.normal[axis], axis < 2 ? r : 0, 1e-4);
-  msq_model_release(model);
-  msq_structure_release(made);
+  for (int n = 0; n < 2; ++n) {
+    msq_structure* made = smooth_of(operations[n], a, b, k, NULL);
+    msq_model* model = model_with(context, make_box_of(context, -4, 4), made);
+    const double at = n == 0 ? 0.5 + k / 4 : 0.5 - k / 4;
+    msq_rays_def rays;
+    msq_ray_hit hit;
+    assert_ok(msq_rays_def_init(&rays, sizeof rays));
+    rays.origins = origin;
+    rays.directions = direction;
+    rays.count = 1;
+    assert_ok(msq_ray_cast(model, &rays, NULL, &hit, 1, NULL));
+    assert_int_equal(hit.scale, 1);
+    assert_float_equal(hit.t, (3 - at) / r, 1e-8);
+    for (int axis = 0; axis < 3; ++axis)
+      assert_float_equal(hit.normal[axis], axis < 2 ? r : 0, 1e-4);
+    msq_model_release(model);
+    msq_structure_release(made);
+  }
   msq_structure_release(b);
   msq_structure_release(a);
   msq_context_release(context);
