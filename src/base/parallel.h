@@ -28,6 +28,8 @@ class Executor {
   ~Executor();
 
   unsigned threads() const { return threads_; }
+  /// Whether loops are run by the host, and may fail.
+  bool is_of_host() const { return host_.parallel_for != nullptr; }
 
   /// Calls body(i) for i in [0, count), in any order, on up to threads() threads, including the
   /// caller's; on fewer if threads cannot be started. Rethrows the first exception, after all

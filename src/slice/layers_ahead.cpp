@@ -26,7 +26,7 @@ constexpr uint64_t min_part_rows = 32;
 struct LayersAhead::Block {
   uint64_t first = 0, end = 0;  ///< layers
   uint64_t part_rows = 0, parts = 0;
-  std::vector<uint64_t> words;
+  std::unique_ptr<uint64_t[]> words;  ///< each part clears its rows
   Reservation reservation;
 
   std::mutex mutex;  ///< guards the next ones
@@ -106,7 +106,7 @@ bool LayersAhead::take(uint64_t layer, uint64_t* words, const Job* job) {
       return false;
     }
   }
-  std::memcpy(words, block->words.data() + (layer - block->first) * layer_words_,
+  std::memcpy(words, block->words.get() + (layer - block->first) * layer_words_,
               layer_words_ * sizeof(uint64_t));
   note_taken(block);
   return true;
@@ -132,7 +132,7 @@ void LayersAhead::fill_part(Block& block, uint64_t part, const Job* job) const {
   check_cancelled(job);
   const uint64_t y0 = part * block.part_rows;
   fill_rows_of_slab(model_, resolved_, samples_, block.first, block.end, y0,
-                    std::min(samples_.ny, y0 + block.part_rows), block.words.data(), job);
+                    std::min(samples_.ny, y0 + block.part_rows), block.words.get(), job);
 }
 
 LayersAhead::BlockRef LayersAhead::block_for(uint64_t layer) {
@@ -181,10 +181,10 @@ LayersAhead::BlockRef LayersAhead::make_block(uint64_t layer) {
       std::clamp((samples_.ny + min_parts - 1) / min_parts, std::min(rows, min_part_rows), rows);
   block->parts = (samples_.ny + block->part_rows - 1) / block->part_rows;
   block->left.reserve(block->parts);
-  block->words.resize(count * layer_words_);
   blocks_.reserve(blocks_.size() + 1);
   if (!budget->try_take(bytes)) return nullptr;
   block->reservation = Reservation::adopt(budget, bytes);
+  block->words = std::make_unique_for_overwrite<uint64_t[]>(count * layer_words_);
   blocks_.push_back(block);
   ended_[made_++ % ended_.size()] = {block->end, count};
   return block;
@@ -210,9 +210,11 @@ void LayersAhead::note_taken(const BlockRef& block) {
 
 bool LayersAhead::give_way() {
   const std::lock_guard lock(mutex_);
-  if (blocks_.empty()) return false;
-  blocks_.front()->reservation = {};
-  blocks_.erase(blocks_.begin());
+  // Calls hold the blocks that they fill and copy from.
+  const auto unused = std::find_if(blocks_.begin(), blocks_.end(),
+                                   [](const BlockRef& block) { return block.use_count() == 1; });
+  if (unused == blocks_.end()) return false;
+  blocks_.erase(unused);
   return true;
 }
 

@@ -377,8 +377,10 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
     return rows_of(*samples, across * begin, across * end);
   };
   // A call that fails leaves `out` as it was: what is not written from the bits of the whole layer
-  // is written beside it.
-  const auto is_beside = [&](uint64_t rows) { return !samples || rows < grid_.ny; };
+  // is written beside it, and so is all where a loop of the host may fail.
+  const auto is_beside = [&](uint64_t rows) {
+    return !samples || rows < grid_.ny || model_->executor().is_of_host();
+  };
   const auto bytes_of = [&](uint64_t rows) {
     uint64_t words = 0;
     if (samples) {

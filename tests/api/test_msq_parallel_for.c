@@ -380,6 +380,38 @@ static void failure_of_the_host_stops_the_call(void** state) {
       }
 }
 
+static void failure_of_the_host_leaves_the_layer(void** state) {
+  static uint8_t layer[152 * 200], before[sizeof layer];
+  msq_slicer_def def = slicer_def(MSQ_LAYER_GREY, 152, 200, 0.03);
+  uint64_t loops = 1; /* of a call that does not fail */
+  (void)state;
+  def.orientation = MSQ_LAYER_MIRROR_X;
+  memset(before, 0x5a, sizeof before);
+  for (uint64_t fail_at = 0; fail_at <= loops; ++fail_at) {
+    pool of = make_pool(forwards);
+    msq_context* context = make_pool_context(&of, 3);
+    msq_model* model = make_foam_model(context, MSQ_FOAM_DIRECT);
+    msq_slicer* slicer = make_slicer(model, &def);
+    assert_int_equal(plan_of(slicer).layer_bytes, sizeof layer);
+    memcpy(layer, before, sizeof layer);
+    of.fail_at = fail_at;
+    of.runs_first = 1;
+    if (fail_at) {
+      assert_refused(msq_slice_layer(slicer, 40, layer, sizeof layer, NULL), MSQ_E_HOST,
+                     "parallel_for returned -77");
+      assert_memory_equal(layer, before, sizeof layer);
+    } else {
+      assert_ok(msq_slice_layer(slicer, 40, layer, sizeof layer, NULL));
+      assert_memory_not_equal(layer, before, sizeof layer);
+      loops = of.loops;
+      assert_in_range(loops, 2, 100);
+    }
+    msq_slicer_release(slicer);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+}
+
 /* A field of the host that any thread may evaluate. */
 typedef struct field_user {
   pthread_mutex_t mutex;
@@ -523,6 +555,7 @@ int main(void) {
       cmocka_unit_test(results_are_the_same_and_msq_starts_no_thread),
       cmocka_unit_test(tasks_are_as_many_as_threads),
       cmocka_unit_test(failure_of_the_host_stops_the_call),
+      cmocka_unit_test(failure_of_the_host_leaves_the_layer),
       cmocka_unit_test(callbacks_run_where_their_definition_says),
       cmocka_unit_test(calls_within_tasks_and_at_once),
       cmocka_unit_test(cancelled_within_a_task),
