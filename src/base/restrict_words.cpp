@@ -26,16 +26,25 @@ void and_words(uint64_t* words, const uint64_t* kept, size_t count) {
 
 void and_periods(uint64_t* words, const uint64_t* kept, size_t period, size_t count) {
   constexpr size_t max_period = 32;
-  if (period > max_period) {
+  if (period > max_period || period >= count) {
     for (size_t i = 0; i < count; i += period)
       and_words(words + i, kept, std::min(period, count - i));
     return;
   }
   const hn::ScalableTag<uint64_t> d;
-  const size_t lanes = hn::Lanes(d), step = lanes % period;
+  const size_t lanes = hn::Lanes(d);
+  if (period == 1) {
+    const auto each = hn::Set(d, kept[0]);
+    size_t i = 0;
+    for (; i + lanes <= count; i += lanes)
+      hn::StoreU(hn::And(hn::LoadU(d, words + i), each), d, words + i);
+    for (; i < count; ++i) words[i] &= kept[0];
+    return;
+  }
+  const size_t step = lanes < period ? lanes : lanes % period;
   uint64_t wrapped[max_period + max_simd_doubles];  // words are as wide as doubles
-  for (size_t i = 0; i < period + lanes; ++i)
-    wrapped[i] = i < period ? kept[i] : wrapped[i - period];
+  std::copy_n(kept, period, wrapped);
+  for (size_t i = 0; i < lanes; ++i) wrapped[period + i] = wrapped[i];
   size_t i = 0, phase = 0;
   for (; i + lanes <= count; i += lanes) {
     hn::StoreU(hn::And(hn::LoadU(d, words + i), hn::LoadU(d, wrapped + phase)), d, words + i);
