@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "structure/foam/seeds/seed_tile.h"
@@ -76,7 +77,9 @@ class PointBatch {
   std::vector<uint64_t> masks_;
   std::vector<Vec3> candidates_, near_;
   std::vector<double> distance_squared_;
-  std::vector<TripleBatch> triples_{TripleBatch::max_seeds - 2};  // by the number of seeds, from 3
+  // By the number of seeds, from 3. Not a vector, which would clear them twice.
+  std::unique_ptr<TripleBatch[]> triples_ =
+      std::make_unique_for_overwrite<TripleBatch[]>(TripleBatch::max_seeds - 2);
 };
 
 }  // namespace msq
