@@ -11,6 +11,7 @@
 #include "api/neighbourhood.h"
 #include "msq_test.h"
 #include "structure/foam/foam.h"
+#include "structure/foam/seeds/cell_seeds.h"
 #include "structure/foam/seeds/seed_tile.h"
 #include "structure/foam/seeds/seed_trees.h"
 
@@ -122,8 +123,23 @@ Ref<const Foam> make_foam(const msq_neighbourhood& grid, uint64_t seed, double j
                         FoamMethod::direct, density);
 }
 
-/// Of cells from a corner on, by the vectors that fill tiles.
+/// Whether the seeds around a cell, which vectors compute too, have the bits of FoamSeeds::at().
+bool has_seeds_around(const FoamSeeds& seeds, CellIndex cell) {
+  CellSeeds around;
+  around.move_to(seeds, cell);
+  std::vector<uint32_t> found;
+  const CellSeeds::Block& block = around.find_near({0, 0, 0}, 0.5, found);
+  uint32_t i = 0;
+  for (int z = -block.half[2]; z <= block.half[2]; ++z)
+    for (int y = -block.half[1]; y <= block.half[1]; ++y)
+      for (int x = -block.half[0]; x <= block.half[0]; ++x, ++i)
+        if (!(block.position(i) == seeds.at(cell, x, y, z))) return false;
+  return i == block.count;
+}
+
+/// Of cells from a corner on, by the vectors that fill tiles. 0 if others differ.
 uint64_t hash_of_tile(const FoamSeeds& seeds, CellIndex corner, int side) {
+  if (!has_seeds_around(seeds, corner)) return 0;
   SeedTile tile;
   tile.build(seeds, corner, {side, side, side}, {0, 0, 0});
   Hash hash;

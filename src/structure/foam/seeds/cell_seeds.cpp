@@ -9,6 +9,7 @@
 
 #include "base/simd.h"
 #include "structure/foam/seeds/cell_seeds.h"
+#include "structure/foam/seeds/seed_bits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace msq {
@@ -31,6 +32,48 @@ double squared_distances(const double* x, const double* y, const double* z, size
   return hn::GetLane(hn::MinOfLanes(d, least));
 }
 
+// The seeds of cells that differ from a home cell by steps: FoamSeeds::in_row, with the key of each
+// one's row. May write up to a vector past `count`.
+#if HWY_TARGET == HWY_SCALAR
+
+void seed_positions(const CellSteps& cells, const uint64_t* keys, const FoamSeeds& seeds,
+                    CellIndex home, size_t count, double* x, double* y, double* z) {
+  for (size_t i = 0; i < count; ++i) {
+    const Vec3 step{cells.x[i], cells.y[i], cells.z[i]};
+    const Vec3 f = seeds.fractions(
+        splitmix_output(keys[i], static_cast<uint32_t>(home.x + static_cast<int>(step.x))));
+    const Vec3 s = (step + f) * seeds.scale();
+    x[i] = s.x;
+    y[i] = s.y;
+    z[i] = s.z;
+  }
+}
+
+#else
+
+void seed_positions(const CellSteps& cells, const uint64_t* keys, const FoamSeeds& seeds,
+                    CellIndex home, size_t count, double* x, double* y, double* z) {
+  const hn::ScalableTag<double> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const size_t lanes = hn::Lanes(d);
+  const Vec3 scale = seeds.scale();
+  const auto jitter = static_cast<uint64_t>(seeds.jitter());
+  const auto home_x = hn::Set(du, static_cast<uint32_t>(home.x));
+  const auto sx = hn::Set(d, scale.x), sy = hn::Set(d, scale.y), sz = hn::Set(d, scale.z);
+  for (size_t i = 0; i < count; i += lanes) {
+    const auto n = hn::Add(home_x, hn::LoadU(du, cells.step_x.data() + i));
+    const auto h = seed_bits(du, hn::LoadU(du, keys + i), n);
+    const auto fx = seed_fraction(du, h, jitter),
+               fy = seed_fraction(du, hn::ShiftRight<21>(h), jitter),
+               fz = seed_fraction(du, hn::ShiftRight<42>(h), jitter);
+    hn::StoreU(hn::Mul(hn::Add(hn::LoadU(d, cells.x.data() + i), fx), sx), d, x + i);
+    hn::StoreU(hn::Mul(hn::Add(hn::LoadU(d, cells.y.data() + i), fy), sy), d, y + i);
+    hn::StoreU(hn::Mul(hn::Add(hn::LoadU(d, cells.z.data() + i), fz), sz), d, z + i);
+  }
+}
+
+#endif
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
@@ -40,6 +83,7 @@ HWY_AFTER_NAMESPACE();
 namespace msq {
 
 HWY_EXPORT(squared_distances);
+HWY_EXPORT(seed_positions);
 
 void CellSeeds::move_to(const FoamSeeds& seeds, CellIndex cell) {
   if (seeds_ && *seeds_ == seeds && cell_ == cell) return;
@@ -55,31 +99,51 @@ double CellSeeds::Block::reach(Vec3 q, Vec3 scale) const {
   return reach;
 }
 
+void CellSeeds::plan(Block& block, size_t step) const {
+  const Vec3 scale = seeds_->scale();
+  int half[3];
+  for (int axis = 0; axis < 3; ++axis)
+    half[axis] = static_cast<int>(std::ceil(static_cast<double>(step + 1) / scale[axis]));
+  if (std::equal(half, half + 3, block.half) && block.count > 0) return;
+  block.count = 0;  // until memory is there
+  size_t count = 1;
+  for (const int h : half) count *= static_cast<size_t>(2 * h + 1);
+  const size_t padded = count + max_simd_doubles;
+  CellSteps& cells = block.cells;
+  for (std::vector<double>* v : {&cells.x, &cells.y, &cells.z, &block.x, &block.y, &block.z})
+    v->assign(padded, 0);
+  cells.step_x.assign(padded, 0);
+  size_t i = 0;
+  for (int dz = -half[2]; dz <= half[2]; ++dz)
+    for (int dy = -half[1]; dy <= half[1]; ++dy)
+      for (int dx = -half[0]; dx <= half[0]; ++dx, ++i) {
+        cells.x[i] = dx;
+        cells.y[i] = dy;
+        cells.z[i] = dz;
+        cells.step_x[i] = static_cast<uint64_t>(int64_t{dx});
+      }
+  std::copy_n(half, 3, block.half);
+  block.count = count;
+}
+
 const CellSeeds::Block& CellSeeds::block(size_t step) {
   while (known_ <= step) {
     if (blocks_.size() == known_) blocks_.emplace_back();
     Block& block = blocks_[known_];
-    const Vec3 scale = seeds_->scale();
-    block.count = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      block.half[axis] = static_cast<int>(std::ceil(static_cast<double>(known_ + 1) / scale[axis]));
-      block.count *= static_cast<size_t>(2 * block.half[axis] + 1);
-    }
-    for (std::vector<double>* v : {&block.x, &block.y, &block.z}) {
-      v->resize(block.count + max_simd_doubles);
-      std::fill(v->begin() + static_cast<ptrdiff_t>(block.count), v->end(), 1e100);
-    }
+    plan(block, known_);
+    keys_.resize(block.count + max_simd_doubles);
     size_t i = 0;
     for (int dz = -block.half[2]; dz <= block.half[2]; ++dz)
       for (int dy = -block.half[1]; dy <= block.half[1]; ++dy) {
         const uint64_t key = seeds_->row_key(cell_, dy, dz);
-        for (int dx = -block.half[0]; dx <= block.half[0]; ++dx, ++i) {
-          const Vec3 s = seeds_->in_row(key, cell_, dx, dy, dz);
-          block.x[i] = s.x;
-          block.y[i] = s.y;
-          block.z[i] = s.z;
-        }
+        for (const size_t end = i + static_cast<size_t>(2 * block.half[0] + 1); i < end; ++i)
+          keys_[i] = key;
       }
+    HWY_DYNAMIC_DISPATCH(seed_positions)
+    (block.cells, keys_.data(), *seeds_, cell_, block.count, block.x.data(), block.y.data(),
+     block.z.data());
+    for (std::vector<double>* v : {&block.x, &block.y, &block.z})
+      std::fill(v->begin() + static_cast<ptrdiff_t>(block.count), v->end(), 1e100);
     ++known_;
   }
   return blocks_[step];

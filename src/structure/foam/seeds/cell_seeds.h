@@ -11,6 +11,13 @@
 
 namespace msq {
 
+/// How far each cell of a block lies from the middle one, as numbers and, along x, as an integer
+/// that wraps.
+struct CellSteps {
+  std::vector<double> x, y, z;
+  std::vector<uint64_t> step_x;
+};
+
 class CellSeeds {
  public:
   /// Moves to the seeds around a cell; free if these are the current ones.
@@ -18,7 +25,8 @@ class CellSeeds {
 
   /// Seeds in the order of their cells (z, then y, then x), foam units from the cell's corner.
   struct Block {
-    int half[3];                  // cells on either side
+    int half[3] = {};             // cells on either side
+    CellSteps cells;              // of each seed
     std::vector<double> x, y, z;  // padded by a vector of seeds at infinity
     size_t count = 0;
 
@@ -32,15 +40,18 @@ class CellSeeds {
   const Block& find_near(Vec3 q, double radius, std::vector<uint32_t>& found);
 
   /// Approximate memory, which decides whether this is kept or deleted (base/borrowed.h).
-  size_t bytes() const { return 8 * sizeof(double) * distance_squared_.capacity(); }
+  size_t bytes() const { return 13 * sizeof(double) * distance_squared_.capacity(); }
 
  private:
+  /// Gives a block that extends at least `step` + 1 foam units its cells.
+  void plan(Block& block, size_t step) const;
   /// The block that extends at least `step` + 1 foam units beyond the cell.
   const Block& block(size_t step);
   /// Computes the squared distances of a block's seeds; returns the minimum.
   double find_distances(const Block& block, Vec3 q);
 
   std::vector<double> distance_squared_;
+  std::vector<uint64_t> keys_;  // of each seed's row
   std::optional<FoamSeeds> seeds_;
   CellIndex cell_;
   std::vector<Block> blocks_;
