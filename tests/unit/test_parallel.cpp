@@ -91,12 +91,13 @@ using Body = void (*)(void* task, uint64_t i);
 /// What a loop of the host does.
 struct Host {
   int32_t (*loop)(uint64_t count, Body body, void* task);
-  uint64_t loops = 0, most_tasks = 0;
+  std::atomic<uint64_t> loops = 0, most_tasks = 0;  // of loops within loops, from several threads
 
   static int32_t call(void* user, uint64_t count, Body body, void* task) {
     auto& host = *static_cast<Host*>(user);
     ++host.loops;
-    host.most_tasks = std::max(host.most_tasks, count);
+    uint64_t most = host.most_tasks;
+    while (most < count && !host.most_tasks.compare_exchange_weak(most, count)) continue;
     return host.loop(count, body, task);
   }
   Executor executor(unsigned threads) { return Executor(threads, msq::HostLoop{call, this}); }
