@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "structure/foam/walled_foam.h"
+#include "structure/common/walled_struts.h"
 
 #include <algorithm>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace msq {
 
 // Outside both, the boundary is that of the nearer one. A ball about p in either is in the union.
-double WalledFoam::distance_bound(Vec3 p) const {
+double WalledStruts::distance_bound(Vec3 p) const {
   const bool in_walls = walls_->inside(p), in_struts = struts_->inside(p);
   const double to_walls = walls_->distance_bound(p), to_struts = struts_->distance_bound(p);
   if (in_walls == in_struts)
@@ -18,7 +18,7 @@ double WalledFoam::distance_bound(Vec3 p) const {
   return in_walls ? to_walls : to_struts;
 }
 
-void WalledFoam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+void WalledStruts::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   std::vector<uint8_t> rest(alive, alive + count);
   walls_->keep_points(points, alive, count);
   for (size_t i = 0; i < count; ++i) rest[i] &= static_cast<uint8_t>(!alive[i]);
@@ -26,7 +26,7 @@ void WalledFoam::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
   for (size_t i = 0; i < count; ++i) alive[i] |= rest[i];
 }
 
-void WalledFoam::keep_rows(const RowBlock& block, const Job* job) const {
+void WalledStruts::keep_rows(const RowBlock& block, const Job* job) const {
   const size_t words = block.row_words();
   const Borrowed<std::vector<uint64_t>> copy;
   copy->resize(words * block.rows() * block.layers());
@@ -48,11 +48,11 @@ void WalledFoam::keep_rows(const RowBlock& block, const Job* job) const {
   for_each_word([](uint64_t& whole, uint64_t& part) { whole |= part; });
 }
 
-std::unique_ptr<StrutParts> WalledFoam::struts(const StrutSelection& selection) const {
+std::unique_ptr<StrutParts> WalledStruts::struts(const StrutSelection& selection) const {
   return struts_->struts(selection);
 }
 
-void WalledFoam::enter(RaySearch* searches, size_t count, const Job* job) const {
+void WalledStruts::enter(RaySearch* searches, size_t count, const Job* job) const {
   std::vector<RaySearch> of_walls(searches, searches + count);
   walls_->enter(of_walls.data(), count, job);
   for (size_t i = 0; i < count; ++i)
@@ -67,24 +67,18 @@ void WalledFoam::enter(RaySearch* searches, size_t count, const Job* job) const 
   }
 }
 
-double WalledFoam::leave(const Ray& ray, double from, double to, const Job* job) const {
+double WalledStruts::leave(const Ray& ray, double from, double to, const Job* job) const {
   return walls_->inside(ray.at(from)) ? walls_->leave(ray, from, to, job)
                                       : struts_->leave(ray, from, to, job);
 }
 
-Vec3 WalledFoam::normal(const Ray& ray, double t) const {
+Vec3 WalledStruts::normal(const Ray& ray, double t) const {
   const Vec3 p = ray.at(t);
   const bool in_walls = walls_->inside(p), in_struts = struts_->inside(p);
   // In both, that which the ray has just come into.
   const bool by_walls =
       in_walls && (!in_struts || walls_->distance_bound(p) <= struts_->distance_bound(p));
   return by_walls ? walls_->normal(ray, t) : struts_->normal(ray, t);
-}
-
-void WalledFoam::describe(HashInput& input) const {
-  input.kind("structure: foam of struts and walls");
-  input.object(*struts_);
-  input.object(*walls_);
 }
 
 }  // namespace msq
