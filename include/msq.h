@@ -1192,6 +1192,80 @@ MSQ_API msq_status msq_lattice_faces(const msq_structure* lattice, const double 
                                      const double max[3], msq_lattice_faces_report* report,
                                      msq_job* job);
 
+/** Unit cells of plate lattices: triangles in the unit cube, in the order of face_factors. */
+enum msq_plate_cell {
+  /** Nodes and faces of the definition. */
+  MSQ_PLATE_CELL_CUSTOM = 0,
+  /** Simple cubic: planes {100}, the faces of the cube, 2 triangles each normal to x, y and z. */
+  MSQ_PLATE_CELL_CUBIC = 1,
+  /** Body-centred cubic: planes {110}, the 6 rectangles through opposite edges of the cube: 12
+   * triangles. */
+  MSQ_PLATE_CELL_BCC = 2,
+  /** Face-centred cubic: planes {111}, the faces of the octet truss's tetrahedra and octahedra: 8
+   * triangles between diagonals of the cube's faces. */
+  MSQ_PLATE_CELL_FCC = 3,
+  /** CUBIC, then FCC: 14 triangles. Thin plates are equally stiff in all directions if those of the
+   * first 6 are 8 sqrt(3) / 9 = 1.5396 times as thick as the others. */
+  MSQ_PLATE_CELL_CUBIC_OCTET = 4,
+  /** Faces of space-filling truncated octahedra, MSQ_UNIT_CELL_KELVIN closed: 72 triangles, the
+   * first 48 of hexagons, the others of squares. */
+  MSQ_PLATE_CELL_KELVIN = 5
+};
+
+/** A periodic lattice of plates, or of plates and struts. */
+typedef struct msq_plate_lattice_def {
+  uint32_t struct_size;
+  /** An msq_plate_cell. Default MSQ_PLATE_CELL_CUBIC. */
+  int32_t plate_cell;
+  msq_neighbourhood grid;
+  /** Whole thickness of the plates in model units. A constant must be > 0, a field >= 0. No
+   * default. */
+  msq_param thickness;
+  /** node_count triples, in [0, 1]: the nodes of CUSTOM plates and of CUSTOM struts. */
+  const double* nodes;
+  /** 1 to 4096. */
+  uint64_t node_count;
+  /** CUSTOM: face_count triples of indices of different nodes, not on a line: the area of a
+   * triangle in model units must be at least 1e-5 of the square of its longest side. */
+  const uint32_t* faces;
+  /** 1 to 4096. A named cell needs it only with face_factors. */
+  uint64_t face_count;
+  /** Factor of the thickness for each face, 0.001 to 1000. NULL (default): all 1. */
+  const double* face_factors;
+  /** Radius of the struts in model units, >= 0. The constant 0 (default): no struts. */
+  msq_param radius;
+  /** Of the struts, an msq_unit_cell. Default MSQ_UNIT_CELL_CUBIC. Ignored without struts. */
+  int32_t unit_cell;
+  uint32_t reserved;
+  /** With unit_cell CUSTOM: strut_count pairs of indices of different nodes. */
+  const uint32_t* struts;
+  /** 1 to 4096. A named cell needs it only with strut_factors. */
+  uint64_t strut_count;
+  /** As in msq_unit_cell_def. */
+  const double* strut_factors;
+} msq_plate_lattice_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_plate_lattice_def_init(msq_plate_lattice_def* def, size_t size);
+
+/** Creates a periodic lattice of plates: the points within half of thickness, times the factor of
+ * the face, of the triangles of the tiled unit cell. With a radius, also those of the struts of
+ * unit_cell, as in msq_structure_lattice on the same grid. def must not be NULL.
+ *
+ * A plate is as thick as said in model units for any cell size, has a round rim, and reaches across
+ * cell borders. Faces that coincide in several copies count once, with the greatest of their
+ * factors. Lattices of plates alone have an onset, the thickness; those with struts have none
+ * (msq_structure_calibrate).
+ *
+ * Cost: proportional to the plates that can reach one cell: milliseconds for the named cells,
+ * seconds for thousands of plates as thick as cells, and the same again for the first array, slice
+ * or distance. Errors: ARGUMENT, LIMIT (thickness times the greatest factor, or radius times the
+ * greatest factor, above 4 times the smallest cell size), MEMORY. Source: Tancogne-Dejean et al.
+ * 2018; Berger, Wadley and McMeeking 2017. */
+MSQ_API msq_status msq_structure_plate_lattice(msq_context* context,
+                                               const msq_plate_lattice_def* def,
+                                               msq_structure** structure);
+
 /** How sets, grids and slices of a foam are evaluated. All methods yield the same solid. POINT,
  * METHOD_1 and METHOD_2 are those of the paper, for comparison. docs/benchmarks.md compares their
  * cost. Single points (msq_point_membership) are always evaluated by the definition. */
@@ -2247,10 +2321,11 @@ MSQ_API msq_status msq_set_distance(const msq_model* model, const msq_points_def
 
 /** What msq_set_onset writes. */
 enum msq_onset_value {
-  /** The onset: the smallest radius or level at which the point is inside. Lattices and foams: the
-   * distance to the nearest strut axis in model units, the least over the factors of struts.
-   * Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of
-   * lattices and foams: the least of theirs. */
+  /** The onset: the smallest radius, thickness or level at which the point is inside. Lattices and
+   * foams: the distance to the nearest strut axis in model units, the least over the factors of
+   * struts; plates and walls: twice that to the nearest. Functional structures: the function;
+   * waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the least of
+   * theirs. */
   MSQ_ONSET_PLAIN = 0,
   /** The onset minus the structure's radius or level at the point: at most 0 inside, positive
    * outside. Unions: the least of these. */
@@ -2259,8 +2334,8 @@ enum msq_onset_value {
 
 /** Writes the onset of a structure, of itself and of no model, at each point of a set. value: an
  * msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size
- * (lattices; of unions the smallest limit of the members, for foams the smallest cell size) or is
- * not a number. onset_count must be the number of points.
+ * (lattices and plates; of unions the smallest limit of the members, for foams the smallest cell
+ * size) or is not a number. onset_count must be the number of points.
  *
  * gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives
  * the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central

@@ -211,6 +211,7 @@ using ShapeDistanceFieldDef =
     detail::Definition<msq_shape_distance_field_def, msq_shape_distance_field_def_init>;
 using UnitCellDef = detail::Definition<msq_unit_cell_def, msq_unit_cell_def_init>;
 using LatticeDef = detail::Definition<msq_lattice_def, msq_lattice_def_init>;
+using PlateLatticeDef = detail::Definition<msq_plate_lattice_def, msq_plate_lattice_def_init>;
 using FoamDef = detail::Definition<msq_foam_def, msq_foam_def_init>;
 using FunctionalDef = detail::Definition<msq_functional_def, msq_functional_def_init>;
 using WavesDef = detail::Definition<msq_waves_def, msq_waves_def_init>;
@@ -774,6 +775,11 @@ class Structure
   static Structure lattice(const Context& context, const LatticeDef& def) {
     return Structure(std::in_place,
                      [&](auto** made) { return msq_structure_lattice(context.get(), &def, made); });
+  }
+  static Structure plate_lattice(const Context& context, const PlateLatticeDef& def) {
+    return Structure(std::in_place, [&](auto** made) {
+      return msq_structure_plate_lattice(context.get(), &def, made);
+    });
   }
   static Structure foam(const Context& context, const FoamDef& def) {
     return Structure(std::in_place,

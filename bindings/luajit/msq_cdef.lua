@@ -13,6 +13,7 @@ enum msq_format { MSQ_FORMAT_AUTO = 0, MSQ_FORMAT_STL = 1, MSQ_FORMAT_OBJ = 2, M
 enum msq_solid_side { MSQ_SOLID_ABOVE = 0, MSQ_SOLID_BELOW = 1 };
 enum msq_boolean_operation { MSQ_BOOLEAN_UNION = 1, MSQ_BOOLEAN_INTERSECTION = 2, MSQ_BOOLEAN_DIFFERENCE = 3 };
 enum msq_unit_cell { MSQ_UNIT_CELL_CUSTOM = 0, MSQ_UNIT_CELL_CUBIC = 1, MSQ_UNIT_CELL_BCC = 2, MSQ_UNIT_CELL_OCTET = 3, MSQ_UNIT_CELL_FCC = 4, MSQ_UNIT_CELL_KELVIN = 5, MSQ_UNIT_CELL_DIAMOND = 6, MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7, MSQ_UNIT_CELL_REENTRANT = 8 };
+enum msq_plate_cell { MSQ_PLATE_CELL_CUSTOM = 0, MSQ_PLATE_CELL_CUBIC = 1, MSQ_PLATE_CELL_BCC = 2, MSQ_PLATE_CELL_FCC = 3, MSQ_PLATE_CELL_CUBIC_OCTET = 4, MSQ_PLATE_CELL_KELVIN = 5 };
 enum msq_foam_method { MSQ_FOAM_AUTO = 0, MSQ_FOAM_POINT = 1, MSQ_FOAM_METHOD_2 = 2, MSQ_FOAM_DIRECT = 3, MSQ_FOAM_METHOD_1 = 4 };
 enum msq_function { MSQ_FUNCTION_EXPRESSION = 0, MSQ_FUNCTION_GYROID = 1, MSQ_FUNCTION_SCHWARZ_P = 2, MSQ_FUNCTION_DIAMOND = 3, MSQ_FUNCTION_I_WP = 4, MSQ_FUNCTION_NEOVIUS = 5, MSQ_FUNCTION_F_RD = 6, MSQ_FUNCTION_LIDINOID = 7, MSQ_FUNCTION_SPLIT_P = 8, MSQ_FUNCTION_FISCHER_KOCH_S = 9, MSQ_FUNCTION_C_Y = 10, MSQ_FUNCTION_C_PLUS_MINUS_Y = 11, MSQ_FUNCTION_KARCHER_K = 12, MSQ_FUNCTION_G_PRIME = 13, MSQ_FUNCTION_DOUBLE_GYROID = 14, MSQ_FUNCTION_DOUBLE_DIAMOND = 15, MSQ_FUNCTION_DOUBLE_P = 16, MSQ_FUNCTION_HONEYCOMB = 17, MSQ_FUNCTION_RODS = 18 };
 enum msq_functional_kind { MSQ_FUNCTIONAL_NETWORK = 1, MSQ_FUNCTIONAL_SHEET = 2 };
@@ -78,6 +79,7 @@ typedef struct msq_unit_cell_def { uint32_t struct_size; int32_t unit_cell; cons
 typedef struct msq_unit_cell_report { uint32_t struct_size; int32_t is_periodic; uint64_t node_count; uint64_t strut_count; uint64_t tiled_strut_count; double tiled_length; uint64_t low_nodes[3]; uint64_t high_nodes[3]; uint64_t unmatched_nodes[3]; uint64_t unmatched_count; } msq_unit_cell_report;
 typedef struct msq_lattice_def { uint32_t struct_size; int32_t unit_cell; msq_neighbourhood grid; msq_param radius; const double* nodes; uint64_t node_count; const uint32_t* struts; uint64_t strut_count; const double* strut_factors; const msq_unit_cell_def* cells; uint32_t cell_count; uint32_t clusters; msq_param cell_choice; } msq_lattice_def;
 typedef struct msq_lattice_faces_report { uint32_t struct_size; int32_t axis; uint64_t cells; uint64_t faces; uint64_t unmatched; int32_t cell[3]; uint32_t reserved; uint32_t types[2]; double point[3]; } msq_lattice_faces_report;
+typedef struct msq_plate_lattice_def { uint32_t struct_size; int32_t plate_cell; msq_neighbourhood grid; msq_param thickness; const double* nodes; uint64_t node_count; const uint32_t* faces; uint64_t face_count; const double* face_factors; msq_param radius; int32_t unit_cell; uint32_t reserved; const uint32_t* struts; uint64_t strut_count; const double* strut_factors; } msq_plate_lattice_def;
 typedef struct msq_foam_def { uint32_t struct_size; int32_t method; msq_neighbourhood grid; msq_param radius; double jitter; uint64_t seed; msq_param density; msq_param wall_thickness; msq_param vent_radius; } msq_foam_def;
 typedef struct msq_functional_def { uint32_t struct_size; int32_t function; int32_t kind; uint32_t clusters; msq_neighbourhood grid; msq_param level; const char* expression; const msq_named_value* parameters; uint64_t parameter_count; msq_param thickness; const msq_period_def* period; } msq_functional_def;
 typedef struct msq_waves_def { uint32_t struct_size; int32_t kind; uint64_t seed; uint32_t count; uint32_t tile[3]; double cone_angles[3]; msq_neighbourhood grid; msq_param level; double volume_fraction; } msq_waves_def;
@@ -197,6 +199,8 @@ msq_status msq_unit_cell_geometry(const msq_unit_cell_def* cell, double* nodes, 
 msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size);
 msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* def, msq_structure** structure);
 msq_status msq_lattice_faces(const msq_structure* lattice, const double* min, const double* max, msq_lattice_faces_report* report, msq_job* job);
+msq_status msq_plate_lattice_def_init(msq_plate_lattice_def* def, size_t size);
+msq_status msq_structure_plate_lattice(msq_context* context, const msq_plate_lattice_def* def, msq_structure** structure);
 msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
 msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def, msq_structure** structure);
 msq_status msq_functional_def_init(msq_functional_def* def, size_t size);

@@ -91,6 +91,18 @@ export declare const MSQ_UNIT_CELL_DIAMOND = 6;
 export declare const MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7;
 /** Auxetic: widens in x and y when pulled along z. Uprights along z, 3/4 of the cell high, every second one half a cell higher, and slanted struts between the ends of neighbours: 22 struts. */
 export declare const MSQ_UNIT_CELL_REENTRANT = 8;
+/** Nodes and faces of the definition. */
+export declare const MSQ_PLATE_CELL_CUSTOM = 0;
+/** Simple cubic: planes {100}, the faces of the cube, 2 triangles each normal to x, y and z. */
+export declare const MSQ_PLATE_CELL_CUBIC = 1;
+/** Body-centred cubic: planes {110}, the 6 rectangles through opposite edges of the cube: 12 triangles. */
+export declare const MSQ_PLATE_CELL_BCC = 2;
+/** Face-centred cubic: planes {111}, the faces of the octet truss's tetrahedra and octahedra: 8 triangles between diagonals of the cube's faces. */
+export declare const MSQ_PLATE_CELL_FCC = 3;
+/** CUBIC, then FCC: 14 triangles. Thin plates are equally stiff in all directions if those of the first 6 are 8 sqrt(3) / 9 = 1.5396 times as thick as the others. */
+export declare const MSQ_PLATE_CELL_CUBIC_OCTET = 4;
+/** Faces of space-filling truncated octahedra, MSQ_UNIT_CELL_KELVIN closed: 72 triangles, the first 48 of hexagons, the others of squares. */
+export declare const MSQ_PLATE_CELL_KELVIN = 5;
 /** The fastest method; now DIRECT. */
 export declare const MSQ_FOAM_AUTO = 0;
 /** The paper's naive query per point: gather seeds, form triplets with the nearest seed, project, validate. */
@@ -176,7 +188,7 @@ export declare const MSQ_QUERY_SET = 2;
 export declare const MSQ_POINTS_ARRAY = 1;
 export declare const MSQ_POINTS_GRID = 2;
 export declare const MSQ_POINTS_STRATIFIED = 3;
-/** The onset: the smallest radius or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units, the least over the factors of struts. Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the least of theirs. */
+/** The onset: the smallest radius, thickness or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units, the least over the factors of struts; plates and walls: twice that to the nearest. Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the least of theirs. */
 export declare const MSQ_ONSET_PLAIN = 0;
 /** The onset minus the structure's radius or level at the point: at most 0 inside, positive outside. Unions: the least of these. */
 export declare const MSQ_ONSET_SIGNED = 1;
@@ -690,6 +702,37 @@ export interface msq_lattice_faces_report {
   types: ArrayLike<number>;
   /** Centre of the face in model units. */
   point: ArrayLike<number>;
+}
+
+/** A periodic lattice of plates, or of plates and struts. */
+export interface msq_plate_lattice_def {
+  struct_size: number;
+  /** An msq_plate_cell. Default MSQ_PLATE_CELL_CUBIC. */
+  plate_cell: number;
+  grid: msq_neighbourhood;
+  /** Whole thickness of the plates in model units. A constant must be > 0, a field >= 0. No default. */
+  thickness: msq_param;
+  /** node_count triples, in [0, 1]: the nodes of CUSTOM plates and of CUSTOM struts. */
+  nodes: Memory;
+  /** 1 to 4096. */
+  node_count: number | bigint;
+  /** CUSTOM: face_count triples of indices of different nodes, not on a line: the area of a triangle in model units must be at least 1e-5 of the square of its longest side. */
+  faces: Memory;
+  /** 1 to 4096. A named cell needs it only with face_factors. */
+  face_count: number | bigint;
+  /** Factor of the thickness for each face, 0.001 to 1000. NULL (default): all 1. */
+  face_factors: Memory;
+  /** Radius of the struts in model units, >= 0. The constant 0 (default): no struts. */
+  radius: msq_param;
+  /** Of the struts, an msq_unit_cell. Default MSQ_UNIT_CELL_CUBIC. Ignored without struts. */
+  unit_cell: number;
+  reserved: number;
+  /** With unit_cell CUSTOM: strut_count pairs of indices of different nodes. */
+  struts: Memory;
+  /** 1 to 4096. A named cell needs it only with strut_factors. */
+  strut_count: number | bigint;
+  /** As in msq_unit_cell_def. */
+  strut_factors: Memory;
 }
 
 /** A Voronoi foam: open-cell (struts), closed-cell (walls), or with both. */
@@ -1832,6 +1875,16 @@ export interface Functions {
    */
   msq_lattice_faces(lattice: Memory, min: Memory, max: Memory, report: Partial<msq_lattice_faces_report>, job: Memory): number;
   /** Sets the defaults. Errors: ARGUMENT. */
+  msq_plate_lattice_def_init(def: Partial<msq_plate_lattice_def>, size: number | bigint): number;
+  /**
+   * Creates a periodic lattice of plates: the points within half of thickness, times the factor of the face, of the triangles of the tiled unit cell. With a radius, also those of the struts of unit_cell, as in msq_structure_lattice on the same grid. def must not be NULL.
+   *
+   * A plate is as thick as said in model units for any cell size, has a round rim, and reaches across cell borders. Faces that coincide in several copies count once, with the greatest of their factors. Lattices of plates alone have an onset, the thickness; those with struts have none (msq_structure_calibrate).
+   *
+   * Cost: proportional to the plates that can reach one cell: milliseconds for the named cells, seconds for thousands of plates as thick as cells, and the same again for the first array, slice or distance. Errors: ARGUMENT, LIMIT (thickness times the greatest factor, or radius times the greatest factor, above 4 times the smallest cell size), MEMORY. Source: Tancogne-Dejean et al. 2018; Berger, Wadley and McMeeking 2017.
+   */
+  msq_structure_plate_lattice(context: Memory, def: msq_plate_lattice_def | null, structure: [Pointer]): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
   msq_foam_def_init(def: Partial<msq_foam_def>, size: number | bigint): number;
   /**
    * Creates a Voronoi foam of one jittered seed per neighbourhood cell: the points within radius of the edges of the Voronoi diagram, and those within half of wall_thickness of its faces. def must not be NULL.
@@ -2034,7 +2087,7 @@ export interface Functions {
   /** Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Cancelling does not interrupt the construction of a mesh's tree. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries". */
   msq_set_distance(model: Memory, points: msq_points_def | null, query: msq_query_def | null, distance: Memory, distance_count: number | bigint, job: Memory): number;
   /**
-   * Writes the onset of a structure, of itself and of no model, at each point of a set. value: an msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size (lattices; of unions the smallest limit of the members, for foams the smallest cell size) or is not a number. onset_count must be the number of points.
+   * Writes the onset of a structure, of itself and of no model, at each point of a set. value: an msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size (lattices and plates; of unions the smallest limit of the members, for foams the smallest cell size) or is not a number. onset_count must be the number of points.
    *
    * gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central difference over 2^-17 of the smallest cell size on either side: off by about 1e-8 of the largest slope where the function is smooth, a mean of both sides along ridges, and 0 where it is not finite.
    *
@@ -2236,6 +2289,7 @@ export interface Definitions {
   shape_distance_field_def: msq_shape_distance_field_def;
   unit_cell_def: msq_unit_cell_def;
   lattice_def: msq_lattice_def;
+  plate_lattice_def: msq_plate_lattice_def;
   foam_def: msq_foam_def;
   functional_def: msq_functional_def;
   waves_def: msq_waves_def;

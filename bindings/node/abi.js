@@ -53,6 +53,12 @@ export const MSQ_UNIT_CELL_KELVIN = 5;
 export const MSQ_UNIT_CELL_DIAMOND = 6;
 export const MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7;
 export const MSQ_UNIT_CELL_REENTRANT = 8;
+export const MSQ_PLATE_CELL_CUSTOM = 0;
+export const MSQ_PLATE_CELL_CUBIC = 1;
+export const MSQ_PLATE_CELL_BCC = 2;
+export const MSQ_PLATE_CELL_FCC = 3;
+export const MSQ_PLATE_CELL_CUBIC_OCTET = 4;
+export const MSQ_PLATE_CELL_KELVIN = 5;
 export const MSQ_FOAM_AUTO = 0;
 export const MSQ_FOAM_POINT = 1;
 export const MSQ_FOAM_METHOD_2 = 2;
@@ -373,6 +379,23 @@ export function types(koffi) {
     reserved: 'uint32_t',
     types: koffi.array('uint32_t', 2),
     point: koffi.array('double', 3),
+  });
+  T.msq_plate_lattice_def = koffi.struct('msq_plate_lattice_def', {
+    struct_size: 'uint32_t',
+    plate_cell: 'int32_t',
+    grid: T.msq_neighbourhood,
+    thickness: T.msq_param,
+    nodes: 'void *',
+    node_count: 'uint64_t',
+    faces: 'void *',
+    face_count: 'uint64_t',
+    face_factors: 'void *',
+    radius: T.msq_param,
+    unit_cell: 'int32_t',
+    reserved: 'uint32_t',
+    struts: 'void *',
+    strut_count: 'uint64_t',
+    strut_factors: 'void *',
   });
   T.msq_foam_def = koffi.struct('msq_foam_def', {
     struct_size: 'uint32_t',
@@ -952,6 +975,8 @@ export function functions(koffi, library, T) {
     msq_lattice_def_init: library.func('msq_lattice_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_lattice_def)), 'size_t']),
     msq_structure_lattice: library.func('msq_structure_lattice', 'int32_t', ['void *', koffi.pointer(T.msq_lattice_def), koffi.out(koffi.pointer('void *'))]),
     msq_lattice_faces: library.func('msq_lattice_faces', 'int32_t', ['void *', 'void *', 'void *', koffi.inout(koffi.pointer(T.msq_lattice_faces_report)), 'void *']),
+    msq_plate_lattice_def_init: library.func('msq_plate_lattice_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_plate_lattice_def)), 'size_t']),
+    msq_structure_plate_lattice: library.func('msq_structure_plate_lattice', 'int32_t', ['void *', koffi.pointer(T.msq_plate_lattice_def), koffi.out(koffi.pointer('void *'))]),
     msq_foam_def_init: library.func('msq_foam_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_foam_def)), 'size_t']),
     msq_structure_foam: library.func('msq_structure_foam', 'int32_t', ['void *', koffi.pointer(T.msq_foam_def), koffi.out(koffi.pointer('void *'))]),
     msq_functional_def_init: library.func('msq_functional_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_functional_def)), 'size_t']),

@@ -28,6 +28,12 @@ constexpr Choice unit_cells[] = {{"custom", MSQ_UNIT_CELL_CUSTOM},
                                  {"diamond", MSQ_UNIT_CELL_DIAMOND},
                                  {"rhombic_dodecahedron", MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON},
                                  {"reentrant", MSQ_UNIT_CELL_REENTRANT}};
+constexpr Choice plate_cells[] = {{"custom", MSQ_PLATE_CELL_CUSTOM},
+                                  {"cubic", MSQ_PLATE_CELL_CUBIC},
+                                  {"bcc", MSQ_PLATE_CELL_BCC},
+                                  {"fcc", MSQ_PLATE_CELL_FCC},
+                                  {"cubic_octet", MSQ_PLATE_CELL_CUBIC_OCTET},
+                                  {"kelvin", MSQ_PLATE_CELL_KELVIN}};
 constexpr Choice methods[] = {{"auto", MSQ_FOAM_AUTO},
                               {"point", MSQ_FOAM_POINT},
                               {"method_2", MSQ_FOAM_METHOD_2},
@@ -127,6 +133,7 @@ MSQ_DEFAULTS(msq_expression_field_def, msq_expression_field_def_init)
 MSQ_DEFAULTS(msq_shape_distance_field_def, msq_shape_distance_field_def_init)
 MSQ_DEFAULTS(msq_unit_cell_def, msq_unit_cell_def_init)
 MSQ_DEFAULTS(msq_lattice_def, msq_lattice_def_init)
+MSQ_DEFAULTS(msq_plate_lattice_def, msq_plate_lattice_def_init)
 MSQ_DEFAULTS(msq_foam_def, msq_foam_def_init)
 MSQ_DEFAULTS(msq_period_def, msq_period_def_init)
 MSQ_DEFAULTS(msq_functional_def, msq_functional_def_init)
@@ -303,6 +310,26 @@ void walk(DefinitionWalk& in, msq_lattice_def& def) {
   in.structs("cells", def.cells, def.cell_count, defaults_of<msq_unit_cell_def>(), walk);
   in.whole("clusters", def.clusters);
   in.param("cell_choice", def.cell_choice);
+}
+
+void walk(DefinitionWalk& in, msq_plate_lattice_def& def) {
+  in.choice("plate_cell", def.plate_cell, plate_cells);
+  walk_grid(in, def.grid);
+  in.param("thickness", def.thickness);
+  in.tuples("nodes", def.nodes, def.node_count, 3);
+  in.tuples("faces", def.faces, def.face_count, 3);
+  uint64_t count = def.face_factors ? def.face_count : 0;
+  in.tuples("face_factors", def.face_factors, count, 1);
+  if (def.face_factors) {
+    if (!def.faces) def.face_count = count;
+    in.equal_counts("face_factors", count, "faces", def.face_count);
+  }
+  in.param("radius", def.radius);
+  in.choice("unit_cell", def.unit_cell, unit_cells);
+  in.tuples("struts", def.struts, def.strut_count, 2);
+  count = def.strut_factors ? def.strut_count : 0;
+  in.tuples("strut_factors", def.strut_factors, count, 1);
+  count_factors(in, count, def);
 }
 
 void walk(DefinitionWalk& in, msq_foam_def& def) {

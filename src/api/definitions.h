@@ -134,6 +134,8 @@ msq_unit_cell_def defaults_of();
 template <>
 msq_lattice_def defaults_of();
 template <>
+msq_plate_lattice_def defaults_of();
+template <>
 msq_foam_def defaults_of();
 template <>
 msq_period_def defaults_of();
@@ -186,6 +188,7 @@ void walk(DefinitionWalk& in, GridDef& def);
 void walk(DefinitionWalk& in, msq_expression_field_def& def);
 void walk(DefinitionWalk& in, msq_shape_distance_field_def& def);
 void walk(DefinitionWalk& in, msq_lattice_def& def);
+void walk(DefinitionWalk& in, msq_plate_lattice_def& def);
 void walk(DefinitionWalk& in, msq_foam_def& def);
 void walk(DefinitionWalk& in, msq_functional_def& def);
 void walk(DefinitionWalk& in, msq_waves_def& def);

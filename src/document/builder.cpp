@@ -83,6 +83,9 @@ msq_status create(Builder& builder, msq_shape_distance_field_def& def, msq_field
 msq_status create(Builder& builder, msq_lattice_def& def, msq_structure** structure) {
   return msq_structure_lattice(builder.context(), &def, structure);
 }
+msq_status create(Builder& builder, msq_plate_lattice_def& def, msq_structure** structure) {
+  return msq_structure_plate_lattice(builder.context(), &def, structure);
+}
 msq_status create(Builder& builder, msq_foam_def& def, msq_structure** structure) {
   return msq_structure_foam(builder.context(), &def, structure);
 }
@@ -189,6 +192,7 @@ constexpr KindOf<msq_field> field_kinds[] = {
     {"shape_distance", make_of<msq_field, msq_shape_distance_field_def>}};
 constexpr KindOf<msq_structure> structure_kinds[] = {
     {"lattice", make_of<msq_structure, msq_lattice_def>},
+    {"plate_lattice", make_of<msq_structure, msq_plate_lattice_def>},
     {"foam", make_of<msq_structure, msq_foam_def>},
     {"functional", make_of<msq_structure, msq_functional_def>},
     {"waves", make_of<msq_structure, msq_waves_def>},

@@ -92,6 +92,7 @@ void visit(const Field& field, Body&& body) {
 template <class Body>
 void visit(const Structure& structure, Body&& body) {
   if (!(if_kept<msq_lattice_def>(structure, "lattice", body) ||
+        if_kept<msq_plate_lattice_def>(structure, "plate_lattice", body) ||
         if_kept<msq_foam_def>(structure, "foam", body) ||
         if_kept<msq_functional_def>(structure, "functional", body) ||
         if_kept<msq_waves_def>(structure, "waves", body) ||

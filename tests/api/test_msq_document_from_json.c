@@ -62,6 +62,15 @@ static const char* const documents[] = {
         "\"custom\", \"nodes\": [[0, 0, 0], [1, 1, 1]], \"struts\": [[0, 1]]}, {}], "
         "\"cell_choice\": {\"gradient\": {\"from\": [0, 0, 0], \"from_value\": 0, \"to\": [4, 0, "
         "0], \"to_value\": 2}}}}"),
+    IN_BOX("{\"plate_lattice\": {\"plate_cell\": \"cubic_octet\", \"thickness\": 0.1, "
+           "\"face_factors\": [2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1], \"radius\": {\"radial\": "
+           "{\"from_value\": 0.1, \"to_value\": 0.2}}, \"unit_cell\": \"bcc\", \"strut_factors\": "
+           "[1, 1, 1, 1, 1, 1, 1, 0.5]}}"),
+    IN_BOX(
+        "{\"plate_lattice\": {\"plate_cell\": \"custom\", \"grid\": {\"cell_size\": [1, 2, 3]}, "
+        "\"thickness\": {\"radial\": {\"from_value\": 0.1, \"to_value\": 0.2}}, \"nodes\": [[0, 0, "
+        "0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], \"faces\": [[0, 1, 2], [1, 2, 3]], \"radius\": 0.1, "
+        "\"unit_cell\": \"custom\", \"struts\": [[0, 3], [1, 3]]}}"),
     IN_BOX(
         "{\"foam\": {\"method\": \"direct\", \"radius\": 0.1, \"jitter\": 0.5, \"seed\": "
         "18446744073709551615, \"density\": 4, \"wall_thickness\": 0.05, \"vent_radius\": 0.2}}"),

@@ -137,6 +137,76 @@ static void unit_cells_hash_nodes_and_struts(void** state) {
   }
 }
 
+/* ---- plate lattices ---------------------------------------------------------------------------
+ */
+
+static void hash_plates(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
+  msq_structure* structure;
+  assert_ok(msq_structure_plate_lattice(in, (const msq_plate_lattice_def*)def, &structure));
+  hash_and_release(structure, hash);
+}
+
+static void plate_lattices_hash_what_they_are_made_of(void** state) {
+  static const uint32_t faces[2][3] = {{0, 1, 2}, {2, 1, 0}}, turned[2][3] = {{1, 0, 2}, {2, 1, 0}},
+                        others[2][2] = {{0, 1}, {0, 2}};
+  static const double face_factors[6] = {1, 1, 1, 2, 1, 1}, ones[2] = {1, 1}, twos[2] = {2, 1},
+                      moved[3][3] = {{0, 0, 0}, {0.5, 0.5, 0.75}, {1, 0, 0.25}};
+  msq_plate_lattice_def def, other;
+  (void)state;
+  assert_ok(msq_plate_lattice_def_init(&def, sizeof def));
+  def.thickness.value = 0.125;
+  HASHES(context, "msq_plate_lattice_def", &def, sizeof def, hash_plates) {
+    NOT_HASHED(def.struct_size);
+    for (int32_t cell = MSQ_PLATE_CELL_BCC; cell <= MSQ_PLATE_CELL_KELVIN; ++cell)
+      CHANGES(def.plate_cell, def.plate_cell = cell);
+    GRID_CHANGES(def.grid);
+    CHANGES(def.thickness.value, def.thickness.value = 0.25);
+    PARAM_CHANGES(def.thickness, ramp, steep_ramp);
+    CHANGES(def.nodes, def.plate_cell = MSQ_PLATE_CELL_CUSTOM; def.nodes = moved[0];
+            def.node_count = 3; def.faces = faces[0]; def.face_count = 1);
+    KEEPS(def.node_count, def.node_count = 3); /* of a named cell */
+    KEEPS(def.faces, def.faces = faces[0]);
+    KEEPS(def.face_count, def.face_count = 6);
+    CHANGES(def.face_factors, def.face_factors = face_factors; def.face_count = 6);
+    CHANGES(def.radius, def.radius.value = 0.125);
+    KEEPS(def.unit_cell, def.unit_cell = MSQ_UNIT_CELL_BCC); /* without struts */
+    NOT_HASHED(def.reserved);
+    NOT_HASHED(def.struts);
+    KEEPS(def.strut_count, def.strut_count = 3);
+    NOT_HASHED(def.strut_factors);
+  }
+  other = def;
+  def.thickness.field = ramp;
+  other.thickness.field = same_ramp;
+  equal_fields_are_one(&def, &other, hash_plates);
+
+  assert_ok(msq_plate_lattice_def_init(&def, sizeof def));
+  def.thickness.value = def.radius.value = 0.125;
+  def.plate_cell = MSQ_PLATE_CELL_CUSTOM;
+  def.unit_cell = MSQ_UNIT_CELL_CUSTOM;
+  def.nodes = corners[0];
+  def.node_count = 3;
+  def.faces = faces[0];
+  def.face_count = 2;
+  def.struts = pairs[0];
+  def.strut_count = 2;
+  HASHES(context, "own plates and struts", &def, sizeof def, hash_plates) {
+    NOT_HASHED(def);
+    CHANGES(def.nodes, def.nodes = moved[0]);
+    CHANGES(def.faces, def.faces = turned[0]);
+    CHANGES(def.face_count, def.face_count = 1);
+    KEEPS(def.face_factors, def.face_factors = ones);
+    CHANGES(def.face_factors, def.face_factors = twos);
+    CHANGES(def.radius.value, def.radius.value = 0.25);
+    PARAM_CHANGES(def.radius, ramp, steep_ramp);
+    CHANGES(def.unit_cell, def.unit_cell = MSQ_UNIT_CELL_BCC);
+    CHANGES(def.struts, def.struts = others[0]);
+    CHANGES(def.strut_count, def.strut_count = 1);
+    KEEPS(def.strut_factors, def.strut_factors = ones);
+    CHANGES(def.strut_factors, def.strut_factors = twos);
+  }
+}
+
 /* ---- foams ----------------------------------------------------------------------------------- */
 
 static void hash_foam(msq_context* in, const void* def, uint8_t hash[hash_bytes]) {
@@ -322,6 +392,7 @@ int main(void) {
       cmocka_unit_test(lattices_hash_custom_cells),
       cmocka_unit_test(lattices_hash_libraries),
       cmocka_unit_test(unit_cells_hash_nodes_and_struts),
+      cmocka_unit_test(plate_lattices_hash_what_they_are_made_of),
       cmocka_unit_test(foams_hash_seeds_and_sizes),
       cmocka_unit_test(walls_hash_seeds_and_sizes),
       cmocka_unit_test(functional_structures_hash_their_function),

@@ -106,6 +106,111 @@ static void lattices(void** state) {
   }
 }
 
+static msq_plate_lattice_def* plates_of(int32_t plate_cell) {
+  msq_plate_lattice_def* def = (msq_plate_lattice_def*)definition(0);
+  assert_ok(msq_plate_lattice_def_init(def, sizeof *def));
+  def->plate_cell = plate_cell;
+  def->thickness.value = 0.1;
+  return def;
+}
+
+static void plate_lattices(void** state) {
+  msq_field* fields[3];
+  (void)state;
+  make_fields(context, fields, 1);
+  REFUSALS("msq_structure_plate_lattice") {
+    const double factors[12] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    const uint32_t pairs[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+    msq_context* in = context;
+    msq_plate_lattice_def* def = plates_of(MSQ_PLATE_CELL_FCC);
+    msq_structure** structure = (msq_structure**)output(0);
+    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    WRONG(ARGUMENT, "context is NULL", in = NULL);
+    WRONG(ARGUMENT, "structure is NULL", structure = NULL);
+    wrong_enum(table, &def->plate_cell, "plate_cell", 0, 5);
+    wrong_grid(table, &def->grid);
+    WRONG(ARGUMENT, "reserved is 1", def->reserved = 1);
+    WRONG(ARGUMENT, "struts is not NULL, but radius is 0", def->struts = pairs[0]);
+    WRONG(ARGUMENT, "strut_factors is not NULL, but radius is 0", def->strut_factors = factors;
+          def->strut_count = 12);
+    RIGHT(def->radius.value = 0.1; def->strut_factors = factors; def->strut_count = 12);
+    WRONG(ARGUMENT, "strut_count is 2", def->radius.value = 0.1; def->strut_factors = factors;
+          def->strut_count = 2);
+    WRONG(ARGUMENT, "unit_cell is 9", def->radius.value = 0.1; def->unit_cell = 9);
+    WRONG(ARGUMENT, "node_count is 0", def->radius.value = 0.1; def->unit_cell = 0);
+    WRONG(ARGUMENT, "face 0, in model units, has|at least 1e-05", def->grid.cell_size[1] = 1e-9;
+          def->grid.cell_size[0] = 1e-9; def->thickness.value = 1e-9);
+    WRONG(ARGUMENT, "def is NULL", def = NULL);
+    if (TRY(msq_structure_plate_lattice(in, def, structure))) msq_structure_release(*structure);
+  }
+  REFUSALS("msq_structure_plate_lattice") { /* sizes; cells of unlike sides */
+    msq_plate_lattice_def* def = plates_of(MSQ_PLATE_CELL_CUBIC);
+    msq_structure** structure = (msq_structure**)output(0);
+    def->grid.cell_size[1] = 0.25;
+    const double numbers[4] = {0, -0.5, NAN, INFINITY};
+    for (int i = 0; i < 4; ++i) WRONG(ARGUMENT, "thickness is ", def->thickness.value = numbers[i]);
+    RIGHT(def->thickness.value = 1);
+    WRONG(LIMIT, "thickness reaches 1.00098|the limit is 1 ", def->thickness.value = 1.0009765625);
+    WRONG(ARGUMENT, "thickness|-0.25", def->thickness.field = fields[0]);
+    WRONG(ARGUMENT, "thickness|0 everywhere", def->thickness.field = fields[1]);
+    WRONG(LIMIT, "thickness|the limit is 1 ", def->thickness.field = fields[2]);
+    for (int i = 1; i < 4; ++i) WRONG(ARGUMENT, "radius is ", def->radius.value = numbers[i]);
+    WRONG(LIMIT, "radius reaches 1.00098|the limit is 1 ", def->radius.value = 1.0009765625);
+    WRONG(ARGUMENT, "radius|0 everywhere", def->radius.field = fields[1]);
+    if (TRY(msq_structure_plate_lattice(context, def, structure)))
+      msq_structure_release(*structure);
+  }
+  REFUSALS("msq_structure_plate_lattice") { /* cells of the host */
+    static const uint32_t wrong[4][3] = {{0, 4, 1}, {UINT32_MAX, 1, 2}, {2, 1, 2}, {3, 3, 3}};
+    static const double outside[] = {-0.125, 1.125, NAN, INFINITY};
+    static const char* texts[] = {"-0.125", "1.125", "nan", "inf"};
+    static const uint64_t counts[] = {0, 4097, UINT64_MAX};
+    double cell_nodes[4][3] = {{0, 0, 0}, {0.25, 0.25, 0.25}, {0.5, 0.5, 0}, {0.9, 0.1, 1}};
+    uint32_t faces[2][3] = {{0, 1, 2}, {1, 2, 3}};
+    double factors[2] = {1, 1};
+    const double refused[] = {0, -1, 0.00099, 1000.5, NAN, INFINITY};
+    msq_plate_lattice_def* def = plates_of(MSQ_PLATE_CELL_CUSTOM);
+    msq_structure** structure = (msq_structure**)output(0);
+    def->nodes = cell_nodes[0];
+    def->node_count = 4;
+    def->faces = faces[0];
+    def->face_count = 2;
+    WRONG(ARGUMENT, "nodes is NULL", def->nodes = NULL);
+    WRONG(ARGUMENT, "faces is NULL", def->faces = NULL);
+    for (int i = 0; i < 3; ++i) {
+      WRONG(ARGUMENT, words_of("node_count|%" PRIu64 "|4096", counts[i]),
+            def->node_count = counts[i]);
+      WRONG(ARGUMENT, words_of("face_count|%" PRIu64 "|4096", counts[i]),
+            def->face_count = counts[i]);
+    }
+    for (int i = 0; i < 4; ++i) {
+      WRONG(ARGUMENT,
+            words_of("face 1 joins nodes %" PRIu32 ", %" PRIu32 " and %" PRIu32 "|4 nodes",
+                     wrong[i][0], wrong[i][1], wrong[i][2]),
+            memcpy(faces[1], wrong[i], sizeof wrong[i]));
+      for (int axis = 0; axis < 3; ++axis)
+        WRONG(ARGUMENT, words_of("node|%s", texts[i]), cell_nodes[2][axis] = outside[i]);
+    }
+    /* On a line, and nearly so. */
+    WRONG(ARGUMENT, "face 0, in model units, has|at least 1e-05",
+          memcpy(cell_nodes[2], cell_nodes[0], sizeof cell_nodes[0]));
+    WRONG(ARGUMENT, "face 0, in model units, has|at least 1e-05", cell_nodes[2][0] = 0.5;
+          cell_nodes[2][1] = 0.5; cell_nodes[2][2] = 0.5000001);
+    RIGHT(cell_nodes[2][0] = 0.5; cell_nodes[2][1] = 0.5; cell_nodes[2][2] = 0.5001);
+    WRONG(ARGUMENT, "face_count is 1|6", def->plate_cell = MSQ_PLATE_CELL_CUBIC;
+          def->face_factors = factors; def->face_count = 1);
+    for (int i = 0; i < 6; ++i)
+      WRONG(ARGUMENT, "the factor of face 1|from 0.001 to 1000", def->face_factors = factors;
+            factors[1] = refused[i]);
+    RIGHT(def->face_factors = factors; factors[1] = 40);
+    WRONG(LIMIT, "greatest face factor|the limit is 4", def->face_factors = factors;
+          factors[1] = 40.0009765625);
+    if (TRY(msq_structure_plate_lattice(context, def, structure)))
+      msq_structure_release(*structure);
+  }
+  release_fields(fields);
+}
+
 static msq_unit_cell_def* cell_of(int32_t unit_cell) {
   msq_unit_cell_def* cell = (msq_unit_cell_def*)definition(0);
   *cell = named_cell(unit_cell);
@@ -175,6 +280,7 @@ static void unit_cells(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lattices),
+      cmocka_unit_test(plate_lattices),
       cmocka_unit_test(unit_cells),
   };
   context = make_context();

@@ -19,6 +19,7 @@
   DO(shape_distance_field_def, sizeof(msq_shape_distance_field_def)) \
   DO(unit_cell_def, sizeof(msq_unit_cell_def))                       \
   DO(lattice_def, offsetof(msq_lattice_def, strut_factors))          \
+  DO(plate_lattice_def, sizeof(msq_plate_lattice_def))               \
   DO(foam_def, offsetof(msq_foam_def, density))                      \
   DO(functional_def, offsetof(msq_functional_def, period))           \
   DO(period_def, sizeof(msq_period_def))                             \

@@ -25,6 +25,8 @@
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
 #include "structure/lattice/mixed/mixed_lattice.h"
+#include "structure/lattice/plated_lattice.h"
+#include "structure/lattice/plates/plate_lattice.h"
 #include "structure/waves/waves.h"
 
 namespace msq::test {
@@ -171,6 +173,37 @@ UnitCell factored_unit_cell() {
   cell.factors = {1, 0.5, 1.75, 1, 0.25, 1.5};
   return cell;
 }
+
+Factory plates_factory(PlateCell cell) {
+  return [cell](const Neighbourhood& grid, Parameter thickness) {
+    return Ref<const Structure>(make_ref<PlateLattice>(grid, cell, std::move(thickness)));
+  };
+}
+
+PlateCell skew_plate_cell() {
+  PlateCell cell;
+  cell.nodes = skew_unit_cell().nodes;
+  cell.faces = {{0, 1, 5}, {2, 3, 4}, {5, 7, 8}, {0, 2, 6}, {4, 7, 5}};
+  return cell;
+}
+
+PlateCell factored_plate_cell() {
+  PlateCell cell = skew_plate_cell();
+  cell.factors = {1, 0.5, 1.75, 0.25, 1.5};
+  return cell;
+}
+
+namespace {
+
+/// It stands for the thickness of the plates and for the radius of the struts.
+Factory plated_factory(UnitCell struts, PlateCell plates) {
+  return [=](const Neighbourhood& grid, const Parameter& size) {
+    return Ref<const Structure>(make_ref<PlatedLattice>(
+        make_ref<Lattice>(grid, struts, size), make_ref<PlateLattice>(grid, plates, size)));
+  };
+}
+
+}  // namespace
 
 Factory mixed_factory() {
   return [](const Neighbourhood& grid, Parameter radius) {
@@ -362,6 +395,14 @@ std::vector<Kind> kinds() {
       {"presets", "Kelvin", 0.05, 1, lattice_factory(kelvin_unit_cell())},
       {"presets", "re-entrant", 0.07, 1, lattice_factory(reentrant_unit_cell())},
       {"mixed", "", 0.07, 1, mixed_factory()},
+      {"plates", "cubic", 0.16, 1, plates_factory(cubic_plate_cell())},
+      {"plates", "cubic and octet, thin", 0.04, 1, plates_factory(cubic_octet_plate_cell())},
+      {"plates", "BCC", 0.1, 1, plates_factory(bcc_plate_cell())},
+      {"plates", "Kelvin", 0.1, 1, plates_factory(kelvin_plate_cell())},
+      {"plates", "skew", 0.08, 1, plates_factory(skew_plate_cell())},
+      {"plates", "skew, beyond their cell", 0.3, 1, plates_factory(skew_plate_cell())},
+      {"plates", "factors", 0.12, 1, plates_factory(factored_plate_cell())},
+      {"plates", "and struts", 0.09, 1, plated_factory(skew_unit_cell(), skew_plate_cell())},
   };
   // A sum with the tables of a row, one of them with its magnitude taken, and what is none.
   const FunctionalKind network = FunctionalKind::network, sheet = FunctionalKind::sheet;

@@ -13,6 +13,7 @@
 #include "structure/beams/beams.h"
 #include "structure/foam/foam.h"
 #include "structure/functional/functional.h"
+#include "structure/lattice/cell/plate_cell.h"
 #include "structure/lattice/cell/unit_cell.h"
 #include "structure/structure.h"
 
@@ -103,6 +104,13 @@ Factory graded_functional_factory(const char* expression, FunctionalKind kind, i
 UnitCell skew_unit_cell();
 /// The same with struts of six radii.
 UnitCell factored_unit_cell();
+/// The radius of the suite stands for the thickness.
+Factory plates_factory(PlateCell cell);
+/// Skew triangles that start and end on faces, edges and corners of the cell, a narrow one, and one
+/// alone in the middle.
+PlateCell skew_plate_cell();
+/// The same with plates of five thicknesses.
+PlateCell factored_plate_cell();
 /// Cubic, skew, octet and Kelvin cells, by a choice that grows along an oblique line and runs past
 /// both ends of the library.
 Factory mixed_factory();

@@ -135,6 +135,59 @@ void test_exact(void** state) {
   if (count > 100) assert_in_range(outside, 1, count);
 }
 
+/// A plate's distance: of the line through p across its plane, or of its rim, point by point.
+double distance_to_plate(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
+  // The parameters of the nearest point of the plane, by Cramer's rule on Gram's matrix.
+  const Vec3 ab = b - a, ac = c - a, w = p - a;
+  const double bb = dot(ab, ab), bc = dot(ab, ac), cc = dot(ac, ac);
+  const double wb = dot(w, ab), wc = dot(w, ac), gram = bb * cc - bc * bc;
+  const double s = (wb * cc - wc * bc) / gram, t = (wc * bb - wb * bc) / gram;
+  if (s >= 0 && t >= 0 && s + t <= 1) return length(w - ab * s - ac * t);
+  const auto to_side = [&](Vec3 from, Vec3 to) {
+    const Vec3 way = to - from;
+    const double at = std::clamp(dot(p - from, way) / dot(way, way), 0.0, 1.0);
+    return length(p - from - way * at);
+  };
+  return std::min({to_side(a, b), to_side(b, c), to_side(c, a)});
+}
+
+/// Outside and for constant thickness, the least distance to all triangles of the tiling less half
+/// of their thickness.
+void test_plates(void** state) {
+  const StructureRow& row = *static_cast<const StructureRow*>(*state);
+  const Neighbourhood& grid = row.variant.grid;
+  const Ref<const Structure> structure = row.make({});
+  const PlateCell cell = row.kind.name == "factors" ? factored_plate_cell() : skew_plate_cell();
+  Random random(row.index + 6);
+  const size_t count = test_count(600);
+  size_t outside = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const Vec3 q = random.in_box({{0, 0, 0}, grid.cell_size}), p = grid.from_grid(q);
+    double wanted = std::numeric_limits<double>::infinity();
+    double onset = wanted;
+    constexpr int reach = 3;
+    for (int n = 0; n < 7 * 7 * 7; ++n) {
+      const Vec3 shift{double(n % 7 - reach), double(n / 7 % 7 - reach), double(n / 49 - reach)};
+      for (size_t f = 0; f < cell.faces.size(); ++f) {
+        const auto corner = [&](size_t k) {
+          return (cell.nodes[cell.faces[f][k]] + shift) * grid.cell_size;
+        };
+        const double distance = distance_to_plate(q, corner(0), corner(1), corner(2));
+        wanted = std::min(wanted, distance - 0.5 * cell.factor(f) * row.radius());
+        onset = std::min(onset, 2 * distance / cell.factor(f));
+      }
+    }
+    const double d = structure->distance(p);
+    outside += wanted > 0;
+    if (std::abs(d - wanted) > 1e-11 * row.unit())
+      fail_msg("%s: distance %.17g at (%.17g, %.17g, %.17g), not %.17g", row.name.c_str(), d, p.x,
+               p.y, p.z, wanted);
+    assert_true(std::abs(structure->onset(p) - onset) <= 1e-11 * row.unit());
+    if (std::abs(wanted) > 1e-11 * row.unit()) assert_int_equal(structure->inside(p), wanted < 0);
+  }
+  if (count > 100) assert_in_range(outside, 1, count);
+}
+
 /// Jumps at the cells' borders along x and y, which no other row of the suite may.
 Kind jumping_kind() {
   return {"functional", "jumps", 0.1, 1,
@@ -151,5 +204,11 @@ int main() {
                       variant, is_graded, 8, rows.size()});
   for (const StructureRow& row : rows)
     if (!row.is_graded && !unit_cell_of(row).struts.empty()) lattices.push_back(row);
-  return run_for_each("distance", rows, test_row) + run_for_each("exact", lattices, test_exact);
+  std::vector<StructureRow> plates;
+  for (const StructureRow& row : rows)
+    if (row.kind.family == "plates" && !row.is_graded &&
+        (row.kind.name.find("skew") == 0 || row.kind.name == "factors"))
+      plates.push_back(row);
+  return run_for_each("distance", rows, test_row) + run_for_each("exact", lattices, test_exact) +
+         run_for_each("exact plates", plates, test_plates);
 }

@@ -14,6 +14,7 @@
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
+#include "structure/lattice/plates/plate_lattice.h"
 #include "structure/waves/waves.h"
 #include "suite.h"
 
@@ -156,6 +157,16 @@ void all_instruction_sets_give_the_same_layers(void**) {
         const char* const text = "min(exp(sin(x)*cos(y))-1,max(log(2+cos(z)),sqrt(x+y)-2))";
         return make_ref<Functional>(Neighbourhood{}, parse_expression(text, {}),
                                     FunctionalKind::sheet, Parameter(0.2), 0);
+      },
+      [](Ref<Context>) {
+        return make_ref<PlateLattice>(Neighbourhood{{}, {0.21, 0.2, 0.23}, {}}, kelvin_plate_cell(),
+                                      Parameter(0.02));
+      },
+      [](Ref<Context>) {
+        const Ref<const Field> field =
+            make_ref<GradientField>(Vec3{0, 0, 0}, 0.0, Vec3{1, 0.5, 0.2}, 0.1);
+        return make_ref<PlateLattice>(Neighbourhood{{}, {0.3, 0.5, 0.4}, {}},
+                                      cubic_octet_plate_cell(), Parameter(field));
       },
       [](Ref<Context>) {
         return make_ref<Waves>(turned(), waves_of(50), WavesKind::network, Parameter(0.2));

@@ -34,6 +34,7 @@ std::vector<Scenario> small_scenarios() {
       definition("msq_shape_distance_field_def_init", msq_shape_distance_field_def_init),
       definition("msq_unit_cell_def_init", msq_unit_cell_def_init),
       definition("msq_lattice_def_init", msq_lattice_def_init),
+      definition("msq_plate_lattice_def_init", msq_plate_lattice_def_init),
       definition("msq_beams_def_init", msq_beams_def_init),
       definition("msq_foam_def_init", msq_foam_def_init),
       definition("msq_functional_def_init", msq_functional_def_init),

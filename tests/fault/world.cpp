@@ -66,6 +66,17 @@ MakeStructure waves(World& world) {
   };
 }
 
+/// Of plates and struts.
+MakeStructure plate_lattice(World& world) {
+  msq_plate_lattice_def def = make_def(msq_plate_lattice_def_init);
+  def.plate_cell = MSQ_PLATE_CELL_FCC;
+  def.thickness.field = world.gradient();
+  def.radius.value = 0.1;
+  return [&world, def](msq_structure** made) {
+    return msq_structure_plate_lattice(world.context, &def, made);
+  };
+}
+
 MakeStructure foam(World& world, int32_t method, msq_param radius, msq_param density = {1, nullptr},
                    double cell_height = 1);
 
@@ -455,6 +466,7 @@ const std::vector<Kind>& kinds() {
         {"host structure", [](World& w) { return host_structure(w, false); }, false},
         {"host structure with cells", [](World& w) { return host_structure(w, true); }, false},
         {"waves", waves},
+        {"plate lattice", plate_lattice},
         {"beams", beams, false},
         {"host function", host_functional, false},
         {"union", [](World& w) { return boolean(w, MSQ_BOOLEAN_UNION); }, false},

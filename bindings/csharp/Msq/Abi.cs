@@ -133,6 +133,23 @@ namespace Msq
         Reentrant = 8,
     }
 
+    /// <summary>Unit cells of plate lattices: triangles in the unit cube, in the order of face_factors.</summary>
+    public enum PlateCell
+    {
+        /// <summary>Nodes and faces of the definition.</summary>
+        Custom = 0,
+        /// <summary>Simple cubic: planes {100}, the faces of the cube, 2 triangles each normal to x, y and z.</summary>
+        Cubic = 1,
+        /// <summary>Body-centred cubic: planes {110}, the 6 rectangles through opposite edges of the cube: 12 triangles.</summary>
+        Bcc = 2,
+        /// <summary>Face-centred cubic: planes {111}, the faces of the octet truss's tetrahedra and octahedra: 8 triangles between diagonals of the cube's faces.</summary>
+        Fcc = 3,
+        /// <summary>CUBIC, then FCC: 14 triangles. Thin plates are equally stiff in all directions if those of the first 6 are 8 sqrt(3) / 9 = 1.5396 times as thick as the others.</summary>
+        CubicOctet = 4,
+        /// <summary>Faces of space-filling truncated octahedra, MSQ_UNIT_CELL_KELVIN closed: 72 triangles, the first 48 of hexagons, the others of squares.</summary>
+        Kelvin = 5,
+    }
+
     /// <summary>How sets, grids and slices of a foam are evaluated. All methods yield the same solid. POINT, METHOD_1 and METHOD_2 are those of the paper, for comparison. docs/benchmarks.md compares their cost. Single points (msq_point_membership) are always evaluated by the definition.</summary>
     public enum FoamMethod
     {
@@ -276,7 +293,7 @@ namespace Msq
     /// <summary>What msq_set_onset writes.</summary>
     public enum OnsetValue
     {
-        /// <summary>The onset: the smallest radius or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units, the least over the factors of struts. Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the least of theirs.</summary>
+        /// <summary>The onset: the smallest radius, thickness or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units, the least over the factors of struts; plates and walls: twice that to the nearest. Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the least of theirs.</summary>
         Plain = 0,
         /// <summary>The onset minus the structure's radius or level at the point: at most 0 inside, positive outside. Unions: the least of these.</summary>
         Signed = 1,
@@ -1055,6 +1072,47 @@ namespace Msq.Interop
         public fixed uint types[2];
         /// <summary>Centre of the face in model units.</summary>
         public fixed double point[3];
+    }
+
+    /// <summary>A periodic lattice of plates, or of plates and struts.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct msq_plate_lattice_def
+    {
+        public uint struct_size;
+        /// <summary>An msq_plate_cell. Default MSQ_PLATE_CELL_CUBIC.</summary>
+        public int plate_cell;
+        public msq_neighbourhood grid;
+        /// <summary>Whole thickness of the plates in model units. A constant must be &gt; 0, a field &gt;= 0. No default.</summary>
+        public msq_param thickness;
+        /// <summary>node_count triples, in [0, 1]: the nodes of CUSTOM plates and of CUSTOM struts.</summary>
+        public double* nodes;
+        /// <summary>1 to 4096.</summary>
+        public ulong node_count;
+        /// <summary>CUSTOM: face_count triples of indices of different nodes, not on a line: the area of a triangle in model units must be at least 1e-5 of the square of its longest side.</summary>
+        public uint* faces;
+        /// <summary>1 to 4096. A named cell needs it only with face_factors.</summary>
+        public ulong face_count;
+        /// <summary>Factor of the thickness for each face, 0.001 to 1000. NULL (default): all 1.</summary>
+        public double* face_factors;
+        /// <summary>Radius of the struts in model units, &gt;= 0. The constant 0 (default): no struts.</summary>
+        public msq_param radius;
+        /// <summary>Of the struts, an msq_unit_cell. Default MSQ_UNIT_CELL_CUBIC. Ignored without struts.</summary>
+        public int unit_cell;
+        public uint reserved;
+        /// <summary>With unit_cell CUSTOM: strut_count pairs of indices of different nodes.</summary>
+        public uint* struts;
+        /// <summary>1 to 4096. A named cell needs it only with strut_factors.</summary>
+        public ulong strut_count;
+        /// <summary>As in msq_unit_cell_def.</summary>
+        public double* strut_factors;
+
+        /// <summary>One with the defaults of msq.</summary>
+        public static msq_plate_lattice_def Defaults()
+        {
+            msq_plate_lattice_def made;
+            MsqException.Check(Abi.msq_plate_lattice_def_init(&made, (UIntPtr)sizeof(msq_plate_lattice_def)));
+            return made;
+        }
     }
 
     /// <summary>A Voronoi foam: open-cell (struts), closed-cell (walls), or with both.</summary>
@@ -2347,6 +2405,12 @@ namespace Msq.Interop
         public const int MSQ_UNIT_CELL_DIAMOND = 6;
         public const int MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7;
         public const int MSQ_UNIT_CELL_REENTRANT = 8;
+        public const int MSQ_PLATE_CELL_CUSTOM = 0;
+        public const int MSQ_PLATE_CELL_CUBIC = 1;
+        public const int MSQ_PLATE_CELL_BCC = 2;
+        public const int MSQ_PLATE_CELL_FCC = 3;
+        public const int MSQ_PLATE_CELL_CUBIC_OCTET = 4;
+        public const int MSQ_PLATE_CELL_KELVIN = 5;
         public const int MSQ_FOAM_AUTO = 0;
         public const int MSQ_FOAM_POINT = 1;
         public const int MSQ_FOAM_METHOD_2 = 2;
@@ -3105,6 +3169,30 @@ namespace Msq.Interop
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
         public static extern
 #endif
+        int msq_plate_lattice_def_init(msq_plate_lattice_def* def, UIntPtr size);
+
+        /// <summary>Creates a periodic lattice of plates: the points within half of thickness, times the factor of the face, of the triangles of the tiled unit cell. With a radius, also those of the struts of unit_cell, as in msq_structure_lattice on the same grid. def must not be NULL.</summary>
+        /// <remarks>
+        /// <para>A plate is as thick as said in model units for any cell size, has a round rim, and reaches across cell borders. Faces that coincide in several copies count once, with the greatest of their factors. Lattices of plates alone have an onset, the thickness; those with struts have none (msq_structure_calibrate).</para>
+        /// <para>Cost: proportional to the plates that can reach one cell: milliseconds for the named cells, seconds for thousands of plates as thick as cells, and the same again for the first array, slice or distance. Errors: ARGUMENT, LIMIT (thickness times the greatest factor, or radius times the greatest factor, above 4 times the smallest cell size), MEMORY. Source: Tancogne-Dejean et al. 2018; Berger, Wadley and McMeeking 2017.</para>
+        /// </remarks>
+#if NET7_0_OR_GREATER
+        [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
+        public static partial
+#else
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern
+#endif
+        int msq_structure_plate_lattice(msq_context* context, msq_plate_lattice_def* def, msq_structure** structure);
+
+        /// <summary>Sets the defaults. Errors: ARGUMENT.</summary>
+#if NET7_0_OR_GREATER
+        [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
+        public static partial
+#else
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern
+#endif
         int msq_foam_def_init(msq_foam_def* def, UIntPtr size);
 
         /// <summary>Creates a Voronoi foam of one jittered seed per neighbourhood cell: the points within radius of the edges of the Voronoi diagram, and those within half of wall_thickness of its faces. def must not be NULL.</summary>
@@ -3727,7 +3815,7 @@ namespace Msq.Interop
 #endif
         int msq_set_distance(msq_model* model, msq_points_def* points, msq_query_def* query, double* distance, ulong distance_count, msq_job* job);
 
-        /// <summary>Writes the onset of a structure, of itself and of no model, at each point of a set. value: an msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size (lattices; of unions the smallest limit of the members, for foams the smallest cell size) or is not a number. onset_count must be the number of points.</summary>
+        /// <summary>Writes the onset of a structure, of itself and of no model, at each point of a set. value: an msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size (lattices and plates; of unions the smallest limit of the members, for foams the smallest cell size) or is not a number. onset_count must be the number of points.</summary>
         /// <remarks>
         /// <para>gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central difference over 2^-17 of the smallest cell size on either side: off by about 1e-8 of the largest slope where the function is smooth, a mean of both sides along ridges, and 0 where it is not finite.</para>
         /// <para>MSQ_ONSET_SIGNED agrees in sign with membership; for lattices and foams except within 1e-9 of a cell of the boundary. job NULL: no job. ARGUMENT, LIMIT and UNSUPPORTED write nothing; CANCELLED, HOST and MEMORY may leave the arrays partly written. Cost: in parallel, lattices and functions about 0.1 us per point, foams 1.5 us, a wave 2 ns; seven times that with gradients; foams less if points of a cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index), UNSUPPORTED (kinds without onset, as in msq_structure_calibrate), LIMIT (a point 2^24 cells from the origin of the grid), HOST (fields), CANCELLED, MEMORY.</para>

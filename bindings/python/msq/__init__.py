@@ -32,7 +32,7 @@ from .shape import Shape, ShapeInfo
 from .slicer import Layer, Output, Slicer
 from .statistics import Calibration, Estimate
 from .structure import (Beams, Foam, Functional, HostFunctional, HostStructure, Lattice,
-                        LatticeFaces, Structure, Waves)
+                        LatticeFaces, PlateLattice, Structure, Waves)
 from .strut_graph import StrutGraph
 from .surface import Mesh
 from .unit_cell import UnitCell, UnitCellInfo
@@ -47,7 +47,7 @@ __all__ = [
     "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",
     "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "Mesh", "MeshError",
     "Model",
-    "OutOfMemoryError", "Output", "Param", "Period", "Picture", "PointGrid", "PointSet",
+    "OutOfMemoryError", "Output", "Param", "Period", "Picture", "PlateLattice", "PointGrid", "PointSet",
     "Printability", "RenderPass", "Scale",
     "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
     "UnsupportedError", "Waves", "build_info", "progress",

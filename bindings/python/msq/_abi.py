@@ -56,6 +56,12 @@ MSQ_UNIT_CELL_KELVIN = 5
 MSQ_UNIT_CELL_DIAMOND = 6
 MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7
 MSQ_UNIT_CELL_REENTRANT = 8
+MSQ_PLATE_CELL_CUSTOM = 0
+MSQ_PLATE_CELL_CUBIC = 1
+MSQ_PLATE_CELL_BCC = 2
+MSQ_PLATE_CELL_FCC = 3
+MSQ_PLATE_CELL_CUBIC_OCTET = 4
+MSQ_PLATE_CELL_KELVIN = 5
 MSQ_FOAM_AUTO = 0
 MSQ_FOAM_POINT = 1
 MSQ_FOAM_METHOD_2 = 2
@@ -356,6 +362,15 @@ class msq_lattice_faces_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("axis", c_int32), ("cells", c_uint64),
                 ("faces", c_uint64), ("unmatched", c_uint64), ("cell", c_int32 * 3),
                 ("reserved", c_uint32), ("types", c_uint32 * 2), ("point", c_double * 3)]
+
+
+class msq_plate_lattice_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("plate_cell", c_int32), ("grid", msq_neighbourhood),
+                ("thickness", msq_param), ("nodes", POINTER(c_double)), ("node_count", c_uint64),
+                ("faces", POINTER(c_uint32)), ("face_count", c_uint64),
+                ("face_factors", POINTER(c_double)), ("radius", msq_param), ("unit_cell", c_int32),
+                ("reserved", c_uint32), ("struts", POINTER(c_uint32)), ("strut_count", c_uint64),
+                ("strut_factors", POINTER(c_double))]
 
 
 class msq_foam_def(Structure):
@@ -780,6 +795,9 @@ FUNCTIONS = {
                               POINTER(POINTER(msq_structure))],
     "msq_lattice_faces": [c_int32, POINTER(msq_structure), POINTER(c_double), POINTER(c_double),
                           POINTER(msq_lattice_faces_report), POINTER(msq_job)],
+    "msq_plate_lattice_def_init": [c_int32, POINTER(msq_plate_lattice_def), c_size_t],
+    "msq_structure_plate_lattice": [c_int32, POINTER(msq_context), POINTER(msq_plate_lattice_def),
+                                    POINTER(POINTER(msq_structure))],
     "msq_foam_def_init": [c_int32, POINTER(msq_foam_def), c_size_t],
     "msq_structure_foam": [c_int32, POINTER(msq_context), POINTER(msq_foam_def),
                            POINTER(POINTER(msq_structure))],

@@ -10,7 +10,7 @@ from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, Unio
 import numpy as np
 
 from . import _abi, statistics
-from ._arrays import Elements, elements, output, pointer, triples
+from ._arrays import Elements, elements, output, pointer, triples, vector
 from ._given import parameter, remembers
 from ._grid import Cell, Period, set_grid, set_period
 from ._handle import Handle, hash_of
@@ -271,6 +271,71 @@ class Lattice(Structure):
         interruptible(lambda work: lib.msq_lattice_faces(reference, low, high, ctypes.byref(filled),
                                                          work), job)
         return record(LatticeFaces, filled)
+
+
+class PlateLattice(Structure):
+    """Periodic lattice of plates: the points within half of thickness of a plate cell's triangles,
+    and, with a radius, of the struts of a unit cell.
+
+    plate_cell: a name (`cubic`, `bcc`, `fcc`, `cubic_octet`, `kelvin`), or a pair of nodes (n, 3) in
+    [0, 1] and faces (m, 3) of node indices. face_factors: of the thickness, one per face. unit_cell:
+    as in Lattice. radius 0: no struts.
+    """
+
+    plate_cell: parameter[Any] = parameter("As given.")
+    thickness: parameter[Param] = parameter("Of the plates.")
+    face_factors: parameter[Any] = parameter("Of the thickness, one per face; None: all 1.")
+    radius: parameter[Param] = parameter("Of the struts.")
+    unit_cell: parameter[Any] = parameter("Of the struts, as given.")
+    cell_size: parameter[Cell] = parameter("As given: one number, or three.")
+    origin: parameter[Sequence[float]] = parameter("Of the grid.")
+    rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
+
+    @remembers
+    def __init__(self, plate_cell: Union[str, Sequence[Any]] = "cubic", *, thickness: Param,
+                 face_factors: Any = None, radius: Param = 0.0, unit_cell: UnitCellLike = "cubic",
+                 cell_size: Cell = 1.0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
+                 context: Optional[Context] = None) -> None:
+        definition = defaults(_abi.msq_plate_lattice_def)
+        set_grid(definition.grid, cell_size, origin, rotation)
+        set_param(definition.thickness, thickness)
+        set_param(definition.radius, radius)
+        struts = as_unit_cell(unit_cell)
+        has_struts = definition.radius.field or definition.radius.value != 0
+        if has_struts:
+            for label in ("unit_cell", "nodes", "node_count", "struts", "strut_count",
+                          "strut_factors"):
+                setattr(definition, label, getattr(struts._definition, label))
+        kept = []
+        if isinstance(plate_cell, str):
+            definition.plate_cell = constant("MSQ_PLATE_CELL_", plate_cell, "plate_cell")
+        else:
+            definition.plate_cell = _abi.MSQ_PLATE_CELL_CUSTOM
+            nodes, faces = (vector(plate_cell[0], np.float64, (-1, 3), "nodes"),
+                            vector(plate_cell[1], np.uint32, (-1, 3), "faces"))
+            kept += [nodes, faces]
+            if has_struts and struts._definition.unit_cell == _abi.MSQ_UNIT_CELL_CUSTOM:
+                # One list of nodes, first the plates', then the struts'.
+                own, pairs = struts.geometry()
+                pairs = np.ascontiguousarray(pairs + np.uint32(len(nodes)))
+                nodes = np.concatenate([nodes, own])
+                kept += [nodes, pairs]
+                definition.struts = pointer(pairs, ctypes.c_uint32)
+            definition.nodes = pointer(nodes, ctypes.c_double)
+            definition.node_count = len(nodes)
+            definition.faces = pointer(faces, ctypes.c_uint32)
+            definition.face_count = len(faces)
+        if face_factors is not None:
+            factors = vector(face_factors, np.float64, (-1,), "face_factors")
+            kept.append(factors)
+            if not isinstance(plate_cell, str) and len(factors) != definition.face_count:
+                raise ValueError(f"there are {len(factors)} face_factors and "
+                                 f"{definition.face_count} faces")
+            definition.face_factors = pointer(factors, ctypes.c_double)
+            definition.face_count = len(factors)
+        self._make(context_of(context, thickness, radius), lib.msq_structure_plate_lattice,
+                   definition)
+        del kept, struts  # the call copies them
 
 
 class Foam(Structure):

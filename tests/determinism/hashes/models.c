@@ -154,6 +154,10 @@ static msq_model* spinodal(Kit* kit) {
   return filled(kit, box(kit), waves(kit));
 }
 
+static msq_model* plates_and_struts(Kit* kit) {
+  return filled(kit, box(kit), plate_lattice(kit));
+}
+
 static msq_model* beam_list(Kit* kit) {
   return filled(kit, box(kit), beams(kit));
 }
@@ -246,6 +250,7 @@ static const struct {
     {"regions", regions},
     {"waves", spinodal},
     {"foam-and-lattice-smooth", smooth},
+    {"plates-and-struts", plates_and_struts},
 };
 
 const char* model_name(int i) {

@@ -255,6 +255,19 @@ const msq_structure* waves(Kit* kit) {
   return keep_structure(kit, structure);
 }
 
+const msq_structure* plate_lattice(Kit* kit) {
+  msq_plate_lattice_def def;
+  must(msq_plate_lattice_def_init(&def, sizeof def));
+  def.plate_cell = MSQ_PLATE_CELL_KELVIN;
+  set_cells(&def.grid, 5, 4, 7);
+  def.thickness = gradient(kit, 0.1, 0.6);
+  def.unit_cell = MSQ_UNIT_CELL_BCC;
+  def.radius = number(0.3);
+  msq_structure* structure;
+  must(msq_structure_plate_lattice(kit->context, &def, &structure));
+  return keep_structure(kit, structure);
+}
+
 const msq_structure* beams(Kit* kit) {
   enum { node_total = 40, beam_total = 60 };
   static double at[node_total][3], radii[beam_total][2];

@@ -59,6 +59,7 @@ msq_functional_def functional_def(int32_t function, int32_t kind, double cell);
 const msq_structure* functional(Kit* kit, const msq_functional_def* def);
 const msq_structure* beams(Kit* kit);
 const msq_structure* waves(Kit* kit);
+const msq_structure* plate_lattice(Kit* kit);
 /* operation: an msq_boolean_operation. */
 const msq_structure* joined(Kit* kit, int32_t operation, const msq_structure* a,
                             const msq_structure* b);

@@ -148,6 +148,24 @@ pub const MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON: i32 = 7;
 /// Auxetic: widens in x and y when pulled along z. Uprights along z, 3/4 of the cell high, every second one half a cell higher, and slanted struts between the ends of neighbours: 22 struts.
 pub const MSQ_UNIT_CELL_REENTRANT: i32 = 8;
 
+/// Nodes and faces of the definition.
+pub const MSQ_PLATE_CELL_CUSTOM: i32 = 0;
+
+/// Simple cubic: planes {100}, the faces of the cube, 2 triangles each normal to x, y and z.
+pub const MSQ_PLATE_CELL_CUBIC: i32 = 1;
+
+/// Body-centred cubic: planes {110}, the 6 rectangles through opposite edges of the cube: 12 triangles.
+pub const MSQ_PLATE_CELL_BCC: i32 = 2;
+
+/// Face-centred cubic: planes {111}, the faces of the octet truss's tetrahedra and octahedra: 8 triangles between diagonals of the cube's faces.
+pub const MSQ_PLATE_CELL_FCC: i32 = 3;
+
+/// CUBIC, then FCC: 14 triangles. Thin plates are equally stiff in all directions if those of the first 6 are 8 sqrt(3) / 9 = 1.5396 times as thick as the others.
+pub const MSQ_PLATE_CELL_CUBIC_OCTET: i32 = 4;
+
+/// Faces of space-filling truncated octahedra, MSQ_UNIT_CELL_KELVIN closed: 72 triangles, the first 48 of hexagons, the others of squares.
+pub const MSQ_PLATE_CELL_KELVIN: i32 = 5;
+
 /// The fastest method; now DIRECT.
 pub const MSQ_FOAM_AUTO: i32 = 0;
 
@@ -279,7 +297,7 @@ pub const MSQ_POINTS_GRID: i32 = 2;
 
 pub const MSQ_POINTS_STRATIFIED: i32 = 3;
 
-/// The onset: the smallest radius or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units, the least over the factors of struts. Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the least of theirs.
+/// The onset: the smallest radius, thickness or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units, the least over the factors of struts; plates and walls: twice that to the nearest. Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the least of theirs.
 pub const MSQ_ONSET_PLAIN: i32 = 0;
 
 /// The onset minus the structure's radius or level at the point: at most 0 inside, positive outside. Unions: the least of these.
@@ -958,6 +976,39 @@ pub struct msq_lattice_faces_report {
     pub types: [u32; 2],
     /// Centre of the face in model units.
     pub point: [f64; 3],
+}
+
+/// A periodic lattice of plates, or of plates and struts.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_plate_lattice_def {
+    pub struct_size: u32,
+    /// An msq_plate_cell. Default MSQ_PLATE_CELL_CUBIC.
+    pub plate_cell: i32,
+    pub grid: msq_neighbourhood,
+    /// Whole thickness of the plates in model units. A constant must be > 0, a field >= 0. No default.
+    pub thickness: msq_param,
+    /// node_count triples, in [0, 1]: the nodes of CUSTOM plates and of CUSTOM struts.
+    pub nodes: *const f64,
+    /// 1 to 4096.
+    pub node_count: u64,
+    /// CUSTOM: face_count triples of indices of different nodes, not on a line: the area of a triangle in model units must be at least 1e-5 of the square of its longest side.
+    pub faces: *const u32,
+    /// 1 to 4096. A named cell needs it only with face_factors.
+    pub face_count: u64,
+    /// Factor of the thickness for each face, 0.001 to 1000. NULL (default): all 1.
+    pub face_factors: *const f64,
+    /// Radius of the struts in model units, >= 0. The constant 0 (default): no struts.
+    pub radius: msq_param,
+    /// Of the struts, an msq_unit_cell. Default MSQ_UNIT_CELL_CUBIC. Ignored without struts.
+    pub unit_cell: i32,
+    pub reserved: u32,
+    /// With unit_cell CUSTOM: strut_count pairs of indices of different nodes.
+    pub struts: *const u32,
+    /// 1 to 4096. A named cell needs it only with strut_factors.
+    pub strut_count: u64,
+    /// As in msq_unit_cell_def.
+    pub strut_factors: *const f64,
 }
 
 /// A Voronoi foam: open-cell (struts), closed-cell (walls), or with both.
@@ -2181,6 +2232,14 @@ extern "C" {
     /// The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info tells whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY.
     pub fn msq_lattice_faces(lattice: *const msq_structure, min: *const f64, max: *const f64, report: *mut msq_lattice_faces_report, job: *mut msq_job) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_plate_lattice_def_init(def: *mut msq_plate_lattice_def, size: usize) -> msq_status;
+    /// Creates a periodic lattice of plates: the points within half of thickness, times the factor of the face, of the triangles of the tiled unit cell. With a radius, also those of the struts of unit_cell, as in msq_structure_lattice on the same grid. def must not be NULL.
+    ///
+    /// A plate is as thick as said in model units for any cell size, has a round rim, and reaches across cell borders. Faces that coincide in several copies count once, with the greatest of their factors. Lattices of plates alone have an onset, the thickness; those with struts have none (msq_structure_calibrate).
+    ///
+    /// Cost: proportional to the plates that can reach one cell: milliseconds for the named cells, seconds for thousands of plates as thick as cells, and the same again for the first array, slice or distance. Errors: ARGUMENT, LIMIT (thickness times the greatest factor, or radius times the greatest factor, above 4 times the smallest cell size), MEMORY. Source: Tancogne-Dejean et al. 2018; Berger, Wadley and McMeeking 2017.
+    pub fn msq_structure_plate_lattice(context: *mut msq_context, def: *const msq_plate_lattice_def, structure: *mut *mut msq_structure) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_foam_def_init(def: *mut msq_foam_def, size: usize) -> msq_status;
     /// Creates a Voronoi foam of one jittered seed per neighbourhood cell: the points within radius of the edges of the Voronoi diagram, and those within half of wall_thickness of its faces. def must not be NULL.
     ///
@@ -2350,7 +2409,7 @@ extern "C" {
     pub fn msq_point_distance(model: *const msq_model, point: *const f64, query: *const msq_query_def, distance: *mut f64) -> msq_status;
     /// Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Cancelling does not interrupt the construction of a mesh's tree. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
     pub fn msq_set_distance(model: *const msq_model, points: *const msq_points_def, query: *const msq_query_def, distance: *mut f64, distance_count: u64, job: *mut msq_job) -> msq_status;
-    /// Writes the onset of a structure, of itself and of no model, at each point of a set. value: an msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size (lattices; of unions the smallest limit of the members, for foams the smallest cell size) or is not a number. onset_count must be the number of points.
+    /// Writes the onset of a structure, of itself and of no model, at each point of a set. value: an msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size (lattices and plates; of unions the smallest limit of the members, for foams the smallest cell size) or is not a number. onset_count must be the number of points.
     ///
     /// gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central difference over 2^-17 of the smallest cell size on either side: off by about 1e-8 of the largest slope where the function is smooth, a mean of both sides along ridges, and 0 where it is not finite.
     ///
@@ -2540,6 +2599,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_unit_cell_report>(), 120);
     assert_eq!(std::mem::size_of::<msq_lattice_def>(), 216);
     assert_eq!(std::mem::size_of::<msq_lattice_faces_report>(), 80);
+    assert_eq!(std::mem::size_of::<msq_plate_lattice_def>(), 232);
     assert_eq!(std::mem::size_of::<msq_foam_def>(), 208);
     assert_eq!(std::mem::size_of::<msq_functional_def>(), 200);
     assert_eq!(std::mem::size_of::<msq_waves_def>(), 200);

@@ -112,6 +112,23 @@ impl Structure {
         Structure::make(|raw| unsafe { sys::msq_structure_functional(context.as_ptr(), &def, raw) })
     }
 
+    /// Named plates of one thickness: plate_cell is an `MSQ_PLATE_CELL_*`.
+    pub fn plate_lattice(
+        context: &Context,
+        plate_cell: i32,
+        cell_size: [f64; 3],
+        thickness: impl Into<Param>,
+    ) -> Result<Structure> {
+        let thickness = thickness.into();
+        let mut def = definition!(msq_plate_lattice_def_init, msq_plate_lattice_def);
+        def.plate_cell = plate_cell;
+        def.grid.cell_size = cell_size;
+        def.thickness = thickness.raw();
+        Structure::make(|raw| unsafe {
+            sys::msq_structure_plate_lattice(context.as_ptr(), &def, raw)
+        })
+    }
+
     /// A spinodal network: a sum of `count` waves, solid where it is at most the level of a volume
     /// fraction. cone_angles: half-angles in degrees; [90, 0, 0] for all directions.
     pub fn waves(

@@ -50,6 +50,20 @@ fn waves_fill_about_the_fraction() {
 }
 
 #[test]
+fn plates_fill_their_fraction() {
+    let context = Context::new().unwrap();
+    let cell = sys::MSQ_PLATE_CELL_CUBIC;
+    let plates = Structure::plate_lattice(&context, cell, [2.0; 3], 0.4).unwrap();
+    let model = Model::new(&context, &cube(&context), &[&plates]).unwrap();
+    let grid = Grid { origin: [0.1; 3], spacing: [0.2; 3], counts: [50; 3] };
+    let inside = model.grid_membership(&grid, None).unwrap();
+    let share = inside.iter().map(|x| *x as f64).sum::<f64>() / inside.len() as f64;
+    assert!((share - (1.0 - 0.8f64.powi(3))).abs() < 0.001, "{share}");
+    let error = Structure::plate_lattice(&context, cell, [2.0; 3], 9.0).err().unwrap();
+    assert!(error.to_string().contains("thickness reaches 9"), "{error}");
+}
+
+#[test]
 fn sets_points_and_layers_agree() {
     let context = Context::new().unwrap();
     let model = foam_model(&context);

@@ -11,9 +11,10 @@ namespace msq {
 
 namespace {
 
-/// Maximum distance of the points of a box from a segment: it is convex, so its maximum is at a
+/// Maximum distance of the points of a box from an axis: it is convex, so its maximum is at a
 /// corner.
-double greatest_distance(const Segment& axis, const Box3& box) {
+template <class Axis>
+double greatest_distance(const Axis& axis, const Box3& box) {
   double squared = 0;
   for (int corner = 0; corner < 8; ++corner)
     squared = std::max(squared, axis.distance_squared({corner & 1 ? box.max.x : box.min.x,
@@ -29,8 +30,9 @@ constexpr double long_box = 4;
 
 }  // namespace
 
-StrutClusters::StrutClusters(const std::vector<PeriodicStrut>& struts, Vec3 cell_size,
-                             Interval radius, int side)
+template <class Periodic>
+PartClusters<Periodic>::PartClusters(const std::vector<Periodic>& struts, Vec3 cell_size,
+                                     Interval radius, int side)
     : reach_(8 * min_component(cell_size)),
       slack_(1e-9 * (length(cell_size) + reach_)),
       radius_(radius) {
@@ -51,20 +53,20 @@ StrutClusters::StrutClusters(const std::vector<PeriodicStrut>& struts, Vec3 cell
 /// Finds each strut of the tiling that may be the nearest to a point of the cell. Their axes are
 /// within `most` of it: half the cell's diagonal, plus the distance of one of its own struts from
 /// its centre, plus the maximum gain of a thicker strut.
-void StrutClusters::find_struts(const std::vector<PeriodicStrut>& struts, Vec3 cell_size) {
+template <class Periodic>
+void PartClusters<Periodic>::find_struts(const std::vector<Periodic>& struts, Vec3 cell_size) {
   const Vec3 centre = cell_size * 0.5;
   double min_squared = std::numeric_limits<double>::infinity(), min_factor = min_squared;
-  for (const PeriodicStrut& s : struts) {
-    min_squared =
-        std::min(min_squared, Segment(s.a * cell_size, s.b * cell_size).distance_squared(centre));
+  for (const Periodic& s : struts) {
+    min_squared = std::min(min_squared, s.placed({}, cell_size).axis.distance_squared(centre));
     min_factor = std::min(min_factor, s.factor);
     max_factor_ = std::max(max_factor_, s.factor);
   }
   const double gain = (max_factor_ - min_factor) * radius_.high;
   const double most = std::min(reach_, std::sqrt(min_squared) + length(centre) + gain) * (1 + 1e-9);
   const Box3 near = Box3{{0, 0, 0}, cell_size}.grown(most);
-  for (const PeriodicStrut& s : struts) {
-    const Vec3 low = min(s.a, s.b) * cell_size, high = max(s.a, s.b) * cell_size;
+  for (const Periodic& s : struts) {
+    const Vec3 low = s.low() * cell_size, high = s.high() * cell_size;
     int first[3], last[3];
     for (int axis = 0; axis < 3; ++axis) {
       first[axis] = static_cast<int>(std::ceil((near.min[axis] - high[axis]) / cell_size[axis]));
@@ -74,13 +76,13 @@ void StrutClusters::find_struts(const std::vector<PeriodicStrut>& struts, Vec3 c
       for (int j = first[1]; j <= last[1]; ++j)
         for (int i = first[0]; i <= last[0]; ++i) {
           const Vec3 shift{double(i), double(j), double(k)};
-          struts_.push_back(
-              {Segment((s.a + shift) * cell_size, (s.b + shift) * cell_size), s.factor});
+          struts_.push_back(s.placed(shift, cell_size));
         }
   }
 }
 
-Box3 StrutClusters::place(const Box& box) const {
+template <class Periodic>
+Box3 PartClusters<Periodic>::place(const Box& box) const {
   const auto vector = [](const std::array<int, 3>& v) {
     return Vec3{double(v[0]), double(v[1]), double(v[2])};
   };
@@ -88,26 +90,28 @@ Box3 StrutClusters::place(const Box& box) const {
   return {low, low + vector(box.size) * cluster_size_};
 }
 
-Box3 StrutClusters::middle_of(const Box3& box) const {
+template <class Periodic>
+Box3 PartClusters<Periodic>::middle_of(const Box3& box) const {
   const Vec3 low = (box.min + box.max - cluster_size_) * 0.5;
   return {low, low + cluster_size_};
 }
 
-std::vector<uint32_t> StrutClusters::nearest(const Box3& box,
-                                             const std::vector<uint32_t>& from) const {
+template <class Periodic>
+std::vector<uint32_t> PartClusters<Periodic>::nearest(const Box3& box,
+                                                      const std::vector<uint32_t>& from) const {
   const Vec3 centre = (box.min + box.max) * 0.5, extent = box.extent();
   const double half_diagonal = 0.5 * length(extent);
   const bool is_long = max_component(extent) > long_box * min_component(extent);
   struct Distances {
     double least, greatest;
   };
-  const auto distances_of = [&](const Segment& axis) {
+  const auto distances_of = [&](const auto& axis) {
     const double middle = std::sqrt(axis.distance_squared(centre));
     Distances found{middle - half_diagonal, middle + half_diagonal};
     if (!is_long) return found;
     const double at_corner = greatest_distance(axis, box);
-    const Vec3 end = axis.a + axis.ab;
-    const Vec3 apart = max(max(min(axis.a, end) - box.max, box.min - max(axis.a, end)), Vec3{});
+    const Box3 whole = bounds_of(axis);
+    const Vec3 apart = max(max(whole.min - box.max, box.min - whole.max), Vec3{});
     found.least = std::max({found.least, 2 * middle - at_corner, length(apart)});
     found.greatest = std::min(found.greatest, at_corner);
     return found;
@@ -138,7 +142,8 @@ std::vector<uint32_t> StrutClusters::nearest(const Box3& box,
   return kept;
 }
 
-bool StrutClusters::divide(const Box& box, const std::vector<uint32_t>& from) {
+template <class Periodic>
+bool PartClusters<Periodic>::divide(const Box& box, const std::vector<uint32_t>& from) {
   check_cancelled();
   const Box3 whole = place(box);
   const std::vector<uint32_t> kept = nearest(whole, from);
@@ -170,8 +175,9 @@ bool StrutClusters::divide(const Box& box, const std::vector<uint32_t>& from) {
   return true;
 }
 
-StrutClusters::Cluster StrutClusters::cluster_of(const Box3& box,
-                                                 const std::vector<uint32_t>& list) {
+template <class Periodic>
+typename PartClusters<Periodic>::Cluster PartClusters<Periodic>::cluster_of(
+    const Box3& box, const std::vector<uint32_t>& list) {
   Cluster cluster;
   cluster.begin = static_cast<uint32_t>(entries_.size());
   entries_.insert(entries_.end(), list.begin(), list.end());
@@ -183,7 +189,7 @@ StrutClusters::Cluster StrutClusters::cluster_of(const Box3& box,
   cluster.outside = (reach_ - half_diagonal - slack_) / max_factor_;
   cluster.inside = std::numeric_limits<double>::infinity();
   for (const uint32_t s : list) {
-    const LatticeStrut& strut = struts_[s];
+    const Part& strut = struts_[s];
     const double distance = std::sqrt(strut.axis.distance_squared(centre));
     cluster.outside = std::min(cluster.outside, (distance - half_diagonal - slack_) / strut.factor);
     cluster.inside =
@@ -192,18 +198,20 @@ StrutClusters::Cluster StrutClusters::cluster_of(const Box3& box,
   return cluster;
 }
 
-double StrutClusters::onset(Vec3 fraction, Vec3 q) const {
+template <class Periodic>
+double PartClusters<Periodic>::onset(Vec3 fraction, Vec3 q) const {
   const Cluster& cluster = at(fraction);
   double min_squared = std::numeric_limits<double>::infinity();
   for (uint32_t i = cluster.begin; i < cluster.end; ++i) {
-    const LatticeStrut& strut = struts_[entries_[i]];
+    const Part& strut = struts_[entries_[i]];
     min_squared =
         std::min(min_squared, strut.axis.distance_squared(q) / (strut.factor * strut.factor));
   }
   return std::sqrt(min_squared);
 }
 
-double StrutClusters::gap(Vec3 fraction, Vec3 q, double r) const {
+template <class Periodic>
+double PartClusters<Periodic>::gap(Vec3 fraction, Vec3 q, double r) const {
   const Cluster& cluster = at(fraction);
   double least = reach_ - max_factor_ * r;
   for (uint32_t i = cluster.begin; i < cluster.end;) {
@@ -215,5 +223,8 @@ double StrutClusters::gap(Vec3 fraction, Vec3 q, double r) const {
   }
   return least;
 }
+
+template class PartClusters<PeriodicStrut>;
+template class PartClusters<PeriodicPlate>;
 
 }  // namespace msq

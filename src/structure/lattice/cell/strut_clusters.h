@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// r-interval preprocessing of a strut lattice: the unit cell in n^3 clusters. Each has the radii
-// between which its points may differ, and the struts that are nearest to one of its points. These
-// few struts give both the distance of a point from the lattice and its membership. Source: paper,
-// section "Preprocessing for Repeating Structures". The paper examines only the corners of
-// clusters; these are bounds for all of their points.
+// r-interval preprocessing of a lattice of struts or plates: the unit cell in n^3 clusters. Each
+// has the radii between which its points may differ, and the struts that are nearest to one of its
+// points. These few struts give both the distance of a point from the lattice and its membership.
+// Source: paper, section "Preprocessing for Repeating Structures". The paper examines only the
+// corners of clusters; these are bounds for all of their points.
 //
 // The gap between a point and strut s is the distance to the strut's axis minus the strut's radius,
 // which is its factor times r. If the maximum gap to t in a cluster is less than the minimum gap to
@@ -33,27 +33,31 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "field/field.h"
+#include "structure/lattice/cell/plate_cell.h"
 #include "structure/lattice/cell/unit_cell.h"
 #include "strut/segment.h"
 
 namespace msq {
 
-class StrutClusters {
+/// Of struts (PeriodicStrut) or plates (PeriodicPlate), which are here called struts, too: all that
+/// is used of an axis is that it is convex.
+template <class Periodic>
+class PartClusters {
  public:
+  using Part = decltype(std::declval<Periodic>().placed(Vec3{}, Vec3{}));
   static constexpr size_t max_entries = size_t{1} << 20, max_of_cluster = 32;
 
   /// `struts`: those of one factor are adjacent. `radius`: contains every r that is queried.
   /// `side`: maximum n. May take long: polls the current job.
-  StrutClusters(const std::vector<PeriodicStrut>& struts, Vec3 cell_size, Interval radius,
-                int side);
+  PartClusters(const std::vector<Periodic>& struts, Vec3 cell_size, Interval radius, int side);
 
   struct Cluster {
     /// All points are outside if r is below `outside`, and inside from `inside` on. The rounding of
-    /// LatticeStrut::holds() and of positions is included.
+    /// LatticePart::holds() and of positions is included.
     double outside, inside;
     uint32_t begin, end;
   };
@@ -99,7 +103,7 @@ class StrutClusters {
     // bounds.
     return std::min(static_cast<int>(fraction * side_), side_ - 1);
   }
-  void find_struts(const std::vector<PeriodicStrut>& struts, Vec3 cell_size);
+  void find_struts(const std::vector<Periodic>& struts, Vec3 cell_size);
   Box3 place(const Box& box) const;
   /// A box of the size of a cluster in the middle of a box.
   Box3 middle_of(const Box3& box) const;
@@ -114,9 +118,14 @@ class StrutClusters {
   Vec3 cluster_size_;
   double reach_, slack_, max_factor_ = 0;
   Interval radius_;
-  std::vector<LatticeStrut> struts_;  // of the tiling
+  std::vector<Part> struts_;  // of the tiling
   std::vector<Cluster> clusters_;
   std::vector<uint32_t> entries_;
 };
+
+extern template class PartClusters<PeriodicStrut>;
+extern template class PartClusters<PeriodicPlate>;
+using StrutClusters = PartClusters<PeriodicStrut>;
+using PlateClusters = PartClusters<PeriodicPlate>;
 
 }  // namespace msq

@@ -35,25 +35,39 @@ UnitCell diamond_unit_cell();
 UnitCell rhombic_dodecahedron_unit_cell();
 UnitCell reentrant_unit_cell();
 
-/// One strut for each class of struts that are whole cells apart. Tiled, they give the lattice,
-/// each strut once. In cell units; the first end lies in [0, 1).
-struct PeriodicStrut {
-  Vec3 a, b;
-  double factor = 1;  ///< of the radius
-};
-/// Of struts that are whole cells apart, the thickest counts. The thickest come first.
-std::vector<PeriodicStrut> periodic_struts(const UnitCell& cell);
-
-/// A strut in model units.
-struct LatticeStrut {
-  Segment axis;
+/// A strut, or a plate, in model units.
+template <class Axis>
+struct LatticePart {
+  Axis axis;
   double factor = 1;
 
-  /// Whether the strut contains a point for radius r; this expression is the definition.
+  /// Whether it contains a point for radius r; this expression is the definition.
   bool holds(Vec3 q, double r) const {
     const double own = factor * r;
     return axis.distance_squared(q) <= own * own;
   }
 };
+using LatticeStrut = LatticePart<Segment>;
+
+inline Box3 bounds_of(const Segment& s) {
+  const Vec3 end = s.a + s.ab;
+  return {min(s.a, end), max(s.a, end)};
+}
+
+/// One strut for each class of struts that are whole cells apart. Tiled, they give the lattice,
+/// each strut once. In cell units; the first end lies in [0, 1).
+struct PeriodicStrut {
+  Vec3 a, b;
+  double factor = 1;  ///< of the radius
+
+  Vec3 low() const { return min(a, b); }
+  Vec3 high() const { return max(a, b); }
+  /// That of the cell at `shift`, in model units from the corner of cell 0.
+  LatticeStrut placed(Vec3 shift, Vec3 cell_size) const {
+    return {Segment((a + shift) * cell_size, (b + shift) * cell_size), factor};
+  }
+};
+/// Of struts that are whole cells apart, the thickest counts. The thickest come first.
+std::vector<PeriodicStrut> periodic_struts(const UnitCell& cell);
 
 }  // namespace msq

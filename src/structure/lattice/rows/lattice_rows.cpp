@@ -23,16 +23,16 @@ constexpr uint64_t bounded_rows = 16;
 }  // namespace
 
 LatticeRows::LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& axis,
-                         const RowStruts& struts, const Parameter& radius, const RowBlock& block)
+                         const RowParts& parts, const Parameter& radius, const RowBlock& block)
     : cells_(grid),
       axis_(axis),
-      struts_(struts),
+      parts_(parts),
       radius_(radius),
       block_(block),
       grid_(*block.grid),
-      same_(0x1p-40 * struts.extent),
+      same_(0x1p-40 * parts.extent),
       margin_(4 * same_),
-      level_margin_(0x1p-24 * struts.extent) {
+      level_margin_(0x1p-24 * parts.extent + parts.error) {
   SampleBounds alive;
   if (!find_bounds(block, alive)) return;
   i0_ = alive.i0;
@@ -49,11 +49,9 @@ LatticeRows::LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& ax
   const Interval range = radius.range();
   const double positions = max_magnitude(box.min) + max_magnitude(box.max) + grid_.magnitude();
   const double slopes = std::abs(gradient_.x) + std::abs(gradient_.y) + std::abs(gradient_.z);
-  double max_factor = 0;
-  for (const RowStrut& s : struts.struts) max_factor = std::max(max_factor, s.factor);
   const double departure = 0x1p-38 * (range.high - range.low) + 0x1p-48 * slopes * positions;
-  margin_ += max_factor * departure;
-  level_margin_ += max_factor * departure;
+  margin_ += parts.max_factor * departure;
+  level_margin_ += parts.max_factor * departure;
 }
 
 std::vector<double> LatticeRows::positions(int axis, uint64_t first, uint64_t end) const {
@@ -92,7 +90,7 @@ RowTables::Columns LatticeRows::make_columns(uint64_t base, uint64_t begin, uint
   std::vector<double> x = positions(0, begin, end), samples;
   x.insert(x.begin(), begin - base, 0);
   ColumnSets sets(x.data(), begin - base, end - base);
-  for (double& position : x) position *= struts_.cell_size[0];
+  for (double& position : x) position *= parts_.cell_size[0];
   samples.reserve(end - base);
   for (uint64_t i = base; i < end; ++i) samples.push_back(grid_.x(i));
   return {std::move(x), std::move(samples), std::move(sets)};
@@ -107,7 +105,7 @@ LatticeRows::Classes LatticeRows::make_classes(int axis, uint64_t begin, uint64_
   made.members.resize(fractions.size());
   std::iota(made.members.begin(), made.members.end(), begin);
   const auto position = [&](uint64_t i) {
-    return fractions[i - begin] * struts_.cell_size[static_cast<size_t>(axis)];
+    return fractions[i - begin] * parts_.cell_size[static_cast<size_t>(axis)];
   };
   std::sort(made.members.begin(), made.members.end(), [&](uint64_t i, uint64_t j) {
     return position(i) != position(j) ? position(i) < position(j) : i < j;
@@ -158,7 +156,6 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
   std::vector<double> sample_y;
   for (const uint64_t j : rows.members) sample_y.push_back(grid_.y(j));
   RowTask task;
-  task.struts = &struts_;
   task.columns = &window.columns.sets;
   task.x = window.columns.positions.data();
   task.y = rows.positions.data();
@@ -179,7 +176,7 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
   const auto draw = [&](std::vector<uint64_t>& words, std::vector<LeftSample>& undecided) {
     std::fill(words.begin(), words.end(), 0);
     task.inside = words.data();
-    mark_inside(task, undecided);
+    parts_.mark_inside(task, undecided);
   };
   // Rows that repeat, if those of all layers and windows of the tile find room.
   const size_t windows = (block_.row_words() + window_words - 1) / window_words;
@@ -212,8 +209,8 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
     if (alive_rows == 0) continue;
     set_levels(task, window, rows, k0);
     // Positions of rows are then known to 2 * same_, which margin_ exceeds.
-    const RowTables::DrawnFrom from{&struts_, window.line,           task.radius,
-                                    task.z,   rows.positions.data(), rows.count()};
+    const RowTables::DrawnFrom from{&parts_, window.line,           task.radius,
+                                    task.z,  rows.positions.data(), rows.count()};
     const RowTables::DrawnRows* kept_rows = is_kept ? tables_->drawn(from, same_) : nullptr;
     if (!kept_rows && is_kept && 2 * alive_rows >= rows.count()) {
       // For all rows and columns, whichever are alive in other tiles.
@@ -251,7 +248,7 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
 /// section costs about three times as much as a doubtful sample. The number of doubtful samples is
 /// about three times the columns times the change, in cells, by which a section's ends move.
 size_t LatticeRows::section_words(double columns, double change) const {
-  const double best = std::sqrt(columns * change / struts_.cell_size[0]);
+  const double best = std::sqrt(columns * change / parts_.cell_size[0]);
   size_t words = ColumnSets::part_words;
   while (words > RowTask::min_section_words &&
          columns < best * 0.7 * static_cast<double>(words * bits_per_word))
@@ -308,9 +305,7 @@ void LatticeRows::set_linear(RowTask& task, const Window& window, const Classes&
   const auto columns = static_cast<double>(window.end - window.base);
   // Between the columns of two sections, the radius differs from that at either by half its change
   // per column. If that exceeds the margin, one level serves both.
-  double min_factor = struts_.struts[0].factor;
-  for (const RowStrut& s : struts_.struts) min_factor = std::min(min_factor, s.factor);
-  if (0.5 * std::abs(task.slope) * min_factor < level_margin_) {
+  if (0.5 * std::abs(task.slope) * parts_.min_factor < level_margin_) {
     const double a = radius_at(-0.5), b = radius_at(columns - 0.5);
     return set_whole_rows(task, {std::min(a, b), std::max(a, b)}, level_margin_);
   }

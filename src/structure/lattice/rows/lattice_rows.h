@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of samples that run along an axis of a strut lattice's grid.
+// Rows of samples that run along an axis of a lattice's grid.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ namespace msq {
 class LatticeRows {
  public:
   /// axis[i]: the axis of the grid parallel to axis i of the samples.
-  LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& axis, const RowStruts& struts,
+  LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& axis, const RowParts& parts,
               const Parameter& radius, const RowBlock& block);
 
   /// Clears the bits of samples that are outside; inside(p) decides the doubtful samples.
@@ -58,7 +58,7 @@ class LatticeRows {
 
   const Neighbourhood& cells_;
   const std::array<int, 3>& axis_;
-  const RowStruts& struts_;
+  const RowParts& parts_;
   const Parameter& radius_;
   const RowBlock& block_;
   const Borrowed<RowTables> tables_;

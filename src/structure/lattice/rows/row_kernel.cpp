@@ -32,6 +32,7 @@
 #include "base/sample_grid.h"
 #include "base/simd.h"
 #include "structure/lattice/rows/row_kernel.h"
+#include "structure/lattice/rows/row_struts.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace msq {
@@ -65,11 +66,12 @@ struct BucketRange {
 template <size_t section_words>
 class SectionRows {
  public:
-  SectionRows(const RowTask& task, RowWorkspace& workspace, std::vector<LeftSample>& left)
+  SectionRows(const RowStruts& struts, const RowTask& task, RowWorkspace& workspace,
+              std::vector<LeftSample>& left)
       : task_(task),
         workspace_(workspace),
         left_(left),
-        size_(task.struts->cell_size[0]),
+        size_(struts.cell_size[0]),
         to_buckets_(ColumnSets::buckets / size_) {}
 
   HWY_INLINE void draw(const RowStrut& strut);
@@ -295,14 +297,14 @@ HWY_INLINE void SectionRows<section_words>::decide(size_t lane, size_t row, size
 }
 
 template <size_t section_words>
-HWY_INLINE void mark_sections(const RowTask& task, RowWorkspace& workspace,
+HWY_INLINE void mark_sections(const RowStruts& struts, const RowTask& task, RowWorkspace& workspace,
                               std::vector<LeftSample>& left) {
-  SectionRows<section_words> rows(task, workspace, left);
+  SectionRows<section_words> rows(struts, task, workspace, left);
   size_t max_left = size_t{1} << 16;
   const RowLevel widest = task.levels[task.widest];
   const double max_of_row =
       task.of_row ? *std::max_element(task.of_row, task.of_row + task.rows) : 0;
-  for (const RowStrut& strut : task.struts->struts) {
+  for (const RowStrut& strut : struts.struts) {
     const double reach = strut.factor * (widest.radius + max_of_row) + widest.margin;
     const double w = task.z - strut.a[2];
     if (w - std::max(strut.ab[2], 0.0) > reach || std::min(strut.ab[2], 0.0) - w > reach) continue;
@@ -315,13 +317,14 @@ HWY_INLINE void mark_sections(const RowTask& task, RowWorkspace& workspace,
   }
 }
 
-void mark_rows(const RowTask& task, RowWorkspace& workspace, std::vector<LeftSample>& left) {
+void mark_rows(const RowStruts& struts, const RowTask& task, RowWorkspace& workspace,
+               std::vector<LeftSample>& left) {
   if (task.section_words == 8)
-    mark_sections<8>(task, workspace, left);
+    mark_sections<8>(struts, task, workspace, left);
   else if (task.section_words == 4)
-    mark_sections<4>(task, workspace, left);
+    mark_sections<4>(struts, task, workspace, left);
   else
-    mark_sections<2>(task, workspace, left);
+    mark_sections<2>(struts, task, workspace, left);
 }
 
 }  // namespace
@@ -338,10 +341,10 @@ HWY_EXPORT(mark_rows);
 
 }  // namespace
 
-void mark_inside(const RowTask& task, std::vector<LeftSample>& left) {
+void RowStruts::mark_inside(const RowTask& task, std::vector<LeftSample>& left) const {
   // The field may be the host's, and its callbacks may slice.
   const Borrowed<RowWorkspace> workspace;
-  HWY_DYNAMIC_DISPATCH(mark_rows)(task, *workspace, left);
+  HWY_DYNAMIC_DISPATCH(mark_rows)(*this, task, *workspace, left);
 }
 
 }  // namespace msq

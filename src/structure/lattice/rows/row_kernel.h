@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws struts into the rows of a layer.
+// The task of drawing parts into the rows of a layer.
 #pragma once
 
 #include <compare>
@@ -9,7 +9,7 @@
 #include "base/simd.h"
 #include "field/field.h"
 #include "structure/lattice/rows/column_sets.h"
-#include "structure/lattice/rows/row_struts.h"
+#include "structure/lattice/rows/row_parts.h"
 
 namespace msq {
 
@@ -22,7 +22,6 @@ struct RowLevel {
 /// Some rows of a layer, and as many columns as ColumnSets take. Positions are in the cell, in
 /// model units from its corner.
 struct RowTask {
-  const RowStruts* struts;
   const ColumnSets* columns;
   const double* x;  ///< of columns
   const double* y;  ///< of rows, padded by a vector
@@ -78,9 +77,5 @@ struct RowWorkspace {
   alignas(64) double x[most + max_simd_doubles], r[most + max_simd_doubles];
   std::vector<Vec3> positions;
 };
-
-/// Sets the bits of samples that are certainly in struts. Adds those within the margin of a surface
-/// to `left`, some of them more than once.
-void mark_inside(const RowTask& task, std::vector<LeftSample>& left);
 
 }  // namespace msq

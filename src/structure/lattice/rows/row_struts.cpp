@@ -11,7 +11,10 @@ RowStruts::RowStruts(const std::vector<PeriodicStrut>& periodic, Vec3 size, std:
     cell_size[i] = size[axis[i]];
     extent = std::max(extent, cell_size[i]);
   }
+  max_factor = min_factor = periodic[0].factor;
   for (const PeriodicStrut& s : periodic) {
+    max_factor = std::max(max_factor, s.factor);
+    min_factor = std::min(min_factor, s.factor);
     RowStrut strut;
     strut.factor = s.factor;
     const double radius = s.factor * most;
@@ -39,6 +42,15 @@ RowStruts::RowStruts(const std::vector<PeriodicStrut>& periodic, Vec3 size, std:
               {extent, std::abs(copy.a[i]) + radius, std::abs(copy.a[i] + copy.ab[i]) + radius});
       }
   }
+}
+
+bool RowStruts::draws_as(const RowParts& other) const {
+  const auto* as = dynamic_cast<const RowStruts*>(&other);
+  return as && cell_size == as->cell_size && extent == as->extent && struts == as->struts;
+}
+
+std::unique_ptr<const RowParts> RowStruts::copy() const {
+  return std::make_unique<RowStruts>(*this);
 }
 
 }  // namespace msq

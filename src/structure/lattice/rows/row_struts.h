@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "structure/lattice/cell/unit_cell.h"
+#include "structure/lattice/rows/row_parts.h"
 
 namespace msq {
 
@@ -18,17 +19,17 @@ struct RowStrut {
   friend bool operator==(const RowStrut&, const RowStrut&) = default;
 };
 
-struct RowStruts {
-  std::array<double, 3> cell_size;
-  double extent = 0;  ///< maximum magnitude of coordinates of struts' surfaces and of the cell
+struct RowStruts final : RowParts {
   std::vector<RowStrut> struts;
 
   /// The struts that reach rows through the cell if the radius is at most `most`. axis[i]: the axis
   /// of the grid parallel to coordinate i.
   RowStruts(const std::vector<PeriodicStrut>& periodic, Vec3 cell_size, std::array<int, 3> axis,
             double most);
-
-  friend bool operator==(const RowStruts&, const RowStruts&) = default;
+  void mark_inside(const RowTask& task, std::vector<LeftSample>& left) const override;
+  bool draws_as(const RowParts& other) const override;
+  std::unique_ptr<const RowParts> copy() const override;
+  size_t bytes() const override { return struts.capacity() * sizeof(RowStrut); }
 };
 
 }  // namespace msq

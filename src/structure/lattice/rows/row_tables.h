@@ -55,18 +55,18 @@ class RowTables {
 
   /// What rows of one layer are drawn from, with a constant radius.
   struct DrawnFrom {
-    const RowStruts* struts;
+    const RowParts* parts;
     Line columns;
     double radius;
     double z;  ///< of the layer, in the cell
     const double* rows;
     size_t count;  ///< of rows
 
-    /// Whether what is drawn from one serves the other: the struts, columns and layer are equal,
+    /// Whether what is drawn from one serves the other: the parts, columns and layer are equal,
     /// and no row is more than `same` off.
     static bool serves(const DrawnFrom& one, const DrawnFrom& other, double same) {
       if (one.z != other.z || one.count != other.count || one.radius != other.radius ||
-          !(one.columns == other.columns) || !(*one.struts == *other.struts))
+          !(one.columns == other.columns) || !one.parts->draws_as(*other.parts))
         return false;
       for (size_t row = 0; row < one.count; ++row)
         if (!(std::abs(one.rows[row] - other.rows[row]) <= same)) return false;
@@ -150,24 +150,23 @@ class RowTables {
 
   /// With copies of what it is drawn from.
   struct Drawn {
-    RowStruts struts;
+    std::unique_ptr<const RowParts> parts;
     std::vector<double> positions;
     DrawnFrom from;
     DrawnRows rows;
 
     Drawn(const DrawnFrom& original, DrawnRows&& drawn)
-        : struts(*original.struts),
+        : parts(original.parts->copy()),
           positions(original.rows, original.rows + original.count),
           from(original),
           rows(std::move(drawn)) {
-      from.struts = &struts;
+      from.parts = parts.get();
       from.rows = positions.data();
     }
     Drawn(const Drawn&) = delete;
     size_t bytes() const {
       return (rows.words.capacity() + positions.capacity()) * sizeof(uint64_t) +
-             rows.left.capacity() * sizeof(LeftSample) +
-             struts.struts.capacity() * sizeof(RowStrut);
+             rows.left.capacity() * sizeof(LeftSample) + parts->bytes();
     }
   };
 
