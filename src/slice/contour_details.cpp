@@ -271,30 +271,30 @@ void ContourDetails::keep_bent(ContourPoints& points) {
     if (piece.turn == 0) points.add(piece.middle());
   const std::vector<uint8_t>& middles = points.find_inside();
   size_t n = 0;
-  for (Piece& piece : pieces) {
+  for (Piece& piece : pieces)
     piece.is_inside = piece.turn == 0 ? middles[n++] != 0 : piece.turn > 0;
-    piece.is_bent = false;
-  }
-  const auto aside_of = [&](const Piece& piece, double place) {
-    const Vec2 aside = left_of(unit(piece.b - piece.a)) * (0.75 * tolerance_);
-    const Vec2 at = piece.a + (piece.b - piece.a) * place;
-    return piece.is_inside ? at - aside : at + aside;
+  const double aside_size = 0.75 * tolerance_;
+  const auto aside_of = [&](const Piece& piece) {
+    return left_of(unit(piece.b - piece.a)) * (piece.is_inside ? -aside_size : aside_size);
   };
-  for (const double place : places) {
-    points.clear();
-    for (const Piece& piece : pieces)
-      if (!piece.is_bent) points.add(aside_of(piece, place));
-    const std::vector<uint8_t>& inside = points.find_inside();
-    n = 0;
-    for (Piece& piece : pieces) {
-      if (piece.is_bent) continue;
-      // Along the edges of a window, what is beyond does not count.
-      piece.is_bent = (inside[n++] != 0) == piece.is_inside && is_in_window(aside_of(piece, place));
-    }
+  const auto beside = [](const Piece& piece, Vec2 aside, double place) {
+    return piece.a + (piece.b - piece.a) * place + aside;
+  };
+  points.clear();
+  for (const Piece& piece : pieces) {
+    const Vec2 aside = aside_of(piece);
+    for (const double place : places) points.add(beside(piece, aside, place));
   }
+  const std::vector<uint8_t>& inside = points.find_inside();
+  n = 0;
   size_t kept = 0;
   for (const Piece& piece : pieces) {
-    if (!piece.is_bent) continue;
+    bool is_bent = false;
+    // Along the edges of a window, what is beyond does not count.
+    for (const double place : places)
+      if ((inside[n++] != 0) == piece.is_inside && !is_bent)
+        is_bent = is_in_window(beside(piece, aside_of(piece), place));
+    if (!is_bent) continue;
     if (piece.depth < max_depth)
       pieces[kept++] = piece;
     else

@@ -12,13 +12,15 @@ const std::vector<uint8_t>& ContourPoints::find_inside() {
   auto& [points, asked, inside, answers, held, doubtful] = *memory_;
   inside.resize(points.size());
   if (!struts_) {
-    asked.clear();
-    for (const Vec2 p : points) asked.push_back(plane_.at(p.x, p.y));
+    asked.resize(points.size());
+    for (size_t n = 0; n < points.size(); ++n) asked[n] = plane_.at(points[n].x, points[n].y);
     msq::find_inside(model_, resolved_, asked, inside, job_);
     return inside;
   }
-  held.clear();
-  doubtful.clear();
+  // By counts: a branch on each point would be predicted wrongly half the time.
+  if (held.size() < points.size()) held.resize(points.size());
+  if (doubtful.size() < points.size()) doubtful.resize(points.size());
+  size_t held_count = 0, doubtful_count = 0;
   constexpr size_t at_once = 1024;
   PlaneStruts::Found found[at_once];
   for (size_t first = 0; first < points.size(); first += at_once) {
@@ -28,19 +30,22 @@ const std::vector<uint8_t>& ContourPoints::find_inside() {
     for (size_t i = 0; i < count; ++i) {
       inside[first + i] = 0;
       const uint32_t n = static_cast<uint32_t>(first + i);
-      if (found[i] == PlaneStruts::Found::inside) held.push_back(n);
-      if (found[i] == PlaneStruts::Found::doubtful) doubtful.push_back(n);
+      held[held_count] = n;
+      held_count += found[i] == PlaneStruts::Found::inside;
+      doubtful[doubtful_count] = n;
+      doubtful_count += found[i] == PlaneStruts::Found::doubtful;
     }
   }
-  ask_some(held, {});  // the shape
-  ask_some(doubtful, resolved_);
+  ask_some({held.data(), held_count}, {});  // the shape
+  ask_some({doubtful.data(), doubtful_count}, resolved_);
   return inside;
 }
 
-void ContourPoints::ask_some(const std::vector<uint32_t>& some, const Scales& scales) {
+void ContourPoints::ask_some(std::span<const uint32_t> some, const Scales& scales) {
   auto& [points, asked, inside, answers, held, doubtful] = *memory_;
-  asked.clear();
-  for (const uint32_t i : some) asked.push_back(plane_.at(points[i].x, points[i].y));
+  asked.resize(some.size());
+  for (size_t n = 0; n < some.size(); ++n)
+    asked[n] = plane_.at(points[some[n]].x, points[some[n]].y);
   msq::find_inside(model_, scales, asked, answers, job_);
   for (size_t n = 0; n < some.size(); ++n) inside[some[n]] = answers[n];
 }

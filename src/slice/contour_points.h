@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/borrowed.h"
@@ -35,7 +36,7 @@ class ContourPoints {
   const std::vector<uint8_t>& find_inside();
 
  private:
-  void ask_some(const std::vector<uint32_t>& some, const Scales& scales);
+  void ask_some(std::span<const uint32_t> some, const Scales& scales);
 
   const Model& model_;
   const Scales& resolved_;

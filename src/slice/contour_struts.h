@@ -96,7 +96,6 @@ class PlaneStruts {
 
   void collect(const Structure& structure, const LayerPlane& plane, const Job* job);
   void add(const LayerPlane& plane, Vec3 a, Vec3 b, double radius);
-  Found find_among(const uint32_t* first, const uint32_t* end, Vec2 p) const;
   void set_squares(double min_side);
   void sort(const Job* job);
   void list_by_square(const Job* job);
