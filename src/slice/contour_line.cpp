@@ -37,7 +37,7 @@ void simplify_ring(const std::vector<LinePoint>& ring, std::vector<Vec2>& out) {
       const bool is_first = i == from + 1;
       if (is_first || cone.holds(p.at - a)) last = i;
       if (i == count || p.is_fixed) break;
-      const Cone gate{p.right - a, p.left - a};
+      const Cone gate{{p.right[0] - a.x, p.right[1] - a.y}, {p.left[0] - a.x, p.left[1] - a.y}};
       if (!(cross(gate.right, gate.left) > 0)) break;
       if (is_first) {
         cone = gate;

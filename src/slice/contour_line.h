@@ -25,8 +25,8 @@ namespace msq {
 
 struct LinePoint {
   Vec2 at;
-  bool is_fixed;     ///< it stays
-  Vec2 left, right;  ///< ends of its gate, of points that are not fixed
+  bool is_fixed;             ///< it stays
+  double left[2], right[2];  ///< ends of its gate, of points that are not fixed
 };
 
 /// The points of a closed ring that remain.

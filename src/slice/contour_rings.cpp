@@ -6,6 +6,13 @@
 
 namespace msq {
 
+namespace {
+
+/// Rings lead through rows above their lowest one.
+constexpr uint32_t rows_ahead = 16;
+
+}  // namespace
+
 ContourRings::ContourRings(ContourSection& section, const Job* job)
     : grid_(section.grid()),
       axes_{{grid_.u_nodes().first(), grid_.pitch(), grid_.u_nodes().low(), grid_.u_nodes().high(),
@@ -24,6 +31,7 @@ ContourRings::ContourRings(ContourSection& section, const Job* job)
   uint32_t id = 0;
   for (uint32_t r = 0; r < grid_.rows(); ++r) {
     check_cancelled(job);
+    section.prefetch(r + rows_ahead);
     const uint32_t row_start = id;
     for (size_t w = 0; w < grid_.row_words(); ++w)
       for (uint64_t rest = section.horizontal(r, w); rest; rest &= rest - 1, ++id) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/simd.h"
 #include "base/status.h"
 #include "slice/cell_sides.h"
 
@@ -61,10 +62,8 @@ uint64_t ContourSection::count_crossings(const Job* job) {
 
 void ContourSection::trace(ContourPoints& points, double accuracy, const PlaneStruts* struts,
                            const ContourGrid* shape) {
-  if (memory_->crossings.size() < crossing_count_) {
-    memory_->crossings.resize(crossing_count_);
-    memory_->ends.resize(crossing_count_);
-  }
+  if (memory_->crossings.size() < crossing_count_) memory_->crossings.resize(crossing_count_);
+  if (memory_->ends.size() <= crossing_count_) memory_->ends.resize(size_t{crossing_count_} + 1);
   link(points.job());
   locate(points, accuracy, struts, shape);
 }
@@ -106,6 +105,20 @@ void ContourSection::link(const Job* job) {
       }
     }
   }
+}
+
+void ContourSection::prefetch(uint32_t row) const {
+  if (row + 1 >= grid_.rows()) return;
+  constexpr uint32_t in_line = 64 / sizeof(double);
+  const size_t words = grid_.row_words(), next = (size_t{row} + 1) * words;
+  const auto fetch = [&](uint32_t id, uint32_t end) {
+    for (; id < end; id += in_line) {
+      hwy::Prefetch(memory_->crossings.data() + id);
+      hwy::Prefetch(memory_->ends.data() + id);
+    }
+  };
+  fetch(horizontal_[row * words], horizontal_[next]);
+  fetch(vertical_[row * words], next < vertical_.size() ? vertical_[next] : crossing_count_);
 }
 
 void ContourSection::settle_saddles(ContourPoints& points) {
@@ -210,7 +223,8 @@ void ContourSection::locate(ContourPoints& points, double accuracy, const PlaneS
     double* const ends = memory_->ends.data();
     std::fill(ends, ends + crossing_count_, unknown);
     struts->propose(grid_,
-                    {grid_.row(0), grid_.row_words(), horizontal_.data(), vertical_.data(), ends},
+                    {grid_.row(0), grid_.row_words(), horizontal_.data(), vertical_.data(), ends,
+                     crossing_count_},
                     points.job());
     count_unseen(*struts, points);
     settle_saddles(points);
@@ -236,41 +250,56 @@ void ContourSection::locate(ContourPoints& points, double accuracy, const PlaneS
 
 void ContourSection::locate_some(ContourPoints& points, const std::vector<Edge>& edges,
                                  double accuracy) {
-  struct Ends {
-    double inside, outside;
+  struct Search {
+    double ends[2];  // outside and inside
+    double line;     // of the edge: v where it is horizontal, else u
+    bool is_horizontal;
+    double middle() const { return 0.5 * (ends[0] + ends[1]); }
   };
-  std::vector<Ends> ends(edges.size());
-  std::vector<uint32_t> open;
+  std::vector<Search> searches(edges.size());
+  std::vector<uint32_t> open(edges.size());
   const auto low = [&](const Edge& e) {
     return e.is_horizontal ? grid_.u(e.column) : grid_.v(e.row);
   };
   const auto high = [&](const Edge& e) {
     return e.is_horizontal ? grid_.u(e.column + 1) : grid_.v(e.row + 1);
   };
-  const auto along = [&](const Edge& e, double at) {
-    return e.is_horizontal ? Vec2{at, grid_.v(e.row)} : Vec2{grid_.u(e.column), at};
-  };
   for (size_t i = 0; i < edges.size(); ++i) {
-    const double a = low(edges[i]), b = high(edges[i]);
-    ends[i] = grid_.inside(edges[i].column, edges[i].row) ? Ends{a, b} : Ends{b, a};
-    open.push_back(static_cast<uint32_t>(i));
+    const Edge& e = edges[i];
+    const bool starts_inside = grid_.inside(e.column, e.row);
+    Search& s = searches[i];
+    s.ends[starts_inside] = low(e);
+    s.ends[!starts_inside] = high(e);
+    s.line = e.is_horizontal ? grid_.v(e.row) : grid_.u(e.column);
+    s.is_horizontal = e.is_horizontal;
+    open[i] = static_cast<uint32_t>(i);
   }
   while (!open.empty()) {
     points.clear();
-    for (const uint32_t i : open)
-      points.add(along(edges[i], 0.5 * (ends[i].inside + ends[i].outside)));
+    for (const uint32_t i : open) {
+      const Search& s = searches[i];
+      const double at = s.middle();
+      // Not one point or the other: what is stored by halves and then loaded whole takes long.
+      if (s.is_horizontal)
+        points.add({at, s.line});
+      else
+        points.add({s.line, at});
+    }
     const std::vector<uint8_t>& inside = points.find_inside();
     size_t kept = 0;
     for (size_t n = 0; n < open.size(); ++n) {
-      Ends& e = ends[open[n]];
-      (inside[n] ? e.inside : e.outside) = 0.5 * (e.inside + e.outside);
-      if (std::abs(e.outside - e.inside) > accuracy) open[kept++] = open[n];
+      // By index: a branch would be predicted wrongly half the time.
+      Search& s = searches[open[n]];
+      const double middle = s.middle();
+      open[kept] = open[n];
+      kept += std::abs(s.ends[inside[n] ^ 1] - middle) > accuracy;
+      s.ends[inside[n]] = middle;
     }
     open.resize(kept);
   }
   for (size_t i = 0; i < edges.size(); ++i) {
-    const double at = std::clamp(0.5 * (ends[i].inside + ends[i].outside), low(edges[i]) + margin_,
-                                 high(edges[i]) - margin_);
+    const double at =
+        std::clamp(searches[i].middle(), low(edges[i]) + margin_, high(edges[i]) - margin_);
     memory_->ends[edges[i].id] = grid_.inside(edges[i].column, edges[i].row) ? -at : at;
   }
 }

@@ -66,6 +66,8 @@ class ContourSection {
   /// give some that are nearer to a node than the margin, or beyond it. Those beyond the window
   /// have no meaning.
   const double* ends() const { return memory_->ends.data(); }
+  /// Brings the crossings of a row of cells, and those below it, near the core.
+  void prefetch(uint32_t row) const;
   /// By which side the boundary leaves the cell that it enters at a crossing.
   static CellSide side_of(uint32_t way) { return static_cast<CellSide>(way & 3); }
   /// Whether that cell is a saddle.

@@ -152,11 +152,12 @@ class Proposals {
     uint64_t second = horizontal ? first >> 1 : table_.bits[word + table_.row_words];
     if (horizontal && bit == 63) second |= table_.bits[word + 1] << 63;
     const uint64_t alike = enters ? second & ~first : first & ~second;
-    if (!(alike >> bit & 1)) return;
     const uint64_t before = (first ^ second) & ((uint64_t{1} << bit) - 1);
     const uint32_t id = (horizontal ? table_.horizontal : table_.vertical)[word] +
                         static_cast<uint32_t>(std::popcount(before));
-    double& known = table_.ends[id];
+    // A branch would often be predicted wrongly: many ends lie within other struts.
+    const uint32_t is_alike = static_cast<uint32_t>(alike >> bit & 1);
+    double& known = table_.ends[table_.none ^ ((table_.none ^ id) & (0 - is_alike))];
     known = std::min(known, enters ? at : -at);
   }
 

@@ -45,6 +45,7 @@ struct CrossingTable {
   /// u or v of each crossing, and its negative where the first node of the edge is inside. So both
   /// kinds are lowered by what struts propose.
   double* ends;
+  uint32_t none;  ///< an end that belongs to no crossing: proposals for other edges go there
 };
 
 /// Where struts draw nodes.

@@ -103,10 +103,10 @@ class RingBuilder {
     const double high = std::min(middle + tolerance_, edge_high - rings_.margin());
     const bool starts_inside = rings_.starts_inside(id);
     const double ends[2] = {low, high};
-    double left[2] = {at.x, at.y}, right[2] = {at.x, at.y};
-    left[along] = ends[!starts_inside];
-    right[along] = ends[starts_inside];
-    line_.push_back({at, false, {left[0], left[1]}, {right[0], right[1]}});
+    // Only stores: to load what was just stored in other pieces takes long.
+    LinePoint& p = line_.emplace_back(LinePoint{at, false, {at.x, at.y}, {at.x, at.y}});
+    p.left[along] = ends[!starts_inside];
+    p.right[along] = ends[starts_inside];
   }
 
   /// The points that follow the last crossing. Whether the next crossing must stay.
