@@ -58,21 +58,20 @@ uint64_t room_in(const Context& context) {
   return limit - std::min(limit, held - std::min(held, cached));
 }
 
-/// Memory of one layer or a part of it. A small one is borrowed: to get fresh pages for each layer
-/// takes about as long as to fill it.
-template <class T>
-class LayerMemory {
+/// Samples of a layer or of a part of it. Few are borrowed: to get fresh pages for each layer takes
+/// about as long as to fill it.
+class LayerWords {
  public:
-  T* of(size_t count) {
-    std::vector<T>& from = count * sizeof(T) <= max_borrowed ? *borrowed_ : own_;
+  uint64_t* of(size_t count) {
+    std::vector<uint64_t>& from = count <= max_borrowed ? *borrowed_ : own_;
     if (from.size() < count) from.resize(count);
     return from.data();
   }
 
  private:
-  static constexpr size_t max_borrowed = size_t{4} << 20;  // for each thread of the host
-  const Borrowed<std::vector<T>> borrowed_;
-  std::vector<T> own_;
+  static constexpr size_t max_borrowed = size_t{1} << 19;  // 4 MiB for each thread of the host
+  const Borrowed<std::vector<uint64_t>> borrowed_;
+  std::vector<uint64_t> own_;
 };
 
 /// Whether slabs are as deep as memory allows.
@@ -398,12 +397,13 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
     most = std::min(most, near_band_bytes * model_->executor().threads());
   const uint64_t band = band_rows(most, bytes_of);
   const Reservation reservation(budget, bytes_of(band), "a layer");
-  LayerMemory<uint64_t> word_memory;
-  LayerMemory<uint8_t> byte_memory;
+  LayerWords memory;
   uint64_t* const words =
-      samples ? word_memory.of(words_for(samples->nx) * sample_rows(0, band).ny) : nullptr;
+      samples ? memory.of(words_for(samples->nx) * sample_rows(0, band).ny) : nullptr;
   std::vector<uint8_t> plain(plain_bytes(output, band));
-  uint8_t* const bytes = is_beside(band) ? byte_memory.of(layer_bytes(0)) : out;
+  std::unique_ptr<uint8_t[]> beside;
+  if (is_beside(band)) beside = std::make_unique_for_overwrite<uint8_t[]>(layer_bytes(0));
+  uint8_t* const bytes = beside ? beside.get() : out;
   const bool is_ahead = samples && band == grid_.ny && ahead_;
   for (uint64_t begin = 0; begin < grid_.ny; begin += band) {
     check_cancelled(job);
@@ -412,7 +412,7 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
       fill_slab(*framed_, framed_resolved_, sample_rows(begin, end), index, index + 1, words, job);
     write(output, index, begin, end, words, plain.data(), bytes, job);
   }
-  if (bytes != out) std::memcpy(out, bytes, layer_bytes(0));
+  if (beside) std::memcpy(out, bytes, layer_bytes(0));
   scope.done();
 }
 
