@@ -19,10 +19,10 @@
 
 #include "base/borrowed.h"
 #include "base/job.h"
-#include "base/restrict_words.h"
 #include "base/sample_grid.h"
 #include "base/vec.h"
 #include "strut/raster_target.h"
+#include "strut/restrict_words.h"
 #include "strut/strut_batch.h"
 
 namespace msq {

@@ -9,7 +9,7 @@
 #include <bit>
 #include <cmath>
 
-#include "base/restrict_words.h"
+#include "strut/restrict_words.h"
 
 namespace msq {
 

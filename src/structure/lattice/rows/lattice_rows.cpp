@@ -9,9 +9,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/restrict_words.h"
 #include "base/sample_bounds.h"
 #include "base/simd.h"
+#include "strut/restrict_words.h"
 
 namespace msq {
 

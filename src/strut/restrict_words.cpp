@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "base/restrict_words.cpp"
+#define HWY_TARGET_INCLUDE "strut/restrict_words.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 
-#include "base/restrict_words.h"
 #include "base/simd.h"
+#include "strut/restrict_words.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace msq {
