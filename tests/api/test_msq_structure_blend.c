@@ -175,11 +175,67 @@ static void any_field_may_blend(void** state) {
   msq_context_release(context);
 }
 
+/* 0.5 in the box, and beyond it what the definition forbids. */
+static int32_t half_in_the_box(void* user, const double* points, uint64_t count, double* values) {
+  (void)user;
+  for (uint64_t i = 0; i < count; ++i) values[i] = points[3 * i] <= 4 ? 0.5 : 7;
+  return 0;
+}
+
+/* Points that the shape drops are not asked: sets answer where single points do. */
+static void dropped_points_are_not_asked(void** state) {
+  enum { n = 12 };
+  msq_context* context = make_context();
+  msq_structure* lattice = make_lattice_of(context, MSQ_UNIT_CELL_OCTET, 1, 0.12);
+  msq_structure* gyroid = make_gyroid(context);
+  msq_host_field_def def;
+  msq_field* field;
+  msq_structure* made[2];
+  (void)state;
+  assert_ok(msq_host_field_def_init(&def, sizeof def));
+  def.evaluate = half_in_the_box;
+  def.low = 0;
+  def.high = 1;
+  assert_ok(msq_field_host(context, &def, &field));
+  const msq_param by_host = {0, field};
+  made[0] = blend_of(lattice, gyroid, 0, field);
+  assert_ok(msq_structure_smooth_boolean(MSQ_BOOLEAN_UNION, lattice, gyroid, &by_host, &made[1]));
+  for (int m = 0; m < 2; ++m) {
+    msq_model* model = model_with(context, make_box(context), made[m]);
+    static double points[n * n * n][3];
+    static uint8_t inside[n * n * n];
+    size_t held = 0, beyond = 0;
+    msq_points_def all;
+    for (int i = 0; i < n * n * n; ++i)
+      for (int axis = 0, rest = i; axis < 3; ++axis, rest /= n)
+        points[i][axis] = 0.1 + 0.47 * (rest % n);
+    assert_ok(msq_points_def_init(&all, sizeof all));
+    all.kind = MSQ_POINTS_ARRAY;
+    all.coordinates = points;
+    all.count = n * n * n;
+    assert_ok(msq_set_membership(model, &all, NULL, inside, sizeof inside, NULL));
+    for (int i = 0; i < n * n * n; ++i) {
+      assert_int_equal(inside[i], is_inside(model, points[i][0], points[i][1], points[i][2]));
+      held += inside[i];
+      beyond += points[i][0] > 4;
+    }
+    assert_in_range(held, 100, 1600);
+    assert_true(beyond > 100);
+    msq_model_release(model);
+    msq_structure_release(made[m]);
+  }
+  msq_field_release(field);
+  msq_structure_release(gyroid);
+  msq_structure_release(lattice);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(distances_are_blended),
       cmocka_unit_test(layers_change_from_one_to_the_other),
       cmocka_unit_test(any_field_may_blend),
+      cmocka_unit_test(dropped_points_are_not_asked),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

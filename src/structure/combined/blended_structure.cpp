@@ -16,17 +16,27 @@ constexpr uint64_t box_rows = 8, box_layers = 8;
 
 }  // namespace
 
-BlendedStructure::Pair BlendedStructure::distances(Vec3 p, bool in_a, bool in_b) const {
-  return {signed_distance(in_a, a().distance_bound(p)),
-          signed_distance(in_b, b().distance_bound(p))};
-}
-
 bool BlendedStructure::inside(Vec3 p) const {
   const double f = fraction_.at(p);
   if (f <= 0) return a().inside(p);
   if (f >= 1) return b().inside(p);
-  const bool in_a = a().inside(p), in_b = b().inside(p);
-  return in_a == in_b ? in_a : distances(p, in_a, in_b).blended(f) <= 0;
+  const Answer of_a = ask_member(0, p), of_b = ask_member(1, p);
+  if (of_a.is_inside == of_b.is_inside) return of_a.is_inside;
+  return distances(p, of_a, of_b).blended(f) <= 0;
+}
+
+// If one of the two took its distance, the other one does, too.
+CombinedStructure::Answer BlendedStructure::ask(Vec3 p) const {
+  const double f = fraction_.at(p);
+  std::optional<Answer> of_a, of_b;
+  if (f < 1) of_a = ask_member(0, p);
+  if (f > 0) of_b = ask_member(1, p);
+  const bool is_decided = !of_a || !of_b || of_a->is_inside == of_b->is_inside;
+  if (is_decided && !has_distance(of_a) && !has_distance(of_b))
+    return {(of_a ? of_a : of_b)->is_inside};
+  const Pair pair = distances(p, of_a, of_b);
+  const bool is_inside = holds(pair, f);
+  return {is_inside, signed_distance(is_inside, bound_of(pair, f, p))};
 }
 
 double BlendedStructure::steady_distance_of(double gap, double apart, Vec3 p) const {
@@ -64,9 +74,31 @@ double BlendedStructure::distance_bound(Vec3 p) const {
   return bound_of(distances(p), fraction_.at(p), p);
 }
 
+double BlendedStructure::distance_at_once(Vec3 p) const {
+  const Pair pair = distances(p);
+  const double f = fraction_.at(p);
+  return signed_distance(holds(pair, f), bound_of(pair, f, p));
+}
+
+// The points that are alive are gathered: the field may be the host's.
+void BlendedStructure::values_at_living(const Vec3* points, const uint8_t* alive, size_t count,
+                                        double* values) const {
+  std::vector<Vec3> living;
+  living.reserve(count);
+  for (size_t i = 0; i < count; ++i)
+    if (alive[i]) living.push_back(points[i]);
+  fraction_.values(living.data(), living.size(), values);
+  // From the last, so that none is overwritten before it is moved.
+  for (size_t i = count, n = living.size(); n-- > 0;) {
+    while (!alive[--i]) {
+    }
+    values[i] = values[n];
+  }
+}
+
 void BlendedStructure::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   std::vector<double> f(count);
-  fraction_.values(points, count, f.data());
+  values_at_living(points, alive, count, f.data());
   std::vector<uint8_t> in_b(count);
   std::vector<uint8_t> in_a(alive, alive + count);
   for (size_t i = 0; i < count; ++i) {
@@ -81,7 +113,8 @@ void BlendedStructure::keep_points(const Vec3* points, uint8_t* alive, size_t co
     if (f[i] <= 0 || f[i] >= 1 || in_a[i] == in_b[i])
       alive[i] = f[i] <= 0 ? in_a[i] : in_b[i];
     else
-      alive[i] = distances(points[i], in_a[i] != 0, in_b[i] != 0).blended(f[i]) <= 0;
+      alive[i] =
+          distances(points[i], Answer{in_a[i] != 0}, Answer{in_b[i] != 0}).blended(f[i]) <= 0;
   }
 }
 
@@ -94,13 +127,14 @@ BoxClass BlendedStructure::classify(const Box3& box) const {
 }
 
 uint64_t BlendedStructure::decide(const SampleGrid& grid, uint64_t w, uint64_t j, uint64_t k,
-                                  uint64_t in_a, uint64_t in_b) const {
+                                  uint64_t in_a, uint64_t in_b, const Job* job) const {
   uint64_t held = 0;
   for (uint64_t open = in_a ^ in_b; open;) {
+    check_cancelled(job);
     const auto bit = static_cast<unsigned>(std::countr_zero(open));
     const Vec3 p = grid.at(w * bits_per_word + bit, j, k);
     const double f = fraction_.at(p);
-    const Pair pair = distances(p, (in_a >> bit & 1) != 0, (in_b >> bit & 1) != 0);
+    const Pair pair = distances(p, Answer{(in_a >> bit & 1) != 0}, Answer{(in_b >> bit & 1) != 0});
     // All samples of the row within the bound have the same result.
     const double reach = (bound_of(pair, f, p) - grid.rounding()) / grid.spacing.x;
     uint64_t same = ~uint64_t{0} << bit;
@@ -146,7 +180,7 @@ void BlendedStructure::keep_rows(const RowBlock& block, const Job* job) const {
       for (uint64_t j = y; j < y_end; ++j) {
         uint64_t& in_a = block.row(j, k)[w];
         const uint64_t in_b = of_b.row(j, k)[w];
-        in_a = is_pure ? in_a | in_b : (in_a & in_b) | decide(grid, w, j, k, in_a, in_b);
+        in_a = is_pure ? in_a | in_b : (in_a & in_b) | decide(grid, w, j, k, in_a, in_b, job);
       }
   });
 }

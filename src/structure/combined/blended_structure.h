@@ -30,10 +30,13 @@ class BlendedStructure final : public SteadyPair {
   /// the way between two points, |v| shrinks by at most s (1 + L m) + L s^2 and m grows by at most
   /// 2 s, so d - s still fits. Where a and b agree in sign, the smaller of them is a bound too.
   double distance_bound(Vec3 p) const override;
+  Answer ask(Vec3 p) const override;
+  double distance_at_once(Vec3 p) const override;
   bool has_steady_distance() const override { return fraction_.lipschitz() < max_lipschitz; }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   BoxClass classify(const Box3& box) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  unsigned row_copies() const override { return 1 + SteadyPair::row_copies(); }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 
@@ -47,14 +50,26 @@ class BlendedStructure final : public SteadyPair {
   };
 
   void describe(HashInput& input) const override;
-  Pair distances(Vec3 p, bool in_a, bool in_b) const;
-  Pair distances(Vec3 p) const { return distances(p, a().inside(p), b().inside(p)); }
+  /// The distances at p, where the members were asked if there are answers.
+  Pair distances(Vec3 p, const std::optional<Answer>& of_a = {},
+                 const std::optional<Answer>& of_b = {}) const {
+    return {distance_of_member(0, of_a, p), distance_of_member(1, of_b, p)};
+  }
+  /// Membership, by the fraction f.
+  static bool holds(const Pair& pair, double f) {
+    const bool in_a = pair.a <= 0, in_b = pair.b <= 0;
+    if (f <= 0) return in_a;
+    return f >= 1 || in_a == in_b ? in_b : pair.blended(f) <= 0;
+  }
+  /// Sets values[i] to the fraction at points[i] where alive[i]; the others are undefined.
+  void values_at_living(const Vec3* points, const uint8_t* alive, size_t count,
+                        double* values) const;
   double bound_of(const Pair& pair, double f, Vec3 p) const;
   /// A distance from p within which the value stays above 0 or below.
   double steady_distance_of(double gap, double apart, Vec3 p) const;
   /// The samples of a word of a row that one structure holds and the blend does, too.
   uint64_t decide(const SampleGrid& grid, uint64_t w, uint64_t j, uint64_t k, uint64_t in_a,
-                  uint64_t in_b) const;
+                  uint64_t in_b, const Job* job) const;
 
   Parameter fraction_;
 };

@@ -12,17 +12,47 @@ namespace msq {
 
 bool BooleanStructure::inside(Vec3 p) const {
   for (size_t i = 0; i < members().size(); ++i)
-    if ((members()[i]->inside(p) == is_wanted(i)) == is_union()) return is_union();
+    if (decides(i, members()[i]->inside(p))) return is_union();
   return !is_union();
 }
 
-double BooleanStructure::distance_bound(Vec3 p) const {
+template <class Distance>
+std::pair<double, bool> BooleanStructure::combine(Distance&& distance) const {
   double bound = is_union() ? infinity : -infinity;
+  bool is_decided = false;
   for (size_t i = 0; i < members().size(); ++i) {
-    const double own = members()[i]->distance(p), distance = is_wanted(i) ? own : 0.0 - own;
-    bound = is_union() ? std::min(bound, distance) : std::max(bound, distance);
+    const double of_member = distance(i), own = is_wanted(i) ? of_member : 0.0 - of_member;
+    bound = is_union() ? std::min(bound, own) : std::max(bound, own);
+    is_decided = is_decided || decides(i, of_member <= 0);
   }
-  return std::abs(bound);
+  return {std::abs(bound), is_decided == is_union()};
+}
+
+double BooleanStructure::distance_bound(Vec3 p) const {
+  return combine([&](size_t i) { return distance_of_member(i, {}, p); }).first;
+}
+
+double BooleanStructure::distance_at_once(Vec3 p) const {
+  const auto [bound, is_inside] = combine([&](size_t i) { return distance_of_member(i, {}, p); });
+  return signed_distance(is_inside, bound);
+}
+
+// Once a member has taken distances, all do. Those before it do not decide.
+CombinedStructure::Answer BooleanStructure::ask(Vec3 p) const {
+  for (size_t m = 0; m < members().size(); ++m) {
+    const Answer answer = ask_member(m, p);
+    if (answer.distance) {
+      const auto [bound, is_inside] = combine([&](size_t i) {
+        std::optional<Answer> known;
+        if (i < m) known = {is_wanted(i) != is_union()};
+        if (i == m) known = answer;
+        return distance_of_member(i, known, p);
+      });
+      return {is_inside, signed_distance(is_inside, bound)};
+    }
+    if (decides(m, answer.is_inside)) return {is_union()};
+  }
+  return {!is_union()};
 }
 
 // Kinds with struts and an onset have the radius of struts as their parameter.
@@ -126,6 +156,13 @@ void BooleanStructure::keep_rows(const RowBlock& block, const Job* job) const {
       for_each_word(block, held.block(), [](uint64_t& inside, uint64_t more) { inside |= more; });
     }
   }
+}
+
+unsigned BooleanStructure::row_copies() const {
+  const unsigned own = operation_ == Operation::intersected || members().size() < 2 ? 0
+                       : is_union() && members().size() > 2                         ? 2
+                                                                                    : 1;
+  return own + CombinedStructure::row_copies();
 }
 
 void BooleanStructure::describe(HashInput& input) const {

@@ -4,6 +4,8 @@
 // along a ray membership changes only where that of a member does.
 #pragma once
 
+#include <utility>
+
 #include "structure/combined/members.h"
 
 namespace msq {
@@ -22,6 +24,8 @@ class BooleanStructure final : public CombinedStructure {
   /// not change within it, and its Lipschitz constant is theirs. Exact outside unions if theirs
   /// are.
   double distance_bound(Vec3 p) const override;
+  Answer ask(Vec3 p) const override;
+  double distance_at_once(Vec3 p) const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   /// Unions of structures whose parameter is the radius of struts. The onset is the least of
   /// theirs.
@@ -36,6 +40,7 @@ class BooleanStructure final : public CombinedStructure {
   std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   BoxClass classify(const Box3& box) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  unsigned row_copies() const override;
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
@@ -45,6 +50,13 @@ class BooleanStructure final : public CombinedStructure {
   bool is_union() const { return operation_ == Operation::united; }
   /// Whether a point that a member holds can be inside.
   bool is_wanted(size_t member) const { return member == 0 || operation_ != Operation::subtracted; }
+  /// Whether a member's membership decides that of a point.
+  bool decides(size_t member, bool is_inside) const {
+    return (is_inside == is_wanted(member)) == is_union();
+  }
+  /// distance_bound() and membership from the members' signed distances: of member i, distance(i).
+  template <class Distance>
+  std::pair<double, bool> combine(Distance&& distance) const;
   /// The first t in [from, to] at which the ray is inside.
   bool find_entry(const Ray& ray, double from, double to, double& t, const Job* job) const;
   double leave_union(const Ray& ray, double from, double to, const Job* job) const;

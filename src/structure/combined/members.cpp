@@ -35,6 +35,9 @@ CombinedStructure::CombinedStructure(StructureList members)
   for (const Ref<const Structure>& member : members_) {
     const auto* combined = dynamic_cast<const CombinedStructure*>(member.get());
     terms_ += combined ? combined->terms() : 1;
+    if (combined) steady_pairs_ = std::max(steady_pairs_, combined->steady_pairs());
+    row_copies_ = std::max(row_copies_, row_copies_of(*member));
+    combined_.push_back(combined);
     nesting_ = std::max(nesting_, 1 + member->nesting());
     is_concurrent_ = is_concurrent_ && member->is_concurrent();
     if (member->gains_by_groups() && !gains_by_groups_) group_parts_ = member->group_parts();
@@ -56,6 +59,11 @@ void CombinedStructure::for_each_grid(const TakeGrid& take) const {
 
 double CombinedStructure::ray_tolerance(const Ray& ray, double to) const {
   return largest(members_, [&](const Structure& m) { return m.ray_tolerance(ray, to); });
+}
+
+unsigned row_copies_of(const Structure& structure) {
+  const auto* combined = dynamic_cast<const CombinedStructure*>(&structure);
+  return combined ? combined->row_copies() : 0;
 }
 
 void keep_points_of(const Structure& structure, const Vec3* points, uint8_t* alive, size_t count) {

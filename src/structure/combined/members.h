@@ -2,6 +2,7 @@
 // The structures that a structure is made of, and what follows from them alone.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/borrowed.h"
@@ -18,6 +19,8 @@ class CombinedStructure : public Structure {
   unsigned nesting() const final { return nesting_; }
   /// How many structures of other kinds it evaluates, the same one as often as it occurs.
   uint64_t terms() const { return terms_; }
+  /// How many structures within each other join signed distances (SteadyPair).
+  virtual unsigned steady_pairs() const { return steady_pairs_; }
   bool is_concurrent() const override { return is_concurrent_; }
   bool gains_by_groups() const final { return gains_by_groups_; }
   uint32_t group_parts() const final { return group_parts_; }
@@ -25,6 +28,21 @@ class CombinedStructure : public Structure {
   bool knows_boxes() const override { return knows_boxes_; }
   bool has_steady_distance() const override { return has_steady_distance_; }
   double min_ray_step() const override { return min_ray_step_; }
+  /// How many copies of a block's bits keep_rows() holds at once: the most of a member's, and those
+  /// of its own while a member's runs.
+  virtual unsigned row_copies() const { return row_copies_; }
+
+  /// Membership, and distance() if membership took distances of members.
+  struct Answer {
+    bool is_inside;
+    std::optional<double> distance{};
+  };
+  /// inside() for a structure made of this one. If that needs the distance, too, it takes it from
+  /// the answer or calls distance_bound(). So every member is evaluated at most twice for
+  /// membership and once for its distance, however many structures are within each other.
+  virtual Answer ask(Vec3 p) const = 0;
+  /// distance(), with one evaluation of each member.
+  virtual double distance_at_once(Vec3 p) const = 0;
   using Structure::ray_tolerance;
   /// The largest of the members'.
   double ray_tolerance(const Ray& ray, double to) const final;
@@ -33,6 +51,17 @@ class CombinedStructure : public Structure {
   explicit CombinedStructure(StructureList members);
 
   const StructureList& members() const { return members_; }
+  Answer ask_member(size_t member, Vec3 p) const {
+    const CombinedStructure* combined = combined_[member];
+    return combined ? combined->ask(p) : Answer{members_[member]->inside(p)};
+  }
+  /// distance() of a member. It was asked at p if there is an answer.
+  double distance_of_member(size_t member, const std::optional<Answer>& answer, Vec3 p) const {
+    if (answer && answer->distance) return *answer->distance;
+    if (answer) return signed_distance(answer->is_inside, members_[member]->distance_bound(p));
+    const CombinedStructure* combined = combined_[member];
+    return combined ? combined->distance_at_once(p) : members_[member]->distance(p);
+  }
   /// The smallest side of a cell in the grids within.
   double smallest_cell() const { return smallest_cell_; }
   /// The distance from a point at which normals are sampled.
@@ -40,13 +69,17 @@ class CombinedStructure : public Structure {
 
  private:
   StructureList members_;
-  unsigned nesting_ = 0;
+  std::vector<const CombinedStructure*> combined_;  // null for members of other kinds
+  unsigned nesting_ = 0, steady_pairs_ = 0, row_copies_ = 0;
   uint64_t terms_ = 0;
   bool is_concurrent_ = true, gains_by_groups_ = false, gains_by_layers_ = false,
        knows_boxes_ = false, has_steady_distance_ = true;
   uint32_t group_parts_ = 1;
   double min_ray_step_ = 0, smallest_cell_;
 };
+
+/// How many copies of a block's bits its keep_rows() holds at once.
+unsigned row_copies_of(const Structure& structure);
 
 /// As Structure::keep_points(), point by point where the structure is faster so.
 void keep_points_of(const Structure& structure, const Vec3* points, uint8_t* alive, size_t count);

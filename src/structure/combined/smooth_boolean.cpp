@@ -22,32 +22,49 @@ double SmoothBoolean::Pair::smooth(double k) const {
   return h > 0 ? least() - 0.25 * (h * (h / k)) : least();
 }
 
-double SmoothBoolean::oriented(size_t member, bool is_inside, double bound) const {
-  const double distance = signed_distance(is_inside, bound);
-  const bool turned =
-      operation_ == Operation::intersected || (operation_ == Operation::subtracted && member == 0);
-  return turned ? 0.0 - distance : distance;
-}
-
-SmoothBoolean::Pair SmoothBoolean::pair(Vec3 p) const {
-  return {oriented(0, a().inside(p), a().distance_bound(p)),
-          oriented(1, b().inside(p), b().distance_bound(p))};
-}
-
 // There u and v are at least 0. If one of them is at least k, h is at most the other one, and so is
 // h (h / k): s is more than 0 where both are, and 0 if one is 0.
-bool SmoothBoolean::is_in_fillet(Vec3 p) const {
+bool SmoothBoolean::is_in_fillet(Vec3 p, const Answer& of_a, const Answer& of_b) const {
   const double k = radius_.at(p);
-  const bool in_a = !is_union(), in_b = operation_ == Operation::intersected;
-  const double u = oriented(0, in_a, a().distance_bound(p));
+  const double u = oriented(0, distance_of_member(0, of_a, p));
   if (u >= k) return false;
-  const double v = oriented(1, in_b, b().distance_bound(p));
+  const double v = oriented(1, distance_of_member(1, of_b, p));
   return v < k && is_fillet(Pair{u, v}.smooth(k));
 }
 
 bool SmoothBoolean::inside(Vec3 p) const {
-  const bool is_inside = plain_->inside(p);
-  return is_inside == is_union() ? is_inside : is_in_fillet(p) != is_inside;
+  const Answer of_a = ask_member(0, p);
+  if (of_a.is_inside != is_turned(0)) return is_union();
+  const Answer of_b = ask_member(1, p);
+  if (of_b.is_inside != is_turned(1)) return is_union();
+  return is_in_fillet(p, of_a, of_b) == is_union();
+}
+
+bool SmoothBoolean::holds(const Pair& pair, double k) const {
+  const bool is_open =
+      (is_turned(0) ? pair.u >= 0 : pair.u > 0) && (is_turned(1) ? pair.v >= 0 : pair.v > 0);
+  if (!is_open) return is_union();
+  return (pair.u < k && pair.v < k && is_fillet(pair.smooth(k))) == is_union();
+}
+
+// If one of the two took its distance, the other one does, too.
+CombinedStructure::Answer SmoothBoolean::ask(Vec3 p) const {
+  const std::optional<Answer> of_a = ask_member(0, p);
+  std::optional<Answer> of_b;
+  bool is_decided = of_a->is_inside != is_turned(0);
+  if (!is_decided) {
+    of_b = ask_member(1, p);
+    is_decided = of_b->is_inside != is_turned(1);
+  }
+  if (is_decided && !has_distance(of_a) && !has_distance(of_b)) return {is_union()};
+  const Pair at = pair(p, of_a, of_b);
+  const bool is_inside = holds(at, radius_.at(p));
+  return {is_inside, signed_distance(is_inside, bound_of(at, p))};
+}
+
+double SmoothBoolean::distance_at_once(Vec3 p) const {
+  const Pair at = pair(p);
+  return signed_distance(holds(at, radius_.at(p)), bound_of(at, p));
 }
 
 double SmoothBoolean::bound_of(const Pair& pair, Vec3 p) const {

@@ -37,10 +37,13 @@ class SmoothBoolean final : public SteadyPair {
   /// min(u, v) is negative, its magnitude is a bound, too: all that the plain boolean decides so
   /// stays.
   double distance_bound(Vec3 p) const override;
+  Answer ask(Vec3 p) const override;
+  double distance_at_once(Vec3 p) const override;
   bool has_steady_distance() const override { return radius_.lipschitz() < max_lipschitz; }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   BoxClass classify(const Box3& box) const override;
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  unsigned row_copies() const override { return (is_union() ? 1u : 0u) + plain_->row_copies(); }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 
@@ -60,10 +63,26 @@ class SmoothBoolean final : public SteadyPair {
 
   void describe(HashInput& input) const override;
   bool is_union() const { return operation_ == Operation::united; }
-  double oriented(size_t member, bool is_inside, double bound) const;
-  Pair pair(Vec3 p) const;
+  /// Whether u or v is the negative distance. Where the plain boolean does not decide, this is also
+  /// the membership in that member.
+  bool is_turned(size_t member) const {
+    return operation_ == Operation::intersected ||
+           (operation_ == Operation::subtracted && member == 0);
+  }
+  double oriented(size_t member, double distance) const {
+    return is_turned(member) ? 0.0 - distance : distance;
+  }
+  /// u and v at p, where the members were asked if there are answers.
+  Pair pair(Vec3 p, const std::optional<Answer>& of_a = {},
+            const std::optional<Answer>& of_b = {}) const {
+    return {oriented(0, distance_of_member(0, of_a, p)),
+            oriented(1, distance_of_member(1, of_b, p))};
+  }
+  /// Membership, by the radius k.
+  bool holds(const Pair& pair, double k) const;
   /// Whether p is in a fillet, if the plain boolean does not decide there.
-  bool is_in_fillet(Vec3 p) const;
+  bool is_in_fillet(Vec3 p) const { return is_in_fillet(p, {is_turned(0)}, {is_turned(1)}); }
+  bool is_in_fillet(Vec3 p, const Answer& of_a, const Answer& of_b) const;
   /// Whether a value of s is that of a point which the plain boolean does not hold, in a union, or
   /// of one that it does.
   bool is_fillet(double s) const { return is_union() ? s <= 0 : s < 0; }

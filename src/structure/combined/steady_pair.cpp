@@ -8,10 +8,11 @@ namespace msq {
 
 // Distances are known to 1e-9 of a cell (docs/accuracy.md), and are smaller by as much. So the
 // difference of two values may be off by four times that, once more for each such structure within
-// another.
+// another. Booleans choose among values, so they add nothing.
 SteadyPair::SteadyPair(const Ref<const Structure>& a, const Ref<const Structure>& b)
     : CombinedStructure({a, b}),
-      slack_(std::ldexp(cell_length(), -27 + 2 * (static_cast<int>(nesting()) - 1))),
+      slack_(
+          std::ldexp(cell_length(), -27 + 2 * static_cast<int>(CombinedStructure::steady_pairs()))),
       farthest_origin_(0) {
   for_each_grid([this](const Neighbourhood& grid) {
     farthest_origin_ = std::max(farthest_origin_, max_magnitude(grid.origin));

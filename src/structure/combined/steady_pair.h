@@ -16,12 +16,16 @@ class SteadyPair : public CombinedStructure {
     return std::max(CombinedStructure::min_ray_step(), smallest_cell() / 64);
   }
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
+  unsigned steady_pairs() const final { return 1 + CombinedStructure::steady_pairs(); }
 
  protected:
   SteadyPair(const Ref<const Structure>& a, const Ref<const Structure>& b);
 
   const Structure& a() const { return *members()[0]; }
   const Structure& b() const { return *members()[1]; }
+  static bool has_distance(const std::optional<Answer>& answer) {
+    return answer && answer->distance;
+  }
   /// Bounds the errors of values at two points p and q together, if a value changes by at most as
   /// much as the larger change of the two signed distances, apart from rounding. `sum`: of the
   /// magnitudes of the numbers that the value at p is computed from.

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structures made of structures within each other: how often they evaluate those within, that all
+// ways to ask a point agree, the precision of their distances, cancellation, and working memory.
+#include <cmath>
+#include <functional>
+
+#include "base/job.h"
+#include "msq_test.h"
+#include "query/membership.h"
+#include "random.h"
+#include "shape/primitive.h"
+#include "structure/combined/blended_structure.h"
+#include "structure/combined/smooth_boolean.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+using Operation = BooleanStructure::Operation;
+using StructureRef = Ref<const Structure>;
+
+/// The points at most `radius` from a middle. Counts what is asked of all balls.
+class Ball final : public Structure {
+ public:
+  static inline uint64_t asked = 0, distances = 0;
+  /// Is cancelled with the tenth distance.
+  static inline Job* job = nullptr;
+
+  Ball(Vec3 middle, double radius)
+      : Structure(middle, 1.0, 1.0), middle_(middle), radius_(radius) {}
+
+  bool inside(Vec3 p) const override {
+    ++asked;
+    return length(p - middle_) <= radius_;
+  }
+  double distance_bound(Vec3 p) const override {
+    ++asked;
+    if (++distances == 10 && job) job->cancel();
+    return std::max(0.0, std::abs(length(p - middle_) - radius_) - 1e-12);
+  }
+  bool has_steady_distance() const override { return true; }
+
+ private:
+  void describe(HashInput&) const override {}
+  Vec3 middle_;
+  double radius_;
+};
+
+StructureRef united(const StructureRef& a, const StructureRef& b) {
+  return make_ref<BooleanStructure>(Operation::united, StructureList{a, b});
+}
+
+StructureRef blended(const StructureRef& a, const StructureRef& b, double fraction) {
+  return make_ref<BlendedStructure>(a, b, Parameter(fraction));
+}
+
+StructureRef smoothed(Operation operation, const StructureRef& a, const StructureRef& b,
+                      double radius) {
+  return make_ref<SmoothBoolean>(operation, a, b, Parameter(radius));
+}
+
+const CombinedStructure& combined(const StructureRef& structure) {
+  return dynamic_cast<const CombinedStructure&>(*structure);
+}
+
+enum class Way { blends, smooth, all };
+
+/// `made` and another ball, so that the signed distances of both matter at p.
+StructureRef with_one_more(const StructureRef& made, Vec3 p, Way way, int level) {
+  const bool in = made->inside(p);
+  const StructureRef held = make_ref<Ball>(p + Vec3{1, 0, 0}, 1.3),  // p is 0.3 inside
+      beside = make_ref<Ball>(p + Vec3{1, 0, 0}, 0.7);               // p is 0.3 outside
+  if (way == Way::blends || (way == Way::all && level % 3 == 0))
+    return blended(made, in ? beside : held, 0.5);
+  if (way == Way::all && level % 3 == 1)
+    return make_ref<BooleanStructure>(in ? Operation::intersected : Operation::united,
+                                      StructureList{made, in ? held : beside});
+  if (level % 2 == 0) return smoothed(Operation::subtracted, made, beside, 0.5);
+  return smoothed(in ? Operation::intersected : Operation::united, made, in ? held : beside, 0.5);
+}
+
+void each_member_is_evaluated_a_few_times(void**) {
+  const Vec3 p{0.1, 0.2, 0.3};
+  for (const Way way : {Way::blends, Way::smooth, Way::all}) {
+    StructureRef made = make_ref<Ball>(p, 0.5);
+    for (int level = 1; level <= 60; ++level) {
+      Ball::asked = 0;
+      made = with_one_more(made, p, way, level);
+      const uint64_t balls = static_cast<uint64_t>(level) + 1;
+      const auto check = [&](uint64_t most, auto&& ask) {
+        Ball::asked = 0;
+        ask();
+        if (Ball::asked > most * balls)
+          fail_msg("%d within each other: %llu evaluations", level,
+                   static_cast<unsigned long long>(Ball::asked));
+      };
+      check(3, [&] { (void)made->inside(p); });
+      check(2, [&] { (void)made->distance_bound(p); });
+      check(5, [&] { (void)made->distance(p); });
+      check(3, [&] { (void)combined(made).ask(p); });
+      check(2, [&] { (void)combined(made).distance_at_once(p); });
+    }
+  }
+}
+
+/// As the headers define it, by inside() and distance_bound() of the members alone.
+struct Written {
+  StructureRef made;
+  std::function<bool(Vec3)> inside;
+};
+
+double distance_of(const StructureRef& structure, Vec3 p) {
+  return signed_distance(structure->inside(p), structure->distance_bound(p));
+}
+
+Written random_pair(Random& random, const StructureRef& a, const StructureRef& b) {
+  const auto operation = static_cast<Operation>(1 + random.below(3));
+  const double f = random.between(-0.2, 1.2), fraction = std::min(1.0, std::max(0.0, f));
+  const double k = random.below(4) ? random.between(0.1, 1) : 0;
+  const auto plain = [=](Vec3 p) {
+    const bool in_a = a->inside(p), in_b = b->inside(p);
+    return operation == Operation::united        ? in_a || in_b
+           : operation == Operation::intersected ? in_a && in_b
+                                                 : in_a && !in_b;
+  };
+  switch (random.below(3)) {
+    case 0:
+      return {blended(a, b, fraction), [=](Vec3 p) {
+                if (fraction <= 0) return a->inside(p);
+                if (fraction >= 1 || a->inside(p) == b->inside(p)) return b->inside(p);
+                return (1 - fraction) * distance_of(a, p) + fraction * distance_of(b, p) <= 0;
+              }};
+    case 1:
+      return {smoothed(operation, a, b, k), [=](Vec3 p) {
+                const bool is_union = operation == Operation::united;
+                if (plain(p) == is_union) return is_union;
+                const double u = distance_of(a, p) * (is_union ? 1 : -1);
+                const double v = distance_of(b, p) * (operation == Operation::intersected ? -1 : 1);
+                const double h = k - std::abs(u - v);
+                const double s = h > 0 ? std::min(u, v) - 0.25 * (h * (h / k)) : std::min(u, v);
+                return is_union ? s <= 0 : s >= 0;
+              }};
+    default:
+      return {make_ref<BooleanStructure>(operation, StructureList{a, b}), plain};
+  }
+}
+
+/// Balls within 0.5 of the middle of space, in pairs within each other, in any order.
+void all_ways_to_ask_a_point_agree(void**) {
+  Random random(4);
+  size_t held = 0, with_distance = 0, points = 0;
+  for (size_t round = test_count(400) + 20; round > 0; --round) {
+    std::vector<StructureRef> parts;
+    for (int i = 0; i < 6; ++i)
+      parts.push_back(make_ref<Ball>(random.in_box({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}),
+                                     random.between(0.4, 1)));
+    while (parts.size() > 1) {
+      const size_t i = random.below(parts.size() - 1);
+      const Written written = random_pair(random, parts[i], parts[i + 1]);
+      parts[i] = written.made;
+      parts.erase(parts.begin() + static_cast<ptrdiff_t>(i) + 1);
+      for (int n = 0; n < 20; ++n) {
+        const Vec3 p = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+        const bool in = written.made->inside(p);
+        assert_int_equal(in, written.inside(p));
+        const double distance = signed_distance(in, written.made->distance_bound(p));
+        assert_true(combined(written.made).distance_at_once(p) == distance);
+        const CombinedStructure::Answer answer = combined(written.made).ask(p);
+        assert_int_equal(answer.is_inside, in);
+        if (answer.distance) assert_true(*answer.distance == distance);
+        uint8_t alive = 1;
+        written.made->keep_points(&p, &alive, 1);
+        assert_int_equal(alive, in);
+        held += in;
+        with_distance += answer.distance.has_value();
+        ++points;
+      }
+    }
+  }
+  assert_in_range(held, points / 20, points - points / 20);
+  assert_in_range(with_distance, points / 100, points / 2);
+}
+
+/// Not to be evaluated at x > 0.
+class PickyField final : public Field {
+ public:
+  double at(Vec3 p) const override {
+    assert_true(p.x <= 0);
+    return 0.5 + 0.4 * p.x;
+  }
+  Interval range() const override { return {0.1, 0.9}; }
+  Interval range(const Box3&) const override { return range(); }
+
+ private:
+  void describe(HashInput&) const override {}
+};
+
+void dropped_points_are_not_evaluated(void**) {
+  const StructureRef a = make_ref<Ball>(Vec3{-0.3, 0, 0}, 0.5), b = make_ref<Ball>(Vec3{}, 0.6);
+  const Parameter picky(Ref<const Field>(make_ref<PickyField>()));
+  const StructureRef made[2] = {make_ref<BlendedStructure>(a, b, picky),
+                                make_ref<SmoothBoolean>(Operation::united, a, b, picky)};
+  Random random(5);
+  for (const StructureRef& structure : made) {
+    std::vector<Vec3> points;
+    std::vector<uint8_t> alive;
+    for (int i = 0; i < 500; ++i) {
+      points.push_back(random.in_box({{-1, -1, -1}, {1, 1, 1}}));
+      alive.push_back(points.back().x <= 0);
+    }
+    structure->keep_points(points.data(), alive.data(), points.size());
+    size_t held = 0;
+    for (size_t i = 0; i < points.size(); ++i) {
+      assert_int_equal(alive[i], points[i].x <= 0 && structure->inside(points[i]));
+      held += alive[i];
+    }
+    assert_in_range(held, 20, 240);
+  }
+}
+
+/// Booleans around a member of a blend change no bit of its distance.
+void booleans_lose_no_precision(void**) {
+  const StructureRef a = make_ref<Ball>(Vec3{-0.3, 0, 0}, 0.5), b = make_ref<Ball>(Vec3{}, 0.6);
+  StructureRef deep = a;
+  for (int i = 0; i < 20; ++i)
+    deep = make_ref<BooleanStructure>(Operation::united, StructureList{deep});
+  const StructureRef plain = blended(a, b, 0.5), around = blended(deep, b, 0.5);
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+    assert_true(plain->distance(p) == around->distance(p));
+  }
+}
+
+/// Rows of a blend stop within a sample of the cancellation.
+void rows_stop_when_cancelled(void**) {
+  const StructureRef made = blended(make_ref<Ball>(Vec3{}, 0.2), make_ref<Ball>(Vec3{}, 1.0), 0.5);
+  const SampleGrid grid{{-1, -1, -1}, {0.03, 0.3, 0.3}, 64, 7, 7};
+  std::vector<uint64_t> words(grid.ny * grid.nz);
+  RowBlock block;
+  block.grid = &grid;
+  block.y1 = grid.ny;
+  block.z1 = grid.nz;
+  block.words = words.data();
+  block.row_stride = 1;
+  block.layer_stride = grid.ny;
+  for (const bool is_cancelled : {false, true}) {
+    const Ref<Job> job = make_ref<Job>();
+    Ball::job = is_cancelled ? job.get() : nullptr;
+    Ball::distances = 0;
+    words.assign(words.size(), ~uint64_t{0});
+    bool has_thrown = false;
+    try {
+      made->keep_rows(block, job.get());
+    } catch (const Error& error) {
+      has_thrown = error.status == Status::cancelled;
+    }
+    Ball::job = nullptr;
+    assert_int_equal(has_thrown, is_cancelled);
+    if (is_cancelled)
+      assert_in_range(Ball::distances, 10, 11);
+    else
+      assert_true(Ball::distances > 100);
+  }
+}
+
+void copies_of_rows_are_counted(void**) {
+  const StructureRef ball = make_ref<Ball>(Vec3{}, 1.0);
+  const auto make = [&](Operation operation, size_t count, const StructureRef& member) {
+    StructureList members(count, ball);
+    members[0] = member;
+    return StructureRef(make_ref<BooleanStructure>(operation, members));
+  };
+  assert_int_equal(row_copies_of(*ball), 0);
+  assert_int_equal(row_copies_of(*make(Operation::intersected, 3, ball)), 0);
+  assert_int_equal(row_copies_of(*make(Operation::subtracted, 3, ball)), 1);
+  assert_int_equal(row_copies_of(*make(Operation::united, 2, ball)), 1);
+  assert_int_equal(row_copies_of(*make(Operation::united, 3, ball)), 2);
+  assert_int_equal(row_copies_of(*smoothed(Operation::united, ball, ball, 1)), 2);
+  assert_int_equal(row_copies_of(*smoothed(Operation::intersected, ball, ball, 1)), 0);
+  const StructureRef nested = make(Operation::united, 3, blended(ball, united(ball, ball), 0.5));
+  assert_int_equal(row_copies_of(*nested), 4);
+
+  const SampleGrid grid{{0, 0, 0}, {0.01, 0.01, 0.01}, 100, 100, 8};
+  const auto words = [&](const StructureRef& structure) {
+    const Model model(make_ref<Context>(1u, uint64_t{1} << 20, uint64_t{0}),
+                      make_ref<SphereShape>(Vec3{0.5, 0.5, 0.5}, 0.5),
+                      std::vector<StructureRef>{structure});
+    return fill_slab_scratch_words(model, model.all_scales(), grid, 8);
+  };
+  assert_int_equal(words(nested), 5 * words(ball));
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(each_member_is_evaluated_a_few_times),
+      cmocka_unit_test(all_ways_to_ask_a_point_agree),
+      cmocka_unit_test(dropped_points_are_not_evaluated),
+      cmocka_unit_test(booleans_lose_no_precision),
+      cmocka_unit_test(rows_stop_when_cancelled),
+      cmocka_unit_test(copies_of_rows_are_counted),
+  };
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
