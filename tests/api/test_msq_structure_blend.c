@@ -230,12 +230,55 @@ static void dropped_points_are_not_asked(void** state) {
   msq_context_release(context);
 }
 
+/* Waves with a constant level, or one with a Lipschitz constant, may be blended and joined
+ * smoothly. */
+static void waves_may_blend(void** state) {
+  msq_context* context = make_context();
+  msq_structure* gyroid = make_gyroid(context);
+  msq_expression_field_def wavy_def;
+  msq_field *ramp = rising(context), *wavy;
+  (void)state;
+  assert_ok(msq_expression_field_def_init(&wavy_def, sizeof wavy_def));
+  wavy_def.expression = "0.1 * sin(x)";
+  wavy_def.low = -0.1;
+  wavy_def.high = 0.1;
+  assert_ok(msq_field_expression(context, &wavy_def, &wavy));
+  const msq_field* const levels[3] = {NULL, ramp, wavy};
+  for (int n = 0; n < 3; ++n) {
+    const msq_param half = {0.5, NULL};
+    msq_waves_def def;
+    msq_structure *waves, *made[2];
+    assert_ok(msq_waves_def_init(&def, sizeof def));
+    def.count = 20;
+    def.level.field = levels[n];
+    assert_ok(msq_structure_waves(context, &def, &waves));
+    if (n < 2) {
+      made[0] = blend_of(waves, gyroid, 0.5, NULL);
+      assert_ok(msq_structure_smooth_boolean(MSQ_BOOLEAN_UNION, waves, gyroid, &half, &made[1]));
+      msq_structure_release(made[0]);
+      msq_structure_release(made[1]);
+    } else {
+      assert_refused(msq_structure_blend(gyroid, waves, &half, &made[0]), MSQ_E_UNSUPPORTED,
+                     "the distance of b has no Lipschitz constant: its radius, level");
+      assert_refused(
+          msq_structure_smooth_boolean(MSQ_BOOLEAN_UNION, waves, gyroid, &half, &made[0]),
+          MSQ_E_UNSUPPORTED, "the distance of a has no Lipschitz constant: its radius, level");
+    }
+    msq_structure_release(waves);
+  }
+  msq_field_release(wavy);
+  msq_field_release(ramp);
+  msq_structure_release(gyroid);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(distances_are_blended),
       cmocka_unit_test(layers_change_from_one_to_the_other),
       cmocka_unit_test(any_field_may_blend),
       cmocka_unit_test(dropped_points_are_not_asked),
+      cmocka_unit_test(waves_may_blend),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -440,6 +440,9 @@ std::vector<Kind> kinds() {
   kinds.push_back({"blended", "gyroid to diamond", 0.2, 1,
                    blend_factory(functional_factory(preset_expressions[0], network, 0),
                                  functional_factory(preset_expressions[2], network, 0), 0.1, 1)});
+  kinds.push_back({"blended", "waves to octet", 0.15, 1,
+                   blend_factory(waves_factory(WavesKind::sheet, 15),
+                                 lattice_factory(octet_unit_cell()), 0.2, 1)});
   kinds.push_back(holding_beams(
       {"blended", "nested", 0.12, 1,
        blend_factory(blend_factory(lattice_factory(cubic_unit_cell()),
@@ -461,6 +464,9 @@ std::vector<Kind> kinds() {
       {"smooth", "diamond and beams", 0.2, 1,
        smooth_factory(Operation::intersected, functional_factory(preset_expressions[2], network, 0),
                       beams_factory(BeamSort::all), 0.1, 0.3)}));
+  kinds.push_back({"smooth", "cubic or waves", 0.1, 1,
+                   smooth_factory(Operation::united, lattice_factory(cubic_unit_cell()),
+                                  waves_factory(WavesKind::sheet, 15), 0.2, 0.2)});
   kinds.push_back(holding_beams(
       {"smooth", "nested", 0.12, 1,
        smooth_factory(Operation::united,

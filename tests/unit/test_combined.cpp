@@ -11,6 +11,7 @@
 #include "shape/primitive.h"
 #include "structure/combined/blended_structure.h"
 #include "structure/combined/smooth_boolean.h"
+#include "structure/waves/waves.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -233,6 +234,33 @@ void booleans_lose_no_precision(void**) {
   }
 }
 
+void blends_of_waves_have_steady_distances(void**) {
+  const Neighbourhood grid{{0.1, 0, 0}, {1, 1.5, 0.8}, {}};
+  for (const WavesKind kind : {WavesKind::network, WavesKind::sheet}) {
+    WaveDirections directions;
+    directions.count = 15;
+    directions.half_angles = {1.5, 0, 0};
+    const StructureRef waves =
+        make_ref<Waves>(grid, directions, kind, Parameter(kind == WavesKind::sheet ? 0.3 : 0.1));
+    const StructureRef ball = make_ref<Ball>(Vec3{}, 1.0);
+    for (const StructureRef& made :
+         {waves, blended(waves, ball, 0.4), smoothed(Operation::united, waves, ball, 0.3)}) {
+      assert_true(made->has_steady_distance());
+      Random random(7);
+      size_t far = 0, count = test_count(20000) + 500;
+      for (size_t i = 0; i < count; ++i) {
+        const Vec3 p = random.in_box({{-2, -2, -2}, {2, 2, 2}});
+        const double way = std::pow(10, random.between(-6, 0));
+        const Vec3 q = p + random.in_box({{-1, -1, -1}, {1, 1, 1}}) * way;
+        const double of_p = made->distance(p), of_q = made->distance(q);
+        assert_true(std::abs(of_p - of_q) <= length(q - p) * (1 + 1e-12) + 1e-9);
+        far += std::abs(of_p) > 0.01;
+      }
+      assert_true(far > count / 2);
+    }
+  }
+}
+
 /// Rows of a blend stop within a sample of the cancellation.
 void rows_stop_when_cancelled(void**) {
   const StructureRef made = blended(make_ref<Ball>(Vec3{}, 0.2), make_ref<Ball>(Vec3{}, 1.0), 0.5);
@@ -300,6 +328,7 @@ int main() {
       cmocka_unit_test(all_ways_to_ask_a_point_agree),
       cmocka_unit_test(dropped_points_are_not_evaluated),
       cmocka_unit_test(booleans_lose_no_precision),
+      cmocka_unit_test(blends_of_waves_have_steady_distances),
       cmocka_unit_test(rows_stop_when_cancelled),
       cmocka_unit_test(copies_of_rows_are_counted),
   };

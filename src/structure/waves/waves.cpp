@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/waves/waves.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/infinity.h"
@@ -61,8 +62,10 @@ double Waves::distance_bound(Vec3 p) const {
   const double lipschitz = level_.lipschitz();
   double bound;
   if (lipschitz < infinity) {
-    const double slope =
-        std::min(length(steep) * (1 + 0x1p-40) + steepest_ * 0x1p-36, steepest_) + lipschitz;
+    // Where the slope is 0 near the surface, rounding of the gap would count without a limit.
+    const double slope = std::clamp(length(steep) * (1 + 0x1p-40) + steepest_ * 0x1p-36,
+                                    steepest_ * 0x1p-12, steepest_) +
+                         lipschitz;
     bound = 2 * gap / (slope + std::sqrt(slope * slope + 2 * bend_ * gap));
   } else {
     bound = steady_distance(gap, steepest_, 1, level_, p);

@@ -23,6 +23,9 @@ class Waves final : public Structure {
   /// of the second derivatives of all waves together; a field of levels adds its Lipschitz
   /// constant. The distance at which the gap may be 0 is a lower bound.
   double distance_bound(Vec3 p) const override;
+  bool has_steady_distance() const override {
+    return level_.lipschitz() < std::numeric_limits<double>::infinity();
+  }
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
