@@ -161,6 +161,8 @@ inline constexpr size_t first_size<msq_points_def> = offsetof(msq_points_def, se
 template <>
 inline constexpr size_t first_size<msq_slicer_def> = offsetof(msq_slicer_def, window);
 template <>
+inline constexpr size_t first_size<msq_output_def> = offsetof(msq_output_def, channel);
+template <>
 inline constexpr size_t first_size<msq_slicer_report> = offsetof(msq_slicer_report, window);
 /// More is a struct_size that was never set.
 constexpr size_t max_size = 4096;

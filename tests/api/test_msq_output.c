@@ -472,6 +472,33 @@ static void defaults_are_as_said(void** state) {
   assert_null(def.contours);
 }
 
+/* Elements as large as they were before CHANNEL. */
+static void definitions_may_be_older(void** state) {
+  enum { first_size = offsetof(msq_output_def, channel) };
+  const int kinds[2] = {4, 8};
+  msq_output_def older[3];
+  msq_slicer_def def = plan_def();
+  msq_slicer* slicer = slicer_of(model, def, kinds, 2);
+  stack wanted = run_layers(slicer, 2, 0, 3);
+  (void)state;
+  msq_slicer_release(slicer);
+  memset(older, 0xa5, sizeof older);
+  for (int i = 0; i < 2; ++i) {
+    msq_output_def output = kind(kinds[i]);
+    output.struct_size = first_size;
+    memcpy((char*)older + i * first_size, &output, first_size);
+  }
+  def.outputs = older;
+  def.output_count = 2;
+  slicer = make_slicer(model, &def);
+  stack all = run_layers(slicer, 2, 0, 3);
+  for (uint64_t k = 0; k < 3; ++k)
+    for (int i = 0; i < 2; ++i) assert_same(&all.kept[k][i], &wanted.kept[k][i]);
+  free_kept(&all);
+  free_kept(&wanted);
+  msq_slicer_release(slicer);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(outputs_are_those_of_single_calls),
@@ -482,6 +509,7 @@ int main(void) {
       cmocka_unit_test(the_host_stops_and_cancels),
       cmocka_unit_test(a_limit_that_holds_a_layer_holds_all),
       cmocka_unit_test(definitions_are_copied),
+      cmocka_unit_test(definitions_may_be_older),
       cmocka_unit_test(defaults_are_as_said),
   };
   return cmocka_run_group_tests_name("msq_output", tests, set_up, tear_down);

@@ -34,7 +34,7 @@
   DO(points_def, offsetof(msq_points_def, seed))                     \
   DO(segments_def, sizeof(msq_segments_def))                         \
   DO(slicer_def, offsetof(msq_slicer_def, window))                   \
-  DO(output_def, sizeof(msq_output_def))                             \
+  DO(output_def, offsetof(msq_output_def, channel))                  \
   DO(contours_def, offsetof(msq_contours_def, topology_samples))     \
   DO(printability_def, offsetof(msq_printability_def, overhang))     \
   DO(fill_def, sizeof(msq_fill_def))                                 \
