@@ -1829,7 +1829,9 @@ MSQ_API msq_status msq_structure_boolean(int32_t operation, const msq_structure*
  *
  * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound,
  * with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two
- * distances at each sample that one of them holds and 0 < f < 1. Errors: ARGUMENT (also a fraction
+ * distances at each sample that one of them holds and 0 < f < 1. The cost of a point is linear in
+ * the structures in it, also of blends and smooth booleans within each other; sets and layers take
+ * up to one distance of a structure for each of those around it. Errors: ARGUMENT (also a fraction
  * that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no
  * Lipschitz constant: their radius, level or thickness is a field without one, a function has no
  * bounded slope, or the host gives no distance), MEMORY. */
@@ -1848,8 +1850,8 @@ MSQ_API msq_status msq_structure_blend(const msq_structure* a, const msq_structu
  *
  * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound,
  * |s| / (1 + L / 4) for a radius with Lipschitz constant L. Rays march by it. Cost: that of
- * msq_structure_boolean, and some distances near the fillets. Errors: ARGUMENT (also a radius that
- * may be negative), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no
+ * msq_structure_boolean, and some distances near the fillets; within each other as
+ * msq_structure_blend. Errors: ARGUMENT (also a radius that may be negative), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no
  * Lipschitz constant, as for msq_structure_blend), MEMORY. */
 MSQ_API msq_status msq_structure_smooth_boolean(int32_t operation, const msq_structure* a,
                                                 const msq_structure* b, const msq_param* radius,
