@@ -217,7 +217,7 @@ std::vector<Case> all_cases() {
       {"contours, foam of 512^3 cells", 4096, cube_of('f', 512), outline},
       {"contours, gyroid", 4096, cube_of('g', 64), outline},
       {"printability, foam of 64^3 cells", 512, cube_of('f', 64), examine},
-      {"image of 10^9 voxels", 1024, prepare_voxels, make_voxels},
+      {"image of 10^9 voxels", 2048, prepare_voxels, make_voxels},
       {"membership of 10^9 points, foam", 256, both(cube_of('f', 64), add_memberships),
        ask_membership},
       {"volume fraction, 10^9 points, foam", 256, cube_of('f', 64), fraction},
