@@ -1851,8 +1851,9 @@ MSQ_API msq_status msq_structure_blend(const msq_structure* a, const msq_structu
  * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound,
  * |s| / (1 + L / 4) for a radius with Lipschitz constant L. Rays march by it. Cost: that of
  * msq_structure_boolean, and some distances near the fillets; within each other as
- * msq_structure_blend. Errors: ARGUMENT (also a radius that may be negative), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no
- * Lipschitz constant, as for msq_structure_blend), MEMORY. */
+ * msq_structure_blend. Errors: ARGUMENT (also a radius that may be negative), LIMIT (as
+ * msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant, as for
+ * msq_structure_blend), MEMORY. */
 MSQ_API msq_status msq_structure_smooth_boolean(int32_t operation, const msq_structure* a,
                                                 const msq_structure* b, const msq_param* radius,
                                                 msq_structure** structure);
