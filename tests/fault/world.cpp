@@ -66,12 +66,11 @@ MakeStructure waves(World& world) {
   };
 }
 
-/// Of plates and struts.
-MakeStructure plate_lattice(World& world) {
+MakeStructure plate_lattice(World& world, double radius_of_struts) {
   msq_plate_lattice_def def = make_def(msq_plate_lattice_def_init);
   def.plate_cell = MSQ_PLATE_CELL_FCC;
   def.thickness.field = world.gradient();
-  def.radius.value = 0.1;
+  def.radius.value = radius_of_struts;
   return [&world, def](msq_structure** made) {
     return msq_structure_plate_lattice(world.context, &def, made);
   };
@@ -466,7 +465,8 @@ const std::vector<Kind>& kinds() {
         {"host structure", [](World& w) { return host_structure(w, false); }, false},
         {"host structure with cells", [](World& w) { return host_structure(w, true); }, false},
         {"waves", waves},
-        {"plate lattice", plate_lattice},
+        {"plate lattice", [](World& w) { return plate_lattice(w, 0); }},
+        {"plates and struts", [](World& w) { return plate_lattice(w, 0.1); }, false},
         {"beams", beams, false},
         {"host function", host_functional, false},
         {"union", [](World& w) { return boolean(w, MSQ_BOOLEAN_UNION); }, false},
