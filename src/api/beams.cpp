@@ -75,7 +75,7 @@ void require_array(const void* data, uint64_t count, const char* name, const cha
 }
 
 /// A radius for all elements, where the definition gives none of their own.
-double read_radius(double radius, bool is_needed, const char* name, const char* others) {
+double read_beam_radius(double radius, bool is_needed, const char* name, const char* others) {
   if (is_needed && !(radius >= min_radius && radius <= most))
     fail(Status::argument, "%s is %g; without %s it must be from %g to %g", name, radius, others,
          min_radius, most);
@@ -100,9 +100,9 @@ class Given {
         balls_(def.balls, def.ball_count, def.ball_stride, 1, "balls"),
         ball_radii_(def.ball_radii, def.ball_count, def.ball_radius_stride, 1, is_float32_,
                     "ball_radii"),
-        radius_(read_radius(def.radius, def.beam_count > 0 && !def.radii, "radius", "radii")),
-        ball_radius_(read_radius(def.ball_radius, def.ball_count > 0 && !def.ball_radii,
-                                 "ball_radius", "ball_radii")) {}
+        radius_(read_beam_radius(def.radius, def.beam_count > 0 && !def.radii, "radius", "radii")),
+        ball_radius_(read_beam_radius(def.ball_radius, def.ball_count > 0 && !def.ball_radii,
+                                      "ball_radius", "ball_radii")) {}
 
   uint64_t count() const { return def_.beam_count + def_.ball_count; }
 

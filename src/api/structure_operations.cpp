@@ -4,6 +4,7 @@
 
 #include "api/defined_handle.h"
 #include "api/guard.h"
+#include "api/level.h"
 #include "api/members.h"
 #include "structure/combined/blended_structure.h"
 #include "structure/combined/boolean_structure.h"
@@ -34,12 +35,6 @@ msq_structure* made_of_structures(const Ref<CombinedStructure>& structure, const
 BooleanStructure::Operation read_operation(int32_t operation) {
   return static_cast<BooleanStructure::Operation>(
       require_range(operation, MSQ_BOOLEAN_UNION, MSQ_BOOLEAN_DIFFERENCE, "operation"));
-}
-
-/// A number or a field.
-Parameter read_parameter(const msq_param& param, const char* name) {
-  return param.field ? Parameter(Ref<const Field>(&object(param.field, "field")))
-                     : Parameter(require_finite(param.value, name));
 }
 
 /// One of two structures that are joined by their distances.
