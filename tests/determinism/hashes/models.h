@@ -5,7 +5,7 @@
 
 #include <msq.h>
 
-enum { model_count = 27 };
+enum { model_count = 28 };
 
 /** One word. */
 const char* model_name(int i);
