@@ -125,12 +125,12 @@ static void layers_gain_or_lose(void** state) {
   msq_structure* gyroid = make_gyroid(context);
   (void)state;
   for (int n = 0; n < 3; ++n) {
-    const double radii[3] = {0, 0.1, 0.3};
+    const double sizes[3] = {0, 0.1, 0.3};
     const int is_union = operations[n] == MSQ_BOOLEAN_UNION;
     msq_structure* plain = plain_of(operations[n], lattice, gyroid);
     layer_stack before = layers_of(context, plain);
     for (int i = 0; i < 3; ++i) {
-      msq_structure* made = smooth_of(operations[n], lattice, gyroid, radii[i], NULL);
+      msq_structure* made = smooth_of(operations[n], lattice, gyroid, sizes[i], NULL);
       layer_stack found = layers_of(context, made);
       const uint64_t bytes = found.taken * found.plan.layer_bytes;
       size_t changed = 0;

@@ -43,7 +43,7 @@ void test_named_cells(void**) {
   for (const NamedCell& named : named_cells) {
     const PlateCell cell = named.make();
     assert_int_equal(cell.faces.size(), named.faces);
-    for (const Vec3& node : cell.nodes) assert_true(Box3({0, 0, 0}, {1, 1, 1}).contains(node));
+    for (const Vec3& node : cell.nodes) assert_true((Box3{{0, 0, 0}, {1, 1, 1}}.contains(node)));
     const std::vector<PeriodicPlate> plates = periodic_plates(cell);
     assert_int_equal(plates.size(), named.periodic);
     double area = 0;
