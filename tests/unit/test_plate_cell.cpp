@@ -144,7 +144,7 @@ long double searched_distance(Vec3 p, std::array<Vec3, 3> t) {
 void test_triangle_distance(void**) {
   Random random(7);
   size_t over = 0;
-  const size_t count = test_count(400) + 20;
+  const size_t count = test_count(300) + 100;
   for (size_t i = 0; i < count; ++i) {
     const Box3 box{{0, 0, 0}, {1, 1, 1}};
     const Vec3 a = random.in_box(box), b = random.in_box(box), c = random.in_box(box);
