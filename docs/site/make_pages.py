@@ -380,12 +380,14 @@ def first_sentence(symbol: Symbol) -> str:
 def document(site: Site, path: pathlib.Path) -> None:
     """A document with its links set for the site, and with links where it names symbols."""
     page = site.document_page(path)
+    parts = re.split(r"^(\s*```.*?^\s*```)", path.read_text(encoding="utf-8"), flags=re.S | re.M)
+    for i in range(0, len(parts), 2):  # outside of code; a link may run over the end of a line
+        parts[i] = re.sub(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)", lambda m: moved(site, page, path, m), parts[i])
     out, in_code = [], False
-    for line in path.read_text(encoding="utf-8").split("\n"):
+    for line in "".join(parts).split("\n"):
         if re.match(r"\s*```", line):
             in_code = not in_code
         elif not in_code:
-            line = re.sub(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)", lambda m: moved(site, page, path, m), line)
             line = re.sub(r"(?<![\[`])`((?:msq|MSQ)_\w+)`(?!`|\])", lambda m: site.symbol_link(page, m.group(1))
                           if m.group(1) in site.page_of and not line.startswith("#") else m.group(0), line)
             line = re.sub(r"(?<![\[`(])`((?:examples|include|scripts|docs|src|tests|bindings|bench)/[\w./-]+)`(?!`|\])",
