@@ -163,6 +163,7 @@ void WaveRows::find_knots(double x) {
     const double* const c = cosines_.get() + first * width_;
     const double* const s = sines_.get() + first * width_;
     for (size_t k = 0; k < z_.knots.count(); ++k) {
+      check_cancelled(job_);
       complex_products({middle.real + first, middle.imaginary + first}, at(z_, k, first), count,
                        layer);
       for (size_t j = 0; j < pairs; j += 2) {
