@@ -84,10 +84,11 @@ SampleGrid divided(const SampleGrid& pixels, unsigned across);
 std::unique_ptr<const LayerOutput> make_layer_output(const OutputPlan& plan, const Model& model,
                                                      const Scales& resolved);
 
-// Of the files of outputs, for make_layer_output().
-std::unique_ptr<const LayerOutput> make_bit_output();
 /// The rows of bits, sample 0 in the lowest bit, that the bit output has written.
 void read_bit_output(const uint8_t* written, size_t words, uint64_t* rows);
+
+// Of the files of outputs, for make_layer_output().
+std::unique_ptr<const LayerOutput> make_bit_output();
 std::unique_ptr<const LayerOutput> make_byte_output();
 std::unique_ptr<const LayerOutput> make_grey_output(const GreyScale& grey);
 std::unique_ptr<const LayerOutput> make_distance_output();

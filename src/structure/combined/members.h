@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/borrowed.h"
+#include "structure/common/row_copy.h"
 #include "structure/structure.h"
 
 namespace msq {
@@ -86,28 +86,5 @@ void keep_points_of(const Structure& structure, const Vec3* points, uint8_t* ali
 
 /// For each search, the first entry into any of the structures, as Structure::enter().
 void enter_any(const StructureList& structures, RaySearch* searches, size_t count, const Job* job);
-
-/// A copy of a block of rows, in memory of its own.
-class RowCopy {
- public:
-  explicit RowCopy(const RowBlock& original);
-
-  const RowBlock& block() const { return block_; }
-
- private:
-  const Borrowed<std::vector<uint64_t>> words_;
-  RowBlock block_;
-};
-
-/// Calls change(a, b) for the words of two blocks of the same rows.
-template <class Change>
-void for_each_word(const RowBlock& one, const RowBlock& other, Change&& change) {
-  const size_t words = one.row_words();
-  for (uint64_t k = one.z0; k < one.z1; ++k)
-    for (uint64_t j = one.y0; j < one.y1; ++j) {
-      uint64_t *a = one.row(j, k), *b = other.row(j, k);
-      for (size_t w = 0; w < words; ++w) change(a[w], b[w]);
-    }
-}
 
 }  // namespace msq

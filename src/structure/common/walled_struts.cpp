@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/borrowed.h"
+#include "structure/common/row_copy.h"
 #include "structure/common/struts.h"
 
 namespace msq {
@@ -27,25 +27,11 @@ void WalledStruts::keep_points(const Vec3* points, uint8_t* alive, size_t count)
 }
 
 void WalledStruts::keep_rows(const RowBlock& block, const Job* job) const {
-  const size_t words = block.row_words();
-  const Borrowed<std::vector<uint64_t>> copy;
-  copy->resize(words * block.rows() * block.layers());
-  RowBlock rest = block;
-  rest.words = copy->data();
-  rest.row_stride = words;
-  rest.layer_stride = words * block.rows();
-  const auto for_each_word = [&](auto&& visit) {
-    for (uint64_t k = block.z0; k < block.z1; ++k)
-      for (uint64_t j = block.y0; j < block.y1; ++j) {
-        uint64_t *whole = block.row(j, k), *part = rest.row(j, k);
-        for (size_t w = 0; w < words; ++w) visit(whole[w], part[w]);
-      }
-  };
-  for_each_word([](uint64_t& whole, uint64_t& part) { part = whole; });
+  const RowCopy rest(block);
   walls_->keep_rows(block, job);
-  for_each_word([](uint64_t& whole, uint64_t& part) { part &= ~whole; });
-  struts_->keep_rows(rest, job);
-  for_each_word([](uint64_t& whole, uint64_t& part) { whole |= part; });
+  for_each_word(block, rest.block(), [](uint64_t in_walls, uint64_t& left) { left &= ~in_walls; });
+  struts_->keep_rows(rest.block(), job);
+  for_each_word(block, rest.block(), [](uint64_t& whole, uint64_t held) { whole |= held; });
 }
 
 std::unique_ptr<StrutParts> WalledStruts::struts(const StrutSelection& selection) const {
