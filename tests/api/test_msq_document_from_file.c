@@ -2,56 +2,38 @@
  * Documents that name files: meshes, raw images and NRRD, where they may be, limits, and how they
  * are written again. */
 #define _POSIX_C_SOURCE 200809L
-#include <stdlib.h>
-#include <unistd.h>
-
 #include "documents.h"
+#include "folder.h"
 #include "stl.h"
 
 static msq_context* context;
-static char folder[512];
 
 #define SHAPE(text) "{\"msq_model\": 1, \"scales\": [{\"shape\": " text "}]}"
 #define FILE_OF(path) SHAPE("{\"file\": {\"file\": \"" path "\"}}")
 
-static const char* path_of(const char* name) {
-  static char path[1024];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  return path;
-}
-
-static void write_bytes(const char* name, const void* bytes, size_t count) {
-  FILE* file = fopen(path_of(name), "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(bytes, 1, count, file), count);
-  assert_int_equal(fclose(file), 0);
-}
-
 static void write_text(const char* name, const char* text) {
-  write_bytes(name, text, strlen(text));
+  write_file(name, text, strlen(text));
 }
 
 static void prepare(void) {
-  const char* parent = getenv("TMPDIR");
   uint8_t cube[stl_bytes];
   uint8_t raw[4 + 16], header[256];
-  snprintf(folder, sizeof folder, "%s/msq-test-XXXXXX", parent && *parent ? parent : "/tmp");
-  assert_non_null(mkdtemp(folder));
+  assert_int_equal(make_folder(), 0);
   make_stl(cube);
-  write_bytes("cube.stl", cube, sizeof cube);
+  write_file("cube.stl", cube, sizeof cube);
   /* 8 big-endian numbers of 16 bits behind 4 other bytes: 0, 1000 .. 7000. */
   memset(raw, 9, 4);
   for (int i = 0; i < 8; ++i) {
     raw[4 + 2 * i] = (uint8_t)(1000 * i >> 8);
     raw[5 + 2 * i] = (uint8_t)(1000 * i);
   }
-  write_bytes("values.raw", raw, sizeof raw);
+  write_file("values.raw", raw, sizeof raw);
   const int length = snprintf((char*)header, sizeof header,
                               "NRRD0004\n# by hand\ntype: uint16\ndimension: 3\nsizes: 2 2 2\n"
                               "space directions: (0.5,0,0) (0,0.5,0) (0,0,2)\n"
                               "space origin: (1,2,3)\nencoding: raw\nendian: big\n\n");
   memcpy(header + length, raw + 4, 16);
-  write_bytes("values.nrrd", header, (size_t)length + 16);
+  write_file("values.nrrd", header, (size_t)length + 16);
 }
 
 static msq_status from_text(const char* text, const msq_document_def* def,

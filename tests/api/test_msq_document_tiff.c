@@ -3,13 +3,10 @@
  * orders, what is refused by name, limits, damaged files. tests/command/test_tiff.py reads files of
  * other programs. */
 #define _POSIX_C_SOURCE 200809L
-#include <stdlib.h>
-#include <unistd.h>
-
 #include "documents.h"
+#include "folder.h"
 
 static msq_context* context;
-static char folder[512];
 
 enum { WIDTH = 5, HEIGHT = 4, PAGES = 3, VALUES = WIDTH * HEIGHT * PAGES, MOST_BYTES = 4096 };
 
@@ -17,19 +14,6 @@ enum { WIDTH = 5, HEIGHT = 4, PAGES = 3, VALUES = WIDTH * HEIGHT * PAGES, MOST_B
   "{\"msq_model\": 1, \"scales\": [{\"shape\": {\"voxels\": {\"image\": {" image \
   "}, \"threshold\": 9}}}]}"
 #define ONE IMAGE("\"file\": \"a.tif\"")
-
-static const char* path_of(const char* name) {
-  static char path[1024];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  return path;
-}
-
-static void write_bytes(const char* name, const void* bytes, size_t count) {
-  FILE* file = fopen(path_of(name), "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(bytes, 1, count, file), count);
-  assert_int_equal(fclose(file), 0);
-}
 
 /* A page as a test changes it. */
 typedef struct page {
@@ -102,7 +86,7 @@ static void write_stack(const char* name, const page* p, int is_big, int first, 
   values_of(values);
   begin(&t, is_big);
   for (int k = first; k < first + pages; ++k) add_page(&t, p, values + WIDTH * HEIGHT * k);
-  write_bytes(name, t.bytes, t.size);
+  write_file(name, t.bytes, t.size);
 }
 
 /* The model that all of the files below hold. */
@@ -216,7 +200,7 @@ static void pages_are_refused_by_name(void** state) {
   for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
     begin(&t, 0);
     add_page(&t, &rows[i].page, values);
-    write_bytes("a.tif", t.bytes, t.size);
+    write_file("a.tif", t.bytes, t.size);
     assert_not_read(ONE, 0, rows[i].status, rows[i].words);
     assert_message_has("a.tif: page");
   }
@@ -225,13 +209,13 @@ static void pages_are_refused_by_name(void** state) {
   begin(&t, 0);
   add_page(&t, &plain, values);
   add_page(&t, &smaller, values);
-  write_bytes("a.tif", t.bytes, t.size);
+  write_file("a.tif", t.bytes, t.size);
   assert_not_read(ONE, 0, MSQ_E_IO, "page 2 has 5 x 3 pixels of 2 bytes; the first has 5 x 4 of 2");
   smaller = plain;
   smaller.bits = 8;
   begin(&t, 0);
   add_page(&t, &smaller, values);
-  write_bytes("b.tif", t.bytes, t.size);
+  write_file("b.tif", t.bytes, t.size);
   write_stack("a.tif", &plain, 0, 0, 2);
   assert_not_read(IMAGE("\"files\": [\"a.tif\", \"b.tif\"]"), 0, MSQ_E_IO,
                   "b.tif: page 1 has 5 x 4");
@@ -240,7 +224,7 @@ static void pages_are_refused_by_name(void** state) {
   begin(&t, 0);
   add_page(&t, &plain, values);
   put(&t, t.link - 12 * (ENTRIES - STRIP_OFFSETS) + 8, (unsigned)t.size - 39, 4);
-  write_bytes("a.tif", t.bytes, t.size);
+  write_file("a.tif", t.bytes, t.size);
   assert_not_read(ONE, 0, MSQ_E_IO, "page 1 is damaged");
   /* The last page is followed by the first. */
   begin(&t, 0);
@@ -248,7 +232,7 @@ static void pages_are_refused_by_name(void** state) {
   const size_t first = (size_t)t.bytes[4] | (size_t)t.bytes[5] << 8;
   add_page(&t, &plain, values);
   put(&t, t.link, (unsigned)first, 4);
-  write_bytes("a.tif", t.bytes, t.size);
+  write_file("a.tif", t.bytes, t.size);
   assert_not_read(ONE, 0, MSQ_E_IO, "is damaged");
 }
 
@@ -314,7 +298,7 @@ static void damaged_files_do_no_harm(void** state) {
       changed.bytes[(size_t)random_between(&seed, 0, (double)t.size)] =
           (uint8_t)random_between(&seed, 0, 256);
     if (round % 4 == 0) changed.size = (size_t)random_between(&seed, 0, (double)t.size);
-    write_bytes("a.tif", changed.bytes, changed.size);
+    write_file("a.tif", changed.bytes, changed.size);
     msq_document* document = (msq_document*)untouched();
     const msq_status status =
         msq_document_from_json(context, ONE, strlen(ONE), &def, &document, NULL);
@@ -345,9 +329,7 @@ int main(void) {
   };
   const struct CMUnitTest without[] = {cmocka_unit_test(builds_without_libtiff_say_so)};
   if (!MSQ_WITH_JSON) return 0; /* test_refusals_documents.c */
-  const char* parent = getenv("TMPDIR");
-  snprintf(folder, sizeof folder, "%s/msq-test-XXXXXX", parent && *parent ? parent : "/tmp");
-  if (!mkdtemp(folder)) return 1;
+  if (make_folder() != 0) return 1;
   context = make_context();
   const int failed = MSQ_WITH_TIFF ? cmocka_run_group_tests(tests, NULL, NULL)
                                    : cmocka_run_group_tests(without, NULL, NULL);

@@ -1,38 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_file_def_init, msq_shape_from_file. The formats themselves: tests/unit/test_mesh_file.cpp. */
 #define _POSIX_C_SOURCE 200809L
-#include <unistd.h>
-
 #include "definitions.h"
+#include "folder.h"
 #include "stl.h"
 
-static char folder[512];
-
-static int make_folder(void** state) {
-  const char* parent = getenv("TMPDIR");
+static int set_up(void** state) {
   (void)state;
-  snprintf(folder, sizeof folder, "%s/msq-test-XXXXXX", parent && *parent ? parent : "/tmp");
-  return mkdtemp(folder) ? 0 : -1;
+  return make_folder();
 }
 
-static int remove_folder(void** state) {
+static int tear_down(void** state) {
   (void)state;
   return rmdir(folder);
-}
-
-static const char* path_of(const char* name) {
-  static char path[600];
-  snprintf(path, sizeof path, "%s/%s", folder, name);
-  return path;
-}
-
-static const char* write_file(const char* name, const void* data, size_t bytes) {
-  const char* path = path_of(name);
-  FILE* file = fopen(path, "wb");
-  assert_non_null(file);
-  assert_int_equal(fwrite(data, 1, bytes, file), bytes);
-  assert_int_equal(fclose(file), 0);
-  return path;
 }
 
 static const char* write_stl(const char* name) {
@@ -270,5 +250,5 @@ int main(void) {
     cmocka_unit_test(build_without_assimp_says_so),
 #endif
   };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, set_up, tear_down);
 }

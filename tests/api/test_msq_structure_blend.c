@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_structure_blend. */
-#include "layers.h"
+#include "combined.h"
 #include "struts.h"
 
 /* From 0 at x = 1 to 1 at x = 3. */
@@ -9,18 +9,6 @@ static msq_field* rising(msq_context* context) {
   msq_field* field;
   assert_ok(msq_field_gradient(context, from, 0, to, 1, &field));
   return field;
-}
-
-/* Keeps the structure. */
-static msq_model* model_with(msq_context* context, msq_shape* shape, msq_structure* structure) {
-  msq_structure_retain(structure);
-  return make_model(context, shape, structure, NULL);
-}
-
-static msq_model* in_all_space(msq_context* context, msq_structure* structure) {
-  msq_shape* shape;
-  assert_ok(msq_shape_all_space(context, &shape));
-  return model_with(context, shape, structure);
 }
 
 static msq_structure* blend_of(const msq_structure* a, const msq_structure* b, double fraction,
@@ -69,16 +57,6 @@ static void distances_are_blended(void** state) {
   msq_structure_release(gyroid);
   msq_structure_release(foam);
   msq_context_release(context);
-}
-
-static layer_stack layers_of(msq_context* context, msq_structure* structure) {
-  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 150, 40, 0.4);
-  msq_model* model = model_with(context, make_box(context), structure);
-  msq_slicer* slicer = make_slicer(model, &def);
-  layer_stack all = run_all(slicer, MSQ_LAYER_BITS);
-  msq_slicer_release(slicer);
-  msq_model_release(model);
-  return all;
 }
 
 /* Layers are those of a where the fraction is 0, those of b where it is 1, and between the two in

@@ -1,23 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_structure_smooth_boolean. */
 #include "beams.h"
-#include "layers.h"
+#include "combined.h"
 #include "struts.h"
 
 static const int32_t operations[3] = {MSQ_BOOLEAN_UNION, MSQ_BOOLEAN_INTERSECTION,
                                       MSQ_BOOLEAN_DIFFERENCE};
-
-/* Keeps the structure. */
-static msq_model* model_with(msq_context* context, msq_shape* shape, msq_structure* structure) {
-  msq_structure_retain(structure);
-  return make_model(context, shape, structure, NULL);
-}
-
-static msq_model* in_all_space(msq_context* context, msq_structure* structure) {
-  msq_shape* shape;
-  assert_ok(msq_shape_all_space(context, &shape));
-  return model_with(context, shape, structure);
-}
 
 static msq_structure* smooth_of(int32_t operation, const msq_structure* a, const msq_structure* b,
                                 double radius, const msq_field* field) {
@@ -105,16 +93,6 @@ static void fillets_are_parabolas(void** state) {
   msq_structure_release(b);
   msq_structure_release(a);
   msq_context_release(context);
-}
-
-static layer_stack layers_of(msq_context* context, msq_structure* structure) {
-  const msq_slicer_def def = slicer_def(MSQ_LAYER_BITS, 150, 40, 0.4);
-  msq_model* model = model_with(context, make_box(context), structure);
-  msq_slicer* slicer = make_slicer(model, &def);
-  layer_stack all = run_all(slicer, MSQ_LAYER_BITS);
-  msq_slicer_release(slicer);
-  msq_model_release(model);
-  return all;
 }
 
 /* With a radius of 0 the layers are the bytes of the plain boolean; with more a union holds more
