@@ -14,8 +14,8 @@ using namespace msq::api;
 
 namespace {
 
-constexpr double most = 1e75, min_radius = 1e-100;
-constexpr uint64_t at_once = uint64_t{1} << 14;
+constexpr double max_length = 1e75, min_radius = 1e-100;
+constexpr uint64_t beams_at_once = uint64_t{1} << 14;
 
 msq_beams_def beams_defaults() {
   msq_beams_def def{};
@@ -76,14 +76,14 @@ void require_array(const void* data, uint64_t count, const char* name, const cha
 
 /// A radius for all elements, where the definition gives none of their own.
 double read_beam_radius(double radius, bool is_needed, const char* name, const char* others) {
-  if (is_needed && !(radius >= min_radius && radius <= most))
+  if (is_needed && !(radius >= min_radius && radius <= max_length))
     fail(Status::argument, "%s is %g; without %s it must be from %g to %g", name, radius, others,
-         min_radius, most);
+         min_radius, max_length);
   return require_finite(radius, name);
 }
 
 bool is_radius(double r) {
-  return r == 0 || (r >= min_radius && r <= most);
+  return r == 0 || (r >= min_radius && r <= max_length);
 }
 
 /// A definition whose arrays are there, and what they hold: first the beams, then the balls.
@@ -204,7 +204,8 @@ class Given {
 
   bool is_node(uint64_t i) const {
     const Vec3 p = nodes_.at(i);
-    return std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most;
+    return std::abs(p.x) <= max_length && std::abs(p.y) <= max_length &&
+           std::abs(p.z) <= max_length;
   }
   bool is_beam(uint64_t i) const {
     const double a = radius(i, 0), b = radius(i, 1);
@@ -221,7 +222,7 @@ class Given {
     const Vec3 p = nodes_.at(i);
     fail(Status::argument,
          "node %llu is (%g, %g, %g); it must be finite, and at most %g in magnitude",
-         static_cast<unsigned long long>(i), p.x, p.y, p.z, most);
+         static_cast<unsigned long long>(i), p.x, p.y, p.z, max_length);
   }
   void check_index(uint32_t node, const char* what, uint64_t i) const {
     if (node >= def_.node_count)
@@ -235,7 +236,7 @@ class Given {
       check_index(beams_.at(i, end), "beam", i);
       if (!is_radius(radius(i, end)))
         fail(Status::argument, "radius %llu of beam %llu is %g; it must be 0 or from %g to %g",
-             static_cast<unsigned long long>(end), number, radius(i, end), min_radius, most);
+             static_cast<unsigned long long>(end), number, radius(i, end), min_radius, max_length);
       if (def_.caps && caps_.at(i, end) > MSQ_CAP_BUTT)
         fail(Status::argument, "cap %llu of beam %llu is %d; it must be from %d to %d",
              static_cast<unsigned long long>(end), number, caps_.at(i, end), MSQ_CAP_SPHERE,
@@ -246,7 +247,7 @@ class Given {
   [[noreturn]] void fail_ball(uint64_t i) const {
     check_index(balls_.at(i, 0), "ball", i);
     fail(Status::argument, "the radius of ball %llu is %g; it must be from %g to %g",
-         static_cast<unsigned long long>(i), ball_radius(i), min_radius, most);
+         static_cast<unsigned long long>(i), ball_radius(i), min_radius, max_length);
   }
 
   /// Calls fail_at(i) for the first i < count that is not right, if there is one.
@@ -254,14 +255,15 @@ class Given {
   static void first_of(uint64_t count, const Executor& executor, Job* job, Interval progress,
                        IsRight&& is_right, FailAt&& fail_at) {
     std::atomic<uint64_t> first{count};
-    run_parts(executor, (count + at_once - 1) / at_once, job, progress, [&](uint64_t n) {
-      uint64_t i = n * at_once;
-      const uint64_t end = std::min(count, i + at_once);
-      while (i < end && is_right(i)) ++i;
-      uint64_t known = first;
-      while (i < end && i < known && !first.compare_exchange_weak(known, i)) {
-      }
-    });
+    run_parts(executor, (count + beams_at_once - 1) / beams_at_once, job, progress,
+              [&](uint64_t n) {
+                uint64_t i = n * beams_at_once;
+                const uint64_t end = std::min(count, i + beams_at_once);
+                while (i < end && is_right(i)) ++i;
+                uint64_t known = first;
+                while (i < end && i < known && !first.compare_exchange_weak(known, i)) {
+                }
+              });
     if (first < count) fail_at(first);
   }
 

@@ -6,10 +6,10 @@ namespace msq::api {
 
 namespace {
 
-constexpr Choice outputs[] = {{"bits", MSQ_LAYER_BITS},         {"bytes", MSQ_LAYER_BYTES},
-                              {"grey", MSQ_LAYER_GREY},         {"distance", MSQ_LAYER_DISTANCE},
-                              {"material", MSQ_LAYER_MATERIAL}, {"onset", MSQ_LAYER_ONSET},
-                              {"contours", MSQ_LAYER_CONTOURS}, {"channel", MSQ_LAYER_CHANNEL}};
+constexpr Choice layer_outputs[] = {
+    {"bits", MSQ_LAYER_BITS},         {"bytes", MSQ_LAYER_BYTES},       {"grey", MSQ_LAYER_GREY},
+    {"distance", MSQ_LAYER_DISTANCE}, {"material", MSQ_LAYER_MATERIAL}, {"onset", MSQ_LAYER_ONSET},
+    {"contours", MSQ_LAYER_CONTOURS}, {"channel", MSQ_LAYER_CHANNEL}};
 constexpr Choice orientations[] = {{"mirror_x", MSQ_LAYER_MIRROR_X},
                                    {"mirror_y", MSQ_LAYER_MIRROR_Y},
                                    {"transpose", MSQ_LAYER_TRANSPOSE}};
@@ -44,7 +44,7 @@ void walk_contours(DefinitionWalk& in, msq_contours_def& def) {
 }
 
 void walk_output(DefinitionWalk& in, msq_output_def& def) {
-  in.choice("output", def.output, outputs);
+  in.choice("output", def.output, layer_outputs);
   in.whole("grey_samples", def.grey_samples);
   in.whole("grey_threshold", def.grey_threshold);
   in.number("grey_gamma", def.grey_gamma);
@@ -97,7 +97,7 @@ ViewDef defaults_of() {
 }
 
 void walk(DefinitionWalk& in, msq_slicer_def& def) {
-  in.choice("output", def.output, outputs);
+  in.choice("output", def.output, layer_outputs);
   in.numbers("pitch", def.pitch, true);
   uint64_t resolution[2] = {def.resolution[0], def.resolution[1]};
   in.wholes("resolution", resolution, UINT32_MAX);

@@ -6,7 +6,7 @@ namespace msq {
 namespace {
 
 constinit std::atomic<KeptType*> first_type{nullptr};
-constinit std::atomic<uint32_t> threads{0};
+constinit std::atomic<uint32_t> thread_count{0};
 
 /// Runs when the library is unloaded or the process ends.
 struct Unloading {
@@ -18,7 +18,7 @@ struct Unloading {
 constinit thread_local uint32_t place_of_thread = 0;
 
 uint32_t KeptType::new_place() {
-  place_of_thread = threads.fetch_add(1, std::memory_order_relaxed) % places + 1;
+  place_of_thread = thread_count.fetch_add(1, std::memory_order_relaxed) % places + 1;
   return place_of_thread;
 }
 

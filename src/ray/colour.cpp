@@ -13,21 +13,21 @@ double linear_of(double srgb) {
 
 /// sRGB rises by at most 12.92 * 255 = 3295 bytes per unit, so that no step contains two borders
 /// between bytes.
-constexpr int steps = 4096;
+constexpr int table_steps = 4096;
 
 struct SrgbTable {
   /// The start of byte b + 1.
   std::array<float, 256> next;
   /// The byte at the start of each step.
-  std::array<uint8_t, steps + 1> first;
+  std::array<uint8_t, table_steps + 1> first;
 
   SrgbTable() {
     for (int b = 0; b < 255; ++b)
       next[static_cast<size_t>(b)] = static_cast<float>(linear_of((b + 0.5) / 255));
     next[255] = 2;
     uint8_t byte = 0;
-    for (size_t i = 0; i <= steps; ++i) {
-      while (static_cast<float>(i) / steps >= next[byte]) ++byte;
+    for (size_t i = 0; i <= table_steps; ++i) {
+      while (static_cast<float>(i) / table_steps >= next[byte]) ++byte;
       first[i] = byte;
     }
   }
@@ -35,7 +35,7 @@ struct SrgbTable {
   uint8_t byte(float linear) const {
     if (!(linear > 0)) return 0;
     if (linear >= 1) return 255;
-    const uint8_t byte = first[static_cast<size_t>(linear * steps)];
+    const uint8_t byte = first[static_cast<size_t>(linear * table_steps)];
     return linear >= next[byte] ? static_cast<uint8_t>(byte + 1) : byte;
   }
 };

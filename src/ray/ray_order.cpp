@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/borrowed.h"
+#include "base/infinity.h"
 
 namespace msq {
 
@@ -48,7 +49,6 @@ bool RayOrder::place(const RaySearch& search, Place& place) const {
 
 /// Also measures the range of the rays' places.
 bool RayOrder::looks_ordered(uint64_t first, uint64_t count, const FillRays& fill) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Place low, high;
   low.fill(infinity);
   high.fill(-infinity);

@@ -14,7 +14,7 @@ namespace msq {
 
 namespace {
 
-constexpr uint64_t block = uint64_t{1} << 15;
+constexpr uint64_t beams_in_block = uint64_t{1} << 15;
 constexpr unsigned size_bits = 4;  // of the key, for powers of 4 of the size
 /// Minimum length of runs of equal positions that are sorted again, and the maximum number of
 /// passes for any coordinates.
@@ -24,7 +24,7 @@ constexpr unsigned digit_bits = 11;
 constexpr size_t digits = size_t{1} << digit_bits;
 
 uint64_t blocks_of(uint64_t count) {
-  return (count + block - 1) / block;
+  return (count + beams_in_block - 1) / beams_in_block;
 }
 
 /// An empty box.
@@ -138,7 +138,8 @@ class Ordering {
 
   template <class Visit>
   static void for_block(uint64_t n, uint64_t count, Visit&& visit) {
-    for (uint64_t i = n * block, end = std::min(count, i + block); i < end; ++i) visit(i);
+    for (uint64_t i = n * beams_in_block, end = std::min(count, i + beams_in_block); i < end; ++i)
+      visit(i);
   }
   static Vec3 centre(const Box3& box) { return box.min + (box.max - box.min) * 0.5; }
   uint32_t number_of(uint64_t key) const {
@@ -191,9 +192,9 @@ class Ordering {
       std::vector<std::vector<Run>> found(runs.size());
       // Long runs one by one, each with all threads.
       for (size_t n = 0; n < runs.size(); ++n)
-        if (runs[n].end - runs[n].begin > block) sort_run(runs[n], true, found[n]);
+        if (runs[n].end - runs[n].begin > beams_in_block) sort_run(runs[n], true, found[n]);
       executor_.for_each(runs.size(), [&](uint64_t n) {
-        if (runs[n].end - runs[n].begin <= block) sort_run(runs[n], false, found[n]);
+        if (runs[n].end - runs[n].begin <= beams_in_block) sort_run(runs[n], false, found[n]);
       });
       runs.clear();
       for (const std::vector<Run>& some : found) runs.insert(runs.end(), some.begin(), some.end());
@@ -248,8 +249,8 @@ class Ordering {
   const Executor& executor_;
   Job* const job_;
   Extent all_;
-  std::vector<Extent> begins_;  // by block; then, in place of the count, the number of keys before
-                                // the block
+  std::vector<Extent> begins_;  // by block; then, in place of the count, the number of
+                                // keys before the block
   unsigned index_bits_ = 0;
   std::vector<uint64_t> keys_, other_;
 };
