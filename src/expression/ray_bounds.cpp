@@ -49,28 +49,10 @@ class Kernel {
     const double* const b = registers_ + instruction.b * stride;
     double* const to = registers_ + instruction.to * stride;
     double* const waves = waves_ + instruction.waves * 2 * RayBatch::lanes;
+    const bool is_first = instruction.is_first;
     const V rounding = set(instruction.rounding);
     with_op(instruction.op, [&](auto which) HWY_ATTR {
-      constexpr Op op = decltype(which)::value;
-      for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-        const V span = hn::Load(d, span_ + i);
-        const Part p = load(a + i);
-        Part out;
-        if constexpr (op == Op::sine || op == Op::cosine) {
-          if (instruction.is_first) {
-            hn::Store(sine(lanes, p.v, 0), d, waves + i);
-            hn::Store(sine(lanes, p.v, 1), d, waves + RayBatch::lanes + i);
-          }
-          const V s = hn::Load(d, waves + i), c = hn::Load(d, waves + RayBatch::lanes + i);
-          out = op == Op::sine ? wave(p, span, s, c) : wave(p, span, c, hn::Neg(s));
-        } else if constexpr (has_one_operand(op)) {
-          out = of_one<op>(p, span);
-        } else {
-          out = of_two<op>(p, load(b + i), span);
-        }
-        out.error = hn::Add(out.error, rounding);
-        store(out, to + i);
-      }
+      run_op<decltype(which)::value>(span_, a, b, waves, is_first, rounding, count, to);
     });
   }
 
@@ -79,6 +61,32 @@ class Kernel {
   static constexpr Lanes<D> lanes{};
 
   static HWY_INLINE V set(double v) { return hn::Set(d, v); }
+
+  /// Takes its arguments by value: vectors that it stores could be those of a lambda's captures.
+  template <Op op>
+  static HWY_INLINE void run_op(const double* spans, const double* a, const double* b,
+                                double* waves, bool is_first, V rounding, size_t count,
+                                double* to) {
+    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+      const V span = hn::Load(d, spans + i);
+      const Part p = load(a + i);
+      Part out;
+      if constexpr (op == Op::sine || op == Op::cosine) {
+        if (is_first) {
+          hn::Store(sine(lanes, p.v, 0), d, waves + i);
+          hn::Store(sine(lanes, p.v, 1), d, waves + RayBatch::lanes + i);
+        }
+        const V s = hn::Load(d, waves + i), c = hn::Load(d, waves + RayBatch::lanes + i);
+        out = op == Op::sine ? wave(p, span, s, c) : wave(p, span, c, hn::Neg(s));
+      } else if constexpr (has_one_operand(op)) {
+        out = of_one<op>(p, span);
+      } else {
+        out = of_two<op>(p, load(b + i), span);
+      }
+      out.error = hn::Add(out.error, rounding);
+      store(out, to + i);
+    }
+  }
 
   static HWY_INLINE Part load(const double* from) {
     Part p;
