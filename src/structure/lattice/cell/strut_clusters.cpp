@@ -192,6 +192,8 @@ typename PartClusters<Periodic>::Cluster PartClusters<Periodic>::cluster_of(
     const Part& strut = struts_[s];
     const double distance = std::sqrt(strut.axis.distance_squared(centre));
     cluster.outside = std::min(cluster.outside, (distance - half_diagonal - slack_) / strut.factor);
+    // A corner is at least as far as the centre.
+    if ((distance + slack_) / strut.factor >= cluster.inside) continue;
     cluster.inside =
         std::min(cluster.inside, (greatest_distance(strut.axis, box) + slack_) / strut.factor);
   }
