@@ -151,6 +151,9 @@ typedef struct msq_build_report {
   int32_t with_xxhash;
   /** 1 if documents are read and written (msq_document_from_json). */
   int32_t with_json;
+  /** 1 if documents may name stacks of TIFF files. */
+  int32_t with_tiff;
+  uint32_t reserved;
 } msq_build_report;
 
 /** Reports how the loaded library was built. Errors: ARGUMENT. */

@@ -47,6 +47,8 @@ ImageFile read_nrrd_file(const std::string& path, const ImageFileOptions& option
 ImageFile read_raw_file(const std::string& path, const ImageLayout& layout,
                         const ImageFileOptions& options);
 
+/// False in builds without libtiff.
+bool can_read_tiff();
 /// The pages of the files, of one size and kind, one above the other: grey values of 8 or 16 bits.
 /// The files and the values together have at most options.max_bytes. Throws as read_nrrd_file(),
 /// and Error(unsupported) in builds without libtiff.

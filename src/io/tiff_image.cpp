@@ -291,6 +291,10 @@ class Stack {
 
 }  // namespace
 
+bool can_read_tiff() {
+  return true;
+}
+
 ImageFile read_tiff_files(std::span<const std::string> paths, const ImageFileOptions& options) {
   Stack stack(options, paths.size());
   for (const std::string& path : paths) {

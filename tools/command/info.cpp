@@ -23,6 +23,7 @@ Report build() {
   report.add("self_intersections", found.with_cgal != 0);
   report.add("hashes", found.with_xxhash != 0);
   report.add("model_files", found.with_json != 0);
+  report.add("tiff_files", found.with_tiff != 0);
   return report;
 }
 

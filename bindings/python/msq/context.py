@@ -44,6 +44,7 @@ class BuildInfo:
     simd: str  #: instruction set that the kernels use on this machine
     with_xxhash: bool  #: shapes, fields, structures, materials and models have a hash
     with_json: bool  #: models are read from JSON and written
+    with_tiff: bool  #: models may name stacks of TIFF files
 
 
 @dataclasses.dataclass(frozen=True)
