@@ -47,7 +47,7 @@ typedef struct msq_slicer msq_slicer;
 typedef struct msq_contours msq_contours;
 typedef struct msq_fill msq_fill;
 typedef struct msq_document msq_document;
-typedef struct msq_build_report { uint32_t struct_size; uint32_t version; int32_t with_assimp; int32_t with_cgal; const char* licence; const char* simd; int32_t with_xxhash; int32_t with_json; } msq_build_report;
+typedef struct msq_build_report { uint32_t struct_size; uint32_t version; int32_t with_assimp; int32_t with_cgal; const char* licence; const char* simd; int32_t with_xxhash; int32_t with_json; int32_t with_tiff; uint32_t reserved; } msq_build_report;
 typedef void (*msq_warning_fn)(void* user, int32_t code, const char* message);
 typedef void (*msq_release_fn)(void* user);
 typedef void (*msq_task_fn)(void* task, uint64_t i);

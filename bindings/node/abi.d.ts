@@ -264,6 +264,9 @@ export interface msq_build_report {
   with_xxhash: number;
   /** 1 if documents are read and written (msq_document_from_json). */
   with_json: number;
+  /** 1 if documents may name stacks of TIFF files. */
+  with_tiff: number;
+  reserved: number;
 }
 
 /**

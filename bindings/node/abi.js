@@ -150,6 +150,8 @@ export function types(koffi) {
     simd: 'str',
     with_xxhash: 'int32_t',
     with_json: 'int32_t',
+    with_tiff: 'int32_t',
+    reserved: 'uint32_t',
   });
   T.msq_warning_fn = koffi.proto('msq_warning_fn', 'void', ['void *', 'int32_t', 'str']);
   T.msq_release_fn = koffi.proto('msq_release_fn', 'void', ['void *']);

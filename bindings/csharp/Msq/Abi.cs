@@ -480,6 +480,9 @@ namespace Msq.Interop
         public int with_xxhash;
         /// <summary>1 if documents are read and written (msq_document_from_json).</summary>
         public int with_json;
+        /// <summary>1 if documents may name stacks of TIFF files.</summary>
+        public int with_tiff;
+        public uint reserved;
     }
 
     /// <summary>Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may add some. message: in UTF-8, with the values, valid until the callback returns.</summary>

@@ -197,7 +197,8 @@ class msq_document(Structure):
 class msq_build_report(Structure):
     _fields_ = [("struct_size", c_uint32), ("version", c_uint32), ("with_assimp", c_int32),
                 ("with_cgal", c_int32), ("licence", c_char_p), ("simd", c_char_p),
-                ("with_xxhash", c_int32), ("with_json", c_int32)]
+                ("with_xxhash", c_int32), ("with_json", c_int32), ("with_tiff", c_int32),
+                ("reserved", c_uint32)]
 
 
 msq_warning_fn = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)

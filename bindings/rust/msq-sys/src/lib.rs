@@ -484,6 +484,9 @@ pub struct msq_build_report {
     pub with_xxhash: i32,
     /// 1 if documents are read and written (msq_document_from_json).
     pub with_json: i32,
+    /// 1 if documents may name stacks of TIFF files.
+    pub with_tiff: i32,
+    pub reserved: u32,
 }
 
 /// Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may add some. message: in UTF-8, with the values, valid until the callback returns.
@@ -2574,7 +2577,7 @@ extern "C" {
 #[cfg(all(test, target_pointer_width = "64"))]
 #[test]
 fn structs_have_the_sizes_of_c() {
-    assert_eq!(std::mem::size_of::<msq_build_report>(), 40);
+    assert_eq!(std::mem::size_of::<msq_build_report>(), 48);
     assert_eq!(std::mem::size_of::<msq_context_def>(), 80);
     assert_eq!(std::mem::size_of::<msq_memory_report>(), 32);
     assert_eq!(std::mem::size_of::<msq_cache_report>(), 88);
