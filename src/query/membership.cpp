@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/memory.h"
-#include "structure/combined/members.h"
 
 namespace msq {
 
@@ -67,7 +66,7 @@ uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, con
   uint64_t tiles = 1;
   for (const Scale* scale : resolved)
     tiles = std::max(tiles,
-                     (scale->skin.is_none() ? uint64_t{1} : 2) + row_copies_of(*scale->structure));
+                     (scale->skin.is_none() ? uint64_t{1} : 2) + scale->structure->row_copies());
   return tiles * threads * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
 }
 

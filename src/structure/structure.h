@@ -163,6 +163,8 @@ class Structure : public Described {
   /// Whether rows cost less in blocks of many layers, because the work per cell serves all of its
   /// samples in a block.
   virtual bool gains_by_layers() const { return false; }
+  /// How many copies of a block's bits keep_rows() holds at once, in memory of its own.
+  virtual unsigned row_copies() const { return 0; }
   /// Clears the bits of samples that are outside. Stops early, by Error(cancelled), with the job.
   virtual void keep_rows(const RowBlock& block, const Job* job) const;
 

@@ -11,6 +11,7 @@
 #include "shape/primitive.h"
 #include "structure/combined/blended_structure.h"
 #include "structure/combined/smooth_boolean.h"
+#include "structure/common/walled_struts.h"
 #include "structure/waves/waves.h"
 
 using namespace msq;
@@ -293,6 +294,16 @@ void rows_stop_when_cancelled(void**) {
   }
 }
 
+/// Struts and walls, as foams and lattices have them.
+class Both final : public WalledStruts {
+ public:
+  Both(StructureRef struts, StructureRef walls)
+      : WalledStruts(std::move(struts), std::move(walls)) {}
+
+ private:
+  void describe(HashInput&) const override {}
+};
+
 void copies_of_rows_are_counted(void**) {
   const StructureRef ball = make_ref<Ball>(Vec3{}, 1.0);
   const auto make = [&](Operation operation, size_t count, const StructureRef& member) {
@@ -300,15 +311,19 @@ void copies_of_rows_are_counted(void**) {
     members[0] = member;
     return StructureRef(make_ref<BooleanStructure>(operation, members));
   };
-  assert_int_equal(row_copies_of(*ball), 0);
-  assert_int_equal(row_copies_of(*make(Operation::intersected, 3, ball)), 0);
-  assert_int_equal(row_copies_of(*make(Operation::subtracted, 3, ball)), 1);
-  assert_int_equal(row_copies_of(*make(Operation::united, 2, ball)), 1);
-  assert_int_equal(row_copies_of(*make(Operation::united, 3, ball)), 2);
-  assert_int_equal(row_copies_of(*smoothed(Operation::united, ball, ball, 1)), 2);
-  assert_int_equal(row_copies_of(*smoothed(Operation::intersected, ball, ball, 1)), 0);
+  assert_int_equal(ball->row_copies(), 0);
+  assert_int_equal(make(Operation::intersected, 3, ball)->row_copies(), 0);
+  assert_int_equal(make(Operation::subtracted, 3, ball)->row_copies(), 1);
+  assert_int_equal(make(Operation::united, 2, ball)->row_copies(), 1);
+  assert_int_equal(make(Operation::united, 3, ball)->row_copies(), 2);
+  assert_int_equal(smoothed(Operation::united, ball, ball, 1)->row_copies(), 2);
+  assert_int_equal(smoothed(Operation::intersected, ball, ball, 1)->row_copies(), 0);
   const StructureRef nested = make(Operation::united, 3, blended(ball, united(ball, ball), 0.5));
-  assert_int_equal(row_copies_of(*nested), 4);
+  assert_int_equal(nested->row_copies(), 4);
+  const StructureRef both = make_ref<Both>(ball, ball);
+  assert_int_equal(both->row_copies(), 1);
+  assert_int_equal(Both(ball, nested).row_copies(), 5);
+  assert_int_equal(make(Operation::united, 3, both)->row_copies(), 3);
 
   const SampleGrid grid{{0, 0, 0}, {0.01, 0.01, 0.01}, 100, 100, 8};
   const auto words = [&](const StructureRef& structure) {
@@ -318,6 +333,8 @@ void copies_of_rows_are_counted(void**) {
     return fill_slab_scratch_words(model, model.all_scales(), grid, 8);
   };
   assert_int_equal(words(nested), 5 * words(ball));
+  // Both gain by layers, and share the rows of a tile.
+  assert_int_equal(words(make(Operation::united, 3, both)), 2 * words(both));
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ CombinedStructure::CombinedStructure(StructureList members)
     const auto* combined = dynamic_cast<const CombinedStructure*>(member.get());
     terms_ += combined ? combined->terms() : 1;
     if (combined) steady_pairs_ = std::max(steady_pairs_, combined->steady_pairs());
-    row_copies_ = std::max(row_copies_, row_copies_of(*member));
+    row_copies_ = std::max(row_copies_, member->row_copies());
     combined_.push_back(combined);
     nesting_ = std::max(nesting_, 1 + member->nesting());
     is_concurrent_ = is_concurrent_ && member->is_concurrent();
@@ -59,11 +59,6 @@ void CombinedStructure::for_each_grid(const TakeGrid& take) const {
 
 double CombinedStructure::ray_tolerance(const Ray& ray, double to) const {
   return largest(members_, [&](const Structure& m) { return m.ray_tolerance(ray, to); });
-}
-
-unsigned row_copies_of(const Structure& structure) {
-  const auto* combined = dynamic_cast<const CombinedStructure*>(&structure);
-  return combined ? combined->row_copies() : 0;
 }
 
 void keep_points_of(const Structure& structure, const Vec3* points, uint8_t* alive, size_t count) {

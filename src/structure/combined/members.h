@@ -28,9 +28,9 @@ class CombinedStructure : public Structure {
   bool knows_boxes() const override { return knows_boxes_; }
   bool has_steady_distance() const override { return has_steady_distance_; }
   double min_ray_step() const override { return min_ray_step_; }
-  /// How many copies of a block's bits keep_rows() holds at once: the most of a member's, and those
-  /// of its own while a member's runs.
-  virtual unsigned row_copies() const { return row_copies_; }
+  /// The most of a member's. Kinds with copies of their own while a member's keep_rows() runs add
+  /// these.
+  unsigned row_copies() const override { return row_copies_; }
 
   /// Membership, and distance() if membership took distances of members.
   struct Answer {
@@ -77,9 +77,6 @@ class CombinedStructure : public Structure {
   uint32_t group_parts_ = 1;
   double min_ray_step_ = 0, smallest_cell_;
 };
-
-/// How many copies of a block's bits its keep_rows() holds at once.
-unsigned row_copies_of(const Structure& structure);
 
 /// As Structure::keep_points(), point by point where the structure is faster so.
 void keep_points_of(const Structure& structure, const Vec3* points, uint8_t* alive, size_t count);

@@ -22,6 +22,9 @@ class WalledStruts : public Structure {
   bool gains_by_groups() const final { return struts_->gains_by_groups(); }
   uint64_t critical_count() const final { return struts_->critical_count(); }
   bool gains_by_layers() const final { return true; }
+  unsigned row_copies() const final {
+    return 1 + std::max(walls_->row_copies(), struts_->row_copies());
+  }
   void keep_rows(const RowBlock& block, const Job* job) const final;
   double min_ray_step() const final {
     return std::max(walls_->min_ray_step(), struts_->min_ray_step());
