@@ -24,6 +24,7 @@ void run_definitions(const uint8_t* data, size_t size);
 void run_document(const uint8_t* data, size_t size);
 void run_expression(const uint8_t* data, size_t size);
 void run_foam(const uint8_t* data, size_t size);
+void run_image_file(const uint8_t* data, size_t size);
 void run_mesh(const uint8_t* data, size_t size);
 
 /// Prints what is wrong and aborts, which libFuzzer and AFL++ take for a crash.

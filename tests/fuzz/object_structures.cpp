@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structures of all kinds but those of other structures.
+// Structures of all kinds.
 #include <cmath>
 #include <iterator>
 
@@ -225,8 +225,111 @@ Owner<msq_structure> Maker::host_function() {
   });
 }
 
-Owner<msq_structure> Maker::structure() {
-  switch (input_.below(10)) {
+Owner<msq_structure> Maker::waves() {
+  is_rough();
+  msq_waves_def def = make_def(msq_waves_def_init);
+  def.grid = grid();
+  def.kind = 1 + static_cast<int32_t>(input_.below(2));
+  def.seed = input_.word(2);
+  def.count = 1 + input_.below(40);
+  if (input_.chance(60))
+    for (uint32_t& tile : def.tile) tile = input_.below(5);
+  if (input_.chance(80))
+    for (double& angle : def.cone_angles) angle = input_.chance(128) ? input_.number(0.1, 90) : 0;
+  if (input_.chance(100))
+    def.volume_fraction = input_.number(0.02, 0.98);
+  else
+    def.level = param(def.kind == MSQ_FUNCTIONAL_SHEET ? 0.05 : -1, 1);
+  return make<msq_structure>("msq_structure_waves", [&](msq_structure** s) {
+    return msq_structure_waves(context_, &def, s);
+  });
+}
+
+Owner<msq_structure> Maker::plates() {
+  msq_plate_lattice_def def = make_def(msq_plate_lattice_def_init);
+  def.grid = grid();
+  def.plate_cell = static_cast<int32_t>(input_.below(6));
+  def.thickness = param(0.02 * sight_.unit, 0.4 * sight_.unit);
+  std::vector<double> nodes, face_factors, strut_factors;
+  std::vector<uint32_t> faces, struts;
+  const auto corners_of = [&](std::vector<uint32_t>& corners, uint32_t of) {
+    const uint32_t count = static_cast<uint32_t>(nodes.size() / 3), first = input_.below(count);
+    for (uint32_t i = 0; i < of; ++i)
+      corners.push_back(input_.chance(4) ? input_.below(count) : (first + i) % count);
+  };
+  if (def.plate_cell == MSQ_PLATE_CELL_CUSTOM) {
+    for (uint32_t i = 3 * (3 + input_.below(4)); i > 0; --i)
+      nodes.push_back(input_.chance(128) ? 0.5 * input_.below(3) : input_.number(0, 1));
+    for (uint32_t i = 1 + input_.below(5); i > 0; --i) corners_of(faces, 3);
+    def.nodes = nodes.data();
+    def.node_count = nodes.size() / 3;
+    def.faces = faces.data();
+    def.face_count = faces.size() / 3;
+    if (input_.chance(60)) {
+      for (uint64_t i = 0; i < def.face_count; ++i) face_factors.push_back(input_.number(0.3, 2));
+      def.face_factors = face_factors.data();
+    }
+  }
+  if (input_.chance(80)) {
+    def.radius = param(0.02 * sight_.unit, 0.3 * sight_.unit);
+    def.unit_cell = static_cast<int32_t>(input_.below(9));
+    if (def.unit_cell == MSQ_UNIT_CELL_CUSTOM && def.plate_cell == MSQ_PLATE_CELL_CUSTOM) {
+      for (uint32_t i = 1 + input_.below(4); i > 0; --i) corners_of(struts, 2);
+      def.struts = struts.data();
+      def.strut_count = struts.size() / 2;
+      if (input_.chance(60)) {
+        for (uint64_t i = 0; i < def.strut_count; ++i)
+          strut_factors.push_back(input_.number(0.3, 2));
+        def.strut_factors = strut_factors.data();
+      }
+    }
+  }
+  return make<msq_structure>("msq_structure_plate_lattice", [&](msq_structure** s) {
+    return msq_structure_plate_lattice(context_, &def, s);
+  });
+}
+
+Owner<msq_structure> Maker::combined(int depth) {
+  is_rough();
+  const uint32_t kind = input_.below(3);
+  const int32_t operation = 1 + static_cast<int32_t>(input_.below(3));
+  std::vector<Owner<msq_structure>> members;
+  std::vector<const msq_structure*> handles;
+  for (uint32_t count = kind == 0 ? 1 + input_.below(3) : 2; count > 0; --count) {
+    members.push_back(structure(depth + 1));
+    handles.push_back(members.back().get());
+    if (!members.back()) return nullptr;
+  }
+  if (kind == 0)
+    return make<msq_structure>("msq_structure_boolean", [&](msq_structure** s) {
+      return msq_structure_boolean(operation, handles.data(), handles.size(), s);
+    });
+  if (kind == 1) {
+    const msq_param fraction = param(0, 1);
+    return make<msq_structure>("msq_structure_blend", [&](msq_structure** s) {
+      return msq_structure_blend(handles[0], handles[1], &fraction, s);
+    });
+  }
+  const msq_param radius = param(0.02 * sight_.unit, 0.5 * sight_.unit);
+  return make<msq_structure>("msq_structure_smooth_boolean", [&](msq_structure** s) {
+    return msq_structure_smooth_boolean(operation, handles[0], handles[1], &radius, s);
+  });
+}
+
+Owner<msq_structure> Maker::structure(int depth) {
+  // The committed inputs mean what they meant before the kinds of the first switch were known.
+  const uint32_t kind = input_.byte();
+  if (kind >= 170) {
+    switch (kind % 4) {
+      case 0:
+        return waves();
+      case 1:
+        return plates();
+      default:
+        return depth < 2 ? combined(depth) : plates();
+    }
+  }
+  switch (kind % 10) {
     case 0:
     case 1:
     case 2:

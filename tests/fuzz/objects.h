@@ -14,7 +14,7 @@ class Maker {
   /// NULL where msq refuses the definition.
   Owner<msq_field> field(double low, double high, int depth = 0);
   Owner<msq_shape> shape(int depth = 0);
-  Owner<msq_structure> structure();
+  Owner<msq_structure> structure(int depth = 0);
   Owner<msq_material> material(int depth = 0);
   Owner<msq_model> model();
   /// Of one scale in a box about the origin of the grids.
@@ -32,6 +32,9 @@ class Maker {
   Owner<msq_structure> foam();
   Owner<msq_structure> functional();
   Owner<msq_structure> beams();
+  Owner<msq_structure> waves();
+  Owner<msq_structure> plates();
+  Owner<msq_structure> combined(int depth);
   Owner<msq_structure> host_structure();
   Owner<msq_structure> host_function();
   msq_image image(std::vector<double>* values, double low, double high);

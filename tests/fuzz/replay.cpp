@@ -23,7 +23,8 @@ constexpr Fuzzer fuzzers[] = {
     {"beam_file", msq::fuzz::run_beam_file}, {"calls", msq::fuzz::run_calls},
     {"contours", msq::fuzz::run_contours},   {"definitions", msq::fuzz::run_definitions},
     {"document", msq::fuzz::run_document},   {"expression", msq::fuzz::run_expression},
-    {"foam", msq::fuzz::run_foam},           {"mesh", msq::fuzz::run_mesh},
+    {"foam", msq::fuzz::run_foam},           {"image_file", msq::fuzz::run_image_file},
+    {"mesh", msq::fuzz::run_mesh},
 };
 
 int failed(const std::string& what) {
