@@ -70,8 +70,11 @@ toff_t file_size(thandle_t handle) {
 /// Keeps what libtiff would print.
 int keep_problem(TIFF*, void* user, const char*, const char* format, va_list values) {
   Source& source = *static_cast<Source*>(user);
-  if (source.problem[0] == '\0')
-    std::vsnprintf(source.problem, sizeof source.problem, format, values);
+  if (source.problem[0] != '\0') return 1;
+  std::vsnprintf(source.problem, sizeof source.problem, format, values);
+  // Most begin with the name that the file was opened by, and that is empty.
+  if (std::strncmp(source.problem, ": ", 2) == 0)
+    std::memmove(source.problem, source.problem + 2, std::strlen(source.problem + 2) + 1);
   return 1;
 }
 int ignore_warning(TIFF*, void*, const char*, const char*, va_list) {

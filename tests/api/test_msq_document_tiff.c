@@ -236,6 +236,57 @@ static void pages_are_refused_by_name(void** state) {
   assert_not_read(ONE, 0, MSQ_E_IO, "is damaged");
 }
 
+/* Of the last page: its entry for a tag becomes one for another, with a value. */
+static void change_entry(tiff* t, unsigned tag, unsigned to, unsigned value) {
+  for (size_t entry = t->link - 12; entry > 12; entry -= 12)
+    if ((t->bytes[entry] | t->bytes[entry + 1] << 8) == (int)tag) {
+      put(t, entry, to, 2);
+      put(t, entry + 8, value, t->bytes[entry + 2] == 3 ? 2 : 4);
+      return;
+    }
+  fail_msg("there is no entry %u", tag);
+}
+
+static void entries_are_needed(void** state) {
+  (void)state;
+  enum {
+    PHOTOMETRIC = 262,
+    THRESHOLDING,
+    OFFSETS = 273,
+    SAMPLES = 277,
+    ROWS,
+    COUNTS,
+    PRIVATE = 65000
+  };
+  enum { TILE_WIDTH = 322, TILE_LENGTH, TILE_OFFSETS, TILE_COUNTS };
+  uint16_t values[VALUES];
+  tiff t;
+  values_of(values);
+  begin(&t, 0);
+  add_page(&t, &plain, values);
+  change_entry(&t, PHOTOMETRIC, THRESHOLDING, 1);
+  write_file("a.tif", t.bytes, t.size);
+  assert_not_read(ONE, 0, MSQ_E_IO, "page 1 has no photometric interpretation");
+  begin(&t, 0);
+  add_page(&t, &plain, values);
+  change_entry(&t, 256, PRIVATE, WIDTH);
+  write_file("a.tif", t.bytes, t.size);
+  assert_not_read(ONE, 0, MSQ_E_IO, "a.tif: ");
+  begin(&t, 0);
+  add_page(&t, &plain, values);
+  change_entry(&t, ROWS, ROWS, 0);
+  write_file("a.tif", t.bytes, t.size);
+  assert_not_read(ONE, 0, MSQ_E_IO, "a.tif: the file is no TIFF: Bad value 0 for \"RowsPerStrip\"");
+  begin(&t, 0);
+  add_page(&t, &plain, values);
+  change_entry(&t, OFFSETS, TILE_OFFSETS, 8);
+  change_entry(&t, SAMPLES, TILE_WIDTH, 16);
+  change_entry(&t, ROWS, TILE_LENGTH, 16);
+  change_entry(&t, COUNTS, TILE_COUNTS, 40);
+  write_file("a.tif", t.bytes, t.size);
+  assert_not_read(ONE, 0, MSQ_E_UNSUPPORTED, "page 1 is stored in tiles; strips are read");
+}
+
 static void keys_files_and_limits(void** state) {
   (void)state;
   write_stack("a.tif", &plain, 0, 0, PAGES);
@@ -324,8 +375,8 @@ static void builds_without_libtiff_say_so(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(pages_of_a_file),           cmocka_unit_test(files_are_one_above_the_other),
-      cmocka_unit_test(pages_are_refused_by_name), cmocka_unit_test(keys_files_and_limits),
-      cmocka_unit_test(damaged_files_do_no_harm),
+      cmocka_unit_test(pages_are_refused_by_name), cmocka_unit_test(entries_are_needed),
+      cmocka_unit_test(keys_files_and_limits),     cmocka_unit_test(damaged_files_do_no_harm),
   };
   const struct CMUnitTest without[] = {cmocka_unit_test(builds_without_libtiff_say_so)};
   if (!MSQ_WITH_JSON) return 0; /* test_refusals_documents.c */

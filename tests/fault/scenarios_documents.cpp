@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -54,6 +55,56 @@ void require_model(msq_document* document) {
   msq_document_release(document);
 }
 
+#if MSQ_WITH_TIFF
+
+/// Membership on a grid.
+void probe_model(msq_document* document, std::vector<uint8_t>& inside) {
+  msq_model* model;
+  require_ok(msq_document_model(document, &model));
+  const msq_points_def points = grid_of(10);
+  require_ok(msq_set_membership(model, &points, nullptr, inside.data(), inside.size(), nullptr));
+  const auto count = std::count(inside.begin(), inside.end(), 1);
+  require(count > 0 && count < 500, "another image");
+  msq_model_release(model);
+  msq_document_release(document);
+}
+
+/// Two pages of 2 x 2 values of 16 bits, in strips of one row, without compression.
+std::string tiff() {
+  std::string bytes("II*\0", 4);
+  const auto put = [&](uint32_t value, int width) {
+    for (int i = 0; i < width; ++i) bytes += static_cast<char>(value >> (8 * i) & 255);
+  };
+  constexpr uint32_t head = 8, strip = 4, entries = 10, lists = 2 * strip + 2 * 8,
+                     page_bytes = lists + 2 + 12 * entries + 4;
+  put(head + lists, 4);
+  for (uint32_t page = 0; page < 2; ++page) {
+    const uint32_t begin = head + page * page_bytes, offsets = begin + 2 * strip;
+    for (uint32_t i = 0; i < 4; ++i) put(page * 4 + i, 2);
+    put(begin, 4);
+    put(begin + strip, 4);
+    put(strip, 4);
+    put(strip, 4);
+    // Width, height, bits, compression, black is 0, strips, samples, rows of a strip, bytes of
+    // strips, signed.
+    const uint32_t tags[entries][2] = {{256, 2},           {257, 2},       {258, 16}, {259, 1},
+                                       {262, 1},           {273, offsets}, {277, 1},  {278, 1},
+                                       {279, offsets + 8}, {339, 2}};
+    put(entries, 2);
+    for (const auto& [tag, value] : tags) {
+      const bool is_list = tag == 273 || tag == 279;
+      put(tag, 2);
+      put(is_list ? 4 : 3, 2);  // of 32 bits, or of 16
+      put(is_list ? 2 : 1, 4);
+      put(value, 4);
+    }
+    put(page == 0 ? begin + page_bytes + lists : 0, 4);
+  }
+  return bytes;
+}
+
+#endif
+
 /// A document and a mesh that it names, for as long as this lives.
 class Files {
  public:
@@ -65,17 +116,27 @@ class Files {
     write("m.json",
           "{\"msq_model\": 1, \"scales\": [{\"shape\": {\"file\": {\"file\": "
           "\"t.obj\"}}}]}");
+#if MSQ_WITH_TIFF
+    write("v.tif", tiff());
+    write("v.json",
+          "{\"msq_model\": 1, \"scales\": [{\"shape\": {\"voxels\": {\"image\": {\"files\": "
+          "[\"v.tif\", \"v.tif\"]}, \"threshold\": 6}}}]}");
+#endif
   }
   ~Files() {
-    for (const char* name : {"t.obj", "m.json"}) std::remove(path(name).c_str());
+    for (const char* name : {"t.obj", "m.json", "v.tif", "v.json"}) std::remove(path(name).c_str());
     rmdir(folder_.c_str());
   }
-  std::string path(const char* name) const { return folder_ + "/" + name; }
+  std::string path(const char* name) const {
+    return folder_ + "/" + name;
+  }
 
  private:
-  void write(const char* name, const char* content) const {
+  void write(const char* name, const std::string& content) const {
     std::FILE* file = std::fopen(path(name).c_str(), "wb");
-    require(file && std::fputs(content, file) >= 0 && std::fclose(file) == 0, "no file");
+    require(file && std::fwrite(content.data(), 1, content.size(), file) == content.size() &&
+                std::fclose(file) == 0,
+            "no file");
   }
   std::string folder_;
 };
@@ -124,6 +185,24 @@ std::vector<Scenario> document_scenarios() {
                              },
                              [&] { require_model(document); });
                        }});
+#if MSQ_WITH_TIFF
+  scenarios.push_back({"msq_document_from_file, TIFF", [](Stage& stage) {
+                         World world(stage);
+                         const Files files;
+                         const std::string path = files.path("v.json");
+                         msq_document* document;
+                         std::vector<uint8_t> inside(1000);
+                         stage.watch_probe(inside);
+                         stage.needs_stack = stage.allows_io = true;
+                         stage.watch_handle(document);
+                         stage.call(
+                             [&] {
+                               return msq_document_from_file(world.context, path.c_str(), nullptr,
+                                                             &document, nullptr);
+                             },
+                             [&] { probe_model(document, inside); });
+                       }});
+#endif
   scenarios.push_back({"msq_document_info", [](Stage& stage) {
                          World world(stage);
                          msq_document* document = read(world);
