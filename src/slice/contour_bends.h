@@ -5,14 +5,29 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace msq {
 
+/// Curvatures of triples of points are even where those in the middle exceed the others by no more
+/// than this factor.
+inline constexpr double even_curvature = 1.6;
+/// Of the tolerance: arcs that are no higher than that are near enough to their chords.
+inline constexpr double flat_arc = 0.75;
+
 /// Sets bit i of `bits` where the boundary may bend by more than `tolerance` between point i and
-/// the next one, as points i - 1 and i + 2 tell; also where a point that is nearer than `close` to
+/// the next one, as points i - 2 to i + 3 tell; also where a point that is nearer than `close` to
 /// its neighbour tells little about that, and at some pieces near both ends of the points. Writes
 /// the words of `count` bits.
 void find_bends(const double* x, const double* y, size_t count, double tolerance, double close,
                 uint64_t* bits);
+
+/// Points that form a ring.
+struct RingPoints {
+  uint32_t first, end;
+};
+/// Sets or clears the bits near both ends of rings, where find_bends() took points of other rings.
+void find_bends_at_ends(const double* x, const double* y, std::span<const RingPoints> rings,
+                        double tolerance, double close, uint64_t* bits);
 
 }  // namespace msq

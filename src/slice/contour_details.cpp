@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 
-#include "slice/contour_bends.h"
 #include "slice/nearest_unit.h"
 
 namespace msq {
@@ -36,7 +35,6 @@ double curvature(Vec2 a, Vec2 b, Vec2 c) {
 /// that bends about evenly; 0 where they do not. At a corner between a and b the curvature of
 /// triples that hold both is far above that of the outer ones.
 double bend_of(Vec2 before_p, Vec2 p, Vec2 a, Vec2 b, Vec2 q, Vec2 behind_q) {
-  constexpr double evenly = 1.6;
   const double k1 = curvature(p, a, b), k2 = curvature(a, b, q);
   if (!(k1 * k2 > 0)) return 0;
   const double k0 = curvature(before_p, p, a);
@@ -44,7 +42,7 @@ double bend_of(Vec2 before_p, Vec2 p, Vec2 a, Vec2 b, Vec2 q, Vec2 behind_q) {
   const double k3 = curvature(b, q, behind_q);
   if (!(k3 * k1 > 0)) return 0;
   const double inner = std::max(std::abs(k1), std::abs(k2));
-  if (!(inner <= evenly * std::max(std::abs(k0), std::abs(k3)))) return 0;
+  if (!(inner <= even_curvature * std::max(std::abs(k0), std::abs(k3)))) return 0;
   return 0.125 * 0.5 * (k1 + k2) * dot(b - a, b - a);
 }
 
@@ -137,6 +135,11 @@ void ContourDetails::find_suspects(ContourPoints& points) {
     find_bends(rings_.x() + first, rings_.y() + first, std::min(at_once, count - first), tolerance_,
                close(), memory_->bends.data() + first / 64);
   }
+  memory_->closed.clear();
+  for (const ContourRings::Ring& ring : rings_.rings())
+    if (ring.is_closed) memory_->closed.push_back({ring.first, ring.end});
+  find_bends_at_ends(rings_.x(), rings_.y(), memory_->closed, tolerance_, close(),
+                     memory_->bends.data());
   CancelPoll poll(job);
   begin_run();
   for (const ContourRings::Ring& ring : rings_.rings()) {
@@ -156,23 +159,14 @@ void ContourDetails::find_suspects(ContourPoints& points) {
 }
 
 /// suspect() for all crossings of a closed ring, but for those that `bends` excludes: most pieces
-/// are short, or nearly straight.
+/// are short, or nearly straight, or lie on arcs.
 void ContourDetails::look_along(const ContourRings::Ring& ring, CancelPoll& poll) {
-  const uint32_t count = ring.end - ring.first;
-  if (count < 4) {
-    for (uint32_t id = ring.first; id < ring.end; ++id) suspect(ring, id);
-    return;
-  }
-  suspect(ring, ring.first);
-  // Those with all their neighbours in a row.
-  for (uint32_t id = ring.first + 1; id < ring.end - 2;) {
+  for (uint32_t id = ring.first; id < ring.end;) {
     poll();
     const uint64_t rest = memory_->bends[id / 64] >> (id % 64);
     id = rest ? id + static_cast<uint32_t>(std::countr_zero(rest)) : (id / 64 + 1) * 64;
-    if (rest && id < ring.end - 2) suspect(ring, id++);
+    if (rest && id < ring.end) suspect(ring, id++);
   }
-  suspect(ring, ring.end - 2);
-  suspect(ring, ring.end - 1);
 }
 
 /// The piece that begins at crossing `id`.
@@ -223,7 +217,7 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   if (const double bend =
           bend_of(rings_.at(before(p)), rings_.at(p), a, b, rings_.at(q), rings_.at(behind(q)));
       bend != 0) {
-    if (std::abs(bend) <= 0.75 * tolerance_) return;
+    if (std::abs(bend) <= flat_arc * tolerance_) return;
     piece.arc = piece.middle() - left_of(unit(ab)) * bend;
     piece.has_arc = std::abs(bend) <= 4 * tolerance_ && is_in_cell(id, piece.arc);
   }

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "base/borrowed.h"
+#include "slice/contour_bends.h"
 #include "slice/contour_points.h"
 #include "slice/contour_rings.h"
 
@@ -85,11 +86,12 @@ class ContourDetails {
   // Kept between calls: fresh memory of this size takes a while to get.
   struct Memory {
     std::vector<uint64_t> bends;  // see find_bends()
+    std::vector<RingPoints> closed;
     std::vector<Piece> pieces, halves;
     std::vector<DetailPoint> details;
     std::vector<size_t> runs;  // where runs of details begin
     size_t bytes() const {
-      return bends.capacity() * sizeof(uint64_t) +
+      return bends.capacity() * sizeof(uint64_t) + closed.capacity() * sizeof(RingPoints) +
              (pieces.capacity() + halves.capacity()) * sizeof(Piece) +
              details.capacity() * sizeof(DetailPoint);
     }

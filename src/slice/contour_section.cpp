@@ -220,11 +220,9 @@ void ContourSection::locate(ContourPoints& points, double accuracy, const PlaneS
   };
   // Struts give their ends. On edges that the shape ends on, membership tells.
   if (struts) {
-    double* const ends = memory_->ends.data();
-    std::fill(ends, ends + crossing_count_, unknown);
     struts->propose(grid_,
-                    {grid_.row(0), grid_.row_words(), horizontal_.data(), vertical_.data(), ends,
-                     crossing_count_},
+                    {grid_.row(0), grid_.row_words(), horizontal_.data(), vertical_.data(),
+                     grid_.rows(), memory_->ends.data(), crossing_count_},
                     points.job());
     count_unseen(*struts, points);
     settle_saddles(points);

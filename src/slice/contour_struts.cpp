@@ -511,14 +511,42 @@ void PlaneStruts::list_by_square(const Job* job) {
 
 void PlaneStruts::propose(const ContourGrid& grid, const CrossingTable& table,
                           const Job* job) const {
-  constexpr size_t at_once = 1024;
+  constexpr size_t at_once = 128;
+  // The struts of a few rows meet few crossings: these are set just before, so they are near the
+  // core. One that a strut reached earlier would be asked about instead.
+  constexpr uint32_t rows_beyond = 3;
+  const ContourAxis& v = grid.v_nodes();
+  uint32_t row = 0;
+  const auto set_rows = [&](uint32_t end) {
+    if (end <= row) return;
+    const auto set = [&](const uint32_t* starts, uint32_t rows, uint32_t last) {
+      const auto start = [&](uint32_t r) {
+        return table.ends + (r < rows ? starts[r * table.row_words] : last);
+      };
+      std::fill(start(row), start(end), std::numeric_limits<double>::infinity());
+    };
+    set(table.horizontal, table.rows, table.vertical[0]);
+    set(table.vertical, table.rows - 1, table.none);
+    row = end;
+  };
   const std::vector<PlaneStrut>& struts = memory_->struts;
+  const std::vector<AxisPart>& parts = memory_->parts;
   for (size_t first = 0; first < struts.size(); first += at_once) {
-    check_cancelled(job);
+    if (first % 1024 == 0) check_cancelled(job);
+    const size_t count = std::min(at_once, struts.size() - first);
+    double reach = v.low();
+    for (size_t i = first; i < first + count; ++i) {
+      const PlaneStrut& s = struts[i];
+      const double up = std::max(parts[i].from * s.d_v, parts[i].to * s.d_v);
+      reach = std::max(reach, s.a_v + up + s.radius);
+    }
+    set_rows(reach >= v.high()
+                 ? table.rows
+                 : std::min(table.rows, ContourGrid::bottom_row + v.edge_of(reach) + rows_beyond));
     HWY_DYNAMIC_DISPATCH(propose_struts)
-    (struts.data() + first, memory_->parts.data() + first, std::min(at_once, struts.size() - first),
-     grid, table);
+    (struts.data() + first, parts.data() + first, count, grid, table);
   }
+  set_rows(table.rows);
 }
 
 void PlaneStruts::draw(const ContourGrid& grid, const NodeDrawing& out, const Job* job) const {

@@ -42,6 +42,7 @@ struct CrossingTable {
   const uint64_t* bits;  ///< nodes inside
   size_t row_words;
   const uint32_t *horizontal, *vertical;  ///< the first crossing of each word of edges
+  uint32_t rows;
   /// u or v of each crossing, and its negative where the first node of the edge is inside. So both
   /// kinds are lowered by what struts propose.
   double* ends;
@@ -64,7 +65,8 @@ class PlaneStruts {
   /// Sets the bits of nodes that struts hold. Lists those near a surface, for find().
   void draw(const ContourGrid& grid, const NodeDrawing& out, const Job* job) const;
 
-  /// Lowers the ends of the table to where struts are entered and left.
+  /// Sets the ends of the table to where struts are entered and left; those of crossings that no
+  /// strut has to infinity.
   void propose(const ContourGrid& grid, const CrossingTable& table, const Job* job) const;
 
   /// A point that a strut holds, in a cell whose nodes are all outside.
