@@ -22,6 +22,7 @@ from .errors import (ArgumentError, CancelledError, Error, FileError, HostError,
                      LimitError, MeshError, OutOfMemoryError, UnsupportedError)
 from .field import Field, Param
 from .fill import Fill
+from .implicit_file import ImplicitPart, read_3mf_implicit
 from .material import Material
 from .model import Model, Scale
 from .picture import Picture, RenderPass
@@ -44,11 +45,13 @@ __all__ = [
     "Camera", "CancelledError",
     "Context", "Contours", "Document", "Error", "Estimate", "Field", "FileError", "Fill", "Foam", "Functional",
     "Grid", "HostError",
-    "HostFunctional", "HostPoints", "HostStructure", "InternalError", "Job", "JobInfo", "Lattice",
+    "HostFunctional", "HostPoints", "HostStructure", "ImplicitPart", "InternalError", "Job", "JobInfo",
+    "Lattice",
     "LatticeFaces", "Layer", "LimitError", "Material", "MemoryInfo", "Mesh", "MeshError",
     "Model",
     "OutOfMemoryError", "Output", "Param", "Period", "Picture", "PlateLattice", "PointGrid", "PointSet",
     "Printability", "RenderPass", "Scale",
     "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
     "UnsupportedError", "Waves", "build_info", "progress",
+    "read_3mf_implicit",
 ]

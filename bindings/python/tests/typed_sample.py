@@ -22,6 +22,10 @@ def areas(model: msq.Model, pitch: float) -> List[float]:
     return found[first.index:] + [float(layer.z) for layer in some]
 
 
+def solids(path: str) -> List[msq.Model]:
+    return [part.model() for part in msq.read_3mf_implicit(path) if part.box_only]
+
+
 def main(path: Optional[str] = None) -> Tuple[int, float]:
     part = msq.Shape.box((0, 0, 0), (10, 10, 10)) if path is None else msq.Shape.from_file(path)
     foam = graded(0.1, 0.4)
