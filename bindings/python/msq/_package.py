@@ -9,6 +9,7 @@ import posixpath
 import re
 import zipfile
 import zlib
+from array import array
 from typing import Any, Dict, List, Optional, Tuple, Union
 from xml.parsers import expat
 
@@ -160,8 +161,8 @@ class Mesh:
     """A mesh as it is read."""
 
     def __init__(self) -> None:
-        self._vertices: List[float] = []
-        self._triangles: List[int] = []
+        self._vertices = array("d")
+        self._triangles = array("q")
 
     def take(self, name: str, attributes: Dict[str, str]) -> None:
         if name == "vertex":

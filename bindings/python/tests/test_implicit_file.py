@@ -368,6 +368,10 @@ class Nodes(Compared):
         for number, exponent in enumerate((0, 1, 2, 3, 7, -1, -2, 0.5, -0.5, 2.5, 70000, -70001)):
             made = graph.op("pow", x, graph.constant(exponent))
             channels.append(graph.output(f"p{number}", made))
+        cube = graph.op("pow", graph.op("sin", x), graph.constant(3))
+        channels.append(graph.output("square", graph.op("pow", cube, graph.constant(2))))
+        minus = graph.op("subtraction", graph.constant(0), graph.op("sin", y))
+        channels.append(graph.output("minus", graph.op("pow", minus, graph.constant(4))))
         # A whole exponent that is not constant, of bases below, at and above 0.
         whole = graph.op("round", y)
         base = graph.op("round", x)
@@ -566,6 +570,11 @@ class Files(Compared):
         _, part = self.one(graph.text(), 'functionid="1" channel="flat"')
         self.assertEqual(list(part.model().contains([[-0.5, 0, 0], [0.5, 0, 0], [1.5, 0, 0]])),
                          [True, True, False])
+        # 0 times what is undefined is undefined.
+        graph.output("zero", graph.op("subtraction", graph.op(
+            "multiplication", graph.constant(0), graph.op("sqrt", x)), graph.constant(1)))
+        _, part = self.one(graph.text(), 'functionid="1" channel="zero" fallbackvalue="1"')
+        self.assertEqual(list(part.model().contains([[-0.5, 0, 0], [0.5, 0, 0]])), [False, True])
         # A root of what is at least 0 always has a value: one function does.
         graph.output("whole", graph.op("sqrt", graph.op("multiplication", x, x)))
         _, part = self.one(graph.text(), 'functionid="1" channel="whole"')
