@@ -26,28 +26,28 @@
  * and cached cells count against the context in which a part was created.
  *
  * Definitions. A definition is a struct that begins with struct_size. X_def_init(&def, sizeof def)
- * sets struct_size and all defaults, and writes no byte past the given size. A struct larger than
- * the library's must be zero in the excess. Sizes below that of version 0.1 and sizes above 4096
- * are refused.
+ * sets struct_size and all defaults, and writes no byte past the given size. If the struct is
+ * larger than the library's, its excess bytes must be 0. Sizes below that of version 0.1 and sizes
+ * above 4096 are refused.
  *
  * Reports. A report is a struct that msq fills in. The caller sets its struct_size. msq writes no
  * byte past that size, and zeroes the bytes that it does not know.
  *
  * Inputs. A constructor copies the arrays and strings that it is given. NULL is refused unless the
- * comment gives it a meaning. A job may be NULL everywhere: the call then has none. Numbers that
- * are not finite are refused.
+ * comment gives it a meaning. A job may be NULL everywhere: the call then reports no progress and
+ * cannot be cancelled. Numbers that are not finite are refused.
  *
  * Threads. Every function may be called from any thread. Callbacks run on the thread that called
  * msq and may call msq. Only callbacks of objects defined with concurrent = 1 may run on other
- * threads: those of msq, or those of the host's parallel_for. If threads cannot be started, a call
- * uses those that there are. Working memory is kept for the next call and freed with the last
- * context of the process.
+ * threads: those of msq, or those of the host's parallel_for. If a thread cannot be started, the
+ * call uses the threads that exist. Working memory is kept for the next call and freed with the
+ * last context of the process.
  *
  * Stack. A thread of the host with a stack of 64 KiB may call every function: large working memory
- * is on the heap, and thread-local storage takes less than 1 KiB. Exceptions: calls that read
- * binary STL, by Assimp, those that use CGAL (MSQ_FOAM_METHOD_2, msq_shape_self_intersections) and
- * those that read documents need the stack that these need. Callbacks of the host take theirs from
- * the same stack.
+ * is on the heap, and thread-local storage takes less than 1 KiB. Three kinds of calls need more:
+ * those that read binary STL (by Assimp), those that use CGAL (MSQ_FOAM_METHOD_2,
+ * msq_shape_self_intersections) and those that read documents. Callbacks of the host use the same
+ * stack.
  *
  * Process. msq never prints, exits, aborts, installs a signal handler, reads the environment, or
  * changes the locale. No C++ exception leaves it. (oneTBB, the thread library, prints its version
@@ -55,7 +55,7 @@
  *
  * Floating point. Each call sets the floating-point environment on entry (round to nearest, no
  * traps, denormals kept) and restores the host's on return, flags included. Results never depend on
- * the host's. Callbacks run in the host's environment, also on threads of msq.
+ * the host's environment. Callbacks run in the host's environment, also on threads of msq.
  *
  * Cost. A function whose comment states no cost takes constant time.
  *
@@ -147,7 +147,7 @@ typedef struct msq_build_report {
   const char* licence;
   /** Instruction set that the kernels use on this machine, for example "AVX3". Static. */
   const char* simd;
-  /** 1 if msq_shape_hash and its like are available. */
+  /** 1 if msq_shape_hash and the other hash functions are available. */
   int32_t with_xxhash;
   /** 1 if documents are read and written (msq_document_from_json). */
   int32_t with_json;
@@ -171,34 +171,34 @@ typedef struct msq_job msq_job;
 enum msq_cache_policy {
   /** The oldest cell first. Best for slicing from one end to the other. */
   MSQ_CACHE_FIFO = 0,
-  /** Cells that were used once first (S3-FIFO). Best for frames and sets that return to more cells
-   * than fit. */
+  /** Cells that were used only once first (S3-FIFO). Best if frames or sets use the same cells
+   * again and not all of these cells fit. */
   MSQ_CACHE_SEGMENTED = 1
 };
 
 /** What a warning is about. */
 enum msq_warning_code {
-  /** A mesh is not closed, and MSQ_WINDING_AUTO reads it by its generalised winding number. Once
-   * per shape, by the function that creates it. */
+  /** A mesh is not closed. MSQ_WINDING_AUTO decides membership by its generalised winding number.
+   * Once per shape, by the function that creates it. */
   MSQ_WARNING_OPEN_MESH = 1,
   /** The smallest cells of a structure have fewer than 4 pixels or layers across. Once per slicer,
    * by msq_slicer_create. */
   MSQ_WARNING_COARSE_PITCH = 2,
   /** Cells were built for one use, because the cache had no room for them. Once per context, by
    * a set query, msq_slicer_run, msq_slice_layer, msq_printability, msq_ray_cast or msq_render. Not
-   * with cache_bytes = 0. */
+   * given with cache_bytes = 0. */
   MSQ_WARNING_SMALL_CACHE = 3,
   /** Unit cells of a lattice have nodes on their faces that the next cell, or another one of the
    * library, does not have. Once per structure, by msq_structure_lattice. msq_unit_cell_info and
-   * msq_lattice_faces tell where. */
+   * msq_lattice_faces locate them. */
   MSQ_WARNING_UNMATCHED_CELLS = 4
 };
 
 /** Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may
  * add some. message: in UTF-8, with the values, valid until the callback returns.
  *
- * It is called on the thread that called msq, when the work of the function that gives the warning
- * is done and before it returns; never with a lock held, so it may call msq. A constructor has not
+ * It is called on the thread that called msq, after the function that warns has done its work and
+ * before it returns. No lock is held, so it may call msq. A constructor has not
  * written its handle yet. Exceptions of the host's language must not leave it. */
 typedef void (*msq_warning_fn)(void* user, int32_t code, const char* message);
 
@@ -210,8 +210,7 @@ typedef void (*msq_release_fn)(void* user);
 typedef void (*msq_task_fn)(void* task, uint64_t i);
 
 /** Shares the tasks of a loop among threads of the host: calls body(task, i) once for each i from 0
- * to count - 1 and returns when all these calls have returned. task is that of msq, to be passed
- * on.
+ * to count - 1 and returns when all these calls have returned. Pass task on unchanged.
  *
  * The calls may run on any threads, in any order, at once or one after the other on the calling
  * thread. Several threads may call this function at the same time, also from within a task. Such a
@@ -219,7 +218,7 @@ typedef void (*msq_task_fn)(void* task, uint64_t i);
  * tasks itself.
  *
  * Return 0 for success. Any other code, preferably negative, stops the call of msq with MSQ_E_HOST;
- * tasks that were not begun may then be left out. Exceptions of the host's language must not leave
+ * tasks that have not begun may then be skipped. Exceptions of the host's language must not leave
  * the function. */
 typedef int32_t (*msq_parallel_for_fn)(void* user, uint64_t count, msq_task_fn body, void* task);
 
@@ -232,8 +231,8 @@ typedef struct msq_context_def {
   /** Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.
    */
   uint64_t cache_bytes;
-  /** Maximum number of bytes that meshes, images, beams, slabs, cached cells and file reading (8
-   * times the size of the file) hold at the same time. Cached cells are evicted to make room. 0
+  /** Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and
+   * file reading (8 times the size of the file). Cached cells are evicted to make room. 0
    * (default): no limit. */
   uint64_t memory_limit;
   /** An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results. */
@@ -241,7 +240,7 @@ typedef struct msq_context_def {
   /** Must be 0. */
   uint32_t reserved;
   /** Receives warnings about objects of this context. NULL (default): none. Must be valid as long
-   * as the context, which models keep alive. */
+   * as the context. Models keep the context alive. */
   msq_warning_fn warning;
   /** Passed to warning. */
   void* warning_user;
@@ -253,15 +252,15 @@ typedef struct msq_context_def {
   msq_parallel_for_fn parallel_for;
   /** First argument of parallel_for. */
   void* parallel_for_user;
-  /** NULL, or called with parallel_for_user when the context is freed: when its last handle and the
-   * last model or other object that keeps it are gone, on the thread that drops the last reference.
+  /** NULL, or called with parallel_for_user when the context is freed, on the thread that drops the
+   * last reference. Models and other objects keep references to their context.
    * It is not called if msq_context_create fails. */
   msq_release_fn parallel_for_release;
 
-  /* Life of what warning uses. */
+  /* Lifetime of warning_user. */
 
-  /** NULL, or called with warning_user when the context is freed: when its last handle and the last
-   * model or other object that keeps it are gone, on the thread that drops the last reference. It
+  /** NULL, or called with warning_user when the context is freed, on the thread that drops the last
+   * reference. Models and other objects keep references to their context. It
    * is not called if msq_context_create fails. */
   msq_release_fn warning_release;
 } msq_context_def;
@@ -297,7 +296,7 @@ MSQ_API msq_status msq_context_memory(const msq_context* context, msq_memory_rep
 typedef struct msq_cache_report {
   uint32_t struct_size;
   uint32_t reserved;
-  /** Number of cell lookups that found the cell, and that did not; number of evicted cells. */
+  /** Cell lookups that found the cell; lookups that did not find it; evicted cells. */
   uint64_t hits, misses, evictions;
   /** Bytes held now by cells and reserved for cells under construction. Never above limit_bytes. */
   uint64_t bytes;
@@ -400,15 +399,16 @@ typedef struct msq_window {
  * Lifetime. Every callback receives the definition's user pointer. release, if not NULL, is called
  * once with it, when the object is freed and no other callback can follow, on the thread that
  * dropped the last reference. It is not called if the constructor fails. Callbacks may call msq,
- * except on an object that they are part of.
+ * but not on an object that they are part of.
  *
  * Points and boxes belong to msq and are valid until the callback returns. A batch has at most 4096
  * points, as triples x, y, z. docs/hosts.md shows the smallest example.
  *
- * Hashes. msq cannot see what callbacks compute. hash_key, 128 bits that the host chooses, stands
- * for it in msq_shape_hash and its like: the host changes the key whenever results of the callbacks
- * change, in any of its runs. Both words 0 (default): no key, and such hashes are refused. Other
- * results do not depend on the key. */
+ * Hashes. msq cannot see what callbacks compute. So the host chooses a hash_key of 128 bits, which
+ * msq_shape_hash and the other hash functions use instead. The host must change the key whenever
+ * results of the callbacks change, also from one run of the host to the next. Both words 0
+ * (default): no key, and these functions return MSQ_E_UNSUPPORTED. Other results do not depend on
+ * the key. */
 
 /** Writes values[i], the value at point i, for i < count. */
 typedef int32_t (*msq_values_fn)(void* user, const double* points, uint64_t count, double* values);
@@ -429,14 +429,14 @@ enum msq_winding {
   MSQ_WINDING_EVEN_ODD = 1,
   /** Only parts whose normals point outwards are solid. */
   MSQ_WINDING_POSITIVE = 2,
-  /** Default. NONZERO; for meshes that are not closed, NONZERO of the generalised winding number,
+  /** Default. Closed meshes: NONZERO. Other meshes: NONZERO of the generalised winding number,
    * rounded half up to a whole number. */
   MSQ_WINDING_AUTO = 3
 };
 
 /** Type of the numbers in a host's array. Coordinates in model units are MSQ_FLOAT32 or
- * MSQ_FLOAT64. Images take all but MSQ_INT32 and MSQ_INT64. Polygons to fill
- * (msq_fill_def) take only these; contours take these and MSQ_FLOAT64. */
+ * MSQ_FLOAT64. Images take all types except MSQ_INT32 and MSQ_INT64. Polygons to fill
+ * (msq_fill_def) take MSQ_INT32 and MSQ_INT64. Contours take these two and MSQ_FLOAT64. */
 enum msq_number_type {
   MSQ_FLOAT32 = 1,
   MSQ_FLOAT64 = 2,
@@ -462,8 +462,9 @@ enum msq_format {
   MSQ_FORMAT_GLTF = 7
 };
 
-/** The grid of neighbourhood cells of a structure, or the frame of an image. Cell (i, j, k) holds
- * the points origin + rotation * ((i, j, k) + u) * cell_size with 0 <= u < 1 in each component.
+/** The grid of neighbourhood cells of a structure, or the frame of an image. Cell (i, j, k)
+ * contains the points origin + rotation * ((i, j, k) + u) * cell_size with 0 <= u < 1 in each
+ * component.
  * Source: paper, section "Multiscale Shape-Material Modeling API". */
 typedef struct msq_neighbourhood {
   /** Default 0. */
@@ -475,11 +476,11 @@ typedef struct msq_neighbourhood {
   double rotation[9];
 } msq_neighbourhood;
 
-/** Moves a grid along with a part: *placed receives the grid whose cells are those of grid, placed
- * by a matrix as in msq_shape_placed. A structure on that grid, with its radius or thickness scaled
- * as lengths are, is the same structure at another place: seeds and unit cells go with the cells.
- * Fields and beams are the host's to move. Without this call a structure stays fixed to the model's
- * frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that
+/** Moves a grid along with a part: *placed receives the grid transformed by a matrix as in
+ * msq_shape_placed. Seeds and unit cells move with the cells. So a structure on the new grid is the
+ * same structure at another place, if the host scales its radius or thickness by the same factor.
+ * The host moves fields and beams itself. Without this call a structure stays fixed to the model's
+ * frame. The matrix may rotate, translate and scale uniformly. Errors: ARGUMENT (also a matrix that
  * mirrors, shears or stretches by more than 1e-9). */
 MSQ_API msq_status msq_neighbourhood_placed(const msq_neighbourhood* grid, const double matrix[12],
                                             msq_neighbourhood* placed);
@@ -553,20 +554,21 @@ typedef struct msq_file_def {
 MSQ_API msq_status msq_file_def_init(msq_file_def* def, size_t size);
 
 /** Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job. On Windows `path` is
- * UTF-8; on other systems the bytes of it reach the system unchanged.
+ * UTF-8; other systems receive its bytes unchanged.
  *
  * All instances in the file become one shape in millimetres. msq applies transforms, triangulates
  * polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It
  * opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ:
  * vertices and faces are read. glTF: the triangles of the default scene are read from buffers in
- * the file, with the transforms of nodes; y, which is up in glTF, becomes z. Limit: coordinates up
- * to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a million triangles:
- * about a second). Cancelling ends the call within tens of milliseconds, except while the XML of
- * 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and
- * ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or
- * AMF in a build without Assimp, glTF in one without JSON; a 3MF file with beam lattices, see
- * msq_beam_file_open; glTF with buffers in other files, compressed or sparse data, or skins), MESH
- * (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY, CANCELLED. */
+ * the file, and the transforms of nodes are applied; y, which is up in glTF, becomes z. Limit:
+ * coordinates up to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a
+ * million triangles: about a second). Cancelling ends the call within tens of milliseconds, except
+ * while the XML of 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed
+ * file; for OBJ and ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16;
+ * binary STL, 3MF or AMF in a build without Assimp, glTF in one without JSON; a 3MF file with beam
+ * lattices, see msq_beam_file_open; glTF with buffers in other files, compressed or sparse data, or
+ * skins), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY,
+ * CANCELLED. */
 MSQ_API msq_status msq_shape_from_file(msq_context* context, const char* path,
                                        const msq_file_def* def, msq_shape** shape, msq_job* job);
 
@@ -610,8 +612,8 @@ MSQ_API msq_status msq_mesh_def_init(msq_mesh_def* def, size_t size);
  * With MSQ_WINDING_AUTO a mesh that is not closed (msq_shape_report.closed is 0) uses the
  * generalised winding number, rounded half up to a whole number. The solid ends at the bounding
  * box. Distances are lower bounds. A skin follows the triangles, not the holes. Additional cost:
- * about 500 bytes per open edge; a point near a hole, or where the number is near a half, may sum
- * over all open edges.
+ * about 500 bytes per open edge. A point near a hole, or where the winding number is near a half,
+ * may take a sum over all open edges.
  *
  * Limits: coordinates up to 1e100; 2^32 - 1 vertices and triangles. Cost: linear in the number of
  * triangles; msq keeps about 75 bytes per triangle and needs 100 during construction. Errors:
@@ -636,16 +638,16 @@ MSQ_API msq_status msq_shape_from_sphere(msq_context* context, const double cent
 MSQ_API msq_status msq_shape_from_cylinder(msq_context* context, const double from[3],
                                            const double to[3], double radius, msq_shape** shape);
 
-/** Creates the shape that every point is inside of, for models of structures alone that the host
- * clips itself. Its bounds are infinite, its volume is infinite, and it has no surface: no scale
- * can leave a skin in it, and msq_field_shape_distance refuses it.
+/** Creates the shape that contains every point, for structures that the host clips itself. Its
+ * bounds and its volume are infinite. It has no surface, so no scale can leave a skin in it, and
+ * msq_field_shape_distance refuses it.
  *
- * A model of all space is queried like any other, with these differences. The limit of 2^24 cells
- * from the origin of a structure's grid, and of 1e75 for coordinates, holds for the points of each
- * query: LIMIT, which writes nothing. A slicer needs a region. Rays need a finite t_max. Pictures
- * need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no
- * camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT,
- * MEMORY. */
+ * A model of all space is queried like any other, with these differences. The limits of 2^24 cells
+ * from the origin of a structure's grid and of 1e75 for coordinates apply to the points of each
+ * query. A query beyond them fails with LIMIT and writes nothing. A slicer needs a region. Rays
+ * need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if
+ * they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are
+ * -1.8e308. Errors: ARGUMENT, MEMORY. */
 MSQ_API msq_status msq_shape_all_space(msq_context* context, msq_shape** shape);
 
 /** Writes inside[i]: 0 if point i is outside, any other value if it is inside or on the boundary.
@@ -667,7 +669,7 @@ typedef struct msq_host_shape_def {
   msq_release_fn release;
   /** Bounding box, with the limits of msq_shape_from_box. No default. */
   double min[3], max[3];
-  /** Stands for the callbacks in hashes. Both 0 (default): none. */
+  /** Represents the callbacks in hashes. Both 0 (default): no key. */
   uint64_t hash_key[2];
 } msq_host_shape_def;
 
@@ -712,18 +714,18 @@ MSQ_API msq_status msq_shape_from_voxels(msq_context* context, const msq_voxels_
  * the original is placed at matrix * (q, 1). Rotations, scalings, mirror images and shears are
  * allowed.
  *
- * A point p is inside if the original holds B * (p - b), where B is the inverse of the first three
- * columns, computed once in double precision, and b the last column. Lengths keep the unit of the
- * model. Distance and depth are those of the original where all lengths grow alike (within 1e-6);
- * otherwise the distance is at least the original's times the smallest growth of a length, and the
- * shape has no depth, so no scale can leave a skin in it: transform the vertices of a mesh instead.
- * Bounds enclose the placed bounding box of the original.
+ * A point p is inside if the original contains B * (p - b). b is the last column. B is the inverse
+ * of the first three columns, computed once in double precision. Lengths keep the unit of the
+ * model. If the map scales all directions alike (within 1e-6), distance and depth are those of the
+ * original, scaled. Otherwise the distance is at least the original's times the smallest scale of a
+ * direction, and the shape has no depth, so no scale can leave a skin in it: transform the vertices
+ * of a mesh instead. Bounds enclose the placed bounding box of the original.
  *
- * Cost: constant. Points and rays cost what they cost in the original. Layers ask the distance at a
- * few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors:
- * ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6;
- * lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64
- * shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. */
+ * Cost: constant. Points and rays cost what they cost in the original. Layers evaluate the distance
+ * at a few samples per sample of the outline, which costs tens of times as much as an unplaced
+ * mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition
+ * above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more
+ * than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY. */
 MSQ_API msq_status msq_shape_placed(const msq_shape* original, const double matrix[12],
                                     msq_shape** shape);
 
@@ -740,13 +742,13 @@ enum msq_boolean_operation {
 /** Creates the union, intersection or difference of shapes (operation: an msq_boolean_operation)
  * from their memberships. shapes: count shapes, 1 to 4096.
  *
- * Distance. Of a union: the smallest of the shapes' signed distances, exact outside if theirs are,
- * a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference:
- * as an intersection with complements. Depth, and hence skin: intersections and differences of
- * shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do
- * not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an
- * intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed),
- * UNSUPPORTED (all space), MEMORY. */
+ * Distance of a union: the smallest of the shapes' signed distances, exact outside if theirs are, a
+ * bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference:
+ * that of the intersection with complements. Two kinds have depth, so scales can leave a skin in
+ * them: intersections and differences of shapes with depth and exact distances, and unions of
+ * shapes with depth whose bounding boxes do not meet. Volume and area are NaN. Cost: the sum of the
+ * shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet),
+ * LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY. */
 MSQ_API msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* shapes,
                                      uint64_t count, msq_shape** shape);
 
@@ -754,15 +756,15 @@ MSQ_API msq_status msq_shape_boolean(int32_t operation, const msq_shape* const* 
  * and inwards if it is negative: the points whose signed distance to the original
  * (msq_point_distance) is at most distance. Outwards, edges become round.
  *
- * The original's distance must be exact on the side to which the surface moves: primitives, closed
- * meshes, uniformly placed ones of these, outwards unions, inwards intersections and differences of
- * these, and offsets once more to the same side. Triangles of a mesh that bound nothing count as
- * its surface. The distance of the new shape is exact beyond its surface on that side, a bound on
- * the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its
- * tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not
- * finite, an offset inwards by more than half the bounding box, coordinates above 1e75),
- * UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as
- * msq_shape_placed; memory), MEMORY. */
+ * The original's distance must be exact on the side to which the surface moves. It is exact for
+ * primitives and closed meshes, also if placed with a uniform scale; outwards for unions of these;
+ * inwards for intersections and differences of these; and for offsets that are moved again to the
+ * same side. Triangles of a mesh that bound nothing count as its surface. The distance of the new
+ * shape is exact beyond its surface on that side, a bound on the other. Shapes that are moved
+ * inwards have depth if the original has. Cost: a mesh builds its tree at once; then a distance of
+ * the original per point. Errors: ARGUMENT (distance 0 or not finite, an offset inwards by more
+ * than half the bounding box, coordinates above 1e75), UNSUPPORTED (the distance of the original is
+ * a bound on that side; all space), LIMIT (as msq_shape_placed; memory), MEMORY. */
 MSQ_API msq_status msq_shape_offset(const msq_shape* original, double distance, msq_shape** shape);
 
 /** Adds a reference. */
@@ -783,7 +785,7 @@ typedef struct msq_shape_report {
    * MSQ_WINDING_AUTO: with capped holes, except pieces whose caps exceed 3/4 of their area. Voxels:
    * sum of the boxes of the solid values. Host shapes, booleans and offsets: NaN. */
   double volume;
-  /** Square model units. NaN of shapes without a formula: voxels, host shapes, booleans, offsets,
+  /** Square model units. NaN for shapes without a formula: voxels, host shapes, booleans, offsets,
    * stretched shapes. Meshes: infinite or 0 if triangles are beyond
    * 1e75 or below 1e-75. */
   double area;
@@ -811,19 +813,20 @@ typedef struct msq_shape_report {
  * Errors: ARGUMENT. */
 MSQ_API msq_status msq_shape_info(const msq_shape* shape, msq_shape_report* report);
 
-/** Hashes a shape: 16 bytes that are equal for equal definitions with equal inputs and differ
- * otherwise, for a host to know whether what it computed from the shape is still valid.
+/** Hashes a shape. The 16 bytes are equal for equal definitions with equal inputs and differ
+ * otherwise. With them a host knows whether results that it computed from the shape are still
+ * valid.
  *
- * They are the same in each run and on each machine, with any number of threads and in all builds
- * of a version of msq; another version may change them. What results do not depend on does not
- * count: names of files, the context, options that say "Does not change results". All other fields
- * of a definition count, so do the vertices and triangles of a mesh after welding, in their order,
- * the values of images with their type, and the operations of an expression, not its spaces and
+ * They are the same in each run, on each machine, with any number of threads and in all builds of
+ * one version of msq. Another version may change them. They do not depend on file names, the
+ * context and options whose comment says "Does not change results". They depend on all other fields
+ * of a definition. For a mesh these are its vertices and triangles after welding, in their order;
+ * for an image its values and their type; for an expression its operations, without spaces and
  * names. 0 and -0 are equal numbers. Shapes, fields, structures and materials within an object
- * count by their hashes. docs/howto/caching.md says more.
+ * contribute their hashes. docs/howto/caching.md has the details.
  *
- * It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash
- * by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per
+ * It is a checksum (XXH3, 128 bits), not a signature: an attacker can make two different objects
+ * with the same hash. Cost: the first call reads all inputs once, at some gigabytes per
  * second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without
  * a hash_key in it; a build without xxHash), MEMORY. */
 MSQ_API msq_status msq_shape_hash(const msq_shape* shape, uint8_t hash[16]);
@@ -905,7 +908,7 @@ typedef struct msq_host_field_def {
   double low, high;
   /** Lipschitz constant of the values. Infinity (default): unknown. */
   double lipschitz;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. */
+  /** Represents the callbacks in hashes. Both 0 (default): no key. */
   uint64_t hash_key[2];
 } msq_host_field_def;
 
@@ -915,9 +918,9 @@ MSQ_API msq_status msq_host_field_def_init(msq_host_field_def* def, size_t size)
 /** Creates a field from callbacks. def must not be NULL.
  *
  * msq decides whole blocks of points by the range over a box. Without range and lipschitz the range
- * is low to high everywhere: correct, but slow. If range or lipschitz promise too much, results are
- * wrong; behaviour stays defined. Cost: single points and struts call back with one point; sets and
- * slices of functional structures with batches.
+ * is low to high everywhere: correct, but slow. If range or lipschitz are too narrow, results are
+ * wrong, but behaviour stays defined. Cost: single points and struts call back with one point; sets
+ * and slices of functional structures with batches.
  * Errors: ARGUMENT, MEMORY. Calls that use the field: HOST. */
 MSQ_API msq_status msq_field_host(msq_context* context, const msq_host_field_def* def,
                                   msq_field** field);
@@ -969,8 +972,9 @@ MSQ_API msq_status msq_expression_field_def_init(msq_expression_field_def* def, 
 
 /** Creates a field from an expression in x, y and z, clamped to low and high; low where the value
  * is not a number. x, y and z are model coordinates, not angles. def must not be NULL. Rays use a
- * bound of the slope over each box where the expression is smooth. Distances to surfaces that
- * depend on the field are 0, because the field has no global Lipschitz constant. Errors: ARGUMENT,
+ * bound of the slope over each box where the expression is smooth. The field has no global
+ * Lipschitz constant. Distances to surfaces that depend on it use the slope in boxes around the
+ * point, and are 0 where no such slope is known (docs/accuracy.md). Errors: ARGUMENT,
  * LIMIT (as msq_structure_functional), MEMORY. */
 MSQ_API msq_status msq_field_expression(msq_context* context, const msq_expression_field_def* def,
                                         msq_field** field);
@@ -1145,13 +1149,13 @@ typedef struct msq_lattice_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size);
 
-/** Creates a periodic strut lattice: the points within radius, times the factor of the strut, of
- * the struts of the tiled unit cell. def must not be NULL.
+/** Creates a periodic strut lattice: all points whose distance to a strut of the tiled unit cell is
+ * at most radius times the factor of the strut. def must not be NULL.
  *
  * Struts are capsules: circular in model units for any cell size, with round ends, and they reach
- * across cell borders. With a library, each cell holds the struts of the unit cell that cell_choice
- * selects. If the nodes of two different neighbours do not match (msq_lattice_faces), struts end at
- * the face.
+ * across cell borders. With a library, each cell has the struts of the unit cell that cell_choice
+ * selects. If the nodes of two unlike neighbouring cells do not match (msq_lattice_faces), struts
+ * end at the face.
  *
  * Cost: proportional to the struts that can reach one cell: milliseconds for the named cells,
  * seconds for thousands of struts as wide as cells, and the same again for the first array or
@@ -1207,8 +1211,8 @@ enum msq_plate_cell {
   /** Face-centred cubic: planes {111}, the faces of the octet truss's tetrahedra and octahedra: 8
    * triangles between diagonals of the cube's faces. */
   MSQ_PLATE_CELL_FCC = 3,
-  /** CUBIC, then FCC: 14 triangles. Thin plates are equally stiff in all directions if those of the
-   * first 6 are 8 sqrt(3) / 9 = 1.5396 times as thick as the others. */
+  /** CUBIC, then FCC: 14 triangles. Thin plates are equally stiff in all directions if the first 6
+   * triangles are 8 sqrt(3) / 9 = 1.5396 times as thick as the others. */
   MSQ_PLATE_CELL_CUBIC_OCTET = 4,
   /** Faces of space-filling truncated octahedra, MSQ_UNIT_CELL_KELVIN closed: 72 triangles, the
    * first 48 of hexagons, the others of squares. */
@@ -1237,7 +1241,8 @@ typedef struct msq_plate_lattice_def {
   const double* face_factors;
   /** Radius of the struts in model units, >= 0. The constant 0 (default): no struts. */
   msq_param radius;
-  /** Of the struts, an msq_unit_cell. Default MSQ_UNIT_CELL_CUBIC. Ignored without struts. */
+  /** Unit cell of the struts, an msq_unit_cell. Default MSQ_UNIT_CELL_CUBIC. Ignored without
+   * struts. */
   int32_t unit_cell;
   uint32_t reserved;
   /** With unit_cell CUSTOM: strut_count pairs of indices of different nodes. */
@@ -1251,14 +1256,14 @@ typedef struct msq_plate_lattice_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_plate_lattice_def_init(msq_plate_lattice_def* def, size_t size);
 
-/** Creates a periodic lattice of plates: the points within half of thickness, times the factor of
- * the face, of the triangles of the tiled unit cell. With a radius, also those of the struts of
+/** Creates a periodic lattice of plates: all points whose distance to a triangle of the tiled unit
+ * cell is at most half of thickness times the factor of the face. A radius adds the struts of
  * unit_cell, as in msq_structure_lattice on the same grid. def must not be NULL.
  *
- * A plate is as thick as said in model units for any cell size, has a round rim, and reaches across
+ * A plate has its thickness in model units for any cell size, has a round rim, and reaches across
  * cell borders. Faces that coincide in several copies count once, with the greatest of their
- * factors. Lattices of plates alone have an onset, the thickness; those with struts have none
- * (msq_structure_calibrate).
+ * factors. Lattices of plates alone have an onset, which is a thickness. Those with struts have
+ * none, so msq_structure_calibrate refuses them.
  *
  * Cost: proportional to the plates that can reach one cell: milliseconds for the named cells,
  * seconds for thousands of plates as thick as cells, and the same again for the first array, slice
@@ -1316,20 +1321,20 @@ typedef struct msq_foam_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
 
-/** Creates a Voronoi foam of one jittered seed per neighbourhood cell: the points within radius of
- * the edges of the Voronoi diagram, and those within half of wall_thickness of its faces. def must
+/** Creates a Voronoi foam of one jittered seed per neighbourhood cell: all points within radius of
+ * an edge of the Voronoi diagram, or within half of wall_thickness of a face. def must
  * not be NULL.
  *
- * Struts are capsules, circular in model units. Walls are plane and as thick as said: their
- * thickness is measured across the face. Foams with walls alone have an onset, the thickness; those
- * with struts and walls have none (msq_structure_calibrate). Seeds are a function of the cell index
- * and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2,
- * recursively, with one jittered seed per leaf, to that density on average (docs/concepts.md).
- * Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness
- * or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; density
- * above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other
- * than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams";
- * Martinez, Dumas and Lefebvre 2016. */
+ * Struts are capsules, circular in model units. Walls are plane; their thickness is measured across
+ * the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls
+ * have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index
+ * and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2
+ * recursively. Each leaf has one jittered seed, and the mean number of seeds is the density
+ * (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius,
+ * wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor
+ * above 4; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1,
+ * with a method other than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for
+ * Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. */
 MSQ_API msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
                                       msq_structure** structure);
 
@@ -1369,7 +1374,7 @@ enum msq_function {
   MSQ_FUNCTION_G_PRIME = 13,
   /** cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x
    * - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is
-   * two labyrinths that do not touch, as those of the next two. */
+   *   two labyrinths that do not touch. So are the networks of the next two functions. */
   MSQ_FUNCTION_DOUBLE_GYROID = 14,
   /** -0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z. */
   MSQ_FUNCTION_DOUBLE_DIAMOND = 15,
@@ -1435,14 +1440,14 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b).
  * - atan2 is above -pi and at most pi, and 0 where x and y are 0. hypot is sqrt(a a + b b).
  *
- * A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum
- * of IEEE 754-2019); an operand that select leaves out does not count. Points where the value is
+ * A NaN operand makes the result NaN, also for min and max, in either order (minimum and maximum of
+ * IEEE 754-2019). The operand that select does not choose is ignored. Points where the value is
  * NaN are outside. Limits: 65536 bytes; 100 nested parentheses, signs and exponents; 8192 distinct
  * operations, numbers and variables in total.
  *
- * Where floor, a comparison, select or atan2 may jump within the cell the slope has no bound.
- * Distances to such a structure are 0, and rays cross jumps in steps of up to 1/1024 of a cell, as
- * they do where a function has a pole or is NaN.
+ * Where floor, a comparison, select or atan2 may jump within the cell, the slope has no bound.
+ * Distances to such a structure are 0. Rays cross jumps, poles and NaN in steps of up to 1/1024 of
+ * a cell.
  *
  * Thickness is the volume of the walls divided by the area of their middle surface, where the
  * function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of
@@ -1451,11 +1456,11 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * that thickness.
  *
  * With a period, the function is that of the position in a cell of varying size. A level applies to
- * cells of all sizes, so walls grow with the cells. A thickness selects at each position along the
- * axis the level of walls that thick in cells of the size there: the thickness stays, the spacing
- * varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only
- * structures without a period. Slices along the axes of the grid cost what those of a structure do
- * whose cells hold no whole number of samples.
+ * cells of all sizes, so walls grow with the cells. A thickness is kept: at each position along the
+ * axis, msq uses the level that gives walls of this thickness in cells of the size there. Only the
+ * spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes
+ * only structures without a period. Slices along the axes of the grid cost as much as those of a
+ * structure without a period whose cell size is no multiple of the pitch.
  *
  * Functions use IEEE operations only, not the C library, so their bits are equal on every machine.
  * Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by
@@ -1507,7 +1512,7 @@ MSQ_API msq_status msq_waves_def_init(msq_waves_def* def, size_t size);
  *
  * Directions and phases are a function of the seed, equal on every machine. With many waves the sum
  * is a Gaussian random field. volume_fraction is then met on average: the level is the inverse of
- * the normal distribution. Samples of few wavelengths, or few waves, differ from it;
+ * the normal distribution. Samples of few wavelengths and sums of few waves differ from it;
  * msq_structure_calibrate finds the level for a sample. A grid with different cell sizes stretches
  * the structure. docs/concepts.md defines the sum.
  *
@@ -1520,8 +1525,8 @@ MSQ_API msq_status msq_structure_waves(msq_context* context, const msq_waves_def
 
 /** How a beam ends. */
 enum msq_cap {
-  /** With the ball of its radius there. With unlike radii the ball of the thicker end protrudes
-   * from the side of the beam. */
+  /** With a ball of the radius at that end. If the radii differ, the ball of the thicker end
+   * protrudes from the side of the beam. */
   MSQ_CAP_SPHERE = 0,
   /** With the half of that ball beyond the end. */
   MSQ_CAP_HEMISPHERE = 1,
@@ -1533,7 +1538,7 @@ enum msq_cap {
  * alignment is needed. */
 typedef struct msq_beams_def {
   uint32_t struct_size;
-  /** An msq_cap, of all ends unless caps is given. Default MSQ_CAP_SPHERE. */
+  /** An msq_cap for all ends, unless caps is given. Default MSQ_CAP_SPHERE. */
   int32_t cap;
   /** Of nodes, radii and ball_radii: MSQ_FLOAT32 or MSQ_FLOAT64 (default). */
   int32_t coordinate_type;
@@ -1582,10 +1587,10 @@ MSQ_API msq_status msq_beams_def_init(msq_beams_def* def, size_t size);
  * dropped. Beams may overlap and repeat. Limits: 2^31 - 1 beams and balls in total; coordinates up
  * to 1e75; radii 0 or from 1e-100 to 1e75. One radius of a beam may be 0; that of a ball may not.
  * Cost: n log n, in parallel: about 0.3 us of processor time and 104 bytes per beam, of which 77
- * are kept, in the memory limit of the context. Queries search a tree of boxes. Errors: ARGUMENT
- * (also, with its index: a node that is not finite; a node index, radius or cap out of range),
- * CANCELLED, LIMIT, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Kamel and
- * Faloutsos, "On packing R-trees", 1993. */
+ * are kept. These bytes count against the memory limit of the context. Queries search a tree of
+ * boxes. Errors: ARGUMENT (also, with its index: a node that is not finite; a node index, radius or
+ * cap out of range), CANCELLED, LIMIT, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension"
+ * 1.2.0; Kamel and Faloutsos, "On packing R-trees", 1993. */
 MSQ_API msq_status msq_structure_beams(msq_context* context, const msq_beams_def* def,
                                        msq_structure** structure, msq_job* job);
 
@@ -1595,16 +1600,16 @@ typedef struct msq_beam_file msq_beam_file;
 /** Reads beam lattices from a 3MF file. def NULL: defaults; format must be MSQ_FORMAT_AUTO or
  * MSQ_FORMAT_3MF. job NULL: no job. path as in msq_shape_from_file.
  *
- * A file has one or more lattices, each for a structure of its own (msq_beam_file_beams). The
- * beams and balls of the build that nothing clips are lattice 0; each placed object whose beams a
- * mesh clips is one more. Everything is in millimetres and placed: units and transforms of items
+ * A file has one or more lattices. Each makes a structure of its own (msq_beam_file_beams). Lattice
+ * 0 has all beams and balls of the build that no mesh clips. Each placed object whose beams a mesh
+ * clips is one more lattice. Everything is in millimetres and placed: units and transforms of items
  * and components are applied. In the file a solid of beams is united with the triangles of its
  * object; msq_beam_file_shape makes a shape of all triangles of the build.
  *
- * Read are vertices, beams, radii at the ends, caps, balls and their three modes, minlength
+ * msq reads vertices, beams, radii at the ends, caps, balls and their three modes, minlength
  * (shorter beams are dropped) and the clipping mode with its mesh. In ball mode "all", the vertices
  * at which beams end have balls. Beam sets, properties and representation meshes do not change the
- * solid and are passed over. Numbers become the nearest doubles.
+ * solid and are ignored. Numbers become the nearest doubles.
  *
  * Limits: those of def; max_triangles is also the maximum number of beams and balls, and of
  * triangles that clip. Cost: linear in the size of the file, about 1 us per beam on one thread.
@@ -1635,7 +1640,7 @@ enum msq_clipping {
   MSQ_CLIPPING_OUTSIDE = 2
 };
 
-/** What a lattice of a file holds. */
+/** Contents of a lattice of a file. */
 typedef struct msq_beam_file_report {
   uint32_t struct_size;
   /** An msq_clipping. */
@@ -1644,18 +1649,18 @@ typedef struct msq_beam_file_report {
   uint64_t lattice_count;
   /** Triangles of the build. 0: there is no mesh. */
   uint64_t mesh_triangle_count;
-  /** The rest is of the lattice: */
+  /** The following members describe the lattice. */
   uint64_t node_count;
   uint64_t beam_count;
   uint64_t ball_count;
   /** Triangles of the clipping mesh. */
   uint64_t clipping_triangle_count;
-  /** Corners of a box that holds all beams and balls, in millimetres. Not clipped. */
+  /** Corners of a box that contains all beams and balls, in millimetres. Not clipped. */
   double min[3];
   double max[3];
 } msq_beam_file_report;
 
-/** Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than
+/** Reports the contents of a lattice of a file. Errors: ARGUMENT (lattice is not less than
  * lattice_count). */
 MSQ_API msq_status msq_beam_file_info(const msq_beam_file* file, uint64_t lattice,
                                       msq_beam_file_report* report);
@@ -1741,7 +1746,7 @@ typedef struct msq_host_structure_def {
   msq_evaluate_cell_fn evaluate_cell;
   /** May be NULL. */
   msq_free_cell_fn free_cell;
-  /** May be NULL. Spares evaluating the points of boxes without boundary. */
+  /** May be NULL. With it, msq skips the points of boxes without boundary. */
   msq_box_fn box;
   /** May be NULL: the distance bound is then 0, which is correct but does not help sphere tracing.
    */
@@ -1749,21 +1754,22 @@ typedef struct msq_host_structure_def {
   void* user;
   /** May be NULL. */
   msq_release_fn release;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. */
+  /** Represents the callbacks in hashes. Both 0 (default): no key. */
   uint64_t hash_key[2];
 } msq_host_structure_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_host_structure_def_init(msq_host_structure_def* def, size_t size);
 
-/** Creates a structure from callbacks. def must not be NULL. All applications work with inside
- * alone.
+/** Creates a structure from callbacks. def must not be NULL. Every function of msq works with
+ * inside alone.
  *
  * A cell is built when a point in it is evaluated, and kept as long as the cache of the context
  * keeps it. Two threads may build the same cell at once. Evicted cells are freed when the next cell
- * is built, or with the structure. A cell does not see its neighbours: whatever reaches across a
- * border must be in the data of both cells. Cost: sets, grids and slices call back with batches,
- * grouped by cell if build_cell is given. Single points and distances call back point by point.
+ * is built, or with the structure. evaluate_cell sees the data of one cell only: the data must
+ * include all that reaches into the cell from its neighbours. Cost: sets, grids and slices call
+ * back with batches, grouped by cell if build_cell is given. Single points and distances call back
+ * point by point.
  * Errors: ARGUMENT, MEMORY. Calls that use the structure: HOST.
  * Source: paper, section "Multiscale Shape-Material Modeling API". */
 MSQ_API msq_status msq_structure_host(msq_context* context, const msq_host_structure_def* def,
@@ -1776,7 +1782,7 @@ typedef struct msq_host_function_def {
   int32_t concurrent;
   /** An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK. */
   int32_t kind;
-  /** As in msq_functional_def. Not used without range and lipschitz. */
+  /** As in msq_functional_def. Ignored if neither range nor lipschitz is given. */
   uint32_t clusters;
   /** One period per cell. */
   msq_neighbourhood grid;
@@ -1791,7 +1797,7 @@ typedef struct msq_host_function_def {
   msq_release_fn release;
   /** Lipschitz constant of the values with respect to the angles. Infinity (default): unknown. */
   double lipschitz;
-  /** Stands for the callbacks in hashes. Both 0 (default): none. */
+  /** Represents the callbacks in hashes. Both 0 (default): no key. */
   uint64_t hash_key[2];
 } msq_host_function_def;
 
@@ -1812,32 +1818,32 @@ MSQ_API msq_status msq_structure_host_function(msq_context* context,
  * msq_boolean_operation) from their memberships. structures: count structures, 1 to 4096, each on
  * its own grid or on none. They may be of any kind, also made of structures themselves.
  *
- * The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no
- * thin walls: ask the structures themselves. Unions of structures with struts have struts, and an
- * onset if all of them have one (msq_structure_struts, msq_set_onset). Distance: of a union the
- * smallest of their signed distances, exact outside if theirs are, a bound inside; of an
- * intersection the largest, a bound; of a difference as of an intersection with complements. The
- * limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of
- * theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other;
- * more than 4096 structures in total, counted with repetition), MEMORY. */
+ * The characteristic length is the largest of theirs. Hits of rays name no cell. msq_fill_lines
+ * refuses the result: call it for the structures themselves. Unions of structures with struts have
+ * struts, and an onset if all of them have one (msq_structure_struts, msq_set_onset). Distance of a
+ * union: the smallest of their signed distances, exact outside if theirs are, a bound inside. Of an
+ * intersection: the largest, a bound. Of a difference: that of the intersection with complements.
+ * The limit on cells (2^24 from the origin of the grid) applies to each of their grids. Cost: the
+ * sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each
+ * other; more than 4096 structures in total, counted with repetition), MEMORY. */
 MSQ_API msq_status msq_structure_boolean(int32_t operation, const msq_structure* const* structures,
                                          uint64_t count, msq_structure** structure);
 
-/** Creates a structure that becomes another one. fraction: f, a number or a field, 0 to 1: where it
- * is 0 the solid is that of a, where it is 1 that of b. In between it holds the points with (1 - f)
- * da + f db <= 0, where da and db are the signed distances of a and b as msq returns them
- * (docs/accuracy.md). So it holds what both hold and nothing that neither holds, and surfaces move
- * from those of a to those of b as f grows. On the same grid with like nodes struts stay whole;
- * otherwise parts of the one shrink while those of the other grow.
+/** Creates a structure that changes from a to b. fraction: f, a number or a field, 0 to 1. Where f
+ * is 0 the solid is that of a; where f is 1 it is that of b. In between, the points with (1 - f) da
+ * + f db <= 0 are solid, where da and db are the signed distances of a and b as msq returns them
+ * (docs/accuracy.md). So points in both are solid and points in neither are not. Surfaces move from
+ * those of a to those of b as f grows. On the same grid with like nodes struts stay whole;
+ * otherwise parts of a shrink while parts of b grow.
  *
- * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound,
- * with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two
- * distances at each sample that one of them holds and 0 < f < 1. The cost of a point is linear in
- * the structures in it, also of blends and smooth booleans within each other; sets and layers take
- * up to one distance of a structure for each of those around it. Errors: ARGUMENT (also a fraction
- * that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no
- * Lipschitz constant: their radius, level or thickness is a field without one, a function has no
- * bounded slope, or the host gives no distance), MEMORY. */
+ * Characteristic length, hits and limits on cells are as for msq_structure_boolean. Distance: a
+ * bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two
+ * distances at each sample that is in only one of them and has 0 < f < 1. The cost of a point is
+ * linear in the number of structures, also if blends and smooth booleans are nested. Sets and
+ * layers take the distance of a structure up to once for each blend or smooth boolean around it.
+ * Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean),
+ * UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is
+ * a field without one, a function has no bounded slope, or the host gives no distance), MEMORY. */
 MSQ_API msq_status msq_structure_blend(const msq_structure* a, const msq_structure* b,
                                        const msq_param* fraction, msq_structure** structure);
 
@@ -1851,9 +1857,9 @@ MSQ_API msq_status msq_structure_blend(const msq_structure* a, const msq_structu
  * sqrt(k): only where both surfaces are nearer than k. Between two planes at right angles the
  * fillet is a parabola that touches both at the distance k from their edge.
  *
- * Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound,
- * |s| / (1 + L / 4) for a radius with Lipschitz constant L. Rays march by it. Cost: that of
- * msq_structure_boolean, and some distances near the fillets; within each other as
+ * Characteristic length, hits and limits on cells are as for msq_structure_boolean. Distance: a
+ * bound, |s| / (1 + L / 4) for a radius with Lipschitz constant L. Rays march by it. Cost: that of
+ * msq_structure_boolean, and some distances near the fillets. Nested ones cost as in
  * msq_structure_blend. Errors: ARGUMENT (also a radius that may be negative), LIMIT (as
  * msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant, as for
  * msq_structure_blend), MEMORY. */
@@ -1911,7 +1917,7 @@ typedef struct msq_strut {
  * call with MSQ_E_HOST. */
 typedef int32_t (*msq_struts_fn)(void* user, const msq_strut* struts, uint64_t count);
 
-/** Which struts of a structure are wanted. */
+/** Selects struts of a structure. */
 typedef struct msq_struts_def {
   uint32_t struct_size;
   /** An msq_struts_selection. Default MSQ_STRUTS_OWNED. */
@@ -1919,8 +1925,8 @@ typedef struct msq_struts_def {
   /** Corners of the box in model units, min <= max. Default 0. */
   double min[3];
   double max[3];
-  /** Struts are cut to this shape. NULL (default): they are not. The selection goes by the whole
-   * strut, so pieces of one strut come together. */
+  /** Struts are cut to this shape. NULL (default): they are not cut. Whole struts are selected, so
+   * pieces of one strut come together. */
   const msq_shape* shape;
 } msq_struts_def;
 
@@ -1930,33 +1936,33 @@ MSQ_API msq_status msq_struts_def_init(msq_struts_def* def, size_t size);
 /** Passes the struts of a lattice, an open foam or beams that a box selects to a callback: for beam
  * models of finite elements, for 3MF, or for drawing.
  *
- * Lattices: the struts of the tiled unit cell, each once, where struts coincide with the greatest
- * factor. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the first.
- * Foams: the edges of the Voronoi diagram. A node is a point equally far from four or more seeds;
- * its id comes from their names. Node positions are computed from the seeds in double precision.
- * Nodes and struts whose ids are made from more than 128 bits have a hash as id; it is taken for
- * unique. Beams: all beams and balls, whose a and b are equal; ends at the same coordinates are one
- * node; id[0] is the index of the beam in the definition, after which balls count on. Foams with
+ * Lattices: the struts of the tiled unit cell, each once. Where struts coincide, the greatest
+ * factor counts. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the
+ * first. Foams: the edges of the Voronoi diagram. A node is a point equally far from four or more
+ * seeds; its id comes from their names. Node positions are computed from the seeds in double
+ * precision. An id that would need more than 128 bits is a hash, which msq assumes to be unique.
+ * Beams: all beams and balls. A ball has equal a and b. Ends at the same coordinates are one node.
+ * id[0] is the index of the beam in the definition; balls are numbered after the beams. Foams with
  * struts and walls: the struts. Unions: the struts of all members, one member after the other, with
- * hashes of the members' ids as ids; cell is that of the member. Nodes of two members are never
- * one, also where they coincide.
+ * hashes of the members' ids as ids; cell is that of the member. Nodes of two members stay
+ * distinct, even where they coincide.
  *
- * With a shape, the parts of a strut's centre line whose points are inside the shape come instead,
- * in the order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and
- * coordinates of the place where membership changes on the line, found as rays find it
- * (msq_ray_cast); parts and gaps shorter than that may be overlooked. The solid around the line is
- * not cut. Radii at cut ends are evaluated there. The first piece has the id of the strut, others
- * have an id and each cut end a node of its own.
+ * With a shape, msq passes the parts of a strut's centre line that are inside the shape, in the
+ * order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and
+ * coordinates of the place where membership changes on the line. Cut ends are found as the hits of
+ * rays are (msq_ray_cast). Parts and gaps shorter than that may be missed. The solid around the
+ * line is not cut. Radii at cut ends are evaluated there. The first piece has the id of the strut.
+ * Each other piece has an id of its own, and each cut end a node of its own.
  *
  * The order of struts and their bytes are the same on every call and on any number of threads.
  * callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must
- * not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the
- * cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams,
- * microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around
- * it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone, and
- * structures made of others, except unions of those with struts: they have no struts), LIMIT (a box
- * beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Source: 3MF Consortium,
- * "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991. */
+ * not be NULL. job NULL: no job. The threads are those of the context. Memory: some megabytes, and
+ * the cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and
+ * beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells
+ * around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone,
+ * and structures made of others, except unions of those with struts: they have no struts), LIMIT (a
+ * box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Source: 3MF
+ * Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991. */
 MSQ_API msq_status msq_structure_struts(msq_context* context, const msq_structure* structure,
                                         const msq_struts_def* def, msq_struts_fn callback,
                                         void* user, msq_job* job);
@@ -1977,7 +1983,7 @@ MSQ_API void msq_strut_graph_retain(msq_strut_graph* graph);
 /** Drops a reference. */
 MSQ_API void msq_strut_graph_release(msq_strut_graph* graph);
 
-/** What a graph of struts holds. Pointers are valid as long as the graph is. */
+/** Contents of a graph of struts. Pointers are valid as long as the graph is. */
 typedef struct msq_strut_graph_report {
   uint32_t struct_size;
   uint32_t reserved;
@@ -2001,7 +2007,7 @@ typedef struct msq_strut_graph_report {
   const uint8_t* cuts;
 } msq_strut_graph_report;
 
-/** Reports what a graph holds. Errors: ARGUMENT. */
+/** Reports the contents of a graph. Errors: ARGUMENT. */
 MSQ_API msq_status msq_strut_graph_info(const msq_strut_graph* graph,
                                         msq_strut_graph_report* report);
 
@@ -2040,7 +2046,7 @@ MSQ_API msq_status msq_material_create(msq_context* context, const msq_material_
                                        msq_material** material);
 
 /** Creates a blend of two materials: each channel is (1 - f) * a + f * b, where f is the fraction
- * at the point, 0 to 1 everywhere. id: positive, of the blend. Errors: ARGUMENT (also if one
+ * at the point, 0 to 1 everywhere. id: the id of the blend, positive. Errors: ARGUMENT (also if one
  * material has a channel that the other lacks), LIMIT (more than 64 nested blends, or more than
  * 4096 materials in a blend, counted with repetition), MEMORY. */
 MSQ_API msq_status msq_material_blend(msq_context* context, uint32_t id, const msq_material* a,
@@ -2106,17 +2112,16 @@ MSQ_API msq_status msq_model_create(msq_context* context, const msq_model_def* d
 /** Creates a model of several regions, for example the parts of a plate and the modifier volumes in
  * them. regions: count models, 1 to 4096; each has its own shape, scales, skins and materials.
  *
- * A point belongs to the first region whose shape contains it, and is inside where that region is:
- * later regions count for nothing there, also where the region is empty. A region that is itself a
- * model of regions is replaced by these, in their order. All functions take the model: one slice,
+ * A point belongs to the first region whose shape contains it, and is inside if it is inside that
+ * region. Later regions are ignored there, also where the region is empty. A region that is itself
+ * a model of regions is replaced by these, in their order. All functions take the model: one slice,
  * ray or query serves a whole plate. Its coarse shape is the union of those of its regions. Scales
  * are numbered by region: hits name the scale of the region that they are in, and
  * msq_model_scale_length returns the largest length of any region.
  *
- * Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups,
- * so a sample costs the memberships in the shapes before its region, and its region. Two bits per
- * sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a
- * region of all space), MEMORY. */
+ * Cost: constant. In sets, slices and grids, a sample costs the memberships in the shapes before
+ * its region, and the evaluation of its region. Slabs take two more bits per sample. Errors:
+ * ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a region of all space), MEMORY. */
 MSQ_API msq_status msq_model_regions(msq_context* context, const msq_model* const* regions,
                                      uint64_t count, msq_model** model);
 /** Hashes a model, as msq_shape_hash does: its shape, and the structure, skin and materials of each
@@ -2127,8 +2132,8 @@ MSQ_API void msq_model_retain(msq_model* model);
 /** Drops a reference. */
 MSQ_API void msq_model_release(msq_model* model);
 
-/** Returns the bounding box of the coarse shape, which contains the model; of regions, that of all.
- * Infinite for msq_shape_all_space. Errors: ARGUMENT. */
+/** Returns the bounding box of the coarse shape, which contains the model; for regions, the box
+ * around all of them. Infinite for msq_shape_all_space. Errors: ARGUMENT. */
 MSQ_API msq_status msq_model_bounds(const msq_model* model, double min[3], double max[3]);
 
 /** Returns the characteristic length of a scale: its largest cell size; the length_scale of beams,
@@ -2136,9 +2141,9 @@ MSQ_API msq_status msq_model_bounds(const msq_model* model, double min[3], doubl
  * Errors: ARGUMENT (no such scale). */
 MSQ_API msq_status msq_model_scale_length(const msq_model* model, uint32_t scale, double* length);
 
-/** Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the
- * scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0
- * also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such
+/** Returns the shape of scale 0, or the structure of another scale. The output that the scale does
+ * not have receives NULL. The caller releases the handle. region: its index, from 0; 0 for a model
+ * without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such
  * region or scale). */
 MSQ_API msq_status msq_model_scale(const msq_model* model, uint32_t region, uint32_t scale,
                                    msq_shape** shape, msq_structure** structure);
@@ -2250,7 +2255,7 @@ MSQ_API msq_status msq_point_membership(const msq_model* model, const double poi
  * one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY
  * may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in
  * any order, with 6 bytes per point and at most 15 MB, or less if the memory limit leaves no room.
- * Grids cost far less per point, as slices. Stratified samples need no grouping and no memory.
+ * Grids cost far less per point, as slices do. Stratified samples need no grouping and no memory.
  * Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY.
  * Source: paper, section "Set-based queries". */
 MSQ_API msq_status msq_set_membership(const msq_model* model, const msq_points_def* points,
@@ -2303,14 +2308,15 @@ MSQ_API msq_status msq_set_material(const msq_model* model, const msq_points_def
  * constant radius, and a lower bound otherwise. docs/accuracy.md tells, for each kind of shape and
  * structure, where the distance is exact and how tight the bound is. Outside the model the distance
  * is that of the coarsest scale that the point is outside of; inside, that of the nearest boundary
- * of any scale. Of regions it is a bound: up to where another region begins (docs/accuracy.md).
+ * of any scale. For regions it is a bound, which ends where another region begins
+ * (docs/accuracy.md).
  *
  * Cost: a mesh builds a tree of its triangles on first use (n log n; seconds for millions; about
  * 120 bytes per triangle until the shape is freed) and then visits about log n nodes. A lattice
- * evaluates the struts that can be nearest, a foam the edges of the seeds around (microseconds). A
- * functional structure takes about ten milliseconds on first use to bound its slope. Errors:
- * ARGUMENT, LIMIT (tree above the memory limit), MEMORY. Source: paper, section "Multiscale
- * Shape-Material Modeling API"; Hart, "Sphere tracing", 1996. */
+ * evaluates the struts that can be nearest, a foam the edges of the seeds around the point
+ * (microseconds). A functional structure takes about ten milliseconds on first use to bound its
+ * slope. Errors: ARGUMENT, LIMIT (tree above the memory limit), MEMORY. Source: paper, section
+ * "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing", 1996. */
 MSQ_API msq_status msq_point_distance(const msq_model* model, const double point[3],
                                       const msq_query_def* query, double* distance);
 
@@ -2328,26 +2334,27 @@ MSQ_API msq_status msq_set_distance(const msq_model* model, const msq_points_def
 /** What msq_set_onset writes. */
 enum msq_onset_value {
   /** The onset: the smallest radius, thickness or level at which the point is inside. Lattices and
-   * foams: the distance to the nearest strut axis in model units, the least over the factors of
-   * struts; plates and walls: twice that to the nearest. Functional structures: the function;
-   * waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the least of
-   * theirs. */
+   * foams: the distance to the nearest strut axis in model units; with strut factors, the minimum
+   * of distance / factor. Plates and walls: the same with twice the distance to the nearest face.
+   * Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of
+   * lattices and foams: the minimum of their onsets. */
   MSQ_ONSET_PLAIN = 0,
   /** The onset minus the structure's radius or level at the point: at most 0 inside, positive
-   * outside. Unions: the least of these. */
+   * outside. Unions: the minimum of these. */
   MSQ_ONSET_SIGNED = 1
 };
 
-/** Writes the onset of a structure, of itself and of no model, at each point of a set. value: an
- * msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size
- * (lattices and plates; of unions the smallest limit of the members, for foams the smallest cell
- * size) or is not a number. onset_count must be the number of points.
+/** Writes the onset of a structure, without a model, at each point of a set. value: an
+ * msq_onset_value. onsets[i]: the onset of point i; infinity where it is not a number or is above a
+ * limit. The limit is 4 times the smallest cell size for lattices and plates, the smallest cell
+ * size for foams, and the smallest limit of the members for unions. onset_count must be the number
+ * of points.
  *
  * gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives
  * the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central
- * difference over 2^-17 of the smallest cell size on either side: off by about 1e-8 of the largest
- * slope where the function is smooth, a mean of both sides along ridges, and 0 where it is not
- * finite.
+ * difference over 2^-17 of the smallest cell size on either side. Its error is about 1e-8 of the
+ * largest slope where the function is smooth. Along ridges it is a mean of both sides. It is 0
+ * where it is not finite.
  *
  * MSQ_ONSET_SIGNED agrees in sign with membership; for lattices and foams except within 1e-9 of a
  * cell of the boundary. job NULL: no job. ARGUMENT, LIMIT and UNSUPPORTED write nothing; CANCELLED,
@@ -2361,8 +2368,8 @@ MSQ_API msq_status msq_set_onset(msq_context* context, const msq_structure* stru
                                  uint64_t onset_count, double* gradients, uint64_t gradient_count,
                                  msq_job* job);
 
-/** Writes the value of a field at each point of a set: values[i] of point i, the number that msq
- * uses there. value_count must be the number of points. job NULL: no job. ARGUMENT writes nothing;
+/** Writes the value of a field at each point of a set: values[i] is the number that msq uses at
+ * point i. value_count must be the number of points. job NULL: no job. ARGUMENT writes nothing;
  * CANCELLED, HOST and MEMORY may leave values partly written. Cost: that of the field
  * (docs/concepts.md), in parallel. Errors: ARGUMENT (also points that are not finite, with their
  * index), HOST, CANCELLED, MEMORY. */
@@ -2449,7 +2456,7 @@ typedef struct msq_calibration_report {
   uint32_t reserved;
   /** Points that were evaluated. */
   uint64_t samples;
-  /** Smallest parameter that holds at least the target fraction of the points. */
+  /** Smallest parameter at which at least the target fraction of the points is solid. */
   double parameter;
   /** Volume fraction at that parameter. */
   msq_estimate fraction;
@@ -2461,18 +2468,18 @@ typedef struct msq_calibration_report {
  * target volume fraction, and the curve between the two. The parameter of the structure itself is
  * ignored.
  *
- * target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20), parameters[i], in
- * model units, has fraction fractions[i] = i / (pair_count - 1) * max_fraction. The fractions
- * ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of
- * radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2
- * points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells
- * (foams, waves; with a period, of the smallest size; unions: of the grid with the largest cells),
- * from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices 0.1 us,
- * foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context. Errors:
- * ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host structures
- * and functions, beams, and structures made of others, except unions of lattices and foams),
- * CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.
- */
+ * target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20). At parameters[i] the
+ * fraction is fractions[i] = i / (pair_count - 1) * max_fraction. Radii and thicknesses are in
+ * model units. The fractions ascend strictly; neighbouring parameters may be equal. They convert a
+ * field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not
+ * wanted. sample NULL: 2 points in each of 64^3 parts of one cell (lattices, functional
+ * structures), or of 16^3 cells (foams, waves; with a period, of the smallest size; unions: of the
+ * grid with the largest cells), from the origin of the grid. job NULL: no job. Cost: the onset of
+ * each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted
+ * to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more
+ * unit cells, lattices of plates and struts, foams of struts and walls, host structures and
+ * functions, beams, and structures made of others, except unions of lattices and foams), CANCELLED,
+ * LIMIT (target above max_fraction; memory), MEMORY. */
 MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_structure* structure,
                                            const msq_points_def* sample, double target,
                                            double* parameters, double* fractions,
@@ -2484,7 +2491,7 @@ MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_struc
 /** A model and a plan of layers. */
 typedef struct msq_slicer msq_slicer;
 
-/** What a layer holds. Rows of pixels are padded with zeros to a multiple of 8 bytes. */
+/** Contents of a layer. Rows of pixels are padded with zeros to a multiple of 8 bytes. */
 enum msq_layer_output {
   /** 1 bit per pixel, sampled at its centre. The leftmost pixel is the high bit, as in PNG and
    * PBM. */
@@ -2503,7 +2510,7 @@ enum msq_layer_output {
    * resolved scale must have a material. */
   MSQ_LAYER_MATERIAL = 5,
   /** 1 float32 per pixel: the onset of a structure at its centre, as msq_set_onset returns it,
-   * rounded to the nearest float32. The model must be of one region. */
+   * rounded to the nearest float32. The model must have one region. */
   MSQ_LAYER_ONSET = 6,
   /** No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs. */
   MSQ_LAYER_CONTOURS = 7,
@@ -2513,10 +2520,11 @@ enum msq_layer_output {
   MSQ_LAYER_CHANNEL = 8
 };
 
-/** How layers are turned before the host receives them, as the panels of printers need it. A sum.
- * Let the layer have W x H pixels, after exchanging the sides of the plan if TRANSPOSE is set. Its
- * pixel (i, j) is pixel (i', j') of the plan, where i' = W - 1 - i with MIRROR_X and i otherwise,
- * j' = H - 1 - j with MIRROR_Y and j otherwise, and TRANSPOSE exchanges i' and j' at the end. */
+/** How layers are mirrored and transposed for the panel of a printer before the host receives them.
+ * A sum of the values below. Let the layer have W x H pixels, after exchanging the sides of the
+ * plan if TRANSPOSE is set. Its pixel (i, j) is pixel (i', j') of the plan, where i' = W - 1 - i
+ * with MIRROR_X and i otherwise, j' = H - 1 - j with MIRROR_Y and j otherwise, and TRANSPOSE
+ * exchanges i' and j' at the end. */
 enum msq_layer_orientation {
   MSQ_LAYER_MIRROR_X = 1,
   MSQ_LAYER_MIRROR_Y = 2,
@@ -2530,33 +2538,35 @@ typedef struct msq_contours msq_contours;
  * axes in their order: x, y for axis z; x, z for axis y; y, z for axis x. */
 typedef struct msq_contours_def {
   uint32_t struct_size;
-  /** Of the coordinates: MSQ_INT32, MSQ_INT64 or MSQ_FLOAT64 (default). */
+  /** Type of the coordinates: MSQ_INT32, MSQ_INT64 or MSQ_FLOAT64 (default). */
   int32_t type;
   /** Normal of the plane: 0 (x), 1 (y) or 2 (z, default). */
   int32_t axis;
   /** 0 (default): the bounding box of the model; window_min and window_max must be 0. 1: the window
    * below. */
   int32_t has_window;
-  /** Corners in u and v, in model units. Rings close along the edges of the window. Windows that
-   * have a whole edge in common, and the other values of this struct, have the same points on it,
-   * bit for bit. */
+  /** Corners in u and v, in model units. Rings close along the edges of the window. Two windows
+   * that have a whole edge in common, with the same other values of this struct, have the same
+   * points on that edge, bit for bit. */
   double window_min[2];
   double window_max[2];
-  /** Greatest distance between boundary and rings, in model units, where features are wider than
+  /** Maximum distance between boundary and rings, in model units, where features are wider than
    * the pitch. Positive; there is no default. */
   double tolerance;
-  /** Distance of the nodes at which the model is sampled. Rounded down to three binary digits.
-   * Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost;
-   * narrower ones may be. 0 (default): the tolerance. Up to 2^18 times each side of the window. */
+  /** Distance between the nodes at which the model is sampled. Rounded down to three binary digits.
+   * Parts of the solid or of the void that contain a disc of diameter sqrt(2) * pitch are never
+   * lost; narrower ones may be. 0 (default): the tolerance. Up to 2^18 times each side of the
+   * window. */
   double pitch;
-  /** Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest.
-   * Then a pitch must have at least 64 units, and a tolerance 4. */
+  /** Coordinates are model coordinates times this. Default 1. Integer coordinates are rounded to
+   * the nearest integer. The pitch must then be at least 64 units, and the tolerance at least 4. */
   double units;
   /** As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0. */
   double length_scale;
   /** 0 (default): topology_count of the report is not computed. Otherwise 2, 4, 8 or 16: the rings
-   * are compared with a mask of so many samples along each side of the grid's cells. The rings are
-   * the same. Costs about as much as the bits of that mask; memory: a band of its rows. */
+   * are compared with a mask of that many samples along each side of the grid's cells. This does
+   * not change the rings. Costs about as much as the bits of that mask; memory: a band of its rows.
+   */
   uint32_t topology_samples;
 } msq_contours_def;
 
@@ -2572,7 +2582,7 @@ typedef struct msq_output_def {
   uint32_t grey_samples;
   uint32_t grey_threshold;
   double grey_gamma;
-  /** ONSET: the scale whose structure it is, from 1. It must be resolved. 0 (default): the finest
+  /** ONSET: the scale of the structure, from 1. It must be resolved. 0 (default): the finest
    * resolved scale. */
   uint32_t onset_scale;
   /** ONSET: an msq_onset_value. Default MSQ_ONSET_PLAIN. */
@@ -2590,8 +2600,8 @@ MSQ_API msq_status msq_output_def_init(msq_output_def* def, size_t size);
 /** Definition of a slicer. */
 typedef struct msq_slicer_def {
   uint32_t struct_size;
-  /** An msq_layer_output except CONTOURS and CHANNEL. Default MSQ_LAYER_BITS, which it must be if
-   * outputs are given. */
+  /** An msq_layer_output except CONTOURS and CHANNEL. Default MSQ_LAYER_BITS. If outputs are given
+   * it must be the default. */
   int32_t output;
   /** Pixel size in x and y. 0 (default): from region and resolution. */
   double pitch[2];
@@ -2605,15 +2615,15 @@ typedef struct msq_slicer_def {
    * and region_max must be 0. 1: the region below. A model of all space needs 1. */
   int32_t has_region;
   /** Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at
-   * most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures
-   * that do not gain by more; at least one; in a run, fewer where the limit leaves less. Except for
-   * these, the first slab of a run has an eighth of the layers, so that the host has its first
-   * layer soon. Where a slab is one layer and that is still too large, bands of its rows are
-   * computed one after the other. Does not change results. */
+   * least one. A slab takes at most 32 MiB and a quarter of the context's memory_limit, and 2 MiB
+   * per thread for structures that do not gain by more. A run computes fewer layers at once where
+   * the limit leaves less. The first slab of a run has an eighth of the layers, except for
+   * structures of 2 MiB, so that the host receives its first layer soon. Where even one layer is
+   * too large, bands of its rows are computed one after the other. Does not change results. */
   uint32_t slab_layers;
   /** Corner of pixel (0, 0) and bottom of layer 0. */
   double region_min[3];
-  /** Needed where a count follows from it. */
+  /** Required where a resolution or layer_count of 0 is computed from it. */
   double region_max[3];
   /** z of each layer, strictly ascending. NULL (default): the middle of each layer, region_min[2] +
    * (index + 1/2) * layer_height. */
@@ -2652,7 +2662,7 @@ typedef struct msq_slicer_def {
    * normal to x whose pixels lie along y and z: {0, 1, 0, 0, 0, 1, 1, 0, 0}. Cost: bits of
    * layers normal to y with pixels along x and z cost what they do without a frame. Along other
    * axes they take 10 to 15 ns per sample and thread in a box; more in meshes and host shapes,
-   * which are asked about points. */
+   * which evaluate points. */
   double frame_axes[9];
 } msq_slicer_def;
 
@@ -2745,12 +2755,12 @@ typedef int32_t (*msq_layer_fn)(void* user, const msq_layer* layer);
  * the host's parallel_for, the next slab is computed after the callbacks of the slab.) count
  * UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the
  * plan is split into calls or processes, nor on its other outputs. Memory, accounted to the
- * context: two slabs, one layer and a few tiles per thread, for any height of the stack. Where
- * memory_limit does not hold two slabs of one layer: one layer, two bands of its rows, at least 16
- * rows of samples each, and a few tiles per thread; LIMIT if that does not fit either, and then
- * windows do. Foams keep cells in the cache in addition. With contours, workers compute those of as
- * many layers at once as there are threads, and as many wait for the callback. Where memory_limit
- * does not hold these, they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT,
+ * context: two slabs, one layer and a few tiles per thread, for any height of the stack. If two
+ * slabs of one layer exceed memory_limit, a run takes one layer, two bands of its rows (at least 16
+ * rows of samples each) and a few tiles per thread. If that exceeds the limit too, the run fails
+ * with LIMIT: use windows. Foams also keep cells in the cache. Workers compute the contours of as
+ * many layers at once as there are threads, and as many wait for the callback. If these exceed
+ * memory_limit, contours are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT,
  * MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section
  * "Slicing". */
 MSQ_API msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint64_t count,
@@ -2758,11 +2768,12 @@ MSQ_API msq_status msq_slicer_run(const msq_slicer* slicer, uint64_t first, uint
 
 /** Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at
  * least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer
- * call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for
- * lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask
- * for them; for others up to three times that. Memory: the bits of one layer and a few tiles per
- * thread, or where memory_limit does not hold these one layer and a band of its rows; layers that
- * are filled ahead take at most two slabs until the slicer is freed or a call needs the memory.
+ * call msq_slicer_run with a count of 1. Cost: about that of msq_slicer_run for a layer that
+ * follows one which any thread requested recently. Such layers are computed together, by all
+ * threads that request them. Other layers cost up to three times as much. Memory: the bits of one
+ * layer and a few tiles per thread; if these exceed memory_limit, one layer and a band of its rows.
+ * Layers that are computed ahead take at most two slabs, until the slicer is freed or a call needs
+ * the memory.
  * Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY. */
 MSQ_API msq_status msq_slice_layer(const msq_slicer* slicer, uint64_t index, uint8_t* buffer,
                                    uint64_t buffer_bytes, msq_job* job);
@@ -2785,9 +2796,9 @@ MSQ_API msq_status msq_layer_contours(const msq_model* model, double height,
                                       const msq_contours_def* def, msq_contours** contours,
                                       msq_job* job);
 
-/** The same for a layer of a slicer: at the layer's z, with the slicer's length_scale. axis must be
- * 2. has_window 0: the rectangle of the slicer's pixels. Errors: as msq_layer_contours; ARGUMENT
- * also for an index out of range. */
+/** Computes the contours of a layer of a slicer, at the layer's z and with the slicer's
+ * length_scale. axis must be 2. has_window 0: the rectangle of the slicer's pixels. Errors: as
+ * msq_layer_contours; ARGUMENT also for an index out of range. */
 MSQ_API msq_status msq_slicer_contours(const msq_slicer* slicer, uint64_t index,
                                        const msq_contours_def* def, msq_contours** contours,
                                        msq_job* job);
@@ -2796,7 +2807,7 @@ MSQ_API void msq_contours_retain(msq_contours* contours);
 /** Drops a reference. */
 MSQ_API void msq_contours_release(msq_contours* contours);
 
-/** What contours hold. Pointers are valid as long as the contours are. */
+/** The rings of contours. Pointers are valid as long as the contours are. */
 typedef struct msq_contours_report {
   uint32_t struct_size;
   /** As in the definition. */
@@ -2814,51 +2825,51 @@ typedef struct msq_contours_report {
   /** 1: a hole. 0: an outer ring. */
   const uint8_t* holes;
   /** Places where the rings may be wrong at the scale of the pitch: where one sample decided what
-   * is connected, where the boundary is not within the tolerance, and cells that a strut passes
-   * with no node in it. Other features that no node or crossing meets are not counted. */
+   * is connected, where the boundary is not within the tolerance, and cells that a strut crosses
+   * without covering a node. Other features that no node or crossing meets are not counted. */
   uint64_t unresolved_count;
-  /** Distance of the nodes, as rounded. */
+  /** Distance between the nodes, as rounded. */
   double pitch;
-  /** With topology_samples: an upper bound of how many parts must appear, vanish, be cut or be
-   * joined until the rings have the topology of the mask of topology_samples samples to a pitch.
-   * The numbers of outer rings and of parts of the mask differ by no more, nor do those of holes
-   * and of enclosed parts of the void. 0: both have the same topology.
-   * What the mask does not show is not counted. 0 without topology_samples. */
+  /** With topology_samples: an upper bound on the number of parts that must appear, vanish, be cut
+   * or be joined until the rings have the topology of a mask with topology_samples samples per
+   * pitch. The numbers of outer rings and of parts of the mask differ by no more, nor do those of
+   * holes and of enclosed parts of the void. 0: both have the same topology.
+   * Features that the mask does not show are not counted. 0 without topology_samples. */
   uint64_t topology_count;
   /** As in the definition. */
   uint32_t topology_samples;
 } msq_contours_report;
 
-/** Reports what contours hold. Errors: ARGUMENT. */
+/** Reports the rings of contours. Errors: ARGUMENT. */
 MSQ_API msq_status msq_contours_info(const msq_contours* contours, msq_contours_report* report);
 
 /* ---- Printability ---------------------------------------------------------------------------- */
 
-/** What is doubtful about printing layers. docs/concepts.md defines the kinds exactly. */
+/** Possible problems in printing layers. docs/concepts.md defines the kinds exactly. */
 enum msq_finding_kind {
   /** A part of a layer, connected in the layer, that lies on no solid sample of the layer below. */
   MSQ_FINDING_ISLAND = 1,
-  /** A connected part of the solid that does not reach the plate. Without a plate: any but that of
-   * the most samples. */
+  /** A connected part of the solid that does not reach the plate. Without a plate: any part except
+   * the one with the most samples. */
   MSQ_FINDING_LOOSE = 2,
   /** An enclosed void, which traps resin or powder: connected empty samples that reach neither a
-   * side of the grid nor its top; without a plate, nor its bottom. One that begins in layer 0 opens
-   * at the plate alone. */
+   * side of the grid nor its top; without a plate, nor its bottom. One that begins in layer 0 is
+   * open at the plate only. */
   MSQ_FINDING_VOID = 4,
   /** Connected samples where the solid is thinner in its layer than a given width. */
   MSQ_FINDING_THIN = 8,
   /** A cup: a void that is closed except where the next layer is printed, so it sucks at the film
-   * of a resin printer. In other words, empty samples that are connected within the layers up to
-   * one, reach that layer, and reach neither a side of the grid nor, without a plate, its bottom.
-   * Each is listed once, as it is in the last layer before it opens; last_layer is that one. Voids
-   * that close are listed as VOID alone. */
+   * of a resin printer. In other words: empty samples that are connected within layers 0 to k,
+   * reach layer k, and reach neither a side of the grid nor, without a plate, its bottom. Each cup
+   * is listed once, for the last such k, which is its last_layer. Voids that close are listed as
+   * VOID only. */
   MSQ_FINDING_CUP = 16,
   /** Connected samples of a layer with none below them, and none in the layer below within a given
    * horizontal distance. */
   MSQ_FINDING_OVERHANG = 32
 };
 
-/** What is looked for. */
+/** Selects findings. */
 typedef struct msq_printability_def {
   uint32_t struct_size;
   /** A sum of msq_finding_kind. Default ISLAND + LOOSE + VOID. */
@@ -2880,8 +2891,8 @@ typedef struct msq_printability_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_printability_def_init(msq_printability_def* def, size_t size);
 
-/** Something doubtful. A sample stands for the box of a pixel and its layer's height, which reaches
- * half-way to the layers around it. */
+/** A possible problem in printing. A sample represents the box of a pixel and its layer's height,
+ * which reaches half-way to the layers around it. */
 typedef struct msq_finding {
   /** An msq_finding_kind. */
   int32_t kind;
@@ -2920,18 +2931,18 @@ typedef struct msq_printability_report {
   double cup_volume, overhang_volume;
 } msq_printability_report;
 
-/** Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids,
+/** Finds possible problems in printing a slicer's layers: islands, loose parts, enclosed voids,
  * thin places, cups, overhangs.
  *
  * It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation
- * of the slicer are ignored. What is smaller than a pixel may lie between samples: to find it, use
- * a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners,
+ * of the slicer are ignored. Features smaller than a pixel may lie between samples: to find them,
+ * use a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners,
  * empty ones across sides; samples of two layers are connected if one is on the other.
  *
  * def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each
  * finding once, after the layer that ends it, in an order that depends on the layers alone. Results
  * do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22
- * bits per pixel of a layer, and runs and totals of what is not part of the main body, for any
+ * bits per pixel of a layer, and runs and totals of parts outside of the main body, for any
  * height of the stack. Runs and totals are accounted to the context after each layer. Workers share
  * the rows of each layer. Cost: 1.1 to 1.9 times that of msq_slicer_run for bits, about twice with
  * thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add to that: see
@@ -2958,7 +2969,7 @@ typedef struct msq_ring {
 /** A polygon with holes at a height, and how it is filled. */
 typedef struct msq_fill_def {
   uint32_t struct_size;
-  /** Of the rings and of the result: MSQ_INT32 or MSQ_INT64 (default). */
+  /** Type of the coordinates of the rings and of the result: MSQ_INT32 or MSQ_INT64 (default). */
   int32_t coordinate_type;
   /** ring_count rings, outlines and holes in any order and direction. Points enclosed by an odd
    * number of rings are filled. */
@@ -2973,20 +2984,20 @@ typedef struct msq_fill_def {
   double origin[2];
   /** In model units. Slicers take the middle of the layer. Default 0. */
   double z;
-  /** Greatest distance between the lines and the walls' middle, in model units, before rounding to
-   * the coordinates; at least half of a unit of these. 0 (default): 1/200 of the smallest cell
-   * size. */
+  /** Maximum distance between the lines and the middle of the walls, in model units, before
+   * rounding to the coordinates. At least half a unit of the coordinates. 0 (default): 1/200 of the
+   * smallest cell size. */
   double tolerance;
   /** In model units. Shorter paths are dropped. A shorter line between two points where an odd
-   * number of lines meet is dropped too, as this saves a path: the lines that go on at both its
-   * ends are so close that they touch if min_length is at most the width of a line. Default 0. */
+   * number of lines meet is dropped too, which saves a path. If min_length is at most the width of
+   * a line, the lines that continue at its two ends still touch. Default 0. */
   double min_length;
   /** In model units, about the width of a line. If positive, walls between points where an odd
    * number of lines meet are printed as two lines, side by side at this distance, where that joins
    * paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the
    * length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice.
-   * Shorter walls are taken first, none is taken where a line of the two would leave the polygon,
-   * and the two may cross. Default 0: no wall is printed twice. */
+   * Shorter walls are chosen first. A wall is not chosen if one of its two lines would leave the
+   * polygon. The two lines may cross. Default 0: no wall is printed twice. */
   double pair_distance;
 } msq_fill_def;
 
@@ -3000,16 +3011,16 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  * Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it.
  * Strut lattices, beams and structures of the host have no such lines; use contours for them.
  *
- * Each line is in one path; none is printed twice unless pair_distance says so. Paths are as few as
- * possible: one for two of the points where a path has to end, which are the border and junctions
- * of three, five .. lines. At a junction, lines that are most nearly straight are joined as far as
- * this keeps paths few. Paths are in the order in which they are best printed: each begins near the
- * end of the one before. Of lines that are connected the travel is a few percent above the least
- * one.
+ * Each line is in one path. No line is printed twice unless pair_distance is set. The number of
+ * paths is the minimum: half the number of points where a path has to end. These are the points at
+ * the border and the junctions of three, five, ... lines. At a junction, the lines that are most
+ * nearly straight are joined, unless this adds paths. Paths come in printing order: each begins
+ * near the end of the one before. The travel between connected lines is a few percent above the
+ * minimum.
  *
- * Ends at the polygon's border are rounded to whole coordinates, all else is decided exactly. Lines
- * on the border itself count as inside on one side of the polygon. The lines do not depend on the
- * polygon: where polygons of a layer touch, lines go on from one to the other. Functions are
+ * Ends at the polygon's border are rounded to whole coordinates. All other decisions are exact.
+ * Lines on the border itself count as inside on one side of the polygon. The lines do not depend on
+ * the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are
  * followed on a grid of 1/32 of the smallest cell size: lines closer together than that may be
  * joined, and smaller closed lines lost.
  *
@@ -3028,7 +3039,7 @@ MSQ_API void msq_fill_retain(msq_fill* fill);
 /** Drops a reference. */
 MSQ_API void msq_fill_release(msq_fill* fill);
 
-/** The paths of a fill. The arrays belong to the fill and live as long as it does. */
+/** The paths of a fill. The arrays belong to the fill and are valid as long as it is. */
 typedef struct msq_fill_report {
   uint32_t struct_size;
   /** As in the definition. */
@@ -3043,7 +3054,7 @@ typedef struct msq_fill_report {
   uint64_t path_count;
   /** Length of all paths in model units. */
   double length;
-  /** Length of the straight ways from each path to the next, in model units. */
+  /** Length of the straight moves from each path to the next, in model units. */
   double travel;
 } msq_fill_report;
 
@@ -3053,14 +3064,15 @@ MSQ_API msq_status msq_fill_info(const msq_fill* fill, msq_fill_report* report);
 /** Finds the cell sizes at which a structure's fill lines cover a share of the area.
  *
  * The density of lines is their length per area times their width, on average over all heights. It
- * is inversely proportional to the cell size. cell_size receives those of the structure's grid, all
- * times the same factor: create the structure anew with them, and the same rotation. density: more
- * than 0, at most 1. job NULL: no job. Single layers differ, of a gyroid by a tenth. The length is
- * measured on the structure as it is: one cell at 64 heights; 8 x 8 if the grid is turned; 32 x 32
- * cells of a foam at 32 heights, accurate to about 0.5 %. A foam with a field of density: calibrate
- * it without the field; d seeds per cell volume then multiply the density of lines by about the
- * cube root of d. Cost: up to 0.5 s for a foam. Errors: ARGUMENT, UNSUPPORTED (no thin walls; a
- * field of density, or of the level of a network), LIMIT (no lines), CANCELLED, HOST, MEMORY. */
+ * is inversely proportional to the cell size. cell_size receives the cell sizes of the structure's
+ * grid, all multiplied by the same factor. Create the structure anew with these and the same
+ * rotation. density: more than 0, at most 1. job NULL: no job. Single layers differ from the
+ * average, those of a gyroid by a tenth. The length is measured on the structure as it is: one cell
+ * at 64 heights; 8 x 8 cells if the grid is rotated; 32 x 32 cells of a foam at 32 heights,
+ * accurate to about 0.5 %. Calibrate a foam without its field of density: d seeds per cell volume
+ * then multiply the density of lines by about the cube root of d. Cost: up to 0.5 s for a foam.
+ * Errors: ARGUMENT, UNSUPPORTED (no thin walls; a field of density, or of the level of a network),
+ * LIMIT (no lines), CANCELLED, HOST, MEMORY. */
 MSQ_API msq_status msq_fill_calibrate(msq_context* context, const msq_structure* structure,
                                       double line_width, double density, double cell_size[3],
                                       msq_job* job);
@@ -3077,8 +3089,8 @@ typedef struct msq_surface_def {
   /** Corners of the box, in model units. The mesh is closed where its faces cut the model. */
   double min[3];
   double max[3];
-  /** Distance of the nodes at which the model is sampled, in model units. Positive; there is no
-   * default. Walls and struts narrower than sqrt(3) * pitch may break or be lost. */
+  /** Distance between the nodes at which the model is sampled, in model units. Positive; there is
+   * no default. Walls and struts narrower than sqrt(3) * pitch may break or be lost. */
   double pitch;
   /** As in msq_query_def. */
   double length_scale;
@@ -3092,8 +3104,8 @@ typedef struct msq_surface_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_surface_def_init(msq_surface_def* def, size_t size);
 
-/** A part of a mesh. The arrays are valid until the callback returns. The parts, one behind the
- * other, are the mesh. */
+/** A part of a mesh. The arrays are valid until the callback returns. The parts in sequence are the
+ * mesh. */
 typedef struct msq_surface_slab {
   /** Out: sizeof(msq_surface_slab) of the library. */
   uint32_t struct_size;
@@ -3110,7 +3122,7 @@ typedef struct msq_surface_slab {
   uint64_t first_triangle;
   uint64_t triangle_count;
   /** triangle_count triples of vertices, counter-clockwise seen from outside. Vertices are numbered
-   * from the first of the mesh on: they are of this part or of parts before it. */
+   * through the whole mesh: a triangle has vertices of this part or of parts before it. */
   const uint32_t* triangles;
 } msq_surface_slab;
 
@@ -3118,9 +3130,9 @@ typedef struct msq_surface_slab {
  * stop. Exceptions of the host's language must not leave it. */
 typedef int32_t (*msq_surface_fn)(void* user, const msq_surface_slab* slab);
 
-/** Computes triangles of the boundary of a model within a box, to look at and to hand on to
- * programs that take nothing else. Layers, contours, rays and distances come from the model itself,
- * faster and exactly.
+/** Computes triangles of the boundary of a model within a box, for display and for programs that
+ * take only meshes. Layers, contours, rays and distances do not need a mesh: msq computes them from
+ * the model itself, faster and exactly.
  *
  * The mesh is closed, and a manifold: each edge has two triangles, which run through it in opposite
  * directions, and the triangles around a vertex are one ring. Each vertex is within pitch / 1000 of
@@ -3128,11 +3140,11 @@ typedef int32_t (*msq_surface_fn)(void* user, const msq_surface_slab* slab);
  * than the pitch are kept. Triangles may intersect where the boundary is bent within a pitch.
  *
  * Callbacks run on the calling thread, from low z to high z. The parts together do not depend on
- * slab_layers, threads or calls. A model without a point at a node yields no callback. def must not
- * be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory:
- * about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors:
- * ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes
- * along an axis; 2^32 vertices; memory), MEMORY. Source: Schaefer, Ju and Warren,
+ * slab_layers, threads or calls. If no node is inside the model, the callback is not called. def
+ * must not be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node.
+ * Memory: about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context.
+ * Errors: ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT
+ * (2^31 nodes along an axis; 2^32 vertices; memory), MEMORY. Source: Schaefer, Ju and Warren,
  * "Manifold dual contouring", 2007. */
 MSQ_API msq_status msq_surface_mesh(const msq_model* model, const msq_surface_def* def,
                                     msq_surface_fn fn, void* user, msq_job* job);
@@ -3172,7 +3184,7 @@ typedef int32_t (*msq_file_fn)(void* user, const msq_file_part* part);
  * together than that may coincide.
  *
  * Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is
- * written. A model without a point at a node yields a file without triangles. Errors: as
+ * written. If no node is inside the model, the file has no triangles. Errors: as
  * msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices. */
 MSQ_API msq_status msq_surface_file(const msq_model* model, const msq_surface_def* def,
                                     int32_t format, msq_file_fn fn, void* user, msq_job* job);
@@ -3224,13 +3236,14 @@ typedef struct msq_ray_hit {
  * hit_count must be the number of rays. query NULL: defaults. job NULL: no job. What begins at
  * t_max is hit if the rounded point there is inside.
  *
- * Membership (msq_point_membership) changes within 2^-36 of the characteristic length of the scale
- * hit, or within 2^-50 of the largest coordinate of the ray in the shape's box, seen from the
- * origin and from that of the grid, if that is more. Before t it does not change, except over parts
- * of the ray shorter than that. Exceptions: shapes and structures that are known by callbacks,
- * images or rough fields; docs/accuracy.md lists the tolerance of position and normal for each
- * kind. A ray is known to 2^-53 of the way from its origin. Every ray ends. t is finite in each
- * hit. Results do not depend on the order of the rays.
+ * Membership (msq_point_membership) changes within a tolerance of t. The tolerance is 2^-36 of the
+ * characteristic length of the scale that was hit, or 2^-50 of the largest coordinate of the ray in
+ * the shape's box, relative to the origin and to that of the grid, if that is more. Before t
+ * membership does not change, except over parts of the ray shorter than the tolerance. Exceptions:
+ * shapes and structures that are known by callbacks, images or rough fields; docs/accuracy.md lists
+ * the tolerance of position and normal for each kind. Points of a ray are accurate to 2^-53 of the
+ * distance from its origin. The search ends for every ray. t is finite in each hit. Results do not
+ * depend on the order of the rays.
  *
  * Finer scales are evaluated only where the ray is inside the coarser ones. ARGUMENT and LIMIT
  * write nothing; CANCELLED and MEMORY may leave hits partly written. Cost: parallel. Rays that are
@@ -3313,8 +3326,8 @@ typedef struct msq_render_def {
   uint32_t tile_width, tile_height;
   /** rgba: samples along each side of a pixel, 1 (default) to 16. */
   uint32_t samples;
-  /** With a callback: 2, 4, ... 64: the first pass casts one ray per block of so many pixels a
-   * side, each further pass halves the block. 1 (default): one pass. */
+  /** With a callback: 2, 4, ... 64: the first pass casts one ray per square block with this side in
+   * pixels; each further pass halves the side. 1 (default): one pass. */
   uint32_t first_step;
   /** An msq_colour_by. */
   int32_t colour_by;
@@ -3343,8 +3356,8 @@ typedef struct msq_render_def {
 MSQ_API msq_status msq_render_def_init(msq_render_def* def, size_t size);
 
 /** Arrays that receive pixels. Pixel (i, j) of the tile, j downwards, has index j * row_pixels + i.
- * Arrays that are NULL are skipped. All arrays except rgba hold the ray through the centre of the
- * pixel. */
+ * Arrays that are NULL are skipped. All arrays except rgba describe the ray through the centre of
+ * the pixel. */
 typedef struct msq_frame {
   uint32_t struct_size;
   /** Pixels from one row to the next. 0 (default): the width of the tile. */
@@ -3368,7 +3381,7 @@ MSQ_API msq_status msq_frame_init(msq_frame* frame, size_t size);
 typedef struct msq_render_pass {
   /** Out: sizeof(msq_render_pass) of the library. */
   uint32_t struct_size;
-  /** Pixels a side of the blocks that share one ray. 1: each pixel has its own. */
+  /** Side in pixels of the blocks that share one ray. 1: each pixel has its own. */
   uint32_t step;
   /** rgba: samples along a side of a pixel. */
   uint32_t samples;
@@ -3376,8 +3389,8 @@ typedef struct msq_render_pass {
   int32_t is_last;
 } msq_render_pass;
 
-/** Receives a pass. The frame holds a whole picture, to show or copy; the host must not change it
- * before the last pass. Return 0 to continue, or the host's code, preferably negative, to stop.
+/** Receives a pass. The frame contains a whole picture, to show or copy; the host must not change
+ * it before the last pass. Return 0 to continue, or the host's code, preferably negative, to stop.
  * Exceptions of the host's language must not leave it. */
 typedef int32_t (*msq_render_fn)(void* user, const msq_render_pass* pass);
 
@@ -3388,9 +3401,9 @@ typedef int32_t (*msq_render_fn)(void* user, const msq_render_pass* pass);
  *
  *   base * (ambient * open + (1 - ambient) * max(0, normal . light) * lit)
  *
- * with the colour base from colour_by, the share open of occlusion rays that hit nothing, and lit 0
- * in shadow; open and lit are 1 if not requested. What the clip planes cut away casts no shadow. A
- * pixel has the same bits for any tile, passes and threads.
+ * where base is the colour that colour_by selects, open is the share of occlusion rays that hit
+ * nothing, and lit is 0 in shadow, otherwise 1. open and lit are 1 if not requested. What the clip
+ * planes cut away casts no shadow. A pixel has the same bits for any tile, passes and threads.
  *
  * fn NULL: no callback. Otherwise fn is called on the calling thread after each pass: steps from
  * first_step, halved each time, down to 1; then one with all samples if rgba has more than one per
@@ -3451,15 +3464,15 @@ MSQ_API msq_status msq_document_def_init(msq_document_def* def, size_t size);
 /** Reads a document from text in memory: JSON in UTF-8, of `bytes` bytes. def NULL: defaults. job
  * NULL: no job; its progress is that of the file which is being read.
  *
- * msq builds every object of the document by the functions above, with their checks and their
- * warnings. Lengths are in the model's unit. Unknown keys, keys that occur twice and definitions
+ * msq builds every object of the document with the functions above, with their checks and warnings.
+ * Lengths are in the model's unit. Unknown keys, keys that occur twice and definitions
  * that contain themselves are refused. A message begins with line, column and path of the value
  * that is at fault, for example "12:17: scales[1].structure.foam.radius: ...". Lines and columns
  * begin at 1; columns count bytes.
  *
- * Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the
- * objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path
- * that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build
+ * Cost: about 100 ns per value of the document, 40 bytes per value while it is read, and the cost
+ * of the objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a
+ * path that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build
  * without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY. */
 MSQ_API msq_status msq_document_from_json(msq_context* context, const char* text, uint64_t bytes,
                                           const msq_document_def* def, msq_document** document,
@@ -3476,7 +3489,7 @@ MSQ_API void msq_document_retain(msq_document* document);
 /** Drops a reference. */
 MSQ_API void msq_document_release(msq_document* document);
 
-/** What a document holds. */
+/** Contents of a document. */
 typedef struct msq_document_report {
   uint32_t struct_size;
   /** Version of the format that the document names; now 1. */
@@ -3490,17 +3503,17 @@ typedef struct msq_document_report {
   const char* title;
 } msq_document_report;
 
-/** Reports what a document holds. Errors: ARGUMENT. */
+/** Reports the contents of a document. Errors: ARGUMENT. */
 MSQ_API msq_status msq_document_info(const msq_document* document, msq_document_report* report);
 
-/** Returns the model of a document, with a reference for the caller to release. It does not need
- * the document any more. Errors: ARGUMENT. */
+/** Returns the model of a document, with a reference for the caller to release. The model does not
+ * need the document any more. Errors: ARGUMENT. */
 MSQ_API msq_status msq_document_model(const msq_document* document, msq_model** model);
 
-/** Writes the settings for slices to *def, whose struct_size the caller has set; what the document
- * does not say has its default. The pointers in it are valid as long as the document. The host may
- * change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without
- * slicing). */
+/** Writes the settings for slices to *def, whose struct_size the caller has set. Fields that the
+ * document does not set have their defaults. The pointers in it are valid as long as the document.
+ * The host may change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document
+ * without slicing). */
 MSQ_API msq_status msq_document_slicing(const msq_document* document, msq_slicer_def* def);
 
 /** Writes the settings for pictures to *camera and *render, whose struct_size the caller has set.
