@@ -8,7 +8,7 @@
  * Igouchkine and Liu, "Set-based queries for multiscale shape-material modeling". docs/concepts.md
  * defines all terms.
  *
- * These rules hold for every declaration:
+ * These rules apply to every declaration:
  *
  * Units. Lengths are in the model's unit. Files are read in millimetres, so the unit of a model
  * that is made from a file is the millimetre. Coordinates are right-handed: x, y, z.
@@ -31,7 +31,7 @@
  * above 4096 are refused.
  *
  * Reports. A report is a struct that msq fills in. The caller sets its struct_size. msq writes no
- * byte past that size, and zeroes the bytes that it does not know.
+ * byte past that size, and sets bytes of unknown fields to 0.
  *
  * Inputs. A constructor copies the arrays and strings that it is given. NULL is refused unless the
  * comment gives it a meaning. A job may be NULL everywhere: the call then reports no progress and
@@ -281,7 +281,7 @@ MSQ_API void msq_context_release(msq_context* context);
 typedef struct msq_memory_report {
   uint32_t struct_size;
   uint32_t reserved;
-  /** Bytes that meshes, images, beams, slabs and cached cells hold now. */
+  /** Bytes in use now by meshes, images, beams, slabs and cached cells. */
   uint64_t bytes;
   /** Maximum of bytes so far. */
   uint64_t peak_bytes;
@@ -298,12 +298,13 @@ typedef struct msq_cache_report {
   uint32_t reserved;
   /** Cell lookups that found the cell; lookups that did not find it; evicted cells. */
   uint64_t hits, misses, evictions;
-  /** Bytes held now by cells and reserved for cells under construction. Never above limit_bytes. */
+  /** Bytes in use now by cells and reserved for cells under construction. Never above limit_bytes.
+   */
   uint64_t bytes;
   uint64_t peak_bytes, limit_bytes;
   /** The part of bytes that is reserved for cells under construction. */
   uint64_t building_bytes;
-  /** Number of cells held now. */
+  /** Number of cells in the cache now. */
   uint64_t cells;
   /** Misses for which two threads built the same cell at the same time. */
   uint64_t duplicates;
@@ -380,7 +381,7 @@ typedef struct msq_window {
 /* ---- Objects that the host defines ----------------------------------------------------------- */
 
 /* A host may define its own fields, shapes and structures by callbacks: msq_field_host,
- * msq_shape_from_host, msq_structure_host, msq_structure_host_function. These rules hold for all of
+ * msq_shape_from_host, msq_structure_host, msq_structure_host_function. These rules apply to all of
  * their callbacks:
  *
  * Results depend on the arguments alone. A point has the same result, to the last bit, in every
@@ -1191,7 +1192,7 @@ typedef struct msq_lattice_faces_report {
  *
  * The cells are those with inner points in the box from min to max, in model units (for a model:
  * msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the
- * grid. A lattice without a library has no such faces; msq_unit_cell_info tells whether it is
+ * grid. A lattice without a library has no such faces; msq_unit_cell_info returns whether it is
  * periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a
  * layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than
  * 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY. */
@@ -1300,7 +1301,7 @@ typedef struct msq_foam_def {
   int32_t method;
   msq_neighbourhood grid;
   /** Radius of the struts in model units. A constant must be > 0, a field >= 0. No default. With
-   * walls, the constant 0 stands for no struts. */
+   * walls, the constant 0 means no struts. */
   msq_param radius;
   /** 0: seeds at the cell centres. 1 (default): anywhere in their cells. */
   double jitter;
@@ -1495,7 +1496,7 @@ typedef struct msq_waves_def {
   double cone_angles[3];
   /** cell_size: the wavelength along each axis of the grid. */
   msq_neighbourhood grid;
-  /** Value of the sum, of which the variance is 1; not a length. Default 0: half of the volume.
+  /** Value of the sum, not a length. The sum has variance 1. Default 0: half of the volume.
    * SHEET: a constant must be > 0, a field >= 0 and not 0 everywhere. */
   msq_param level;
   /** In place of a level: the volume fraction of a Gaussian random field, above 0 and below 1. 0
@@ -1722,7 +1723,7 @@ typedef int32_t (*msq_evaluate_cell_fn)(void* user, const void* data, const msq_
 /** Frees data of a cell. data is not NULL. */
 typedef void (*msq_free_cell_fn)(void* user, void* data);
 
-/** What holds for all points of a box. */
+/** Membership of all points of a box. */
 enum msq_box_answer {
   /** Unknown, or neither of the others. */
   MSQ_BOX_MIXED = 0,
@@ -1851,11 +1852,11 @@ MSQ_API msq_status msq_structure_blend(const msq_structure* a, const msq_structu
  * difference is a without b) of two structures, with fillets where their surfaces meet. radius: k,
  * a number or a field in model units, at least 0. Where it is 0 the solid is that of
  * msq_structure_boolean. With the signed distances u and v to a and b as msq returns them
- * (docs/accuracy.md), h = max(0, k - |u - v|) and s = min(u, v) - h^2 / (4 k), the union holds the
- * points with s <= 0. An intersection takes -u and -v, a difference -u and v, and both hold the
- * points with s >= 0. So a union gains, and the others lose, points with sqrt(|u|) + sqrt(|v|) <=
- * sqrt(k): only where both surfaces are nearer than k. Between two planes at right angles the
- * fillet is a parabola that touches both at the distance k from their edge.
+ * (docs/accuracy.md), h = max(0, k - |u - v|) and s = min(u, v) - h^2 / (4 k), the union is the set
+ * of points with s <= 0. An intersection takes -u and -v, a difference -u and v, and both are the
+ * sets of points with s >= 0. So a union gains, and the others lose, points with sqrt(|u|) +
+ * sqrt(|v|) <= sqrt(k): only where both surfaces are nearer than k. Between two planes at right
+ * angles the fillet is a parabola that touches both at the distance k from their edge.
  *
  * Characteristic length, hits and limits on cells are as for msq_structure_boolean. Distance: a
  * bound, |s| / (1 + L / 4) for a radius with Lipschitz constant L. Rays march by it. Cost: that of
@@ -2100,8 +2101,8 @@ MSQ_API msq_status msq_model_def_init(msq_model_def* def, size_t size);
 /** Creates a model: the intersection of the shape with every structure. Where a scale leaves a
  * skin, the union of structure and skin takes the place of the structure. def must not be NULL.
  *
- * The skin holds the points of the shape whose depth is at most the thickness at the point, where
- * the thickness is above 0. Depth is the distance to the boundary of the shape, as in
+ * The skin is the set of points of the shape whose depth is at most the thickness at the point,
+ * where the thickness is above 0. Depth is the distance to the boundary of the shape, as in
  * msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the
  * distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of
  * the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the
@@ -2281,7 +2282,7 @@ MSQ_API msq_status msq_set_region(const msq_model* model, const msq_points_def* 
  * channel_count is 0.
  *
  * The material is that of the finest resolved scale that has one, or of its skin inside the skin.
- * Where finer scales are not resolved, the host's material stands for the mixture. Errors: ARGUMENT
+ * Where finer scales are not resolved, the host's material represents the mixture. Errors: ARGUMENT
  * (also if no resolved scale has a material, or none of their materials has a channel of that
  * name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API". */
 MSQ_API msq_status msq_point_material(const msq_model* model, const double point[3],
