@@ -35,20 +35,20 @@ namespace Msq
     {
         /// <summary>The oldest cell first. Best for slicing from one end to the other.</summary>
         Fifo = 0,
-        /// <summary>Cells that were used once first (S3-FIFO). Best for frames and sets that return to more cells than fit.</summary>
+        /// <summary>Cells that were used only once first (S3-FIFO). Best if frames or sets use the same cells again and not all of these cells fit.</summary>
         Segmented = 1,
     }
 
     /// <summary>What a warning is about.</summary>
     public enum WarningCode
     {
-        /// <summary>A mesh is not closed, and MSQ_WINDING_AUTO reads it by its generalised winding number. Once per shape, by the function that creates it.</summary>
+        /// <summary>A mesh is not closed. MSQ_WINDING_AUTO decides membership by its generalised winding number. Once per shape, by the function that creates it.</summary>
         OpenMesh = 1,
         /// <summary>The smallest cells of a structure have fewer than 4 pixels or layers across. Once per slicer, by msq_slicer_create.</summary>
         CoarsePitch = 2,
-        /// <summary>Cells were built for one use, because the cache had no room for them. Once per context, by a set query, msq_slicer_run, msq_slice_layer, msq_printability, msq_ray_cast or msq_render. Not with cache_bytes = 0.</summary>
+        /// <summary>Cells were built for one use, because the cache had no room for them. Once per context, by a set query, msq_slicer_run, msq_slice_layer, msq_printability, msq_ray_cast or msq_render. Not given with cache_bytes = 0.</summary>
         SmallCache = 3,
-        /// <summary>Unit cells of a lattice have nodes on their faces that the next cell, or another one of the library, does not have. Once per structure, by msq_structure_lattice. msq_unit_cell_info and msq_lattice_faces tell where.</summary>
+        /// <summary>Unit cells of a lattice have nodes on their faces that the next cell, or another one of the library, does not have. Once per structure, by msq_structure_lattice. msq_unit_cell_info and msq_lattice_faces locate them.</summary>
         UnmatchedCells = 4,
     }
 
@@ -60,11 +60,11 @@ namespace Msq
         EvenOdd = 1,
         /// <summary>Only parts whose normals point outwards are solid.</summary>
         Positive = 2,
-        /// <summary>Default. NONZERO; for meshes that are not closed, NONZERO of the generalised winding number, rounded half up to a whole number.</summary>
+        /// <summary>Default. Closed meshes: NONZERO. Other meshes: NONZERO of the generalised winding number, rounded half up to a whole number.</summary>
         Auto = 3,
     }
 
-    /// <summary>Type of the numbers in a host's array. Coordinates in model units are MSQ_FLOAT32 or MSQ_FLOAT64. Images take all but MSQ_INT32 and MSQ_INT64. Polygons to fill (msq_fill_def) take only these; contours take these and MSQ_FLOAT64.</summary>
+    /// <summary>Type of the numbers in a host's array. Coordinates in model units are MSQ_FLOAT32 or MSQ_FLOAT64. Images take all types except MSQ_INT32 and MSQ_INT64. Polygons to fill (msq_fill_def) take MSQ_INT32 and MSQ_INT64. Contours take these two and MSQ_FLOAT64.</summary>
     public enum NumberType
     {
         Float32 = 1,
@@ -144,7 +144,7 @@ namespace Msq
         Bcc = 2,
         /// <summary>Face-centred cubic: planes {111}, the faces of the octet truss's tetrahedra and octahedra: 8 triangles between diagonals of the cube's faces.</summary>
         Fcc = 3,
-        /// <summary>CUBIC, then FCC: 14 triangles. Thin plates are equally stiff in all directions if those of the first 6 are 8 sqrt(3) / 9 = 1.5396 times as thick as the others.</summary>
+        /// <summary>CUBIC, then FCC: 14 triangles. Thin plates are equally stiff in all directions if the first 6 triangles are 8 sqrt(3) / 9 = 1.5396 times as thick as the others.</summary>
         CubicOctet = 4,
         /// <summary>Faces of space-filling truncated octahedra, MSQ_UNIT_CELL_KELVIN closed: 72 triangles, the first 48 of hexagons, the others of squares.</summary>
         Kelvin = 5,
@@ -196,7 +196,7 @@ namespace Msq
         KarcherK = 12,
         /// <summary>sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y + 0.32: G'.</summary>
         GPrime = 13,
-        /// <summary>cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two labyrinths that do not touch, as those of the next two.</summary>
+        /// <summary>cos 2x cos 2y + cos 2y cos 2z + cos 2z cos 2x - 2.75 (sin 2x cos y sin z + sin 2y cos z sin x + sin 2z cos x sin y) + 0.95. The network is two labyrinths that do not touch. So are the networks of the next two functions.</summary>
         DoubleGyroid = 14,
         /// <summary>-0.5 (sin x sin y + sin y sin z + sin z sin x) - 0.5 cos x cos y cos z.</summary>
         DoubleDiamond = 15,
@@ -220,7 +220,7 @@ namespace Msq
     /// <summary>How a beam ends.</summary>
     public enum Cap
     {
-        /// <summary>With the ball of its radius there. With unlike radii the ball of the thicker end protrudes from the side of the beam.</summary>
+        /// <summary>With a ball of the radius at that end. If the radii differ, the ball of the thicker end protrudes from the side of the beam.</summary>
         Sphere = 0,
         /// <summary>With the half of that ball beyond the end.</summary>
         Hemisphere = 1,
@@ -247,7 +247,7 @@ namespace Msq
         Clipping = 1,
     }
 
-    /// <summary>What holds for all points of a box.</summary>
+    /// <summary>Membership of all points of a box.</summary>
     public enum BoxAnswer
     {
         /// <summary>Unknown, or neither of the others.</summary>
@@ -293,9 +293,9 @@ namespace Msq
     /// <summary>What msq_set_onset writes.</summary>
     public enum OnsetValue
     {
-        /// <summary>The onset: the smallest radius, thickness or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units, the least over the factors of struts; plates and walls: twice that to the nearest. Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the least of theirs.</summary>
+        /// <summary>The onset: the smallest radius, thickness or level at which the point is inside. Lattices and foams: the distance to the nearest strut axis in model units; with strut factors, the minimum of distance / factor. Plates and walls: the same with twice the distance to the nearest face. Functional structures: the function; waves: the sum; sheets: the magnitude of these. Unions of lattices and foams: the minimum of their onsets.</summary>
         Plain = 0,
-        /// <summary>The onset minus the structure's radius or level at the point: at most 0 inside, positive outside. Unions: the least of these.</summary>
+        /// <summary>The onset minus the structure's radius or level at the point: at most 0 inside, positive outside. Unions: the minimum of these.</summary>
         Signed = 1,
     }
 
@@ -306,7 +306,7 @@ namespace Msq
         Void = 2,
     }
 
-    /// <summary>What a layer holds. Rows of pixels are padded with zeros to a multiple of 8 bytes.</summary>
+    /// <summary>Contents of a layer. Rows of pixels are padded with zeros to a multiple of 8 bytes.</summary>
     public enum LayerOutput
     {
         /// <summary>1 bit per pixel, sampled at its centre. The leftmost pixel is the high bit, as in PNG and PBM.</summary>
@@ -319,7 +319,7 @@ namespace Msq
         Distance = 4,
         /// <summary>1 uint32 per pixel: the id of the material at its centre, as msq_set_material returns it. A resolved scale must have a material.</summary>
         Material = 5,
-        /// <summary>1 float32 per pixel: the onset of a structure at its centre, as msq_set_onset returns it, rounded to the nearest float32. The model must be of one region.</summary>
+        /// <summary>1 float32 per pixel: the onset of a structure at its centre, as msq_set_onset returns it, rounded to the nearest float32. The model must have one region.</summary>
         Onset = 6,
         /// <summary>No pixels: the rings that msq_slicer_contours returns. Only in msq_slicer_def.outputs.</summary>
         Contours = 7,
@@ -327,7 +327,7 @@ namespace Msq
         Channel = 8,
     }
 
-    /// <summary>How layers are turned before the host receives them, as the panels of printers need it. A sum. Let the layer have W x H pixels, after exchanging the sides of the plan if TRANSPOSE is set. Its pixel (i, j) is pixel (i', j') of the plan, where i' = W - 1 - i with MIRROR_X and i otherwise, j' = H - 1 - j with MIRROR_Y and j otherwise, and TRANSPOSE exchanges i' and j' at the end.</summary>
+    /// <summary>How layers are mirrored and transposed for the panel of a printer before the host receives them. A sum of the values below. Let the layer have W x H pixels, after exchanging the sides of the plan if TRANSPOSE is set. Its pixel (i, j) is pixel (i', j') of the plan, where i' = W - 1 - i with MIRROR_X and i otherwise, j' = H - 1 - j with MIRROR_Y and j otherwise, and TRANSPOSE exchanges i' and j' at the end.</summary>
     public enum LayerOrientation
     {
         MirrorX = 1,
@@ -335,18 +335,18 @@ namespace Msq
         Transpose = 4,
     }
 
-    /// <summary>What is doubtful about printing layers. docs/concepts.md defines the kinds exactly.</summary>
+    /// <summary>Possible problems in printing layers. docs/concepts.md defines the kinds exactly.</summary>
     public enum FindingKind
     {
         /// <summary>A part of a layer, connected in the layer, that lies on no solid sample of the layer below.</summary>
         Island = 1,
-        /// <summary>A connected part of the solid that does not reach the plate. Without a plate: any but that of the most samples.</summary>
+        /// <summary>A connected part of the solid that does not reach the plate. Without a plate: any part except the one with the most samples.</summary>
         Loose = 2,
-        /// <summary>An enclosed void, which traps resin or powder: connected empty samples that reach neither a side of the grid nor its top; without a plate, nor its bottom. One that begins in layer 0 opens at the plate alone.</summary>
+        /// <summary>An enclosed void, which traps resin or powder: connected empty samples that reach neither a side of the grid nor its top; without a plate, nor its bottom. One that begins in layer 0 is open at the plate only.</summary>
         Void = 4,
         /// <summary>Connected samples where the solid is thinner in its layer than a given width.</summary>
         Thin = 8,
-        /// <summary>A cup: a void that is closed except where the next layer is printed, so it sucks at the film of a resin printer. In other words, empty samples that are connected within the layers up to one, reach that layer, and reach neither a side of the grid nor, without a plate, its bottom. Each is listed once, as it is in the last layer before it opens; last_layer is that one. Voids that close are listed as VOID alone.</summary>
+        /// <summary>A cup: a void that is closed except where the next layer is printed, so it sucks at the film of a resin printer. In other words: empty samples that are connected within layers 0 to k, reach layer k, and reach neither a side of the grid nor, without a plate, its bottom. Each cup is listed once, for the last such k, which is its last_layer. Voids that close are listed as VOID only.</summary>
         Cup = 16,
         /// <summary>Connected samples of a layer with none below them, and none in the layer below within a given horizontal distance.</summary>
         Overhang = 32,
@@ -476,7 +476,7 @@ namespace Msq.Interop
         public byte* licence;
         /// <summary>Instruction set that the kernels use on this machine, for example "AVX3". Static.</summary>
         public byte* simd;
-        /// <summary>1 if msq_shape_hash and its like are available.</summary>
+        /// <summary>1 if msq_shape_hash and the other hash functions are available.</summary>
         public int with_xxhash;
         /// <summary>1 if documents are read and written (msq_document_from_json).</summary>
         public int with_json;
@@ -487,7 +487,7 @@ namespace Msq.Interop
 
     /// <summary>Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may add some. message: in UTF-8, with the values, valid until the callback returns.</summary>
     /// <remarks>
-    /// <para>It is called on the thread that called msq, when the work of the function that gives the warning is done and before it returns; never with a lock held, so it may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it.</para>
+    /// <para>It is called on the thread that called msq, after the function that warns has done its work and before it returns. No lock is held, so it may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it.</para>
     /// </remarks>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void msq_warning_fn(void* user, int code, byte* message);
@@ -500,10 +500,10 @@ namespace Msq.Interop
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void msq_task_fn(void* task, ulong i);
 
-    /// <summary>Shares the tasks of a loop among threads of the host: calls body(task, i) once for each i from 0 to count - 1 and returns when all these calls have returned. task is that of msq, to be passed on.</summary>
+    /// <summary>Shares the tasks of a loop among threads of the host: calls body(task, i) once for each i from 0 to count - 1 and returns when all these calls have returned. Pass task on unchanged.</summary>
     /// <remarks>
     /// <para>The calls may run on any threads, in any order, at once or one after the other on the calling thread. Several threads may call this function at the same time, also from within a task. Such a call must not wait for a thread to become free: where all are busy, the calling thread runs the tasks itself.</para>
-    /// <para>Return 0 for success. Any other code, preferably negative, stops the call of msq with MSQ_E_HOST; tasks that were not begun may then be left out. Exceptions of the host's language must not leave the function.</para>
+    /// <para>Return 0 for success. Any other code, preferably negative, stops the call of msq with MSQ_E_HOST; tasks that have not begun may then be skipped. Exceptions of the host's language must not leave the function.</para>
     /// </remarks>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int msq_parallel_for_fn(void* user, ulong count, IntPtr body, void* task);
@@ -517,13 +517,13 @@ namespace Msq.Interop
         public uint threads;
         /// <summary>Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.</summary>
         public ulong cache_bytes;
-        /// <summary>Maximum number of bytes that meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file) hold at the same time. Cached cells are evicted to make room. 0 (default): no limit.</summary>
+        /// <summary>Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file). Cached cells are evicted to make room. 0 (default): no limit.</summary>
         public ulong memory_limit;
         /// <summary>An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results.</summary>
         public int cache_policy;
         /// <summary>Must be 0.</summary>
         public uint reserved;
-        /// <summary>Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context, which models keep alive.</summary>
+        /// <summary>Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context. Models keep the context alive.</summary>
         public IntPtr warning;
         /// <summary>Passed to warning.</summary>
         public void* warning_user;
@@ -531,9 +531,9 @@ namespace Msq.Interop
         public IntPtr parallel_for;
         /// <summary>First argument of parallel_for.</summary>
         public void* parallel_for_user;
-        /// <summary>NULL, or called with parallel_for_user when the context is freed: when its last handle and the last model or other object that keeps it are gone, on the thread that drops the last reference. It is not called if msq_context_create fails.</summary>
+        /// <summary>NULL, or called with parallel_for_user when the context is freed, on the thread that drops the last reference. Models and other objects keep references to their context. It is not called if msq_context_create fails.</summary>
         public IntPtr parallel_for_release;
-        /// <summary>NULL, or called with warning_user when the context is freed: when its last handle and the last model or other object that keeps it are gone, on the thread that drops the last reference. It is not called if msq_context_create fails.</summary>
+        /// <summary>NULL, or called with warning_user when the context is freed, on the thread that drops the last reference. Models and other objects keep references to their context. It is not called if msq_context_create fails.</summary>
         public IntPtr warning_release;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -551,7 +551,7 @@ namespace Msq.Interop
     {
         public uint struct_size;
         public uint reserved;
-        /// <summary>Bytes that meshes, images, beams, slabs and cached cells hold now.</summary>
+        /// <summary>Bytes in use now by meshes, images, beams, slabs and cached cells.</summary>
         public ulong bytes;
         /// <summary>Maximum of bytes so far.</summary>
         public ulong peak_bytes;
@@ -565,19 +565,19 @@ namespace Msq.Interop
     {
         public uint struct_size;
         public uint reserved;
-        /// <summary>Number of cell lookups that found the cell, and that did not; number of evicted cells.</summary>
+        /// <summary>Cell lookups that found the cell; lookups that did not find it; evicted cells.</summary>
         public ulong hits;
-        /// <summary>Number of cell lookups that found the cell, and that did not; number of evicted cells.</summary>
+        /// <summary>Cell lookups that found the cell; lookups that did not find it; evicted cells.</summary>
         public ulong misses;
-        /// <summary>Number of cell lookups that found the cell, and that did not; number of evicted cells.</summary>
+        /// <summary>Cell lookups that found the cell; lookups that did not find it; evicted cells.</summary>
         public ulong evictions;
-        /// <summary>Bytes held now by cells and reserved for cells under construction. Never above limit_bytes.</summary>
+        /// <summary>Bytes in use now by cells and reserved for cells under construction. Never above limit_bytes.</summary>
         public ulong bytes;
         public ulong peak_bytes;
         public ulong limit_bytes;
         /// <summary>The part of bytes that is reserved for cells under construction.</summary>
         public ulong building_bytes;
-        /// <summary>Number of cells held now.</summary>
+        /// <summary>Number of cells in the cache now.</summary>
         public ulong cells;
         /// <summary>Misses for which two threads built the same cell at the same time.</summary>
         public ulong duplicates;
@@ -624,7 +624,7 @@ namespace Msq.Interop
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int msq_range_fn(void* user, double* min, double* max, double* low, double* high);
 
-    /// <summary>The grid of neighbourhood cells of a structure, or the frame of an image. Cell (i, j, k) holds the points origin + rotation * ((i, j, k) + u) * cell_size with 0 &lt;= u &lt; 1 in each component. Source: paper, section "Multiscale Shape-Material Modeling API".</summary>
+    /// <summary>The grid of neighbourhood cells of a structure, or the frame of an image. Cell (i, j, k) contains the points origin + rotation * ((i, j, k) + u) * cell_size with 0 &lt;= u &lt; 1 in each component. Source: paper, section "Multiscale Shape-Material Modeling API".</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_neighbourhood
     {
@@ -759,7 +759,7 @@ namespace Msq.Interop
         public fixed double min[3];
         /// <summary>Bounding box, with the limits of msq_shape_from_box. No default.</summary>
         public fixed double max[3];
-        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none.</summary>
+        /// <summary>Represents the callbacks in hashes. Both 0 (default): no key.</summary>
         public fixed ulong hash_key[2];
 
         /// <summary>One with the defaults of msq.</summary>
@@ -804,7 +804,7 @@ namespace Msq.Interop
         public fixed double max[3];
         /// <summary>Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: with capped holes, except pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of the solid values. Host shapes, booleans and offsets: NaN.</summary>
         public double volume;
-        /// <summary>Square model units. NaN of shapes without a formula: voxels, host shapes, booleans, offsets, stretched shapes. Meshes: infinite or 0 if triangles are beyond 1e75 or below 1e-75.</summary>
+        /// <summary>Square model units. NaN for shapes without a formula: voxels, host shapes, booleans, offsets, stretched shapes. Meshes: infinite or 0 if triangles are beyond 1e75 or below 1e-75.</summary>
         public double area;
         /// <summary>Vertices after welding.</summary>
         public ulong vertices;
@@ -870,7 +870,7 @@ namespace Msq.Interop
         public double high;
         /// <summary>Lipschitz constant of the values. Infinity (default): unknown.</summary>
         public double lipschitz;
-        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none.</summary>
+        /// <summary>Represents the callbacks in hashes. Both 0 (default): no key.</summary>
         public fixed ulong hash_key[2];
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1099,7 +1099,7 @@ namespace Msq.Interop
         public double* face_factors;
         /// <summary>Radius of the struts in model units, &gt;= 0. The constant 0 (default): no struts.</summary>
         public msq_param radius;
-        /// <summary>Of the struts, an msq_unit_cell. Default MSQ_UNIT_CELL_CUBIC. Ignored without struts.</summary>
+        /// <summary>Unit cell of the struts, an msq_unit_cell. Default MSQ_UNIT_CELL_CUBIC. Ignored without struts.</summary>
         public int unit_cell;
         public uint reserved;
         /// <summary>With unit_cell CUSTOM: strut_count pairs of indices of different nodes.</summary>
@@ -1126,7 +1126,7 @@ namespace Msq.Interop
         /// <summary>An msq_foam_method.</summary>
         public int method;
         public msq_neighbourhood grid;
-        /// <summary>Radius of the struts in model units. A constant must be &gt; 0, a field &gt;= 0. No default. With walls, the constant 0 stands for no struts.</summary>
+        /// <summary>Radius of the struts in model units. A constant must be &gt; 0, a field &gt;= 0. No default. With walls, the constant 0 means no struts.</summary>
         public msq_param radius;
         /// <summary>0: seeds at the cell centres. 1 (default): anywhere in their cells.</summary>
         public double jitter;
@@ -1200,7 +1200,7 @@ namespace Msq.Interop
         public fixed double cone_angles[3];
         /// <summary>cell_size: the wavelength along each axis of the grid.</summary>
         public msq_neighbourhood grid;
-        /// <summary>Value of the sum, of which the variance is 1; not a length. Default 0: half of the volume. SHEET: a constant must be &gt; 0, a field &gt;= 0 and not 0 everywhere.</summary>
+        /// <summary>Value of the sum, not a length. The sum has variance 1. Default 0: half of the volume. SHEET: a constant must be &gt; 0, a field &gt;= 0 and not 0 everywhere.</summary>
         public msq_param level;
         /// <summary>In place of a level: the volume fraction of a Gaussian random field, above 0 and below 1. 0 (default): level is used.</summary>
         public double volume_fraction;
@@ -1219,7 +1219,7 @@ namespace Msq.Interop
     public unsafe struct msq_beams_def
     {
         public uint struct_size;
-        /// <summary>An msq_cap, of all ends unless caps is given. Default MSQ_CAP_SPHERE.</summary>
+        /// <summary>An msq_cap for all ends, unless caps is given. Default MSQ_CAP_SPHERE.</summary>
         public int cap;
         /// <summary>Of nodes, radii and ball_radii: MSQ_FLOAT32 or MSQ_FLOAT64 (default).</summary>
         public int coordinate_type;
@@ -1264,7 +1264,7 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>What a lattice of a file holds.</summary>
+    /// <summary>Contents of a lattice of a file.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_beam_file_report
     {
@@ -1275,13 +1275,13 @@ namespace Msq.Interop
         public ulong lattice_count;
         /// <summary>Triangles of the build. 0: there is no mesh.</summary>
         public ulong mesh_triangle_count;
-        /// <summary>The rest is of the lattice:</summary>
+        /// <summary>The following members describe the lattice.</summary>
         public ulong node_count;
         public ulong beam_count;
         public ulong ball_count;
         /// <summary>Triangles of the clipping mesh.</summary>
         public ulong clipping_triangle_count;
-        /// <summary>Corners of a box that holds all beams and balls, in millimetres. Not clipped.</summary>
+        /// <summary>Corners of a box that contains all beams and balls, in millimetres. Not clipped.</summary>
         public fixed double min[3];
         public fixed double max[3];
     }
@@ -1340,14 +1340,14 @@ namespace Msq.Interop
         public IntPtr evaluate_cell;
         /// <summary>May be NULL.</summary>
         public IntPtr free_cell;
-        /// <summary>May be NULL. Spares evaluating the points of boxes without boundary.</summary>
+        /// <summary>May be NULL. With it, msq skips the points of boxes without boundary.</summary>
         public IntPtr box;
         /// <summary>May be NULL: the distance bound is then 0, which is correct but does not help sphere tracing.</summary>
         public IntPtr distance;
         public void* user;
         /// <summary>May be NULL.</summary>
         public IntPtr release;
-        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none.</summary>
+        /// <summary>Represents the callbacks in hashes. Both 0 (default): no key.</summary>
         public fixed ulong hash_key[2];
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1368,7 +1368,7 @@ namespace Msq.Interop
         public int concurrent;
         /// <summary>An msq_functional_kind. Default MSQ_FUNCTIONAL_NETWORK.</summary>
         public int kind;
-        /// <summary>As in msq_functional_def. Not used without range and lipschitz.</summary>
+        /// <summary>As in msq_functional_def. Ignored if neither range nor lipschitz is given.</summary>
         public uint clusters;
         /// <summary>One period per cell.</summary>
         public msq_neighbourhood grid;
@@ -1382,7 +1382,7 @@ namespace Msq.Interop
         public IntPtr release;
         /// <summary>Lipschitz constant of the values with respect to the angles. Infinity (default): unknown.</summary>
         public double lipschitz;
-        /// <summary>Stands for the callbacks in hashes. Both 0 (default): none.</summary>
+        /// <summary>Represents the callbacks in hashes. Both 0 (default): no key.</summary>
         public fixed ulong hash_key[2];
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1422,7 +1422,7 @@ namespace Msq.Interop
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int msq_struts_fn(void* user, msq_strut* struts, ulong count);
 
-    /// <summary>Which struts of a structure are wanted.</summary>
+    /// <summary>Selects struts of a structure.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_struts_def
     {
@@ -1432,7 +1432,7 @@ namespace Msq.Interop
         /// <summary>Corners of the box in model units, min &lt;= max. Default 0.</summary>
         public fixed double min[3];
         public fixed double max[3];
-        /// <summary>Struts are cut to this shape. NULL (default): they are not. The selection goes by the whole strut, so pieces of one strut come together.</summary>
+        /// <summary>Struts are cut to this shape. NULL (default): they are not cut. Whole struts are selected, so pieces of one strut come together.</summary>
         public msq_shape* shape;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1444,7 +1444,7 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>What a graph of struts holds. Pointers are valid as long as the graph is.</summary>
+    /// <summary>Contents of a graph of struts. Pointers are valid as long as the graph is.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_strut_graph_report
     {
@@ -1656,7 +1656,7 @@ namespace Msq.Interop
         public uint reserved;
         /// <summary>Points that were evaluated.</summary>
         public ulong samples;
-        /// <summary>Smallest parameter that holds at least the target fraction of the points.</summary>
+        /// <summary>Smallest parameter at which at least the target fraction of the points is solid.</summary>
         public double parameter;
         /// <summary>Volume fraction at that parameter.</summary>
         public msq_estimate fraction;
@@ -1669,24 +1669,24 @@ namespace Msq.Interop
     public unsafe struct msq_contours_def
     {
         public uint struct_size;
-        /// <summary>Of the coordinates: MSQ_INT32, MSQ_INT64 or MSQ_FLOAT64 (default).</summary>
+        /// <summary>Type of the coordinates: MSQ_INT32, MSQ_INT64 or MSQ_FLOAT64 (default).</summary>
         public int type;
         /// <summary>Normal of the plane: 0 (x), 1 (y) or 2 (z, default).</summary>
         public int axis;
         /// <summary>0 (default): the bounding box of the model; window_min and window_max must be 0. 1: the window below.</summary>
         public int has_window;
-        /// <summary>Corners in u and v, in model units. Rings close along the edges of the window. Windows that have a whole edge in common, and the other values of this struct, have the same points on it, bit for bit.</summary>
+        /// <summary>Corners in u and v, in model units. Rings close along the edges of the window. Two windows that have a whole edge in common, with the same other values of this struct, have the same points on that edge, bit for bit.</summary>
         public fixed double window_min[2];
         public fixed double window_max[2];
-        /// <summary>Greatest distance between boundary and rings, in model units, where features are wider than the pitch. Positive; there is no default.</summary>
+        /// <summary>Maximum distance between boundary and rings, in model units, where features are wider than the pitch. Positive; there is no default.</summary>
         public double tolerance;
-        /// <summary>Distance of the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that hold a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. 0 (default): the tolerance. Up to 2^18 times each side of the window.</summary>
+        /// <summary>Distance between the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that contain a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. 0 (default): the tolerance. Up to 2^18 times each side of the window.</summary>
         public double pitch;
-        /// <summary>Coordinates are model coordinates times this. Default 1. Integers are rounded to the nearest. Then a pitch must have at least 64 units, and a tolerance 4.</summary>
+        /// <summary>Coordinates are model coordinates times this. Default 1. Integer coordinates are rounded to the nearest integer. The pitch must then be at least 64 units, and the tolerance at least 4.</summary>
         public double units;
         /// <summary>As in msq_query_def. msq_slicer_contours takes that of the slicer, and this must be 0.</summary>
         public double length_scale;
-        /// <summary>0 (default): topology_count of the report is not computed. Otherwise 2, 4, 8 or 16: the rings are compared with a mask of so many samples along each side of the grid's cells. The rings are the same. Costs about as much as the bits of that mask; memory: a band of its rows.</summary>
+        /// <summary>0 (default): topology_count of the report is not computed. Otherwise 2, 4, 8 or 16: the rings are compared with a mask of that many samples along each side of the grid's cells. This does not change the rings. Costs about as much as the bits of that mask; memory: a band of its rows.</summary>
         public uint topology_samples;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1709,7 +1709,7 @@ namespace Msq.Interop
         public uint grey_samples;
         public uint grey_threshold;
         public double grey_gamma;
-        /// <summary>ONSET: the scale whose structure it is, from 1. It must be resolved. 0 (default): the finest resolved scale.</summary>
+        /// <summary>ONSET: the scale of the structure, from 1. It must be resolved. 0 (default): the finest resolved scale.</summary>
         public uint onset_scale;
         /// <summary>ONSET: an msq_onset_value. Default MSQ_ONSET_PLAIN.</summary>
         public int onset_value;
@@ -1732,7 +1732,7 @@ namespace Msq.Interop
     public unsafe struct msq_slicer_def
     {
         public uint struct_size;
-        /// <summary>An msq_layer_output except CONTOURS and CHANNEL. Default MSQ_LAYER_BITS, which it must be if outputs are given.</summary>
+        /// <summary>An msq_layer_output except CONTOURS and CHANNEL. Default MSQ_LAYER_BITS. If outputs are given it must be the default.</summary>
         public int output;
         /// <summary>Pixel size in x and y. 0 (default): from region and resolution.</summary>
         public fixed double pitch[2];
@@ -1744,11 +1744,11 @@ namespace Msq.Interop
         public ulong layer_count;
         /// <summary>0 (default): the region is the bounding box of the model, centred in the pixels; region_min and region_max must be 0. 1: the region below. A model of all space needs 1.</summary>
         public int has_region;
-        /// <summary>Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at most 32 MiB and a quarter of the context's memory_limit, or 2 MiB per thread for structures that do not gain by more; at least one; in a run, fewer where the limit leaves less. Except for these, the first slab of a run has an eighth of the layers, so that the host has its first layer soon. Where a slab is one layer and that is still too large, bands of its rows are computed one after the other. Does not change results.</summary>
+        /// <summary>Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at least one. A slab takes at most 32 MiB and a quarter of the context's memory_limit, and 2 MiB per thread for structures that do not gain by more. A run computes fewer layers at once where the limit leaves less. The first slab of a run has an eighth of the layers, except for structures of 2 MiB, so that the host receives its first layer soon. Where even one layer is too large, bands of its rows are computed one after the other. Does not change results.</summary>
         public uint slab_layers;
         /// <summary>Corner of pixel (0, 0) and bottom of layer 0.</summary>
         public fixed double region_min[3];
-        /// <summary>Needed where a count follows from it.</summary>
+        /// <summary>Required where a resolution or layer_count of 0 is computed from it.</summary>
         public fixed double region_max[3];
         /// <summary>z of each layer, strictly ascending. NULL (default): the middle of each layer, region_min[2] + (index + 1/2) * layer_height.</summary>
         public double* layer_z;
@@ -1772,7 +1772,7 @@ namespace Msq.Interop
         public msq_output_def* outputs;
         /// <summary>Where layers lie: coordinates u, v, w are those of the point frame_origin + u * axis 0 + v * axis 1 + w * axis 2. Rows of pixels lie along u, one row follows the other along v, and layers lie along w. x, y and z in the text above and of layers then mean u, v and w, also in the region, in heights, in contours and in findings. Default 0.</summary>
         public fixed double frame_origin[3];
-        /// <summary>Three rows, the axes, orthonormal within 1e-9; msq takes the nearest axes that are orthonormal. Left-handed axes mirror. All zeros (default): the axes of the model. For layers normal to x whose pixels lie along y and z: {0, 1, 0, 0, 0, 1, 1, 0, 0}. Cost: bits of layers normal to y with pixels along x and z cost what they do without a frame. Along other axes they take 10 to 15 ns per sample and thread in a box; more in meshes and host shapes, which are asked about points.</summary>
+        /// <summary>Three rows, the axes, orthonormal within 1e-9; msq takes the nearest axes that are orthonormal. Left-handed axes mirror. All zeros (default): the axes of the model. For layers normal to x whose pixels lie along y and z: {0, 1, 0, 0, 0, 1, 1, 0, 0}. Cost: bits of layers normal to y with pixels along x and z cost what they do without a frame. Along other axes they take 10 to 15 ns per sample and thread in a box; more in meshes and host shapes, which evaluate points.</summary>
         public fixed double frame_axes[9];
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1856,7 +1856,7 @@ namespace Msq.Interop
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int msq_layer_fn(void* user, msq_layer* layer);
 
-    /// <summary>What contours hold. Pointers are valid as long as the contours are.</summary>
+    /// <summary>The rings of contours. Pointers are valid as long as the contours are.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_contours_report
     {
@@ -1874,17 +1874,17 @@ namespace Msq.Interop
         public long* parents;
         /// <summary>1: a hole. 0: an outer ring.</summary>
         public byte* holes;
-        /// <summary>Places where the rings may be wrong at the scale of the pitch: where one sample decided what is connected, where the boundary is not within the tolerance, and cells that a strut passes with no node in it. Other features that no node or crossing meets are not counted.</summary>
+        /// <summary>Places where the rings may be wrong at the scale of the pitch: where one sample decided what is connected, where the boundary is not within the tolerance, and cells that a strut crosses without covering a node. Other features that no node or crossing meets are not counted.</summary>
         public ulong unresolved_count;
-        /// <summary>Distance of the nodes, as rounded.</summary>
+        /// <summary>Distance between the nodes, as rounded.</summary>
         public double pitch;
-        /// <summary>With topology_samples: an upper bound of how many parts must appear, vanish, be cut or be joined until the rings have the topology of the mask of topology_samples samples to a pitch. The numbers of outer rings and of parts of the mask differ by no more, nor do those of holes and of enclosed parts of the void. 0: both have the same topology. What the mask does not show is not counted. 0 without topology_samples.</summary>
+        /// <summary>With topology_samples: an upper bound on the number of parts that must appear, vanish, be cut or be joined until the rings have the topology of a mask with topology_samples samples per pitch. The numbers of outer rings and of parts of the mask differ by no more, nor do those of holes and of enclosed parts of the void. 0: both have the same topology. Features that the mask does not show are not counted. 0 without topology_samples.</summary>
         public ulong topology_count;
         /// <summary>As in the definition.</summary>
         public uint topology_samples;
     }
 
-    /// <summary>What is looked for.</summary>
+    /// <summary>Selects findings.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_printability_def
     {
@@ -1911,7 +1911,7 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>Something doubtful. A sample stands for the box of a pixel and its layer's height, which reaches half-way to the layers around it.</summary>
+    /// <summary>A possible problem in printing. A sample represents the box of a pixel and its layer's height, which reaches half-way to the layers around it.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_finding
     {
@@ -1980,7 +1980,7 @@ namespace Msq.Interop
     public unsafe struct msq_fill_def
     {
         public uint struct_size;
-        /// <summary>Of the rings and of the result: MSQ_INT32 or MSQ_INT64 (default).</summary>
+        /// <summary>Type of the coordinates of the rings and of the result: MSQ_INT32 or MSQ_INT64 (default).</summary>
         public int coordinate_type;
         /// <summary>ring_count rings, outlines and holes in any order and direction. Points enclosed by an odd number of rings are filled.</summary>
         public msq_ring* rings;
@@ -1993,11 +1993,11 @@ namespace Msq.Interop
         public fixed double origin[2];
         /// <summary>In model units. Slicers take the middle of the layer. Default 0.</summary>
         public double z;
-        /// <summary>Greatest distance between the lines and the walls' middle, in model units, before rounding to the coordinates; at least half of a unit of these. 0 (default): 1/200 of the smallest cell size.</summary>
+        /// <summary>Maximum distance between the lines and the middle of the walls, in model units, before rounding to the coordinates. At least half a unit of the coordinates. 0 (default): 1/200 of the smallest cell size.</summary>
         public double tolerance;
-        /// <summary>In model units. Shorter paths are dropped. A shorter line between two points where an odd number of lines meet is dropped too, as this saves a path: the lines that go on at both its ends are so close that they touch if min_length is at most the width of a line. Default 0.</summary>
+        /// <summary>In model units. Shorter paths are dropped. A shorter line between two points where an odd number of lines meet is dropped too, which saves a path. If min_length is at most the width of a line, the lines that continue at its two ends still touch. Default 0.</summary>
         public double min_length;
-        /// <summary>In model units, about the width of a line. If positive, walls between points where an odd number of lines meet are printed as two lines, side by side at this distance, where that joins paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter walls are taken first, none is taken where a line of the two would leave the polygon, and the two may cross. Default 0: no wall is printed twice.</summary>
+        /// <summary>In model units, about the width of a line. If positive, walls between points where an odd number of lines meet are printed as two lines, side by side at this distance, where that joins paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter walls are chosen first. A wall is not chosen if one of its two lines would leave the polygon. The two lines may cross. Default 0: no wall is printed twice.</summary>
         public double pair_distance;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -2009,7 +2009,7 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>The paths of a fill. The arrays belong to the fill and live as long as it does.</summary>
+    /// <summary>The paths of a fill. The arrays belong to the fill and are valid as long as it is.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_fill_report
     {
@@ -2026,7 +2026,7 @@ namespace Msq.Interop
         public ulong path_count;
         /// <summary>Length of all paths in model units.</summary>
         public double length;
-        /// <summary>Length of the straight ways from each path to the next, in model units.</summary>
+        /// <summary>Length of the straight moves from each path to the next, in model units.</summary>
         public double travel;
     }
 
@@ -2040,7 +2040,7 @@ namespace Msq.Interop
         /// <summary>Corners of the box, in model units. The mesh is closed where its faces cut the model.</summary>
         public fixed double min[3];
         public fixed double max[3];
-        /// <summary>Distance of the nodes at which the model is sampled, in model units. Positive; there is no default. Walls and struts narrower than sqrt(3) * pitch may break or be lost.</summary>
+        /// <summary>Distance between the nodes at which the model is sampled, in model units. Positive; there is no default. Walls and struts narrower than sqrt(3) * pitch may break or be lost.</summary>
         public double pitch;
         /// <summary>As in msq_query_def.</summary>
         public double length_scale;
@@ -2058,7 +2058,7 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>A part of a mesh. The arrays are valid until the callback returns. The parts, one behind the other, are the mesh.</summary>
+    /// <summary>A part of a mesh. The arrays are valid until the callback returns. The parts in sequence are the mesh.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_surface_slab
     {
@@ -2075,7 +2075,7 @@ namespace Msq.Interop
         /// <summary>Number of triangles in the parts before this one.</summary>
         public ulong first_triangle;
         public ulong triangle_count;
-        /// <summary>triangle_count triples of vertices, counter-clockwise seen from outside. Vertices are numbered from the first of the mesh on: they are of this part or of parts before it.</summary>
+        /// <summary>triangle_count triples of vertices, counter-clockwise seen from outside. Vertices are numbered through the whole mesh: a triangle has vertices of this part or of parts before it.</summary>
         public uint* triangles;
     }
 
@@ -2201,7 +2201,7 @@ namespace Msq.Interop
         public uint tile_height;
         /// <summary>rgba: samples along each side of a pixel, 1 (default) to 16.</summary>
         public uint samples;
-        /// <summary>With a callback: 2, 4, ... 64: the first pass casts one ray per block of so many pixels a side, each further pass halves the block. 1 (default): one pass.</summary>
+        /// <summary>With a callback: 2, 4, ... 64: the first pass casts one ray per square block with this side in pixels; each further pass halves the side. 1 (default): one pass.</summary>
         public uint first_step;
         /// <summary>An msq_colour_by.</summary>
         public int colour_by;
@@ -2231,7 +2231,7 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>Arrays that receive pixels. Pixel (i, j) of the tile, j downwards, has index j * row_pixels + i. Arrays that are NULL are skipped. All arrays except rgba hold the ray through the centre of the pixel.</summary>
+    /// <summary>Arrays that receive pixels. Pixel (i, j) of the tile, j downwards, has index j * row_pixels + i. Arrays that are NULL are skipped. All arrays except rgba describe the ray through the centre of the pixel.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_frame
     {
@@ -2264,7 +2264,7 @@ namespace Msq.Interop
     {
         /// <summary>Out: sizeof(msq_render_pass) of the library.</summary>
         public uint struct_size;
-        /// <summary>Pixels a side of the blocks that share one ray. 1: each pixel has its own.</summary>
+        /// <summary>Side in pixels of the blocks that share one ray. 1: each pixel has its own.</summary>
         public uint step;
         /// <summary>rgba: samples along a side of a pixel.</summary>
         public uint samples;
@@ -2272,7 +2272,7 @@ namespace Msq.Interop
         public int is_last;
     }
 
-    /// <summary>Receives a pass. The frame holds a whole picture, to show or copy; the host must not change it before the last pass. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it.</summary>
+    /// <summary>Receives a pass. The frame contains a whole picture, to show or copy; the host must not change it before the last pass. Return 0 to continue, or the host's code, preferably negative, to stop. Exceptions of the host's language must not leave it.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int msq_render_fn(void* user, msq_render_pass* pass);
 
@@ -2307,7 +2307,7 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>What a document holds.</summary>
+    /// <summary>Contents of a document.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_document_report
     {
@@ -2676,7 +2676,7 @@ namespace Msq.Interop
 #endif
         int msq_job_info(msq_job* job, msq_job_report* report);
 
-        /// <summary>Moves a grid along with a part: *placed receives the grid whose cells are those of grid, placed by a matrix as in msq_shape_placed. A structure on that grid, with its radius or thickness scaled as lengths are, is the same structure at another place: seeds and unit cells go with the cells. Fields and beams are the host's to move. Without this call a structure stays fixed to the model's frame. The matrix may turn, move and scale uniformly. Errors: ARGUMENT (also a matrix that mirrors, shears or stretches by more than 1e-9).</summary>
+        /// <summary>Moves a grid along with a part: *placed receives the grid transformed by a matrix as in msq_shape_placed. Seeds and unit cells move with the cells. So a structure on the new grid is the same structure at another place, if the host scales its radius or thickness by the same factor. The host moves fields and beams itself. Without this call a structure stays fixed to the model's frame. The matrix may rotate, translate and scale uniformly. Errors: ARGUMENT (also a matrix that mirrors, shears or stretches by more than 1e-9).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -2706,9 +2706,9 @@ namespace Msq.Interop
 #endif
         int msq_file_def_init(msq_file_def* def, UIntPtr size);
 
-        /// <summary>Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job. On Windows `path` is UTF-8; on other systems the bytes of it reach the system unchanged.</summary>
+        /// <summary>Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job. On Windows `path` is UTF-8; other systems receive its bytes unchanged.</summary>
         /// <remarks>
-        /// <para>All instances in the file become one shape in millimetres. msq applies transforms, triangulates polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ: vertices and faces are read. glTF: the triangles of the default scene are read from buffers in the file, with the transforms of nodes; y, which is up in glTF, becomes z. Limit: coordinates up to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a million triangles: about a second). Cancelling ends the call within tens of milliseconds, except while the XML of 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or AMF in a build without Assimp, glTF in one without JSON; a 3MF file with beam lattices, see msq_beam_file_open; glTF with buffers in other files, compressed or sparse data, or skins), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY, CANCELLED.</para>
+        /// <para>All instances in the file become one shape in millimetres. msq applies transforms, triangulates polygons, welds equal vertices, and drops triangles with fewer than three distinct vertices. It opens no other file. Text is ASCII or UTF-8. A number in text becomes the nearest double. OBJ: vertices and faces are read. glTF: the triangles of the default scene are read from buffers in the file, and the transforms of nodes are applied; y, which is up in glTF, becomes z. Limit: coordinates up to 1e100 in magnitude, in millimetres. Cost: linear in the size of the file (a million triangles: about a second). Cancelling ends the call within tens of milliseconds, except while the XML of 3MF or AMF is parsed. Errors: ARGUMENT, IO (missing, truncated or malformed file; for OBJ and ASCII STL the message names the line), UNSUPPORTED (format; text in UTF-16; binary STL, 3MF or AMF in a build without Assimp, glTF in one without JSON; a 3MF file with beam lattices, see msq_beam_file_open; glTF with buffers in other files, compressed or sparse data, or skins), MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY, CANCELLED.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2742,7 +2742,7 @@ namespace Msq.Interop
         /// <summary>Creates a shape from a triangle mesh. Dirty meshes (open, self-intersecting, flipped or duplicate triangles) are accepted; msq_shape_info diagnoses them.</summary>
         /// <remarks>
         /// <para>Membership. A point in the bounding box of the mesh is inside if the winding number of the ray from it along +x satisfies the winding rule. Crossings are half-open in y and z, so shared edges and vertices count once. They are closed in x: a point on a crossing is inside if either side is. Points exactly on a face that is highest in y or z are therefore outside; points on the opposite face are inside. On faces that are not normal to an axis the position of the crossing is rounded, by about 1e-16 of the coordinates.</para>
-        /// <para>With MSQ_WINDING_AUTO a mesh that is not closed (msq_shape_report.closed is 0) uses the generalised winding number, rounded half up to a whole number. The solid ends at the bounding box. Distances are lower bounds. A skin follows the triangles, not the holes. Additional cost: about 500 bytes per open edge; a point near a hole, or where the number is near a half, may sum over all open edges.</para>
+        /// <para>With MSQ_WINDING_AUTO a mesh that is not closed (msq_shape_report.closed is 0) uses the generalised winding number, rounded half up to a whole number. The solid ends at the bounding box. Distances are lower bounds. A skin follows the triangles, not the holes. Additional cost: about 500 bytes per open edge. A point near a hole, or where the winding number is near a half, may take a sum over all open edges.</para>
         /// <para>Limits: coordinates up to 1e100; 2^32 - 1 vertices and triangles. Cost: linear in the number of triangles; msq keeps about 75 bytes per triangle and needs 100 during construction. Errors: ARGUMENT, MESH (no triangles, index out of range, vertex that is not finite), LIMIT, MEMORY. Source: Jacobson, Kavan and Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers", 2013.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -2784,9 +2784,9 @@ namespace Msq.Interop
 #endif
         int msq_shape_from_cylinder(msq_context* context, double* from, double* to, double radius, msq_shape** shape);
 
-        /// <summary>Creates the shape that every point is inside of, for models of structures alone that the host clips itself. Its bounds are infinite, its volume is infinite, and it has no surface: no scale can leave a skin in it, and msq_field_shape_distance refuses it.</summary>
+        /// <summary>Creates the shape that contains every point, for structures that the host clips itself. Its bounds and its volume are infinite. It has no surface, so no scale can leave a skin in it, and msq_field_shape_distance refuses it.</summary>
         /// <remarks>
-        /// <para>A model of all space is queried like any other, with these differences. The limit of 2^24 cells from the origin of a structure's grid, and of 1e75 for coordinates, holds for the points of each query: LIMIT, which writes nothing. A slicer needs a region. Rays need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT, MEMORY.</para>
+        /// <para>A model of all space is queried like any other, with these differences. The limits of 2^24 cells from the origin of a structure's grid and of 1e75 for coordinates apply to the points of each query. A query beyond them fails with LIMIT and writes nothing. A slicer needs a region. Rays need a finite t_max. Pictures need a finite clip_far, no shadows, and an occlusion_distance if they have occlusion rays; no camera fits the model. Where no structure is resolved, distances are -1.8e308. Errors: ARGUMENT, MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2839,8 +2839,8 @@ namespace Msq.Interop
 
         /// <summary>Creates a shape from another one by an affine map, for example an instance of a part on a plate. The two share mesh, image and trees. matrix: three rows of four numbers, row-major; a point q of the original is placed at matrix * (q, 1). Rotations, scalings, mirror images and shears are allowed.</summary>
         /// <remarks>
-        /// <para>A point p is inside if the original holds B * (p - b), where B is the inverse of the first three columns, computed once in double precision, and b the last column. Lengths keep the unit of the model. Distance and depth are those of the original where all lengths grow alike (within 1e-6); otherwise the distance is at least the original's times the smallest growth of a length, and the shape has no depth, so no scale can leave a skin in it: transform the vertices of a mesh instead. Bounds enclose the placed bounding box of the original.</para>
-        /// <para>Cost: constant. Points and rays cost what they cost in the original. Layers ask the distance at a few samples per sample of the outline: tens of times the cost of an unplaced mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY.</para>
+        /// <para>A point p is inside if the original contains B * (p - b). b is the last column. B is the inverse of the first three columns, computed once in double precision. Lengths keep the unit of the model. If the map scales all directions alike (within 1e-6), distance and depth are those of the original, scaled. Otherwise the distance is at least the original's times the smallest scale of a direction, and the shape has no depth, so no scale can leave a skin in it: transform the vertices of a mesh instead. Bounds enclose the placed bounding box of the original.</para>
+        /// <para>Cost: constant. Points and rays cost what they cost in the original. Layers evaluate the distance at a few samples per sample of the outline, which costs tens of times as much as an unplaced mesh. Errors: ARGUMENT (numbers that are not finite; a singular matrix, or one with a condition above 1e6; lengths that grow or shrink by more than 1e75; coordinates above 1e75), LIMIT (more than 64 shapes made of shapes within each other), UNSUPPORTED (all space), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2853,7 +2853,7 @@ namespace Msq.Interop
 
         /// <summary>Creates the union, intersection or difference of shapes (operation: an msq_boolean_operation) from their memberships. shapes: count shapes, 1 to 4096.</summary>
         /// <remarks>
-        /// <para>Distance. Of a union: the smallest of the shapes' signed distances, exact outside if theirs are, a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference: as an intersection with complements. Depth, and hence skin: intersections and differences of shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do not meet. Volume and area are not known. Cost: the sum of the shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY.</para>
+        /// <para>Distance of a union: the smallest of the shapes' signed distances, exact outside if theirs are, a bound inside. Of an intersection: the largest, exact inside, a bound outside. Of a difference: that of the intersection with complements. Two kinds have depth, so scales can leave a skin in them: intersections and differences of shapes with depth and exact distances, and unions of shapes with depth whose bounding boxes do not meet. Volume and area are NaN. Cost: the sum of the shapes'. Errors: ARGUMENT (also an intersection of shapes whose bounding boxes do not meet), LIMIT (as msq_shape_placed), UNSUPPORTED (all space), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2866,7 +2866,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a shape from another one by moving its surface by a distance, outwards if it is positive and inwards if it is negative: the points whose signed distance to the original (msq_point_distance) is at most distance. Outwards, edges become round.</summary>
         /// <remarks>
-        /// <para>The original's distance must be exact on the side to which the surface moves: primitives, closed meshes, uniformly placed ones of these, outwards unions, inwards intersections and differences of these, and offsets once more to the same side. Triangles of a mesh that bound nothing count as its surface. The distance of the new shape is exact beyond its surface on that side, a bound on the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not finite, an offset inwards by more than half the bounding box, coordinates above 1e75), UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as msq_shape_placed; memory), MEMORY.</para>
+        /// <para>The original's distance must be exact on the side to which the surface moves. It is exact for primitives and closed meshes, also if placed with a uniform scale; outwards for unions of these; inwards for intersections and differences of these; and for offsets that are moved again to the same side. Triangles of a mesh that bound nothing count as its surface. The distance of the new shape is exact beyond its surface on that side, a bound on the other. Shapes that are moved inwards have depth if the original has. Cost: a mesh builds its tree at once; then a distance of the original per point. Errors: ARGUMENT (distance 0 or not finite, an offset inwards by more than half the bounding box, coordinates above 1e75), UNSUPPORTED (the distance of the original is a bound on that side; all space), LIMIT (as msq_shape_placed; memory), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2907,10 +2907,10 @@ namespace Msq.Interop
 #endif
         int msq_shape_info(msq_shape* shape, msq_shape_report* report);
 
-        /// <summary>Hashes a shape: 16 bytes that are equal for equal definitions with equal inputs and differ otherwise, for a host to know whether what it computed from the shape is still valid.</summary>
+        /// <summary>Hashes a shape. The 16 bytes are equal for equal definitions with equal inputs and differ otherwise. With them a host knows whether results that it computed from the shape are still valid.</summary>
         /// <remarks>
-        /// <para>They are the same in each run and on each machine, with any number of threads and in all builds of a version of msq; another version may change them. What results do not depend on does not count: names of files, the context, options that say "Does not change results". All other fields of a definition count, so do the vertices and triangles of a mesh after welding, in their order, the values of images with their type, and the operations of an expression, not its spaces and names. 0 and -0 are equal numbers. Shapes, fields, structures and materials within an object count by their hashes. docs/howto/caching.md says more.</para>
-        /// <para>It is a checksum (XXH3, 128 bits), not a signature: unlike objects may be made to have one hash by somebody who wants to. Cost: the first call reads all inputs once, at some gigabytes per second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without a hash_key in it; a build without xxHash), MEMORY.</para>
+        /// <para>They are the same in each run, on each machine, with any number of threads and in all builds of one version of msq. Another version may change them. They do not depend on file names, the context and options whose comment says "Does not change results". They depend on all other fields of a definition. For a mesh these are its vertices and triangles after welding, in their order; for an image its values and their type; for an expression its operations, without spaces and names. 0 and -0 are equal numbers. Shapes, fields, structures and materials within an object contribute their hashes. docs/howto/caching.md has the details.</para>
+        /// <para>It is a checksum (XXH3, 128 bits), not a signature: an attacker can make two different objects with the same hash. Cost: the first call reads all inputs once, at some gigabytes per second; the object keeps the result. Errors: ARGUMENT, UNSUPPORTED (an object of the host without a hash_key in it; a build without xxHash), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -2990,7 +2990,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a field from callbacks. def must not be NULL.</summary>
         /// <remarks>
-        /// <para>msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz promise too much, results are wrong; behaviour stays defined. Cost: single points and struts call back with one point; sets and slices of functional structures with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.</para>
+        /// <para>msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz are too narrow, results are wrong, but behaviour stays defined. Cost: single points and struts call back with one point; sets and slices of functional structures with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3031,7 +3031,7 @@ namespace Msq.Interop
 #endif
         int msq_expression_field_def_init(msq_expression_field_def* def, UIntPtr size);
 
-        /// <summary>Creates a field from an expression in x, y and z, clamped to low and high; low where the value is not a number. x, y and z are model coordinates, not angles. def must not be NULL. Rays use a bound of the slope over each box where the expression is smooth. Distances to surfaces that depend on the field are 0, because the field has no global Lipschitz constant. Errors: ARGUMENT, LIMIT (as msq_structure_functional), MEMORY.</summary>
+        /// <summary>Creates a field from an expression in x, y and z, clamped to low and high; low where the value is not a number. x, y and z are model coordinates, not angles. def must not be NULL. Rays use a bound of the slope over each box where the expression is smooth. The field has no global Lipschitz constant. Distances to surfaces that depend on it use the slope in boxes around the point, and are 0 where no such slope is known (docs/accuracy.md). Errors: ARGUMENT, LIMIT (as msq_structure_functional), MEMORY.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3137,9 +3137,9 @@ namespace Msq.Interop
 #endif
         int msq_lattice_def_init(msq_lattice_def* def, UIntPtr size);
 
-        /// <summary>Creates a periodic strut lattice: the points within radius, times the factor of the strut, of the struts of the tiled unit cell. def must not be NULL.</summary>
+        /// <summary>Creates a periodic strut lattice: all points whose distance to a strut of the tiled unit cell is at most radius times the factor of the strut. def must not be NULL.</summary>
         /// <remarks>
-        /// <para>Struts are capsules: circular in model units for any cell size, with round ends, and they reach across cell borders. With a library, each cell holds the struts of the unit cell that cell_choice selects. If the nodes of two different neighbours do not match (msq_lattice_faces), struts end at the face.</para>
+        /// <para>Struts are capsules: circular in model units for any cell size, with round ends, and they reach across cell borders. With a library, each cell has the struts of the unit cell that cell_choice selects. If the nodes of two unlike neighbouring cells do not match (msq_lattice_faces), struts end at the face.</para>
         /// <para>Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -3153,7 +3153,7 @@ namespace Msq.Interop
 
         /// <summary>Counts the faces between cells of a lattice whose unit cells have nodes there that do not match, and finds the first such face.</summary>
         /// <remarks>
-        /// <para>The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info tells whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY.</para>
+        /// <para>The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info returns whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3174,9 +3174,9 @@ namespace Msq.Interop
 #endif
         int msq_plate_lattice_def_init(msq_plate_lattice_def* def, UIntPtr size);
 
-        /// <summary>Creates a periodic lattice of plates: the points within half of thickness, times the factor of the face, of the triangles of the tiled unit cell. With a radius, also those of the struts of unit_cell, as in msq_structure_lattice on the same grid. def must not be NULL.</summary>
+        /// <summary>Creates a periodic lattice of plates: all points whose distance to a triangle of the tiled unit cell is at most half of thickness times the factor of the face. A radius adds the struts of unit_cell, as in msq_structure_lattice on the same grid. def must not be NULL.</summary>
         /// <remarks>
-        /// <para>A plate is as thick as said in model units for any cell size, has a round rim, and reaches across cell borders. Faces that coincide in several copies count once, with the greatest of their factors. Lattices of plates alone have an onset, the thickness; those with struts have none (msq_structure_calibrate).</para>
+        /// <para>A plate has its thickness in model units for any cell size, has a round rim, and reaches across cell borders. Faces that coincide in several copies count once, with the greatest of their factors. Lattices of plates alone have an onset, which is a thickness. Those with struts have none, so msq_structure_calibrate refuses them.</para>
         /// <para>Cost: proportional to the plates that can reach one cell: milliseconds for the named cells, seconds for thousands of plates as thick as cells, and the same again for the first array, slice or distance. Errors: ARGUMENT, LIMIT (thickness times the greatest factor, or radius times the greatest factor, above 4 times the smallest cell size), MEMORY. Source: Tancogne-Dejean et al. 2018; Berger, Wadley and McMeeking 2017.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -3198,9 +3198,9 @@ namespace Msq.Interop
 #endif
         int msq_foam_def_init(msq_foam_def* def, UIntPtr size);
 
-        /// <summary>Creates a Voronoi foam of one jittered seed per neighbourhood cell: the points within radius of the edges of the Voronoi diagram, and those within half of wall_thickness of its faces. def must not be NULL.</summary>
+        /// <summary>Creates a Voronoi foam of one jittered seed per neighbourhood cell: all points within radius of an edge of the Voronoi diagram, or within half of wall_thickness of a face. def must not be NULL.</summary>
         /// <remarks>
-        /// <para>Struts are capsules, circular in model units. Walls are plane and as thick as said: their thickness is measured across the face. Foams with walls alone have an onset, the thickness; those with struts and walls have none (msq_structure_calibrate). Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2, recursively, with one jittered seed per leaf, to that density on average (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.</para>
+        /// <para>Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3224,10 +3224,10 @@ namespace Msq.Interop
         /// <summary>Creates a functional structure: the points where a function of the position in the cell is at most a level. def must not be NULL.</summary>
         /// <remarks>
         /// <para>Expressions consist of numbers, pi, parameters, x, y, z, + - * / ^, parentheses, comparisons, and pow(a, b), min(a, b), max(a, b), abs, sqrt, sin, cos, exp, log (natural), tanh, atan2(y, x), hypot(a, b), floor, ceil, round, mod(a, b) and select(c, a, b). ^ binds tighter than a sign before it and associates to the right. x, y and z are angles from 0 to 2 pi. A function that is not periodic jumps at the cell border. Constant integer exponents from -65536 to 65536 are evaluated as products, or 1 over one; other powers as exp(b log(a)), so they need a &gt; 0. - Comparisons, &lt; &lt;= &gt; &gt;= == !=, bind weakest, do not associate, and are 1 or 0. - select(c, a, b) is a where c is above 0.5, otherwise b. - round(a) is floor(a + 0.5), ceil(a) is -floor(-a), mod(a, b) is a - b floor(a / b). - atan2 is above -pi and at most pi, and 0 where x and y are 0. hypot is sqrt(a a + b b).</para>
-        /// <para>A NaN operand makes every result NaN, also of min and max, in either order (minimum and maximum of IEEE 754-2019); an operand that select leaves out does not count. Points where the value is NaN are outside. Limits: 65536 bytes; 100 nested parentheses, signs and exponents; 8192 distinct operations, numbers and variables in total.</para>
-        /// <para>Where floor, a comparison, select or atan2 may jump within the cell the slope has no bound. Distances to such a structure are 0, and rays cross jumps in steps of up to 1/1024 of a cell, as they do where a function has a pole or is NaN.</para>
+        /// <para>A NaN operand makes the result NaN, also for min and max, in either order (minimum and maximum of IEEE 754-2019). The operand that select does not choose is ignored. Points where the value is NaN are outside. Limits: 65536 bytes; 100 nested parentheses, signs and exponents; 8192 distinct operations, numbers and variables in total.</para>
+        /// <para>Where floor, a comparison, select or atan2 may jump within the cell, the slope has no bound. Distances to such a structure are 0. Rays cross jumps, poles and NaN in steps of up to 1/1024 of a cell.</para>
         /// <para>Thickness is the volume of the walls divided by the area of their middle surface, where the function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of the function, accurate to about 0.3 % for the named functions (docs/concepts.md). Walls are thicker where the function is flatter. A field of thickness selects at each point the level of that thickness.</para>
-        /// <para>With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness selects at each position along the axis the level of walls that thick in cells of the size there: the thickness stays, the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost what those of a structure do whose cells hold no whole number of samples.</para>
+        /// <para>With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness is kept: at each position along the axis, msq uses the level that gives walls of this thickness in cells of the size there. Only the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost as much as those of a structure without a period whose cell size is no multiple of the pitch.</para>
         /// <para>Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -3251,7 +3251,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a spinodal structure: the points where a sum of cosines of one wavelength, with random directions and phases, is at most the level (NETWORK), or its magnitude is (SHEET). def must not be NULL.</summary>
         /// <remarks>
-        /// <para>Directions and phases are a function of the seed, equal on every machine. With many waves the sum is a Gaussian random field. volume_fraction is then met on average: the level is the inverse of the normal distribution. Samples of few wavelengths, or few waves, differ from it; msq_structure_calibrate finds the level for a sample. A grid with different cell sizes stretches the structure. docs/concepts.md defines the sum.</para>
+        /// <para>Directions and phases are a function of the seed, equal on every machine. With many waves the sum is a Gaussian random field. volume_fraction is then met on average: the level is the inverse of the normal distribution. Samples of few wavelengths and sums of few waves differ from it; msq_structure_calibrate finds the level for a sample. A grid with different cell sizes stretches the structure. docs/concepts.md defines the sum.</para>
         /// <para>Cost: where a wavelength has 60 samples, a sample of a slice or a grid takes 0.5 ns, and 0.1 ns more for each 100 waves; any other point takes about 2 ns for each wave. Errors: ARGUMENT (also: both a level and a volume fraction), MEMORY. Source: Cahn 1965; Kumar, Tan, Zheng and Kochmann 2020.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -3275,7 +3275,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a structure of beams: the points in at least one beam or ball of a list. It has no grid and is empty elsewhere. def must not be NULL. job NULL: no job.</summary>
         /// <remarks>
-        /// <para>A beam is a conical frustum between two nodes, with a radius that is linear along its axis, and caps. A beam shorter than 1e-100 has no axis: its round caps are balls; with two flat caps it is dropped. Beams may overlap and repeat. Limits: 2^31 - 1 beams and balls in total; coordinates up to 1e75; radii 0 or from 1e-100 to 1e75. One radius of a beam may be 0; that of a ball may not. Cost: n log n, in parallel: about 0.3 us of processor time and 104 bytes per beam, of which 77 are kept, in the memory limit of the context. Queries search a tree of boxes. Errors: ARGUMENT (also, with its index: a node that is not finite; a node index, radius or cap out of range), CANCELLED, LIMIT, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Kamel and Faloutsos, "On packing R-trees", 1993.</para>
+        /// <para>A beam is a conical frustum between two nodes, with a radius that is linear along its axis, and caps. A beam shorter than 1e-100 has no axis: its round caps are balls; with two flat caps it is dropped. Beams may overlap and repeat. Limits: 2^31 - 1 beams and balls in total; coordinates up to 1e75; radii 0 or from 1e-100 to 1e75. One radius of a beam may be 0; that of a ball may not. Cost: n log n, in parallel: about 0.3 us of processor time and 104 bytes per beam, of which 77 are kept. These bytes count against the memory limit of the context. Queries search a tree of boxes. Errors: ARGUMENT (also, with its index: a node that is not finite; a node index, radius or cap out of range), CANCELLED, LIMIT, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Kamel and Faloutsos, "On packing R-trees", 1993.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3288,8 +3288,8 @@ namespace Msq.Interop
 
         /// <summary>Reads beam lattices from a 3MF file. def NULL: defaults; format must be MSQ_FORMAT_AUTO or MSQ_FORMAT_3MF. job NULL: no job. path as in msq_shape_from_file.</summary>
         /// <remarks>
-        /// <para>A file has one or more lattices, each for a structure of its own (msq_beam_file_beams). The beams and balls of the build that nothing clips are lattice 0; each placed object whose beams a mesh clips is one more. Everything is in millimetres and placed: units and transforms of items and components are applied. In the file a solid of beams is united with the triangles of its object; msq_beam_file_shape makes a shape of all triangles of the build.</para>
-        /// <para>Read are vertices, beams, radii at the ends, caps, balls and their three modes, minlength (shorter beams are dropped) and the clipping mode with its mesh. In ball mode "all", the vertices at which beams end have balls. Beam sets, properties and representation meshes do not change the solid and are passed over. Numbers become the nearest doubles.</para>
+        /// <para>A file has one or more lattices. Each makes a structure of its own (msq_beam_file_beams). Lattice 0 has all beams and balls of the build that no mesh clips. Each placed object whose beams a mesh clips is one more lattice. Everything is in millimetres and placed: units and transforms of items and components are applied. In the file a solid of beams is united with the triangles of its object; msq_beam_file_shape makes a shape of all triangles of the build.</para>
+        /// <para>msq reads vertices, beams, radii at the ends, caps, balls and their three modes, minlength (shorter beams are dropped) and the clipping mode with its mesh. In ball mode "all", the vertices at which beams end have balls. Beam sets, properties and representation meshes do not change the solid and are ignored. Numbers become the nearest doubles.</para>
         /// <para>Limits: those of def; max_triangles is also the maximum number of beams and balls, and of triangles that clip. Cost: linear in the size of the file, about 1 us per beam on one thread. Memory: 44 bytes per beam and 24 per node are kept; reading takes up to ten times that. Errors: as msq_shape_from_file; UNSUPPORTED also for another format, a clipping mesh that has components or beams, and transforms that scale some directions by over 1e-4 more than others; MESH also for a file without beams, and for a node or radius that msq_structure_beams refuses. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -3331,7 +3331,7 @@ namespace Msq.Interop
 #endif
         void msq_beam_file_release(msq_beam_file* file);
 
-        /// <summary>Reports what a lattice of a file holds. Errors: ARGUMENT (lattice is not less than lattice_count).</summary>
+        /// <summary>Reports the contents of a lattice of a file. Errors: ARGUMENT (lattice is not less than lattice_count).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3371,9 +3371,9 @@ namespace Msq.Interop
 #endif
         int msq_host_structure_def_init(msq_host_structure_def* def, UIntPtr size);
 
-        /// <summary>Creates a structure from callbacks. def must not be NULL. All applications work with inside alone.</summary>
+        /// <summary>Creates a structure from callbacks. def must not be NULL. Every function of msq works with inside alone.</summary>
         /// <remarks>
-        /// <para>A cell is built when a point in it is evaluated, and kept as long as the cache of the context keeps it. Two threads may build the same cell at once. Evicted cells are freed when the next cell is built, or with the structure. A cell does not see its neighbours: whatever reaches across a border must be in the data of both cells. Cost: sets, grids and slices call back with batches, grouped by cell if build_cell is given. Single points and distances call back point by point. Errors: ARGUMENT, MEMORY. Calls that use the structure: HOST. Source: paper, section "Multiscale Shape-Material Modeling API".</para>
+        /// <para>A cell is built when a point in it is evaluated, and kept as long as the cache of the context keeps it. Two threads may build the same cell at once. Evicted cells are freed when the next cell is built, or with the structure. evaluate_cell sees the data of one cell only: the data must include all that reaches into the cell from its neighbours. Cost: sets, grids and slices call back with batches, grouped by cell if build_cell is given. Single points and distances call back point by point. Errors: ARGUMENT, MEMORY. Calls that use the structure: HOST. Source: paper, section "Multiscale Shape-Material Modeling API".</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3406,7 +3406,7 @@ namespace Msq.Interop
 
         /// <summary>Creates the union, intersection or difference of structures (operation: an msq_boolean_operation) from their memberships. structures: count structures, 1 to 4096, each on its own grid or on none. They may be of any kind, also made of structures themselves.</summary>
         /// <remarks>
-        /// <para>The characteristic length is the largest of theirs. Hits of rays name no cell, and there are no thin walls: ask the structures themselves. Unions of structures with struts have struts, and an onset if all of them have one (msq_structure_struts, msq_set_onset). Distance: of a union the smallest of their signed distances, exact outside if theirs are, a bound inside; of an intersection the largest, a bound; of a difference as of an intersection with complements. The limit on cells (2^24 from the origin of the grid) holds for each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY.</para>
+        /// <para>The characteristic length is the largest of theirs. Hits of rays name no cell. msq_fill_lines refuses the result: call it for the structures themselves. Unions of structures with struts have struts, and an onset if all of them have one (msq_structure_struts, msq_set_onset). Distance of a union: the smallest of their signed distances, exact outside if theirs are, a bound inside. Of an intersection: the largest, a bound. Of a difference: that of the intersection with complements. The limit on cells (2^24 from the origin of the grid) applies to each of their grids. Cost: the sum of theirs. Errors: ARGUMENT, LIMIT (more than 64 structures made of structures within each other; more than 4096 structures in total, counted with repetition), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3417,9 +3417,9 @@ namespace Msq.Interop
 #endif
         int msq_structure_boolean(int operation, msq_structure** structures, ulong count, msq_structure** structure);
 
-        /// <summary>Creates a structure that becomes another one. fraction: f, a number or a field, 0 to 1: where it is 0 the solid is that of a, where it is 1 that of b. In between it holds the points with (1 - f) da + f db &lt;= 0, where da and db are the signed distances of a and b as msq returns them (docs/accuracy.md). So it holds what both hold and nothing that neither holds, and surfaces move from those of a to those of b as f grows. On the same grid with like nodes struts stay whole; otherwise parts of the one shrink while those of the other grow.</summary>
+        /// <summary>Creates a structure that changes from a to b. fraction: f, a number or a field, 0 to 1. Where f is 0 the solid is that of a; where f is 1 it is that of b. In between, the points with (1 - f) da + f db &lt;= 0 are solid, where da and db are the signed distances of a and b as msq returns them (docs/accuracy.md). So points in both are solid and points in neither are not. Surfaces move from those of a to those of b as f grows. On the same grid with like nodes struts stay whole; otherwise parts of a shrink while parts of b grow.</summary>
         /// <remarks>
-        /// <para>Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two distances at each sample that one of them holds and 0 &lt; f &lt; 1. The cost of a point is linear in the structures in it, also of blends and smooth booleans within each other; sets and layers take up to one distance of a structure for each of those around it. Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is a field without one, a function has no bounded slope, or the host gives no distance), MEMORY.</para>
+        /// <para>Characteristic length, hits and limits on cells are as for msq_structure_boolean. Distance: a bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two distances at each sample that is in only one of them and has 0 &lt; f &lt; 1. The cost of a point is linear in the number of structures, also if blends and smooth booleans are nested. Sets and layers take the distance of a structure up to once for each blend or smooth boolean around it. Errors: ARGUMENT (also a fraction that leaves 0 to 1), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant: their radius, level or thickness is a field without one, a function has no bounded slope, or the host gives no distance), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3430,9 +3430,9 @@ namespace Msq.Interop
 #endif
         int msq_structure_blend(msq_structure* a, msq_structure* b, msq_param* fraction, msq_structure** structure);
 
-        /// <summary>Creates the union, intersection or difference (operation: an msq_boolean_operation; the difference is a without b) of two structures, with fillets where their surfaces meet. radius: k, a number or a field in model units, at least 0. Where it is 0 the solid is that of msq_structure_boolean. With the signed distances u and v to a and b as msq returns them (docs/accuracy.md), h = max(0, k - |u - v|) and s = min(u, v) - h^2 / (4 k), the union holds the points with s &lt;= 0. An intersection takes -u and -v, a difference -u and v, and both hold the points with s &gt;= 0. So a union gains, and the others lose, points with sqrt(|u|) + sqrt(|v|) &lt;= sqrt(k): only where both surfaces are nearer than k. Between two planes at right angles the fillet is a parabola that touches both at the distance k from their edge.</summary>
+        /// <summary>Creates the union, intersection or difference (operation: an msq_boolean_operation; the difference is a without b) of two structures, with fillets where their surfaces meet. radius: k, a number or a field in model units, at least 0. Where it is 0 the solid is that of msq_structure_boolean. With the signed distances u and v to a and b as msq returns them (docs/accuracy.md), h = max(0, k - |u - v|) and s = min(u, v) - h^2 / (4 k), the union is the set of points with s &lt;= 0. An intersection takes -u and -v, a difference -u and v, and both are the sets of points with s &gt;= 0. So a union gains, and the others lose, points with sqrt(|u|) + sqrt(|v|) &lt;= sqrt(k): only where both surfaces are nearer than k. Between two planes at right angles the fillet is a parabola that touches both at the distance k from their edge.</summary>
         /// <remarks>
-        /// <para>Characteristic length, hits, limits on cells as for msq_structure_boolean. Distance: a bound, |s| / (1 + L / 4) for a radius with Lipschitz constant L. Rays march by it. Cost: that of msq_structure_boolean, and some distances near the fillets; within each other as msq_structure_blend. Errors: ARGUMENT (also a radius that may be negative), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant, as for msq_structure_blend), MEMORY.</para>
+        /// <para>Characteristic length, hits and limits on cells are as for msq_structure_boolean. Distance: a bound, |s| / (1 + L / 4) for a radius with Lipschitz constant L. Rays march by it. Cost: that of msq_structure_boolean, and some distances near the fillets. Nested ones cost as in msq_structure_blend. Errors: ARGUMENT (also a radius that may be negative), LIMIT (as msq_structure_boolean), UNSUPPORTED (a distance of a or b has no Lipschitz constant, as for msq_structure_blend), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3485,9 +3485,9 @@ namespace Msq.Interop
 
         /// <summary>Passes the struts of a lattice, an open foam or beams that a box selects to a callback: for beam models of finite elements, for 3MF, or for drawing.</summary>
         /// <remarks>
-        /// <para>Lattices: the struts of the tiled unit cell, each once, where struts coincide with the greatest factor. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the first. Foams: the edges of the Voronoi diagram. A node is a point equally far from four or more seeds; its id comes from their names. Node positions are computed from the seeds in double precision. Nodes and struts whose ids are made from more than 128 bits have a hash as id; it is taken for unique. Beams: all beams and balls, whose a and b are equal; ends at the same coordinates are one node; id[0] is the index of the beam in the definition, after which balls count on. Foams with struts and walls: the struts. Unions: the struts of all members, one member after the other, with hashes of the members' ids as ids; cell is that of the member. Nodes of two members are never one, also where they coincide.</para>
-        /// <para>With a shape, the parts of a strut's centre line whose points are inside the shape come instead, in the order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and coordinates of the place where membership changes on the line, found as rays find it (msq_ray_cast); parts and gaps shorter than that may be overlooked. The solid around the line is not cut. Radii at cut ends are evaluated there. The first piece has the id of the strut, others have an id and each cut end a node of its own.</para>
-        /// <para>The order of struts and their bytes are the same on every call and on any number of threads. callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must not be NULL. job NULL: no job. The context gives the threads. Memory: some megabytes, and the cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone, and structures made of others, except unions of those with struts: they have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991.</para>
+        /// <para>Lattices: the struts of the tiled unit cell, each once. Where struts coincide, the greatest factor counts. Equal nodes, within 1e-9 of the cell size, are one node, with the position of the first. Foams: the edges of the Voronoi diagram. A node is a point equally far from four or more seeds; its id comes from their names. Node positions are computed from the seeds in double precision. An id that would need more than 128 bits is a hash, which msq assumes to be unique. Beams: all beams and balls. A ball has equal a and b. Ends at the same coordinates are one node. id[0] is the index of the beam in the definition; balls are numbered after the beams. Foams with struts and walls: the struts. Unions: the struts of all members, one member after the other, with hashes of the members' ids as ids; cell is that of the member. Nodes of two members stay distinct, even where they coincide.</para>
+        /// <para>With a shape, msq passes the parts of a strut's centre line that are inside the shape, in the order from a to b. Each cut end is inside the shape, within 2^-36 of the shape's size and coordinates of the place where membership changes on the line. Cut ends are found as the hits of rays are (msq_ray_cast). Parts and gaps shorter than that may be missed. The solid around the line is not cut. Radii at cut ends are evaluated there. The first piece has the id of the strut. Each other piece has an id of its own, and each cut end a node of its own.</para>
+        /// <para>The order of struts and their bytes are the same on every call and on any number of threads. callback runs on the calling thread, with up to 4096 struts at once. It may call msq. def must not be NULL. job NULL: no job. The threads are those of the context. Memory: some megabytes, and the cells of foams in the cache. Cost: parallel; tens of nanoseconds per strut of lattices and beams, microseconds per strut of foams, whose cells are built. A tile of a foam also builds cells around it. Errors: ARGUMENT, UNSUPPORTED (functional and host structures, foams of walls alone, and structures made of others, except unions of those with struts: they have no struts), LIMIT (a box beyond 2^24 cells from the origin of the grid), HOST, CANCELLED, MEMORY. Source: 3MF Consortium, "Beam Lattice Extension" 1.2.0; Voronoi diagrams: Aurenhammer 1991.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3528,7 +3528,7 @@ namespace Msq.Interop
 #endif
         void msq_strut_graph_release(msq_strut_graph* graph);
 
-        /// <summary>Reports what a graph holds. Errors: ARGUMENT.</summary>
+        /// <summary>Reports the contents of a graph. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3558,7 +3558,7 @@ namespace Msq.Interop
 #endif
         int msq_material_create(msq_context* context, msq_material_def* def, msq_material** material);
 
-        /// <summary>Creates a blend of two materials: each channel is (1 - f) * a + f * b, where f is the fraction at the point, 0 to 1 everywhere. id: positive, of the blend. Errors: ARGUMENT (also if one material has a channel that the other lacks), LIMIT (more than 64 nested blends, or more than 4096 materials in a blend, counted with repetition), MEMORY.</summary>
+        /// <summary>Creates a blend of two materials: each channel is (1 - f) * a + f * b, where f is the fraction at the point, 0 to 1 everywhere. id: the id of the blend, positive. Errors: ARGUMENT (also if one material has a channel that the other lacks), LIMIT (more than 64 nested blends, or more than 4096 materials in a blend, counted with repetition), MEMORY.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3610,7 +3610,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a model: the intersection of the shape with every structure. Where a scale leaves a skin, the union of structure and skin takes the place of the structure. def must not be NULL.</summary>
         /// <remarks>
-        /// <para>The skin holds the points of the shape whose depth is at most the thickness at the point, where the thickness is above 0. Depth is the distance to the boundary of the shape, as in msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the origin of a structure's grid), UNSUPPORTED (a skin in a voxel image, a host shape or all space), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the skin is ours.</para>
+        /// <para>The skin is the set of points of the shape whose depth is at most the thickness at the point, where the thickness is above 0. Depth is the distance to the boundary of the shape, as in msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the origin of a structure's grid), UNSUPPORTED (a skin in a voxel image, a host shape or all space), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the skin is ours.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3623,8 +3623,8 @@ namespace Msq.Interop
 
         /// <summary>Creates a model of several regions, for example the parts of a plate and the modifier volumes in them. regions: count models, 1 to 4096; each has its own shape, scales, skins and materials.</summary>
         /// <remarks>
-        /// <para>A point belongs to the first region whose shape contains it, and is inside where that region is: later regions count for nothing there, also where the region is empty. A region that is itself a model of regions is replaced by these, in their order. All functions take the model: one slice, ray or query serves a whole plate. Its coarse shape is the union of those of its regions. Scales are numbered by region: hits name the scale of the region that they are in, and msq_model_scale_length returns the largest length of any region.</para>
-        /// <para>Cost: constant. Sets, slices and grids dispatch their samples to the regions by rows and groups, so a sample costs the memberships in the shapes before its region, and its region. Two bits per sample of a slab in addition. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a region of all space), MEMORY.</para>
+        /// <para>A point belongs to the first region whose shape contains it, and is inside if it is inside that region. Later regions are ignored there, also where the region is empty. A region that is itself a model of regions is replaced by these, in their order. All functions take the model: one slice, ray or query serves a whole plate. Its coarse shape is the union of those of its regions. Scales are numbered by region: hits name the scale of the region that they are in, and msq_model_scale_length returns the largest length of any region.</para>
+        /// <para>Cost: constant. In sets, slices and grids, a sample costs the memberships in the shapes before its region, and the evaluation of its region. Slabs take two more bits per sample. Errors: ARGUMENT, LIMIT (more than 4096 regions), UNSUPPORTED (a region of all space), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3665,7 +3665,7 @@ namespace Msq.Interop
 #endif
         void msq_model_release(msq_model* model);
 
-        /// <summary>Returns the bounding box of the coarse shape, which contains the model; of regions, that of all. Infinite for msq_shape_all_space. Errors: ARGUMENT.</summary>
+        /// <summary>Returns the bounding box of the coarse shape, which contains the model; for regions, the box around all of them. Infinite for msq_shape_all_space. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3685,7 +3685,7 @@ namespace Msq.Interop
 #endif
         int msq_model_scale_length(msq_model* model, uint scale, double* length);
 
-        /// <summary>Returns what a scale is made of: the shape of scale 0, the structure of each other one. What the scale does not have becomes NULL. The caller releases what it gets. region: its index, from 0; 0 also of a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such region or scale).</summary>
+        /// <summary>Returns the shape of scale 0, or the structure of another scale. The output that the scale does not have receives NULL. The caller releases the handle. region: its index, from 0; 0 for a model without regions. shape, structure NULL: not wanted. Errors: ARGUMENT (no such region or scale).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3740,7 +3740,7 @@ namespace Msq.Interop
 
         /// <summary>Membership of a set: inside[i] receives 1 or 0 for point i. inside_count must be the number of points. query NULL: defaults. job NULL: no job.</summary>
         /// <remarks>
-        /// <para>Scales are evaluated from coarse to fine. A finer scale does not evaluate points that a coarser one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in any order, with 6 bytes per point and at most 15 MB, or less if the memory limit leaves no room. Grids cost far less per point, as slices. Stratified samples need no grouping and no memory. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".</para>
+        /// <para>Scales are evaluated from coarse to fine. A finer scale does not evaluate points that a coarser one decided (msq_job_info counts them). ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave inside partly written. Cost: arrays in parallel; foams group points by cell first, in any order, with 6 bytes per point and at most 15 MB, or less if the memory limit leaves no room. Grids cost far less per point, as slices do. Stratified samples need no grouping and no memory. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3773,7 +3773,7 @@ namespace Msq.Interop
 
         /// <summary>Material of one point. *id receives the id of its material, or MSQ_MATERIAL_VOID outside the model. values[c] receives the value of the channel named channels[c]; 0 outside, and where the material has no such channel. query NULL: defaults. channels and values may be NULL if channel_count is 0.</summary>
         /// <remarks>
-        /// <para>The material is that of the finest resolved scale that has one, or of its skin inside the skin. Where finer scales are not resolved, the host's material stands for the mixture. Errors: ARGUMENT (also if no resolved scale has a material, or none of their materials has a channel of that name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API".</para>
+        /// <para>The material is that of the finest resolved scale that has one, or of its skin inside the skin. Where finer scales are not resolved, the host's material represents the mixture. Errors: ARGUMENT (also if no resolved scale has a material, or none of their materials has a channel of that name), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API".</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3796,8 +3796,8 @@ namespace Msq.Interop
 
         /// <summary>Signed distance of one point to the boundary of the model, in model units. *distance is positive, at least 2.2e-308, where msq_point_membership returns 0, and at most 0 where it returns 1. It is always finite. query NULL: defaults.</summary>
         /// <remarks>
-        /// <para>The magnitude never exceeds the true distance, so a step of that length along a ray crosses no surface. It is exact for primitives, clean meshes, and outside of lattices and foams with a constant radius, and a lower bound otherwise. docs/accuracy.md tells, for each kind of shape and structure, where the distance is exact and how tight the bound is. Outside the model the distance is that of the coarsest scale that the point is outside of; inside, that of the nearest boundary of any scale. Of regions it is a bound: up to where another region begins (docs/accuracy.md).</para>
-        /// <para>Cost: a mesh builds a tree of its triangles on first use (n log n; seconds for millions; about 120 bytes per triangle until the shape is freed) and then visits about log n nodes. A lattice evaluates the struts that can be nearest, a foam the edges of the seeds around (microseconds). A functional structure takes about ten milliseconds on first use to bound its slope. Errors: ARGUMENT, LIMIT (tree above the memory limit), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing", 1996.</para>
+        /// <para>The magnitude never exceeds the true distance, so a step of that length along a ray crosses no surface. It is exact for primitives, clean meshes, and outside of lattices and foams with a constant radius, and a lower bound otherwise. docs/accuracy.md tells, for each kind of shape and structure, where the distance is exact and how tight the bound is. Outside the model the distance is that of the coarsest scale that the point is outside of; inside, that of the nearest boundary of any scale. For regions it is a bound, which ends where another region begins (docs/accuracy.md).</para>
+        /// <para>Cost: a mesh builds a tree of its triangles on first use (n log n; seconds for millions; about 120 bytes per triangle until the shape is freed) and then visits about log n nodes. A lattice evaluates the struts that can be nearest, a foam the edges of the seeds around the point (microseconds). A functional structure takes about ten milliseconds on first use to bound its slope. Errors: ARGUMENT, LIMIT (tree above the memory limit), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing", 1996.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3818,9 +3818,9 @@ namespace Msq.Interop
 #endif
         int msq_set_distance(msq_model* model, msq_points_def* points, msq_query_def* query, double* distance, ulong distance_count, msq_job* job);
 
-        /// <summary>Writes the onset of a structure, of itself and of no model, at each point of a set. value: an msq_onset_value. onsets[i]: of point i; infinity where it is above 4 times the smallest cell size (lattices and plates; of unions the smallest limit of the members, for foams the smallest cell size) or is not a number. onset_count must be the number of points.</summary>
+        /// <summary>Writes the onset of a structure, without a model, at each point of a set. value: an msq_onset_value. onsets[i]: the onset of point i; infinity where it is not a number or is above a limit. The limit is 4 times the smallest cell size for lattices and plates, the smallest cell size for foams, and the smallest limit of the members for unions. onset_count must be the number of points.</summary>
         /// <remarks>
-        /// <para>gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central difference over 2^-17 of the smallest cell size on either side: off by about 1e-8 of the largest slope where the function is smooth, a mean of both sides along ridges, and 0 where it is not finite.</para>
+        /// <para>gradients NULL: not wanted, and gradient_count is 0. Otherwise gradients[3 * i + axis] receives the derivative along an axis of the model, and gradient_count is 3 * onset_count. It is a central difference over 2^-17 of the smallest cell size on either side. Its error is about 1e-8 of the largest slope where the function is smooth. Along ridges it is a mean of both sides. It is 0 where it is not finite.</para>
         /// <para>MSQ_ONSET_SIGNED agrees in sign with membership; for lattices and foams except within 1e-9 of a cell of the boundary. job NULL: no job. ARGUMENT, LIMIT and UNSUPPORTED write nothing; CANCELLED, HOST and MEMORY may leave the arrays partly written. Cost: in parallel, lattices and functions about 0.1 us per point, foams 1.5 us, a wave 2 ns; seven times that with gradients; foams less if points of a cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index), UNSUPPORTED (kinds without onset, as in msq_structure_calibrate), LIMIT (a point 2^24 cells from the origin of the grid), HOST (fields), CANCELLED, MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -3832,7 +3832,7 @@ namespace Msq.Interop
 #endif
         int msq_set_onset(msq_context* context, msq_structure* structure, msq_points_def* points, int value, double* onsets, ulong onset_count, double* gradients, ulong gradient_count, msq_job* job);
 
-        /// <summary>Writes the value of a field at each point of a set: values[i] of point i, the number that msq uses there. value_count must be the number of points. job NULL: no job. ARGUMENT writes nothing; CANCELLED, HOST and MEMORY may leave values partly written. Cost: that of the field (docs/concepts.md), in parallel. Errors: ARGUMENT (also points that are not finite, with their index), HOST, CANCELLED, MEMORY.</summary>
+        /// <summary>Writes the value of a field at each point of a set: values[i] is the number that msq uses at point i. value_count must be the number of points. job NULL: no job. ARGUMENT writes nothing; CANCELLED, HOST and MEMORY may leave values partly written. Cost: that of the field (docs/concepts.md), in parallel. Errors: ARGUMENT (also points that are not finite, with their index), HOST, CANCELLED, MEMORY.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3887,7 +3887,7 @@ namespace Msq.Interop
 
         /// <summary>Finds the constant parameter (radius of struts, level of a function) at which a structure has a target volume fraction, and the curve between the two. The parameter of the structure itself is ignored.</summary>
         /// <remarks>
-        /// <para>target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20), parameters[i], in model units, has fraction fractions[i] = i / (pair_count - 1) * max_fraction. The fractions ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2 points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells (foams, waves; with a period, of the smallest size; unions: of the grid with the largest cells), from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, host structures and functions, beams, and structures made of others, except unions of lattices and foams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.</para>
+        /// <para>target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20). At parameters[i] the fraction is fractions[i] = i / (pair_count - 1) * max_fraction. Radii and thicknesses are in model units. The fractions ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2 points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells (foams, waves; with a period, of the smallest size; unions: of the grid with the largest cells), from the origin of the grid. job NULL: no job. Cost: the onset of each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, lattices of plates and struts, foams of struts and walls, host structures and functions, beams, and structures made of others, except unions of lattices and foams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3978,7 +3978,7 @@ namespace Msq.Interop
 #endif
         int msq_slicer_layer_z(msq_slicer* slicer, ulong index, double* z);
 
-        /// <summary>Computes layers first to first + count - 1 and passes each to the callback, in ascending order, on the calling thread. Workers compute the next slab meanwhile and wait for the callback. (With the host's parallel_for, the next slab is computed after the callbacks of the slab.) count UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the plan is split into calls or processes, nor on its other outputs. Memory, accounted to the context: two slabs, one layer and a few tiles per thread, for any height of the stack. Where memory_limit does not hold two slabs of one layer: one layer, two bands of its rows, at least 16 rows of samples each, and a few tiles per thread; LIMIT if that does not fit either, and then windows do. Foams keep cells in the cache in addition. With contours, workers compute those of as many layers at once as there are threads, and as many wait for the callback. Where memory_limit does not hold these, they are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section "Slicing".</summary>
+        /// <summary>Computes layers first to first + count - 1 and passes each to the callback, in ascending order, on the calling thread. Workers compute the next slab meanwhile and wait for the callback. (With the host's parallel_for, the next slab is computed after the callbacks of the slab.) count UINT64_MAX: to the last layer. job NULL: no job. The bytes of a layer do not depend on how the plan is split into calls or processes, nor on its other outputs. Memory, accounted to the context: two slabs, one layer and a few tiles per thread, for any height of the stack. If two slabs of one layer exceed memory_limit, a run takes one layer, two bands of its rows (at least 16 rows of samples each) and a few tiles per thread. If that exceeds the limit too, the run fails with LIMIT: use windows. Foams also keep cells in the cache. Workers compute the contours of as many layers at once as there are threads, and as many wait for the callback. If these exceed memory_limit, contours are computed layer by layer. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY; contours also those of msq_layer_contours, before their layer. Source: paper, section "Slicing".</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -3988,7 +3988,7 @@ namespace Msq.Interop
 #endif
         int msq_slicer_run(msq_slicer* slicer, ulong first, ulong count, IntPtr fn, void* user, msq_job* job);
 
-        /// <summary>Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer call msq_slicer_run with a count of 1. Cost: for a layer after one that any thread asked for lately, about that of msq_slicer_run, as such layers are filled together, by all threads that ask for them; for others up to three times that. Memory: the bits of one layer and a few tiles per thread, or where memory_limit does not hold these one layer and a band of its rows; layers that are filled ahead take at most two slabs until the slicer is freed or a call needs the memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY.</summary>
+        /// <summary>Computes the first output of one layer, the same bytes as msq_slicer_run, into a buffer of at least layer_bytes. A call that fails leaves the buffer untouched. For all outputs of one layer call msq_slicer_run with a count of 1. Cost: about that of msq_slicer_run for a layer that follows one which any thread requested recently. Such layers are computed together, by all threads that request them. Other layers cost up to three times as much. Memory: the bits of one layer and a few tiles per thread; if these exceed memory_limit, one layer and a band of its rows. Layers that are computed ahead take at most two slabs, until the slicer is freed or a call needs the memory. Errors: ARGUMENT (also if the first output is contours), CANCELLED, LIMIT, MEMORY.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4012,7 +4012,7 @@ namespace Msq.Interop
 #endif
         int msq_layer_contours(msq_model* model, double height, msq_contours_def* def, msq_contours** contours, msq_job* job);
 
-        /// <summary>The same for a layer of a slicer: at the layer's z, with the slicer's length_scale. axis must be 2. has_window 0: the rectangle of the slicer's pixels. Errors: as msq_layer_contours; ARGUMENT also for an index out of range.</summary>
+        /// <summary>Computes the contours of a layer of a slicer, at the layer's z and with the slicer's length_scale. axis must be 2. has_window 0: the rectangle of the slicer's pixels. Errors: as msq_layer_contours; ARGUMENT also for an index out of range.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4042,7 +4042,7 @@ namespace Msq.Interop
 #endif
         void msq_contours_release(msq_contours* contours);
 
-        /// <summary>Reports what contours hold. Errors: ARGUMENT.</summary>
+        /// <summary>Reports the rings of contours. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4062,10 +4062,10 @@ namespace Msq.Interop
 #endif
         int msq_printability_def_init(msq_printability_def* def, UIntPtr size);
 
-        /// <summary>Finds what is doubtful about printing a slicer's layers: islands, loose parts, enclosed voids, thin places, cups, overhangs.</summary>
+        /// <summary>Finds possible problems in printing a slicer's layers: islands, loose parts, enclosed voids, thin places, cups, overhangs.</summary>
         /// <remarks>
-        /// <para>It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation of the slicer are ignored. What is smaller than a pixel may lie between samples: to find it, use a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners, empty ones across sides; samples of two layers are connected if one is on the other.</para>
-        /// <para>def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22 bits per pixel of a layer, and runs and totals of what is not part of the main body, for any height of the stack. Runs and totals are accounted to the context after each layer. Workers share the rows of each layer. Cost: 1.1 to 1.9 times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976.</para>
+        /// <para>It inspects all layers of the slicer, one sample per pixel at its centre; output and orientation of the slicer are ignored. Features smaller than a pixel may lie between samples: to find them, use a slicer with a finer pitch. Solid samples of a layer are connected across sides and corners, empty ones across sides; samples of two layers are connected if one is on the other.</para>
+        /// <para>def NULL: defaults. fn NULL: no list. Otherwise fn is called on the calling thread with each finding once, after the layer that ends it, in an order that depends on the layers alone. Results do not depend on threads and slabs. job NULL: no job. Memory: that of msq_slicer_run, up to 22 bits per pixel of a layer, and runs and totals of parts outside of the main body, for any height of the stack. Runs and totals are accounted to the context after each layer. Workers share the rows of each layer. Cost: 1.1 to 1.9 times that of msq_slicer_run for bits, about twice with thousands of enclosed voids in a layer. THIN, CUP and OVERHANG add to that: see docs/benchmarks.md. Errors: ARGUMENT, CANCELLED, HOST, LIMIT (memory; 2^32 - 1 runs in a layer), MEMORY. Source: Hoshen and Kopelman, "Percolation and cluster distribution", 1976.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4089,8 +4089,8 @@ namespace Msq.Interop
         /// <summary>Computes the middle lines of a structure's thin walls at a height, within a polygon.</summary>
         /// <remarks>
         /// <para>Foams: the faces of the Voronoi diagram, cut by the plane. Sheets: where the function is 0. Networks, which have no walls: where the function is the level, the boundary of the solid. Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it. Strut lattices, beams and structures of the host have no such lines; use contours for them.</para>
-        /// <para>Each line is in one path; none is printed twice unless pair_distance says so. Paths are as few as possible: one for two of the points where a path has to end, which are the border and junctions of three, five .. lines. At a junction, lines that are most nearly straight are joined as far as this keeps paths few. Paths are in the order in which they are best printed: each begins near the end of the one before. Of lines that are connected the travel is a few percent above the least one.</para>
-        /// <para>Ends at the polygon's border are rounded to whole coordinates, all else is decided exactly. Lines on the border itself count as inside on one side of the polygon. The lines do not depend on the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are followed on a grid of 1/32 of the smallest cell size: lines closer together than that may be joined, and smaller closed lines lost.</para>
+        /// <para>Each line is in one path. No line is printed twice unless pair_distance is set. The number of paths is the minimum: half the number of points where a path has to end. These are the points at the border and the junctions of three, five, ... lines. At a junction, the lines that are most nearly straight are joined, unless this adds paths. Paths come in printing order: each begins near the end of the one before. The travel between connected lines is a few percent above the minimum.</para>
+        /// <para>Ends at the polygon's border are rounded to whole coordinates. All other decisions are exact. Lines on the border itself count as inside on one side of the polygon. The lines do not depend on the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are followed on a grid of 1/32 of the smallest cell size: lines closer together than that may be joined, and smaller closed lines lost.</para>
         /// <para>def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box. Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam in the plane; about 1 us per square that a line of a function crosses and 20 ns per other square. Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are on one line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson, "Matching, Euler tours and the Chinese postman", 1973.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -4134,7 +4134,7 @@ namespace Msq.Interop
 
         /// <summary>Finds the cell sizes at which a structure's fill lines cover a share of the area.</summary>
         /// <remarks>
-        /// <para>The density of lines is their length per area times their width, on average over all heights. It is inversely proportional to the cell size. cell_size receives those of the structure's grid, all times the same factor: create the structure anew with them, and the same rotation. density: more than 0, at most 1. job NULL: no job. Single layers differ, of a gyroid by a tenth. The length is measured on the structure as it is: one cell at 64 heights; 8 x 8 if the grid is turned; 32 x 32 cells of a foam at 32 heights, accurate to about 0.5 %. A foam with a field of density: calibrate it without the field; d seeds per cell volume then multiply the density of lines by about the cube root of d. Cost: up to 0.5 s for a foam. Errors: ARGUMENT, UNSUPPORTED (no thin walls; a field of density, or of the level of a network), LIMIT (no lines), CANCELLED, HOST, MEMORY.</para>
+        /// <para>The density of lines is their length per area times their width, on average over all heights. It is inversely proportional to the cell size. cell_size receives the cell sizes of the structure's grid, all multiplied by the same factor. Create the structure anew with these and the same rotation. density: more than 0, at most 1. job NULL: no job. Single layers differ from the average, those of a gyroid by a tenth. The length is measured on the structure as it is: one cell at 64 heights; 8 x 8 cells if the grid is rotated; 32 x 32 cells of a foam at 32 heights, accurate to about 0.5 %. Calibrate a foam without its field of density: d seeds per cell volume then multiply the density of lines by about the cube root of d. Cost: up to 0.5 s for a foam. Errors: ARGUMENT, UNSUPPORTED (no thin walls; a field of density, or of the level of a network), LIMIT (no lines), CANCELLED, HOST, MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4155,10 +4155,10 @@ namespace Msq.Interop
 #endif
         int msq_surface_def_init(msq_surface_def* def, UIntPtr size);
 
-        /// <summary>Computes triangles of the boundary of a model within a box, to look at and to hand on to programs that take nothing else. Layers, contours, rays and distances come from the model itself, faster and exactly.</summary>
+        /// <summary>Computes triangles of the boundary of a model within a box, for display and for programs that take only meshes. Layers, contours, rays and distances do not need a mesh: msq computes them from the model itself, faster and exactly.</summary>
         /// <remarks>
         /// <para>The mesh is closed, and a manifold: each edge has two triangles, which run through it in opposite directions, and the triangles around a vertex are one ring. Each vertex is within pitch / 1000 of the boundary of the model cut with the box. Edges and corners of the model that are wider apart than the pitch are kept. Triangles may intersect where the boundary is bent within a pitch.</para>
-        /// <para>Callbacks run on the calling thread, from low z to high z. The parts together do not depend on slab_layers, threads or calls. A model without a point at a node yields no callback. def must not be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory: about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors: ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 vertices; memory), MEMORY. Source: Schaefer, Ju and Warren, "Manifold dual contouring", 2007.</para>
+        /// <para>Callbacks run on the calling thread, from low z to high z. The parts together do not depend on slab_layers, threads or calls. If no node is inside the model, the callback is not called. def must not be NULL. job NULL: no job. Cost: parallel; two rays per vertex and one sample per node. Memory: about 200 bytes per vertex of a part, and the nodes of a slab, accounted to the context. Errors: ARGUMENT (also a pitch that is too small for the coordinates), CANCELLED, HOST, LIMIT (2^31 nodes along an axis; 2^32 vertices; memory), MEMORY. Source: Schaefer, Ju and Warren, "Manifold dual contouring", 2007.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4172,7 +4172,7 @@ namespace Msq.Interop
         /// <summary>Computes the mesh of msq_surface_mesh as the bytes of a file. format: an msq_surface_format.</summary>
         /// <remarks>
         /// <para>Each byte of the file is in one part. Parts of MSQ_SURFACE_STL come in the order of the file. In MSQ_SURFACE_PLY vertices come before triangles, so its parts alternate between two places: seek to offset, or copy to it in memory of total bytes. The bytes of the file do not depend on slab_layers or threads. Coordinates are rounded to float32: far from the origin, vertices closer together than that may coincide.</para>
-        /// <para>Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is written. A model without a point at a node yields a file without triangles. Errors: as msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices.</para>
+        /// <para>Cost: as msq_surface_mesh, and the samples once more, to count triangles before the first is written. If no node is inside the model, the file has no triangles. Errors: as msq_surface_mesh; LIMIT also for 2^32 triangles or 2^31 vertices.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4195,7 +4195,7 @@ namespace Msq.Interop
 
         /// <summary>Finds where each ray first meets the solid at t_min &lt;= t &lt;= t_max. hits[i] belongs to ray i. hit_count must be the number of rays. query NULL: defaults. job NULL: no job. What begins at t_max is hit if the rounded point there is inside.</summary>
         /// <remarks>
-        /// <para>Membership (msq_point_membership) changes within 2^-36 of the characteristic length of the scale hit, or within 2^-50 of the largest coordinate of the ray in the shape's box, seen from the origin and from that of the grid, if that is more. Before t it does not change, except over parts of the ray shorter than that. Exceptions: shapes and structures that are known by callbacks, images or rough fields; docs/accuracy.md lists the tolerance of position and normal for each kind. A ray is known to 2^-53 of the way from its origin. Every ray ends. t is finite in each hit. Results do not depend on the order of the rays.</para>
+        /// <para>Membership (msq_point_membership) changes within a tolerance of t. The tolerance is 2^-36 of the characteristic length of the scale that was hit, or 2^-50 of the largest coordinate of the ray in the shape's box, relative to the origin and to that of the grid, if that is more. Before t membership does not change, except over parts of the ray shorter than the tolerance. Exceptions: shapes and structures that are known by callbacks, images or rough fields; docs/accuracy.md lists the tolerance of position and normal for each kind. Points of a ray are accurate to 2^-53 of the distance from its origin. The search ends for every ray. t is finite in each hit. Results do not depend on the order of the rays.</para>
         /// <para>Finer scales are evaluated only where the ray is inside the coarser ones. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave hits partly written. Cost: parallel. Rays that are close together share work; rays in random order are sorted first, up to 2^20 at once, with 16 bytes each and at most 1/16 of the memory limit. A mesh builds its tree first, as for msq_point_distance. Errors: ARGUMENT (also rays that are not finite and directions of length 0, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting".</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -4261,7 +4261,7 @@ namespace Msq.Interop
         /// <remarks>
         /// <para>Depth, normal, scale and material of a pixel are those of msq_ray_cast for the ray through its centre. Its colour is the mean, in linear light, of its samples: the background, or</para>
         /// <para>base * (ambient * open + (1 - ambient) * max(0, normal . light) * lit)</para>
-        /// <para>with the colour base from colour_by, the share open of occlusion rays that hit nothing, and lit 0 in shadow; open and lit are 1 if not requested. What the clip planes cut away casts no shadow. A pixel has the same bits for any tile, passes and threads.</para>
+        /// <para>where base is the colour that colour_by selects, open is the share of occlusion rays that hit nothing, and lit is 0 in shadow, otherwise 1. open and lit are 1 if not requested. What the clip planes cut away casts no shadow. A pixel has the same bits for any tile, passes and threads.</para>
         /// <para>fn NULL: no callback. Otherwise fn is called on the calling thread after each pass: steps from first_step, halved each time, down to 1; then one with all samples if rgba has more than one per pixel. query NULL: defaults. job NULL: no job. ARGUMENT writes nothing; other errors may leave the frame partly written.</para>
         /// <para>Cost: one ray per pixel and samples^2 more if samples &gt; 1, each with its shadow and occlusion rays; in parallel, in tiles of 32 x 32 rays. A mesh builds its tree first, as for msq_point_distance. Memory: about 1 MB per thread, kept for the next call. Errors: ARGUMENT, CANCELLED, HOST, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting".</para>
         /// </remarks>
@@ -4286,8 +4286,8 @@ namespace Msq.Interop
 
         /// <summary>Reads a document from text in memory: JSON in UTF-8, of `bytes` bytes. def NULL: defaults. job NULL: no job; its progress is that of the file which is being read.</summary>
         /// <remarks>
-        /// <para>msq builds every object of the document by the functions above, with their checks and their warnings. Lengths are in the model's unit. Unknown keys, keys that occur twice and definitions that contain themselves are refused. A message begins with line, column and path of the value that is at fault, for example "12:17: scales[1].structure.foam.radius: ...". Lines and columns begin at 1; columns count bytes.</para>
-        /// <para>Cost: about 40 bytes and 100 ns per value of the document until it is read, and that of the objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY.</para>
+        /// <para>msq builds every object of the document with the functions above, with their checks and warnings. Lengths are in the model's unit. Unknown keys, keys that occur twice and definitions that contain themselves are refused. A message begins with line, column and path of the value that is at fault, for example "12:17: scales[1].structure.foam.radius: ...". Lines and columns begin at 1; columns count bytes.</para>
+        /// <para>Cost: about 100 ns per value of the document, 40 bytes per value while it is read, and the cost of the objects. Errors: ARGUMENT (text that is not JSON, a document that is not in the format, a path that is not allowed, and as the functions that create its objects), IO, UNSUPPORTED (a build without nlohmann-json), LIMIT, MESH, CANCELLED, MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4328,7 +4328,7 @@ namespace Msq.Interop
 #endif
         void msq_document_release(msq_document* document);
 
-        /// <summary>Reports what a document holds. Errors: ARGUMENT.</summary>
+        /// <summary>Reports the contents of a document. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4338,7 +4338,7 @@ namespace Msq.Interop
 #endif
         int msq_document_info(msq_document* document, msq_document_report* report);
 
-        /// <summary>Returns the model of a document, with a reference for the caller to release. It does not need the document any more. Errors: ARGUMENT.</summary>
+        /// <summary>Returns the model of a document, with a reference for the caller to release. The model does not need the document any more. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
@@ -4348,7 +4348,7 @@ namespace Msq.Interop
 #endif
         int msq_document_model(msq_document* document, msq_model** model);
 
-        /// <summary>Writes the settings for slices to *def, whose struct_size the caller has set; what the document does not say has its default. The pointers in it are valid as long as the document. The host may change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without slicing).</summary>
+        /// <summary>Writes the settings for slices to *def, whose struct_size the caller has set. Fields that the document does not set have their defaults. The pointers in it are valid as long as the document. The host may change def before msq_slicer_create checks it. Errors: ARGUMENT (also a document without slicing).</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
