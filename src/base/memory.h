@@ -100,6 +100,13 @@ class Reservation {
     if (budget_) budget_->give_back(bytes_);
   }
 
+  /// Takes what is missing to so many bytes, if anything is.
+  void grow_to(uint64_t bytes, const char* what) {
+    if (bytes <= bytes_) return;
+    budget_->take(bytes - bytes_, what);
+    bytes_ = bytes;
+  }
+
  private:
   std::shared_ptr<MemoryBudget> budget_;
   uint64_t bytes_ = 0;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "slice/contour_line.h"
 #include "slice/nearest_unit.h"
 
 namespace msq {
@@ -78,20 +79,41 @@ bool is_tangled(std::span<const Vec2> p) {
 }  // namespace
 
 void ContourDetails::find(ContourPoints& points) {
+  held_ = Reservation(points.model().context().budget, 0, "");
   find_suspects(points);
   drop_tangles();
+}
+
+/// Takes the memory for as many pieces and points as there are: both halves of each piece, the
+/// points that tell about it, and the lines that RingBuilder makes of the points found.
+void ContourDetails::hold_memory() {
+  constexpr uint64_t points_of_piece = 6;
+  constexpr uint64_t of_piece = 3 * sizeof(Piece) + sizeof(Search) + sizeof(Search*) +
+                                points_of_piece * ContourPoints::bytes_of_point;
+  constexpr uint64_t of_point = sizeof(DetailPoint) + sizeof(LinePoint) + 2 * sizeof(Vec2);
+  held_.grow_to(memory_->bends.size() * sizeof(uint64_t) + memory_->pieces.size() * of_piece +
+                    memory_->details.size() * of_point,
+                "the details of contours");
+}
+
+void ContourDetails::add_piece(const Piece& piece) {
+  memory_->pieces.push_back(piece);
+  if (memory_->pieces.size() % pieces_at_once == 0) hold_memory();
 }
 
 /// Looks into the pieces that there are. Some rings at a time: their pieces stay in the core's
 /// cache.
 void ContourDetails::settle(ContourPoints& points) {
+  hold_memory();
   take_arcs(points);
   while (!memory_->pieces.empty()) {
+    hold_memory();
     keep_bent(points);
     take_corners(points);
     split(points);
   }
   merge_runs();
+  hold_memory();
 }
 
 /// Begins a run of points in the order of crossings.
@@ -182,7 +204,7 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   const auto make_piece = [&] { return Piece{.id = id, .next = next, .a = a, .b = b}; };
   if (rings_.is_beyond(p) || rings_.is_beyond(q)) {
     // The direction of the boundary at the edge of a window is not known.
-    memory_->pieces.push_back(make_piece());
+    add_piece(make_piece());
     return;
   }
   // A crossing that is very near tells little about the direction.
@@ -199,7 +221,7 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   const double size2 = dot(ab, ab), limit2 = tolerance_ * tolerance_;
   if (turn1 * turn2 <= 0) {  // an inflection: of an arc, less than a quarter of this
     if (turn1 * turn1 > 4 * limit2 * dot(d1, d1) || turn2 * turn2 > 4 * limit2 * dot(d2, d2))
-      memory_->pieces.push_back(make_piece());
+      add_piece(make_piece());
     return;
   }
   const double turn = cross(d1, d2);
@@ -221,7 +243,7 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
     piece.arc = piece.middle() - left_of(unit(ab)) * bend;
     piece.has_arc = std::abs(bend) <= 4 * tolerance_ && is_in_cell(id, piece.arc);
   }
-  memory_->pieces.push_back(piece);
+  add_piece(piece);
 }
 
 /// Takes the middles of arcs that membership confirms.
@@ -338,10 +360,6 @@ void ContourDetails::take_corners(ContourPoints& points) {
 }
 
 void ContourDetails::split(ContourPoints& points) {
-  struct Search {
-    size_t piece;
-    Vec2 same, other;  // membership as at the piece's middle, and not
-  };
   std::vector<Search> searches;
   points.clear();
   for (size_t i = 0; i < memory_->pieces.size(); ++i) {

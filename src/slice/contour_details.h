@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "base/borrowed.h"
+#include "base/memory.h"
 #include "slice/contour_bends.h"
 #include "slice/contour_points.h"
 #include "slice/contour_rings.h"
@@ -44,6 +45,7 @@ class ContourDetails {
     memory_->runs.clear();
   }
 
+  /// Takes its memory, and what the points found need afterwards, from the model's budget.
   void find(ContourPoints& points);
 
   /// In the order of crossings, and of points between two crossings.
@@ -62,12 +64,18 @@ class ContourDetails {
     double begin = 0, end = 1;  // orders of a and b
     Vec2 middle() const { return (a + b) * 0.5; }
   };
+  struct Search {
+    size_t piece;
+    Vec2 same, other;  // membership as at the piece's middle, and not
+  };
   using Cell = ContourRings::Cell;
 
   void find_suspects(ContourPoints& points);
   void settle(ContourPoints& points);
   void look_along(const ContourRings::Ring& ring, CancelPoll& poll);
   void suspect(const ContourRings::Ring& ring, uint32_t id);
+  void add_piece(const Piece& piece);
+  void hold_memory();
   void take_arcs(ContourPoints& points);
   void keep_bent(ContourPoints& points);
   void take_corners(ContourPoints& points);
@@ -97,6 +105,7 @@ class ContourDetails {
     }
   };
   const Borrowed<Memory> memory_;
+  Reservation held_;
   uint64_t unresolved_ = 0;
 };
 

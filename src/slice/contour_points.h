@@ -29,6 +29,10 @@ class ContourPoints {
   /// outlive this.
   void use_struts(const PlaneStruts& struts) { struts_ = &struts; }
 
+  /// Bytes of working memory for a point.
+  static constexpr uint64_t bytes_of_point =
+      2 * sizeof(Vec2) + sizeof(Vec3) + 2 + 2 * sizeof(uint32_t);
+
   void clear() { memory_->points.clear(); }
   void add(Vec2 p) { memory_->points.push_back(p); }
   size_t count() const { return memory_->points.size(); }

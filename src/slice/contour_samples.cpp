@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/memory.h"
 #include "base/sample_grid.h"
 #include "query/membership.h"
 
@@ -11,8 +12,12 @@ namespace msq {
 
 namespace {
 
-/// Of a band of rows that are found at a time where the plane is not normal to z.
-constexpr uint64_t band_words = uint64_t{1} << 21;
+/// Words of a band of rows that are found at a time where the plane is not normal to z: 16 MiB, and
+/// no more than a quarter of the memory limit.
+uint64_t band_words(const MemoryBudget& budget) {
+  constexpr uint64_t most = uint64_t{1} << 21;
+  return budget.limit() ? std::min(most, budget.limit() / 4 / sizeof(uint64_t)) : most;
+}
 
 }  // namespace
 
@@ -36,7 +41,13 @@ void for_sample_rows(const Model& model, const Scales& resolved, const LayerPlan
     for (uint64_t j = 0; j < block.rows; ++j) visit(j, words.data() + j * row_words);
     return;
   }
-  const uint64_t deep = std::clamp<uint64_t>(band_words / layer_words, 1, block.rows);
+  const std::shared_ptr<MemoryBudget>& budget = model.context().budget;
+  const uint64_t deep = std::clamp<uint64_t>(band_words(*budget) / layer_words, 1, block.rows);
+  const Reservation held(budget,
+                         (layer_words * deep + words_for(block.across) +
+                          fill_slab_scratch_words(model, resolved, grid, deep)) *
+                             sizeof(uint64_t),
+                         "the rows of a plane");
   std::vector<uint64_t> words(layer_words * deep), packed(words_for(block.across));
   for (uint64_t k0 = 0; k0 < block.rows; k0 += deep) {
     const uint64_t k1 = std::min(block.rows, k0 + deep);

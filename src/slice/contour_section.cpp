@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/memory.h"
 #include "base/simd.h"
 #include "base/status.h"
 #include "slice/cell_sides.h"
@@ -254,6 +255,10 @@ void ContourSection::locate_some(ContourPoints& points, const std::vector<Edge>&
     bool is_horizontal;
     double middle() const { return 0.5 * (ends[0] + ends[1]); }
   };
+  constexpr uint64_t bytes_of_edge =
+      sizeof(Edge) + sizeof(Search) + sizeof(uint32_t) + ContourPoints::bytes_of_point;
+  const Reservation held(points.model().context().budget, edges.size() * bytes_of_edge,
+                         "the crossings that are looked for together");
   std::vector<Search> searches(edges.size());
   std::vector<uint32_t> open(edges.size());
   const auto low = [&](const Edge& e) {

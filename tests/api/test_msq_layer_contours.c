@@ -262,6 +262,59 @@ static void memory_is_limited(void** state) {
   msq_context_release(context);
 }
 
+/* Planes normal to x and y hold bands of rows of which a word has one node, or which are layers. */
+static void memory_of_planes_is_counted(void** state) {
+  const uint64_t limits[] = {0, 6 << 20};
+  (void)state;
+  for (int axis = 0; axis < 3; ++axis) {
+    uint64_t points = 0;
+    for (int i = 0; i < 2; ++i) {
+      msq_context* context = make_context_of(1, 1 << 20, limits[i]);
+      msq_model* model = make_lattice_model(context);
+      msq_contours_def def = contours_def(MSQ_FLOAT64, 0.002);
+      msq_contours* contours;
+      double low[3], high[3];
+      assert_ok(msq_model_bounds(model, low, high));
+      def.axis = axis;
+      def.pitch = (high[0] - low[0]) / 1000;
+      def.tolerance = def.pitch;
+      assert_ok(
+          msq_layer_contours(model, 0.4 * low[axis] + 0.6 * high[axis], &def, &contours, NULL));
+      if (i == 0) {
+        points = contents_of(contours).point_count;
+        assert_true(points > 1000);
+        if (axis == 0) assert_true(memory_of(context).peak_bytes > 1000 * 1000 * sizeof(uint64_t));
+      } else {
+        assert_int_equal(contents_of(contours).point_count, points);
+      }
+      msq_contours_release(contours);
+      msq_model_release(model);
+      msq_context_release(context);
+    }
+  }
+}
+
+/* The nodes and crossings are the same with both tolerances. */
+static void memory_of_details_is_counted(void** state) {
+  uint64_t points[2], peaks[2];
+  (void)state;
+  for (int i = 0; i < 2; ++i) {
+    msq_context* context = make_context_of(1, 1 << 20, 0);
+    msq_model* model = make_lattice_model(context);
+    msq_contours_def def = contours_def(MSQ_FLOAT64, i == 0 ? 0.02 : 0.0002);
+    msq_contours* contours;
+    def.pitch = 0.02;
+    assert_ok(msq_layer_contours(model, 1.1, &def, &contours, NULL));
+    points[i] = contents_of(contours).point_count;
+    peaks[i] = memory_of(context).peak_bytes;
+    msq_contours_release(contours);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+  assert_true(points[1] > points[0] + 1000);
+  assert_true(peaks[1] > peaks[0] + 64 * (points[1] - points[0]));
+}
+
 static void release_of_null_does_nothing(void** state) {
   (void)state;
   msq_contours_retain(NULL);
@@ -277,6 +330,8 @@ int main(void) {
       cmocka_unit_test(regions_have_struts_of_their_own),
       cmocka_unit_test(rings_stay_in_windows_below_the_pitch),
       cmocka_unit_test(memory_is_limited),
+      cmocka_unit_test(memory_of_planes_is_counted),
+      cmocka_unit_test(memory_of_details_is_counted),
       cmocka_unit_test(release_of_null_does_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
