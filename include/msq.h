@@ -1767,7 +1767,7 @@ MSQ_API msq_status msq_host_structure_def_init(msq_host_structure_def* def, size
  *
  * A cell is built when a point in it is evaluated, and kept as long as the cache of the context
  * keeps it. Two threads may build the same cell at once. Evicted cells are freed when the next cell
- * is built, or with the structure. evaluate_cell sees the data of one cell only: the data must
+ * is built, or with the structure. evaluate_cell has the data of one cell only: the data must
  * include all that reaches into the cell from its neighbours. Cost: sets, grids and slices call
  * back with batches, grouped by cell if build_cell is given. Single points and distances call back
  * point by point.
@@ -1831,11 +1831,11 @@ MSQ_API msq_status msq_structure_boolean(int32_t operation, const msq_structure*
                                          uint64_t count, msq_structure** structure);
 
 /** Creates a structure that changes from a to b. fraction: f, a number or a field, 0 to 1. Where f
- * is 0 the solid is that of a; where f is 1 it is that of b. In between, the points with (1 - f) da
- * + f db <= 0 are solid, where da and db are the signed distances of a and b as msq returns them
- * (docs/accuracy.md). So points in both are solid and points in neither are not. Surfaces move from
- * those of a to those of b as f grows. On the same grid with like nodes struts stay whole;
- * otherwise parts of a shrink while parts of b grow.
+ * is 0 the solid is that of a; where f is 1 it is that of b. In between, the points with
+ * (1 - f) da + f db <= 0 are solid, where da and db are the signed distances of a and b as msq
+ * returns them (docs/accuracy.md). So points in both are solid and points in neither are not.
+ * Surfaces move from those of a to those of b as f grows. On the same grid with like nodes struts
+ * stay whole; otherwise parts of a shrink while parts of b grow.
  *
  * Characteristic length, hits and limits on cells are as for msq_structure_boolean. Distance: a
  * bound, with Lipschitz constant 1 if f has one. Rays march by it. Cost: the sum of theirs, and two
