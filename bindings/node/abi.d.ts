@@ -1958,7 +1958,7 @@ export interface Functions {
   /**
    * Creates a structure from callbacks. def must not be NULL. Every function of msq works with inside alone.
    *
-   * A cell is built when a point in it is evaluated, and kept as long as the cache of the context keeps it. Two threads may build the same cell at once. Evicted cells are freed when the next cell is built, or with the structure. evaluate_cell sees the data of one cell only: the data must include all that reaches into the cell from its neighbours. Cost: sets, grids and slices call back with batches, grouped by cell if build_cell is given. Single points and distances call back point by point. Errors: ARGUMENT, MEMORY. Calls that use the structure: HOST. Source: paper, section "Multiscale Shape-Material Modeling API".
+   * A cell is built when a point in it is evaluated, and kept as long as the cache of the context keeps it. Two threads may build the same cell at once. Evicted cells are freed when the next cell is built, or with the structure. evaluate_cell has the data of one cell only: the data must include all that reaches into the cell from its neighbours. Cost: sets, grids and slices call back with batches, grouped by cell if build_cell is given. Single points and distances call back point by point. Errors: ARGUMENT, MEMORY. Calls that use the structure: HOST. Source: paper, section "Multiscale Shape-Material Modeling API".
    */
   msq_structure_host(context: Memory, def: msq_host_structure_def | null, structure: [Pointer]): number;
   /** Sets the defaults. Errors: ARGUMENT. */
