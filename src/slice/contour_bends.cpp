@@ -139,7 +139,7 @@ void find_some_bends_at_ends(const double* x, const double* y, const RingPoints*
     bits[id / 64] = (bits[id / 64] & ~(uint64_t{1} << (id % 64))) | uint64_t{bends} << (id % 64);
   };
   for (size_t r = 0; r < ring_count; ++r) {
-    const auto [first, end] = rings[r];
+    const uint32_t first = rings[r].first, end = rings[r].end;
     if (end - first < points) {
       for (uint32_t id = first; id < end; ++id) put(id, true);
       continue;
