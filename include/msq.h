@@ -512,6 +512,48 @@ typedef struct msq_period_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_period_def_init(msq_period_def* def, size_t size);
 
+/** Maps from space to warped cells. */
+enum msq_warp_kind {
+  /** Cells around the z axis of the grid. */
+  MSQ_WARP_CYLINDRICAL = 1,
+  /** Cells around the origin of the grid. */
+  MSQ_WARP_SPHERICAL = 2
+};
+
+/** Warped cells: cells around an axis or around a point, in place of boxes.
+ *
+ * The structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is
+ * the axis, or points to the north pole. Cells have three coordinates, each counted in cells:
+ * - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the
+ *   centre.
+ * - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So
+ *   the pattern closes. cell_size[1] is not used.
+ * - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the
+ *   north pole: count_polar cells in half a turn, and cell_size[2] is not used.
+ * On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther
+ * out are wider. They shrink to nothing at the axis and at the poles: there a structure has no
+ * least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and
+ * cut the poles off by the shape.
+ *
+ * Points nearer than inner_radius or farther than outer_radius are outside of the structure.
+ * docs/concepts.md defines the map bit for bit. */
+typedef struct msq_warp_def {
+  uint32_t struct_size;
+  /** An msq_warp_kind. Default MSQ_WARP_CYLINDRICAL. */
+  int32_t kind;
+  /** Cells around the z axis, 1 to 65536. No default. */
+  uint32_t count;
+  /** SPHERICAL: cells from pole to pole, 1 to 65536; no default. CYLINDRICAL: 0. */
+  uint32_t count_polar;
+  /** In model units, 0 to 1e75. Default 0. */
+  double inner_radius;
+  /** In model units, above inner_radius, at most 1e75. 0 (default): no limit. */
+  double outer_radius;
+} msq_warp_def;
+
+/** Sets the defaults. Errors: ARGUMENT. */
+MSQ_API msq_status msq_warp_def_init(msq_warp_def* def, size_t size);
+
 /** Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about
  * 1/7 byte per value in addition. */
 typedef struct msq_image {

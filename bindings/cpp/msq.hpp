@@ -198,6 +198,7 @@ Report report(Call&& call) {
 
 using ContextDef = detail::Definition<msq_context_def, msq_context_def_init>;
 using PeriodDef = detail::Definition<msq_period_def, msq_period_def_init>;
+using WarpDef = detail::Definition<msq_warp_def, msq_warp_def_init>;
 using FileDef = detail::Definition<msq_file_def, msq_file_def_init>;
 using MeshDef = detail::Definition<msq_mesh_def, msq_mesh_def_init>;
 using HostShapeDef = detail::Definition<msq_host_shape_def, msq_host_shape_def_init>;

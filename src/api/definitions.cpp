@@ -59,6 +59,8 @@ constexpr Choice functions[] = {{"expression", MSQ_FUNCTION_EXPRESSION},
                                 {"honeycomb", MSQ_FUNCTION_HONEYCOMB},
                                 {"rods", MSQ_FUNCTION_RODS}};
 constexpr Choice kinds[] = {{"network", MSQ_FUNCTIONAL_NETWORK}, {"sheet", MSQ_FUNCTIONAL_SHEET}};
+constexpr Choice warps[] = {{"cylindrical", MSQ_WARP_CYLINDRICAL},
+                            {"spherical", MSQ_WARP_SPHERICAL}};
 constexpr Choice caps[] = {
     {"sphere", MSQ_CAP_SPHERE}, {"hemisphere", MSQ_CAP_HEMISPHERE}, {"butt", MSQ_CAP_BUTT}};
 constexpr Choice types[] = {{"float32", MSQ_FLOAT32},
@@ -119,6 +121,14 @@ void walk_scale(DefinitionWalk& in, msq_scale_def& scale) {
 
 const Choices image_types = types;
 
+void walk_warp(DefinitionWalk& in, msq_warp_def& def) {
+  in.choice("kind", def.kind, warps);
+  in.whole("count", def.count);
+  in.whole("count_polar", def.count_polar);
+  in.number("inner_radius", def.inner_radius);
+  in.number("outer_radius", def.outer_radius);
+}
+
 #define MSQ_DEFAULTS(Def, init) \
   template <>                   \
   Def defaults_of() {           \
@@ -136,6 +146,7 @@ MSQ_DEFAULTS(msq_lattice_def, msq_lattice_def_init)
 MSQ_DEFAULTS(msq_plate_lattice_def, msq_plate_lattice_def_init)
 MSQ_DEFAULTS(msq_foam_def, msq_foam_def_init)
 MSQ_DEFAULTS(msq_period_def, msq_period_def_init)
+MSQ_DEFAULTS(msq_warp_def, msq_warp_def_init)
 MSQ_DEFAULTS(msq_functional_def, msq_functional_def_init)
 MSQ_DEFAULTS(msq_waves_def, msq_waves_def_init)
 MSQ_DEFAULTS(msq_beams_def, msq_beams_def_init)

@@ -140,6 +140,8 @@ msq_foam_def defaults_of();
 template <>
 msq_period_def defaults_of();
 template <>
+msq_warp_def defaults_of();
+template <>
 msq_functional_def defaults_of();
 template <>
 msq_waves_def defaults_of();
@@ -168,6 +170,7 @@ msq_voxels_def defaults_of();
 template <>
 msq_neighbourhood defaults_of();
 
+void walk_warp(DefinitionWalk& in, msq_warp_def& def);
 void walk(DefinitionWalk& in, FileDef& def);
 void walk(DefinitionWalk& in, msq_mesh_def& def);
 void walk(DefinitionWalk& in, BoxDef& def);

@@ -39,6 +39,7 @@ std::vector<Scenario> small_scenarios() {
       definition("msq_foam_def_init", msq_foam_def_init),
       definition("msq_functional_def_init", msq_functional_def_init),
       definition("msq_period_def_init", msq_period_def_init),
+      definition("msq_warp_def_init", msq_warp_def_init),
       definition("msq_waves_def_init", msq_waves_def_init),
       definition("msq_host_structure_def_init", msq_host_structure_def_init),
       definition("msq_host_function_def_init", msq_host_function_def_init),
