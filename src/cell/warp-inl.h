@@ -63,7 +63,7 @@ HWY_INLINE void to_warp_frame(const A& a, const Warp::Numbers& n, typename A::V&
                               typename A::V& y, typename A::V& z) {
   const auto px = a.subtract(x, a.set(n.origin[0])), py = a.subtract(y, a.set(n.origin[1])),
              pz = a.subtract(z, a.set(n.origin[2]));
-  const auto along = [&](int axis) {
+  const auto along = [&](int axis) HWY_ATTR {
     return a.add(
         a.add(a.multiply(a.set(n.matrix[axis]), px), a.multiply(a.set(n.matrix[3 + axis]), py)),
         a.multiply(a.set(n.matrix[6 + axis]), pz));

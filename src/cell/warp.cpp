@@ -125,10 +125,12 @@ double Warp::axis_distance(Vec3 p) const {
 }
 
 double Warp::slack(Vec3 p, double distance) const {
-  // Positions in the grid's frame: four roundings of numbers up to the sum of magnitudes. Cells:
-  // relative_margin of the radius, as arcs for angles.
+  // Positions in the grid's frame are sums of three products of rounded differences: within 12
+  // units of 2^-53 of the reach in each coordinate, so within 2^-48. Angles, with their factors,
+  // are within 2^-48 of the true ones, as arcs at a distance of at most twice the reach; radii
+  // within 2^-51.
   const double reach = max_magnitude(p) + max_magnitude(grid_.origin) + distance;
-  return 0x1p-40 * (reach + numbers_.inner) + tiny;
+  return 0x1p-45 * (reach + numbers_.inner) + tiny;
 }
 
 Vec3 Warp::slopes(double axis_distance, double radius) const {
@@ -137,6 +139,31 @@ Vec3 Warp::slopes(double axis_distance, double radius) const {
   return {up / numbers_.radial, around(numbers_.around, axis_distance),
           numbers_.is_spherical ? around(numbers_.along, std::max(radius, axis_distance))
                                 : up / numbers_.along};
+}
+
+Vec3 Warp::bends(double axis_distance, double radius) const {
+  // Along a line of unit speed rho'' = (rho theta')^2 / rho, and so is r''. theta' = h / rho^2 with
+  // a constant h <= rho, so |theta''| = 2 |theta' rho'| / rho, and 2 |rho theta' rho'| <= 1. The
+  // latitude's derivative is k / r^2 with k = z' rho - z rho' <= r and |k'| = |z| rho'', so that of
+  // it is at most rho'' / r + 2 |k / r| |r'| / r^2 <= 1 / (rho r) + 1 / r^2.
+  constexpr double up = 1 + relative_margin;
+  const double r = std::max(radius, axis_distance);
+  return {up / (r * numbers_.radial), up * numbers_.around / (axis_distance * axis_distance),
+          numbers_.is_spherical ? up * 2 * numbers_.along / (axis_distance * r) : 0};
+}
+
+std::array<Vec3, 3> Warp::gradients(Vec3 p) const {
+  const Vec3 g = grid_.to_grid(p);
+  const double across = g.x * g.x + g.y * g.y, rho = std::sqrt(across);
+  const Vec3 around = Vec3{-g.y, g.x, 0} * (numbers_.around / across);
+  Vec3 outwards{g.x / rho, g.y / rho, 0}, along{0, 0, 1 / numbers_.along};
+  if (numbers_.is_spherical) {
+    const double square = across + g.z * g.z;
+    along = Vec3{-g.z * outwards.x, -g.z * outwards.y, rho} * (numbers_.along / square);
+    outwards = g * (1 / std::sqrt(square));
+  }
+  return {grid_.rotation.apply(outwards * (1 / numbers_.radial)), grid_.rotation.apply(around),
+          grid_.rotation.apply(along)};
 }
 
 Warp::Image Warp::image(const Box3& box) const {

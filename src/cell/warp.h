@@ -17,6 +17,8 @@
 // count_polar / (pi r).
 #pragma once
 
+#include <array>
+
 #include "base/interval.h"
 #include "base/vec.h"
 #include "cell/neighbourhood.h"
@@ -81,6 +83,14 @@ class Warp {
   /// Upper bounds on the lengths of the gradients of u, v and w at all points that are at least
   /// that far from the axis, and from the point if spherical. Infinite at a distance of 0.
   Vec3 slopes(double axis_distance, double radius) const;
+
+  /// The gradients of u, v and w at a point, in the model's frame, up to rounding. Not finite on
+  /// the axis.
+  std::array<Vec3, 3> gradients(Vec3 p) const;
+  /// Upper bounds on the second derivatives of u, v and w along straight lines, per squared length:
+  /// with d the distance from the axis and r that from the axis or the point,
+  /// 1 / (r cell size x), count / (2 pi d^2), and 0, or 2 count_polar / (pi d r).
+  Vec3 bends(double axis_distance, double radius) const;
 
   /// A bound on the rounding of places: to_cells(p) are the exact coordinates of a point within
   /// slack(p, distance) of p, and so for all points within that distance of p. That exact point may

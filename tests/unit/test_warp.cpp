@@ -211,6 +211,36 @@ void slopes_bound_the_change(void**) {
   assert_true(steepest > 0.5);
 }
 
+/// Along lines: the gradients give the first derivatives, and the bends bound the rest.
+void bends_bound_the_departure_from_lines(void**) {
+  Random random(4);
+  double most_bent[3] = {};
+  for (int n = 0; n < tries(all); ++n) {
+    const Warp warp = random_warp(random, kind_of(n));
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = random.in_box({{-12, -12, -12}, {12, 12, 12}});
+      const double step = 0.5 * random.unit() * warp.axis_distance(p);
+      const Vec3 d{random.normal(), random.normal(), random.normal()};
+      const Vec3 way = d * (step / length(d));
+      const double rho = warp.axis_distance(p) - step, r = warp.radius(p) - step;
+      const Vec3 bends = warp.bends(rho, r), slopes = warp.slopes(rho, r);
+      const auto gradients = warp.gradients(p);
+      const Vec3 a = warp.to_cells(p), b = warp.to_cells(p + way);
+      for (int axis = 0; axis < 3; ++axis) {
+        assert_true(length(gradients[static_cast<size_t>(axis)]) <= slopes[axis]);
+        const double line = a[axis] + dot(gradients[static_cast<size_t>(axis)], way);
+        const double off =
+            std::abs(axis == 1 ? around(b.y, line, warp.shell().count) : b[axis] - line);
+        const double most = 0.5 * bends[axis] * step * step;
+        if (off > most + slopes[axis] * 3 * warp.slack(p, step))
+          fail_msg("coordinate %d departs by %g, not by at most %g", axis, off, most);
+        if (most > 1e-6) most_bent[axis] = std::max(most_bent[axis], off / most);
+      }
+    }
+  }
+  for (const double bent : most_bent) assert_true(bent > 0.3);
+}
+
 }  // namespace
 
 int main() {
@@ -220,6 +250,7 @@ int main() {
       cmocka_unit_test(seams_and_poles_are_in_cells),
       cmocka_unit_test(images_contain_the_cells_of_points),
       cmocka_unit_test(slopes_bound_the_change),
+      cmocka_unit_test(bends_bound_the_departure_from_lines),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
