@@ -1464,6 +1464,9 @@ typedef struct msq_functional_def {
   msq_param thickness;
   /** Cells of varying size. NULL (default): all cells have the size of the grid. */
   const msq_period_def* period;
+  /** Cells around an axis or a point. NULL (default): boxes. Not together with a period or a
+   * thickness. */
+  const msq_warp_def* warp;
 } msq_functional_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -1505,15 +1508,23 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * only structures without a period. Slices along the axes of the grid cost as much as those of a
  * structure without a period whose cell size is no multiple of the pitch.
  *
+ * With warped cells, the function is that of the position in the cell, so walls are thicker where
+ * cells are wider; a level that is a field of the radius counters that. Distances are lower bounds
+ * that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they
+ * cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of
+ * cylindrical cells take rows along which the function is tabulated; other layers decide boxes, then
+ * points, which costs several times as much. There are no thin walls to fill along.
+ *
  * Functions use IEEE operations only, not the C library, so their bits are equal on every machine.
  * Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by
  * default, seconds for the longest expressions); a thickness takes tens of milliseconds at
  * construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network,
  * together with a level, above what fills the cell, or of a function without a zero or nowhere
  * above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits,
- * with the index; for expressions the message gives the position, from 1, and the reason), LIMIT
+ * with the index; what msq_warp_def limits; for expressions the message gives the position, from 1, and the reason), LIMIT
  * (limits of expressions; more than 2^24 cells between the grid's origin and a position of the
- * period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section
+ * period), UNSUPPORTED (a field of thickness with a period; a thickness or a period with a warp),
+ * MEMORY. Source: paper, section
  * "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von
  * Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md). */
 MSQ_API msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def,

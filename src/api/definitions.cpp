@@ -364,6 +364,7 @@ void walk(DefinitionWalk& in, msq_functional_def& def) {
   in.named_values("parameters", def.parameters, def.parameter_count);
   in.param("thickness", def.thickness);
   in.optional("period", def.period, defaults_of<msq_period_def>(), walk_period);
+  in.optional("warp", def.warp, defaults_of<msq_warp_def>(), walk_warp);
 }
 
 void walk(DefinitionWalk& in, msq_waves_def& def) {

@@ -7,6 +7,7 @@
 #include "api/guard.h"
 #include "api/level.h"
 #include "api/neighbourhood.h"
+#include "api/warp.h"
 #include "expression/parser.h"
 #include "field/map.h"
 #include "structure/functional/graded_walls.h"
@@ -69,7 +70,7 @@ bool is_given(const msq_param& parameter) {
 
 /// The level of walls as thick as that.
 Parameter read_thickness(const msq_functional_def& def, FunctionalKind kind, const Tape& function,
-                         const Neighbourhood& grid, const std::optional<GradedPeriod>& period) {
+                         const Neighbourhood& grid, const CellShape& cells) {
   if (kind != FunctionalKind::sheet)
     fail(Status::argument, "thickness is given, but kind is %d: only sheets have walls", def.kind);
   if (is_given(def.level))
@@ -80,11 +81,15 @@ Parameter read_thickness(const msq_functional_def& def, FunctionalKind kind, con
     fail(Status::argument,
          "thickness runs from %g to %g; it must not be negative, nor 0 everywhere", range.low,
          range.high);
-  if (period) {
+  if (cells.warp)
+    fail(Status::unsupported,
+         "thickness is given, but the cells are warped: their widths differ everywhere. Give a "
+         "level, which may be a field");
+  if (cells.period) {
     if (!thickness.is_constant())
       fail(Status::unsupported,
            "thickness is a field; with a period it must be a number. A level may be a field");
-    return graded_wall_level(function, grid, *period, range.high);
+    return graded_wall_level(function, grid, *cells.period, range.high);
   }
   const WallThickness walls(function, grid.cell_size);
   if (range.high > walls.most())
@@ -119,13 +124,16 @@ msq_status msq_structure_functional(msq_context* context, const msq_functional_d
            max_clusters);
     const Tape function = read_function(known);
     msq_period_def known_period;
-    std::optional<GradedPeriod> period = read_period(known.period, known_period);
-    Parameter level = is_given(known.thickness)
-                          ? read_thickness(known, kind, function, grid, period)
-                          : read_level(known.level, known.kind);
-    const Ref<Structure> made =
-        make_ref<Functional>(grid, function, kind, std::move(level),
-                             static_cast<int>(known.clusters), std::move(period));
+    msq_warp_def known_warp;
+    CellShape cells;
+    cells.period = read_period(known.period, known_period);
+    cells.warp = read_warp(known.warp, known_warp, grid);
+    if (cells.period && cells.warp)
+      fail(Status::unsupported, "both period and warp are given; a structure takes one of them");
+    Parameter level = is_given(known.thickness) ? read_thickness(known, kind, function, grid, cells)
+                                                : read_level(known.level, known.kind);
+    const Ref<Structure> made = make_ref<Functional>(
+        grid, function, kind, std::move(level), static_cast<int>(known.clusters), std::move(cells));
     keep(*made, known);
     *structure = new_handle<msq_structure>(made);
   });

@@ -80,6 +80,10 @@ static const char* const documents[] = {
            "\"level\": 0.2}}"),
     IN_BOX("{\"functional\": {\"kind\": \"sheet\", \"thickness\": 0.1, \"period\": {\"axis\": 1, "
            "\"positions\": [0, 2], \"cell_sizes\": [1, 2]}}}"),
+    IN_BOX("{\"functional\": {\"level\": 0.1, \"warp\": {\"count\": 12, \"inner_radius\": 1, "
+           "\"outer_radius\": 3}}}"),
+    IN_BOX("{\"functional\": {\"warp\": {\"kind\": \"spherical\", \"count\": 12, \"count_polar\": "
+           "6}}}"),
     IN_BOX("{\"functional\": {\"function\": \"expression\", \"expression\": \"sin(x) + k\", "
            "\"parameters\": {\"k\": 0.25}}}"),
     IN_BOX("{\"waves\": {\"kind\": \"sheet\", \"seed\": 18446744073709551615, \"count\": 30, "
@@ -179,6 +183,19 @@ static void keys_are_fields_of_definitions(void** state) {
   assert_ok(msq_structure_functional(context, &functional, &structure));
   assert_is(IN_BOX("{\"functional\": {\"function\": \"diamond\", \"period\": {\"axis\": 0, "
                    "\"positions\": [1, 3], \"cell_sizes\": [1, 2]}}}"),
+            make_box(context), structure);
+
+  msq_warp_def warp;
+  assert_ok(msq_functional_def_init(&functional, sizeof functional));
+  assert_ok(msq_warp_def_init(&warp, sizeof warp));
+  functional.warp = &warp;
+  warp.kind = MSQ_WARP_SPHERICAL;
+  warp.count = 12;
+  warp.count_polar = 5;
+  warp.outer_radius = 4;
+  assert_ok(msq_structure_functional(context, &functional, &structure));
+  assert_is(IN_BOX("{\"functional\": {\"warp\": {\"kind\": \"spherical\", \"count\": 12, "
+                   "\"count_polar\": 5, \"outer_radius\": 4}}}"),
             make_box(context), structure);
 
   msq_lattice_def lattice;

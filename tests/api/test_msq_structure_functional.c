@@ -34,6 +34,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_null(def.parameters);
   assert_int_equal(def.parameter_count, 0);
   assert_null(def.period);
+  assert_null(def.warp);
 }
 
 /* ---- the solid, against the C library's functions */

@@ -330,9 +330,21 @@ static msq_period_def period_def(void) {
   return def;
 }
 
+static msq_warp_def warp_def(void) {
+  msq_warp_def def;
+  assert_ok(msq_warp_def_init(&def, sizeof def));
+  def.kind = MSQ_WARP_SPHERICAL;
+  def.count = 7;
+  def.count_polar = 3;
+  def.inner_radius = 1;
+  def.outer_radius = 4;
+  return def;
+}
+
 static void functional_structures_hash_their_function(void** state) {
   static const msq_named_value parameter[1] = {{"a", 2}};
   const msq_period_def period = period_def();
+  const msq_warp_def warp = warp_def();
   msq_functional_def def;
   (void)state;
   assert_ok(msq_functional_def_init(&def, sizeof def));
@@ -359,6 +371,7 @@ static void functional_structures_hash_their_function(void** state) {
     CHANGES(def.thickness.value, def.level.value = 0; def.thickness.value = 0.25);
     CHANGES(def.thickness.field, def.level.value = 0; def.thickness.field = thin_ramp);
     CHANGES(def.period, def.period = &period);
+    CHANGES(def.warp, def.warp = &warp);
   }
 }
 
@@ -386,6 +399,26 @@ static void periods_hash_axis_and_sizes(void** state) {
   }
 }
 
+static void hash_warp(msq_context* in, const void* warp, uint8_t hash[hash_bytes]) {
+  msq_functional_def def;
+  assert_ok(msq_functional_def_init(&def, sizeof def));
+  def.warp = (const msq_warp_def*)warp;
+  hash_functional(in, &def, hash);
+}
+
+static void warps_hash_kind_counts_and_radii(void** state) {
+  msq_warp_def def = warp_def();
+  (void)state;
+  HASHES(context, "msq_warp_def", &def, sizeof def, hash_warp) {
+    NOT_HASHED(def.struct_size);
+    CHANGES(def.kind, def.kind = MSQ_WARP_CYLINDRICAL; def.count_polar = 0);
+    CHANGES(def.count, def.count = 8);
+    CHANGES(def.count_polar, def.count_polar = 4);
+    CHANGES(def.inner_radius, def.inner_radius = 0);
+    CHANGES(def.outer_radius, def.outer_radius = 0);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lattices_hash_cell_grid_and_radius),
@@ -398,6 +431,7 @@ int main(void) {
       cmocka_unit_test(functional_structures_hash_their_function),
       cmocka_unit_test(waves_hash_what_they_are_made_of),
       cmocka_unit_test(periods_hash_axis_and_sizes),
+      cmocka_unit_test(warps_hash_kind_counts_and_radii),
   };
   if (!MSQ_WITH_XXHASH) return 0;
   context = make_context();

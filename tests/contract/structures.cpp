@@ -159,6 +159,22 @@ Factory graded_functional_factory(const char* expression, FunctionalKind kind, i
   };
 }
 
+namespace {
+
+/// Six cells around the grid's z axis or origin, some of the shell's ends within reach.
+Factory warped_factory(const char* expression, FunctionalKind kind, Warp::Kind warp,
+                       double inner = 0.4) {
+  const Tape tape = parse_expression(expression, {});
+  return [=](const Neighbourhood& grid, Parameter level) {
+    const double size = grid.cell_size.x;
+    const Warp::Shell shell{6, warp == Warp::Kind::spherical ? 4u : 0u, inner * size, 2.6 * size};
+    return Ref<const Structure>(
+        make_ref<Functional>(grid, tape, kind, std::move(level), 0, Warp(warp, grid, shell)));
+  };
+}
+
+}  // namespace
+
 UnitCell skew_unit_cell() {
   UnitCell cell;
   cell.nodes = {{0, 0.25, 0.75},   {1, 0.5, 0.125}, {0.3, 0, 1},     {0.7, 1, 0},  {0, 0, 0},
@@ -347,6 +363,15 @@ std::vector<Kind> kinds() {
                    graded_functional_factory(preset_expressions[7], sheet, 0)});
   kinds.push_back(
       {"graded period", "choice along y", 0.05, 1, graded_functional_factory(choice, network, 1)});
+  constexpr Warp::Kind cylinder = Warp::Kind::cylindrical, sphere = Warp::Kind::spherical;
+  kinds.push_back({"warped", "gyroid around an axis", 0.2, 1,
+                   warped_factory(preset_expressions[0], network, cylinder)});
+  kinds.push_back({"warped", "split P sheet around an axis", 0.1, 1,
+                   warped_factory(preset_expressions[7], sheet, cylinder)});
+  kinds.push_back({"warped", "choice around an axis, to it", 0.05, 1,
+                   warped_factory(choice, network, cylinder, 0)});
+  kinds.push_back({"warped", "gyroid around a point", 0.2, 1,
+                   warped_factory(preset_expressions[0], sheet, sphere)});
   kinds.push_back({"waves", "network", 0.2, 1, waves_factory(WavesKind::network, 40)});
   kinds.push_back({"waves", "sheet", 0.15, 1, waves_factory(WavesKind::sheet, 15)});
   for (bool by_cell : {false, true})

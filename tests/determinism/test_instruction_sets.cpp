@@ -159,6 +159,17 @@ void all_instruction_sets_give_the_same_layers(void**) {
                                     FunctionalKind::sheet, Parameter(0.2), 0);
       },
       [](Ref<Context>) {
+        const Neighbourhood grid{{0.5, 0.4, 0}, {0.1, 0.1, 0.13}, {}};
+        return make_ref<Functional>(grid, parse_expression(preset_expressions[0], {}),
+                                    FunctionalKind::sheet, Parameter(0.3), 0,
+                                    Warp(Warp::Kind::cylindrical, grid, {23, 0, 0.1, 0.6}));
+      },
+      [](Ref<Context>) {
+        return make_ref<Functional>(turned(), parse_expression(preset_expressions[6], {}),
+                                    FunctionalKind::network, Parameter(0.1), 0,
+                                    Warp(Warp::Kind::spherical, turned(), {19, 8, 0, 0}));
+      },
+      [](Ref<Context>) {
         return make_ref<PlateLattice>(Neighbourhood{{}, {0.21, 0.2, 0.23}, {}}, kelvin_plate_cell(),
                                       Parameter(0.02));
       },

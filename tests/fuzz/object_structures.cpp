@@ -154,6 +154,15 @@ Owner<msq_structure> Maker::functional() {
     period.cell_sizes = sizes;
     def.period = &period;
   }
+  msq_warp_def warp = make_def(msq_warp_def_init);
+  if (input_.chance(60)) {
+    warp.kind = 1 + static_cast<int32_t>(input_.below(2));
+    warp.count = 1 + static_cast<uint32_t>(input_.below(40));
+    warp.count_polar = warp.kind == MSQ_WARP_SPHERICAL ? warp.count : 0;
+    warp.inner_radius = input_.chance(128) ? sight_.unit * input_.number(0, 2) : 0;
+    warp.outer_radius = input_.chance(128) ? sight_.unit * input_.number(2, 5) : 0;
+    def.warp = &warp;
+  }
   return make<msq_structure>("msq_structure_functional", [&](msq_structure** s) {
     return msq_structure_functional(context_, &def, s);
   });

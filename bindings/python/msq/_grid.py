@@ -74,6 +74,32 @@ def set_period(definition: Any, period: Optional[Period]) -> Any:
     return graded, positions, cell_sizes
 
 
+class Warp(NamedTuple):
+    """Cells around the z axis of the grid; with count_polar around its origin, that many from pole to
+    pole. count cells lie around. cell_size is that outwards, from inner_radius on, and that along
+    the axis. Outside of the radii there is nothing; outer_radius 0: no limit."""
+
+    count: int
+    inner_radius: float = 0.0
+    outer_radius: float = 0.0
+    count_polar: int = 0
+
+
+def set_warp(definition: Any, warp: Optional[Warp]) -> Any:
+    """Writes a warp; returns what must be kept until the call is made. None: cells are boxes."""
+    if warp is None:
+        return None
+    warp = Warp(*warp)
+    warped = defaults(_abi.msq_warp_def)
+    warped.kind = _abi.MSQ_WARP_SPHERICAL if warp.count_polar else _abi.MSQ_WARP_CYLINDRICAL
+    warped.count = unsigned(warp.count, 32, "count")
+    warped.count_polar = unsigned(warp.count_polar, 32, "count_polar")
+    warped.inner_radius = warp.inner_radius
+    warped.outer_radius = warp.outer_radius
+    definition.warp = ctypes.pointer(warped)
+    return warped
+
+
 class Grid(NamedTuple):
     """A grid of cells, as structures take it: `msq.Foam(radius=0.2, **grid._asdict())`."""
 

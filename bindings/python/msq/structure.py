@@ -12,7 +12,7 @@ import numpy as np
 from . import _abi, statistics
 from ._arrays import Elements, elements, output, pointer, triples, vector
 from ._given import parameter, remembers
-from ._grid import Cell, Period, set_grid, set_period
+from ._grid import Cell, Period, Warp, set_grid, set_period, set_warp
 from ._handle import Handle, hash_of
 from ._host import HashKey, HostPoints, create
 from ._interrupt import build, interruptible
@@ -466,6 +466,7 @@ class Functional(Structure):
     `double_diamond`, `double_p`, `honeycomb`, `rods`); or give an expression in x, y, z (angles, 0 to 2 pi) with the values of its
     parameters. Of sheets thickness, the mean one of the walls, may be given instead of level.
     period: a Period, for cells whose size varies along an axis; cell_size along it is ignored.
+    warp: a Warp, for cells around an axis or a point.
     """
 
     function: parameter[Optional[str]] = parameter("Its name; None: an expression.")
@@ -479,13 +480,15 @@ class Functional(Structure):
     origin: parameter[Sequence[float]] = parameter("Of the grid.")
     rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
     period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
+    warp: parameter[Optional[Warp]] = parameter("Cells around an axis or a point; None: boxes.")
 
     @remembers
     def __init__(self, function: Optional[str] = None, *, expression: Optional[str] = None,
                  parameters: Optional[Mapping[str, float]] = None, kind: str = "network",
                  level: Param = 0.0, thickness: Param = 0.0, cell_size: Cell = 1.0,
                  clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 period: Optional[Period] = None, context: Optional[Context] = None) -> None:
+                 period: Optional[Period] = None, warp: Optional[Warp] = None,
+                 context: Optional[Context] = None) -> None:
         if (function is None) == (expression is None):
             raise TypeError("Functional takes a function's name or an expression, one of the two")
         definition = defaults(_abi.msq_functional_def)
@@ -500,7 +503,7 @@ class Functional(Structure):
             definition.function = _abi.MSQ_FUNCTION_EXPRESSION
             definition.expression = expression.encode()
         set_parameters(definition, parameters)
-        kept = set_period(definition, period)
+        kept = set_period(definition, period), set_warp(definition, warp)
         self._make(context_of(context, level, thickness), lib.msq_structure_functional, definition)
         del kept  # the call copies it
 

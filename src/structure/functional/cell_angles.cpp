@@ -4,20 +4,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/borrowed.h"
+#include "structure/functional/warped_places.h"
+
 namespace msq {
 
-Neighbourhood smallest_cells(Neighbourhood grid, const std::optional<GradedPeriod>& period) {
-  if (period) grid.cell_size[period->axis()] = period->smallest();
+Neighbourhood smallest_cells(Neighbourhood grid, const CellShape& shape) {
+  if (shape.period) grid.cell_size[shape.period->axis()] = shape.period->smallest();
+  if (shape.warp) {
+    grid.cell_size.y = grid.cell_size.x;
+    if (shape.warp->kind() == Warp::Kind::spherical) grid.cell_size.z = grid.cell_size.x;
+  }
   return grid;
 }
 
-double largest_cell(const Neighbourhood& grid, const std::optional<GradedPeriod>& period) {
-  Vec3 size = grid.cell_size;
-  if (period) size[period->axis()] = period->largest();
+double largest_cell(const Neighbourhood& grid, const CellShape& shape) {
+  Vec3 size = smallest_cells(grid, shape).cell_size;
+  if (shape.period) size[shape.period->axis()] = shape.period->largest();
   return max_component(size);
 }
 
 Vec3 CellAngles::fraction(Vec3 p) const {
+  if (warp_) return warp_->locate(warp_->to_cells(p)).fraction;
   Vec3 fraction = grid_.locate(p).fraction;
   if (period_) {
     const double u = period_->cells(position(p));
@@ -28,6 +36,11 @@ Vec3 CellAngles::fraction(Vec3 p) const {
 
 void CellAngles::find(Values x, Values y, Values z, size_t count,
                       double* const (&angles)[3]) const {
+  if (warp_) {
+    const Borrowed<std::vector<double>> radii;
+    radii->resize(count + batch_padding);
+    return find_warped_places(*warp_, x, y, z, count, angles, radii->data());
+  }
   find_angles(grid_, x, y, z, count, angles);
   if (!period_) return;
   double* const to = angles[period_->axis()];
@@ -38,6 +51,7 @@ void CellAngles::find(Values x, Values y, Values z, size_t count,
 }
 
 CellIndex CellAngles::cell_of(Vec3 p) const {
+  if (warp_) return warp_->locate(warp_->to_cells(p)).cell;
   CellIndex cell = grid_.locate(p).cell;
   if (!period_) return cell;
   const int32_t number = static_cast<int32_t>(std::floor(period_->cells(position(p))));
@@ -45,10 +59,16 @@ CellIndex CellAngles::cell_of(Vec3 p) const {
   return cell;
 }
 
-Vec3 CellAngles::sizes(Vec3 p) const {
+Vec3 CellAngles::gradient(Vec3 p, Vec3 by_angle) const {
+  if (warp_) {
+    const std::array<Vec3, 3> of_cells = warp_->gradients(p);
+    return (of_cells[0] * by_angle.x + of_cells[1] * by_angle.y + of_cells[2] * by_angle.z) *
+           two_pi;
+  }
   Vec3 sizes = grid_.cell_size;
   if (period_) sizes[period_->axis()] = 1 / period_->frequency(position(p));
-  return sizes;
+  return grid_.rotation.apply({two_pi * by_angle.x / sizes.x, two_pi * by_angle.y / sizes.y,
+                               two_pi * by_angle.z / sizes.z});
 }
 
 double CellAngles::error(Vec3 p, double distance) const {

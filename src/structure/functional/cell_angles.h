@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // The coordinates of functional structures: angles, 2 pi times the position in the cell, in cells
-// of one size or of a graded period.
+// of one size, of a graded period or warped.
 #pragma once
 
 #include <optional>
 
+#include "base/pi.h"
 #include "base/vec.h"
 #include "cell/graded_period.h"
 #include "cell/neighbourhood.h"
+#include "cell/warp.h"
 #include "structure/functional/row_kernels.h"
 
 namespace msq {
 
-/// The grid with the smallest of the period's cells.
-Neighbourhood smallest_cells(Neighbourhood grid, const std::optional<GradedPeriod>& period);
-double largest_cell(const Neighbourhood& grid, const std::optional<GradedPeriod>& period);
+/// What cells are made of: one of these, or neither.
+struct CellShape {
+  CellShape() = default;
+  CellShape(GradedPeriod graded) : period(std::move(graded)) {}
+  CellShape(const Warp& warped) : warp(warped) {}
+
+  std::optional<GradedPeriod> period;
+  std::optional<Warp> warp;
+};
+
+/// The grid with the smallest of the period's cells; with boxes in place of warped cells, as long
+/// as those are outwards and, around an axis, along it. As far as indices of these boxes are
+/// limited, those of warped cells are below twice that.
+Neighbourhood smallest_cells(Neighbourhood grid, const CellShape& shape);
+double largest_cell(const Neighbourhood& grid, const CellShape& shape);
 
 inline Vec3 angles_of(Vec3 fraction) {
   return {angle_of(fraction.x), angle_of(fraction.y), angle_of(fraction.z)};
@@ -23,10 +37,11 @@ inline Vec3 angles_of(Vec3 fraction) {
 class CellAngles {
  public:
   /// `grid`: that of smallest_cells().
-  CellAngles(const Neighbourhood& grid, std::optional<GradedPeriod> period)
-      : grid_(grid), period_(std::move(period)) {}
+  CellAngles(const Neighbourhood& grid, CellShape shape)
+      : grid_(grid), period_(std::move(shape.period)), warp_(std::move(shape.warp)) {}
 
   const std::optional<GradedPeriod>& period() const { return period_; }
+  const std::optional<Warp>& warp() const { return warp_; }
   /// The coordinate of a point along the period's axis.
   double position(Vec3 p) const { return grid_.to_grid(p)[period_->axis()]; }
 
@@ -38,15 +53,16 @@ class CellAngles {
   void find(Values x, Values y, Values z, size_t count, double* const (&angles)[3]) const;
   CellIndex cell_of(Vec3 p) const;
 
-  /// Of the cells at a point.
-  Vec3 sizes(Vec3 p) const;
+  /// The gradient in the model's frame of a function with this gradient by angles.
+  Vec3 gradient(Vec3 p, Vec3 by_angle) const;
   /// Bound on the rounding of the number of cells, in addition to that of the position, for points
-  /// within that distance of p.
+  /// within that distance of p. Not for warped cells (Warp::slack()).
   double error(Vec3 p, double distance) const;
 
  private:
   Neighbourhood grid_;
   std::optional<GradedPeriod> period_;
+  std::optional<Warp> warp_;
 };
 
 }  // namespace msq

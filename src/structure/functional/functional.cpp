@@ -4,13 +4,17 @@
 #include <cmath>
 
 #include "base/borrowed.h"
+#include "base/infinity.h"
 #include "expression/period.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/functional/functional_rows.h"
 #include "structure/functional/level_lines.h"
 #include "structure/functional/ray_search.h"
 #include "structure/functional/row_kernels.h"
+#include "structure/functional/shell_rays.h"
 #include "structure/functional/turned_rows.h"
+#include "structure/functional/warped_places.h"
+#include "structure/functional/warped_rows.h"
 
 namespace msq {
 
@@ -38,7 +42,7 @@ Tape onset_of(const Tape& function, FunctionalKind kind) {
 struct Points {
   static constexpr size_t room = batch_points + batch_padding;
   double coordinates[3][room] = {};
-  double angles[3][room], levels[room] = {};
+  double angles[3][room], levels[room] = {}, radii[room];
   Vec3 asked[batch_points];
   size_t index[batch_points];
 };
@@ -53,10 +57,9 @@ std::vector<RowPlan> row_plans(const Clusters& clusters, const std::array<int, 3
 }  // namespace
 
 Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
-                       FunctionalKind kind, Parameter level, int clusters,
-                       std::optional<GradedPeriod> period)
-    : Structure(smallest_cells(neighbourhood, period), largest_cell(neighbourhood, period)),
-      angles_(this->neighbourhood(), std::move(period)),
+                       FunctionalKind kind, Parameter level, int clusters, CellShape cells)
+    : Structure(smallest_cells(neighbourhood, cells), largest_cell(neighbourhood, cells)),
+      angles_(this->neighbourhood(), std::move(cells)),
       level_(std::move(level)),
       kind_(kind),
       function_(function),
@@ -67,10 +70,18 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       side_(clusters ? clusters : automatic_clusters(onset_)),
       repeats_(msq::repeats(onset_)) {
   // Steps of rows have the same angles only in cells of one size.
-  if (sample_axis_[0] < 0 && !angles_.period()) form_ = TrigonometricForm::of(onset_);
-  while (slopes_ < slope_.size() && angles_.period() &&
-         frequency(slopes_ - 1) < angles_.period()->most() * (1 + 0x1p-45))
-    ++slopes_;
+  const bool is_uniform = !angles_.period() && !angles_.warp();
+  if (sample_axis_[0] < 0 && is_uniform) form_ = TrigonometricForm::of(onset_);
+  if (is_uniform) return;
+  double most = 0;
+  if (angles_.period()) most = angles_.period()->most() * (1 + 0x1p-45);
+  if (angles_.warp()) {
+    // Half the inner radius, so that the bounds are not 0 at the shell.
+    most = 2 * angles_.warp()->numbers().around / angles_.warp()->shell().inner;
+    has_steepest_ = angles_.warp()->kind() == Warp::Kind::cylindrical;
+  }
+  while (slopes_ < slope_.size() && frequency(slopes_ - 1) < most) ++slopes_;
+  has_steepest_ = has_steepest_ && frequency(slopes_ - 1) >= most;
 }
 
 const Functional::Prepared& Functional::prepared() const {
@@ -88,15 +99,22 @@ double Functional::value(Vec3 p) const {
 
 double Functional::onset(Vec3 p) const {
   const double onset = value(p);
-  return std::isnan(onset) ? std::numeric_limits<double>::infinity() : onset;
+  return std::isnan(onset) || !is_in_shell(p) ? std::numeric_limits<double>::infinity() : onset;
 }
 
 bool Functional::inside(Vec3 p) const {
-  return value(p) <= level_.at(p);
+  return is_in_shell(p) && value(p) <= level_.at(p);
+}
+
+bool Functional::is_in_shell(Vec3 p) const {
+  const std::optional<Warp>& warp = angles_.warp();
+  return !warp || warp->is_in_shell(warp->radius(p));
 }
 
 double Functional::frequency(size_t n) const {
-  const double whole = std::ldexp(angles_.period()->least(), static_cast<int>(n / 2));
+  const double least = angles_.period() ? angles_.period()->least()
+                                        : 0.25 / max_component(neighbourhood().cell_size);
+  const double whole = std::ldexp(least, static_cast<int>(n / 2));
   return whole * (n % 2 ? std::sqrt(2.0) : 1.0) * (1 + 0x1p-40);
 }
 
@@ -108,24 +126,30 @@ const Slope& Functional::slope(size_t n) const {
     Vec3 angles_per_unit{two_pi / grid.cell_size.x, two_pi / grid.cell_size.y,
                          two_pi / grid.cell_size.z};
     if (angles_.period()) angles_per_unit[angles_.period()->axis()] = two_pi * frequency(n);
+    if (angles_.warp()) {
+      const double rho = axis_distance(n);
+      angles_per_unit = angles_.warp()->slopes(rho, rho) * two_pi;
+    }
     return std::make_unique<const Slope>(
         bound_slope(onset_, {cell, cell, cell}, angles_per_unit * (1 + 0x1p-50), 0x1p-49));
   });
 }
 
 double Functional::min_ray_step() const {
-  return std::isfinite(steepest().most)
+  return has_steepest_ && std::isfinite(steepest().most)
              ? ray_tolerance()
              : FunctionalRays::max_blind_step * min_component(neighbourhood().cell_size);
 }
 
 void Functional::enter(RaySearch* searches, size_t count, const Job* job) const {
+  if (angles_.warp()) return ShellRays(*this, job).enter(searches, count);
   FunctionalRays rays(*this, job);
   rays.find(true, searches, count);
   rays.find_normals(searches, count);
 }
 
 double Functional::leave(const Ray& ray, double from, double to, const Job* job) const {
+  if (angles_.warp()) return ShellRays(*this, job).leave(ray, from, to);
   RaySearch search{ray, from, to};
   FunctionalRays(*this, job).find(false, &search, 1);
   return search.found ? search.t : to;
@@ -155,8 +179,37 @@ double Functional::steady_distance_of(double gap, Vec3 p) const {
   return best;
 }
 
+double Functional::axis_distance(size_t n) const {
+  return angles_.warp()->numbers().around / frequency(n);
+}
+
+/// As above: cells at least axis_distance(n) from the axis have slope(n), and so far that holds.
+/// With F the points where the onset is at most the level, and S the shell, the solid is that of
+/// both. Where bounds of the distances to their boundaries have the sign of "outside", the larger
+/// bounds the distance to that of the solid.
+double Functional::warped_distance(double gap, bool is_inside, Vec3 fraction, Vec3 p) const {
+  const Warp& warp = *angles_.warp();
+  const double rho = warp.axis_distance(p), r = warp.radius(p);
+  double best = 0;
+  for (size_t n = 0; n < slopes_ && gap > 0; ++n) {
+    const double away = axis_distance(n), reach = rho - away;
+    if (!(reach > 0)) continue;
+    double steady = steady_distance(gap, slope(n).most, 1, level_, p);
+    const Vec3 slopes = warp.slopes(away, away);
+    for (int axis = 0; axis < 3; ++axis)
+      if (!repeats_[static_cast<size_t>(axis)])
+        steady = std::min(steady, std::min(fraction[axis], 1 - fraction[axis]) / slopes[axis]);
+    best = std::max(best, std::min(reach, steady));
+    if (steady <= reach) break;
+  }
+  const double inner = warp.shell().inner > 0 ? r - warp.shell().inner : infinity;
+  const double within = std::min(inner, warp.outer() - r);
+  if (within < 0) return is_inside ? -within : std::max(best, -within);
+  return is_inside ? std::min(best, within) : best;
+}
+
 bool Functional::has_steady_distance() const {
-  return std::isfinite(steepest().most) && std::isfinite(level_.lipschitz());
+  return has_steepest_ && std::isfinite(steepest().most) && std::isfinite(level_.lipschitz());
 }
 
 double Functional::distance_bound(Vec3 p) const {
@@ -169,6 +222,12 @@ double Functional::distance_bound(Vec3 p) const {
   // The error of the level there, and the same at the boundary.
   const double rounding = 2 * (level.high - level.low) + 2 * slope.error;
   const double gap = std::max(onset - level.high, level.low - onset) - rounding;
+  if (angles_.warp()) {
+    const double far = 0x1p30 * characteristic_length();
+    const double bound =
+        std::min(warped_distance((1 - 0x1p-40) * gap, onset <= level.low, fraction, p), far);
+    return std::max(0.0, (1 - 0x1p-40) * bound - 2 * angles_.warp()->slack(p, bound));
+  }
   // The grid's rotation may stretch distances in the last bits. A constant function has no
   // boundary.
   double distance_bound =
@@ -187,7 +246,8 @@ double Functional::distance_bound(Vec3 p) const {
 void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   Batch batch(program_);
   const Borrowed<Points> borrowed;
-  auto& [coordinates, angles, levels, asked, index] = *borrowed;
+  auto& [coordinates, angles, levels, radii, asked, index] = *borrowed;
+  const std::optional<Warp>& warp = angles_.warp();
   for (size_t axis = 0; axis < 3; ++axis) batch.set_input(axis, {angles[axis], false});
   for (size_t next = 0; next < count;) {
     size_t size = 0;
@@ -198,17 +258,28 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
       index[size++] = next;
     }
     level_.values(asked, size, levels);
-    angles_.find({coordinates[0], false}, {coordinates[1], false}, {coordinates[2], false}, size,
-                 {angles[0], angles[1], angles[2]});
+    const Values x{coordinates[0], false}, y{coordinates[1], false}, z{coordinates[2], false};
+    double* const all[3] = {angles[0], angles[1], angles[2]};
+    if (warp)
+      find_warped_places(*warp, x, y, z, size, all, radii);
+    else
+      angles_.find(x, y, z, size, all);
     batch.run(size);
     uint64_t bits[batch_points / 64 + 1];
     compare_values(batch.output(0), {levels, false}, size, bits);
+    if (warp)
+      for (size_t i = 0; i < size; ++i)
+        if (!warp->is_in_shell(radii[i])) bits[i / 64] &= ~(uint64_t{1} << i % 64);
     for (size_t i = 0; i < size; ++i) alive[index[i]] = bits[i / 64] >> (i % 64) & 1;
   }
 }
 
 void Functional::keep_rows(const RowBlock& block, const Job* job) const {
-  if (sample_axis_[0] >= 0)
+  if (angles_.warp() && WarpedRows::serves(*this))
+    WarpedRows(*this, block).keep(job);
+  else if (angles_.warp())
+    Structure::keep_rows(block, job);
+  else if (sample_axis_[0] >= 0)
     FunctionalRows(*this, block).keep(job);
   else if (form_)
     TurnedRows(*this, block).keep(job);
@@ -216,7 +287,20 @@ void Functional::keep_rows(const RowBlock& block, const Job* job) const {
     keep_turned_rows(*this, block, job);
 }
 
+BoxClass Functional::classify(const Box3& box) const {
+  return angles_.warp() ? classify_warped(*this, box) : BoxClass::mixed;
+}
+
+const RowPlan& Functional::warped_plan(unsigned changing) const {
+  return warped_plans_[changing == 3 ? 0 : 1].get([&] {
+    std::array<int, 3> axes;
+    for (size_t axis = 0; axis < 3; ++axis) axes[axis] = changing >> axis & 1 ? 0 : 1;
+    return std::make_unique<const RowPlan>(onset_, axes);
+  });
+}
+
 LineGraph Functional::wall_lines(const WallSection& section) const {
+  if (angles_.warp()) return Structure::wall_lines(section);
   return LevelLines(*this, section).find();
 }
 
@@ -228,6 +312,7 @@ void Functional::describe(HashInput& input) const {
   level_.describe(input);
   input.integer(angles_.period() ? 1 : 0);
   if (angles_.period()) angles_.period()->describe(input);
+  if (angles_.warp()) angles_.warp()->describe(input);
 }
 
 }  // namespace msq

@@ -26,10 +26,10 @@ enum class FunctionalKind : int32_t { network = 1, sheet = 2 };
 
 class Functional final : public Structure {
  public:
-  /// `clusters`: number along an axis of the cell; 1: none, 0: the most efficient number. The
-  /// period takes the place of the cell size along its axis.
+  /// `clusters`: number along an axis of the cell; 1: none, 0: the most efficient number. A period
+  /// takes the place of the cell size along its axis.
   Functional(const Neighbourhood& neighbourhood, const Tape& function, FunctionalKind kind,
-             Parameter level, int clusters, std::optional<GradedPeriod> period = {});
+             Parameter level, int clusters, CellShape cells = {});
 
   bool inside(Vec3 p) const override;
   CellIndex cell_of(Vec3 p) const override { return angles_.cell_of(p); }
@@ -37,7 +37,8 @@ class Functional final : public Structure {
   /// The difference of onset and level over the sum of their Lipschitz constants. The onset's
   /// constant is that of the whole cell; in cells of varying size, of all cells that are as near as
   /// the distance. Along axes on which the function is not periodic by
-  /// itself, at most the distance to the cell's border. 0 everywhere if the slope is unbounded.
+  /// itself, at most the distance to the cell's border. 0 everywhere if the slope is unbounded. In
+  /// warped cells the shell that they fill counts, too; 0 near the axis and the poles.
   double distance_bound(Vec3 p) const override;
   bool has_steady_distance() const override;
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
@@ -45,15 +46,19 @@ class Functional final : public Structure {
   Vec3 normal(const Ray& ray, double t) const override;
   double min_ray_step() const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
-  /// Then the level is bounded block by block.
-  bool gains_by_layers() const override { return !level_.is_constant(); }
+  /// Then the level is bounded block by block, or tables serve all layers of a block.
+  bool gains_by_layers() const override { return !level_.is_constant() || angles_.warp(); }
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  /// Only in warped cells.
+  BoxClass classify(const Box3& box) const override;
+  bool knows_boxes() const override { return angles_.warp().has_value(); }
   uint64_t critical_count() const override { return 3; }
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return level_.at(p); }
-  bool is_periodic() const override { return !angles_.period(); }
+  bool is_periodic() const override { return !angles_.period() && !angles_.warp(); }
   ThinWalls thin_walls() const override {
+    if (angles_.warp()) return ThinWalls::none;
     return !angles_.period() && (is_sheet() || level_.is_constant()) ? ThinWalls::uniform
                                                                      : ThinWalls::varying;
   }
@@ -72,6 +77,9 @@ class Functional final : public Structure {
   const std::array<bool, 3>& repeats() const { return repeats_; }
   /// Built by the first call, on its thread.
   const Clusters& clusters() const { return prepared().clusters; }
+  /// How the onset is evaluated in rows along which these cell coordinates change, bit by bit, and
+  /// the others do not: 3, or 4 for the last alone. For warped cells.
+  const RowPlan& warped_plan(unsigned changing) const;
   /// For each axis of the grid, the axis of the samples parallel to it; all -1 if the grid is
   /// turned.
   const std::array<int, 3>& sample_axis() const { return sample_axis_; }
@@ -83,17 +91,21 @@ class Functional final : public Structure {
 
  private:
   void describe(HashInput& input) const override;
-  /// In cells that have frequency(n), or less, along the period's axis.
+  /// In cells that have frequency(n), or less, along the period's axis, or around the axis.
   const Slope& slope(size_t n) const;
   const Slope& steepest() const { return slope(slopes_ - 1); }
   double frequency(size_t n) const;
   double steady_distance_of(double gap, Vec3 p) const;
+  /// Where the cells with frequency(n) are, and beyond, in warped cells.
+  double axis_distance(size_t n) const;
+  double warped_distance(double gap, bool is_inside, Vec3 fraction, Vec3 p) const;
   /// Data for rows along the axes.
   struct Prepared {
     Clusters clusters;
     std::vector<RowPlan> row_plans;
   };
   const Prepared& prepared() const;
+  bool is_in_shell(Vec3 p) const;
   /// The value of the onset's tape.
   double value(Vec3 p) const;
 
@@ -107,11 +119,15 @@ class Functional final : public Structure {
   int side_;  // of the clusters
   std::optional<TrigonometricForm> form_;
   std::array<bool, 3> repeats_;
-  // Frequencies a factor of sqrt(2) apart: 1024 is the largest ratio of cell sizes.
-  std::array<Lazy<Slope>, 21> slope_;
+  // Frequencies a factor of sqrt(2) apart: 1024 is the largest ratio of cell sizes of a period.
+  // Those of warped cells range from what does not matter to the inner radius, if there are so
+  // many.
+  std::array<Lazy<Slope>, 41> slope_;
   size_t slopes_ = 1;
+  bool has_steepest_ = true;  // whether the last frequency is the largest there is
   mutable std::once_flag once_;
   mutable std::optional<Prepared> prepared_;
+  std::array<Lazy<RowPlan>, 2> warped_plans_;
 };
 
 }  // namespace msq

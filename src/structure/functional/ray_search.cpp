@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "base/unit.h"
 #include "structure/functional/row_kernels.h"
 
 namespace msq {
@@ -65,6 +66,7 @@ double FunctionalRays::position_error(const RaySearch& search) const {
 }
 
 double FunctionalRays::angle_error(const RaySearch& search, double position_error) const {
+  if (solid_.angles().warp()) return 0x1p-47;  // others depend on the piece (bend())
   const double error = two_pi * position_error / cell_ + 0x1p-47;
   const CellAngles& angles = solid_.angles();
   if (!angles.period()) return error;
@@ -171,7 +173,9 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
     if (live.border >= 0) {
       Vec3 back;
       back[live.border] = live.rates[live.border] > 0 ? -1 : 1;
-      search.normal = grid_.rotation.apply(back);
+      search.normal = solid_.angles().warp()
+                          ? unit_along(solid_.angles().gradient(search.ray.at(search.t), back))
+                          : grid_.rotation.apply(back);
     }
     return false;
   }
@@ -263,7 +267,42 @@ void FunctionalRays::grade(const RaySearch& search, Live& live, size_t lane) {
   pieces_.bends[static_cast<size_t>(axis)][lane] = two_pi * bounds.bend * along * along;
   // The rate is that of a position that is off.
   pieces_.error[lane] += 2 * two_pi * bounds.bend * live.off * span;
-  max_rate_[lane] = two_pi * bounds.most * std::abs(along);
+  max_rates_[axis][lane] = two_pi * bounds.most * std::abs(along);
+}
+
+/// In warped cells all rates differ from piece to piece, and the angles bend. The bounds hold at
+/// the distances from the axis that the piece has; it ends before it is half as far.
+void FunctionalRays::bend(const RaySearch& search, Live& live, size_t lane) {
+  const Warp& warp = *solid_.angles().warp();
+  const Vec3 p = points_[lane], along = search.ray.direction;
+  const double rho = warp.axis_distance(p);
+  pieces_.span[lane] =
+      std::max(std::min(pieces_.span[lane], 0.25 * rho / cell_), tolerance_ / cell_);
+  const double span = pieces_.span[lane] * cell_, off = warp.slack(p, span);
+  const double reach = (1 + 0x1p-40) * span + 2 * off;
+  const double near = rho - reach, radius = warp.radius(p) - reach;
+  if (!(near > 0)) {
+    // Nothing is known.
+    for (size_t axis = 0; axis < 3; ++axis) {
+      pieces_.bends[axis][lane] = infinity;
+      live.rates[static_cast<int>(axis)] = 0;
+      max_rates_[axis][lane] = infinity;
+    }
+    return;
+  }
+  const Vec3 slopes = warp.slopes(near, radius), bends = warp.bends(near, radius);
+  const std::array<Vec3, 3> gradients = warp.gradients(p);
+  double error = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const size_t a = static_cast<size_t>(axis);
+    live.rates[axis] = two_pi * (dot(gradients[a], along) * cell_);
+    max_rates_[a][lane] = two_pi * (1 + 0x1p-40) * slopes[axis] * cell_;
+    pieces_.bends[a][lane] = two_pi * (0.5 + 0x1p-40) * bends[axis] * cell_ * cell_;
+    // Places are off, and rates are those of places that are off, and rounded.
+    error =
+        std::max(error, slopes[axis] * (2 * off + 0x1p-45 * span) + 2 * bends[axis] * off * span);
+  }
+  pieces_.error[lane] += two_pi * (1 + 0x1p-40) * error;
 }
 
 void FunctionalRays::set_piece(const RaySearch& search, Live& live, size_t lane) {
@@ -273,24 +312,35 @@ void FunctionalRays::set_piece(const RaySearch& search, Live& live, size_t lane)
   border_axis_[lane] = -1;
   is_clear_[lane] = true;
   const std::optional<GradedPeriod>& period = solid_.angles().period();
+  const bool is_warped = solid_.angles().warp().has_value();
   if (period) grade(search, live, lane);
+  if (is_warped) bend(search, live, lane);
   const double error = pieces_.error[lane];
   for (int axis = 0; axis < 3; ++axis) {
     const double rate = live.rates[axis];
     pieces_.rates[static_cast<size_t>(axis)][lane] = rate;
     if (solid_.repeats()[static_cast<size_t>(axis)]) continue;
-    if (rate == 0 && grid_.sample_axes()[0] >= 0) continue;  // then rounding is the same all along
+    if (rate == 0 && !is_warped && grid_.sample_axes()[0] >= 0)
+      continue;  // then rounding is the same all along
     const double angle = pieces_.coordinates[static_cast<size_t>(axis)][lane];
     const double behind = rate > 0 ? angle : two_pi - angle;
     const double ahead = two_pi - behind - error;
     if (behind < error) is_clear_[lane] = false;  // points may still be before the border
     const bool is_graded = period && period->axis() == axis;
-    const double until =
-        cell_ * std::max(0.0, ahead / (is_graded ? max_rate_[lane] : std::abs(rate)));
+    const double most =
+        is_graded || is_warped ? max_rates_[static_cast<size_t>(axis)][lane] : std::abs(rate);
+    const double until = cell_ * std::max(0.0, ahead / most);
     if (ahead <= 0) is_clear_[lane] = false;
-    if (!(until < border_[lane])) continue;
-    border_[lane] = until;
-    border_axis_[lane] = axis;
+    if (until < border_[lane]) {
+      border_[lane] = until;
+      border_axis_[lane] = axis;
+    }
+    // In warped cells a ray may turn back.
+    const double back = is_warped ? cell_ * std::max(0.0, (behind - error) / most) : infinity;
+    if (back < border_[lane]) {
+      border_[lane] = back;
+      border_axis_[lane] = -1;
+    }
   }
 }
 
@@ -318,11 +368,8 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
         gradients[i][along] = 0.5 * (bounds.low[i] + bounds.high[i]);
     }
     for (size_t i = 0; i < size; ++i) {
-      const Vec3 size_of_cell = solid_.angles().sizes(points_[i]), g = gradients[i];
-      const Vec3 in_grid{two_pi * g.x / size_of_cell.x, two_pi * g.y / size_of_cell.y,
-                         two_pi * g.z / size_of_cell.z};
-      const Vec3 away =
-          grid_.rotation.apply(in_grid) - level_.gradient(points_[i], 0x1p-16 * cell_);
+      const Vec3 away = solid_.angles().gradient(points_[i], gradients[i]) -
+                        level_.gradient(points_[i], 0x1p-16 * cell_);
       const double steepness = length(away);
       searches[live_[i].search].normal =
           steepness > 0 && steepness < infinity ? away * (1 / steepness) : Vec3{};

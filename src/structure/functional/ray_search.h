@@ -70,6 +70,7 @@ class FunctionalRays {
                const RayBatch::Bounds& bounds);
   void set_piece(const RaySearch& search, Live& live, size_t lane);
   void grade(const RaySearch& search, Live& live, size_t lane);
+  void bend(const RaySearch& search, Live& live, size_t lane);
   /// Sets points_, levels_ and the coordinates of pieces_ for the lanes below `count`.
   void locate(const RaySearch* searches, size_t count);
   Level level_over(const Ray& ray, double t, double span, double value) const;
@@ -90,7 +91,7 @@ class FunctionalRays {
   int border_axis_[lanes];  // its axis
   bool is_clear_[lanes];    // of borders, rounding included
   double levels_[lanes];
-  double max_rate_[lanes];  // of the angle along the period's axis
+  double max_rates_[3][lanes];  // of angles, where they differ along a piece
 };
 
 }  // namespace msq

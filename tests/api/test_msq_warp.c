@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * msq_warp_def_init, and msq_functional_def.warp. */
+#include "definitions.h"
+
+DEFINE_CREATE(structure, structure_functional, functional_def)
+
+static msq_warp_def warp_def(int32_t kind) {
+  msq_warp_def def;
+  assert_ok(msq_warp_def_init(&def, sizeof def));
+  def.kind = kind;
+  def.count = 9;
+  def.count_polar = kind == MSQ_WARP_SPHERICAL ? 4 : 0;
+  def.inner_radius = 0.5;
+  def.outer_radius = 1.75;
+  return def;
+}
+
+static msq_functional_def functional_def(const msq_warp_def* warp) {
+  msq_functional_def def;
+  assert_ok(msq_functional_def_init(&def, sizeof def));
+  def.level.value = 0.25;
+  def.warp = warp;
+  return def;
+}
+
+static void defaults_are_those_of_the_header(void** state) {
+  msq_warp_def def;
+  (void)state;
+  assert_ok(msq_warp_def_init(&def, sizeof def));
+  assert_int_equal(def.kind, MSQ_WARP_CYLINDRICAL);
+  assert_int_equal(def.count, 0);
+  assert_int_equal(def.count_polar, 0);
+  assert_true(def.inner_radius == 0 && def.outer_radius == 0);
+}
+
+static msq_status create_with(void* env, void* warp) {
+  msq_functional_def def = functional_def((const msq_warp_def*)warp);
+  return create(env, &def);
+}
+
+static void create_honours_every_struct_size(void** state) {
+  msq_context* context = make_context();
+  msq_warp_def warp = warp_def(MSQ_WARP_SPHERICAL);
+  msq_functional_def def = functional_def(&warp);
+  (void)state;
+  assert_ok(create(context, &def));
+  for (uint32_t i = 0; i < 3; ++i) {
+    const uint32_t refused[3] = {0, (uint32_t)sizeof warp - 1, 4097};
+    warp.struct_size = refused[i];
+    assert_refused(create(context, &def), MSQ_E_ARGUMENT, "struct_size of warp");
+  }
+  msq_context_release(context);
+}
+
+static void what_makes_no_map_is_refused(void** state) {
+  msq_context* context = make_context();
+  msq_warp_def def;
+  (void)state;
+#define REFUSED(of_kind, change, text)                                \
+  do {                                                                \
+    def = warp_def(MSQ_WARP_##of_kind);                               \
+    change;                                                           \
+    assert_refused(create_with(context, &def), MSQ_E_ARGUMENT, text); \
+  } while (0)
+  REFUSED(CYLINDRICAL, def.kind = 0, "warp.kind is 0; it must be from 1 to 2");
+  REFUSED(CYLINDRICAL, def.kind = 3, "warp.kind is 3");
+  REFUSED(CYLINDRICAL, def.count = 0, "warp.count is 0; it must be from 1 to 65536");
+  REFUSED(SPHERICAL, def.count = 65537, "warp.count is 65537");
+  REFUSED(SPHERICAL, def.count_polar = 0, "warp.count_polar is 0; it must be from 1 to 65536");
+  REFUSED(SPHERICAL, def.count_polar = UINT32_MAX, "warp.count_polar is 4294967295");
+  REFUSED(CYLINDRICAL, def.count_polar = 1, "warp.count_polar is 1; around an axis it must be 0");
+  REFUSED(SPHERICAL, def.inner_radius = -1, "warp.inner_radius is -1; it must be from 0 to 1e+75");
+  REFUSED(SPHERICAL, def.inner_radius = 2e75, "warp.inner_radius is 2e+75");
+  REFUSED(CYLINDRICAL, def.outer_radius = 0.5, "above inner_radius, 0.5");
+  REFUSED(CYLINDRICAL, def.outer_radius = -1, "warp.outer_radius is -1");
+  REFUSED(CYLINDRICAL, def.outer_radius = 2e75, "at most 1e+75");
+  for (int which = 0; which < 3; ++which) {
+    REFUSED(CYLINDRICAL, def.inner_radius = not_finite(which), "warp.inner_radius is ");
+    REFUSED(SPHERICAL, def.outer_radius = not_finite(which), "warp.outer_radius is ");
+  }
+#undef REFUSED
+  msq_context_release(context);
+}
+
+static void what_does_not_go_with_a_warp_is_refused(void** state) {
+  msq_context* context = make_context();
+  const msq_warp_def warp = warp_def(MSQ_WARP_CYLINDRICAL);
+  const double positions[1] = {0}, sizes[1] = {1};
+  msq_functional_def def = functional_def(&warp);
+  msq_period_def period;
+  msq_structure* structure;
+  double cell_size[3] = {7, 7, 7};
+  (void)state;
+  assert_ok(msq_period_def_init(&period, sizeof period));
+  period.positions = positions;
+  period.cell_sizes = sizes;
+  period.count = 1;
+  def.period = &period;
+  assert_refused(create(context, &def), MSQ_E_UNSUPPORTED, "both period and warp are given");
+  def.period = NULL;
+  def.kind = MSQ_FUNCTIONAL_SHEET;
+  assert_ok(msq_structure_functional(context, &def, &structure));
+  assert_refused(msq_fill_calibrate(context, structure, 0.4, 0.1, cell_size, NULL),
+                 MSQ_E_UNSUPPORTED, "");
+  assert_true(cell_size[0] == 7 && cell_size[1] == 7 && cell_size[2] == 7);
+  msq_structure_release(structure);
+  def.level.value = 0;
+  def.thickness.value = 0.1;
+  assert_refused(create(context, &def), MSQ_E_UNSUPPORTED, "the cells are warped");
+  msq_context_release(context);
+}
+
+/* ---- the solid, against the C library's angles */
+
+static const double turn = 6.283185307179586;
+enum { side = 24, samples = side * side * side };
+
+static void cells_lie_around_an_axis_or_a_point(void** state) {
+  msq_context* context = make_context();
+  static uint8_t inside[samples];
+  const double c = cos(0.5), s = sin(0.5), low[3] = {-2, -2, -2}, high[3] = {2, 2, 2};
+  const double rotation[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
+  (void)state;
+  for (int32_t kind = MSQ_WARP_CYLINDRICAL; kind <= MSQ_WARP_SPHERICAL; ++kind)
+    for (int is_turned = 0; is_turned < 2; ++is_turned) {
+      const msq_warp_def warp = warp_def(kind);
+      msq_functional_def def = functional_def(&warp);
+      def.grid.cell_size[0] = 0.7;
+      def.grid.cell_size[1] = 100; /* ignored */
+      def.grid.cell_size[2] = kind == MSQ_WARP_CYLINDRICAL ? 0.9 : 100;
+      def.grid.origin[1] = 0.3;
+      if (is_turned) memcpy(def.grid.rotation, rotation, sizeof rotation);
+      msq_shape* box;
+      msq_structure* structure;
+      msq_model* model;
+      assert_ok(msq_shape_from_box(context, low, high, &box));
+      assert_ok(msq_structure_functional(context, &def, &structure));
+      const msq_scale_def scales[2] = {{.shape = box}, {.structure = structure}};
+      msq_model_def model_def;
+      assert_ok(msq_model_def_init(&model_def, sizeof model_def));
+      model_def.scales = scales;
+      model_def.scale_count = 2;
+      assert_ok(msq_model_create(context, &model_def, &model));
+      msq_points_def points;
+      assert_ok(msq_points_def_init(&points, sizeof points));
+      points.kind = MSQ_POINTS_GRID;
+      for (int a = 0; a < 3; ++a) {
+        points.origin[a] = -1.9 + 0.01 * a;
+        points.spacing[a] = 0.157;
+        points.counts[a] = side;
+      }
+      assert_ok(msq_set_membership(model, &points, NULL, inside, samples, NULL));
+      int held = 0;
+      for (int i = 0; i < samples; ++i) {
+        const int index[3] = {i % side, i / side % side, i / side / side};
+        double p[3], g[3], u[3];
+        for (int a = 0; a < 3; ++a) p[a] = points.origin[a] + index[a] * points.spacing[a];
+        p[1] -= 0.3;
+        g[0] = is_turned ? c * p[0] + s * p[1] : p[0];
+        g[1] = is_turned ? c * p[1] - s * p[0] : p[1];
+        g[2] = p[2];
+        const double rho = sqrt(g[0] * g[0] + g[1] * g[1]);
+        const double r = kind == MSQ_WARP_CYLINDRICAL ? rho : sqrt(rho * rho + g[2] * g[2]);
+        u[0] = turn * (r - 0.5) / 0.7;
+        u[1] = 9 * atan2(g[1], g[0]);
+        u[2] = kind == MSQ_WARP_CYLINDRICAL ? turn * g[2] / 0.9
+                                            : turn * 4 * (atan2(g[2], rho) / (turn / 2) + 0.5);
+        const double onset = sin(u[0]) * cos(u[1]) + sin(u[1]) * cos(u[2]) + sin(u[2]) * cos(u[0]);
+        held += inside[i];
+        if (fabs(onset - 0.25) > 1e-12 && fabs(r - 0.5) > 1e-12 && fabs(r - 1.75) > 1e-12)
+          assert_int_equal(inside[i], onset <= 0.25 && r >= 0.5 && r <= 1.75);
+      }
+      assert_in_range(held, samples / 50, samples / 2);
+      /* The cell of a hit: on the x axis of the grid, the one that begins there. */
+      const double origin[3] = {def.grid.origin[0], def.grid.origin[1], 0.01};
+      const double direction[3] = {is_turned ? c : 1, is_turned ? s : 0, 0};
+      msq_rays_def ray;
+      msq_ray_hit hit;
+      assert_ok(msq_rays_def_init(&ray, sizeof ray));
+      ray.count = 1;
+      ray.origins = origin;
+      ray.directions = direction;
+      assert_ok(msq_ray_cast(model, &ray, NULL, &hit, 1, NULL));
+      const double radius =
+          kind == MSQ_WARP_CYLINDRICAL ? hit.t : sqrt(hit.t * hit.t + 0.01 * 0.01);
+      assert_true(radius >= 0.5 - 1e-9 && radius <= 1.75);
+      assert_int_equal(hit.cell[0], (int)floor((radius - 0.5) / 0.7 + 1e-9));
+      assert_true(hit.cell[1] == 0 || hit.cell[1] == 8); /* either side of the seam */
+      assert_int_equal(hit.cell[2], kind == MSQ_WARP_CYLINDRICAL ? 0 : 2);
+      msq_model_release(model);
+      msq_structure_release(structure);
+      msq_shape_release(box);
+    }
+  msq_context_release(context);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(defaults_are_those_of_the_header),
+      cmocka_unit_test(create_honours_every_struct_size),
+      cmocka_unit_test(what_makes_no_map_is_refused),
+      cmocka_unit_test(what_does_not_go_with_a_warp_is_refused),
+      cmocka_unit_test(cells_lie_around_an_axis_or_a_point),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
