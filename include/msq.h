@@ -535,7 +535,8 @@ enum msq_warp_kind {
  * least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and
  * cut the poles off by the shape.
  *
- * Points nearer than inner_radius or farther than outer_radius are outside of the structure.
+ * Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a
+ * functional structure; lattices have whole cells there (msq_lattice_def.warp).
  * docs/concepts.md defines the map bit for bit. */
 typedef struct msq_warp_def {
   uint32_t struct_size;
@@ -1187,6 +1188,17 @@ typedef struct msq_lattice_def {
   /** With a library: index of the unit cell of each neighbourhood cell. It is evaluated at the
    * cell's centre, rounded half up, and clamped to the library. */
   msq_param cell_choice;
+  /** Cells whose size varies along an axis of the grid; grid.cell_size along that axis is ignored.
+   * The nodes move with the cells; struts stay straight and keep their radius. Not with a library
+   * of several unit cells. NULL (default): all cells have one size. */
+  const msq_period_def* period;
+  /** Cells around an axis or around a point. Nodes are placed in them; the struts between nodes are
+   * straight and keep their radius. They cut across the arc of a cell, so few cells around make
+   * coarse rings: a cell may span at most 150 degrees, count and count_polar together. The cells
+   * are whole: as many as fit between the radii. Struts of the first and the last ones reach beyond
+   * by their radius. Not with a period, nor with a library of several unit cells. NULL (default):
+   * cells are boxes. */
+  const msq_warp_def* warp;
 } msq_lattice_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -1202,8 +1214,10 @@ MSQ_API msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size);
  *
  * Cost: proportional to the struts that can reach one cell: milliseconds for the named cells,
  * seconds for thousands of struts as wide as cells, and the same again for the first array or
- * distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest
- * cell size; library too large), MEMORY. */
+ * distance. With a period or a warp: the struts near a cell are found when the cell is first
+ * evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius
+ * times the greatest factor above 4 times the smallest cell size; library too large), MEMORY,
+ * UNSUPPORTED (both a period and a warp; either of them with a library of several unit cells). */
 MSQ_API msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* def,
                                          msq_structure** structure);
 
@@ -1237,7 +1251,8 @@ typedef struct msq_lattice_faces_report {
  * grid. A lattice without a library has no such faces; msq_unit_cell_info returns whether it is
  * periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a
  * layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than
- * 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY. */
+ * 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY, UNSUPPORTED (a lattice with a
+ * period or a warp: it has no library). */
 MSQ_API msq_status msq_lattice_faces(const msq_structure* lattice, const double min[3],
                                      const double max[3], msq_lattice_faces_report* report,
                                      msq_job* job);

@@ -321,6 +321,8 @@ void walk(DefinitionWalk& in, msq_lattice_def& def) {
   in.structs("cells", def.cells, def.cell_count, defaults_of<msq_unit_cell_def>(), walk);
   in.whole("clusters", def.clusters);
   in.param("cell_choice", def.cell_choice);
+  in.optional("period", def.period, defaults_of<msq_period_def>(), walk_period);
+  in.optional("warp", def.warp, defaults_of<msq_warp_def>(), walk_warp);
 }
 
 void walk(DefinitionWalk& in, msq_plate_lattice_def& def) {

@@ -7,6 +7,7 @@
 #include "api/guard.h"
 #include "api/level.h"
 #include "api/neighbourhood.h"
+#include "api/period.h"
 #include "api/warp.h"
 #include "expression/parser.h"
 #include "field/map.h"
@@ -25,29 +26,6 @@ msq_functional_def functional_defaults() {
   def.kind = MSQ_FUNCTIONAL_NETWORK;
   def.grid = neighbourhood_defaults();
   return def;
-}
-
-msq_period_def period_defaults() {
-  msq_period_def def{};
-  def.axis = 2;
-  return def;
-}
-
-/// Replaces the definition by the one of this version.
-std::optional<GradedPeriod> read_period(const msq_period_def*& def, msq_period_def& known) {
-  if (!def) return {};
-  known = read_def(def, period_defaults(), "period");
-  def = &known;
-  require_range(known.axis, 0, 2, "period.axis");
-  if (known.count < 1 || known.count > GradedPeriod::max_knots)
-    fail(Status::argument, "period.count is %llu; it must be from 1 to %zu",
-         static_cast<unsigned long long>(known.count), GradedPeriod::max_knots);
-  if (!known.positions) fail(Status::argument, "period.positions is NULL");
-  if (!known.cell_sizes) fail(Status::argument, "period.cell_sizes is NULL");
-  std::vector<GradedPeriod::Knot> knots;
-  for (uint64_t i = 0; i < known.count; ++i)
-    knots.push_back({known.positions[i], known.cell_sizes[i]});
-  return GradedPeriod(known.axis, knots);
 }
 
 static_assert(preset_count == MSQ_FUNCTION_RODS);
@@ -104,10 +82,6 @@ Parameter read_thickness(const msq_functional_def& def, FunctionalKind kind, con
 
 msq_status msq_functional_def_init(msq_functional_def* def, size_t size) {
   return guard([&] { set_defaults(def, size, functional_defaults(), "msq_functional_def"); });
-}
-
-msq_status msq_period_def_init(msq_period_def* def, size_t size) {
-  return guard([&] { set_defaults(def, size, period_defaults(), "msq_period_def"); });
 }
 
 msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def,

@@ -5,11 +5,16 @@
 #include "api/definitions.h"
 #include "api/guard.h"
 #include "api/neighbourhood.h"
+#include "api/period.h"
 #include "api/strut_radius.h"
 #include "api/unit_cell.h"
 #include "api/warnings.h"
+#include "api/warp.h"
 #include "structure/common/max_clusters.h"
 #include "structure/lattice/mixed/mixed_lattice.h"
+#include "structure/lattice/warped/graded_places.h"
+#include "structure/lattice/warped/round_places.h"
+#include "structure/lattice/warped/warped_lattice.h"
 
 using namespace msq;
 using namespace msq::api;
@@ -18,6 +23,7 @@ namespace {
 
 /// Radius of the thickest struts, in units of the smallest cell size.
 constexpr double max_radius = 4;
+static_assert(max_radius == WarpedLattice::max_radius);
 /// Cells that msq_lattice_faces looks at.
 constexpr double max_cells = 0x1p30;
 
@@ -114,22 +120,45 @@ msq_status msq_lattice_def_init(msq_lattice_def* def, size_t size) {
 msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* def,
                                  msq_structure** structure) {
   return guard([&] {
-    const Ref<const Context> owner(&object(context, "context"));
+    const Ref<Context> owner(&object(context, "context"));
     require(structure, "structure");
-    const msq_lattice_def known = read_def(def, lattice_defaults(), "def");
+    msq_lattice_def known = read_def(def, lattice_defaults(), "def");
     if (known.clusters > uint32_t{max_clusters})
       fail(Status::argument, "clusters is %u; it must be from 0 to %d", known.clusters,
            max_clusters);
     const Neighbourhood grid = read_neighbourhood(known.grid);
     std::vector<UnitCell> library = read_library(known);
+    msq_period_def known_period;
+    std::optional<GradedPeriod> period = read_period(known.period, known_period);
+    std::unique_ptr<const CellPlaces> places;
+    if (period) {
+      if (library.size() > 1)
+        fail(Status::unsupported,
+             "a period is given, and a library of %zu unit cells; a lattice with a period has one",
+             library.size());
+      places = std::make_unique<const GradedPlaces>(grid, *std::move(period));
+    }
+    msq_warp_def known_warp;
+    if (const std::optional<Warp> warp = read_warp(known.warp, known_warp, grid)) {
+      if (places)
+        fail(Status::unsupported, "a period and a warp are given; a lattice takes one of them");
+      if (library.size() > 1)
+        fail(Status::unsupported,
+             "a warp is given, and a library of %zu unit cells; a lattice with a warp has one",
+             library.size());
+      places = std::make_unique<const RoundPlaces>(*warp);
+    }
     double max_factor = 0;
     for (const UnitCell& cell : library)
       for (size_t s = 0; s < cell.struts.size(); ++s)
         max_factor = std::max(max_factor, cell.factor(s));
     const Parameter choice = read_choice(known.cell_choice);
-    Parameter radius = read_radius(known.radius, grid, max_radius, max_factor);
+    Parameter radius =
+        read_radius(known.radius, places ? places->smallest() : grid, max_radius, max_factor);
     Ref<Structure> made;
-    if (library.size() == 1)
+    if (places)
+      made = make_ref<WarpedLattice>(owner, std::move(places), library[0], std::move(radius));
+    else if (library.size() == 1)
       made =
           make_ref<Lattice>(grid, library[0], std::move(radius), static_cast<int>(known.clusters));
     else
@@ -146,6 +175,11 @@ msq_status msq_lattice_faces(const msq_structure* lattice, const double min[3], 
     const Structure& structure = object(lattice, "lattice");
     const Ref<const Structure> keep(&structure);  // callbacks may release the host's last reference
     const auto* mixed = dynamic_cast<const MixedLattice*>(&structure);
+    if (dynamic_cast<const WarpedLattice*>(&structure))
+      fail(Status::unsupported,
+           "the lattice has a period or a warp, and so one unit cell: its faces are those of that "
+           "cell "
+           "(msq_unit_cell_info)");
     if (!mixed && !dynamic_cast<const Lattice*>(&structure))
       fail(Status::argument, "the structure is not a lattice");
     const Box3 box{require_vector(min, "min"), require_vector(max, "max")};

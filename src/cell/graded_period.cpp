@@ -85,6 +85,15 @@ size_t GradedPeriod::knots_to(double s) const {
   return static_cast<size_t>(after - pieces_.begin()) - 1;
 }
 
+double GradedPeriod::position_of(double u) const {
+  const auto after = std::upper_bound(pieces_.begin() + 1, pieces_.end(), u,
+                                      [](double v, const Piece& p) { return v < p.cells; });
+  const Piece& p = *(after - 1);
+  const double d = u - p.cells;
+  const double slope = std::sqrt(std::max(0.0, p.frequency * p.frequency + 4 * (p.bend * d)));
+  return p.start + 2 * d / (p.frequency + slope);
+}
+
 double GradedPeriod::error(double u) const {
   return 0x1p-49 * (max_cells_ + std::abs(u));
 }

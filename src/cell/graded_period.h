@@ -15,6 +15,12 @@
 // the map does not fold. With n the largest |U_i|, t and f + c t have relative errors below 2^-51,
 // and their product is at most n + |u| in magnitude. So the error of w(s), and a jump at a knot, is
 // below 2^-49 (n + |u|).
+//
+// The inverse of a piece, with d = u - U_i, is t = 2 d / (f + g), g = sqrt(f^2 + 4 c d), g being
+// the slope there. The error of f^2 + 4 c d is at most 2^-51 f^2, that of g 2^-52 f^2 / g, so that
+// of t 2^-51 t f / g. Times the slope that is an error of at most 2^-50 |d| in u, as t f <= 2 |d|,
+// in addition to that of d. So position_of(u) is within 2^-49 (n + |u|) / least frequency of the
+// exact place, plus the rounding of the sum s_i + t.
 #pragma once
 
 #include <cstddef>
@@ -56,6 +62,10 @@ class GradedPeriod {
     const double t = s - p.start;
     return p.cells + t * (p.frequency + p.bend * t);
   }
+  /// The coordinate s with w(s) = u, up to rounding: the definition of where nodes are. With
+  /// d = u - U_i it is s_i + 2 d / (f_i + sqrt(f_i^2 + 4 c_i d)), each operation rounded once, i
+  /// being the last knot with U_i <= u.
+  double position_of(double u) const;
   /// Its slope, up to rounding.
   double frequency(double s) const {
     const Piece& p = pieces_[knots_to(s)];

@@ -103,6 +103,9 @@ static const char* const documents[] = {
     IN_BOX("{\"boolean\": {\"operation\": \"difference\", \"structures\": [" GYROID
            ", {\"lattice\": {\"radius\": 0.1}}, {\"boolean\": {\"operation\": \"union\", "
            "\"structures\": [{\"foam\": {\"radius\": 0.1}}]}}]}}"),
+    IN_BOX("{\"lattice\": {\"radius\": 0.1, \"period\": {\"positions\": [0, 2], \"cell_sizes\": "
+           "[1, 0.5]}}}"),
+    IN_BOX("{\"lattice\": {\"radius\": 0.1, \"warp\": {\"count\": 9, \"inner_radius\": 1}}}"),
     "{\"msq_model\": 1, \"materials\": {\"b\": {\"plain\": {\"id\": 2, \"channels\": [{\"name\": "
     "\"E\", \"value\": 2}]}}}, \"scales\": [{\"shape\": " BOX
     ", \"material\": {\"plain\": {\"id\": 7}}}, {\"structure\": " GYROID
@@ -205,6 +208,30 @@ static void keys_are_fields_of_definitions(void** state) {
   assert_ok(msq_structure_lattice(context, &lattice, &structure));
   assert_is(IN_BOX("{\"lattice\": {\"unit_cell\": \"kelvin\", \"radius\": 0.125}}"),
             make_box(context), structure);
+
+  lattice.period = &period;
+  assert_ok(msq_structure_lattice(context, &lattice, &structure));
+  assert_is(
+      IN_BOX(
+          "{\"lattice\": {\"unit_cell\": \"kelvin\", \"radius\": 0.125, \"period\": {\"axis\": 0, "
+          "\"positions\": [1, 3], \"cell_sizes\": [1, 2]}}}"),
+      make_box(context), structure);
+
+  msq_warp_def warp;
+  assert_ok(msq_warp_def_init(&warp, sizeof warp));
+  warp.kind = MSQ_WARP_SPHERICAL;
+  warp.count = 12;
+  warp.count_polar = 6;
+  warp.inner_radius = 2;
+  warp.outer_radius = 8.5;
+  lattice.period = NULL;
+  lattice.warp = &warp;
+  assert_ok(msq_structure_lattice(context, &lattice, &structure));
+  assert_is(
+      IN_BOX("{\"lattice\": {\"unit_cell\": \"kelvin\", \"radius\": 0.125, \"warp\": {\"kind\": "
+             "\"spherical\", \"count\": 12, \"count_polar\": 6, \"inner_radius\": 2, "
+             "\"outer_radius\": 8.5}}}"),
+      make_box(context), structure);
 }
 
 /* Beams as no document writes them: strides and 32 bits. */

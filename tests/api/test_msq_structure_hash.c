@@ -29,7 +29,31 @@ static double corners[3][3] = {{0, 0, 0}, {0.5, 0.5, 0.5}, {1, 0, 0.25}};
 static uint32_t pairs[2][2] = {{0, 1}, {1, 2}};
 static double factors[2] = {1, 1};
 
+static double positions[3] = {0, 4, 8}, sizes[3] = {1, 2, 1.5};
+
+static msq_period_def period_def(void) {
+  msq_period_def def;
+  assert_ok(msq_period_def_init(&def, sizeof def));
+  def.positions = positions;
+  def.cell_sizes = sizes;
+  def.count = 3;
+  return def;
+}
+
+static msq_warp_def warp_def(void) {
+  msq_warp_def def;
+  assert_ok(msq_warp_def_init(&def, sizeof def));
+  def.kind = MSQ_WARP_SPHERICAL;
+  def.count = 7;
+  def.count_polar = 3;
+  def.inner_radius = 1;
+  def.outer_radius = 4;
+  return def;
+}
+
 static void lattices_hash_cell_grid_and_radius(void** state) {
+  const msq_period_def period = period_def();
+  const msq_warp_def warp = warp_def();
   msq_lattice_def def, other;
   (void)state;
   assert_ok(msq_lattice_def_init(&def, sizeof def));
@@ -51,11 +75,34 @@ static void lattices_hash_cell_grid_and_radius(void** state) {
     NOT_HASHED(def.strut_factors);
     NOT_HASHED(def.cells);
     NOT_HASHED(def.cell_count);
+    CHANGES(def.period, def.period = &period);
+    CHANGES(def.warp, def.warp = &warp);
   }
   other = def;
   def.radius.field = ramp;
   other.radius.field = same_ramp;
   equal_fields_are_one(&def, &other, hash_lattice);
+}
+
+static void hash_warped_lattice(msq_context* in, const void* warp, uint8_t hash[hash_bytes]) {
+  msq_lattice_def def;
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.radius.value = 0.125;
+  def.warp = (const msq_warp_def*)warp;
+  hash_lattice(in, &def, hash);
+}
+
+static void lattices_hash_warps(void** state) {
+  msq_warp_def def = warp_def();
+  (void)state;
+  HASHES(context, "msq_warp_def", &def, sizeof def, hash_warped_lattice) {
+    NOT_HASHED(def.struct_size);
+    CHANGES(def.kind, def.kind = MSQ_WARP_CYLINDRICAL; def.count_polar = 0);
+    CHANGES(def.count, def.count = 13);
+    CHANGES(def.count_polar, def.count_polar = 7);
+    CHANGES(def.inner_radius, def.inner_radius = 2);
+    CHANGES(def.outer_radius, def.outer_radius = 9);
+  }
 }
 
 static void lattices_hash_custom_cells(void** state) {
@@ -319,28 +366,6 @@ static void hash_functional(msq_context* in, const void* def, uint8_t hash[hash_
   hash_and_release(structure, hash);
 }
 
-static double positions[3] = {0, 4, 8}, sizes[3] = {1, 2, 1.5};
-
-static msq_period_def period_def(void) {
-  msq_period_def def;
-  assert_ok(msq_period_def_init(&def, sizeof def));
-  def.positions = positions;
-  def.cell_sizes = sizes;
-  def.count = 3;
-  return def;
-}
-
-static msq_warp_def warp_def(void) {
-  msq_warp_def def;
-  assert_ok(msq_warp_def_init(&def, sizeof def));
-  def.kind = MSQ_WARP_SPHERICAL;
-  def.count = 7;
-  def.count_polar = 3;
-  def.inner_radius = 1;
-  def.outer_radius = 4;
-  return def;
-}
-
 static void functional_structures_hash_their_function(void** state) {
   static const msq_named_value parameter[1] = {{"a", 2}};
   const msq_period_def period = period_def();
@@ -422,6 +447,7 @@ static void warps_hash_kind_counts_and_radii(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lattices_hash_cell_grid_and_radius),
+      cmocka_unit_test(lattices_hash_warps),
       cmocka_unit_test(lattices_hash_custom_cells),
       cmocka_unit_test(lattices_hash_libraries),
       cmocka_unit_test(unit_cells_hash_nodes_and_struts),

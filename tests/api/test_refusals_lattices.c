@@ -79,6 +79,44 @@ static void lattices(void** state) {
     WRONG(LIMIT, "greatest strut factor|the limit is 4", factors[5] = 40.0009765625);
     if (TRY(msq_structure_lattice(context, def, structure))) msq_structure_release(*structure);
   }
+  REFUSALS("msq_structure_lattice") { /* cells that vary in size or are bent */
+    static msq_unit_cell_def cells[2];
+    const double positions[2] = {0, 5}, sizes[2] = {1, 0.5};
+    static msq_period_def period;
+    static msq_warp_def warp;
+    msq_lattice_def* def = lattice_of(MSQ_UNIT_CELL_BCC);
+    msq_structure** structure = (msq_structure**)output(0);
+    for (int i = 0; i < 2; ++i) cells[i] = named_cell(MSQ_UNIT_CELL_CUBIC);
+    assert_ok(msq_period_def_init(&period, sizeof period));
+    period.positions = positions;
+    period.cell_sizes = sizes;
+    period.count = 2;
+    assert_ok(msq_warp_def_init(&warp, sizeof warp));
+    warp.count = 3;
+    RIGHT(def->period = &period);
+    WRONG(ARGUMENT, "period.axis is 3", def->period = &period; period.axis = 3);
+    RIGHT(def->period = &period; def->radius.value = 2);
+    WRONG(LIMIT, "radius reaches 2.25; the limit is 2", def->period = &period;
+          def->radius.value = 2.25);
+    WRONG(UNSUPPORTED, "a period is given, and a library of 2", def->period = &period;
+          def->cells = cells; def->cell_count = 2);
+    RIGHT(def->warp = &warp);
+    WRONG(ARGUMENT, "warp.kind is 0", def->warp = &warp; warp.kind = 0);
+    WRONG(ARGUMENT, "warp.kind is 3", def->warp = &warp; warp.kind = 3);
+    WRONG(ARGUMENT, "warp.count is 0", def->warp = &warp; warp.count = 0);
+    WRONG(ARGUMENT, "warp.count is 2|180 degrees|150", def->warp = &warp; warp.count = 2);
+    WRONG(ARGUMENT, "count_polar 5|156 degrees|150", def->warp = &warp; warp.count_polar = 5;
+          warp.kind = MSQ_WARP_SPHERICAL);
+    RIGHT(def->warp = &warp; warp.count_polar = 6; warp.kind = MSQ_WARP_SPHERICAL);
+    RIGHT(def->warp = &warp; warp.inner_radius = 2; warp.outer_radius = 3);
+    WRONG(ARGUMENT, "warp.outer_radius is 2.875|inner_radius 2|no whole cell", def->warp = &warp;
+          warp.inner_radius = 2; warp.outer_radius = 2.875);
+    WRONG(LIMIT, "radius reaches 4.1|the limit is 4", def->warp = &warp; def->radius.value = 4.125);
+    WRONG(UNSUPPORTED, "a period and a warp", def->warp = &warp; def->period = &period);
+    WRONG(UNSUPPORTED, "a warp is given, and a library of 2", def->warp = &warp; def->cells = cells;
+          def->cell_count = 2);
+    if (TRY(msq_structure_lattice(context, def, structure))) msq_structure_release(*structure);
+  }
   REFUSALS("msq_structure_lattice") { /* libraries of unit cells */
     static msq_unit_cell_def cells[257];
     const double node[3] = {0, 0, 0};
@@ -219,7 +257,17 @@ static msq_unit_cell_def* cell_of(int32_t unit_cell) {
 
 static void unit_cells(void** state) {
   msq_structure *lattice = make_lattice(context), *foam = make_foam(context, MSQ_FOAM_AUTO);
+  msq_structure* warped;
+  const double position = 0, size = 1;
+  msq_period_def period;
+  msq_lattice_def graded = *lattice_of(MSQ_UNIT_CELL_BCC);
   (void)state;
+  assert_ok(msq_period_def_init(&period, sizeof period));
+  period.positions = &position;
+  period.cell_sizes = &size;
+  period.count = 1;
+  graded.period = &period;
+  assert_ok(msq_structure_lattice(context, &graded, &warped));
   REFUSALS("msq_unit_cell_info") {
     static const double cell_nodes[2][3] = {{0, 0.25, 0.5}, {1, 0.25, 0.5}};
     static const uint32_t struts[1][2] = {{0, 1}};
@@ -261,6 +309,7 @@ static void unit_cells(void** state) {
     report->struct_size = sizeof *report;
     WRONG(ARGUMENT, "lattice is NULL", structure = NULL);
     WRONG(ARGUMENT, "not a lattice", structure = foam);
+    WRONG(UNSUPPORTED, "a period or a warp", structure = warped);
     WRONG(ARGUMENT, "min is NULL", min = NULL);
     WRONG(ARGUMENT, "max is NULL", max = NULL);
     WRONG(ARGUMENT, "report is NULL", report = NULL);
@@ -274,6 +323,7 @@ static void unit_cells(void** state) {
     TRY(msq_lattice_faces(structure, min, max, report, job));
   }
   msq_structure_release(lattice);
+  msq_structure_release(warped);
   msq_structure_release(foam);
 }
 

@@ -26,6 +26,9 @@
 #include "structure/lattice/mixed/mixed_lattice.h"
 #include "structure/lattice/plated_lattice.h"
 #include "structure/lattice/plates/plate_lattice.h"
+#include "structure/lattice/warped/graded_places.h"
+#include "structure/lattice/warped/round_places.h"
+#include "structure/lattice/warped/warped_lattice.h"
 #include "structure/waves/waves.h"
 
 namespace msq::test {
@@ -147,15 +150,31 @@ Factory functional_factory(const char* expression, FunctionalKind kind, int clus
   };
 }
 
+namespace {
+
+GradedPeriod graded_period(const Neighbourhood& grid, int axis) {
+  const double size = grid.cell_size[axis];
+  std::vector<GradedPeriod::Knot> knots = {
+      {-1.7, 1}, {-0.45, 1.5}, {0.3, 0.5}, {0.4, 0.7}, {1.9, 1.2}};
+  for (auto& knot : knots) knot = {knot.position * size, knot.cell_size * size};
+  return GradedPeriod(axis, knots);
+}
+
+}  // namespace
+
 Factory graded_functional_factory(const char* expression, FunctionalKind kind, int axis) {
   const Tape tape = parse_expression(expression, {});
   return [=](const Neighbourhood& grid, Parameter level) {
-    const double size = grid.cell_size[axis];
-    std::vector<GradedPeriod::Knot> knots = {
-        {-1.7, 1}, {-0.45, 1.5}, {0.3, 0.5}, {0.4, 0.7}, {1.9, 1.2}};
-    for (auto& knot : knots) knot = {knot.position * size, knot.cell_size * size};
     return Ref<const Structure>(
-        make_ref<Functional>(grid, tape, kind, std::move(level), 0, GradedPeriod(axis, knots)));
+        make_ref<Functional>(grid, tape, kind, std::move(level), 0, graded_period(grid, axis)));
+  };
+}
+
+Factory graded_lattice_factory(UnitCell cell, int axis) {
+  return [=](const Neighbourhood& grid, Parameter radius) {
+    return Ref<const Structure>(make_ref<WarpedLattice>(
+        shared_context(), std::make_unique<const GradedPlaces>(grid, graded_period(grid, axis)),
+        cell, std::move(radius)));
   };
 }
 
@@ -188,6 +207,24 @@ UnitCell factored_unit_cell() {
   cell.factors = {1, 0.5, 1.75, 1, 0.25, 1.5};
   return cell;
 }
+
+namespace {
+
+/// The axis, or the centre, is outside of the box that the suites sample, or in it.
+Factory round_lattice_factory(UnitCell cell, Warp::Kind kind, Vec3 centre, Warp::Shell shell) {
+  return [=](Neighbourhood grid, Parameter radius) {
+    const double size = max_component(grid.cell_size);
+    grid.origin = grid.from_grid(centre * size);
+    Warp::Shell sized = shell;
+    sized.inner *= size;
+    sized.outer *= size;
+    return Ref<const Structure>(make_ref<WarpedLattice>(
+        shared_context(), std::make_unique<const RoundPlaces>(Warp(kind, grid, sized)), cell,
+        std::move(radius)));
+  };
+}
+
+}  // namespace
 
 Factory plates_factory(PlateCell cell) {
   return [cell](const Neighbourhood& grid, Parameter thickness) {
@@ -372,6 +409,23 @@ std::vector<Kind> kinds() {
                    warped_factory(choice, network, cylinder, 0)});
   kinds.push_back({"warped", "gyroid around a point", 0.2, 1,
                    warped_factory(preset_expressions[0], sheet, sphere)});
+  kinds.push_back(
+      {"graded lattice", "BCC along z", 0.08, 1, graded_lattice_factory(bcc_unit_cell(), 2)});
+  kinds.push_back({"graded lattice", "skew along x, fat", 0.21, 1,
+                   graded_lattice_factory(skew_unit_cell(), 0)});
+  kinds.push_back({"graded lattice", "factors along y", 0.07, 1,
+                   graded_lattice_factory(factored_unit_cell(), 1)});
+  const auto round = Warp::Kind::cylindrical, ball = Warp::Kind::spherical;
+  kinds.push_back({"warped lattice", "BCC around an axis", 0.08, 1,
+                   round_lattice_factory(bcc_unit_cell(), round, {-2.3, -2.2, 0}, {20, 0, 0, 0})});
+  kinds.push_back({"warped lattice", "skew about its axis, fat", 0.15, 1,
+                   round_lattice_factory(skew_unit_cell(), round, {0.1, 0.2, 0.3}, {7, 0, 0, 0})});
+  kinds.push_back(
+      {"warped lattice", "octet in a shell", 0.06, 1,
+       round_lattice_factory(octet_unit_cell(), ball, {0.2, 0.1, -0.3}, {8, 5, 0.5, 1.7})});
+  kinds.push_back(
+      {"warped lattice", "factors around a point", 0.07, 1,
+       round_lattice_factory(factored_unit_cell(), ball, {-1.3, -1.1, -1.7}, {16, 8, 0.4, 0})});
   kinds.push_back({"waves", "network", 0.2, 1, waves_factory(WavesKind::network, 40)});
   kinds.push_back({"waves", "sheet", 0.15, 1, waves_factory(WavesKind::sheet, 15)});
   for (bool by_cell : {false, true})

@@ -52,10 +52,12 @@ void test_row(void** state) {
 
 int main() {
   std::vector<StructureRow> rows = structures_by_point();
-  // Neither a varying radius repeats nor cells that vary or are warped; beams are a list; waves repeat with a tile
-  // alone (unit/test_waves.cpp); members of a combination have grids of their own.
-  const std::set<std::string> aperiodic = {"mixed",    "graded period", "warped", "waves",
-                                           "combined", "blended",       "smooth"};
+  // Neither a varying radius repeats nor cells that vary or are warped; beams are a list; waves
+  // repeat with a tile alone (unit/test_waves.cpp); members of a combination have grids of their
+  // own.
+  const std::set<std::string> aperiodic = {"mixed",    "graded period",  "graded lattice",
+                                           "warped",   "warped lattice", "waves",
+                                           "combined", "blended",        "smooth"};
   std::erase_if(rows, [&](const StructureRow& r) {
     return !r.is_lattice() || r.is_beams() || r.is_graded || aperiodic.count(r.kind.family);
   });

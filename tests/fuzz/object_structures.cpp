@@ -85,6 +85,33 @@ Owner<msq_structure> Maker::lattice() {
   factors.reserve(256);
   struts.reserve(256);
   if (def.unit_cell == MSQ_UNIT_CELL_CUSTOM) fill(&def);
+  msq_period_def period = make_def(msq_period_def_init);
+  msq_warp_def warp = make_def(msq_warp_def_init);
+  double positions[5], sizes[5];
+  if (input_.chance(80)) {
+    period.axis = static_cast<int32_t>(input_.below(3));
+    period.count = 1 + input_.below(5);
+    double at = sight_.unit * input_.number(-2, 0);
+    for (uint64_t i = 0; i < period.count; ++i) {
+      positions[i] = at;
+      sizes[i] = sight_.unit * input_.number(0.4, 2);
+      at += sight_.unit * input_.number(0.1, 1.5);
+    }
+    period.positions = positions;
+    period.cell_sizes = sizes;
+    def.period = &period;
+  }
+  if (input_.chance(80)) {
+    warp.count = 2 + input_.below(30);
+    if (input_.chance(100)) {
+      warp.kind = MSQ_WARP_SPHERICAL;
+      warp.count_polar = 1 + input_.below(16);
+    }
+    warp.inner_radius = input_.number(0, 3) * sight_.unit;
+    if (input_.chance(100))
+      warp.outer_radius = warp.inner_radius + input_.number(0, 6) * sight_.unit;
+    def.warp = &warp;
+  }
   if (input_.chance(50)) {
     for (uint32_t count = 1 + input_.below(4); count > 0; --count) {
       cells.push_back(make_def(msq_unit_cell_def_init));

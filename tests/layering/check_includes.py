@@ -20,7 +20,7 @@ ROOMS = ["document", "api", "printability", "slice", "fill", "surface", "ray", "
 # is named here.
 KIND_ROOMS = {
     "foam": ["paper", "rays", "walls", "sets", "joints", "edges", "point", "section", "seeds"],
-    "lattice": ["mixed", "plates", "rows", "rays", "graph", "cell"],
+    "lattice": ["warped", "mixed", "plates", "rows", "rays", "graph", "cell"],
 }
 KIND_BASE = {"foam": {"foam_data.h", "foam_graph.h"}, "lattice": set()}
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _abi
 from ._arrays import address_of, vector
-from ._library import defaults, lib
+from ._library import constant, defaults, lib
 from .context import triple, unsigned
 
 Cell = Union[float, Sequence[float]]  #: size of a cell: one number, or one for each axis

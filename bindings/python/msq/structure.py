@@ -229,7 +229,8 @@ class Lattice(Structure):
 
     unit_cell: a name (`cubic`, `bcc`, `octet`, ...: see UnitCell), a UnitCell, or a pair of nodes
     (n, 3) and struts (m, 2); or with cell_choice a list of those, of which the choice, rounded to
-    an index, names the one that stands in each cell.
+    an index, names the one that stands in each cell. period: a Period, for cells whose size varies
+    along an axis; cell_size along it is ignored. warp: a Warp, for cells around an axis or a point.
     """
 
     unit_cell: parameter[Any] = parameter("As given.")
@@ -239,14 +240,18 @@ class Lattice(Structure):
     clusters: parameter[int] = parameter("As given.")
     origin: parameter[Sequence[float]] = parameter("Of the grid.")
     rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
+    period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
+    warp: parameter[Optional[Warp]] = parameter("Cells that are bent; None: boxes.")
 
     @remembers
     def __init__(self, unit_cell: Union[UnitCellLike, Sequence[UnitCellLike]] = "bcc", *,
                  radius: Param, cell_choice: Optional[Param] = None, cell_size: Cell = 1.0,
                  clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
+                 period: Optional[Period] = None, warp: Optional[Warp] = None,
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_lattice_def)
         set_grid(definition.grid, cell_size, origin, rotation)
+        cells_kept = set_period(definition, period), set_warp(definition, warp)
         set_param(definition.radius, radius)
         definition.clusters = unsigned(clusters, 32, "clusters")
         if cell_choice is None:
@@ -261,6 +266,7 @@ class Lattice(Structure):
             definition.cell_count = len(kept)
             set_param(definition.cell_choice, cell_choice)
         self._make(context_of(context, radius, cell_choice), lib.msq_structure_lattice, definition)
+        del cells_kept  # the call copies them
 
     def faces(self, min: Sequence[float], max: Sequence[float], *,
               job: Optional[Job] = None) -> LatticeFaces:

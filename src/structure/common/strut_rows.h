@@ -28,8 +28,9 @@ class StrutRows {
   /// Whether there are more than `critical` samples per cell in reach. If not, single points are
   /// faster, and cells without samples are not visited.
   bool pays(const Neighbourhood& grid, double critical) const {
-    return raster_.samples() > critical * mean_cells_met(grid, reach_);
+    return pays(mean_cells_met(grid, reach_), critical);
   }
+  bool pays(double cells, double critical) const { return raster_.samples() > critical * cells; }
   /// Struts whose axis does not meet this box may be left out.
   const Box3& reach() const { return reach_; }
 

@@ -219,6 +219,39 @@ static msq_model* regions(Kit* kit) {
   return model;
 }
 
+static msq_model* graded_lattice(Kit* kit) {
+  static const double positions[3] = {-6, 0, 7}, sizes[3] = {6, 3, 4};
+  msq_period_def period;
+  must(msq_period_def_init(&period, sizeof period));
+  period.positions = positions;
+  period.cell_sizes = sizes;
+  period.count = 3;
+  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_OCTET, 4, gradient(kit, 0.3, 0.6));
+  def.period = &period;
+  return filled(kit, box(kit), lattice(kit, &def));
+}
+
+static msq_model* warped_lattice(Kit* kit) {
+  msq_warp_def warp;
+  must(msq_warp_def_init(&warp, sizeof warp));
+  warp.count = 13;
+  warp.inner_radius = 2;
+  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_BCC, 3, number(0.4));
+  def.warp = &warp;
+  return filled(kit, mesh(kit, 0), lattice(kit, &def));
+}
+
+static msq_model* lattice_shells(Kit* kit) {
+  msq_warp_def warp;
+  must(msq_warp_def_init(&warp, sizeof warp));
+  warp.kind = MSQ_WARP_SPHERICAL;
+  warp.count = 14;
+  warp.count_polar = 7;
+  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_CUBIC, 2.5, number(0.3));
+  def.warp = &warp;
+  return filled(kit, sphere(kit, 9.7), lattice(kit, &def));
+}
+
 static const struct {
   const char* name;
   msq_model* (*make)(Kit* kit);
@@ -231,6 +264,9 @@ static const struct {
     {"reentrant-waves", reentrant_waves},
     {"mixed", mixed},
     {"custom", custom},
+    {"graded-lattice", graded_lattice},
+    {"warped-lattice", warped_lattice},
+    {"lattice-shells", lattice_shells},
     {"foam", foam_plain},
     {"foam-turned", foam_turned},
     {"foam-graded", foam_graded},

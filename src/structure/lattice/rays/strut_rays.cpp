@@ -30,10 +30,35 @@ StrutRays::StrutRays(const Structure& structure, StrutLists& lists, const Parame
       cell_(min_component(grid_.cell_size)) {}
 
 template <class Visit>
-void StrutRays::walk(const Ray& ray, double from, double to, Visit&& visit) const {
+void StrutRays::walk_boxes(const Ray& ray, const Box3* box, Part& part, double to, Visit&& visit) {
+  const Vec3 along = grid_.rotation.apply_inverse(ray.direction);
+  JobPoll poll(job_);
+  while (true) {
+    poll();
+    const Vec3 q = grid_.to_grid(ray.at(part.from));
+    double way = infinity;
+    for (int axis = 0; axis < 3; ++axis)
+      if (along[axis] != 0)
+        way =
+            std::min(way, ((along[axis] > 0 ? box->max : box->min)[axis] - q[axis]) / along[axis]);
+    // The margin of the box is longer than the tolerance, so the ray gets on.
+    part.to = std::min(to, part.from + std::max(way, tolerance_));
+    if (!visit(static_cast<const Part&>(part)) || part.to >= to) return;
+    part.from = part.to;
+    box = lists_.box_about(ray.at(part.from), part.cell);
+  }
+}
+
+template <class Visit>
+void StrutRays::walk(const Ray& ray, double from, double to, Visit&& visit) {
+  Part part{};
+  part.from = from;
+  if (const Box3* box = lists_.box_about(ray.at(from), part.cell)) {
+    is_in_boxes_ = true;
+    return walk_boxes(ray, box, part, to, visit);
+  }
   const Ray in_grid{grid_.to_grid(ray.origin), grid_.rotation.apply_inverse(ray.direction)};
   const int parts = lists_.parts();
-  Part part{};
   int32_t cell[3] = {};
   int64_t last[3] = {};  // in part 0 of cell 0
   const auto at_end = [&] { return grid_.to_grid(ray.at(to)); };
@@ -55,6 +80,7 @@ void StrutRays::walk(const Ray& ray, double from, double to, Visit&& visit) cons
 }
 
 Vec3 StrutRays::locate(const Part& part, Vec3 p) const {
+  if (is_in_boxes_) return grid_.to_grid(p);
   const Neighbourhood::Located located = grid_.locate(p);
   Vec3 q = located.fraction;
   // Points in other cells belong to struts that reach over.
@@ -70,6 +96,11 @@ bool StrutRays::holds(const Part& part, uint32_t strut, Vec3 p) const {
 }
 
 Interval StrutRays::radii_in(const Ray& ray, const Part& part) {
+  const auto in_part = [&] {
+    return radius_.range(
+        box_of(ray, part.from, part.to).grown(2 * tolerance_ + formula_error * cell_));
+  };
+  if (is_in_boxes_) return in_part();
   const CellIndex cell = part.cell;
   CellRadii& known = radii_[hash_of(cell) % std::size(radii_)];
   if (!known.is_known || !(known.cell == cell)) {
@@ -81,8 +112,7 @@ Interval StrutRays::radii_in(const Ray& ray, const Part& part) {
   // If the radius changes much in the cell, the range in the part excludes many struts.
   constexpr double much = 0.25;
   if (known.range.high - known.range.low <= much * known.range.high) return known.range;
-  return radius_.range(
-      box_of(ray, part.from, part.to).grown(2 * tolerance_ + formula_error * cell_));
+  return in_part();
 }
 
 void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest) {
@@ -100,9 +130,9 @@ void StrutRays::find_candidates(const Ray& ray, const Part& part, bool greatest)
   // Widened as the lists are.
   const double margin = 2 * tolerance_;
   const Vec3 corner{double(part.cell.x), double(part.cell.y), double(part.cell.z)};
-  const CapsuleList::Ray local{grid_.to_grid(p) - corner * grid_.cell_size,
-                               grid_.rotation.apply_inverse(ray.direction),
-                               part.to - part.from + margin, radius};
+  const CapsuleList::Ray local{
+      is_in_boxes_ ? grid_.to_grid(p) : grid_.to_grid(p) - corner * grid_.cell_size,
+      grid_.rotation.apply_inverse(ray.direction), part.to - part.from + margin, radius};
   for (const StrutLists::Run run : runs_) {
     if (met_.size() < run.end - run.begin) met_.resize(run.end - run.begin);
     const size_t count = lists_.struts().meet(run.begin, run.end, local, met_.data());

@@ -23,12 +23,21 @@ class StrutLists {
   struct Run {
     uint32_t begin, end;
   };
-  /// From the corner of the cell.
+  /// From the corner of the cell; with box_about(), in grid coordinates, those of the cell that was
+  /// found last.
   virtual const CapsuleList& struts() const = 0;
   /// Number along each axis of a cell.
   virtual int parts() const = 0;
   /// Adds runs with all struts that can contain a point within 1e-7 cells of a part.
   virtual void find(CellIndex cell, const int (&part)[3], std::vector<Run>& runs) = 0;
+  /// For cells that are not boxes of the grid: finds the cell of a point, of one part. Returns a
+  /// box in grid coordinates that holds the cell and at least 1e-7 of a cell about it, of whose
+  /// points find() knows all struts. Null: cells are boxes of the grid.
+  virtual const Box3* box_about(Vec3 p, CellIndex& cell) {
+    (void)p;
+    (void)cell;
+    return nullptr;
+  }
 };
 
 class StrutRays {
@@ -58,7 +67,9 @@ class StrutRays {
   void enter(RaySearch& search);
   /// Calls visit(part) for the parts along [from, to] of the ray, until visit returns false.
   template <class Visit>
-  void walk(const Ray& ray, double from, double to, Visit&& visit) const;
+  void walk(const Ray& ray, double from, double to, Visit&& visit);
+  template <class Visit>
+  void walk_boxes(const Ray& ray, const Box3* box, Part& part, double to, Visit&& visit);
   /// Bounds of the radius in a part.
   Interval radii_in(const Ray& ray, const Part& part);
   /// The struts that the ray meets in a part with the minimum or the maximum radius there.
@@ -82,8 +93,9 @@ class StrutRays {
   const Parameter& radius_;
   const Job* const job_;
   const Neighbourhood& grid_;
-  double tolerance_ = 0;  // of the current ray
-  const double cell_;     // the smallest size
+  double tolerance_ = 0;      // of the current ray
+  bool is_in_boxes_ = false;  // that ray's parts: box_about()
+  const double cell_;         // the smallest size
   std::vector<StrutLists::Run> runs_;
   std::vector<CapsuleList::Met> met_;
   std::vector<Candidate> candidates_;

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/lattice/warped/warped_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/infinity.h"
+#include "structure/common/strut_distance_bound.h"
+#include "structure/common/strut_rows.h"
+#include "structure/lattice/warped/recent_lists.h"
+#include "structure/lattice/warped/warped_struts.h"
+
+namespace msq {
+
+namespace {
+
+/// Samples per cell above which spans are faster than the point query.
+constexpr double critical_samples = 4;
+
+}  // namespace
+
+WarpedLattice::WarpedLattice(Ref<Context> context, std::unique_ptr<const CellPlaces> places,
+                             const UnitCell& cell, Parameter radius)
+    : Structure(places->smallest(), places->largest()),
+      context_(std::move(context)),
+      near_id_(context_->new_structure_id()),
+      far_id_(context_->new_structure_id()),
+      places_(std::move(places)),
+      cell_(cell),
+      radius_(std::move(radius)),
+      graph_(cell_, *places_) {}
+
+WarpedLattice::~WarpedLattice() {
+  for (const uint64_t id : {near_id_, far_id_}) context_->cache.drop(id);
+}
+
+WarpedLattice::List WarpedLattice::near(CellIndex cell) const {
+  return std::static_pointer_cast<const NearStruts>(context_->cache.fetch(near_id_, cell, [&] {
+    return std::make_shared<const NearStruts>(graph_, cell, widened(),
+                                              graph_.max_factor() * radius_.range().high);
+  }));
+}
+
+// Let strut 0 be the nearest to the middle m of the cell's bounds, of the struts that the cell owns
+// or, if it has none, one nearby. Let h be half of the bounds' diagonal, and let F be the greatest
+// factor f and F' the least. At any point p of the cell:
+// - The strut s of the least d_s - f_s r has
+//   d_s <= d_0(p) + (f_s - f_0) r <= d_0(m) + h + (F - F') r.
+// - The strut of the least d_s / f_s has d_s <= f_s / f_0 d_0(p) <= F / F' (d_0(m) + h). If that
+//   least value is an onset, d_s <= F times the limit.
+// Distances do not look farther than max_distance cells, wherever the cell is.
+WarpedLattice::List WarpedLattice::far(CellIndex cell) const {
+  return std::static_pointer_cast<const NearStruts>(context_->cache.fetch(far_id_, cell, [&] {
+    CellBlock block;
+    block.first[0] = block.last[0] = cell.x;
+    block.first[1] = block.last[1] = cell.y;
+    block.first[2] = block.last[2] = cell.z;
+    const Box3 bounds = places_->bounds(block);
+    const Vec3 middle = (bounds.min + bounds.max) * 0.5;
+    const CellIndex own = places_->nearest_with_struts(cell);
+    std::vector<Vec3> corners;
+    graph_.place(own, corners);
+    double squared = infinity;
+    for (const PlacedGraph::Strut& s : graph_.struts_of(own))
+      squared = std::min(squared, Segment(corners[s.a], corners[s.b]).distance_squared(middle));
+    const double nearest = std::sqrt(squared) + 0.5 * length(bounds.extent());
+    const double most = graph_.max_factor(), least = graph_.min_factor(),
+                 radius = radius_.range().high;
+    const double for_distance =
+        std::min(nearest + (most - least) * radius,
+                 max_distance * min_component(neighbourhood().cell_size) + most * radius);
+    const double for_onset = std::min(most / least * nearest, most * onset_limit());
+    return std::make_shared<const NearStruts>(graph_, cell, widened(),
+                                              std::max(for_distance, for_onset) * (1 + 1e-9));
+  }));
+}
+
+bool WarpedLattice::inside(Vec3 p) const {
+  const Vec3 q = neighbourhood().to_grid(p);
+  return near(places_->cell_of(q))->holds(q, radius_.at(p));
+}
+
+void WarpedLattice::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  RecentLists lists(*this);
+  constexpr size_t batch = 256;
+  double radii[batch];
+  for (size_t first = 0; first < count; first += batch) {
+    check_cancelled();
+    const size_t size = std::min(batch, count - first);
+    radius_.values(points + first, size, radii);
+    for (size_t i = 0; i < size; ++i) {
+      if (!alive[first + i]) continue;
+      const Vec3 q = neighbourhood().to_grid(points[first + i]);
+      alive[first + i] = lists.find(places_->cell_of(q)).holds(q, radii[i]);
+    }
+  }
+}
+
+double WarpedLattice::distance_bound(Vec3 p) const {
+  const Vec3 q = neighbourhood().to_grid(p);
+  const List list = far(places_->cell_of(q));
+  const Interval r = radius_.range(Box3{p, p});
+  const double most = max_distance * min_component(neighbourhood().cell_size) +
+                      graph_.max_factor() * (radius_.range().high - r.low);
+  const double gap = std::min(most, list->gap(q, r.low));
+  // The error of positions, here and at the boundary.
+  const double slack = locating_slack(p - neighbourhood().origin, std::abs(gap)) +
+                       0x1p-46 * (cell_length() + std::abs(gap));
+  return factored_distance_bound(gap, graph_.max_factor(), slack, radius_, p);
+}
+
+double WarpedLattice::onset_limit() const {
+  return max_radius * min_component(neighbourhood().cell_size) / graph_.max_factor();
+}
+
+double WarpedLattice::onset(Vec3 p) const {
+  const Vec3 q = neighbourhood().to_grid(p);
+  const double onset = far(places_->cell_of(q))->onset(q);
+  return onset <= onset_limit() ? onset : infinity;
+}
+
+std::unique_ptr<StrutParts> WarpedLattice::struts(const StrutSelection& selection) const {
+  return std::make_unique<WarpedStruts>(graph_, neighbourhood(), radius_, selection);
+}
+
+template <class Visit>
+void WarpedLattice::for_each_cell(const Box3& box, Visit&& visit) const {
+  const Neighbourhood& grid = neighbourhood();
+  const Box3 in_grid = grid.to_grid(box).grown(widened());
+  const bool is_turned = grid.sample_axes()[0] < 0;
+  places_->for_each_cell(
+      in_grid,
+      [&](const Box3& bounds) {
+        return bounds.overlaps(in_grid) && (!is_turned || grid.from_grid(bounds).overlaps(box));
+      },
+      visit);
+}
+
+void WarpedLattice::for_each_strut(const Box3& box, const TakeStrut& take, const Job* job) const {
+  const Neighbourhood& grid = neighbourhood();
+  const double radius = radius_.range().high;
+  std::vector<Vec3> corners;
+  for_each_cell(box.grown(graph_.max_factor() * radius + widened()), [&](CellIndex cell) {
+    check_cancelled(job);
+    graph_.place(cell, corners);
+    for (Vec3& corner : corners) corner = grid.from_grid(corner);
+    for (const PlacedGraph::Strut& s : graph_.struts_of(cell))
+      take(corners[s.a], corners[s.b], s.factor * radius);
+  });
+}
+
+void WarpedLattice::keep_rows(const RowBlock& block, const Job* job) const {
+  const Neighbourhood& grid = neighbourhood();
+  const double most = graph_.max_factor();
+  StrutRows rows(block, grid, radius_, 1e-9 * most * radius_.range().high, most);
+  if (rows.empty()) return;
+  std::vector<CellIndex> cells;
+  for_each_cell(rows.reach(), [&](CellIndex cell) {
+    check_cancelled(job);
+    cells.push_back(cell);
+  });
+  if (!rows.pays(static_cast<double>(cells.size()), critical_samples))
+    return Structure::keep_rows(block, job);
+  std::vector<Vec3> corners;
+  // The struts of one factor one after the other.
+  for (const double factor : graph_.factors())
+    for (const CellIndex cell : cells) {
+      check_cancelled(job);
+      const std::vector<PlacedGraph::Strut>& struts = graph_.struts_of(cell);
+      auto s = std::lower_bound(
+          struts.begin(), struts.end(), factor,
+          [](const PlacedGraph::Strut& strut, double f) { return strut.factor > f; });
+      if (s == struts.end() || s->factor != factor) continue;
+      graph_.place(cell, corners);
+      for (Vec3& corner : corners) corner = grid.from_grid(corner);
+      for (; s != struts.end() && s->factor == factor; ++s)
+        rows.add(corners[s->a], corners[s->b], factor);
+    }
+  rows.finish(job, [this](Vec3 p) { return inside(p); });
+}
+
+void WarpedLattice::enter(RaySearch* searches, size_t count, const Job* job) const {
+  RecentLists lists(*this);
+  StrutRays(*this, lists, radius_, job).enter(searches, count);
+}
+
+double WarpedLattice::leave(const Ray& ray, double from, double to, const Job* job) const {
+  RecentLists lists(*this);
+  return StrutRays(*this, lists, radius_, job).leave(ray, from, to);
+}
+
+Vec3 WarpedLattice::normal(const Ray& ray, double t) const {
+  RecentLists lists(*this);
+  return StrutRays(*this, lists, radius_, nullptr).normal(ray, t);
+}
+
+void WarpedLattice::describe(HashInput& input) const {
+  input.kind("structure: lattice in warped cells");
+  neighbourhood().describe(input);
+  places_->describe(input);
+  cell_.describe(input);
+  radius_.describe(input);
+}
+
+}  // namespace msq
