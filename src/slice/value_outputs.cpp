@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Signed distances, materials, channels and onsets of pixels: set queries on the grid of a layer.
+#include <algorithm>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "query/array_points.h"
@@ -69,7 +71,9 @@ class DistanceOutput final : public LayerOutput {
           set_distance(source.model, source.resolved, points, distances, source.job);
         },
         [](double distance, uint8_t* at) {
-          const auto rounded = static_cast<float>(distance);
+          auto rounded = static_cast<float>(distance);
+          // The sign is that of membership, also where the distance is the least double above 0.
+          if (distance > 0) rounded = std::max(rounded, std::numeric_limits<float>::min());
           std::memcpy(at, &rounded, sizeof rounded);
           return distance <= 0;
         });

@@ -198,6 +198,38 @@ static void pixel_of(const taken* all, int32_t output, uint64_t layer, uint64_t 
     memcpy(pixel, row + i * bytes, bytes);
 }
 
+/* Outside a structure that has no distance, it is the least double above 0. */
+static int32_t is_in_left_half(void* user, const msq_host_points* points, uint8_t* inside) {
+  (void)user;
+  for (uint64_t i = 0; i < points->count; ++i) inside[i] = points->points[3 * i] < 1;
+  return 0;
+}
+
+static void distances_keep_the_sign_of_membership(void** state) {
+  msq_host_structure_def host;
+  msq_structure* structure;
+  msq_slicer_def def = plan_def(MSQ_LAYER_DISTANCE);
+  (void)state;
+  assert_ok(msq_host_structure_def_init(&host, sizeof host));
+  host.inside = is_in_left_half;
+  assert_ok(msq_structure_host(context, &host, &structure));
+  msq_model* half = make_model(context, make_box_of(context, -3, 8), structure, NULL);
+  msq_slicer* slicer;
+  assert_ok(msq_slicer_create(half, &def, &slicer));
+  msq_slicer_report plan = {.struct_size = sizeof plan};
+  assert_ok(msq_slicer_info(slicer, &plan));
+  uint8_t* data = (uint8_t*)malloc(plan.layer_bytes);
+  assert_ok(msq_slice_layer(slicer, 0, data, plan.layer_bytes, NULL));
+  for (uint64_t i = 0; i < WIDTH; ++i) {
+    float distance;
+    memcpy(&distance, data + 4 * i, 4);
+    assert_int_equal(distance <= 0, def.region_min[0] + 0.125 * ((double)i + 0.5) < 1);
+  }
+  free(data);
+  msq_slicer_release(slicer);
+  msq_model_release(half);
+}
+
 static void layers_are_turned_as_said(void** state) {
   (void)state;
   for (int32_t output = MSQ_LAYER_BITS; output <= MSQ_LAYER_MATERIAL; ++output) {
@@ -279,6 +311,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(grey_counts_the_samples_of_a_pixel),
       cmocka_unit_test(values_are_those_of_set_queries),
+      cmocka_unit_test(distances_keep_the_sign_of_membership),
       cmocka_unit_test(layers_are_turned_as_said),
       cmocka_unit_test(windows_are_cut_from_the_whole),
       cmocka_unit_test(cancelled_layers_leave_the_buffer),
