@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/borrowed.h"
@@ -183,19 +184,22 @@ void check_sides(double margin, double pitch, const double low[2], const double 
 }
 
 void check_units(const ContourPlan& plan, double pitch, const double low[2], const double high[2]) {
-  if (plan.format == ContourFormat::float64) return;
-  if (!(pitch * plan.units >= min_units_of_pitch))
-    fail(Status::argument, "a pitch of %g is %g units; it must be at least %g", pitch,
-         pitch * plan.units, min_units_of_pitch);
-  if (!(plan.tolerance * plan.units >= min_units_of_tolerance))
-    fail(Status::argument, "a tolerance of %g is %g units; it must be at least %g", plan.tolerance,
-         plan.tolerance * plan.units, min_units_of_tolerance);
   // Beyond 2^53 doubles skip whole numbers.
-  const double limit = plan.format == ContourFormat::int32 ? double{INT32_MAX} : 0x1p53;
+  double limit = plan.format == ContourFormat::int32 ? double{INT32_MAX} : 0x1p53;
+  if (plan.format == ContourFormat::float64) {
+    limit = std::numeric_limits<double>::max();
+  } else {
+    if (!(pitch * plan.units >= min_units_of_pitch))
+      fail(Status::argument, "a pitch of %g is %g units; it must be at least %g", pitch,
+           pitch * plan.units, min_units_of_pitch);
+    if (!(plan.tolerance * plan.units >= min_units_of_tolerance))
+      fail(Status::argument, "a tolerance of %g is %g units; it must be at least %g",
+           plan.tolerance, plan.tolerance * plan.units, min_units_of_tolerance);
+  }
   for (int i = 0; i < 2; ++i)
     for (const double at : {low[i], high[i]})
-      if (!(std::abs(at * plan.units) <= limit))
-        fail(Status::limit, "coordinate %g is %.17g units; the limit is %.0f", at, at * plan.units,
+      if (std::isfinite(at) && !(std::abs(at * plan.units) <= limit))
+        fail(Status::limit, "coordinate %g is %.17g units; the limit is %.17g", at, at * plan.units,
              limit);
 }
 

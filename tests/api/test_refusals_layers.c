@@ -421,6 +421,8 @@ static void contours(void** state) {
     WRONG(ARGUMENT, "at least 64", def->pitch = 0; def->tolerance = 0.03);
     WRONG(ARGUMENT, "at least 4", def->tolerance = 0.003);
     WRONG(LIMIT, "the limit is 2147483647", def->units = 1e10);
+    WRONG(LIMIT, "the limit is 1.7976931348623157e+308", def->type = MSQ_FLOAT64;
+          def->units = 1e308);
     WRONG(LIMIT, "the limit is 9007199254740992", def->type = MSQ_INT64; def->units = 1e16);
     wrong_number(table, &def->units, "units is ");
     if (TRY(msq_layer_contours(plain, 1, def, contours, NULL))) msq_contours_release(*contours);
