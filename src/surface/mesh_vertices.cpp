@@ -24,6 +24,13 @@ Vec3 unit(Vec3 v) {
   return size > 0 ? v * (1 / size) : Vec3{};
 }
 
+/// The direction of a sum of normals; that of one of them where they cancel, as those on both sides
+/// of a thin wall do.
+Vec3 mean_direction(Vec3 sum, Vec3 one) {
+  constexpr double rounding = 0x1p-40;
+  return length(sum) > rounding ? unit(sum) : one;
+}
+
 Vec3 clamped(Vec3 p, const Box3& box) {
   return max(box.min, min(box.max, p));
 }
@@ -94,7 +101,7 @@ void MeshVertices::find_seeds(const MeshTopology& topology, MeshEdges& edges, ui
             seed.faces = static_cast<uint8_t>(seed.faces | 1u << along);
         }
         places_[vertex - first_] = clamped(place, cell);
-        normals_[vertex - first_] = unit(normal);
+        normals_[vertex - first_] = mean_direction(normal, normals[0]);
       }
     };
     edges.for_each_cell(topology, j, k, visit);
@@ -296,15 +303,15 @@ void MeshVertices::place_others(const MeshTopology& topology, const MeshEdges& e
           axis == arc.face / 2 ? grid.at(axis, n) : 0.5 * (grid.at(axis, n) + grid.at(axis, n + 1));
     }
     ways.push_back(arc.corner_inside ? BoundaryWay{corner, middle} : BoundaryWay{middle, corner});
-    Vec3 normal;
+    Vec3 normal, one;
     for (const unsigned turn : {arc.turn + 3u, arc.turn + 0u}) {
       const unsigned e = face.edges[turn % 4];
       const std::array<uint8_t, 3> d = offset_of_edge(e);
-      normal = normal + at_column({arc.cell[2] + d[2], axis_of_edge(e), arc.cell[1] + d[1],
-                                   arc.cell[0] + d[0]})
-                            .normal;
+      one = at_column({arc.cell[2] + d[2], axis_of_edge(e), arc.cell[1] + d[1], arc.cell[0] + d[0]})
+                .normal;
+      normal = normal + one;
     }
-    normals_[vertex + ways.size() - 1] = unit(normal);
+    normals_[vertex + ways.size() - 1] = mean_direction(normal, one);
   }
   halve(model_, resolved_, ways, rounds, job);
   for (const BoundaryWay& way : ways) places_[vertex++] = way.middle();

@@ -196,6 +196,36 @@ static msq_model* region_model(msq_context* context) {
   return both;
 }
 
+/* A wall along the diagonals of cells, thinner than the pitch: a vertex is on both its sides. */
+static void normals_of_thin_walls_have_length_1(void** state) {
+  static const double nodes[12] = {0, 0, 0, 1, 1, 0, 1, 1, 1, 0, 0, 1};
+  static const uint32_t faces[6] = {0, 1, 2, 0, 2, 3};
+  msq_context* context = make_context();
+  msq_plate_lattice_def walls;
+  msq_structure* structure;
+  const msq_surface_def def = surface_def(0.25);
+  (void)state;
+  assert_ok(msq_plate_lattice_def_init(&walls, sizeof walls));
+  walls.plate_cell = MSQ_PLATE_CELL_CUSTOM;
+  walls.nodes = nodes;
+  walls.node_count = 4;
+  walls.faces = faces;
+  walls.face_count = 2;
+  walls.thickness.value = 0.02;
+  assert_ok(msq_structure_plate_lattice(context, &walls, &structure));
+  msq_model* model = make_model(context, make_box(context), structure, NULL);
+  surface all = surface_of(model, &def);
+  assert_manifold(&all);
+  assert_true(all.vertex_count > 500);
+  for (uint64_t v = 0; v < all.vertex_count; ++v) {
+    const float* n = all.normals + 3 * v;
+    assert_near(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-5);
+  }
+  free_surface(&all);
+  msq_model_release(model);
+  msq_context_release(context);
+}
+
 static void lattices(void** state) {
   (void)state;
   check_model(lattice_model, 0.08, 0.03);
@@ -310,6 +340,7 @@ int main(void) {
       cmocka_unit_test(a_box_is_exact),
       cmocka_unit_test(features_are_kept),
       cmocka_unit_test(normals_are_those_of_the_surface),
+      cmocka_unit_test(normals_of_thin_walls_have_length_1),
       cmocka_unit_test(lattices),
       cmocka_unit_test(foams),
       cmocka_unit_test(functions),
