@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distances to structures whose parameter is an expression: safe, since membership is the same all
-// over the ball, and of use, where the slope of the expression is known.
+// over the ball, and of use, where the slope of the expression is known. Rays then meet plates and
+// walls however thin.
 #include "expression/parser.h"
 #include "field/expression.h"
 #include "field/map.h"
 #include "random.h"
+#include "structure/foam/walls/foam_walls.h"
 #include "structure/functional/presets.h"
+#include "structure/lattice/cell/plate_cell.h"
 #include "structures.h"
 #include "suite.h"
 
@@ -20,8 +23,16 @@ struct Row {
   std::string expression;
   Interval range;
   double slope;  ///< greatest of the expression; 0: it has none everywhere
-  double own;    ///< of the onset
+  double own;    ///< of the onset; 0: how large distances are is not compared with it
 };
+
+Factory walls_factory(double vent_radius) {
+  return [=](const Neighbourhood& grid, Parameter thickness) {
+    return Ref<const Structure>(make_ref<FoamWalls>(shared_context(), grid, std::move(thickness),
+                                                    1.0, uint64_t{7}, Parameter(1),
+                                                    Parameter(vent_radius)));
+  };
+}
 
 std::vector<Row> rows() {
   struct Kind {
@@ -35,6 +46,10 @@ std::vector<Row> rows() {
       {"mixed", mixed_factory(), 1},
       {"foam", foam_factory(FoamMethod::direct, 1), 1},
       {"gyroid", functional_factory(preset_expressions[0], FunctionalKind::network, 0), 0},
+      {"plates", plates_factory(skew_plate_cell()), 0},
+      {"plates with factors", plates_factory(factored_plate_cell()), 0},
+      {"walls", walls_factory(0), 0},
+      {"walls with holes", walls_factory(0.1), 0},
   };
   struct Expression {
     const char* text;
@@ -95,9 +110,53 @@ void test_row(void** state) {
   print_message("%s: %zu of %zu above 0\n", row.name.c_str(), positive, count);
 }
 
+std::vector<Row> rows_of_thin_walls() {
+  std::vector<Row> all;
+  // Thinner than 1/64 of a cell. The last one has kinks.
+  for (const char* text :
+       {"0.006 + 0.003*sin(x)*cos(y)", "0.006 + 0*x", "0.004 + 0.002*abs(sin(3*x))"}) {
+    const std::string thickness = text;
+    all.push_back({"plates, " + thickness, plates_factory(skew_plate_cell()), text, {}, 0, 0});
+    all.push_back({"walls, " + thickness, walls_factory(0), text, {}, 0, 0});
+    all.push_back({"walls with holes, " + thickness, walls_factory(0.1), text, {}, 0, 0});
+  }
+  return all;
+}
+
+void test_thin_walls(void** state) {
+  const Row& row = *static_cast<const Row*>(*state);
+  constexpr double range = 4, rounding = 1e-9;
+  constexpr int samples = 1000;
+  Random random(3);
+  const Ref<const Field> field =
+      make_ref<ExpressionField>(parse_expression(row.expression, {}), Interval{0.001, 0.01});
+  const Ref<const Structure> structure =
+      row.make({{0.1, -0.2, 0.3}, {1, 1, 1}, {}}, Parameter(field));
+  size_t hits = 0;
+  const size_t count = test_count(400) + 40;
+  for (size_t n = 0; n < count; ++n) {
+    Vec3 way{random.normal(), random.normal(), random.normal()};
+    way = way * (1 / length(way));
+    RaySearch search{{random.in_box({{-3, -3, -3}, {3, 3, 3}}), way}, 0, range};
+    structure->enter(&search, 1, nullptr);
+    hits += search.found;
+    const double end = search.found ? search.t : range;
+    for (int i = 0; i < samples; ++i) {
+      const double t = range * (i + 0.5) / samples;
+      if (t + rounding >= end) break;
+      // More than a graze.
+      if (structure->inside(search.ray.at(t)) && structure->inside(search.ray.at(t + rounding)) &&
+          structure->inside(search.ray.at(std::max(0.0, t - rounding))))
+        fail_msg("ray %zu passes what it meets at %g, and ends at %g", n, t, end);
+    }
+  }
+  assert_true(hits > count / 4);
+}
+
 }  // namespace
 
 int main() {
-  std::vector<Row> all = rows();
-  return run_for_each("distances by expressions", all, test_row);
+  std::vector<Row> all = rows(), thin = rows_of_thin_walls();
+  return run_for_each("distances by expressions", all, test_row) +
+         run_for_each("rays to thin walls", thin, test_thin_walls);
 }

@@ -64,6 +64,14 @@ inline double factored_distance_bound(double gap, double max_factor, double slac
   return std::max(0.0, steady_distance(least, 1, max_factor, radius, p));
 }
 
+/// The step of a ray from p, where a distance is at least `bound` and the parameter may vary: the
+/// bound, or `coarse` if that is more and the bound is poor, because the parameter has no slope
+/// about p.
+inline double steady_ray_step(double bound, double coarse, const Parameter& parameter, Vec3 p) {
+  if (bound >= coarse || parameter.lipschitz() < infinity) return bound;
+  return parameter.lipschitz(Box3{p, p}.grown(coarse)) < infinity ? bound : coarse;
+}
+
 /// Bound on the displacement of a point when it is located in its cell, for the point itself and
 /// for a point of the boundary at `distance`: each coordinate relative to the grid's origin loses
 /// about ten units of 2^-53.

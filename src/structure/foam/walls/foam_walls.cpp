@@ -82,11 +82,11 @@ double FoamWalls::distance_bound(Vec3 p) const {
     const double bound = unit_ * vented_distance(seeds_, vents_, located.cell,
                                                  located.fraction * seeds_.seeds().scale(),
                                                  {t.low / unit_, t.high / unit_});
-    return std::max(0.0, (bound - slack(p, bound)) / (1 + 0.5 * thickness_.lipschitz()));
+    return std::max(0.0, steady_distance(bound - slack(p, bound), 1, 0.5, thickness_, p));
   }
   const double distance = 0.5 * onset(p);
   const double gap = std::max(distance - 0.5 * t.high, 0.5 * t.low - distance) - slack(p, distance);
-  return std::max(0.0, gap / (1 + 0.5 * thickness_.lipschitz()));
+  return std::max(0.0, steady_distance(gap, 1, 0.5, thickness_, p));
 }
 
 void FoamWalls::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
@@ -128,6 +128,21 @@ double FoamWalls::min_ray_step() const {
              : Structure::min_ray_step();
 }
 
+bool FoamWalls::find(bool wanted, const Ray& ray, double from, double to, double& t,
+                     const Job* job) const {
+  const double tolerance = ray_tolerance(ray, to);
+  const double coarse = std::max(min_ray_step(), tolerance);
+  const RayMarch steps{tolerance, tolerance};
+  return steps.find(
+      wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
+      [&](Vec3 p) { return steady_ray_step(distance_bound(p), coarse, thickness_, p); }, t, job);
+}
+
+double FoamWalls::leave(const Ray& ray, double from, double to, const Job* job) const {
+  double t;
+  return find(false, ray, from, to, t, job) ? t : to;
+}
+
 void FoamWalls::enter(RaySearch* searches, size_t count, const Job* job) const {
   JobPoll poll(job);
   for (size_t i = 0; i < count; ++i) {
@@ -140,8 +155,10 @@ void FoamWalls::enter(RaySearch& search, const Job* job) const {
   const Ray& ray = search.ray;
   const double tolerance = ray_tolerance(ray, search.to);
   // Where coordinates are so large that rounding is, membership alone knows.
-  if (!thickness_.is_constant() || !(tolerance <= 0x1p-23 * unit_))
-    return Structure::enter(&search, 1, job);
+  if (!thickness_.is_constant() || !(tolerance <= 0x1p-23 * unit_)) {
+    search.found = find(true, ray, search.from, search.to, search.t, job);
+    return;
+  }
   const auto is_inside = [this](Vec3 p) { return inside(p); };
   search.found = false;
   if (inside(ray.at(search.from))) {

@@ -41,6 +41,7 @@ class FoamWalls final : public Structure {
   double min_ray_step() const override;
 
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
+  double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 
   /// None with holes: the lines would close them.
@@ -66,6 +67,8 @@ class FoamWalls final : public Structure {
   /// By how much distances may be off, in model units.
   double slack(Vec3 p, double distance) const;
   void enter(RaySearch& search, const Job* job) const;
+  /// As Structure::march(), in smaller steps where the thickness has a slope in boxes alone.
+  bool find(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const;
   /// The same with holes: from void to void.
   void enter_vented(RaySearch& search, const Job* job) const;
 

@@ -152,10 +152,11 @@ bool PlateLattice::find(bool wanted, const Ray& ray, double from, double to, dou
                         const Job* job) const {
   const PlateClusters& clusters = this->clusters();
   const double tolerance = ray_tolerance(ray, to);
-  const RayMarch steps{std::max(min_ray_step(), tolerance), tolerance};
+  const double coarse = std::max(min_ray_step(), tolerance);
+  const RayMarch steps{tolerance, tolerance};
   return steps.find(
       wanted, ray, from, to, [&](Vec3 p) { return holds(clusters, p, thickness_.at(p)); },
-      [this](Vec3 p) { return distance_bound(p); }, t, job);
+      [&](Vec3 p) { return steady_ray_step(distance_bound(p), coarse, thickness_, p); }, t, job);
 }
 
 void PlateLattice::enter(RaySearch* searches, size_t count, const Job* job) const {
