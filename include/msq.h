@@ -2573,7 +2573,8 @@ enum msq_layer_output {
    * k^2)^grey_gamma + 1/2), or 0 if that is below grey_threshold. */
   MSQ_LAYER_GREY = 3,
   /** 1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it,
-   * rounded to the nearest float32. Rows have the byte order of the machine. */
+   * rounded to the nearest float32; outside at least 1.17549435e-38, so that the sign remains. Rows
+   * have the byte order of the machine. */
   MSQ_LAYER_DISTANCE = 4,
   /** 1 uint32 per pixel: the id of the material at its centre, as msq_set_material returns it. A
    * resolved scale must have a material. */
