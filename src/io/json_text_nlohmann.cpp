@@ -72,8 +72,8 @@ class JsonBuilder : public nlohmann::json_sax<json> {
     add(JsonValue::Kind::truth).whole = value;
     return true;
   }
-  bool number_integer(number_integer_t value) override {  // negative
-    add(JsonValue::Kind::number).number = static_cast<double>(value);
+  bool number_integer(number_integer_t value) override {  // negative, or -0
+    add(JsonValue::Kind::number).number = value == 0 ? -0.0 : static_cast<double>(value);
     return true;
   }
   bool number_unsigned(number_unsigned_t value) override {

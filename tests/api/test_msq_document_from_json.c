@@ -235,6 +235,39 @@ static void keys_are_fields_of_definitions(void** state) {
 }
 
 /* Beams as no document writes them: strides and 32 bits. */
+/* Its sign counts in an expression. */
+static void minus_0_is_kept(void** state) {
+  const msq_named_value divisor = {"a", -0.0};
+  const double point[3] = {1, 1, 1};
+  msq_expression_field_def of_radius;
+  msq_lattice_def def;
+  msq_field* radius;
+  msq_structure* lattice;
+  double value = 0;
+  (void)state;
+  assert_ok(msq_expression_field_def_init(&of_radius, sizeof of_radius));
+  of_radius.expression = "1/a + 0*x";
+  of_radius.parameters = &divisor;
+  of_radius.parameter_count = 1;
+  of_radius.low = 0.1;
+  of_radius.high = 0.3;
+  assert_ok(msq_field_expression(context, &of_radius, &radius));
+  msq_points_def points;
+  assert_ok(msq_points_def_init(&points, sizeof points));
+  points.kind = MSQ_POINTS_ARRAY;
+  points.coordinates = point;
+  points.count = 1;
+  assert_ok(msq_field_evaluate(context, radius, &points, &value, 1, NULL));
+  assert_true(value == 0.1);
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.radius.field = radius;
+  assert_ok(msq_structure_lattice(context, &def, &lattice));
+  msq_model* model = make_model(context, make_box(context), lattice, NULL);
+  assert_round_trip(context, model, NULL);
+  msq_model_release(model);
+  msq_field_release(radius);
+}
+
 static void beams_are_written_packed(void** state) {
   (void)state;
   static const float nodes[3][4] = {{0, 0, 0, 9}, {1, 0.1f, 0, 9}, {1, 1, 1, 9}};
@@ -394,6 +427,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(models_are_read_as_they_are_written),
       cmocka_unit_test(keys_are_fields_of_definitions),
+      cmocka_unit_test(minus_0_is_kept),
       cmocka_unit_test(beams_are_written_packed),
       cmocka_unit_test(shared_objects_are_written_once),
       cmocka_unit_test(settings_are_read),
