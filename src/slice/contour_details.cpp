@@ -91,8 +91,9 @@ void ContourDetails::hold_memory() {
   constexpr uint64_t of_piece = 3 * sizeof(Piece) + sizeof(Search) + sizeof(Search*) +
                                 points_of_piece * ContourPoints::bytes_of_point;
   constexpr uint64_t of_point = sizeof(DetailPoint) + sizeof(LinePoint) + 2 * sizeof(Vec2);
-  held_.grow_to(memory_->bends.size() * sizeof(uint64_t) + memory_->pieces.size() * of_piece +
-                    memory_->details.size() * of_point,
+  held_.grow_to(memory_->bends.size() * sizeof(uint64_t) +
+                    memory_->closed.size() * sizeof(RingPoints) +
+                    memory_->pieces.size() * of_piece + memory_->details.size() * of_point,
                 "the details of contours");
 }
 
