@@ -294,6 +294,36 @@ void rows_stop_when_cancelled(void**) {
   }
 }
 
+// Two balls at nearly the same place: the fillet is a layer about both, as thick as a quarter of
+// the radius. Its surface lies near an end of the samples, on one side of what the middle tells.
+void long_boxes_of_samples_are_divided(void**) {
+  constexpr double k = 0.4, step = 0.005;
+  for (const Operation operation : {Operation::united, Operation::intersected}) {
+    const bool is_union = operation == Operation::united;
+    const StructureRef made = smoothed(operation, make_ref<Ball>(Vec3{-0.02, 0, 0}, 1.0),
+                                       make_ref<Ball>(Vec3{0.02, 0, 0}, 1.0), k);
+    const double surface = is_union ? 1 + 0.25 * k : 1 - 0.25 * k;
+    size_t changes = 0;
+    for (int shift = 0; shift < 40; ++shift) {
+      const SampleGrid grid{{0, surface - (shift + 0.3) * step, 0}, {step, step, step}, 1, 40, 1};
+      std::vector<uint64_t> words(grid.ny, 1);
+      RowBlock block;
+      block.grid = &grid;
+      block.y1 = grid.ny;
+      block.z1 = 1;
+      block.words = words.data();
+      block.row_stride = 1;
+      block.layer_stride = grid.ny;
+      made->keep_rows(block, nullptr);
+      for (uint64_t j = 0; j < grid.ny; ++j) {
+        assert_int_equal(words[j], made->inside(grid.at(0, j, 0)));
+        changes += j > 0 && words[j] != words[j - 1];
+      }
+    }
+    assert_true(changes > 30);
+  }
+}
+
 /// Struts and walls, as foams and lattices have them.
 class Both final : public WalledStruts {
  public:
@@ -347,6 +377,7 @@ int main() {
       cmocka_unit_test(booleans_lose_no_precision),
       cmocka_unit_test(blends_of_waves_have_steady_distances),
       cmocka_unit_test(rows_stop_when_cancelled),
+      cmocka_unit_test(long_boxes_of_samples_are_divided),
       cmocka_unit_test(copies_of_rows_are_counted),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
