@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "field/gradient.h"
+#include "field/radial.h"
 #include "msq_test.h"
 #include "random.h"
 #include "structure/lattice/plates/plate_lattice.h"
@@ -194,25 +195,50 @@ void test_volume_fractions(void**) {
 }
 
 void test_boxes(void**) {
-  const Ref<const Field> field =
-      make_ref<GradientField>(Vec3{-2, 0, 0}, 0.05, Vec3{2, 1, 0.5}, 0.5);
-  for (const bool is_graded : {false, true}) {
-    const PlateLattice lattice({}, cubic_octet_plate_cell(),
-                               is_graded ? Parameter(field) : Parameter(0.15));
+  const Parameter thicknesses[] = {
+      Parameter(0.15),
+      Parameter(make_ref<GradientField>(Vec3{-2, 0, 0}, 0.05, Vec3{2, 1, 0.5}, 0.5)),
+      Parameter(make_ref<GradientField>(Vec3{-0.2, -0.2, -0.2}, 0.0, Vec3{0.2, 0.2, 0.2}, 0.9))};
+  for (const Parameter& thickness : thicknesses) {
+    const PlateLattice lattice({}, cubic_octet_plate_cell(), thickness);
+    // The last one changes about the origin alone.
+    const double around = &thickness == &thicknesses[2] ? 0.25 : 2;
     Random random(11);
     size_t decided[3] = {};
-    for (size_t i = 0; i < test_count(2000) + 100; ++i) {
-      const Vec3 low = random.in_box({{-2, -2, -2}, {2, 2, 2}});
+    for (size_t i = 0; i < test_count(3000) + 1500; ++i) {
+      const Vec3 low = random.in_box({Vec3{-1, -1, -1} * around, Vec3{1, 1, 1} * around});
       const Box3 box{low, low + Vec3{1, 1, 1} * random.between(0.001, 0.1)};
       const BoxClass known = lattice.classify(box);
       ++decided[static_cast<int>(known)];
-      for (int n = 0; n < 20; ++n) {
-        const bool is_inside = lattice.inside(random.in_box(box));
+      for (unsigned n = 0; n < 20; ++n) {
+        const Vec3 corner{(n & 1 ? box.max : box.min).x, (n & 2 ? box.max : box.min).y,
+                          (n & 4 ? box.max : box.min).z};
+        const bool is_inside = lattice.inside(n < 8 ? corner : random.in_box(box));
         if (known != BoxClass::mixed) assert_int_equal(is_inside, known == BoxClass::inside);
       }
     }
     for (const size_t number : decided) assert_true(number > 0);
   }
+}
+
+// Plates normal to y, whose thickness grows with the distance from the y axis.
+void test_normals(void**) {
+  const Ref<const Field> linear = make_ref<GradientField>(Vec3{0, 0, 0}, 0.1, Vec3{1, 0, 0}, 0.3);
+  const Ref<const Field> radial =
+      make_ref<RadialField>(Vec3{0, 0, 0}, Vec3{0, 1, 0}, RadialField::Ramp{0, 0.1, 2, 0.5});
+  const struct {
+    Ref<const Field> thickness;
+    Vec3 at, gradient;  // where the thickness is 0.2
+  } rows[] = {{linear, {0.5, 0.5, 0.5}, {0.2, 0, 0}}, {radial, {0.3, 0.5, 0.4}, {0.12, 0, 0.16}}};
+  for (const auto& row : rows)
+    for (const double factor : {1.0, 2.0}) {
+      PlateCell cell = cubic_plate_cell();
+      cell.factors.assign(6, factor);
+      const PlateLattice lattice({}, cell, Parameter(row.thickness));
+      const Vec3 normal = lattice.normal({row.at, {0, -1, 0}}, 0.5 - 0.5 * factor * 0.2);
+      const Vec3 wanted = Vec3{0, 1, 0} - row.gradient * (0.5 * factor);
+      assert_true(length(normal - wanted * (1 / length(wanted))) < 1e-6);
+    }
 }
 
 }  // namespace
@@ -226,6 +252,7 @@ int main() {
       cmocka_unit_test(test_triangle_distance),
       cmocka_unit_test(test_volume_fractions),
       cmocka_unit_test(test_boxes),
+      cmocka_unit_test(test_normals),
   };
   return cmocka_run_group_tests_name("plate_cell", tests, nullptr, nullptr);
 }
