@@ -154,16 +154,22 @@ void all_ways_to_ask_a_point_agree(void**) {
   size_t held = 0, with_distance = 0, points = 0;
   for (size_t round = test_count(400) + 20; round > 0; --round) {
     std::vector<StructureRef> parts;
-    for (int i = 0; i < 6; ++i)
-      parts.push_back(make_ref<Ball>(random.in_box({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}),
-                                     random.between(0.4, 1)));
+    std::vector<Vec3> on_surfaces;  // where distances are 0, on either side
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 middle = random.in_box({{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}});
+      const double radius = random.between(0.4, 1);
+      parts.push_back(make_ref<Ball>(middle, radius));
+      const Vec3 way = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+      on_surfaces.push_back(middle + way * (radius / length(way)));
+    }
     while (parts.size() > 1) {
       const size_t i = random.below(parts.size() - 1);
       const Written written = random_pair(random, parts[i], parts[i + 1]);
       parts[i] = written.made;
       parts.erase(parts.begin() + static_cast<ptrdiff_t>(i) + 1);
       for (int n = 0; n < 20; ++n) {
-        const Vec3 p = random.in_box({{-1, -1, -1}, {1, 1, 1}});
+        const Vec3 p = n % 2 ? random.in_box({{-1, -1, -1}, {1, 1, 1}})
+                             : on_surfaces[random.below(on_surfaces.size())];
         const bool in = written.made->inside(p);
         assert_int_equal(in, written.inside(p));
         const double distance = signed_distance(in, written.made->distance_bound(p));
