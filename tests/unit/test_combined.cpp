@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/job.h"
+#include "field/gradient.h"
 #include "msq_test.h"
 #include "query/membership.h"
 #include "random.h"
@@ -330,6 +331,23 @@ void long_boxes_of_samples_are_divided(void**) {
   }
 }
 
+// A ball united with itself grows by a quarter of the radius k, which falls by 2 along y: 1.5 times
+// the way along y is what the value changes by.
+void distances_heed_slopes_of_radii(void**) {
+  const StructureRef ball = make_ref<Ball>(Vec3{}, 1.0);
+  const Ref<const Field> radius =
+      make_ref<GradientField>(Vec3{0, 0.8, 0}, 0.9, Vec3{0, 1.2, 0}, 0.1);
+  const StructureRef made =
+      make_ref<SmoothBoolean>(Operation::united, ball, ball, Parameter(radius));
+  constexpr double surface = 1 + 1.0 / 12;
+  for (const double y : {1.02, 1.05, 1.08, 1.09, 1.1, 1.12}) {
+    assert_int_equal(made->inside({0, y, 0}), y < surface);
+    const double distance = std::abs(y - surface), bound = made->distance_bound({0, y, 0});
+    if (!(bound <= distance && bound > 0.5 * distance))
+      fail_msg("at %g the bound is %g, the distance %g", y, bound, distance);
+  }
+}
+
 /// Struts and walls, as foams and lattices have them.
 class Both final : public WalledStruts {
  public:
@@ -384,6 +402,7 @@ int main() {
       cmocka_unit_test(blends_of_waves_have_steady_distances),
       cmocka_unit_test(rows_stop_when_cancelled),
       cmocka_unit_test(long_boxes_of_samples_are_divided),
+      cmocka_unit_test(distances_heed_slopes_of_radii),
       cmocka_unit_test(copies_of_rows_are_counted),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
