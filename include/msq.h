@@ -1374,6 +1374,12 @@ typedef struct msq_foam_def {
    * of the largest cell size count as 0. The constant 0 (default): no holes. Otherwise
    * wall_thickness must not be the constant 0. */
   msq_param vent_radius;
+  /** How much longer the cells of the foam are along each axis of the grid: 1/16 to 16, default 1.
+   * The Voronoi diagram is that of the seeds where lengths along axis i are divided by stretch[i].
+   * Struts stay circular and walls as thick as said. Only the proportions of the three numbers
+   * count; cell_size[i] / stretch[i] may differ by a factor of up to 16. Turn the grid for other
+   * directions. */
+  double stretch[3];
 } msq_foam_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -1390,9 +1396,10 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
  * recursively. Each leaf has one jittered seed, and the mean number of seeds is the density
  * (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius,
  * wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor
- * above 4; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1,
- * with a method other than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for
- * Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. */
+ * above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a
+ * stretch, or density above 1, with a method other than AUTO and DIRECT; a stretch with density
+ * above 1 or with vent_radius), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams";
+ * Martinez, Dumas and Lefebvre 2016. */
 MSQ_API msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
                                       msq_structure** structure);
 

@@ -354,6 +354,7 @@ void walk(DefinitionWalk& in, msq_foam_def& def) {
   in.param("density", def.density);
   in.param("wall_thickness", def.wall_thickness);
   in.param("vent_radius", def.vent_radius);
+  in.numbers("stretch", def.stretch);
 }
 
 void walk(DefinitionWalk& in, msq_functional_def& def) {

@@ -17,6 +17,7 @@ msq_foam_def foam_defaults() {
   def.grid = neighbourhood_defaults();
   def.jitter = 1;
   def.density.value = 1;
+  for (double& factor : def.stretch) factor = 1;
   return def;
 }
 
@@ -91,6 +92,49 @@ Parameter read_density(const msq_param& density) {
   return read;
 }
 
+Vec3 read_stretch(const msq_foam_def& def, const Neighbourhood& grid) {
+  constexpr double most = Stretch::max_ratio, least = 1 / most;
+  Vec3 stretch;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double factor = def.stretch[axis];
+    if (!(factor > 0) || !std::isfinite(factor))
+      fail(Status::argument, "stretch[%d] is %g; it must be finite and above 0", axis, factor);
+    if (factor < least || factor > most)
+      fail(Status::limit, "stretch[%d] is %g; the limits are %g and %g", axis, factor, least, most);
+    stretch[axis] = factor;
+  }
+  if (!Stretch::is_any(stretch)) return {1, 1, 1};
+  const Vec3 sides = Stretch::sides(grid, stretch);
+  const double ratio = max_component(sides) / min_component(sides);
+  // A ratio of the limit may be rounded up.
+  if (ratio > Stretch::max_ratio * (1 + 1e-12))
+    fail(Status::limit,
+         "with stretch (%g, %g, %g), cell sizes over stretch differ by %g times; the limit is %g",
+         stretch.x, stretch.y, stretch.z, ratio, Stretch::max_ratio);
+  return stretch;
+}
+
+/// What a stretched foam cannot be yet.
+void refuse_stretched(const msq_foam_def& def, Vec3 stretch, FoamMethod method, double density,
+                      double vent_radius) {
+  if (!Stretch::is_any(stretch)) return;
+  if (method != FoamMethod::automatic && method != FoamMethod::direct)
+    fail(Status::unsupported,
+         "stretch is (%g, %g, %g) and method %d; with a stretch, the method of a foam must be "
+         "MSQ_FOAM_AUTO or MSQ_FOAM_DIRECT",
+         stretch.x, stretch.y, stretch.z, static_cast<int>(def.method));
+  if (density > 1)
+    fail(Status::unsupported,
+         "stretch is (%g, %g, %g) and density reaches %g; with a stretch, density must not exceed "
+         "1",
+         stretch.x, stretch.y, stretch.z, density);
+  if (!is_none(def.vent_radius))
+    fail(
+        Status::unsupported,
+        "stretch is (%g, %g, %g) and vent_radius reaches %g; with a stretch, vent_radius must be 0",
+        stretch.x, stretch.y, stretch.z, vent_radius);
+}
+
 }  // namespace
 
 msq_status msq_foam_def_init(msq_foam_def* def, size_t size) {
@@ -119,6 +163,7 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            "density reaches %g; above 1, the method of a foam must be MSQ_FOAM_AUTO or "
            "MSQ_FOAM_DIRECT",
            density.range().high);
+    const Vec3 stretch = read_stretch(known, grid);
     const Parameter thickness = read_wall_thickness(known.wall_thickness, grid);
     const bool has_walls = !is_none(known.wall_thickness);
     if (has_walls && method != FoamMethod::automatic && method != FoamMethod::direct)
@@ -127,9 +172,10 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            "MSQ_FOAM_DIRECT",
            thickness.range().high);
     const Parameter vent_radius = read_vent_radius(known, grid);
+    refuse_stretched(known, stretch, method, density.range().high, vent_radius.range().high);
     const auto make_walls = [&] {
       return make_ref<FoamWalls>(Ref<Context>(&owner), grid, thickness, known.jitter, known.seed,
-                                 density, vent_radius);
+                                 density, vent_radius, stretch);
     };
     if (has_walls && is_none(known.radius)) {
       const Ref<Structure> made = make_walls();
@@ -139,7 +185,7 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     }
     Ref<Foam> struts =
         make_ref<Foam>(Ref<Context>(&owner), grid, read_radius(known.radius, grid, 1), known.jitter,
-                       known.seed, method, density);
+                       known.seed, method, density, stretch);
     const Ref<Structure> made =
         has_walls ? Ref<Structure>(make_ref<WalledFoam>(std::move(struts), make_walls()))
                   : Ref<Structure>(std::move(struts));

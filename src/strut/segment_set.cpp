@@ -74,6 +74,22 @@ void SegmentSet::set_bounds(const std::vector<Number>& ends) {
     }
 }
 
+// Rounding keeps the order of numbers, so bounds stay those of the nodes.
+SegmentSet SegmentSet::stretched(Vec3 factor) const {
+  SegmentSet set = *this;
+  const auto multiply = [](float* values, size_t count, double by) {
+    for (size_t i = 0; i < count; ++i)
+      values[i] = static_cast<float>(static_cast<double>(values[i]) * by);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto from = static_cast<size_t>(axis);
+    multiply(set.nodes_.data() + from * node_count_, node_count_, factor[axis]);
+    for (const size_t bound : {from, from + 3})
+      multiply(set.bounds_.data() + bound * runs(), runs(), factor[axis]);
+  }
+  return set;
+}
+
 FloatSegment SegmentSet::at(size_t i) const {
   const size_t a = is_wide() ? wide_ends(0)[i] : narrow_ends(0)[i];
   const size_t b = is_wide() ? wide_ends(1)[i] : narrow_ends(1)[i];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/simd.h"
+#include "base/vec.h"
 
 namespace msq {
 
@@ -38,6 +39,9 @@ class SegmentSet {
     std::vector<uint32_t> starts;  // of runs, and the number of segments
   };
   explicit SegmentSet(Arrays&& arrays);
+
+  /// The same segments with coordinates times factors above 0.
+  SegmentSet stretched(Vec3 factor) const;
 
   size_t count() const { return count_; }
   FloatSegment at(size_t i) const;

@@ -74,6 +74,7 @@ static const char* const documents[] = {
     IN_BOX(
         "{\"foam\": {\"method\": \"direct\", \"radius\": 0.1, \"jitter\": 0.5, \"seed\": "
         "18446744073709551615, \"density\": 4, \"wall_thickness\": 0.05, \"vent_radius\": 0.2}}"),
+    IN_BOX("{\"foam\": {\"radius\": 0.1, \"wall_thickness\": 0.05, \"stretch\": [1, 0.5, 2.25]}}"),
     IN_BOX("{\"foam\": {\"radius\": 0, \"wall_thickness\": {\"radial\": {\"from_value\": 0.1, "
            "\"to_value\": 0.2}}}}"),
     IN_BOX("{\"functional\": {\"function\": \"split_p\", \"kind\": \"sheet\", \"clusters\": 4, "
@@ -151,11 +152,12 @@ static void keys_are_fields_of_definitions(void** state) {
   foam.density.value = 2;
   foam.wall_thickness.value = 0.125;
   foam.vent_radius.value = 0.25;
+  foam.stretch[0] = foam.stretch[1] = foam.stretch[2] = 2;
   assert_ok(msq_structure_foam(context, &foam, &structure));
   assert_is(
       IN_BOX("{\"foam\": {\"grid\": {\"origin\": [0, 0.5, 0], \"cell_size\": 2}, \"radius\": "
              "0.25, \"seed\": 7, \"jitter\": 0.75, \"density\": 2, \"wall_thickness\": 0.125, "
-             "\"vent_radius\": 0.25}}"),
+             "\"vent_radius\": 0.25, \"stretch\": [2, 2, 2]}}"),
       make_box(context), structure);
 
   msq_functional_def functional;

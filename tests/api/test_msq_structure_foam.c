@@ -30,6 +30,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_true(def.wall_thickness.value == 0);
   assert_null(def.vent_radius.field);
   assert_true(def.vent_radius.value == 0);
+  for (int axis = 0; axis < 3; ++axis) assert_true(def.stretch[axis] == 1);
 }
 
 /* Samples of a foam in the box, as a grid. */

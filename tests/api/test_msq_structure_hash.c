@@ -294,6 +294,11 @@ static void foams_hash_seeds_and_sizes(void** state) {
     CHANGES(def.wall_thickness.value, def.wall_thickness.value = 0.125);
     CHANGES(def.wall_thickness, def.wall_thickness.value = 0.125; def.radius.value = 0);
     CHANGES(def.vent_radius, def.wall_thickness.value = 0.125; def.vent_radius.value = 0.25);
+    CHANGES(def.stretch[0], def.stretch[0] = 2);
+    CHANGES(def.stretch[1], def.stretch[1] = 2);
+    CHANGES(def.stretch[2], def.stretch[2] = 2);
+    CHANGES(def.stretch[2], def.stretch[2] = 0.5);
+    KEEPS(def.stretch, def.stretch[0] = def.stretch[1] = def.stretch[2] = 3);
   }
   other = def;
   def.density.field = other.density.field = NULL;
@@ -321,6 +326,14 @@ static void walls_hash_seeds_and_sizes(void** state) {
       CHANGES(def.vent_radius.value, def.vent_radius.value = 0);
       CHANGES(def.vent_radius.value, def.vent_radius.value = 0.125);
       PARAM_CHANGES(def.vent_radius, ramp, steep_ramp);
+    }
+    def.vent_radius.value = 0;
+    HASHES(context, "msq_foam_def with stretched walls", &def, sizeof def, hash_foam) {
+      NOT_HASHED(def);
+      CHANGES(def.stretch[0], def.stretch[0] = 2);
+      CHANGES(def.stretch[1], def.stretch[1] = 2);
+      CHANGES(def.stretch[2], def.stretch[2] = 2);
+      KEEPS(def.stretch, def.stretch[0] = def.stretch[1] = def.stretch[2] = 3);
     }
   }
 }

@@ -101,6 +101,41 @@ static void foams(void** state) {
           def->wall_thickness.value = 0);
     if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
   }
+  REFUSALS("msq_structure_foam") { /* stretched cells */
+    msq_foam_def* def = foam_of();
+    msq_structure** structure = (msq_structure**)output(0);
+    def->grid.cell_size[2] = 0.5;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int i = 0; i < 4; ++i)
+        WRONG(ARGUMENT, words_of("stretch[%d] is |above 0", axis), def->stretch[axis] = numbers[i]);
+      WRONG(ARGUMENT, words_of("stretch[%d] is 0|above 0", axis), def->stretch[axis] = 0);
+      WRONG(LIMIT, words_of("stretch[%d] is 0.06|0.0625 and 16", axis), def->stretch[axis] = 0.06);
+      WRONG(LIMIT, words_of("stretch[%d] is 16.5|0.0625 and 16", axis), def->stretch[axis] = 16.5);
+    }
+    /* Cells measure 1, 1 and 0.5. */
+    RIGHT(def->stretch[2] = 8);
+    WRONG(LIMIT, "stretch (1, 1, 8.5)|differ by 17 times|the limit is 16", def->stretch[2] = 8.5);
+    RIGHT(def->stretch[0] = def->stretch[1] = def->stretch[2] = 16);
+    RIGHT(def->stretch[0] = 4; def->stretch[2] = 0.5);
+    WRONG(LIMIT, "stretch (16, 1, 0.25)|differ by 32 times", def->stretch[0] = 16;
+          def->stretch[2] = 0.25);
+    for (int method = 0; method < 5; ++method)
+      if (method == MSQ_FOAM_POINT || method == MSQ_FOAM_METHOD_1)
+        WRONG(UNSUPPORTED, "stretch is (1, 2, 1)|method|MSQ_FOAM_DIRECT", def->stretch[1] = 2;
+              def->method = method);
+    WRONG(UNSUPPORTED, "", def->stretch[1] = 2; def->method = MSQ_FOAM_METHOD_2);
+    RIGHT(def->stretch[1] = 2; def->method = MSQ_FOAM_DIRECT);
+    /* Equal numbers change nothing. */
+    RIGHT(def->stretch[0] = def->stretch[1] = def->stretch[2] = 3; def->method = MSQ_FOAM_POINT);
+    WRONG(UNSUPPORTED, "stretch is (1, 2, 1)|density reaches 2", def->stretch[1] = 2;
+          def->density.value = 2);
+    RIGHT(def->stretch[1] = 2; def->density.value = 0.5);
+    WRONG(UNSUPPORTED, "stretch is (1, 2, 1)|vent_radius reaches 0.125", def->stretch[1] = 2;
+          def->wall_thickness.value = 0.1; def->vent_radius.value = 0.125);
+    RIGHT(def->stretch[1] = 2; def->wall_thickness.value = 0.1);
+    RIGHT(def->stretch[1] = 2; def->wall_thickness.value = 0.1; def->radius.value = 0);
+    if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
+  }
   release_fields(fields);
   release_fields(dense);
 }

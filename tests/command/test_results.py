@@ -38,6 +38,8 @@ class Structures(Case):
                   "--seed=9"]),
                 (msq.Foam(cell_size=2, wall_thickness=0.2, vent_radius=0.1, context=CONTEXT),
                  ["--foam", "2", "--thickness", "0.2", "--vent", "0.1"]),
+                (msq.Foam(cell_size=2, radius=0.2, stretch=(1, 1, 2.5), context=CONTEXT),
+                 ["--foam", "2", "--radius", "0.2", "--stretch", "1,1,2.5"]),
                 (msq.Lattice("octet", radius=0.2, **cell),
                  ["--lattice", "octet", "--cell", "2,3,4", "--radius", "0.2"]),
                 (msq.Functional("gyroid", **cell), ["--function", "gyroid", "--cell", "2,3,4"]),

@@ -64,6 +64,22 @@ Factory graded_foam_factory(double jitter) {
   };
 }
 
+Factory stretched_factory(double jitter, Vec3 stretch) {
+  return [=](const Neighbourhood& grid, Parameter radius) {
+    return Ref<const Structure>(make_ref<Foam>(shared_context(), grid, std::move(radius), jitter,
+                                               uint64_t{7}, FoamMethod::direct, Parameter(1),
+                                               stretch));
+  };
+}
+
+Factory stretched_walls_factory(double jitter, Vec3 stretch) {
+  return [=](const Neighbourhood& grid, Parameter thickness) {
+    return Ref<const Structure>(make_ref<FoamWalls>(shared_context(), grid, std::move(thickness),
+                                                    jitter, uint64_t{7}, Parameter(1), Parameter(0),
+                                                    stretch));
+  };
+}
+
 /// The parameter of the suite stands for the thickness of the walls.
 Factory walls_factory(double jitter, bool has_density = false) {
   return [=](const Neighbourhood& grid, Parameter thickness) {
@@ -470,6 +486,15 @@ std::vector<Kind> kinds() {
       std::snprintf(name, sizeof name, "density 1 to 30, jitter %g r %g", jitter, radius);
       kinds.push_back({"foam DIRECT", name, radius, jitter, graded_foam_factory(jitter)});
     }
+  kinds.push_back({"foam stretched", "along z", 0.08, 1, stretched_factory(1, {1, 1, 3})});
+  kinds.push_back({"foam stretched", "oblate", 0.06, 0.5, stretched_factory(0.5, {2.5, 1, 0.6})});
+  kinds.push_back({"foam stretched", "much", 0.05, 1, stretched_factory(1, {0.25, 2, 1})});
+  kinds.push_back({"foam stretched", "jitter 0", 0.1, 0, stretched_factory(0, {2, 1, 1})});
+  kinds.push_back(
+      {"foam stretched", "sampled radius", 0.1, 1, stretched_factory(1, {1, 2, 1}), sampled_field});
+  kinds.push_back({"foam stretched", "walls", 0.06, 1, stretched_walls_factory(1, {1, 2.5, 1})});
+  kinds.push_back(
+      {"foam stretched", "walls, jitter 0.5", 0.1, 0.5, stretched_walls_factory(0.5, {3, 1, 2})});
   for (double jitter : {1.0, 0.01, 0.0})
     for (double thickness : {0.02, 0.1, 0.45}) {
       if (jitter < 1 && thickness != 0.1) continue;
@@ -610,7 +635,8 @@ std::vector<StructureRow> structures() {
 std::vector<StructureRow> structures_by_point() {
   std::vector<StructureRow> rows;
   for (const StructureRow& row : structures())
-    if (row.is_lattice() || row.kind.family == "foam DIRECT" || row.kind.family == "foam walls")
+    if (row.is_lattice() || row.kind.family == "foam DIRECT" || row.kind.family == "foam walls" ||
+        row.kind.family == "foam stretched")
       rows.push_back(row);
   return rows;
 }

@@ -135,7 +135,15 @@ void all_instruction_sets_give_the_same_layers(void**) {
                               FoamMethod::direct, Parameter(density));
       },
       [](Ref<Context> c) {
+        return make_ref<Foam>(c, turned(), Parameter(0.02), 1.0, uint64_t{3}, FoamMethod::direct,
+                              Parameter(1), Vec3{1, 3, 1});
+      },
+      [](Ref<Context> c) {
         return make_ref<FoamWalls>(c, turned(), Parameter(0.03), 1.0, uint64_t{3});
+      },
+      [](Ref<Context> c) {
+        return make_ref<FoamWalls>(c, turned(), Parameter(0.02), 1.0, uint64_t{3}, Parameter(1),
+                                   Parameter(0), Vec3{2, 1, 1});
       },
       [](Ref<Context> c) {
         const Ref<const Field> field =

@@ -143,6 +143,8 @@ Owner<msq_structure> Maker::foam() {
     // More is dear, not different.
     if (!def.density.field && def.density.value > 60) def.density.value = 60;
   }
+  if (input_.chance(30))
+    for (double& factor : def.stretch) factor = input_.number(0.3, 4);
   return make<msq_structure>("msq_structure_foam", [&](msq_structure** s) {
     return msq_structure_foam(context_, &def, s);
   });

@@ -26,6 +26,9 @@ struct DualEdge {
 /// All edges among seeds that have both ends.
 std::vector<DualEdge> dual_edges(const std::vector<Vec3>& seeds);
 
+/// The corners, in turn, of all faces among seeds that are bounded.
+std::vector<std::vector<Vec3>> dual_faces(const std::vector<Vec3>& seeds);
+
 /// All edges among the seeds of cells [-half, half) along each axis that have both ends. Those
 /// within twice the empty radius of the border of the box are not the foam's.
 std::vector<DiagramEdge> foam_diagram(const FoamSeeds& seeds, const std::array<int, 3>& half);

@@ -34,15 +34,30 @@ Vec3 circumcentre(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
                   static_cast<double>(z / det)};
 }
 
-std::vector<DualEdge> dual_edges(const std::vector<Vec3>& seeds) {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<uint32_t, Kernel>;
-  using Delaunay =
-      CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase>>;
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<uint32_t, Kernel>;
+using Delaunay =
+    CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase>>;
+
+Delaunay triangulate(const std::vector<Vec3>& seeds) {
   std::vector<std::pair<Kernel::Point_3, uint32_t>> points;
   for (const Vec3& p : seeds)
     points.emplace_back(Kernel::Point_3(p.x, p.y, p.z), static_cast<uint32_t>(points.size()));
-  const Delaunay delaunay(points.begin(), points.end());
+  return Delaunay(points.begin(), points.end());
+}
+
+Vec3 centre_of(const std::vector<Vec3>& seeds, Delaunay::Cell_handle tetrahedron) {
+  Vec3 p[4];
+  for (int i = 0; i < 4; ++i) p[i] = seeds[tetrahedron->vertex(i)->info()];
+  return circumcentre(p[0], p[1], p[2], p[3]);
+}
+
+}  // namespace
+
+std::vector<DualEdge> dual_edges(const std::vector<Vec3>& seeds) {
+  const Delaunay delaunay = triangulate(seeds);
   std::vector<DualEdge> edges;
   for (const auto& [cell, corner] : delaunay.finite_facets()) {
     const auto other = cell->neighbor(corner);
@@ -50,14 +65,26 @@ std::vector<DualEdge> dual_edges(const std::vector<Vec3>& seeds) {
     uint32_t first = UINT32_MAX;
     for (int i = 0; i < 4; ++i)
       if (i != corner) first = std::min(first, cell->vertex(i)->info());
-    const auto centre = [&](const auto& tetrahedron) {
-      Vec3 p[4];
-      for (int i = 0; i < 4; ++i) p[i] = seeds[tetrahedron->vertex(i)->info()];
-      return circumcentre(p[0], p[1], p[2], p[3]);
-    };
-    edges.push_back({centre(cell), centre(other), first});
+    edges.push_back({centre_of(seeds, cell), centre_of(seeds, other), first});
   }
   return edges;
+}
+
+std::vector<std::vector<Vec3>> dual_faces(const std::vector<Vec3>& seeds) {
+  const Delaunay delaunay = triangulate(seeds);
+  std::vector<std::vector<Vec3>> faces;
+  for (const auto& edge : delaunay.finite_edges()) {
+    std::vector<Vec3> corners;
+    bool is_bounded = true;
+    const auto first = delaunay.incident_cells(edge);
+    auto at = first;
+    do {
+      is_bounded = is_bounded && !delaunay.is_infinite(at);
+      if (is_bounded) corners.push_back(centre_of(seeds, at));
+    } while (++at != first);
+    if (is_bounded) faces.push_back(std::move(corners));
+  }
+  return faces;
 }
 
 std::vector<DiagramEdge> foam_diagram(const FoamSeeds& seeds, const std::array<int, 3>& half) {

@@ -67,6 +67,8 @@ constexpr Option STRUCTURE[] = {
      "of the seeds of a foam: 0, at the middle of cells, to 1 (default 1)"},
     {"seed", 0, "N", Value::TEXT, "", "selects the foam or the waves (default 0)"},
     {"vent", 0, "MM", Value::TEXT, "", "radius of a hole in each wall of a foam (default: none)"},
+    {"stretch", 0, "X,Y,Z", Value::TEXT, "",
+     "how much longer the cells of a foam are along each axis (default 1,1,1)"},
     {"skin", 0, "MM", Value::TEXT, "", "solid skin under the surface of the part (default 0)"},
 };
 

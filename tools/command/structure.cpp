@@ -18,8 +18,8 @@ struct Kind {
   std::string_view option;
   std::span<const std::string_view> takes;
 };
-constexpr std::string_view FOAM_TAKES[] = {"radius", "radius-top", "thickness", "density",
-                                           "jitter", "seed",       "vent",      "skin"};
+constexpr std::string_view FOAM_TAKES[] = {"radius", "radius-top", "thickness", "density", "jitter",
+                                           "seed",   "vent",       "stretch",   "skin"};
 constexpr std::string_view LATTICE_TAKES[] = {"cell", "radius", "radius-top", "skin"};
 constexpr std::string_view FUNCTION_TAKES[] = {"cell", "thickness", "level", "sheet", "skin"};
 constexpr std::string_view WAVES_TAKES[] = {"level", "sheet", "volume-fraction", "count", "cones",
@@ -100,6 +100,7 @@ Structure make_foam(const Arguments& arguments, const Place& place) {
   def.jitter = arguments.number("jitter", 1);
   def.seed = arguments.count("seed", 0);
   def.vent_radius.value = arguments.number("vent", 0);
+  if (arguments.has("stretch")) arguments.sizes("stretch", def.stretch);
   Structure structure;
   check(msq_structure_foam(place.context, &def, structure.out()), "--foam");
   return structure;

@@ -19,6 +19,8 @@ namespace Msq
         public Param? WallThickness { get; set; }
         /// <summary>Radius of the holes in the walls.</summary>
         public Param? VentRadius { get; set; }
+        /// <summary>How much longer the cells of the foam are along each axis of the grid.</summary>
+        public double[] Stretch { get; set; }
     }
 
     /// <summary>A functional structure, beside its function and grid.</summary>
@@ -90,6 +92,8 @@ namespace Msq
                 if (options.Density.HasValue) def.density = options.Density.Value.In(call);
                 if (options.WallThickness.HasValue) def.wall_thickness = options.WallThickness.Value.In(call);
                 if (options.VentRadius.HasValue) def.vent_radius = options.VentRadius.Value.In(call);
+                if (options.Stretch != null)
+                    for (int axis = 0; axis < 3; ++axis) def.stretch[axis] = options.Stretch[axis];
                 return From(context, &def);
             }
         }

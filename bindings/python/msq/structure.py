@@ -17,7 +17,7 @@ from ._handle import Handle, hash_of
 from ._host import HashKey, HostPoints, create
 from ._interrupt import build, interruptible
 from ._library import constant, defaults, lib
-from .context import Context, Job, context_of, doubles, record, unsigned
+from .context import Context, Job, context_of, doubles, record, triple, unsigned
 from .field import Param, set_param, set_parameters
 from .fill import Fill
 from .points import Stratified, definition_of
@@ -350,7 +350,8 @@ class Foam(Structure):
 
     radius may be 0 (no struts) where wall_thickness is not (no walls: open cells). vent_radius: of a
     hole through the middle of each wall; 0: none. jitter: 0, seeds at cell centres, to 1, anywhere in
-    their cells. density: seeds in a cell's volume. method: how sets and slices are answered, `auto` the fastest.
+    their cells. density: seeds in a cell's volume. stretch: how much longer the cells of the foam are
+    along each axis of the grid, three numbers. method: how sets and slices are answered, `auto` the fastest.
     """
 
     radius: parameter[Param] = parameter("Of the struts.")
@@ -363,12 +364,14 @@ class Foam(Structure):
     rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
     wall_thickness: parameter[Param] = parameter("0: no walls.")
     vent_radius: parameter[Param] = parameter("Of a hole in each wall; 0: none.")
+    stretch: parameter[Sequence[float]] = parameter("Of the cells along the grid's axes.")
 
     @remembers
     def __init__(self, *, radius: Param = 0.0, cell_size: Cell = 1.0, jitter: float = 1.0,
                  seed: int = 0, density: Param = 1.0, method: str = "auto",
                  origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
                  wall_thickness: Param = 0.0, vent_radius: Param = 0.0,
+                 stretch: Sequence[float] = (1, 1, 1),
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_foam_def)
         set_grid(definition.grid, cell_size, origin, rotation)
@@ -376,6 +379,7 @@ class Foam(Structure):
         set_param(definition.density, density)
         set_param(definition.wall_thickness, wall_thickness)
         set_param(definition.vent_radius, vent_radius)
+        definition.stretch[:] = triple(stretch, "stretch")
         definition.jitter = jitter
         definition.seed = unsigned(seed, 64, "seed")
         definition.method = constant("MSQ_FOAM_", method, "method")

@@ -36,13 +36,13 @@ inline double mean_cells_met(const Neighbourhood& grid, const Box3& box) {
   return cells;
 }
 
-/// Calls visit(corner, part) for each brick of side^3 cells that has points within `around` of a
-/// box in model coordinates, and for few others. Bricks begin `lead` cells before multiples of
-/// `side`; corner: their first cell. part: a box in grid coordinates that contains the points of
-/// the box within `around` of the brick.
+/// Calls visit(corner, part) for each brick of side^3 cells that has points within `around`, and
+/// `beyond` along the grid's axes, of a box in model coordinates, and for few others. Bricks begin
+/// `lead` cells before multiples of `side`; corner: their first cell. part: a box in grid
+/// coordinates that contains the points of the box as near as that to the brick.
 template <class Visit>
-void for_each_brick_near(const Neighbourhood& grid, const Box3& box, double around, int side,
-                         int lead, Visit&& visit) {
+void for_each_brick_near(const Neighbourhood& grid, const Box3& box, double around, Vec3 beyond,
+                         int side, int lead, Visit&& visit) {
   const Box3 whole = grid.to_grid(box);
   const bool is_turned = grid.sample_axes()[0] < 0;
   int64_t first[3], last[3];
@@ -50,8 +50,8 @@ void for_each_brick_near(const Neighbourhood& grid, const Box3& box, double arou
     const auto brick = [&](double g) {
       return static_cast<int64_t>(std::floor((g / grid.cell_size[axis] + lead) / side));
     };
-    first[axis] = brick(whole.min[axis] - around);
-    last[axis] = brick(whole.max[axis] + around);
+    first[axis] = brick(whole.min[axis] - around - beyond[axis]);
+    last[axis] = brick(whole.max[axis] + around + beyond[axis]);
   }
   for (int64_t k = first[2]; k <= last[2]; ++k)
     for (int64_t j = first[1]; j <= last[1]; ++j)
@@ -65,12 +65,18 @@ void for_each_brick_near(const Neighbourhood& grid, const Box3& box, double arou
         }
         const Vec3 low =
             Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size;
-        const Box3 brick = {low, low + grid.cell_size * double(side)};
+        const Box3 brick = {low - beyond, low + grid.cell_size * double(side) + beyond};
         const Box3 reach = grid.from_grid(brick).grown(around);
         if (!reach.overlaps(box)) continue;
         const Box3 part = grid.to_grid(Box3{max(reach.min, box.min), min(reach.max, box.max)});
         visit(corner, Box3{max(part.min, whole.min), min(part.max, whole.max)});
       }
+}
+
+template <class Visit>
+void for_each_brick_near(const Neighbourhood& grid, const Box3& box, double around, int side,
+                         int lead, Visit&& visit) {
+  for_each_brick_near(grid, box, around, Vec3{}, side, lead, visit);
 }
 
 }  // namespace msq

@@ -10,6 +10,7 @@
 #include "structure/foam/paper/method_2.h"
 #include "structure/foam/paper/naive_point.h"
 #include "structure/foam/point/onset.h"
+#include "structure/foam/point/stretched_point.h"
 #include "structure/foam/rays/march.h"
 #include "structure/foam/rays/packets.h"
 #include "structure/foam/rays/strut_entry.h"
@@ -21,8 +22,9 @@
 namespace msq {
 
 Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-           double jitter, uint64_t seed, FoamMethod method, const Parameter& density)
-    : FoamData(std::move(context), neighbourhood, std::move(radius), jitter, seed, density),
+           double jitter, uint64_t seed, FoamMethod method, const Parameter& density, Vec3 stretch)
+    : FoamData(std::move(context), neighbourhood, std::move(radius), jitter, seed, density,
+               stretch),
       method_(method == FoamMethod::automatic ? FoamMethod::direct : method),
       is_concurrent_(this->radius().is_concurrent() && density.is_concurrent()) {}
 
@@ -40,9 +42,13 @@ double Foam::onset(Vec3 p) const {
   return unit() * graph().onset(located.cell, located.fraction * seeds().scale());
 }
 
+double Foam::onset_error() const {
+  return stretch() ? stretched_slack(*stretch()) : onset_slack;
+}
+
 double Foam::distance_bound(Vec3 p) const {
   const double axis = onset(p);
-  const double slack = onset_slack * unit() + locating_slack(p - neighbourhood().origin, axis);
+  const double slack = onset_error() * unit() + locating_slack(p - neighbourhood().origin, axis);
   return strut_distance_bound(axis, slack, radius(), p);
 }
 
@@ -50,14 +56,14 @@ uint64_t Foam::critical_count() const {
   // For smaller groups, the setup of a batch costs more than it saves: the limit is 16 points that
   // share a cell, and 48 points spread over 8^3 cells. The methods of the paper are used without
   // groups.
-  return method_ == FoamMethod::direct && !graded() ? 32 : 1;
+  return method_ == FoamMethod::direct && is_plain() ? 32 : 1;
 }
 
 void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   if (method_ == FoamMethod::point) return naive_keep_points(*this, points, alive, count);
   if (method_ == FoamMethod::method_1) return method_1_keep_points(*this, points, alive, count);
   if (method_ == FoamMethod::method_2) return method_2_keep_points(*this, points, alive, count);
-  if (!graded()) return foam_keep_points_by_point(*this, points, alive, count);
+  if (is_plain()) return foam_keep_points_by_point(*this, points, alive, count);
   // Cell by cell, since the point query keeps the seeds around the last point's cell.
   for (const LocatedPoint& point : group_by_cell(neighbourhood(), points, alive, count)) {
     check_cancelled();
@@ -68,7 +74,7 @@ void Foam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
 void Foam::keep_rows(const RowBlock& block, const Job* job) const {
   if (method_ == FoamMethod::direct) {
     if (keep_brick_rows(*this, block, job)) return;
-    graded() ? Structure::keep_rows(block, job) : foam_keep_rows_by_point(*this, block, job);
+    is_plain() ? foam_keep_rows_by_point(*this, block, job) : Structure::keep_rows(block, job);
   } else if (method_ == FoamMethod::point) {
     naive_keep_rows(*this, block, job);
   } else {
@@ -154,6 +160,7 @@ Vec3 Foam::normal(const Ray& ray, double t) const {
 }
 
 LineGraph Foam::wall_lines(const WallSection& section) const {
+  if (stretch()) return Structure::wall_lines(section);
   return foam_section({context(), neighbourhood(), seeds(), graded(), unit()}, section);
 }
 
@@ -165,6 +172,9 @@ void Foam::describe(HashInput& input) const {
   input.integer(graded() ? 1 : 0);
   if (graded()) graded()->density().describe(input);
   radius().describe(input);
+  if (!stretch()) return;
+  input.text("stretch");
+  stretch()->describe(input);
 }
 
 }  // namespace msq

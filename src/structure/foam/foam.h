@@ -24,9 +24,11 @@ enum class FoamMethod : int32_t {
 
 class Foam final : public FoamData {
  public:
-  /// `density`: as in GradedSeeds. If it exceeds 1 anywhere, the method is `direct`.
+  /// `density`, `stretch`: as in FoamData. If the density exceeds 1 anywhere, or cells are
+  /// stretched, the method is `direct`.
   Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius, double jitter,
-       uint64_t seed, FoamMethod method, const Parameter& density = Parameter(1));
+       uint64_t seed, FoamMethod method, const Parameter& density = Parameter(1),
+       Vec3 stretch = {1, 1, 1});
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return is_concurrent_; }
@@ -35,7 +37,8 @@ class Foam final : public FoamData {
   uint64_t critical_count() const override;
   bool gains_by_layers() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
-  bool has_struts() const override { return radius().is_constant(); }
+  /// The struts of stretched cells have larger errors than contours are drawn with.
+  bool has_struts() const override { return radius().is_constant() && !stretch(); }
   void for_each_strut(const Box3& box, const TakeStrut& take, const Job* job) const override;
   std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
   /// Exact outside where the radius is constant.
@@ -58,6 +61,7 @@ class Foam final : public FoamData {
   Vec3 normal(const Ray& ray, double t) const override;
 
   ThinWalls thin_walls() const override {
+    if (stretch()) return ThinWalls::none;
     return graded() ? ThinWalls::varying : ThinWalls::uniform;
   }
   /// The faces of the Voronoi diagram.
@@ -70,6 +74,11 @@ class Foam final : public FoamData {
   bool fits_struts(const Ray& ray, double to) const;
   /// Whether it is clear that this holds for all of these rays.
   bool all_fit_struts(const RaySearch* searches, size_t count) const;
+  /// Errors of onsets, foam units.
+  double onset_error() const;
+  /// Whether sets of points and single rays may rely on the seeds of cells: one in each, and not
+  /// stretched.
+  bool is_plain() const { return !graded() && !stretch(); }
   /// Finds the entry by marching. Returns false if it may have missed struts, or if its result may
   /// differ from that of walk_cells(). Then the caller searches by cells.
   bool enter_by_steps(RaySearch& search, const Job* job) const;

@@ -2,6 +2,7 @@
 #include "structure/foam/foam_data.h"
 
 #include "structure/foam/graded_graph.h"
+#include "structure/foam/stretched_graph.h"
 #include "structure/foam/uniform_graph.h"
 
 namespace msq {
@@ -15,15 +16,17 @@ std::shared_ptr<const GradedSeeds> grade(const FoamSeeds& seeds, const Neighbour
 }
 
 std::unique_ptr<const FoamGraph> make_graph(const FoamSeeds& seeds,
-                                            const std::shared_ptr<const GradedSeeds>& graded) {
+                                            const std::shared_ptr<const GradedSeeds>& graded,
+                                            const Stretch* stretch) {
   if (graded) return std::make_unique<const GradedGraph>(graded);
+  if (stretch) return std::make_unique<const StretchedGraph>(*stretch);
   return std::make_unique<const UniformGraph>(seeds);
 }
 
 }  // namespace
 
 FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-                   double jitter, uint64_t seed, Parameter density)
+                   double jitter, uint64_t seed, Parameter density, Vec3 stretch)
     : Structure(neighbourhood),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
@@ -35,11 +38,22 @@ FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Par
       unit_(max_component(neighbourhood.cell_size)),
       seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
       graded_(grade(seeds_, neighbourhood, std::move(density))),
-      graph_(make_graph(seeds_, graded_)) {}
+      stretch_(Stretch::is_any(stretch)
+                   ? std::make_unique<const Stretch>(neighbourhood, jitter, seed, stretch)
+                   : nullptr),
+      graph_(make_graph(seeds_, graded_, stretch_.get())) {}
 
 FoamData::~FoamData() {
   for (const uint64_t id : {id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_, paper_cells_id_})
     context_->cache.drop(id);
+}
+
+double FoamData::owner_distance() const {
+  return stretch_ ? 0 : seeds_.empty_radius() * unit_ * (1 + 1e-9);
+}
+
+Vec3 FoamData::owner_reach() const {
+  return stretch_ ? stretch_->reach() * unit_ : Vec3{};
 }
 
 double FoamData::max_radius(CellIndex cell, double margin) const {

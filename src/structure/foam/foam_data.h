@@ -10,6 +10,7 @@
 #include "structure/foam/foam_graph.h"
 #include "structure/foam/seeds/graded_seeds.h"
 #include "structure/foam/seeds/seeds.h"
+#include "structure/foam/seeds/stretch.h"
 #include "structure/structure.h"
 
 namespace msq {
@@ -20,6 +21,12 @@ class FoamData : public Structure {
   const FoamSeeds& seeds() const { return seeds_; }
   /// The graded seeds if the density exceeds 1 anywhere, otherwise null.
   const std::shared_ptr<const GradedSeeds>& graded() const { return graded_; }
+  /// Of the cells; null where the diagram is that of model space.
+  const Stretch* stretch() const { return stretch_.get(); }
+  /// The seeds in the space of the diagram (seeds/stretch.h), and points, in foam units, there.
+  const FoamSeeds& diagram_seeds() const { return stretch_ ? stretch_->seeds() : seeds_; }
+  Vec3 to_diagram(Vec3 q) const { return stretch_ ? stretch_->to_diagram(q) : q; }
+  Vec3 from_diagram(Vec3 p) const { return stretch_ ? p * stretch_->factor() : p; }
   const FoamGraph& graph() const { return *graph_; }
   /// Length of a foam unit in model units.
   double unit() const { return unit_; }
@@ -36,13 +43,18 @@ class FoamData : public Structure {
   uint64_t cell_lists_id() const { return cell_lists_id_; }
   uint64_t ray_demand_id() const { return ray_demand_id_; }
   uint64_t paper_cells_id() const { return paper_cells_id_; }
+  /// An edge that touches a box has a point in it, and its owner lies within this distance of that
+  /// point: in a ball, and, if cells are stretched, along each of the grid's axes. Model units.
+  double owner_distance() const;
+  Vec3 owner_reach() const;
   /// Whether struts are capsules of one radius, and each cell has exactly one seed.
   bool has_capsules() const { return !graded_ && radius_.is_constant(); }
 
  protected:
-  /// `density`: as in GradedSeeds.
+  /// `density`: as in GradedSeeds. `stretch`: of the cells, along the axes of the grid; only with a
+  /// density of at most 1.
   FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-           double jitter, uint64_t seed, Parameter density);
+           double jitter, uint64_t seed, Parameter density, Vec3 stretch);
   /// Removes the data from the cache.
   ~FoamData() override;
 
@@ -53,6 +65,7 @@ class FoamData : public Structure {
   const double unit_;
   const FoamSeeds seeds_;
   const std::shared_ptr<const GradedSeeds> graded_;
+  const std::unique_ptr<const Stretch> stretch_;
   const std::unique_ptr<const FoamGraph> graph_;
 };
 

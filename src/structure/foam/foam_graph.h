@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Voronoi graph of a foam's seeds, with one seed per cell (UniformGraph) or more (GradedGraph).
+// The Voronoi graph of a foam's seeds, with one seed per cell (UniformGraph; StretchedGraph for
+// stretched cells) or more (GradedGraph).
 //
 // Sets and points use a foam through this interface. Rays do not: they keep lists of edges for each
 // cell, in a different form for each kind (rays/cell_lists.h, rays/graded_lists.h).
@@ -31,6 +32,8 @@ class FoamGraph {
   virtual BrickLayout brick_layout() const = 0;
   /// The edges that the seeds of a brick own (edges/edge_brick.h).
   virtual std::shared_ptr<const EdgeBrick> make_brick(CellIndex corner) const = 0;
+  /// Maximum error of an edge of a brick.
+  virtual double brick_error() const = 0;
   /// Whether a brick may own edges that come into a box (grid coordinates, model units).
   virtual bool may_own_edges(CellIndex corner, const Box3& box) const = 0;
   /// Samples per cell of a box (grid coordinates, model units) above which building and drawing the

@@ -18,6 +18,10 @@ std::shared_ptr<const EdgeBrick> GradedGraph::make_brick(CellIndex corner) const
   return graded_edge_brick(seeds_, corner);
 }
 
+double GradedGraph::brick_error() const {
+  return edge_error;
+}
+
 // For each leaf: its edges take 9 to 17 us, a point 1 to 2 us.
 double GradedGraph::critical_samples(const Box3& box, double) const {
   constexpr double samples_per_leaf = 10;

@@ -15,6 +15,7 @@ class GradedGraph final : public FoamGraph {
   double onset(CellIndex cell, Vec3 q) const override;
   BrickLayout brick_layout() const override { return {seeds_->brick_side(), 0}; }
   std::shared_ptr<const EdgeBrick> make_brick(CellIndex corner) const override;
+  double brick_error() const override;
   bool may_own_edges(CellIndex corner, const Box3& box) const override {
     return seeds_->may_own_edges(corner, box);
   }

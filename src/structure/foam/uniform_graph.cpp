@@ -25,6 +25,10 @@ std::shared_ptr<const EdgeBrick> UniformGraph::make_brick(CellIndex corner) cons
   return std::make_shared<const EdgeBrick>(seeds_, corner);
 }
 
+double UniformGraph::brick_error() const {
+  return edge_error;
+}
+
 // The cost of a sample grows with the square of the radius, from about 0.08 on
 // (docs/benchmarks.md).
 double UniformGraph::critical_samples(const Box3&, double max_radius) const {

@@ -108,9 +108,24 @@ static msq_model* foam_regular(Kit* kit) {
   return filled(kit, kit->shapes[0], foam(kit, &def));
 }
 
+static msq_model* foam_stretched(Kit* kit) {
+  msq_foam_def def = foam_def(4, number(0.3));
+  set_cells(&def.grid, 4, 5, 3.5);
+  turn(&def.grid);
+  def.stretch[2] = 3;
+  return filled(kit, mesh(kit, 0), foam(kit, &def));
+}
+
 static msq_model* walls(Kit* kit) {
   msq_foam_def def = foam_def(5, number(0));
   def.wall_thickness = gradient(kit, 0.2, 0.6);
+  return filled(kit, sphere(kit, 9.5), foam(kit, &def));
+}
+
+static msq_model* walls_stretched(Kit* kit) {
+  msq_foam_def def = foam_def(5, radial(kit, 0.2, 0.4));
+  def.wall_thickness = number(0.3);
+  def.stretch[0] = 0.5;
   return filled(kit, sphere(kit, 9.5), foam(kit, &def));
 }
 
@@ -271,7 +286,9 @@ static const struct {
     {"foam-turned", foam_turned},
     {"foam-graded", foam_graded},
     {"foam-regular", foam_regular},
+    {"foam-stretched", foam_stretched},
     {"walls", walls},
+    {"walls-stretched", walls_stretched},
     {"walled", walled},
     {"gyroid-open-mesh", gyroid},
     {"p-sheet", sheet},

@@ -26,6 +26,8 @@ pub struct Foam {
     pub wall_thickness: Param,
     /// Radius of the holes in the walls. 0: none.
     pub vent_radius: Param,
+    /// How much longer the cells of the foam are along each axis of the grid.
+    pub stretch: [f64; 3],
 }
 
 impl Foam {
@@ -40,6 +42,7 @@ impl Foam {
             density: None,
             wall_thickness: Param::default(),
             vent_radius: Param::default(),
+            stretch: [1.0; 3],
         }
     }
 }
@@ -59,6 +62,7 @@ impl Structure {
         }
         def.wall_thickness = foam.wall_thickness.raw();
         def.vent_radius = foam.vent_radius.raw();
+        def.stretch = foam.stretch;
         Structure::make(|raw| unsafe { sys::msq_structure_foam(context.as_ptr(), &def, raw) })
     }
 

@@ -43,6 +43,11 @@ class EdgeBrick final : public CellData {
   EdgeBrick(const std::vector<FloatSegment>& edges, const std::vector<uint32_t>& starts)
       : segments_(edges, starts) {}
 
+  /// A brick in the space of the diagram, moved back to model space (seeds/stretch.h): coordinates
+  /// times the factors.
+  EdgeBrick(const EdgeBrick& of_diagram, Vec3 factor)
+      : origin_(of_diagram.origin_ * factor), segments_(of_diagram.segments_.stretched(factor)) {}
+
   /// One run per row of cells along x, with the edges that the row owns; foam units, from origin().
   const SegmentSet& segments() const { return segments_; }
   /// Relative to the corner of the brick's first cell.

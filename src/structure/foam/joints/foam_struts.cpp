@@ -40,9 +40,10 @@ class FoamStruts final : public StrutsOfOne {
     const Neighbourhood& grid = foam.neighbourhood();
     // An edge that is selected has a point in this box, within the empty radius of its owner.
     around_ = grid.to_grid(selection.around(foam.radius().range().high))
-                  .grown(2 * edge_error * foam.unit());
-    const double owners = foam.seeds().empty_radius() * foam.unit() * (1 + 1e-9);
-    const StrutCells cells(grid, around_.grown(owners));
+                  .grown(2 * foam.graph().brick_error() * foam.unit());
+    const Box3 owners = around_.grown(foam.owner_distance());
+    const Vec3 reach = foam.owner_reach();
+    const StrutCells cells(grid, Box3{owners.min - reach, owners.max + reach});
     for (int axis = 0; axis < 3; ++axis) {
       const auto brick = [&](int64_t cell) {
         const int64_t from_lead = cell + lead_;
@@ -80,7 +81,9 @@ class FoamStruts final : public StrutsOfOne {
 
  private:
   void find_joints(const EdgeBrick& brick, CellIndex corner, Workspace& work) const {
-    work.seeds.move_to(foam_.seeds(), foam_.graded(), corner, side_);
+    work.seeds.move_to(foam_.diagram_seeds(), foam_.graded(), corner, side_);
+    // The positions of a stretched brick are rounded twice.
+    const double error = foam_.stretch() ? 2 * edge_error : edge_error;
     work.joints.clear();
     const SegmentSet& segments = brick.segments();
     work.vertices.reset(2 * segments.count());
@@ -97,8 +100,8 @@ class FoamStruts final : public StrutsOfOne {
         hash.add(uint64_t{bits[2]});
         if (work.vertices.find_or_add(hash.id(), vertices) != vertices) continue;
         ++vertices;
-        const Vec3 p = brick.origin() + Vec3{end[0], end[1], end[2]};
-        work.finder.find(work.seeds, p, [&](Joint& joint) {
+        const Vec3 p = foam_.to_diagram(brick.origin() + Vec3{end[0], end[1], end[2]});
+        work.finder.find(work.seeds, p, error, [&](Joint& joint) {
           const auto number = static_cast<uint32_t>(work.joints.size());
           if (work.by_id.find_or_add(joint.id, number) == number)
             work.joints.push_back(std::move(joint));
@@ -122,7 +125,7 @@ class FoamStruts final : public StrutsOfOne {
       triples += n * (n - 1) * (n - 2) / 6;
     }
     work.by_seeds.reset(triples);
-    const Vec3 scale = foam_.seeds().scale();
+    const Vec3 scale = foam_.diagram_seeds().scale();
     for (uint32_t j = 0; j < work.joints.size(); ++j) {
       const std::vector<NamedSeed>& seeds = work.joints[j].seeds;
       const size_t n = seeds.size();
@@ -146,7 +149,7 @@ class FoamStruts final : public StrutsOfOne {
     const CellIndex cell = joint.seeds[0].cell;
     const Neighbourhood& grid = foam_.neighbourhood();
     return grid.from_grid(Vec3{double(cell.x), double(cell.y), double(cell.z)} * grid.cell_size +
-                          joint.position * foam_.unit());
+                          foam_.from_diagram(joint.position) * foam_.unit());
   }
 
   void add_struts(CellIndex corner, Workspace& work, StrutList& list) const {

@@ -64,10 +64,10 @@ bool are_collinear(const NamedSeed& a, const NamedSeed& b, const NamedSeed& c, V
   return !(length(cross(u, v)) > flat * length(u) * length(v));
 }
 
-void JointFinder::gather(NamedSeeds& seeds, Vec3 p) {
-  // Twice the spread that edge_error causes. If more than four seeds are so nearly as far, rounded
+void JointFinder::gather(NamedSeeds& seeds, Vec3 p, double error) {
+  // Twice the spread that the error causes. If more than four seeds are so nearly as far, rounded
   // positions may be less exact: the seeds may be almost in a plane.
-  constexpr double within = 4 * edge_error, in_doubt = 64 * edge_error;
+  const double within = 4 * error, in_doubt = 64 * error;
   joints_.clear();
   seeds.find(p, within, near_);
   if (near_.size() == 4) try_all(seeds, p, within);

@@ -21,7 +21,7 @@ namespace msq {
 struct Joint {
   Id id;
   std::vector<NamedSeed> seeds;  ///< in the order of seeds, at least four
-  Vec3 position;                 ///< foam units from the corner of the first seed's cell
+  Vec3 position;                 ///< diagram units from the corner of the first seed's cell
 };
 
 /// Seeds that are farther from a vertex than its nearest one by this, in foam units, count as
@@ -30,16 +30,16 @@ constexpr double equally_far = 1e-13;
 
 class JointFinder {
  public:
-  /// Calls take(joint) for the vertices about p, the rounded position of one in a brick; among them
-  /// is that one. The joint may be moved from.
+  /// Calls take(joint) for the vertices about p, the rounded position of one in a brick, within
+  /// `error`; among them is that one. In the space of the diagram. The joint may be moved from.
   template <class Take>
-  void find(NamedSeeds& seeds, Vec3 p, Take&& take) {
-    gather(seeds, p);
+  void find(NamedSeeds& seeds, Vec3 p, double error, Take&& take) {
+    gather(seeds, p, error);
     for (Joint& joint : joints_) take(joint);
   }
 
  private:
-  void gather(NamedSeeds& seeds, Vec3 p);
+  void gather(NamedSeeds& seeds, Vec3 p, double error);
   void try_all(const NamedSeeds& seeds, Vec3 p, double within);
 
   std::vector<NamedSeed> near_;

@@ -9,6 +9,7 @@
 #include "base/borrowed.h"
 #include "structure/foam/point/edges_near.h"
 #include "structure/foam/point/graded_point.h"
+#include "structure/foam/point/stretched_point.h"
 #include "structure/foam/rays/strut_entry.h"
 #include "structure/foam/rays/tapered_entry.h"
 
@@ -22,7 +23,10 @@ class NearStruts {
   NearStruts(const FoamData& foam, Vec3 p, double radius) {
     const Neighbourhood::Located located = foam.neighbourhood().locate(p);
     q = located.fraction * foam.seeds().scale();
-    find_edges_near(foam.seeds(), located.cell, q, radius, *struts_);
+    if (foam.stretch())
+      find_stretched_edges_near(*foam.stretch(), located.cell, q, radius, *struts_);
+    else
+      find_edges_near(foam.seeds(), located.cell, q, radius, *struts_);
   }
   auto begin() const { return struts_->cbegin(); }
   auto end() const { return struts_->cend(); }
@@ -62,7 +66,9 @@ std::vector<NearLine> lines_near(const FoamData& foam, const StrutEntries& entri
 }
 
 /// Maximum distance, in foam units, of points of the surface from it.
-constexpr double surface_error = 1e-8;
+double surface_error(const FoamData& foam) {
+  return foam.stretch() ? 1e-8 * foam.stretch()->max_factor() : 1e-8;
+}
 
 }  // namespace
 
@@ -73,7 +79,7 @@ Vec3 strut_normal(const FoamData& foam, const Ray& ray, double t) {
   const RaySearch search{ray, t, t};
   const FoamRay foam_ray = entries.ray(search);
   const NearLine* nearest = nullptr;
-  const double reach = radius + surface_error + 2 * (foam_ray.tolerance + foam_ray.error);
+  const double reach = radius + surface_error(foam) + 2 * (foam_ray.tolerance + foam_ray.error);
   const std::vector<NearLine> lines = lines_near(foam, entries, p, reach);
   for (const NearLine& near : lines)
     if (!nearest || near.distance_squared < nearest->distance_squared) nearest = &near;
@@ -118,7 +124,7 @@ double way_to_strut(const FoamData& foam, Vec3 p, Vec3 direction, double room) {
       const Vec3 a = strut.line.at(strut.part.low) - q, b = strut.line.at(strut.part.high) - q;
       const double in = capsule_entry(a, b - a, u, radius);
       // Behind p, unless p is on its surface up to rounding.
-      if (in < 0 && -capsule_entry(a, b - a, u * -1.0, radius) < -surface_error) continue;
+      if (in < 0 && -capsule_entry(a, b - a, u * -1.0, radius) < -surface_error(foam)) continue;
       first = std::min(first, in);
     }
     return first;
@@ -142,12 +148,12 @@ bool sharpen_entry(const FoamData& foam, RaySearch& search) {
   // Rounding may split an entry into many; the one found may be any of them.
   const double at = search.t / unit, near = 4 * ray.tolerance + 256 * ray.error;
   StrutEntry best;
-  for (NearLine& near_line :
-       lines_near(foam, entries, search.ray.at(search.t), radius + std::max(surface_error, near))) {
+  for (NearLine& near_line : lines_near(foam, entries, search.ray.at(search.t),
+                                        radius + std::max(surface_error(foam), near))) {
     StrutLine& line = near_line.line;
     if (!line.has_line) continue;
     // The ray enters at this edge, so its ends are not in the way.
-    constexpr double beyond = 16;
+    const double beyond = foam.stretch() ? 16 * foam.stretch()->max_factor() : 16;
     line.corner = line.home;
     line.a = line.line.at(0) - line.along * beyond;
     line.length = 2 * beyond;

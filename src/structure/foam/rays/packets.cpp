@@ -482,7 +482,8 @@ class Walker {
 }  // namespace
 
 bool walk_cells(const FoamData& foam, RaySearch* searches, size_t count, const Job* job) {
-  if (!RayBrick::fits(foam.seeds())) return false;
+  // The lists of cells and their proofs are those of the diagram in model space.
+  if (foam.stretch() || !RayBrick::fits(foam.seeds())) return false;
   // On the heap: walkers are too large for the stacks of a host's threads.
   if (foam.graded()) {
     const Borrowed<Memory<GradedLists>> memory;
@@ -495,7 +496,8 @@ bool walk_cells(const FoamData& foam, RaySearch* searches, size_t count, const J
 }
 
 bool enter_by_cells(const FoamData& foam, RaySearch* searches, size_t count, const Job* job) {
-  return RayDemand::pays_for(foam, searches, count) && walk_cells(foam, searches, count, job);
+  return !foam.stretch() && RayDemand::pays_for(foam, searches, count) &&
+         walk_cells(foam, searches, count, job);
 }
 
 }  // namespace msq

@@ -10,7 +10,7 @@
 namespace msq {
 
 /// Structure::enter for foams. Returns false and does nothing for foams with too many seeds near a
-/// cell, and for rays that are not worth their edges (RayDemand).
+/// cell, for stretched ones, and for rays that are not worth their edges (RayDemand).
 bool enter_by_cells(const FoamData& foam, RaySearch* searches, size_t count, const Job* job);
 /// The same without RayDemand.
 bool walk_cells(const FoamData& foam, RaySearch* searches, size_t count, const Job* job);

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "structure/foam/point/edge_line.h"
+#include "structure/foam/point/stretched_line.h"
 #include "strut/segment.h"
 
 namespace msq {
@@ -186,10 +187,20 @@ StrutLine StrutEntries::line(const std::array<CellIndex, 3>& cells) const {
   const FoamSeeds& seeds = foam_.seeds();
   const CellIndex home = cells[0];
   const auto seed = [&](size_t i) {
-    return seeds.at(home, cells[i].x - home.x, cells[i].y - home.y, cells[i].z - home.z);
+    return foam_.diagram_seeds().at(home, cells[i].x - home.x, cells[i].y - home.y,
+                                    cells[i].z - home.z);
   };
   StrutLine strut;
-  strut.line = EdgeLine(seed(0), seed(1), seed(2));
+  double by_stretch = 1;
+  if (const Stretch* stretch = foam_.stretch()) {
+    const StretchedLine line(stretch->factor(), seed(0), seed(1), seed(2));
+    strut.line = line.of_foam;
+    // The error of the line in diagram units, in foam units.
+    by_stretch = stretch->max_factor() * std::sqrt(line.of_diagram.inverse_squared /
+                                                   std::max(1e-300, line.of_foam.inverse_squared));
+  } else {
+    strut.line = EdgeLine(seed(0), seed(1), seed(2));
+  }
   strut.has_line = strut.line.exists();
   // The line's offset and direction come from products of seeds' differences u and v. Their error
   // is 2^-52 |u| |v| (|u| + |v| + 4) over the triangle's size, |direction|. For products above 2^5,
@@ -198,7 +209,7 @@ StrutLine StrutEntries::line(const std::array<CellIndex, 3>& cells) const {
   const double inverse_size = std::sqrt(strut.line.inverse_squared);
   strut.home = corner_of(home, seeds.scale());
   strut.along = strut.line.direction * inverse_size;
-  strut.error = 0x1p-47 * inverse_size;
+  strut.error = 0x1p-47 * inverse_size * by_stretch;
   return strut;
 }
 

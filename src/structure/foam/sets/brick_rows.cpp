@@ -10,10 +10,10 @@ namespace msq {
 
 bool keep_brick_rows(const FoamData& foam, const RowBlock& block, const Job* job) {
   const Neighbourhood& grid = foam.neighbourhood();
-  StrutRows rows(block, grid, foam.radius(), edge_error * foam.unit());
+  StrutRows rows(block, grid, foam.radius(), foam.graph().brick_error() * foam.unit());
   if (rows.empty()) return true;
   const double critical = foam.graph().critical_samples(
-      grid.to_grid(rows.reach()).grown(owner_distance(foam)), foam.max_radius());
+      grid.to_grid(rows.reach()).grown(foam.owner_distance()), foam.max_radius());
   if (!rows.pays(grid, critical)) return false;
   for_each_brick(foam, rows.reach(), job, [&](const BrickPart& part) {
     rows.add(part.brick.segments(), part.frame, part.wanted);

@@ -6,10 +6,6 @@
 
 namespace msq {
 
-double owner_distance(const FoamData& foam) {
-  return foam.seeds().empty_radius() * foam.unit() * (1 + 1e-9);
-}
-
 void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
                     const std::function<void(const BrickPart&)>& visit) {
   const Neighbourhood& grid = foam.neighbourhood();
@@ -21,7 +17,7 @@ void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
   const bool are_equal = !foam.graded() && foam.seeds().jitter() == 0;
   CellCache::Data data;
   for_each_brick_near(
-      grid, box, owner_distance(foam), layout.side, layout.lead,
+      grid, box, foam.owner_distance(), foam.owner_reach(), layout.side, layout.lead,
       [&](CellIndex corner, const Box3& near) {
         check_cancelled(job);
         if (!graph.may_own_edges(corner, near)) return;
@@ -36,14 +32,14 @@ void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
         const Box3 from_brick{(near.min - origin) * (1 / unit), (near.max - origin) * (1 / unit)};
         SegmentFrame frame{grid.from_grid(origin), grid.rotation.m};
         for (double& m : frame.matrix) m *= unit;
-        visit(BrickPart{brick, frame, from_brick.grown(edge_error)});
+        visit(BrickPart{brick, frame, from_brick.grown(graph.brick_error())});
       });
 }
 
 void for_each_foam_strut(const FoamData& foam, const Box3& box, const Structure::TakeStrut& take,
                          const Job* job) {
   const double radius = foam.radius().range().high;
-  const Box3 reach = box.grown(radius + edge_error * foam.unit());
+  const Box3 reach = box.grown(radius + foam.graph().brick_error() * foam.unit());
   SegmentSelection selection;
   const Borrowed<StrutBatch> batch;
   for_each_brick(foam, reach, job, [&](const BrickPart& part) {

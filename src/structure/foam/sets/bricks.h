@@ -17,10 +17,6 @@ struct BrickPart {
   Box3 wanted;  ///< edges outside do not touch the box; in the coordinates of the segments
 };
 
-/// An edge that touches a box has a point in it, and its owner lies within this distance of that
-/// point (model units).
-double owner_distance(const FoamData& foam);
-
 /// Calls visit(part) for each brick that may have edges that touch a box (model coordinates).
 void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
                     const std::function<void(const BrickPart&)>& visit);

@@ -17,10 +17,13 @@ namespace {
 
 class FaceBuilder {
  public:
-  /// `areas`: null where they are not wanted.
-  void build(const FoamSeeds& seeds, CellIndex corner, std::vector<FaceBrick::Cell>& cells,
-             std::vector<FaceBrick::Face>& faces, std::vector<WallFace>* areas) {
+  /// `areas`: null where they are not wanted. `stretch`: of the cells, or null; not with areas.
+  void build(const FoamSeeds& seeds, CellIndex corner, const Stretch* stretch,
+             std::vector<FaceBrick::Cell>& cells, std::vector<FaceBrick::Face>& faces,
+             std::vector<WallFace>* areas) {
     constexpr int side = FaceBrick::side;
+    is_stretched_ = stretch != nullptr;
+    if (stretch) factor_ = stretch->factor() * (1 / stretch->max_factor());
     cells_.move_to(seeds, corner, side);
     for (int z = 0; z < side; ++z)
       for (int y = 0; y < side; ++y) {
@@ -83,12 +86,21 @@ class FaceBuilder {
   }
 
   void add(Vec3 seed, std::vector<FaceBrick::Cell>& cells, std::vector<FaceBrick::Face>& faces) {
+    if (is_stretched_) {
+      seed = seed * factor_;
+      low_ = low_ * factor_;
+      high_ = high_ * factor_;
+    }
     FaceBrick::Cell cell{seed, {}, {}, static_cast<uint32_t>(faces.size()), 0};
     for (int axis = 0; axis < 3; ++axis) {
       cell.low[axis] = static_cast<float>(low_[axis] - 2 * FaceBrick::box_slack);
       cell.high[axis] = static_cast<float>(high_[axis] + 2 * FaceBrick::box_slack);
     }
     for (const Vec3& apart : planes_) {
+      if (is_stretched_) {
+        add_stretched(apart, faces);
+        continue;
+      }
       const double distance = length(apart);
       const Vec3 n = apart * (1 / distance);
       faces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
@@ -96,6 +108,16 @@ class FaceBuilder {
     }
     cell.count = static_cast<uint32_t>(faces.size()) - cell.first;
     cells.push_back(cell);
+  }
+
+  /// A plane apart . x = |apart|^2 / 2 of the diagram is (apart / factor) . X = |apart|^2 / 2 where
+  /// X = factor x.
+  void add_stretched(Vec3 apart, std::vector<FaceBrick::Face>& faces) const {
+    const Vec3 normal{apart.x / factor_.x, apart.y / factor_.y, apart.z / factor_.z};
+    const double size = length(normal);
+    const Vec3 n = normal * (1 / size);
+    faces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
+                     static_cast<float>(0.5 * dot(apart, apart) / size)});
   }
 
   void add_areas(std::vector<WallFace>& areas) {
@@ -114,6 +136,8 @@ class FaceBuilder {
   std::vector<bool> used_;
   std::vector<Vec3> planes_;  // of the cell at hand: neighbours, from the own seed
   Vec3 low_, high_;           // of its vertices
+  bool is_stretched_ = false;
+  Vec3 factor_;  // from the space of the diagram; at most 1
 };
 
 }  // namespace
@@ -123,7 +147,14 @@ FaceBrick::FaceBrick(const FoamSeeds& seeds, CellIndex corner, bool with_areas) 
   cells_.reserve(size_t{side} * side * side);
   faces_.reserve(size_t{side} * side * side * 17);
   if (with_areas) areas_.reserve(faces_.capacity());
-  builder->build(seeds, corner, cells_, faces_, with_areas ? &areas_ : nullptr);
+  builder->build(seeds, corner, nullptr, cells_, faces_, with_areas ? &areas_ : nullptr);
+}
+
+FaceBrick::FaceBrick(const Stretch& stretch, CellIndex corner) {
+  const Borrowed<FaceBuilder> builder;
+  cells_.reserve(size_t{side} * side * side);
+  faces_.reserve(size_t{side} * side * side * 17);
+  builder->build(stretch.seeds(), corner, &stretch, cells_, faces_, nullptr);
 }
 
 }  // namespace msq

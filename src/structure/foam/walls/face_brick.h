@@ -6,11 +6,13 @@
 
 #include "cell/cache.h"
 #include "structure/foam/seeds/seeds.h"
+#include "structure/foam/seeds/stretch.h"
 #include "structure/foam/walls/wall_face.h"
 
 namespace msq {
 
-/// Foam units.
+/// Foam units; of stretched cells, max_factor() foam units (seeds/stretch.h), so that cells are no
+/// longer than in the space of the diagram.
 class FaceBrick final : public CellData {
  public:
   /// Cells along each axis; bricks begin `lead` before multiples of that, as those of edges do
@@ -31,6 +33,8 @@ class FaceBrick final : public CellData {
 
   /// The brick whose first cell is `corner`.
   FaceBrick(const FoamSeeds& seeds, CellIndex corner, bool with_areas);
+  /// Of stretched cells; without areas.
+  FaceBrick(const Stretch& stretch, CellIndex corner);
 
   /// Each is bounded by its faces; there may be planes among them that only touch it.
   const std::vector<Cell>& cells() const { return cells_; }

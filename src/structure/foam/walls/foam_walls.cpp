@@ -15,7 +15,8 @@ namespace msq {
 namespace {
 
 NearSeeds make_seeds(const Neighbourhood& grid, double unit, double jitter, uint64_t seed,
-                     Parameter density) {
+                     Parameter density, Vec3 stretch) {
+  if (Stretch::is_any(stretch)) return NearSeeds(Stretch(grid, jitter, seed, stretch));
   const FoamSeeds cells(seed, jitter, grid.cell_size * (1 / unit));
   if (!(density.range().high > 1)) return NearSeeds(cells, nullptr);
   return NearSeeds(cells, std::make_shared<const GradedSeeds>(cells, grid, std::move(density)));
@@ -24,13 +25,14 @@ NearSeeds make_seeds(const Neighbourhood& grid, double unit, double jitter, uint
 }  // namespace
 
 FoamWalls::FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
-                     double jitter, uint64_t seed, const Parameter& density, Parameter vent_radius)
+                     double jitter, uint64_t seed, const Parameter& density, Parameter vent_radius,
+                     Vec3 stretch)
     : Structure(neighbourhood),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
       thickness_(std::move(thickness)),
       unit_(max_component(neighbourhood.cell_size)),
-      seeds_(make_seeds(neighbourhood, unit_, jitter, seed, density)),
+      seeds_(make_seeds(neighbourhood, unit_, jitter, seed, density, stretch)),
       vents_(neighbourhood, unit_, std::move(vent_radius)),
       is_concurrent_(thickness_.is_concurrent() && density.is_concurrent() &&
                      vents_.radius().is_concurrent()) {}
@@ -67,6 +69,7 @@ double FoamWalls::slack(Vec3 p, double distance) const {
   // from each other.
   const Vec3 scale = seeds_.seeds().scale();
   double of_faces = scale == Vec3{1, 1, 1} ? 0x1p-47 : 1e-9;
+  if (seeds_.stretch()) of_faces = 1e-9 * seeds_.stretch()->max_factor();
   if (vents_.exist())
     of_faces += vent_error(std::max(min_vent_radius, vents_.radius().range().low / unit_));
   return of_faces * unit_ + locating_slack(p - neighbourhood().origin, distance);
@@ -223,12 +226,13 @@ void FoamWalls::enter_vented(RaySearch& search, const Job* job) const {
 Vec3 FoamWalls::normal(const Ray& ray, double t) const {
   const Vec3 p = ray.at(t);
   const NearFace face = face_near(p);
-  const double apart = length(face.across);
+  const Vec3 across = seeds_.normal(face.across);
+  const double apart = length(across);
   // In a hole of the nearest wall, the ray may meet the hole's side.
   const bool is_plane = !vents_.exist() || std::abs(face.onset - thickness_.at(p) / unit_) <= 1e-6;
   if (face.onset > 0 && apart > 0 && is_plane) {
     // Against the direction in which the onset less the thickness falls.
-    const Vec3 outward = neighbourhood().rotation.apply(face.across) * (-2 / apart) -
+    const Vec3 outward = neighbourhood().rotation.apply(across) * (-2 / apart) -
                          thickness_.gradient(p, normal_distance());
     const double size = length(outward);
     if (size > 0.5 && dot(outward, ray.direction) <= 0) return outward * (1 / size);
@@ -237,7 +241,7 @@ Vec3 FoamWalls::normal(const Ray& ray, double t) const {
 }
 
 LineGraph FoamWalls::wall_lines(const WallSection& section) const {
-  if (vents_.exist()) return Structure::wall_lines(section);
+  if (vents_.exist() || seeds_.stretch()) return Structure::wall_lines(section);
   return foam_section({*context_, neighbourhood(), seeds_.seeds(), seeds_.graded(), unit_},
                       section);
 }
@@ -252,6 +256,9 @@ void FoamWalls::describe(HashInput& input) const {
   thickness_.describe(input);
   input.integer(vents_.exist() ? 1 : 0);
   if (vents_.exist()) vents_.radius().describe(input);
+  if (!seeds_.stretch()) return;
+  input.text("stretch");
+  seeds_.stretch()->describe(input);
 }
 
 }  // namespace msq

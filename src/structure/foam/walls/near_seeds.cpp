@@ -48,7 +48,8 @@ void NearSeeds::find(CellIndex cell, Vec3 q, double more, std::vector<Vec3>& nea
   const Borrowed<NearSeedsWorkspace> workspace;
   auto& [around, found] = *workspace;
   around.move_to(seeds_, cell);
-  const CellSeeds::Block& block = around.find_near(q, 0.5 * more, found);
+  const CellSeeds::Block& block =
+      around.find_near(q, 0.5 * (stretch_ ? stretch_->around(more) : more), found);
   for (const uint32_t i : found) near.push_back(block.position(i));
 }
 

@@ -35,7 +35,11 @@ struct VoidRowsWorkspace {
 class BlockVoids {
  public:
   BlockVoids(const FoamWalls& walls, const RowBlock& block, VoidRowsWorkspace& work)
-      : walls_(walls), grid_(walls.neighbourhood()), unit_(walls.unit()), block_(block), w_(work) {
+      : walls_(walls),
+        grid_(walls.neighbourhood()),
+        unit_(walls.unit() * (walls.seeds().stretch() ? walls.seeds().stretch()->max_factor() : 1)),
+        block_(block),
+        w_(work) {
     find_alive();
   }
 
@@ -259,13 +263,13 @@ class BlockVoids {
 
   const FoamWalls& walls_;
   const Neighbourhood& grid_;
-  const double unit_;
+  const double unit_;  // of FaceBrick
   const RowBlock& block_;
   VoidRowsWorkspace& w_;
   uint64_t j0_ = 0, j1_ = 0, k0_ = 0, k1_ = 0;
   Box3 box_;
   double samples_ = 0;
-  double margin_ = 0;  // foam units
+  double margin_ = 0;  // in that unit
 };
 
 }  // namespace
@@ -279,18 +283,22 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
   const Neighbourhood& grid = walls.neighbourhood();
   const FoamSeeds& seeds = walls.seeds().seeds();
   // A cell that touches the box has a point in it, and its seed within the empty radius of that.
-  const double around = seeds.empty_radius() * walls.unit() * (1 + 1e-9);
+  const Stretch* const stretch = walls.seeds().stretch();
+  const double around = stretch ? 0 : seeds.empty_radius() * walls.unit() * (1 + 1e-9);
+  const Vec3 beyond = stretch ? stretch->reach() * walls.unit() : Vec3{};
   // Without jitter, one brick serves for all.
   const bool are_equal = seeds.jitter() == 0;
   CellCache::Data brick;
   for_each_brick_near(
-      grid, voids.box(), around, FaceBrick::side, FaceBrick::lead,
+      grid, voids.box(), around, beyond, FaceBrick::side, FaceBrick::lead,
       [&](CellIndex corner, const Box3&) {
         check_cancelled(job);
         if (!are_equal) brick.reset();
         if (!brick)
           brick = walls.context().cache.fetch(walls.id(), are_equal ? CellIndex{} : corner, [&] {
-            return std::make_shared<const FaceBrick>(seeds, corner, walls.vents().exist());
+            return stretch
+                       ? std::make_shared<const FaceBrick>(*stretch, corner)
+                       : std::make_shared<const FaceBrick>(seeds, corner, walls.vents().exist());
           });
         voids.take(static_cast<const FaceBrick&>(*brick), corner);
         if (voids.has_many_doubts()) voids.decide(job);

@@ -31,14 +31,16 @@ size_t nearest_of(const std::vector<Vec3>& seeds, Vec3 q) {
   return nearest;
 }
 
-NearFace nearest_face(const std::vector<Vec3>& seeds, Vec3 q) {
+NearFace nearest_face(const NearSeeds& seeds, const std::vector<Vec3>& near, Vec3 q) {
   NearFace face;
-  const size_t nearest = nearest_of(seeds, q);
-  for (size_t i = 0; i < seeds.size(); ++i) {
+  const size_t nearest = nearest_of(near, q);
+  for (size_t i = 0; i < near.size(); ++i) {
     if (i == nearest) continue;
+    const Vec3 apart = near[i] - near[nearest];
+    const double divisor = length(seeds.normal(apart));
     // Below 0 by rounding only.
-    const double onset = std::max(0.0, plane_onset(seeds[nearest], seeds[i], q));
-    if (onset < face.onset) face = {onset, seeds[i] - seeds[nearest]};
+    const double onset = std::max(0.0, dot(apart, (near[nearest] - q) + (near[i] - q)) / divisor);
+    if (onset < face.onset) face = {onset, apart};
   }
   return face;
 }
@@ -51,7 +53,7 @@ bool is_in_wall(const NearSeeds& seeds, CellIndex cell, Vec3 q, double thickness
   for (double tried = std::min(thickness, seeds.spacing(cell, q));;
        tried = std::min(thickness, 2 * tried)) {
     seeds.find(cell, q, tried, near);
-    if (nearest_face(near, q).onset <= thickness) return true;
+    if (nearest_face(seeds, near, q).onset <= thickness) return true;
     if (tried >= thickness) return false;
   }
 }
@@ -61,7 +63,7 @@ NearFace find_nearest_face(const NearSeeds& seeds, CellIndex cell, Vec3 q) {
   std::vector<Vec3>& near = workspace->near;
   for (double tried = 0.5 * seeds.spacing(cell, q);; tried *= 2) {
     seeds.find(cell, q, tried, near);
-    const NearFace face = nearest_face(near, q);
+    const NearFace face = nearest_face(seeds, near, q);
     if (face.onset <= tried) return face;
   }
 }

@@ -13,6 +13,10 @@
 // Which seeds matter. As |a - b| <= |p - a| + |p - b|, the quotient is at least |p - b| - |p - a|:
 // it is more than t for all seeds that are farther from p than a is by more than t.
 //
+// If cells are stretched, a, b and p are in the space of the diagram (seeds/stretch.h), and the
+// plane is moved back to model space: the divisor becomes |(a - b) / factor|. That is at most |a -
+// b| over the least factor, so seeds matter that are farther by up to t over the least factor.
+//
 // The quotient is computed as n . ((a - p) + (b - p)), n being the unit vector from a to b. So it
 // carries a few roundings of the distances, however near to each other a and b are.
 #pragma once
@@ -38,10 +42,10 @@ inline double plane_onset(Vec3 a, Vec3 b, Vec3 q) {
 
 /// The number of the seed nearest to q, the first of several.
 size_t nearest_of(const std::vector<Vec3>& seeds, Vec3 q);
-/// The nearest face, among seeds that hold the one nearest to q.
-NearFace nearest_face(const std::vector<Vec3>& seeds, Vec3 q);
+/// The nearest face, among some of the seeds that hold the one nearest to q.
+NearFace nearest_face(const NearSeeds& seeds, const std::vector<Vec3>& near, Vec3 q);
 
-/// Whether walls of a thickness hold q, from the corner of `cell`.
+/// Whether walls of a thickness hold q, in the space of the diagram, from the corner of `cell`.
 bool is_in_wall(const NearSeeds& seeds, CellIndex cell, Vec3 q, double thickness);
 /// The face nearest to q; its onset is the least thickness for which is_in_wall().
 NearFace find_nearest_face(const NearSeeds& seeds, CellIndex cell, Vec3 q);

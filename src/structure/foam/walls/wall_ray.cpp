@@ -26,7 +26,9 @@ WallRay::Way WallRay::find(const Ray& ray, double from, double to, double tolera
   const Borrowed<WallRayWorkspace> workspace;
   std::vector<Vec3>& near = workspace->near;
   const Vec3 scale = seeds.seeds().scale();
-  const Vec3 along = grid.rotation.apply_inverse(ray.direction) * (1 / unit);
+  const Stretch* stretch = seeds.stretch();
+  const Vec3 in_grid = grid.rotation.apply_inverse(ray.direction) * (1 / unit);
+  const Vec3 along = stretch ? stretch->to_diagram(in_grid) : in_grid;
   const auto place = [&](const Neighbourhood::Located& located) {
     return located.fraction * scale;
   };
@@ -39,7 +41,8 @@ WallRay::Way WallRay::find(const Ray& ray, double from, double to, double tolera
   const Vec3 own = near[nearest_of(near, q)];
 
   // Both ends of the way in the void are within the empty radius of the seed.
-  const double most = 2.001 * seeds.seeds().empty_radius() * unit;
+  const double most =
+      2.001 * seeds.seeds().empty_radius() * unit * (stretch ? stretch->max_factor() : 1);
   const double end = std::min(to, from + most);
   double found = end;
   // What the seeds at hand, near a point at `at`, leave of the way up to `found`.
@@ -49,9 +52,10 @@ WallRay::Way WallRay::find(const Ray& ray, double from, double to, double tolera
       const Vec3 apart = other - seed;
       const double distance = length(apart);
       if (!(distance > min_distance)) continue;  // the seed itself
-      const double slope = 2 * dot(apart, along) / distance;
+      const double divisor = stretch ? length(seeds.normal(apart)) : distance;
+      const double slope = 2 * dot(apart, along) / divisor;
       if (!(slope > 0)) continue;
-      const double over = dot(apart, (seed - place) + (other - place)) / distance - thickness;
+      const double over = dot(apart, (seed - place) + (other - place)) / divisor - thickness;
       first = std::min(first, at + over / slope);
     }
     return std::max(from, first);
