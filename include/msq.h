@@ -1376,7 +1376,7 @@ typedef struct msq_foam_def {
   msq_param vent_radius;
   /** How much longer the cells of the foam are along each axis of the grid: 1/16 to 16, default 1.
    * The Voronoi diagram is that of the seeds where lengths along axis i are divided by stretch[i].
-   * Struts stay circular and walls as thick as said. Only the proportions of the three numbers
+   * Struts stay circular, and walls keep their thickness. Only the proportions of the three numbers
    * count; cell_size[i] / stretch[i] may differ by a factor of up to 16. Turn the grid for other
    * directions. */
   double stretch[3];
@@ -1534,8 +1534,8 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * cells are wider; a level that is a field of the radius counters that. Distances are lower bounds
  * that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they
  * cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of
- * cylindrical cells take rows along which the function is tabulated; other layers decide boxes, then
- * points, which costs several times as much. There are no thin walls to fill along.
+ * cylindrical cells take rows along which the function is tabulated; other layers decide boxes,
+ * then points, which costs several times as much. There are no thin walls to fill along.
  *
  * Functions use IEEE operations only, not the C library, so their bits are equal on every machine.
  * Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by
@@ -1543,12 +1543,12 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network,
  * together with a level, above what fills the cell, or of a function without a zero or nowhere
  * above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits,
- * with the index; what msq_warp_def limits; for expressions the message gives the position, from 1, and the reason), LIMIT
- * (limits of expressions; more than 2^24 cells between the grid's origin and a position of the
- * period), UNSUPPORTED (a field of thickness with a period; a thickness or a period with a warp),
- * MEMORY. Source: paper, section
- * "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von
- * Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md). */
+ * with the index; what msq_warp_def limits; for expressions the message gives the position, from 1,
+ * and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and
+ * a position of the period), UNSUPPORTED (a field of thickness with a period; a thickness or a
+ * period with a warp), MEMORY. Source: paper, section "Preprocessing for Repeating Structures";
+ * Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et
+ * al. 2001; Fisher et al. 2023 (docs/prior_art.md). */
 MSQ_API msq_status msq_structure_functional(msq_context* context, const msq_functional_def* def,
                                             msq_structure** structure);
 

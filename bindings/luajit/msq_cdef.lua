@@ -10,6 +10,7 @@ enum msq_warning_code { MSQ_WARNING_OPEN_MESH = 1, MSQ_WARNING_COARSE_PITCH = 2,
 enum msq_winding { MSQ_WINDING_NONZERO = 0, MSQ_WINDING_EVEN_ODD = 1, MSQ_WINDING_POSITIVE = 2, MSQ_WINDING_AUTO = 3 };
 enum msq_number_type { MSQ_FLOAT32 = 1, MSQ_FLOAT64 = 2, MSQ_UINT8 = 3, MSQ_INT16 = 4, MSQ_UINT16 = 5, MSQ_INT32 = 6, MSQ_INT64 = 7 };
 enum msq_format { MSQ_FORMAT_AUTO = 0, MSQ_FORMAT_STL = 1, MSQ_FORMAT_OBJ = 2, MSQ_FORMAT_PLY = 3, MSQ_FORMAT_OFF = 4, MSQ_FORMAT_3MF = 5, MSQ_FORMAT_AMF = 6, MSQ_FORMAT_GLTF = 7 };
+enum msq_warp_kind { MSQ_WARP_CYLINDRICAL = 1, MSQ_WARP_SPHERICAL = 2 };
 enum msq_solid_side { MSQ_SOLID_ABOVE = 0, MSQ_SOLID_BELOW = 1 };
 enum msq_boolean_operation { MSQ_BOOLEAN_UNION = 1, MSQ_BOOLEAN_INTERSECTION = 2, MSQ_BOOLEAN_DIFFERENCE = 3 };
 enum msq_unit_cell { MSQ_UNIT_CELL_CUSTOM = 0, MSQ_UNIT_CELL_CUBIC = 1, MSQ_UNIT_CELL_BCC = 2, MSQ_UNIT_CELL_OCTET = 3, MSQ_UNIT_CELL_FCC = 4, MSQ_UNIT_CELL_KELVIN = 5, MSQ_UNIT_CELL_DIAMOND = 6, MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7, MSQ_UNIT_CELL_REENTRANT = 8 };
@@ -61,6 +62,7 @@ typedef int32_t (*msq_values_fn)(void* user, const double* points, uint64_t coun
 typedef int32_t (*msq_range_fn)(void* user, const double* min, const double* max, double* low, double* high);
 typedef struct msq_neighbourhood { double origin[3]; double cell_size[3]; double rotation[9]; } msq_neighbourhood;
 typedef struct msq_period_def { uint32_t struct_size; int32_t axis; const double* positions; const double* cell_sizes; uint64_t count; } msq_period_def;
+typedef struct msq_warp_def { uint32_t struct_size; int32_t kind; uint32_t count; uint32_t count_polar; double inner_radius; double outer_radius; } msq_warp_def;
 typedef struct msq_image { const void* values; int32_t value_type; uint32_t reserved; uint64_t size[3]; uint64_t row_stride; uint64_t layer_stride; msq_neighbourhood grid; } msq_image;
 typedef struct msq_file_def { uint32_t struct_size; int32_t format; int32_t winding_rule; uint32_t reserved; double unit_mm; uint64_t max_bytes; uint64_t max_triangles; } msq_file_def;
 typedef struct msq_mesh_def { uint32_t struct_size; int32_t coordinate_type; int32_t winding_rule; uint32_t reserved; const void* vertices; uint64_t vertex_count; uint64_t vertex_stride; const uint32_t* triangles; uint64_t triangle_count; } msq_mesh_def;
@@ -77,11 +79,11 @@ typedef struct msq_shape_distance_field_def { uint32_t struct_size; uint32_t res
 typedef struct msq_param { double value; const msq_field* field; } msq_param;
 typedef struct msq_unit_cell_def { uint32_t struct_size; int32_t unit_cell; const double* nodes; uint64_t node_count; const uint32_t* struts; uint64_t strut_count; const double* strut_factors; } msq_unit_cell_def;
 typedef struct msq_unit_cell_report { uint32_t struct_size; int32_t is_periodic; uint64_t node_count; uint64_t strut_count; uint64_t tiled_strut_count; double tiled_length; uint64_t low_nodes[3]; uint64_t high_nodes[3]; uint64_t unmatched_nodes[3]; uint64_t unmatched_count; } msq_unit_cell_report;
-typedef struct msq_lattice_def { uint32_t struct_size; int32_t unit_cell; msq_neighbourhood grid; msq_param radius; const double* nodes; uint64_t node_count; const uint32_t* struts; uint64_t strut_count; const double* strut_factors; const msq_unit_cell_def* cells; uint32_t cell_count; uint32_t clusters; msq_param cell_choice; } msq_lattice_def;
+typedef struct msq_lattice_def { uint32_t struct_size; int32_t unit_cell; msq_neighbourhood grid; msq_param radius; const double* nodes; uint64_t node_count; const uint32_t* struts; uint64_t strut_count; const double* strut_factors; const msq_unit_cell_def* cells; uint32_t cell_count; uint32_t clusters; msq_param cell_choice; const msq_period_def* period; const msq_warp_def* warp; } msq_lattice_def;
 typedef struct msq_lattice_faces_report { uint32_t struct_size; int32_t axis; uint64_t cells; uint64_t faces; uint64_t unmatched; int32_t cell[3]; uint32_t reserved; uint32_t types[2]; double point[3]; } msq_lattice_faces_report;
 typedef struct msq_plate_lattice_def { uint32_t struct_size; int32_t plate_cell; msq_neighbourhood grid; msq_param thickness; const double* nodes; uint64_t node_count; const uint32_t* faces; uint64_t face_count; const double* face_factors; msq_param radius; int32_t unit_cell; uint32_t reserved; const uint32_t* struts; uint64_t strut_count; const double* strut_factors; } msq_plate_lattice_def;
-typedef struct msq_foam_def { uint32_t struct_size; int32_t method; msq_neighbourhood grid; msq_param radius; double jitter; uint64_t seed; msq_param density; msq_param wall_thickness; msq_param vent_radius; } msq_foam_def;
-typedef struct msq_functional_def { uint32_t struct_size; int32_t function; int32_t kind; uint32_t clusters; msq_neighbourhood grid; msq_param level; const char* expression; const msq_named_value* parameters; uint64_t parameter_count; msq_param thickness; const msq_period_def* period; } msq_functional_def;
+typedef struct msq_foam_def { uint32_t struct_size; int32_t method; msq_neighbourhood grid; msq_param radius; double jitter; uint64_t seed; msq_param density; msq_param wall_thickness; msq_param vent_radius; double stretch[3]; } msq_foam_def;
+typedef struct msq_functional_def { uint32_t struct_size; int32_t function; int32_t kind; uint32_t clusters; msq_neighbourhood grid; msq_param level; const char* expression; const msq_named_value* parameters; uint64_t parameter_count; msq_param thickness; const msq_period_def* period; const msq_warp_def* warp; } msq_functional_def;
 typedef struct msq_waves_def { uint32_t struct_size; int32_t kind; uint64_t seed; uint32_t count; uint32_t tile[3]; double cone_angles[3]; msq_neighbourhood grid; msq_param level; double volume_fraction; } msq_waves_def;
 typedef struct msq_beams_def { uint32_t struct_size; int32_t cap; int32_t coordinate_type; uint32_t reserved; const void* nodes; uint64_t node_count; uint64_t node_stride; const uint32_t* beams; uint64_t beam_count; uint64_t beam_stride; const void* radii; uint64_t radius_stride; const uint8_t* caps; uint64_t cap_stride; const uint32_t* balls; uint64_t ball_count; uint64_t ball_stride; const void* ball_radii; uint64_t ball_radius_stride; double radius; double ball_radius; double min_length; double length_scale; } msq_beams_def;
 typedef struct msq_beam_file_report { uint32_t struct_size; int32_t clipping; uint64_t lattice_count; uint64_t mesh_triangle_count; uint64_t node_count; uint64_t beam_count; uint64_t ball_count; uint64_t clipping_triangle_count; double min[3]; double max[3]; } msq_beam_file_report;
@@ -157,6 +159,7 @@ msq_status msq_job_progress(const msq_job* job, double* fraction);
 msq_status msq_job_info(const msq_job* job, msq_job_report* report);
 msq_status msq_neighbourhood_placed(const msq_neighbourhood* grid, const double* matrix, msq_neighbourhood* placed);
 msq_status msq_period_def_init(msq_period_def* def, size_t size);
+msq_status msq_warp_def_init(msq_warp_def* def, size_t size);
 msq_status msq_file_def_init(msq_file_def* def, size_t size);
 msq_status msq_shape_from_file(msq_context* context, const char* path, const msq_file_def* def, msq_shape** shape, msq_job* job);
 msq_status msq_shape_from_memory(msq_context* context, const void* data, uint64_t bytes, const msq_file_def* def, msq_shape** shape, msq_job* job);

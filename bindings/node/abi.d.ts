@@ -65,6 +65,10 @@ export declare const MSQ_FORMAT_3MF = 5;
 export declare const MSQ_FORMAT_AMF = 6;
 /** glTF 2.0, text or binary (GLB). */
 export declare const MSQ_FORMAT_GLTF = 7;
+/** Cells around the z axis of the grid. */
+export declare const MSQ_WARP_CYLINDRICAL = 1;
+/** Cells around the origin of the grid. */
+export declare const MSQ_WARP_SPHERICAL = 2;
 export declare const MSQ_SOLID_ABOVE = 0;
 export declare const MSQ_SOLID_BELOW = 1;
 /** Points in any of them. */
@@ -200,7 +204,7 @@ export declare const MSQ_LAYER_BITS = 1;
 export declare const MSQ_LAYER_BYTES = 2;
 /** 1 byte per pixel: its coverage, from 0 to 255, by k x k samples with k = grey_samples. Sample (a, b), 0 <= a, b < k, lies at the centre of the pixel + ((a, b) + 1/2) / k * pitch - pitch / 2, the centre of its part of the pixel. With n samples inside the value is floor(255 * (n / k^2)^grey_gamma + 1/2), or 0 if that is below grey_threshold. */
 export declare const MSQ_LAYER_GREY = 3;
-/** 1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it, rounded to the nearest float32. Rows have the byte order of the machine. */
+/** 1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it, rounded to the nearest float32; outside at least 1.17549435e-38, so that the sign remains. Rows have the byte order of the machine. */
 export declare const MSQ_LAYER_DISTANCE = 4;
 /** 1 uint32 per pixel: the id of the material at its centre, as msq_set_material returns it. A resolved scale must have a material. */
 export declare const MSQ_LAYER_MATERIAL = 5;
@@ -413,6 +417,27 @@ export interface msq_period_def {
   cell_sizes: Memory;
   /** 1 to 4096. */
   count: number | bigint;
+}
+
+/**
+ * Warped cells: cells around an axis or around a point, in place of boxes.
+ *
+ * The structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.
+ *
+ * Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a functional structure; lattices have whole cells there (msq_lattice_def.warp). docs/concepts.md defines the map bit for bit.
+ */
+export interface msq_warp_def {
+  struct_size: number;
+  /** An msq_warp_kind. Default MSQ_WARP_CYLINDRICAL. */
+  kind: number;
+  /** Cells around the z axis, 1 to 65536. No default. */
+  count: number;
+  /** SPHERICAL: cells from pole to pole, 1 to 65536; no default. CYLINDRICAL: 0. */
+  count_polar: number;
+  /** In model units, 0 to 1e75. Default 0. */
+  inner_radius: number;
+  /** In model units, above inner_radius, at most 1e75. 0 (default): no limit. */
+  outer_radius: number;
 }
 
 /** Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about 1/7 byte per value in addition. */
@@ -685,6 +710,10 @@ export interface msq_lattice_def {
   clusters: number;
   /** With a library: index of the unit cell of each neighbourhood cell. It is evaluated at the cell's centre, rounded half up, and clamped to the library. */
   cell_choice: msq_param;
+  /** Cells whose size varies along an axis of the grid; grid.cell_size along that axis is ignored. The nodes move with the cells; struts stay straight and keep their radius. Not with a library of several unit cells. NULL (default): all cells have one size. */
+  period: Memory;
+  /** Cells around an axis or around a point. Nodes are placed in them; the struts between nodes are straight and keep their radius. They cut across the arc of a cell, so few cells around make coarse rings: a cell may span at most 150 degrees, count and count_polar together. The cells are whole: as many as fit between the radii. Struts of the first and the last ones reach beyond by their radius. Not with a period, nor with a library of several unit cells. NULL (default): cells are boxes. */
+  warp: Memory;
 }
 
 /** Faces between unlike cells of a lattice. */
@@ -756,6 +785,8 @@ export interface msq_foam_def {
   wall_thickness: msq_param;
   /** Radius of the hole through the middle of each wall, in model units, >= 0. A field is evaluated at the middle of the wall. Walls with less area than their hole stay whole. Radii below 1/512 of the largest cell size count as 0. The constant 0 (default): no holes. Otherwise wall_thickness must not be the constant 0. */
   vent_radius: msq_param;
+  /** How much longer the cells of the foam are along each axis of the grid: 1/16 to 16, default 1. The Voronoi diagram is that of the seeds where lengths along axis i are divided by stretch[i]. Struts stay circular, and walls keep their thickness. Only the proportions of the three numbers count; cell_size[i] / stretch[i] may differ by a factor of up to 16. Turn the grid for other directions. */
+  stretch: ArrayLike<number>;
 }
 
 /** A functional structure. */
@@ -781,6 +812,8 @@ export interface msq_functional_def {
   thickness: msq_param;
   /** Cells of varying size. NULL (default): all cells have the size of the grid. */
   period: Memory;
+  /** Cells around an axis or a point. NULL (default): boxes. Not together with a period or a thickness. */
+  warp: Memory;
 }
 
 /** A sum of waves. */
@@ -1726,6 +1759,8 @@ export interface Functions {
   /** Sets the defaults. Errors: ARGUMENT. */
   msq_period_def_init(def: Partial<msq_period_def>, size: number | bigint): number;
   /** Sets the defaults. Errors: ARGUMENT. */
+  msq_warp_def_init(def: Partial<msq_warp_def>, size: number | bigint): number;
+  /** Sets the defaults. Errors: ARGUMENT. */
   msq_file_def_init(def: Partial<msq_file_def>, size: number | bigint): number;
   /**
    * Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job. On Windows `path` is UTF-8; other systems receive its bytes unchanged.
@@ -1868,13 +1903,13 @@ export interface Functions {
    *
    * Struts are capsules: circular in model units for any cell size, with round ends, and they reach across cell borders. With a library, each cell has the struts of the unit cell that cell_choice selects. If the nodes of two unlike neighbouring cells do not match (msq_lattice_faces), struts end at the face.
    *
-   * Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY.
+   * Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. With a period or a warp: the struts near a cell are found when the cell is first evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY, UNSUPPORTED (both a period and a warp; either of them with a library of several unit cells).
    */
   msq_structure_lattice(context: Memory, def: msq_lattice_def | null, structure: [Pointer]): number;
   /**
    * Counts the faces between cells of a lattice whose unit cells have nodes there that do not match, and finds the first such face.
    *
-   * The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info returns whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY.
+   * The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info returns whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY, UNSUPPORTED (a lattice with a period or a warp: it has no library).
    */
   msq_lattice_faces(lattice: Memory, min: Memory, max: Memory, report: Partial<msq_lattice_faces_report>, job: Memory): number;
   /** Sets the defaults. Errors: ARGUMENT. */
@@ -1892,7 +1927,7 @@ export interface Functions {
   /**
    * Creates a Voronoi foam of one jittered seed per neighbourhood cell: all points within radius of an edge of the Voronoi diagram, or within half of wall_thickness of a face. def must not be NULL.
    *
-   * Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.
+   * Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, or density above 1, with a method other than AUTO and DIRECT; a stretch with density above 1 or with vent_radius), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.
    */
   msq_structure_foam(context: Memory, def: msq_foam_def | null, structure: [Pointer]): number;
   /** Sets the defaults. Errors: ARGUMENT. */
@@ -1910,7 +1945,9 @@ export interface Functions {
    *
    * With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness is kept: at each position along the axis, msq uses the level that gives walls of this thickness in cells of the size there. Only the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost as much as those of a structure without a period whose cell size is no multiple of the pitch.
    *
-   * Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).
+   * With warped cells, the function is that of the position in the cell, so walls are thicker where cells are wider; a level that is a field of the radius counters that. Distances are lower bounds that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of cylindrical cells take rows along which the function is tabulated; other layers decide boxes, then points, which costs several times as much. There are no thin walls to fill along.
+   *
+   * Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; what msq_warp_def limits; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period; a thickness or a period with a warp), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).
    */
   msq_structure_functional(context: Memory, def: msq_functional_def | null, structure: [Pointer]): number;
   /** Sets the defaults. Errors: ARGUMENT. */
@@ -2281,6 +2318,7 @@ export interface Functions {
 export interface Definitions {
   context_def: msq_context_def;
   period_def: msq_period_def;
+  warp_def: msq_warp_def;
   file_def: msq_file_def;
   mesh_def: msq_mesh_def;
   host_shape_def: msq_host_shape_def;

@@ -39,6 +39,8 @@ export const MSQ_FORMAT_OFF = 4;
 export const MSQ_FORMAT_3MF = 5;
 export const MSQ_FORMAT_AMF = 6;
 export const MSQ_FORMAT_GLTF = 7;
+export const MSQ_WARP_CYLINDRICAL = 1;
+export const MSQ_WARP_SPHERICAL = 2;
 export const MSQ_SOLID_ABOVE = 0;
 export const MSQ_SOLID_BELOW = 1;
 export const MSQ_BOOLEAN_UNION = 1;
@@ -219,6 +221,14 @@ export function types(koffi) {
     cell_sizes: 'void *',
     count: 'uint64_t',
   });
+  T.msq_warp_def = koffi.struct('msq_warp_def', {
+    struct_size: 'uint32_t',
+    kind: 'int32_t',
+    count: 'uint32_t',
+    count_polar: 'uint32_t',
+    inner_radius: 'double',
+    outer_radius: 'double',
+  });
   T.msq_image = koffi.struct('msq_image', {
     values: 'void *',
     value_type: 'int32_t',
@@ -370,6 +380,8 @@ export function types(koffi) {
     cell_count: 'uint32_t',
     clusters: 'uint32_t',
     cell_choice: T.msq_param,
+    period: 'void *',
+    warp: 'void *',
   });
   T.msq_lattice_faces_report = koffi.struct('msq_lattice_faces_report', {
     struct_size: 'uint32_t',
@@ -409,6 +421,7 @@ export function types(koffi) {
     density: T.msq_param,
     wall_thickness: T.msq_param,
     vent_radius: T.msq_param,
+    stretch: koffi.array('double', 3),
   });
   T.msq_functional_def = koffi.struct('msq_functional_def', {
     struct_size: 'uint32_t',
@@ -422,6 +435,7 @@ export function types(koffi) {
     parameter_count: 'uint64_t',
     thickness: T.msq_param,
     period: 'void *',
+    warp: 'void *',
   });
   T.msq_waves_def = koffi.struct('msq_waves_def', {
     struct_size: 'uint32_t',
@@ -935,6 +949,7 @@ export function functions(koffi, library, T) {
     msq_job_info: library.func('msq_job_info', 'int32_t', ['void *', koffi.inout(koffi.pointer(T.msq_job_report))]),
     msq_neighbourhood_placed: library.func('msq_neighbourhood_placed', 'int32_t', [koffi.pointer(T.msq_neighbourhood), 'void *', koffi.out(koffi.pointer(T.msq_neighbourhood))]),
     msq_period_def_init: library.func('msq_period_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_period_def)), 'size_t']),
+    msq_warp_def_init: library.func('msq_warp_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_warp_def)), 'size_t']),
     msq_file_def_init: library.func('msq_file_def_init', 'int32_t', [koffi.out(koffi.pointer(T.msq_file_def)), 'size_t']),
     msq_shape_from_file: library.func('msq_shape_from_file', 'int32_t', ['void *', 'str', koffi.pointer(T.msq_file_def), koffi.out(koffi.pointer('void *')), 'void *']),
     msq_shape_from_memory: library.func('msq_shape_from_memory', 'int32_t', ['void *', 'void *', 'uint64_t', koffi.pointer(T.msq_file_def), koffi.out(koffi.pointer('void *')), 'void *']),

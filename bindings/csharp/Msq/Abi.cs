@@ -92,6 +92,15 @@ namespace Msq
         Gltf = 7,
     }
 
+    /// <summary>Maps from space to warped cells.</summary>
+    public enum WarpKind
+    {
+        /// <summary>Cells around the z axis of the grid.</summary>
+        Cylindrical = 1,
+        /// <summary>Cells around the origin of the grid.</summary>
+        Spherical = 2,
+    }
+
     /// <summary>Which side of an image's threshold is solid. The threshold itself is solid.</summary>
     public enum SolidSide
     {
@@ -315,7 +324,7 @@ namespace Msq
         Bytes = 2,
         /// <summary>1 byte per pixel: its coverage, from 0 to 255, by k x k samples with k = grey_samples. Sample (a, b), 0 &lt;= a, b &lt; k, lies at the centre of the pixel + ((a, b) + 1/2) / k * pitch - pitch / 2, the centre of its part of the pixel. With n samples inside the value is floor(255 * (n / k^2)^grey_gamma + 1/2), or 0 if that is below grey_threshold.</summary>
         Grey = 3,
-        /// <summary>1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it, rounded to the nearest float32. Rows have the byte order of the machine.</summary>
+        /// <summary>1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it, rounded to the nearest float32; outside at least 1.17549435e-38, so that the sign remains. Rows have the byte order of the machine.</summary>
         Distance = 4,
         /// <summary>1 uint32 per pixel: the id of the material at its centre, as msq_set_material returns it. A resolved scale must have a material.</summary>
         Material = 5,
@@ -658,6 +667,35 @@ namespace Msq.Interop
         {
             msq_period_def made;
             MsqException.Check(Abi.msq_period_def_init(&made, (UIntPtr)sizeof(msq_period_def)));
+            return made;
+        }
+    }
+
+    /// <summary>Warped cells: cells around an axis or around a point, in place of boxes.</summary>
+    /// <remarks>
+    /// <para>The structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.</para>
+    /// <para>Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a functional structure; lattices have whole cells there (msq_lattice_def.warp). docs/concepts.md defines the map bit for bit.</para>
+    /// </remarks>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct msq_warp_def
+    {
+        public uint struct_size;
+        /// <summary>An msq_warp_kind. Default MSQ_WARP_CYLINDRICAL.</summary>
+        public int kind;
+        /// <summary>Cells around the z axis, 1 to 65536. No default.</summary>
+        public uint count;
+        /// <summary>SPHERICAL: cells from pole to pole, 1 to 65536; no default. CYLINDRICAL: 0.</summary>
+        public uint count_polar;
+        /// <summary>In model units, 0 to 1e75. Default 0.</summary>
+        public double inner_radius;
+        /// <summary>In model units, above inner_radius, at most 1e75. 0 (default): no limit.</summary>
+        public double outer_radius;
+
+        /// <summary>One with the defaults of msq.</summary>
+        public static msq_warp_def Defaults()
+        {
+            msq_warp_def made;
+            MsqException.Check(Abi.msq_warp_def_init(&made, (UIntPtr)sizeof(msq_warp_def)));
             return made;
         }
     }
@@ -1045,6 +1083,10 @@ namespace Msq.Interop
         public uint clusters;
         /// <summary>With a library: index of the unit cell of each neighbourhood cell. It is evaluated at the cell's centre, rounded half up, and clamped to the library.</summary>
         public msq_param cell_choice;
+        /// <summary>Cells whose size varies along an axis of the grid; grid.cell_size along that axis is ignored. The nodes move with the cells; struts stay straight and keep their radius. Not with a library of several unit cells. NULL (default): all cells have one size.</summary>
+        public msq_period_def* period;
+        /// <summary>Cells around an axis or around a point. Nodes are placed in them; the struts between nodes are straight and keep their radius. They cut across the arc of a cell, so few cells around make coarse rings: a cell may span at most 150 degrees, count and count_polar together. The cells are whole: as many as fit between the radii. Struts of the first and the last ones reach beyond by their radius. Not with a period, nor with a library of several unit cells. NULL (default): cells are boxes.</summary>
+        public msq_warp_def* warp;
 
         /// <summary>One with the defaults of msq.</summary>
         public static msq_lattice_def Defaults()
@@ -1138,6 +1180,8 @@ namespace Msq.Interop
         public msq_param wall_thickness;
         /// <summary>Radius of the hole through the middle of each wall, in model units, &gt;= 0. A field is evaluated at the middle of the wall. Walls with less area than their hole stay whole. Radii below 1/512 of the largest cell size count as 0. The constant 0 (default): no holes. Otherwise wall_thickness must not be the constant 0.</summary>
         public msq_param vent_radius;
+        /// <summary>How much longer the cells of the foam are along each axis of the grid: 1/16 to 16, default 1. The Voronoi diagram is that of the seeds where lengths along axis i are divided by stretch[i]. Struts stay circular, and walls keep their thickness. Only the proportions of the three numbers count; cell_size[i] / stretch[i] may differ by a factor of up to 16. Turn the grid for other directions.</summary>
+        public fixed double stretch[3];
 
         /// <summary>One with the defaults of msq.</summary>
         public static msq_foam_def Defaults()
@@ -1173,6 +1217,8 @@ namespace Msq.Interop
         public msq_param thickness;
         /// <summary>Cells of varying size. NULL (default): all cells have the size of the grid.</summary>
         public msq_period_def* period;
+        /// <summary>Cells around an axis or a point. NULL (default): boxes. Not together with a period or a thickness.</summary>
+        public msq_warp_def* warp;
 
         /// <summary>One with the defaults of msq.</summary>
         public static msq_functional_def Defaults()
@@ -2394,6 +2440,8 @@ namespace Msq.Interop
         public const int MSQ_FORMAT_3MF = 5;
         public const int MSQ_FORMAT_AMF = 6;
         public const int MSQ_FORMAT_GLTF = 7;
+        public const int MSQ_WARP_CYLINDRICAL = 1;
+        public const int MSQ_WARP_SPHERICAL = 2;
         public const int MSQ_SOLID_ABOVE = 0;
         public const int MSQ_SOLID_BELOW = 1;
         public const int MSQ_BOOLEAN_UNION = 1;
@@ -2695,6 +2743,16 @@ namespace Msq.Interop
         public static extern
 #endif
         int msq_period_def_init(msq_period_def* def, UIntPtr size);
+
+        /// <summary>Sets the defaults. Errors: ARGUMENT.</summary>
+#if NET7_0_OR_GREATER
+        [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
+        public static partial
+#else
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl)]
+        public static extern
+#endif
+        int msq_warp_def_init(msq_warp_def* def, UIntPtr size);
 
         /// <summary>Sets the defaults. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
@@ -3140,7 +3198,7 @@ namespace Msq.Interop
         /// <summary>Creates a periodic strut lattice: all points whose distance to a strut of the tiled unit cell is at most radius times the factor of the strut. def must not be NULL.</summary>
         /// <remarks>
         /// <para>Struts are capsules: circular in model units for any cell size, with round ends, and they reach across cell borders. With a library, each cell has the struts of the unit cell that cell_choice selects. If the nodes of two unlike neighbouring cells do not match (msq_lattice_faces), struts end at the face.</para>
-        /// <para>Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY.</para>
+        /// <para>Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. With a period or a warp: the struts near a cell are found when the cell is first evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY, UNSUPPORTED (both a period and a warp; either of them with a library of several unit cells).</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3153,7 +3211,7 @@ namespace Msq.Interop
 
         /// <summary>Counts the faces between cells of a lattice whose unit cells have nodes there that do not match, and finds the first such face.</summary>
         /// <remarks>
-        /// <para>The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info returns whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY.</para>
+        /// <para>The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info returns whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY, UNSUPPORTED (a lattice with a period or a warp: it has no library).</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3200,7 +3258,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a Voronoi foam of one jittered seed per neighbourhood cell: all points within radius of an edge of the Voronoi diagram, or within half of wall_thickness of a face. def must not be NULL.</summary>
         /// <remarks>
-        /// <para>Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.</para>
+        /// <para>Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, or density above 1, with a method other than AUTO and DIRECT; a stretch with density above 1 or with vent_radius), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3228,7 +3286,8 @@ namespace Msq.Interop
         /// <para>Where floor, a comparison, select or atan2 may jump within the cell, the slope has no bound. Distances to such a structure are 0. Rays cross jumps, poles and NaN in steps of up to 1/1024 of a cell.</para>
         /// <para>Thickness is the volume of the walls divided by the area of their middle surface, where the function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of the function, accurate to about 0.3 % for the named functions (docs/concepts.md). Walls are thicker where the function is flatter. A field of thickness selects at each point the level of that thickness.</para>
         /// <para>With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness is kept: at each position along the axis, msq uses the level that gives walls of this thickness in cells of the size there. Only the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost as much as those of a structure without a period whose cell size is no multiple of the pitch.</para>
-        /// <para>Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).</para>
+        /// <para>With warped cells, the function is that of the position in the cell, so walls are thicker where cells are wider; a level that is a field of the radius counters that. Distances are lower bounds that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of cylindrical cells take rows along which the function is tabulated; other layers decide boxes, then points, which costs several times as much. There are no thin walls to fill along.</para>
+        /// <para>Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; what msq_warp_def limits; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period; a thickness or a period with a warp), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]

@@ -42,6 +42,8 @@ MSQ_FORMAT_OFF = 4
 MSQ_FORMAT_3MF = 5
 MSQ_FORMAT_AMF = 6
 MSQ_FORMAT_GLTF = 7
+MSQ_WARP_CYLINDRICAL = 1
+MSQ_WARP_SPHERICAL = 2
 MSQ_SOLID_ABOVE = 0
 MSQ_SOLID_BELOW = 1
 MSQ_BOOLEAN_UNION = 1
@@ -259,6 +261,11 @@ class msq_period_def(Structure):
                 ("cell_sizes", POINTER(c_double)), ("count", c_uint64)]
 
 
+class msq_warp_def(Structure):
+    _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("count", c_uint32),
+                ("count_polar", c_uint32), ("inner_radius", c_double), ("outer_radius", c_double)]
+
+
 class msq_image(Structure):
     _fields_ = [("values", c_void_p), ("value_type", c_int32), ("reserved", c_uint32),
                 ("size", c_uint64 * 3), ("row_stride", c_uint64), ("layer_stride", c_uint64),
@@ -356,7 +363,8 @@ class msq_lattice_def(Structure):
                 ("radius", msq_param), ("nodes", POINTER(c_double)), ("node_count", c_uint64),
                 ("struts", POINTER(c_uint32)), ("strut_count", c_uint64),
                 ("strut_factors", POINTER(c_double)), ("cells", POINTER(msq_unit_cell_def)),
-                ("cell_count", c_uint32), ("clusters", c_uint32), ("cell_choice", msq_param)]
+                ("cell_count", c_uint32), ("clusters", c_uint32), ("cell_choice", msq_param),
+                ("period", POINTER(msq_period_def)), ("warp", POINTER(msq_warp_def))]
 
 
 class msq_lattice_faces_report(Structure):
@@ -377,7 +385,8 @@ class msq_plate_lattice_def(Structure):
 class msq_foam_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("method", c_int32), ("grid", msq_neighbourhood),
                 ("radius", msq_param), ("jitter", c_double), ("seed", c_uint64),
-                ("density", msq_param), ("wall_thickness", msq_param), ("vent_radius", msq_param)]
+                ("density", msq_param), ("wall_thickness", msq_param), ("vent_radius", msq_param),
+                ("stretch", c_double * 3)]
 
 
 class msq_functional_def(Structure):
@@ -385,7 +394,7 @@ class msq_functional_def(Structure):
                 ("clusters", c_uint32), ("grid", msq_neighbourhood), ("level", msq_param),
                 ("expression", c_char_p), ("parameters", POINTER(msq_named_value)),
                 ("parameter_count", c_uint64), ("thickness", msq_param),
-                ("period", POINTER(msq_period_def))]
+                ("period", POINTER(msq_period_def)), ("warp", POINTER(msq_warp_def))]
 
 
 class msq_waves_def(Structure):
@@ -731,6 +740,7 @@ FUNCTIONS = {
     "msq_neighbourhood_placed": [c_int32, POINTER(msq_neighbourhood), POINTER(c_double),
                                  POINTER(msq_neighbourhood)],
     "msq_period_def_init": [c_int32, POINTER(msq_period_def), c_size_t],
+    "msq_warp_def_init": [c_int32, POINTER(msq_warp_def), c_size_t],
     "msq_file_def_init": [c_int32, POINTER(msq_file_def), c_size_t],
     "msq_shape_from_file": [c_int32, POINTER(msq_context), c_char_p, POINTER(msq_file_def),
                             POINTER(POINTER(msq_shape)), POINTER(msq_job)],

@@ -108,6 +108,12 @@ pub const MSQ_FORMAT_AMF: i32 = 6;
 /// glTF 2.0, text or binary (GLB).
 pub const MSQ_FORMAT_GLTF: i32 = 7;
 
+/// Cells around the z axis of the grid.
+pub const MSQ_WARP_CYLINDRICAL: i32 = 1;
+
+/// Cells around the origin of the grid.
+pub const MSQ_WARP_SPHERICAL: i32 = 2;
+
 pub const MSQ_SOLID_ABOVE: i32 = 0;
 
 pub const MSQ_SOLID_BELOW: i32 = 1;
@@ -316,7 +322,7 @@ pub const MSQ_LAYER_BYTES: i32 = 2;
 /// 1 byte per pixel: its coverage, from 0 to 255, by k x k samples with k = grey_samples. Sample (a, b), 0 <= a, b < k, lies at the centre of the pixel + ((a, b) + 1/2) / k * pitch - pitch / 2, the centre of its part of the pixel. With n samples inside the value is floor(255 * (n / k^2)^grey_gamma + 1/2), or 0 if that is below grey_threshold.
 pub const MSQ_LAYER_GREY: i32 = 3;
 
-/// 1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it, rounded to the nearest float32. Rows have the byte order of the machine.
+/// 1 float32 per pixel: the signed distance at its centre, as msq_set_distance returns it, rounded to the nearest float32; outside at least 1.17549435e-38, so that the sign remains. Rows have the byte order of the machine.
 pub const MSQ_LAYER_DISTANCE: i32 = 4;
 
 /// 1 uint32 per pixel: the id of the material at its centre, as msq_set_material returns it. A resolved scale must have a material.
@@ -653,6 +659,27 @@ pub struct msq_period_def {
     pub count: u64,
 }
 
+/// Warped cells: cells around an axis or around a point, in place of boxes.
+///
+/// The structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.
+///
+/// Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a functional structure; lattices have whole cells there (msq_lattice_def.warp). docs/concepts.md defines the map bit for bit.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct msq_warp_def {
+    pub struct_size: u32,
+    /// An msq_warp_kind. Default MSQ_WARP_CYLINDRICAL.
+    pub kind: i32,
+    /// Cells around the z axis, 1 to 65536. No default.
+    pub count: u32,
+    /// SPHERICAL: cells from pole to pole, 1 to 65536; no default. CYLINDRICAL: 0.
+    pub count_polar: u32,
+    /// In model units, 0 to 1e75. Default 0.
+    pub inner_radius: f64,
+    /// In model units, above inner_radius, at most 1e75. 0 (default): no limit.
+    pub outer_radius: f64,
+}
+
 /// Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about 1/7 byte per value in addition.
 #[repr(C)]
 #[derive(Clone, Copy)]
@@ -957,6 +984,10 @@ pub struct msq_lattice_def {
     pub clusters: u32,
     /// With a library: index of the unit cell of each neighbourhood cell. It is evaluated at the cell's centre, rounded half up, and clamped to the library.
     pub cell_choice: msq_param,
+    /// Cells whose size varies along an axis of the grid; grid.cell_size along that axis is ignored. The nodes move with the cells; struts stay straight and keep their radius. Not with a library of several unit cells. NULL (default): all cells have one size.
+    pub period: *const msq_period_def,
+    /// Cells around an axis or around a point. Nodes are placed in them; the struts between nodes are straight and keep their radius. They cut across the arc of a cell, so few cells around make coarse rings: a cell may span at most 150 degrees, count and count_polar together. The cells are whole: as many as fit between the radii. Struts of the first and the last ones reach beyond by their radius. Not with a period, nor with a library of several unit cells. NULL (default): cells are boxes.
+    pub warp: *const msq_warp_def,
 }
 
 /// Faces between unlike cells of a lattice.
@@ -1034,6 +1065,8 @@ pub struct msq_foam_def {
     pub wall_thickness: msq_param,
     /// Radius of the hole through the middle of each wall, in model units, >= 0. A field is evaluated at the middle of the wall. Walls with less area than their hole stay whole. Radii below 1/512 of the largest cell size count as 0. The constant 0 (default): no holes. Otherwise wall_thickness must not be the constant 0.
     pub vent_radius: msq_param,
+    /// How much longer the cells of the foam are along each axis of the grid: 1/16 to 16, default 1. The Voronoi diagram is that of the seeds where lengths along axis i are divided by stretch[i]. Struts stay circular, and walls keep their thickness. Only the proportions of the three numbers count; cell_size[i] / stretch[i] may differ by a factor of up to 16. Turn the grid for other directions.
+    pub stretch: [f64; 3],
 }
 
 /// A functional structure.
@@ -1061,6 +1094,8 @@ pub struct msq_functional_def {
     pub thickness: msq_param,
     /// Cells of varying size. NULL (default): all cells have the size of the grid.
     pub period: *const msq_period_def,
+    /// Cells around an axis or a point. NULL (default): boxes. Not together with a period or a thickness.
+    pub warp: *const msq_warp_def,
 }
 
 /// A sum of waves.
@@ -2111,6 +2146,8 @@ extern "C" {
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_period_def_init(def: *mut msq_period_def, size: usize) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
+    pub fn msq_warp_def_init(def: *mut msq_warp_def, size: usize) -> msq_status;
+    /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_file_def_init(def: *mut msq_file_def, size: usize) -> msq_status;
     /// Reads a triangle mesh from a file. def NULL: defaults. job NULL: no job. On Windows `path` is UTF-8; other systems receive its bytes unchanged.
     ///
@@ -2228,11 +2265,11 @@ extern "C" {
     ///
     /// Struts are capsules: circular in model units for any cell size, with round ends, and they reach across cell borders. With a library, each cell has the struts of the unit cell that cell_choice selects. If the nodes of two unlike neighbouring cells do not match (msq_lattice_faces), struts end at the face.
     ///
-    /// Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY.
+    /// Cost: proportional to the struts that can reach one cell: milliseconds for the named cells, seconds for thousands of struts as wide as cells, and the same again for the first array or distance. With a period or a warp: the struts near a cell are found when the cell is first evaluated, in tens of microseconds, and kept in the cell cache. Errors: ARGUMENT, LIMIT (radius times the greatest factor above 4 times the smallest cell size; library too large), MEMORY, UNSUPPORTED (both a period and a warp; either of them with a library of several unit cells).
     pub fn msq_structure_lattice(context: *mut msq_context, def: *const msq_lattice_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Counts the faces between cells of a lattice whose unit cells have nodes there that do not match, and finds the first such face.
     ///
-    /// The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info returns whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY.
+    /// The cells are those with inner points in the box from min to max, in model units (for a model: msq_model_bounds); for a rotated grid, those in the box's bounding box along the axes of the grid. A lattice without a library has no such faces; msq_unit_cell_info returns whether it is periodic. job NULL: no job. Cost: one evaluation of cell_choice per cell, one byte per cell of a layer. Errors: ARGUMENT (also if the structure is not a lattice), CANCELLED, LIMIT (more than 2^30 cells, or 2^24 cells from the origin of the grid), MEMORY, UNSUPPORTED (a lattice with a period or a warp: it has no library).
     pub fn msq_lattice_faces(lattice: *const msq_structure, min: *const f64, max: *const f64, report: *mut msq_lattice_faces_report, job: *mut msq_job) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_plate_lattice_def_init(def: *mut msq_plate_lattice_def, size: usize) -> msq_status;
@@ -2246,7 +2283,7 @@ extern "C" {
     pub fn msq_foam_def_init(def: *mut msq_foam_def, size: usize) -> msq_status;
     /// Creates a Voronoi foam of one jittered seed per neighbourhood cell: all points within radius of an edge of the Voronoi diagram, or within half of wall_thickness of a face. def must not be NULL.
     ///
-    /// Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, or density above 1, with a method other than AUTO and DIRECT), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.
+    /// Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, or density above 1, with a method other than AUTO and DIRECT; a stretch with density above 1 or with vent_radius), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.
     pub fn msq_structure_foam(context: *mut msq_context, def: *const msq_foam_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_functional_def_init(def: *mut msq_functional_def, size: usize) -> msq_status;
@@ -2262,7 +2299,9 @@ extern "C" {
     ///
     /// With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness is kept: at each position along the axis, msq uses the level that gives walls of this thickness in cells of the size there. Only the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost as much as those of a structure without a period whose cell size is no multiple of the pitch.
     ///
-    /// Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).
+    /// With warped cells, the function is that of the position in the cell, so walls are thicker where cells are wider; a level that is a field of the radius counters that. Distances are lower bounds that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of cylindrical cells take rows along which the function is tabulated; other layers decide boxes, then points, which costs several times as much. There are no thin walls to fill along.
+    ///
+    /// Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; what msq_warp_def limits; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period; a thickness or a period with a warp), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).
     pub fn msq_structure_functional(context: *mut msq_context, def: *const msq_functional_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_waves_def_init(def: *mut msq_waves_def, size: usize) -> msq_status;
@@ -2585,6 +2624,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_window>(), 48);
     assert_eq!(std::mem::size_of::<msq_neighbourhood>(), 120);
     assert_eq!(std::mem::size_of::<msq_period_def>(), 32);
+    assert_eq!(std::mem::size_of::<msq_warp_def>(), 32);
     assert_eq!(std::mem::size_of::<msq_image>(), 176);
     assert_eq!(std::mem::size_of::<msq_file_def>(), 40);
     assert_eq!(std::mem::size_of::<msq_mesh_def>(), 56);
@@ -2600,11 +2640,11 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_param>(), 16);
     assert_eq!(std::mem::size_of::<msq_unit_cell_def>(), 48);
     assert_eq!(std::mem::size_of::<msq_unit_cell_report>(), 120);
-    assert_eq!(std::mem::size_of::<msq_lattice_def>(), 216);
+    assert_eq!(std::mem::size_of::<msq_lattice_def>(), 232);
     assert_eq!(std::mem::size_of::<msq_lattice_faces_report>(), 80);
     assert_eq!(std::mem::size_of::<msq_plate_lattice_def>(), 232);
-    assert_eq!(std::mem::size_of::<msq_foam_def>(), 208);
-    assert_eq!(std::mem::size_of::<msq_functional_def>(), 200);
+    assert_eq!(std::mem::size_of::<msq_foam_def>(), 232);
+    assert_eq!(std::mem::size_of::<msq_functional_def>(), 208);
     assert_eq!(std::mem::size_of::<msq_waves_def>(), 200);
     assert_eq!(std::mem::size_of::<msq_beams_def>(), 168);
     assert_eq!(std::mem::size_of::<msq_beam_file_report>(), 104);
