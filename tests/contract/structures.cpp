@@ -12,6 +12,7 @@
 #include "field/map.h"
 #include "host_structures.h"
 #include "images.h"
+#include "lattice_structures.h"
 #include "random.h"
 #include "structure/beams/beams.h"
 #include "structure/combined/blended_structure.h"
@@ -23,12 +24,6 @@
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
-#include "structure/lattice/mixed/mixed_lattice.h"
-#include "structure/lattice/plated_lattice.h"
-#include "structure/lattice/plates/plate_lattice.h"
-#include "structure/lattice/warped/graded_places.h"
-#include "structure/lattice/warped/round_places.h"
-#include "structure/lattice/warped/warped_lattice.h"
 #include "structure/waves/waves.h"
 
 namespace msq::test {
@@ -146,12 +141,6 @@ Parameter StructureRow::parameter(Vec3 centre, double extra) const {
   return Parameter(field);
 }
 
-Factory lattice_factory(UnitCell cell) {
-  return [cell](const Neighbourhood& grid, Parameter radius) {
-    return Ref<const Structure>(make_ref<Lattice>(grid, cell, std::move(radius)));
-  };
-}
-
 Factory foam_factory(FoamMethod method, double jitter) {
   return [=](const Neighbourhood& grid, Parameter radius) {
     return Ref<const Structure>(
@@ -166,31 +155,11 @@ Factory functional_factory(const char* expression, FunctionalKind kind, int clus
   };
 }
 
-namespace {
-
-GradedPeriod graded_period(const Neighbourhood& grid, int axis) {
-  const double size = grid.cell_size[axis];
-  std::vector<GradedPeriod::Knot> knots = {
-      {-1.7, 1}, {-0.45, 1.5}, {0.3, 0.5}, {0.4, 0.7}, {1.9, 1.2}};
-  for (auto& knot : knots) knot = {knot.position * size, knot.cell_size * size};
-  return GradedPeriod(axis, knots);
-}
-
-}  // namespace
-
 Factory graded_functional_factory(const char* expression, FunctionalKind kind, int axis) {
   const Tape tape = parse_expression(expression, {});
   return [=](const Neighbourhood& grid, Parameter level) {
     return Ref<const Structure>(
         make_ref<Functional>(grid, tape, kind, std::move(level), 0, graded_period(grid, axis)));
-  };
-}
-
-Factory graded_lattice_factory(UnitCell cell, int axis) {
-  return [=](const Neighbourhood& grid, Parameter radius) {
-    return Ref<const Structure>(make_ref<WarpedLattice>(
-        shared_context(), std::make_unique<const GradedPlaces>(grid, graded_period(grid, axis)),
-        cell, std::move(radius)));
   };
 }
 
@@ -207,86 +176,6 @@ Factory warped_factory(const char* expression, FunctionalKind kind, Warp::Kind w
         make_ref<Functional>(grid, tape, kind, std::move(level), 0, Warp(warp, grid, shell)));
   };
 }
-
-}  // namespace
-
-UnitCell skew_unit_cell() {
-  UnitCell cell;
-  cell.nodes = {{0, 0.25, 0.75},   {1, 0.5, 0.125}, {0.3, 0, 1},     {0.7, 1, 0},  {0, 0, 0},
-                {0.6, 0.45, 0.55}, {1, 1, 0.4},     {0.2, 0.3, 0.1}, {0.9, 0.8, 1}};
-  cell.struts = {{0, 1}, {2, 3}, {4, 5}, {5, 6}, {7, 8}, {0, 5}};
-  return cell;
-}
-
-UnitCell factored_unit_cell() {
-  UnitCell cell = skew_unit_cell();
-  cell.factors = {1, 0.5, 1.75, 1, 0.25, 1.5};
-  return cell;
-}
-
-namespace {
-
-/// The axis, or the centre, is outside of the box that the suites sample, or in it.
-Factory round_lattice_factory(UnitCell cell, Warp::Kind kind, Vec3 centre, Warp::Shell shell) {
-  return [=](Neighbourhood grid, Parameter radius) {
-    const double size = max_component(grid.cell_size);
-    grid.origin = grid.from_grid(centre * size);
-    Warp::Shell sized = shell;
-    sized.inner *= size;
-    sized.outer *= size;
-    return Ref<const Structure>(make_ref<WarpedLattice>(
-        shared_context(), std::make_unique<const RoundPlaces>(Warp(kind, grid, sized)), cell,
-        std::move(radius)));
-  };
-}
-
-}  // namespace
-
-Factory plates_factory(PlateCell cell) {
-  return [cell](const Neighbourhood& grid, Parameter thickness) {
-    return Ref<const Structure>(make_ref<PlateLattice>(grid, cell, std::move(thickness)));
-  };
-}
-
-PlateCell skew_plate_cell() {
-  PlateCell cell;
-  cell.nodes = skew_unit_cell().nodes;
-  cell.faces = {{0, 1, 5}, {2, 3, 4}, {5, 7, 8}, {0, 2, 6}, {4, 7, 5}};
-  return cell;
-}
-
-PlateCell factored_plate_cell() {
-  PlateCell cell = skew_plate_cell();
-  cell.factors = {1, 0.5, 1.75, 0.25, 1.5};
-  return cell;
-}
-
-namespace {
-
-/// It stands for the thickness of the plates and for the radius of the struts.
-Factory plated_factory(UnitCell struts, PlateCell plates) {
-  return [=](const Neighbourhood& grid, const Parameter& size) {
-    return Ref<const Structure>(make_ref<PlatedLattice>(
-        make_ref<Lattice>(grid, struts, size), make_ref<PlateLattice>(grid, plates, size)));
-  };
-}
-
-}  // namespace
-
-Factory mixed_factory() {
-  return [](const Neighbourhood& grid, Parameter radius) {
-    const Vec3 half = Vec3{1.5, 1.1, 0.8} * grid.cell_size;
-    const Parameter choice(Ref<const Field>(
-        make_ref<GradientField>(grid.from_grid(half * -1.0), -1.0, grid.from_grid(half), 4.0)));
-    return Ref<const Structure>(
-        make_ref<MixedLattice>(grid,
-                               std::vector<UnitCell>{cubic_unit_cell(), factored_unit_cell(),
-                                                     octet_unit_cell(), kelvin_unit_cell()},
-                               choice, std::move(radius)));
-  };
-}
-
-namespace {
 
 /// A turned grid with smaller cells.
 Neighbourhood other_grid(const Neighbourhood& grid) {

@@ -6,11 +6,12 @@ import dataclasses
 import math
 import os
 import warnings
-from typing import Callable, Dict, List, Mapping, Optional, Sequence, Set, Tuple, Union
+from typing import Dict, List, Mapping, Optional, Sequence, Set, Tuple, Union
 
 import numpy as np
 
 from ._formula import TURN, Formula
+from ._implicit_nodes import COMPONENTWISE, Terms
 from ._package import (IMPLICIT, Element, LevelSet, Object, Package, identifier_of, joined, number_of,
                        numbers_of)
 from .context import Context, context_of, unsigned
@@ -20,9 +21,8 @@ from .shape import Shape
 from .structure import Functional, Structure
 
 _Vector = Tuple[float, float, float]
-_Terms = Tuple[int, ...]
 #: A value of the graph: its type, and 1, 3 or 16 terms by rows, or the identifier of a resource.
-_Value = Tuple[str, _Terms]
+_Value = Tuple[str, Terms]
 
 _COUNTS = {"scalar": 1, "vector": 3, "matrix": 16, "resourceid": 1}
 _REFERENCES = {"scalarref": "scalar", "vectorref": "vector", "matrixref": "matrix",
@@ -35,114 +35,6 @@ _LEAST = 5e-324  # the smallest number above 0
 _OTHER_NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2",
                 "matrixvectormultiplication": "matvecmultiplication"}
 
-_Form = Callable[[Formula, _Terms], int]
-
-
-def _sine_over_cosine(f: Formula, a: _Terms) -> int:
-    return f.divide(f.call("sin", a[0]), f.call("cos", a[0]))
-
-
-def _leg(f: Formula, a: int) -> int:
-    """The root of 1 - a a."""
-    one = f.number(1.0)
-    return f.call("sqrt", f.multiply(f.subtract(one, a), f.add(one, a)))
-
-
-def _hyperbolic_cosine(f: Formula, a: _Terms) -> int:
-    both = f.add(f.call("exp", a[0]), f.call("exp", f.negate(a[0])))
-    return f.divide(both, f.number(2.0))
-
-
-def _round(f: Formula, a: _Terms) -> int:
-    """Halves go away from 0, as in C."""
-    half = f.number(0.5)
-    return f.select(f.less(a[0], f.number(0.0)),
-                    f.negate(f.call("floor", f.subtract(half, a[0]))),
-                    f.call("floor", f.add(a[0], half)))
-
-
-def _sign(f: Formula, a: _Terms) -> int:
-    zero = f.number(0.0)
-    return f.subtract(f.less(zero, a[0]), f.less(a[0], zero))
-
-
-def _remainder(f: Formula, a: _Terms) -> int:
-    """Of the sign of the dividend."""
-    rest = f.call("mod", f.call("abs", a[0]), f.call("abs", a[1]))
-    return f.select(f.less(a[0], f.number(0.0)), f.negate(rest), rest)
-
-
-def _power(f: Formula, a: _Terms) -> int:
-    """pow of C: bases below 0 have whole exponents."""
-    base, exponent = a
-    value = f.value(exponent)
-    is_whole = math.isfinite(value) and value == math.floor(value)
-    if is_whole and abs(value) <= 65536:
-        return f.power(base, int(value))
-    zero, one = f.number(0.0), f.number(1.0)
-
-    def positive(of: int) -> int:
-        return f.call("exp", f.multiply(exponent, f.call("log", of)))
-
-    if math.isfinite(value) and not is_whole:
-        return positive(base)  # the log of a base below 0 is NaN
-    undefined = f.divide(zero, zero)
-    odd = f.call("mod", exponent, f.number(2.0))
-    flip = f.subtract(one, f.multiply(f.number(2.0), odd))
-    whole = f.subtract(one, f.less(f.call("floor", exponent), exponent))
-    below = f.select(whole, f.multiply(flip, positive(f.negate(base))), undefined)
-    at_zero = f.select(f.less(zero, exponent), zero, f.divide(one, zero))
-    some = f.select(f.less(zero, base), positive(base),
-                    f.select(f.less(base, zero), below, at_zero))
-    either = f.add(f.less(zero, exponent), f.less(exponent, zero))
-    return f.select(either, some, one)
-
-
-def _logarithm(base: float) -> _Form:
-    return lambda f, a: f.divide(f.call("log", a[0]), f.number(math.log(base)))
-
-
-def _named(name: str) -> _Form:
-    return lambda f, a: f.call(name, *a)
-
-
-# Nodes that treat each component alone: the names of the inputs, whether there may be matrices, and
-# the term of a component.
-_AB = ("A", "B")
-_COMPONENTWISE: Dict[str, Tuple[Tuple[str, ...], _Form]] = {
-    "addition": (_AB, lambda f, a: f.add(*a)),
-    "subtraction": (_AB, lambda f, a: f.subtract(*a)),
-    "multiplication": (_AB, lambda f, a: f.multiply(*a)),
-    "division": (_AB, lambda f, a: f.divide(*a)),
-    "sin": (("A",), _named("sin")),
-    "cos": (("A",), _named("cos")),
-    "tan": (("A",), _sine_over_cosine),
-    "arcsin": (("A",), lambda f, a: f.call("atan2", a[0], _leg(f, a[0]))),
-    "arccos": (("A",), lambda f, a: f.call("atan2", _leg(f, a[0]), a[0])),
-    "arctan": (("A",), lambda f, a: f.call("atan2", a[0], f.number(1.0))),
-    "arctan2": (_AB, _named("atan2")),
-    "min": (_AB, lambda f, a: f.least(*a)),
-    "max": (_AB, lambda f, a: f.greatest(*a)),
-    "abs": (("A",), _named("abs")),
-    "fmod": (_AB, _remainder),
-    "mod": (_AB, _named("mod")),
-    "pow": (_AB, _power),
-    "sqrt": (("A",), _named("sqrt")),
-    "exp": (("A",), _named("exp")),
-    "log": (("A",), _named("log")),
-    "log2": (("A",), _logarithm(2.0)),
-    "log10": (("A",), _logarithm(10.0)),
-    "select": (("A", "B", "C", "D"), lambda f, a: f.select(f.less(a[0], a[1]), a[2], a[3])),
-    "clamp": (("A", "min", "max"), lambda f, a: f.greatest(a[1], f.least(a[0], a[2]))),
-    "sinh": (("A",), lambda f, a: f.multiply(f.call("tanh", a[0]), _hyperbolic_cosine(f, a))),
-    "cosh": (("A",), _hyperbolic_cosine),
-    "tanh": (("A",), _named("tanh")),
-    "round": (("A",), _round),
-    "ceil": (("A",), _named("ceil")),
-    "floor": (("A",), _named("floor")),
-    "sign": (("A",), _sign),
-    "fract": (("A",), lambda f, a: f.call("mod", a[0], f.number(1.0))),
-}
 _MATRIX_NAMES = tuple(f"m{row}{column}" for row in range(4) for column in range(4))
 # Other nodes: the names and types of the inputs, and of the outputs.
 _OTHERS: Dict[str, Tuple[Dict[str, str], Dict[str, str]]] = {
@@ -357,7 +249,7 @@ class _Translator:
         if name in _REFUSED:
             raise UnsupportedError(f"{function.node(identifier)} is {_REFUSED[name]}, which is not "
                                    "read")
-        if name not in _COMPONENTWISE and name not in _OTHERS and name != "functioncall":
+        if name not in COMPONENTWISE and name not in _OTHERS and name != "functioncall":
             raise UnsupportedError(f"{function.node(identifier)} is of an unknown type")
         return name
 
@@ -369,7 +261,7 @@ class _Translator:
                                     if name != "functionID" and reference)]
         if kind in _OTHERS:
             return list(_OTHERS[kind][0])
-        return _COMPONENTWISE[kind][0]
+        return COMPONENTWISE[kind][0]
 
     def _node(self, function: _Function, identifier: str, inputs: Dict[str, _Value],
               outputs: Sequence[str]) -> Dict[str, _Value]:
@@ -380,12 +272,12 @@ class _Translator:
             if called[0] != "resourceid":
                 raise FileError(None, f"{where}: functionID is a {called[0]}")
             return self.call(called[1][0], inputs, outputs, where)
-        if kind in _COMPONENTWISE:
+        if kind in COMPONENTWISE:
             types = {value[0] for value in inputs.values()}
             if len(types) != 1 or "resourceid" in types:
                 raise FileError(None, f"{where} has inputs of the types {', '.join(sorted(types))}; "
                                       "all must be scalars, vectors or matrices")
-            names, form = _COMPONENTWISE[kind]
+            names, form = COMPONENTWISE[kind]
             of = zip(*(inputs[name][1] for name in names))
             made = {"result": (types.pop(), tuple(form(self._formula, terms) for terms in of))}
         else:
@@ -404,8 +296,8 @@ class _Translator:
             made.update((name, value) for name in outputs if name in declared)
         return made
 
-    def _other(self, kind: str, element: Element, given: Dict[str, _Terms],
-               where: str) -> List[_Terms]:
+    def _other(self, kind: str, element: Element, given: Dict[str, Terms],
+               where: str) -> List[Terms]:
         """The outputs of a node that is not componentwise."""
         f = self._formula
         if kind == "constant":
@@ -448,12 +340,12 @@ class _Translator:
         return [tuple(f.add(self._dot(b, (a[column], a[4 + column], a[8 + column])),
                             a[12 + column]) for column in range(3))]
 
-    def _dot(self, a: _Terms, b: _Terms) -> int:
+    def _dot(self, a: Terms, b: Terms) -> int:
         f = self._formula
         products = [f.multiply(one, other) for one, other in zip(a, b)]
         return f.add(f.add(products[0], products[1]), products[2])
 
-    def _inverse(self, terms: _Terms, where: str) -> _Terms:
+    def _inverse(self, terms: Terms, where: str) -> Terms:
         values = np.array([self._formula.value(term) for term in terms]).reshape(4, 4)
         if np.isnan(values).any():
             raise UnsupportedError(f"{where} inverts a matrix that is not constant, which is not "
@@ -468,7 +360,7 @@ class _Translator:
         return tuple(self._formula.number(float(value)) for value in inverse.flat)
 
 
-def _transposed(terms: _Terms) -> _Terms:
+def _transposed(terms: Terms) -> Terms:
     return tuple(terms[4 * row + column] for column in range(4) for row in range(4))
 
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lattices among the structures of structures.h.
+#pragma once
+
+#include "cell/graded_period.h"
+#include "cell/warp.h"
+#include "structures.h"
+
+namespace msq::test {
+
+/// Cells from half of the grid's size to one and a half.
+GradedPeriod graded_period(const Neighbourhood& grid, int axis);
+
+Factory graded_lattice_factory(UnitCell cell, int axis);
+
+/// The axis, or the centre, is outside of the box that the suites sample, or in it.
+Factory round_lattice_factory(UnitCell cell, Warp::Kind kind, Vec3 centre, Warp::Shell shell);
+
+/// The parameter is the thickness of the plates and the radius of the struts.
+Factory plated_factory(UnitCell struts, PlateCell plates);
+
+}  // namespace msq::test
