@@ -231,7 +231,7 @@ void test_diagram(void**) {
     const Diagram diagram = diagram_of(row);
     const Neighbourhood grid = grid_of(row);
     const double size = min_component(row.cell_size);
-    const size_t count = test_count(7000);
+    const size_t count = test_count(5500);
     for (const double part : {0.05, 0.2}) {
       const double radius = part * size;
       const Ref<const Structure> foam =
