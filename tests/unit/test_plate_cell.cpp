@@ -221,6 +221,23 @@ void test_boxes(void**) {
   }
 }
 
+// A plate whose thickness falls by 1.6 along its normal, and boxes along that.
+void test_boxes_across_a_slope(void**) {
+  const Ref<const Field> field = make_ref<GradientField>(Vec3{0, 0, 0}, 0.4, Vec3{0, 0.25, 0}, 0.0);
+  const PlateLattice lattice({}, cubic_plate_cell(), Parameter(field));
+  constexpr double half = 0.01;
+  size_t outside = 0;
+  for (int i = 0; i < 150; ++i) {
+    const Vec3 centre{0.5, 0.05 + 0.001 * i, 0.5}, up{0, half, 0};
+    const BoxClass known = lattice.classify({centre - up, centre + up});
+    if (known == BoxClass::mixed) continue;
+    assert_int_equal(lattice.inside(centre - up), known == BoxClass::inside);
+    assert_int_equal(lattice.inside(centre + up), known == BoxClass::inside);
+    outside += known == BoxClass::outside;
+  }
+  assert_true(outside > 50);
+}
+
 // Plates normal to y, whose thickness grows with the distance from the y axis.
 void test_normals(void**) {
   const Ref<const Field> linear = make_ref<GradientField>(Vec3{0, 0, 0}, 0.1, Vec3{1, 0, 0}, 0.3);
@@ -252,6 +269,7 @@ int main() {
       cmocka_unit_test(test_triangle_distance),
       cmocka_unit_test(test_volume_fractions),
       cmocka_unit_test(test_boxes),
+      cmocka_unit_test(test_boxes_across_a_slope),
       cmocka_unit_test(test_normals),
   };
   return cmocka_run_group_tests_name("plate_cell", tests, nullptr, nullptr);
