@@ -34,6 +34,8 @@ void test_row(void** state) {
     cell[axis] = std::floor(cell[axis]);
     if (i % 5 == 4) cell[(axis + 1) % 3] = std::floor(cell[(axis + 1) % 3]);  // on an edge
     cell = cell + Vec3{far, -far, far};
+    // Cells around an axis meet there at all angles.
+    if (row.kind.family == "warped" && std::hypot(cell.x, cell.y) < 1e-6) continue;
     const Vec3 on_face = n.from_grid(cell * n.cell_size);
     // The next number either way, and what is out of reach of all rounding.
     Vec3 normal;

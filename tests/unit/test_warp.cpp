@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "base/pi.h"
+#include "expression/parser.h"
 #include "random.h"
+#include "structure/functional/functional.h"
+#include "structure/functional/presets.h"
 #include "suite.h"
 
 using namespace msq;
@@ -241,6 +244,31 @@ void bends_bound_the_departure_from_lines(void**) {
   for (const double bent : most_bent) assert_true(bent > 0.3);
 }
 
+/// Also over the seam, where the last cell around meets the first.
+void functions_run_on_over_borders_of_cells(void**) {
+  Random random(5);
+  for (int n = 0; n < tries(400); ++n) {
+    const Warp warp = random_warp(random, kind_of(n));
+    if (warp.shell().count > 100 || warp.shell().count_polar > 100) continue;
+    const Functional solid(warp.grid(), parse_expression(preset_expressions[0], {}),
+                           FunctionalKind::network, Parameter(0.1), 1, warp);
+    for (int i = 0; i < 60; ++i) {
+      Vec3 cells{random.between(1, 4), random.between(0, warp.shell().count),
+                 random.between(0.2, std::max(0.8, warp.shell().count_polar - 0.2))};
+      const int axis = static_cast<int>(random.below(3));
+      cells[axis] = axis == 1 && i % 2 ? 0 : std::ceil(cells[axis]);
+      const Vec3 p = warp.from_cells(cells);
+      const double steepest = 2 * two_pi * max_component(warp.slopes(warp.axis_distance(p) / 2, 0));
+      for (int to = 0; to < 6; ++to) {
+        Vec3 q = p;
+        q[to % 3] += to < 3 ? 1e-12 : -1e-12;
+        const double change = std::abs(solid.onset(q) - solid.onset(p));
+        if (!(change <= 1e-11 * steepest)) fail_msg("the function jumps by %g", change);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -251,6 +279,7 @@ int main() {
       cmocka_unit_test(images_contain_the_cells_of_points),
       cmocka_unit_test(slopes_bound_the_change),
       cmocka_unit_test(bends_bound_the_departure_from_lines),
+      cmocka_unit_test(functions_run_on_over_borders_of_cells),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -32,6 +32,21 @@ class GradedPeriod(unittest.TestCase):
         graded = msq.Functional("gyroid", level=0.2, cell_size=4, period=msq.Period([3], [2], 0))
         np.testing.assert_array_equal(plain.onset(points) <= 0.2, graded.onset(points) <= 0.2)
 
+    def test_cells_around_an_axis_close(self):
+        angle = 2 * np.pi / 9
+        turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0],
+                         [0, 0, 1]])
+        points = np.random.default_rng(2).uniform(-3, 3, (2000, 3))
+        for warp in msq.Warp(9, 0.5, 2.5), msq.Warp(9, 0.5, 2.5, count_polar=4):
+            warped = msq.Functional("gyroid", level=0.2, warp=warp)
+            here, there = warped.onset(points), warped.onset(points @ turn.T)
+            self.assertGreater(np.isfinite(here).sum(), 100)
+            np.testing.assert_allclose(here, there, atol=1e-10)
+        with self.assertRaisesRegex(msq.ArgumentError, "warp.count is 0"):
+            msq.Functional("gyroid", warp=msq.Warp(0))
+        with self.assertRaisesRegex(msq.UnsupportedError, "both period and warp"):
+            msq.Functional("gyroid", warp=msq.Warp(3), period=msq.Period([1], [1]))
+
     def test_refusals(self):
         with self.assertRaisesRegex(ValueError, r"positions of shape \(2,\)"):
             msq.Functional("gyroid", period=msq.Period([1, 2], [1]))
