@@ -219,7 +219,6 @@ static void keys_are_fields_of_definitions(void** state) {
           "\"positions\": [1, 3], \"cell_sizes\": [1, 2]}}}"),
       make_box(context), structure);
 
-  msq_warp_def warp;
   assert_ok(msq_warp_def_init(&warp, sizeof warp));
   warp.kind = MSQ_WARP_SPHERICAL;
   warp.count = 12;
