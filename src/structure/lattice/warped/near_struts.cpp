@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/infinity.h"
 #include "base/job.h"
 
 namespace msq {
@@ -62,30 +61,6 @@ bool NearStruts::holds(Vec3 q, double r) const {
   for (size_t i = 0; i < struts_.size(); ++i)
     if (LatticeStrut{struts_.axis(i), struts_.factor(i)}.holds(q, r)) return true;
   return false;
-}
-
-double NearStruts::gap(Vec3 q, double r) const {
-  double gap = infinity;
-  for (size_t i = 0; i < struts_.size();) {
-    const double factor = struts_.factor(i);
-    double squared = infinity;
-    for (; i < struts_.size() && struts_.factor(i) == factor; ++i)
-      squared = std::min(squared, struts_.axis(i).distance_squared(q));
-    gap = std::min(gap, std::sqrt(squared) - factor * r);
-  }
-  return gap;
-}
-
-double NearStruts::onset(Vec3 q) const {
-  double onset = infinity;
-  for (size_t i = 0; i < struts_.size();) {
-    const double factor = struts_.factor(i);
-    double squared = infinity;
-    for (; i < struts_.size() && struts_.factor(i) == factor; ++i)
-      squared = std::min(squared, struts_.axis(i).distance_squared(q));
-    onset = std::min(onset, std::sqrt(squared) / factor);
-  }
-  return onset;
 }
 
 }  // namespace msq

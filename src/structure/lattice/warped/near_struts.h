@@ -25,11 +25,6 @@ class NearStruts final : public CellData {
 
   /// Whether a strut contains a point in grid coordinates, for radius r.
   bool holds(Vec3 q, double r) const;
-  /// The minimum over the struts of the distance to the axis minus factor * r; infinity if there is
-  /// none.
-  double gap(Vec3 q, double r) const;
-  /// The minimum of the distance to the axis over the factor; infinity if there is none.
-  double onset(Vec3 q) const;
 
   uint64_t bytes() const override { return sizeof *this + struts_.size() * 8 * sizeof(double); }
 

@@ -35,7 +35,6 @@ class PlacedGraph {
   }
   const std::vector<LatticeGraph::End>& corners() const { return corners_; }
   double max_factor() const { return factors_.front(); }
-  double min_factor() const { return factors_.back(); }
   /// All values of struts, each once, the greatest first.
   const std::vector<double>& factors() const { return factors_; }
   const CellPlaces& places() const { return places_; }

@@ -23,56 +23,44 @@ WarpedLattice::WarpedLattice(Ref<Context> context, std::unique_ptr<const CellPla
                              const UnitCell& cell, Parameter radius)
     : Structure(places->smallest(), places->largest()),
       context_(std::move(context)),
-      near_id_(context_->new_structure_id()),
-      far_id_(context_->new_structure_id()),
+      id_(context_->new_structure_id()),
       places_(std::move(places)),
       cell_(cell),
       radius_(std::move(radius)),
       graph_(cell_, *places_) {}
 
 WarpedLattice::~WarpedLattice() {
-  for (const uint64_t id : {near_id_, far_id_}) context_->cache.drop(id);
+  context_->cache.drop(id_);
 }
 
 WarpedLattice::List WarpedLattice::near(CellIndex cell) const {
-  return std::static_pointer_cast<const NearStruts>(context_->cache.fetch(near_id_, cell, [&] {
+  return std::static_pointer_cast<const NearStruts>(context_->cache.fetch(id_, cell, [&] {
     return std::make_shared<const NearStruts>(graph_, cell, widened(),
                                               graph_.max_factor() * radius_.range().high);
   }));
 }
 
-// Let strut 0 be the nearest to the middle m of the cell's bounds, of the struts that the cell owns
-// or, if it has none, one nearby. Let h be half of the bounds' diagonal, and let F be the greatest
-// factor f and F' the least. At any point p of the cell:
-// - The strut s of the least d_s - f_s r has
-//   d_s <= d_0(p) + (f_s - f_0) r <= d_0(m) + h + (F - F') r.
-// - The strut of the least d_s / f_s has d_s <= f_s / f_0 d_0(p) <= F / F' (d_0(m) + h). If that
-//   least value is an onset, d_s <= F times the limit.
-// Distances do not look farther than max_distance cells, wherever the cell is.
-WarpedLattice::List WarpedLattice::far(CellIndex cell) const {
-  return std::static_pointer_cast<const NearStruts>(context_->cache.fetch(far_id_, cell, [&] {
-    CellBlock block;
-    block.first[0] = block.last[0] = cell.x;
-    block.first[1] = block.last[1] = cell.y;
-    block.first[2] = block.last[2] = cell.z;
-    const Box3 bounds = places_->bounds(block);
-    const Vec3 middle = (bounds.min + bounds.max) * 0.5;
-    const CellIndex own = places_->nearest_with_struts(cell);
-    std::vector<Vec3> corners;
-    graph_.place(own, corners);
-    double squared = infinity;
-    for (const PlacedGraph::Strut& s : graph_.struts_of(own))
-      squared = std::min(squared, Segment(corners[s.a], corners[s.b]).distance_squared(middle));
-    const double nearest = std::sqrt(squared) + 0.5 * length(bounds.extent());
-    const double most = graph_.max_factor(), least = graph_.min_factor(),
-                 radius = radius_.range().high;
-    const double for_distance =
-        std::min(nearest + (most - least) * radius,
-                 max_distance * min_component(neighbourhood().cell_size) + most * radius);
-    const double for_onset = std::min(most / least * nearest, most * onset_limit());
-    return std::make_shared<const NearStruts>(graph_, cell, widened(),
-                                              std::max(for_distance, for_onset) * (1 + 1e-9));
-  }));
+template <class Measure, class Reach>
+double WarpedLattice::least(Vec3 q, Measure&& measure, Reach&& reach) const {
+  double least = infinity;
+  std::vector<Vec3> corners;
+  const auto visit = [&](CellIndex cell) {
+    graph_.place(cell, corners);
+    for (const PlacedGraph::Strut& s : graph_.struts_of(cell)) {
+      const Segment axis(corners[s.a], corners[s.b]);
+      least = std::min(least, measure(std::sqrt(axis.distance_squared(q)), s.factor));
+    }
+  };
+  visit(places_->nearest_with_struts(places_->cell_of(q)));
+  const auto slack = [&] { return reach(least) * (1 + 1e-9) + widened(); };
+  places_->for_each_cell(
+      Box3{q, q}.grown(slack()),
+      [&](const Box3& bounds) {
+        check_cancelled();
+        return length(q - max(bounds.min, min(bounds.max, q))) <= slack();
+      },
+      visit);
+  return least;
 }
 
 bool WarpedLattice::inside(Vec3 p) const {
@@ -98,11 +86,13 @@ void WarpedLattice::keep_points(const Vec3* points, uint8_t* alive, size_t count
 
 double WarpedLattice::distance_bound(Vec3 p) const {
   const Vec3 q = neighbourhood().to_grid(p);
-  const List list = far(places_->cell_of(q));
   const Interval r = radius_.range(Box3{p, p});
-  const double most = max_distance * min_component(neighbourhood().cell_size) +
-                      graph_.max_factor() * (radius_.range().high - r.low);
-  const double gap = std::min(most, list->gap(q, r.low));
+  const double factor = graph_.max_factor();
+  const double most = max_distance * min_component(neighbourhood().cell_size);
+  const double gap = std::min(
+      most, least(
+                q, [&](double distance, double f) { return distance - f * r.low; },
+                [&](double gap_so_far) { return std::min(gap_so_far, most) + factor * r.low; }));
   // The error of positions, here and at the boundary.
   const double slack = locating_slack(p - neighbourhood().origin, std::abs(gap)) +
                        0x1p-46 * (cell_length() + std::abs(gap));
@@ -115,8 +105,11 @@ double WarpedLattice::onset_limit() const {
 
 double WarpedLattice::onset(Vec3 p) const {
   const Vec3 q = neighbourhood().to_grid(p);
-  const double onset = far(places_->cell_of(q))->onset(q);
-  return onset <= onset_limit() ? onset : infinity;
+  const double limit = onset_limit(), factor = graph_.max_factor();
+  const double onset = least(
+      q, [](double distance, double f) { return distance / f; },
+      [&](double onset_so_far) { return std::min(onset_so_far, limit) * factor; });
+  return onset <= limit ? onset : infinity;
 }
 
 std::unique_ptr<StrutParts> WarpedLattice::struts(const StrutSelection& selection) const {

@@ -4,8 +4,8 @@
 // its distance to some strut of any cell is at most the radius there times that strut's factor.
 //
 // A cell's struts lie in the bounds of the cell, a box in grid coordinates. For each cell that is
-// evaluated, the cache keeps the struts that come within the greatest radius of its bounds. Points,
-// rays and distances use these lists. Rows and struts of boxes place the cells themselves.
+// evaluated, the cache keeps the struts that come within the greatest radius of its bounds. Points
+// and rays use these lists. Distances, rows and struts of boxes place the cells themselves.
 #pragma once
 
 #include <memory>
@@ -61,15 +61,18 @@ class WarpedLattice final : public Structure {
 
  private:
   void describe(HashInput& input) const override;
-  /// Those that may be nearest to a point of the cell.
-  List far(CellIndex cell) const;
+  /// The least of measure(distance to the axis, factor) of all struts, infinity if there is none.
+  /// `q`: in grid coordinates. reach(least so far) bounds the distance of struts with less. Looks
+  /// at the cells near the point, the nearest first, and at few others.
+  template <class Measure, class Reach>
+  double least(Vec3 q, Measure&& measure, Reach&& reach) const;
   double widened() const { return 2e-6 * min_component(neighbourhood().cell_size); }
   /// Calls visit(cell) for the cells whose struts may touch a box in model coordinates.
   template <class Visit>
   void for_each_cell(const Box3& box, Visit&& visit) const;
 
   const Ref<Context> context_;
-  const uint64_t near_id_, far_id_;  // in the cache
+  const uint64_t id_;  // in the cache
   const std::unique_ptr<const CellPlaces> places_;
   const UnitCell cell_;
   const Parameter radius_;
