@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/memory.h"
+#include "shape/primitive.h"
 
 namespace msq {
 
@@ -116,6 +117,24 @@ bool has_samples(const RowBlock& block) {
   return false;
 }
 
+/// Whether the rows of parts of a layer take no longer than those of the layer: of other kinds of
+/// shapes, each part would look for what meets the layer.
+bool fills_rows_apart(const Shape& shape) {
+  return dynamic_cast<const Primitive*>(&shape) != nullptr;
+}
+
+/// The samples of a shape, layer by layer.
+void fill_shape(const Shape& shape, const RowBlock& block) {
+  for (uint64_t k = block.z0; k < block.z1; ++k) {
+    RowBlock layer = block;
+    layer.words = block.row(block.y0, k);
+    layer.z0 = k;
+    layer.z1 = k + 1;
+    std::memset(layer.words, 0, layer.rows() * layer.row_stride * sizeof(uint64_t));
+    shape.fill_rows(layer);
+  }
+}
+
 /// Tiles of the rows of a block, one after the other in the order of a slab's.
 template <class Visit>
 void for_each_tile(const Model& model, const Scales& scales, const RowBlock& block,
@@ -202,25 +221,29 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
   }
 
   model.prepare_skins(resolved, job);
-  executor.for_each(z1 - z0, [&](uint64_t layer) {
-    check_cancelled(job);
-    RowBlock block = slab;
-    block.z0 = z0 + layer;
-    block.z1 = block.z0 + 1;
-    block.words = slab.row(0, block.z0);
-    std::memset(block.words, 0, slab.layer_stride * sizeof(uint64_t));
-    model.shape().fill_rows(block);
-    if (counts) {
-      const uint64_t points = grid.nx * grid.ny;
-      counts->points += points;
-      counts->by_shape += resolved.empty() ? points : points - samples_of(block);
-    }
-  });
+  const auto fill_from_shape = [&](const RowBlock& block) {
+    fill_shape(model.shape(), block);
+    if (!counts) return;
+    const uint64_t points = grid.nx * block.rows() * block.layers();
+    counts->points += points;
+    counts->by_shape += resolved.empty() ? points : points - samples_of(block);
+  };
+  const bool is_by_tile = !resolved.empty() && fills_rows_apart(model.shape());
+  if (!is_by_tile)
+    executor.for_each(z1 - z0, [&](uint64_t layer) {
+      check_cancelled(job);
+      RowBlock block = slab;
+      block.z0 = z0 + layer;
+      block.z1 = block.z0 + 1;
+      block.words = slab.row(0, block.z0);
+      fill_from_shape(block);
+    });
   if (resolved.empty()) return;
 
   // In the same order in each slab: what two slabs share is then found again after as many cells as
   // one slab is high, which the cache must hold at least (docs/benchmarks.md).
   for_each_tile(model, resolved, slab, executor, job, [&](const RowBlock& block) {
+    if (is_by_tile) fill_from_shape(block);
     for (const Scale* scale : resolved) {
       if (const uint64_t living = counts ? samples_of(block) : 0) counts->add_group(living);
       scale->keep_rows(block, job);
@@ -243,14 +266,7 @@ void fill_rows_of_slab(const Model& model, const Scales& resolved, const SampleG
       fill_regions(model, resolved, tile, this_thread, job, nullptr);
       continue;
     }
-    for (uint64_t k = tile.z0; k < tile.z1; ++k) {
-      RowBlock layer = tile;
-      layer.words = tile.row(y0, k);
-      layer.z0 = k;
-      layer.z1 = k + 1;
-      std::memset(layer.words, 0, layer.rows() * layer.row_stride * sizeof(uint64_t));
-      model.shape().fill_rows(layer);
-    }
+    fill_shape(model.shape(), tile);
     for (const Scale* scale : resolved) scale->keep_rows(tile, job);
     check_cancelled(job);
   }

@@ -41,9 +41,11 @@ SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
   for (const SampleGrid& grid : grids_) {
     const uint64_t words = words_for(grid.nx) * rows_of_pixel(grid, bands) * bands.band_rows;
     layer_words_.push_back(words);
-    current_.emplace_back((is_one_slab && is_ahead_ ? depth.first : depth.others) * words);
-    if (is_ahead_)
-      next_.emplace_back((is_one_slab ? depth.others - depth.first : depth.others) * words);
+    const auto layers = [words](uint64_t count) {
+      return std::make_unique_for_overwrite<uint64_t[]>(count * words);
+    };
+    current_.push_back(layers(is_one_slab && is_ahead_ ? depth.first : depth.others));
+    if (is_ahead_) next_.push_back(layers(is_one_slab ? depth.others - depth.first : depth.others));
   }
   fill(piece_, current_, job);
   start_next();
@@ -73,7 +75,7 @@ void SlabsAhead::fill(const Piece& piece, Slab& slab, const Job* job) const {
     const uint64_t across = rows_of_pixel(grids_[g], bands_);
     const SampleGrid rows =
         rows_of(grids_[g], across * bands_.begin(piece.band), across * bands_.end(piece.band));
-    fill_slab(model_, resolved_, rows, piece.begin, piece.end, slab[g].data(), job);
+    fill_slab(model_, resolved_, rows, piece.begin, piece.end, slab[g].get(), job);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -50,11 +51,12 @@ class SlabsAhead {
   void go_to(uint64_t layer, uint64_t band);
   /// Rows of the current band of a grid, in words_for(nx) words each. Valid until go_to().
   const uint64_t* words(size_t grid) const {
-    return current_[grid].data() + (layer_ - piece_.begin) * layer_words_[grid];
+    return current_[grid].get() + (layer_ - piece_.begin) * layer_words_[grid];
   }
 
  private:
-  using Slab = std::vector<std::vector<uint64_t>>;  ///< of each grid
+  /// Of each grid. Pages are touched as layers are filled: a shallow first slab needs few.
+  using Slab = std::vector<std::unique_ptr<uint64_t[]>>;
   /// Layers that are filled at once, or a band of one.
   struct Piece {
     uint64_t begin, end, band = 0;

@@ -23,9 +23,9 @@ constexpr uint64_t shallow_slab_bytes = uint64_t{2} << 20;
 /// Of an automatic slab: of less, each slab would redo much of what the one before it found about
 /// the cells that both reach.
 constexpr double automatic_slab_layers = 64;
-/// The first slab of a run has this part of the layers of a slab, 1 / 8, unless the slabs of
+/// The first slab of a run has this part of the layers of a slab, 1 / 32, unless the slabs of
 /// structures are shallow already: each slab has a cost of its own.
-constexpr uint64_t first_slab_part = 8;
+constexpr uint64_t first_slab_part = 32;
 /// What one thread fills, cuts and writes in its own caches. Several threads take whole layers
 /// where these fit: more of the next layer is then computed while the host has one.
 constexpr uint64_t near_band_bytes = uint64_t{1} << 20;

@@ -181,7 +181,7 @@ static int32_t note_first(void* user, const msq_layer* layer) {
 }
 
 static void first_layer_waits_for_few_layers(void** state) {
-  const uint64_t layers[] = {1, 7, 32, 33, 100}, slab = 32, pixels = 24;
+  const uint64_t layers[] = {1, 33, 64, 65, 130}, slab = 64, pixels = 24;
   (void)state;
   for (int i = 0; i < 5; ++i) {
     point_counts counts = {0, 0};
@@ -203,7 +203,7 @@ static void first_layer_waits_for_few_layers(void** state) {
     assert_ok(msq_slicer_run(slicer, 0, UINT64_MAX, note_first, &counts, NULL));
     const uint64_t layer = pixels * pixels, deep = layers[i] < slab ? layers[i] : slab;
     assert_int_equal(counts.now, layers[i] * layer);
-    assert_int_equal(counts.at_first, (deep + 7) / 8 * layer);
+    assert_int_equal(counts.at_first, (deep + 31) / 32 * layer);
     msq_slicer_release(slicer);
     msq_model_release(model);
   }
