@@ -66,8 +66,8 @@ uint64_t fill_slab_scratch_words(const Model& model, const Scales& resolved, con
   const uint64_t rows = std::min(grid.ny, rows_of_tile(model, resolved, grid, layers));
   uint64_t tiles = 1;
   for (const Scale* scale : resolved)
-    tiles = std::max(tiles,
-                     (scale->skin.is_none() ? uint64_t{1} : 2) + scale->structure->row_copies());
+    tiles =
+        std::max(tiles, (scale->skin.is_none() ? uint64_t{1} : 2) + scale->structure->row_copies());
   return tiles * threads * words_for(grid.nx) * std::min(layers, tile_layers) * rows;
 }
 

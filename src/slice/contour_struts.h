@@ -20,41 +20,10 @@
 #include "base/memory.h"
 #include "base/vec2.h"
 #include "slice/contour_grid.h"
+#include "slice/plane_strut_kernels.h"
 #include "structure/structure.h"
 
 namespace msq {
-
-/// A strut in coordinates u, v and along the normal of the plane, from its end a. One
-/// cache line, since points meet them in any order.
-struct alignas(64) PlaneStrut {
-  double a_u, a_v, w;  ///< w: of the plane, from a
-  double d_u, d_v, d_w;
-  double radius;
-  double inverse_length_squared;  ///< 0 for a point
-};
-/// The part of a strut's axis within the radius of the plane, in [0, 1].
-struct AxisPart {
-  double from, to;
-};
-
-/// Where crossings are, by edge.
-struct CrossingTable {
-  const uint64_t* bits;  ///< nodes inside
-  size_t row_words;
-  const uint32_t *horizontal, *vertical;  ///< the first crossing of each word of edges
-  uint32_t rows;
-  /// u or v of each crossing, and its negative where the first node of the edge is inside. So both
-  /// kinds are lowered by what struts propose.
-  double* ends;
-  uint32_t none;  ///< an end that belongs to no crossing: proposals for other edges go there
-};
-
-/// Where struts draw nodes.
-struct NodeDrawing {
-  uint64_t* bits;
-  size_t row_words;
-  std::vector<GridNode>& doubtful;  ///< with repetitions
-};
 
 class PlaneStruts {
  public:

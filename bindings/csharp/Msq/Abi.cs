@@ -1790,7 +1790,7 @@ namespace Msq.Interop
         public ulong layer_count;
         /// <summary>0 (default): the region is the bounding box of the model, centred in the pixels; region_min and region_max must be 0. 1: the region below. A model of all space needs 1.</summary>
         public int has_region;
-        /// <summary>Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at least one. A slab takes at most 32 MiB and a quarter of the context's memory_limit, and 2 MiB per thread for structures that do not gain by more. A run computes fewer layers at once where the limit leaves less. The first slab of a run has an eighth of the layers, except for structures of 2 MiB, so that the host receives its first layer soon. Where even one layer is too large, bands of its rows are computed one after the other. Does not change results.</summary>
+        /// <summary>Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at least one. A slab takes at most 32 MiB and a quarter of the context's memory_limit, and 2 MiB per thread for structures that do not gain by more. A run computes fewer layers at once where the limit leaves less. The first slab of a run has a 32nd of the layers, except for structures of 2 MiB, so that the host receives its first layer soon. Where even one layer is too large, bands of its rows are computed one after the other. Does not change results.</summary>
         public uint slab_layers;
         /// <summary>Corner of pixel (0, 0) and bottom of layer 0.</summary>
         public fixed double region_min[3];

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""3MF files with levelsets, and an evaluator of their graphs that reads the XML on its own."""
+"""3MF files with levelsets, an evaluator of their graphs that reads the XML on its own, and tests
+that compare both."""
 import io
+import unittest
 import xml.etree.ElementTree as ElementTree
 import zipfile
 
 import numpy as np
+
+import msq
 
 SPACES = ('xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02" '
           'xmlns:v="http://schemas.3mf.io/3dmanufacturing/volumetric/2022/01" '
@@ -244,3 +248,52 @@ class Oracle:
     def matvecmultiplication(node, count, A, B):
         row = np.concatenate([B, np.ones((count, 1))], axis=1)
         return {"result": np.einsum("ni,nij->nj", row, A)[:, :3]}
+
+
+# Comparing
+
+
+class Compared(unittest.TestCase):
+    """Tests that compare parts with the oracle."""
+
+    def check(self, model, part, points, *, most_left_out=0.02):
+        """All points away from rounding: the function's value, and whether a point is inside.
+        Returns the part of the points that are."""
+        oracle = Oracle(model)
+
+        def values(at):
+            positions = at @ part.function_transform[:3] + part.function_transform[3]
+            return oracle.values(part.function_id, {"pos": positions}, part.channel)
+
+        expected = values(points)
+        other = values(points * (1 + 1e-12) + 1e-12), values(points * (1 - 1e-12) - 1e-12)
+        with np.errstate(all="ignore"):
+            tolerance = 1e-9 * (1 + np.abs(expected))
+            sure = np.ones(len(points), bool)
+            for one in other:  # no jump or pole is near
+                sure &= ((np.abs(one - expected) <= 1e-3 * tolerance ** 0.5)
+                         | (np.isnan(one) & np.isnan(expected)) | (one == expected))
+        self.assertLess(1 - sure.mean(), most_left_out, part.channel)
+        function = msq.Functional(expression=part.expression, parameters=part.parameters,
+                                  cell_size=part.cell_size, origin=part.origin)
+        found = function.onset(points)
+        undefined = np.isnan(expected)
+        with np.errstate(all="ignore"):
+            good = ((np.abs(found - expected) <= tolerance)
+                    | (undefined & np.isinf(found)) | (found == expected))
+        wrong = np.flatnonzero(sure & ~good)
+        self.assertEqual(len(wrong), 0, f"{part.channel}: at {points[wrong[:3]]} {found[wrong[:3]]}, "
+                                        f"not {expected[wrong[:3]]}")
+        with np.errstate(all="ignore"):
+            inside = np.where(undefined, part.fallback, expected) <= 0
+            clear = sure & (undefined | (np.abs(expected) > tolerance))
+        inside &= msq.Model(part.shape).contains(points)
+        answers = part.model().contains(points)
+        self.assertEqual(int((answers != inside)[clear].sum()), 0, part.channel)
+        return inside.mean()
+
+
+def random_points(count, seed, low=LOW, high=HIGH):
+    generator = np.random.RandomState(seed)
+    margin = (high - low).max() / 20  # within the cell of the structure
+    return generator.uniform(low - margin, high + margin, (count, 3))
