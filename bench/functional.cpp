@@ -20,6 +20,7 @@ struct Setting {
   const char* expression = nullptr;  // NULL: the gyroid of the library
   bool is_graded = false, is_turned = false;
   int32_t period_axis = -1;  // cells along it from half to twice the size; -1: of one size
+  int32_t warp = 0;          // an msq_warp_kind about the middle of the cube; 0: none
   uint32_t clusters = 0;
   int32_t kind = MSQ_FUNCTIONAL_NETWORK;
   double level = 0;
@@ -47,6 +48,11 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   period.cell_sizes = sizes;
   period.count = 2;
   if (setting.period_axis >= 0) def.period = &period;
+  const msq_warp_def warp = bench::warp_of(setting.warp, setting.cells);
+  if (setting.warp) {
+    bench::put_in_middle(def.grid);
+    def.warp = &warp;
+  }
   msq_field* field = nullptr;
   if (setting.is_graded) {
     const double from[3] = {0, 0, 0}, to[3] = {1, 0.5, 0.25};
@@ -111,6 +117,11 @@ int main(int count, char** arguments) try {
   setting.is_turned = true;
   add("gyroid, 32^3 cells, turned grid", setting, 2048, 256);
   setting.is_turned = false;
+  setting.warp = MSQ_WARP_CYLINDRICAL;
+  add("gyroid, 32 cells across, around an axis", setting, 2048);
+  setting.warp = MSQ_WARP_SPHERICAL;
+  add("gyroid, 32 cells across, around a point", setting, 2048, 64);
+  setting.warp = 0;
   setting.expression = gyroid;
   add("gyroid as an expression, 32^3 cells", setting, 1024);
   setting.expression = nullptr;

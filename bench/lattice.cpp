@@ -18,6 +18,8 @@ struct Setting {
   bool is_graded = false;  // r from 0.05 cell at one corner of the cube to 0.15 at the other
   bool is_turned = false;  // about two axes
   uint32_t clusters = 0;
+  int32_t warp = 0;          // an msq_warp_kind about the middle of the cube; 0: none
+  bool is_graded_z = false;  // cells from half to twice the size along z
 };
 
 /// Wall and processor time, of two threads; half of the latter is what two free cores would take.
@@ -86,6 +88,19 @@ class Solid {
     for (double& size : def.grid.cell_size) size = 1 / setting.cells;
     def.radius.value = 0.1 / setting.cells;
     if (setting.is_turned) bench::turn(def.grid);
+    const msq_warp_def warp = bench::warp_of(setting.warp, setting.cells);
+    if (setting.warp) {
+      bench::put_in_middle(def.grid);
+      def.warp = &warp;
+    }
+    const double positions[] = {0, 1}, sizes[] = {0.5 / setting.cells, 2 / setting.cells};
+    msq_period_def period;
+    bench::check(msq_period_def_init(&period, sizeof period));
+    period.axis = 2;
+    period.positions = positions;
+    period.cell_sizes = sizes;
+    period.count = 2;
+    if (setting.is_graded_z) def.period = &period;
     msq_field* field = nullptr;
     if (setting.is_graded) {
       const double low[3] = {0, 0, 0}, high[3] = {1, 1, 1};
@@ -126,7 +141,7 @@ void bench_slices(bench::Report& report, uint32_t resolution) {
   add("the cube alone", nullptr);
   for (const UnitCell& cell : unit_cells) {
     const auto add_cells = [&](double cells, bool is_graded, bool is_turned) {
-      const Setting setting{cell.number, cells, is_graded, is_turned, 0};
+      const Setting setting{cell.number, cells, is_graded, is_turned};
       add(std::string(cell.name) + ", " + number_text(cells) + "^3 cells" +
               (is_graded ? ", gradient of r" : "") + (is_turned ? ", turned grid" : ""),
           &setting);
@@ -136,6 +151,14 @@ void bench_slices(bench::Report& report, uint32_t resolution) {
     for (double cells : {32.0, 254.9}) add_cells(cells, true, false);
     if (cell.number == MSQ_UNIT_CELL_BCC) add_cells(31.7, false, true);
   }
+  Setting setting;
+  setting.is_graded_z = true;
+  add("BCC, 32^2 cells, period graded along z", &setting);
+  setting.is_graded_z = false;
+  setting.warp = MSQ_WARP_CYLINDRICAL;
+  add("BCC, 32 cells across, around an axis", &setting);
+  setting.warp = MSQ_WARP_SPHERICAL;
+  add("BCC, 32 cells across, around a point", &setting);
 }
 
 /// The same points sorted by the cell that they lie in, or by its clusters, parts^3 a cell, those

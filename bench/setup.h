@@ -56,4 +56,20 @@ inline void turn(msq_neighbourhood& grid) {
   for (int i = 0; i < 9; ++i) grid.rotation[i] = rotation[i];
 }
 
+inline void put_in_middle(msq_neighbourhood& grid) {
+  for (double& x : grid.origin) x = 0.5;
+}
+
+/// Cells around the grid's z axis or its origin, about as wide as high halfway to the cube's side,
+/// from a tenth of its side on. `kind` 0: not to be used.
+inline msq_warp_def warp_of(int32_t kind, double cells) {
+  msq_warp_def def;
+  check(msq_warp_def_init(&def, sizeof def));
+  def.kind = kind;
+  def.count = static_cast<uint32_t>(1.57 * cells);
+  def.count_polar = kind == MSQ_WARP_SPHERICAL ? static_cast<uint32_t>(0.78 * cells) : 0;
+  def.inner_radius = 0.1;
+  return def;
+}
+
 }  // namespace bench
