@@ -38,7 +38,7 @@ class CellAngles {
  public:
   /// `grid`: that of smallest_cells().
   CellAngles(const Neighbourhood& grid, CellShape shape)
-      : grid_(grid), period_(std::move(shape.period)), warp_(std::move(shape.warp)) {}
+      : grid_(grid), period_(std::move(shape.period)), warp_(shape.warp) {}
 
   const std::optional<GradedPeriod>& period() const { return period_; }
   const std::optional<Warp>& warp() const { return warp_; }
