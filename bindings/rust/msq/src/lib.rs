@@ -25,7 +25,7 @@ pub use field::{Field, Param, ValuesFn};
 pub use model::{Grid, MeshSlab, Model};
 pub use shape::Shape;
 pub use slicer::{Layer, LayerView, Plan, Slicer};
-pub use structure::{Foam, Structure};
+pub use structure::{Foam, Functional, Lattice, Period, Structure, Warp};
 
 /// Version of the loaded library: major * 10000 + minor * 100 + patch.
 pub fn version() -> u32 {

@@ -11,6 +11,148 @@ handle!(
     Structure, msq_structure, msq_structure_retain, msq_structure_release
 );
 
+/// Cells whose size varies along one axis of the grid. The number of cells per unit length is linear
+/// between positions and constant beyond them.
+#[derive(Clone, Debug, Default)]
+pub struct Period {
+    /// 0 to 2.
+    pub axis: i32,
+    /// Coordinates along the axis, from the origin of the grid, in ascending order.
+    pub positions: Vec<f64>,
+    /// The size of the cells at each position.
+    pub cell_sizes: Vec<f64>,
+}
+
+impl Period {
+    /// Valid as long as this period.
+    fn raw(&self) -> Result<sys::msq_period_def> {
+        if self.positions.len() != self.cell_sizes.len() {
+            return Err(Error::argument(format!(
+                "period has {} positions and {} cell_sizes; it must have as many of both",
+                self.positions.len(),
+                self.cell_sizes.len()
+            )));
+        }
+        let mut def = definition!(msq_period_def_init, msq_period_def);
+        def.axis = self.axis;
+        def.positions = self.positions.as_ptr();
+        def.cell_sizes = self.cell_sizes.as_ptr();
+        def.count = self.positions.len() as u64;
+        Ok(def)
+    }
+}
+
+/// Cells around the z axis of the grid, or around its origin. `cell_size[0]` is their size outwards.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Warp {
+    /// Cells in a whole turn.
+    pub count: u32,
+    /// Cells from pole to pole, around the origin. None: cells around the axis.
+    pub count_polar: Option<u32>,
+    pub inner_radius: f64,
+    /// None: no limit.
+    pub outer_radius: Option<f64>,
+}
+
+impl Warp {
+    fn raw(&self) -> Result<sys::msq_warp_def> {
+        let mut def = definition!(msq_warp_def_init, msq_warp_def);
+        if let Some(count_polar) = self.count_polar {
+            def.kind = sys::MSQ_WARP_SPHERICAL;
+            def.count_polar = count_polar;
+        }
+        def.count = self.count;
+        def.inner_radius = self.inner_radius;
+        def.outer_radius = self.outer_radius.unwrap_or(0.0);
+        Ok(def)
+    }
+}
+
+fn pointer<T>(def: &Option<T>) -> *const T {
+    def.as_ref().map_or(std::ptr::null(), |def| def as *const T)
+}
+
+/// A lattice of struts. Lengths are in model units.
+#[derive(Clone, Debug)]
+pub struct Lattice {
+    pub origin: [f64; 3],
+    pub cell_size: [f64; 3],
+    /// An `MSQ_UNIT_CELL_*` other than CUSTOM.
+    pub unit_cell: i32,
+    pub radius: Param,
+    pub period: Option<Period>,
+    pub warp: Option<Warp>,
+}
+
+impl Lattice {
+    /// Cells of one size on all axes.
+    pub fn new(unit_cell: i32, cell_size: f64, radius: impl Into<Param>) -> Lattice {
+        Lattice {
+            origin: [0.0; 3],
+            cell_size: [cell_size; 3],
+            unit_cell,
+            radius: radius.into(),
+            period: None,
+            warp: None,
+        }
+    }
+}
+
+/// A functional structure, such as a gyroid. Lengths are in model units.
+#[derive(Clone, Debug)]
+pub struct Functional {
+    pub origin: [f64; 3],
+    pub cell_size: [f64; 3],
+    /// An `MSQ_FUNCTIONAL_*`: network or sheet.
+    pub kind: i32,
+    /// An `MSQ_FUNCTION_*`.
+    pub function: i32,
+    /// The text, if function is EXPRESSION.
+    pub expression: Option<String>,
+    /// Value of the function at the surface.
+    pub level: Param,
+    /// Mean thickness of a sheet, instead of the level. 0: the level is used.
+    pub thickness: Param,
+    pub period: Option<Period>,
+    pub warp: Option<Warp>,
+}
+
+impl Functional {
+    /// The points where a function is at most a level. function: an `MSQ_FUNCTION_*` other than EXPRESSION.
+    pub fn network(function: i32, cell_size: f64, level: impl Into<Param>) -> Functional {
+        Functional {
+            origin: [0.0; 3],
+            cell_size: [cell_size; 3],
+            kind: sys::MSQ_FUNCTIONAL_NETWORK,
+            function,
+            expression: None,
+            level: level.into(),
+            thickness: Param::default(),
+            period: None,
+            warp: None,
+        }
+    }
+
+    /// The points where an expression of x, y and z is at most a level. x, y and z are angles: they
+    /// go from 0 to 2 pi along each axis of a cell.
+    pub fn expression(text: &str, cell_size: f64, level: impl Into<Param>) -> Functional {
+        Functional {
+            expression: Some(text.to_string()),
+            ..Functional::network(sys::MSQ_FUNCTION_EXPRESSION, cell_size, level)
+        }
+    }
+
+    /// A wall of a mean thickness along the zeros of a function. function: an `MSQ_FUNCTION_*` other
+    /// than EXPRESSION.
+    pub fn sheet(function: i32, cell_size: f64, thickness: impl Into<Param>) -> Functional {
+        Functional {
+            kind: sys::MSQ_FUNCTIONAL_SHEET,
+            thickness: thickness.into(),
+            ..Functional::network(function, cell_size, 0.0)
+        }
+    }
+}
+
 /// A Voronoi foam. Lengths are in model units; the defaults are those of msq.
 #[derive(Clone, Debug)]
 pub struct Foam {
@@ -66,53 +208,38 @@ impl Structure {
         Structure::make(|raw| unsafe { sys::msq_structure_foam(context.as_ptr(), &def, raw) })
     }
 
-    /// unit_cell: an `MSQ_UNIT_CELL_*` other than CUSTOM.
-    pub fn lattice(
-        context: &Context,
-        unit_cell: i32,
-        cell_size: f64,
-        radius: impl Into<Param>,
-    ) -> Result<Structure> {
-        let radius = radius.into();
+    pub fn lattice(context: &Context, lattice: &Lattice) -> Result<Structure> {
         let mut def = definition!(msq_lattice_def_init, msq_lattice_def);
-        def.unit_cell = unit_cell;
-        def.grid.cell_size = [cell_size; 3];
-        def.radius = radius.raw();
+        let period = lattice.period.as_ref().map(Period::raw).transpose()?;
+        let warp = lattice.warp.as_ref().map(Warp::raw).transpose()?;
+        def.unit_cell = lattice.unit_cell;
+        def.grid.origin = lattice.origin;
+        def.grid.cell_size = lattice.cell_size;
+        def.radius = lattice.radius.raw();
+        def.period = pointer(&period);
+        def.warp = pointer(&warp);
         Structure::make(|raw| unsafe { sys::msq_structure_lattice(context.as_ptr(), &def, raw) })
     }
 
-    /// A sheet of the given thickness. function: an `MSQ_FUNCTION_*` other than EXPRESSION.
-    pub fn sheet(
-        context: &Context,
-        function: i32,
-        cell_size: f64,
-        thickness: impl Into<Param>,
-    ) -> Result<Structure> {
-        let thickness = thickness.into();
-        let mut def = definition!(msq_functional_def_init, msq_functional_def);
-        def.function = function;
-        def.kind = sys::MSQ_FUNCTIONAL_SHEET;
-        def.grid.cell_size = [cell_size; 3];
-        def.thickness = thickness.raw();
-        Structure::make(|raw| unsafe { sys::msq_structure_functional(context.as_ptr(), &def, raw) })
-    }
-
-    /// The side of an expression f(x, y, z) < level, which repeats with the cells.
-    pub fn network(
-        context: &Context,
-        expression: &str,
-        cell_size: f64,
-        level: impl Into<Param>,
-    ) -> Result<Structure> {
-        let level = level.into();
-        let text = CString::new(expression)
+    pub fn functional(context: &Context, functional: &Functional) -> Result<Structure> {
+        let text = functional
+            .expression
+            .as_ref()
+            .map(|text| CString::new(text.as_str()))
+            .transpose()
             .map_err(|_| Error::argument("the expression has a zero byte".to_string()))?;
         let mut def = definition!(msq_functional_def_init, msq_functional_def);
-        def.function = sys::MSQ_FUNCTION_EXPRESSION;
-        def.kind = sys::MSQ_FUNCTIONAL_NETWORK;
-        def.expression = text.as_ptr();
-        def.grid.cell_size = [cell_size; 3];
-        def.level = level.raw();
+        let period = functional.period.as_ref().map(Period::raw).transpose()?;
+        let warp = functional.warp.as_ref().map(Warp::raw).transpose()?;
+        def.function = functional.function;
+        def.kind = functional.kind;
+        def.expression = text.as_ref().map_or(std::ptr::null(), |text| text.as_ptr());
+        def.grid.origin = functional.origin;
+        def.grid.cell_size = functional.cell_size;
+        def.level = functional.level.raw();
+        def.thickness = functional.thickness.raw();
+        def.period = pointer(&period);
+        def.warp = pointer(&warp);
         Structure::make(|raw| unsafe { sys::msq_structure_functional(context.as_ptr(), &def, raw) })
     }
 

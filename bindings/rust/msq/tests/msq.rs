@@ -4,7 +4,10 @@ use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Arc;
 
-use msq::{sys, Context, ContextOptions, Field, Foam, Grid, Job, Model, Plan, Shape, Slicer, Structure};
+use msq::{
+    sys, Context, ContextOptions, Field, Foam, Functional, Grid, Job, Lattice, Model, Period, Plan, Shape, Slicer,
+    Structure, Warp,
+};
 
 fn cube(context: &Context) -> Shape {
     Shape::cuboid(context, [0.0; 3], [10.0; 3]).unwrap()
@@ -61,6 +64,109 @@ fn plates_fill_their_fraction() {
     assert!((share - (1.0 - 0.8f64.powi(3))).abs() < 0.001, "{share}");
     let error = Structure::plate_lattice(&context, cell, [2.0; 3], 9.0).err().unwrap();
     assert!(error.to_string().contains("thickness reaches 9"), "{error}");
+}
+
+/// Points of the cube, and the same after a ninth of a turn about the z axis.
+fn turned_points() -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
+    let (sin, cos) = (2.0 * std::f64::consts::PI / 9.0).sin_cos();
+    let at = |i: usize, step: f64| 8.0 * ((i as f64 * step) % 1.0) - 4.0;
+    let points: Vec<[f64; 3]> =
+        (0..2000).map(|i| [at(i, 0.618), at(i, 0.7549), at(i, 0.5698)]).collect();
+    let turned =
+        points.iter().map(|[x, y, z]| [cos * x - sin * y, sin * x + cos * y, *z]).collect();
+    (points, turned)
+}
+
+#[test]
+fn cells_are_warped() {
+    let context = Context::new().unwrap();
+    let ball = Shape::sphere(&context, [0.0; 3], 8.0).unwrap();
+    let inside = |structure: Structure, points: &[[f64; 3]]| {
+        Model::new(&context, &ball, &[&structure]).unwrap().membership(points, None).unwrap()
+    };
+    let (points, turned) = turned_points();
+    let gyroid = Functional::network(sys::MSQ_FUNCTION_GYROID, 1.5, 0.2);
+    let bcc = Lattice::new(sys::MSQ_UNIT_CELL_BCC, 1.5, 0.2);
+    for count_polar in [None, Some(5)] {
+        let warp = Some(Warp { count: 9, count_polar, inner_radius: 1.0, outer_radius: Some(4.0) });
+        let gyroid = Functional { warp, ..gyroid.clone() };
+        let bcc = Lattice { warp, ..bcc.clone() };
+        let make = |k| match k {
+            0 => Structure::functional(&context, &gyroid).unwrap(),
+            _ => Structure::lattice(&context, &bcc).unwrap(),
+        };
+        for k in 0..2 {
+            let here = inside(make(k), &points);
+            let differ =
+                here.iter().zip(inside(make(k), &turned)).filter(|(a, b)| **a != *b).count();
+            assert!(differ < 4 && here.contains(&0) && here.contains(&1), "{differ}");
+        }
+    }
+    let plain = inside(Structure::functional(&context, &gyroid).unwrap(), &points);
+    assert_ne!(plain, inside(Structure::functional(&context, &gyroid).unwrap(), &turned));
+    let error = Structure::lattice(&context, &Lattice { warp: Some(Warp::default()), ..bcc });
+    assert!(error.unwrap_err().to_string().contains("warp.count is 0"));
+}
+
+#[test]
+fn periods_and_stretches_change_cells() {
+    let context = Context::new().unwrap();
+    let inside = |structure: Structure| {
+        let grid = Grid { origin: [0.1; 3], spacing: [0.31; 3], counts: [32; 3] };
+        let model = Model::new(&context, &cube(&context), &[&structure]).unwrap();
+        model.grid_membership(&grid, None).unwrap()
+    };
+    let period = |cell_sizes: &[f64]| {
+        let positions = (0..cell_sizes.len()).map(|i| 5.0 * i as f64).collect();
+        Some(Period { axis: 0, positions, cell_sizes: cell_sizes.to_vec() })
+    };
+    let lattice = |period| {
+        let bcc = Lattice::new(sys::MSQ_UNIT_CELL_BCC, 2.5, 0.4);
+        Structure::lattice(&context, &Lattice { cell_size: [7.0, 2.5, 2.5], period, ..bcc })
+    };
+    let sheet = |period| {
+        let gyroid = Functional::sheet(sys::MSQ_FUNCTION_GYROID, 2.5, 0.4);
+        Structure::functional(&context, &Functional { cell_size: [7.0, 2.5, 2.5], period, ..gyroid })
+    };
+    // Cells of one size by a period are the cells of this size. A few samples are at the surface.
+    let bcc = Structure::lattice(&context, &Lattice::new(sys::MSQ_UNIT_CELL_BCC, 2.5, 0.4)).unwrap();
+    let (found, wanted) = (inside(lattice(period(&[2.5])).unwrap()), inside(bcc));
+    let differ = found.iter().zip(&wanted).filter(|(a, b)| a != b).count();
+    assert!(differ < 8 && wanted.contains(&1), "{differ}");
+    assert_ne!(inside(lattice(period(&[2.5, 1.5])).unwrap()), wanted);
+    assert_ne!(
+        inside(sheet(period(&[2.5, 1.5])).unwrap()),
+        inside(sheet(period(&[2.5])).unwrap())
+    );
+    let odd = Period { axis: 0, positions: vec![1.0, 2.0], cell_sizes: vec![1.0] };
+    assert!(lattice(Some(odd)).unwrap_err().to_string().contains("2 positions and 1 cell_sizes"));
+    assert!(lattice(period(&[])).is_err());
+    // Only the proportions of the stretch count.
+    let foam = |stretch| {
+        inside(Structure::foam(&context, &Foam { stretch, ..Foam::new(2.0, 0.3) }).unwrap())
+    };
+    assert_eq!(foam([2.0; 3]), foam([1.0; 3]));
+    assert_ne!(foam([1.0, 1.0, 3.0]), foam([1.0; 3]));
+}
+
+#[test]
+fn smooth_booleans_add_fillets() {
+    let context = Context::new().unwrap();
+    let grid = Grid { origin: [0.1; 3], spacing: [0.31; 3], counts: [32; 3] };
+    let inside = |structure: Structure| {
+        let model = Model::new(&context, &cube(&context), &[&structure]).unwrap();
+        model.grid_membership(&grid, None).unwrap()
+    };
+    let bcc = Structure::lattice(&context, &Lattice::new(sys::MSQ_UNIT_CELL_BCC, 2.5, 0.3)).unwrap();
+    let sheet = Functional::sheet(sys::MSQ_FUNCTION_GYROID, 2.5, 0.3);
+    let sheet = Structure::functional(&context, &sheet).unwrap();
+    let union = sys::MSQ_BOOLEAN_UNION;
+    let plain = inside(Structure::boolean(union, &[&bcc, &sheet]).unwrap());
+    let smooth = inside(Structure::smooth_boolean(union, &bcc, &sheet, 0.4).unwrap());
+    assert!(plain.iter().zip(&smooth).all(|(plain, smooth)| plain <= smooth));
+    assert_ne!(plain, smooth);
+    let error = Structure::smooth_boolean(union, &bcc, &sheet, -1.0).unwrap_err();
+    assert!(error.to_string().contains("-1"), "{error}");
 }
 
 #[test]
@@ -126,7 +232,8 @@ fn closures_evaluate_fields_and_are_freed() {
     let grid = Grid { origin: [0.1; 3], spacing: [0.5; 3], counts: [20; 3] };
     let mut sets = Vec::new();
     for field in [radius, same] {
-        let lattice = Structure::lattice(&context, sys::MSQ_UNIT_CELL_BCC, 2.5, field).unwrap();
+        let bcc = Lattice::new(sys::MSQ_UNIT_CELL_BCC, 2.5, field);
+        let lattice = Structure::lattice(&context, &bcc).unwrap();
         let model = Model::new(&context, &cube(&context), &[&lattice]).unwrap();
         sets.push(model.grid_membership(&grid, None).unwrap());
     }
