@@ -19,8 +19,26 @@ namespace Msq
         public Param? WallThickness { get; set; }
         /// <summary>Radius of the holes in the walls.</summary>
         public Param? VentRadius { get; set; }
-        /// <summary>How much longer the cells of the foam are along each axis of the grid.</summary>
+        /// <summary>How much longer the cells of the foam are along each axis of the grid: three numbers.</summary>
         public double[] Stretch { get; set; }
+    }
+
+    /// <summary>A lattice, beside its unit cell, grid and radius. null: all cells are boxes of one size.</summary>
+    public sealed class LatticeOptions
+    {
+        public Period Period { get; set; }
+        public Warp Warp { get; set; }
+    }
+
+    /// <summary>A lattice of plates, beside its unit cell, grid and thickness.</summary>
+    public sealed class PlateLatticeOptions
+    {
+        /// <summary>Factor of the thickness for each triangle of the unit cell; null for 1.</summary>
+        public double[] FaceFactors { get; set; }
+        /// <summary>Radius of struts in the same cells; null for none.</summary>
+        public Param? Radius { get; set; }
+        /// <summary>Unit cell of the struts.</summary>
+        public UnitCell UnitCell { get; set; } = UnitCell.Cubic;
     }
 
     /// <summary>A functional structure, beside its function and grid.</summary>
@@ -31,6 +49,10 @@ namespace Msq
         public Param? Level { get; set; }
         /// <summary>Sheets: mean thickness of the wall, instead of the level.</summary>
         public Param? Thickness { get; set; }
+        /// <summary>Cells of varying size.</summary>
+        public Period Period { get; set; }
+        /// <summary>Cells around an axis or a point.</summary>
+        public Warp Warp { get; set; }
     }
 
     /// <summary>A fine structure.</summary>
@@ -41,16 +63,18 @@ namespace Msq
         internal msq_structure* In(Call call) => (msq_structure*)call.Use(this, "structure");
 
         /// <summary>Struts of one of the unit cells of msq.</summary>
-        public static Structure Lattice(Context context, UnitCell unitCell, Grid grid, Param radius)
+        public static Structure Lattice(Context context, UnitCell unitCell, Grid grid, Param radius,
+                                        LatticeOptions options = null)
         {
             msq_lattice_def def = msq_lattice_def.Defaults();
             def.unit_cell = (int)unitCell;
-            return Lattice(context, def, grid, radius, null, null);
+            return Lattice(context, def, grid, radius, null, null, options);
         }
 
         /// <summary>Struts of a unit cell of the program's own. nodes: in the unit cube. struts: pairs of
         /// indices of nodes.</summary>
-        public static Structure Lattice(Context context, Vec3[] nodes, int[] struts, Grid grid, Param radius)
+        public static Structure Lattice(Context context, Vec3[] nodes, int[] struts, Grid grid, Param radius,
+                                        LatticeOptions options = null)
         {
             if (nodes == null) throw new ArgumentNullException(nameof(nodes));
             if (struts == null) throw new ArgumentNullException(nameof(struts));
@@ -61,11 +85,11 @@ namespace Msq
             def.unit_cell = (int)UnitCell.Custom;
             def.node_count = (ulong)nodes.Length;
             def.strut_count = (ulong)(struts.Length / 2);
-            return Lattice(context, def, grid, radius, nodes, struts);
+            return Lattice(context, def, grid, radius, nodes, struts, options);
         }
 
         private static Structure Lattice(Context context, msq_lattice_def def, Grid grid, Param radius, Vec3[] nodes,
-                                         int[] struts)
+                                         int[] struts, LatticeOptions options)
         {
             Grid.Set(&def.grid, grid);
             using (var call = new Call())
@@ -73,6 +97,58 @@ namespace Msq
                 def.nodes = (double*)call.Pin(nodes);
                 def.struts = (uint*)call.Pin(struts);
                 def.radius = radius.In(call);
+                def.period = Period.In(call, options?.Period);
+                def.warp = Warp.In(call, options?.Warp);
+                return From(context, &def);
+            }
+        }
+
+        /// <summary>Plates of one of the unit cells of msq. thickness: whole thickness of the plates.</summary>
+        public static Structure PlateLattice(Context context, PlateCell plateCell, Grid grid, Param thickness,
+                                             PlateLatticeOptions options = null)
+        {
+            msq_plate_lattice_def def = msq_plate_lattice_def.Defaults();
+            def.plate_cell = (int)plateCell;
+            return PlateLattice(context, def, grid, thickness, null, null, options);
+        }
+
+        /// <summary>Plates of a unit cell of the program's own. nodes: in the unit cube. faces: triples of
+        /// indices of nodes.</summary>
+        public static Structure PlateLattice(Context context, Vec3[] nodes, int[] faces, Grid grid, Param thickness,
+                                             PlateLatticeOptions options = null)
+        {
+            if (nodes == null) throw new ArgumentNullException(nameof(nodes));
+            if (faces == null) throw new ArgumentNullException(nameof(faces));
+            if (faces.Length % 3 != 0)
+                throw new ArgumentException("faces has " + faces.Length + " indices; it must have three for each",
+                                            nameof(faces));
+            msq_plate_lattice_def def = msq_plate_lattice_def.Defaults();
+            def.plate_cell = (int)PlateCell.Custom;
+            def.node_count = (ulong)nodes.Length;
+            def.face_count = (ulong)(faces.Length / 3);
+            return PlateLattice(context, def, grid, thickness, nodes, faces, options);
+        }
+
+        private static Structure PlateLattice(Context context, msq_plate_lattice_def def, Grid grid, Param thickness,
+                                              Vec3[] nodes, int[] faces, PlateLatticeOptions options)
+        {
+            options = options ?? new PlateLatticeOptions();
+            Grid.Set(&def.grid, grid);
+            def.unit_cell = (int)options.UnitCell;
+            if (options.FaceFactors != null)
+            {
+                if (nodes != null && (ulong)options.FaceFactors.Length != def.face_count)
+                    throw new ArgumentException("FaceFactors has " + options.FaceFactors.Length +
+                                                " numbers; it must have " + def.face_count, nameof(options));
+                def.face_count = (ulong)options.FaceFactors.Length;
+            }
+            using (var call = new Call())
+            {
+                def.nodes = (double*)call.Pin(nodes);
+                def.faces = (uint*)call.Pin(faces);
+                def.face_factors = (double*)call.Pin(options.FaceFactors);
+                def.thickness = thickness.In(call);
+                if (options.Radius.HasValue) def.radius = options.Radius.Value.In(call);
                 return From(context, &def);
             }
         }
@@ -81,6 +157,9 @@ namespace Msq
         public static Structure Foam(Context context, Grid grid, Param radius, FoamOptions options = null)
         {
             options = options ?? new FoamOptions();
+            if (options.Stretch != null && options.Stretch.Length != 3)
+                throw new ArgumentException("Stretch has " + options.Stretch.Length + " numbers; it must have 3",
+                                            nameof(options));
             msq_foam_def def = msq_foam_def.Defaults();
             Grid.Set(&def.grid, grid);
             def.method = (int)options.Method;
@@ -130,6 +209,8 @@ namespace Msq
                 def.parameters = Field.NamedValues(call, parameters, out def.parameter_count);
                 if (options.Level.HasValue) def.level = options.Level.Value.In(call);
                 if (options.Thickness.HasValue) def.thickness = options.Thickness.Value.In(call);
+                def.period = Period.In(call, options.Period);
+                def.warp = Warp.In(call, options.Warp);
                 return From(context, &def);
             }
         }
@@ -144,6 +225,8 @@ namespace Msq
             options = options ?? new FunctionalOptions();
             if (options.Thickness.HasValue)
                 throw new ArgumentException("functions of the program have a level and no thickness", nameof(options));
+            if (options.Period != null || options.Warp != null)
+                throw new ArgumentException("functions of the program have no period and no warp", nameof(options));
             msq_host_function_def def = msq_host_function_def.Defaults();
             Grid.Set(&def.grid, grid);
             def.concurrent = Callbacks.Concurrent(context, concurrent);
@@ -167,6 +250,71 @@ namespace Msq
         {
             msq_structure* made;
             using (var call = new Call()) call.Check(Abi.msq_structure_lattice(call.Use(context), def, &made));
+            return new Structure(made);
+        }
+
+        public static Structure Union(params Structure[] structures) => Combine(BooleanOperation.Union, structures);
+        public static Structure Intersection(params Structure[] structures) =>
+            Combine(BooleanOperation.Intersection, structures);
+        /// <summary>The first without the others.</summary>
+        public static Structure Difference(params Structure[] structures) =>
+            Combine(BooleanOperation.Difference, structures);
+
+        private static Structure Combine(BooleanOperation operation, Structure[] structures)
+        {
+            if (structures == null) throw new ArgumentNullException(nameof(structures));
+            var pointers = new IntPtr[structures.Length];
+            msq_structure* made;
+            using (var call = new Call())
+            {
+                for (int i = 0; i < structures.Length; ++i)
+                    pointers[i] = (IntPtr)call.Use(structures[i], nameof(structures));
+                call.Check(Abi.msq_structure_boolean((int)operation, (msq_structure**)call.Pin(pointers),
+                                                     (ulong)pointers.Length, &made));
+            }
+            return new Structure(made);
+        }
+
+        /// <summary>The union, with fillets of a radius where a and b meet.</summary>
+        public static Structure SmoothUnion(Structure a, Structure b, Param radius) =>
+            Smooth(BooleanOperation.Union, a, b, radius);
+        /// <summary>The intersection, with rounds of a radius where the surfaces of a and b meet.</summary>
+        public static Structure SmoothIntersection(Structure a, Structure b, Param radius) =>
+            Smooth(BooleanOperation.Intersection, a, b, radius);
+        /// <summary>a without b, with rounds of a radius where their surfaces meet.</summary>
+        public static Structure SmoothDifference(Structure a, Structure b, Param radius) =>
+            Smooth(BooleanOperation.Difference, a, b, radius);
+
+        private static Structure Smooth(BooleanOperation operation, Structure a, Structure b, Param radius)
+        {
+            msq_structure* made;
+            using (var call = new Call())
+            {
+                msq_param given = radius.In(call);
+                call.Check(Abi.msq_structure_smooth_boolean((int)operation, (msq_structure*)call.Use(a, nameof(a)),
+                                                            (msq_structure*)call.Use(b, nameof(b)), &given, &made));
+            }
+            return new Structure(made);
+        }
+
+        /// <summary>Becomes b as the fraction goes from 0 to 1.</summary>
+        public static Structure Blend(Structure a, Structure b, Param fraction)
+        {
+            msq_structure* made;
+            using (var call = new Call())
+            {
+                msq_param given = fraction.In(call);
+                call.Check(Abi.msq_structure_blend((msq_structure*)call.Use(a, nameof(a)),
+                                                   (msq_structure*)call.Use(b, nameof(b)), &given, &made));
+            }
+            return new Structure(made);
+        }
+
+        /// <summary>By a definition of msq.h. Its pointers must be valid until this returns.</summary>
+        public static Structure From(Context context, msq_plate_lattice_def* def)
+        {
+            msq_structure* made;
+            using (var call = new Call()) call.Check(Abi.msq_structure_plate_lattice(call.Use(context), def, &made));
             return new Structure(made);
         }
 

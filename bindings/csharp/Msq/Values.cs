@@ -89,4 +89,75 @@ namespace Msq
             for (int i = 0; value.rotation != null && i < 9; ++i) grid->rotation[i] = value.rotation[i];
         }
     }
+
+    /// <summary>Cells whose size varies along one axis of the grid, which ignores its own size there. The number
+    /// of cells per unit length is linear between positions and constant beyond them.</summary>
+    public sealed class Period
+    {
+        private readonly double[] positions, cellSizes;
+        private readonly int axis;
+
+        /// <summary>positions: coordinates along the axis, from the origin of the grid, in ascending order.
+        /// cellSizes: the size of the cells at each. axis: 0 to 2.</summary>
+        public Period(double[] positions, double[] cellSizes, int axis = 2)
+        {
+            if (positions == null) throw new ArgumentNullException(nameof(positions));
+            if (cellSizes == null) throw new ArgumentNullException(nameof(cellSizes));
+            if (positions.Length != cellSizes.Length)
+                throw new ArgumentException("cellSizes has " + cellSizes.Length + " numbers; it must have " +
+                                            positions.Length + ", one for each position", nameof(cellSizes));
+            this.positions = (double[])positions.Clone();
+            this.cellSizes = (double[])cellSizes.Clone();
+            this.axis = axis;
+        }
+
+        /// <summary>Valid until the call is over. null of none.</summary>
+        internal static unsafe msq_period_def* In(Call call, Period value)
+        {
+            if (value == null) return null;
+            msq_period_def def = msq_period_def.Defaults();
+            def.axis = value.axis;
+            def.positions = (double*)call.Pin(value.positions);
+            def.cell_sizes = (double*)call.Pin(value.cellSizes);
+            def.count = (ulong)value.positions.Length;
+            // In an array of words, as structs with pointers cannot be pinned.
+            var kept = (msq_period_def*)call.Pin(new long[(sizeof(msq_period_def) + 7) / 8]);
+            *kept = def;
+            return kept;
+        }
+    }
+
+    /// <summary>Cells around the z axis of the grid, or around its origin. The first cell size of the grid is that
+    /// outwards.</summary>
+    public sealed class Warp
+    {
+        /// <summary>count: cells in a whole turn. outerRadius 0: no limit. countPolar: null for cells around the
+        /// axis; otherwise the cells from pole to pole, around the origin.</summary>
+        public Warp(uint count, double innerRadius = 0, double outerRadius = 0, uint? countPolar = null)
+        {
+            Count = count;
+            InnerRadius = innerRadius;
+            OuterRadius = outerRadius;
+            CountPolar = countPolar;
+        }
+
+        public uint Count { get; }
+        public uint? CountPolar { get; }
+        public double InnerRadius { get; }
+        public double OuterRadius { get; }
+
+        /// <summary>Valid until the call is over. null of none.</summary>
+        internal static unsafe msq_warp_def* In(Call call, Warp value)
+        {
+            if (value == null) return null;
+            var kept = (msq_warp_def*)call.Pin(new long[(sizeof(msq_warp_def) + 7) / 8]);
+            *kept = msq_warp_def.Defaults();
+            kept->kind = (int)(value.CountPolar.HasValue ? WarpKind.Spherical : WarpKind.Cylindrical);
+            kept->count = value.Count;
+            kept->count_polar = value.CountPolar ?? 0;
+            kept->inner_radius = value.InnerRadius;
+            kept->outer_radius = value.OuterRadius;
+            return kept;
+        }
+    }
 }

@@ -256,6 +256,103 @@ namespace Msq.Tests
             Throws<ArgumentException>(() => Structure.Foam(context, new Grid(ten, zero, new double[3]), 0.2));
         }
 
+        static void TestWarpedCells()
+        {
+            Shape ball = Shape.Sphere(context, zero, 8);
+            Func<Structure, Vec3[], bool[]> inside = (one, at) => new Model(context, ball, one).Membership(at);
+            Vec3[] points = Array.ConvertAll(Points(1000), one => new Vec3(one.X - 5, one.Y - 5, one.Z - 5));
+            double sin = Math.Sin(2 * Math.PI / 9), cos = Math.Cos(2 * Math.PI / 9);
+            Vec3[] turned = Array.ConvertAll( // by one cell
+                points, one => new Vec3(cos * one.X - sin * one.Y, sin * one.X + cos * one.Y, one.Z));
+            foreach (Warp warp in new[] { new Warp(9, 1, 4), new Warp(9, 1, 4, countPolar: 5) })
+            {
+                Structure gyroid = Structure.Functional(context, Function.Gyroid, 1.5, new FunctionalOptions { Warp = warp });
+                Structure bcc = Structure.Lattice(context, UnitCell.Bcc, 1.5, 0.2, new LatticeOptions { Warp = warp });
+                foreach (Structure one in new[] { gyroid, bcc })
+                {
+                    bool[] here = inside(one, points), there = inside(one, turned);
+                    True(here.Contains(true) && here.Contains(false));
+                    True(here.Zip(there, (a, b) => a != b).Count(differs => differs) < 4);
+                }
+            }
+            var none = new LatticeOptions { Warp = new Warp(0) };
+            True(Throws<MsqException>(() => Structure.Lattice(context, UnitCell.Bcc, 5, 0.2, none))
+                     .Message.Contains("warp.count is 0"));
+        }
+
+        static void TestPeriodsAndStretches()
+        {
+            Shape box = Shape.Box(context, zero, ten);
+            Func<Structure, bool[]> inside = one => new Model(context, box, one)
+                .GridMembership(new Vec3(0.1, 0.1, 0.1), new Vec3(0.49, 0.49, 0.49), 20, 20, 20);
+            Func<bool[], bool[], int> differ = (a, b) => a.Zip(b, (one, other) => one != other).Count(one => one);
+            var grid = new Grid(new Vec3(7, 2.5, 2.5)); // the period has its own size along x
+            Func<double[], Period> period = sizes =>
+                new Period(sizes.Select((_, i) => 5.0 * i).ToArray(), sizes, axis: 0);
+            Func<double[], Structure> bcc = sizes =>
+                Structure.Lattice(context, UnitCell.Bcc, grid, 0.4, new LatticeOptions { Period = period(sizes) });
+            Func<double[], Structure> sheet = sizes =>
+                Structure.Functional(context, Function.Gyroid, grid, new FunctionalOptions
+                { Kind = FunctionalKind.Sheet, Thickness = 0.4, Period = period(sizes) });
+            var one25 = new[] { 2.5 };
+            var graded = new[] { 2.5, 1.5 };
+            True(differ(inside(bcc(one25)), inside(Structure.Lattice(context, UnitCell.Bcc, 2.5, 0.4))) < 8);
+            True(differ(inside(bcc(one25)), inside(bcc(graded))) > 100);
+            True(differ(inside(sheet(one25)), inside(sheet(graded))) > 100);
+            Throws<ArgumentException>(() => new Period(graded, one25));
+            Throws<MsqException>(() => bcc(new double[0]));
+            Func<double[], bool[]> foam = stretch =>
+                inside(Structure.Foam(context, 2, 0.3, new FoamOptions { Stretch = stretch }));
+            True(foam(new double[] { 2, 2, 2 }).SequenceEqual(foam(null))); // only the proportions count
+            True(differ(foam(new double[] { 1, 1, 3 }), foam(null)) > 100);
+            Throws<ArgumentException>(() => foam(new double[2]));
+        }
+
+        static void TestPlates()
+        {
+            Shape box = Shape.Box(context, zero, ten);
+            Func<Structure, int> count = one => new Model(context, box, one)
+                .GridMembership(new Vec3(0.1, 0.1, 0.1), new Vec3(0.2, 0.2, 0.2), 50, 50, 50).Count(isIn => isIn);
+            Equal(125000 - 40 * 40 * 40, count(Structure.PlateLattice(context, PlateCell.Cubic, 2, 0.4)));
+            var corners = new[] { zero, new Vec3(1, 0, 0), new Vec3(1, 1, 0), new Vec3(0, 1, 0) };
+            var floor = new[] { 0, 1, 2, 0, 2, 3 };
+            Equal(125000 / 5, count(Structure.PlateLattice(context, corners, floor, 2, 0.4)));
+            var thin = new PlateLatticeOptions { FaceFactors = new[] { 0.01, 0.01 } };
+            Equal(0, count(Structure.PlateLattice(context, corners, floor, 2, 0.4, thin)));
+            thin.Radius = 0.3;
+            True(count(Structure.PlateLattice(context, corners, floor, 2, 0.4, thin)) > 5000);
+            thin.FaceFactors = new[] { 1.0 };
+            Throws<ArgumentException>(() => Structure.PlateLattice(context, corners, floor, 2, 0.4, thin));
+            Throws<ArgumentException>(() => Structure.PlateLattice(context, corners, new int[4], 2, 0.4));
+        }
+
+        static void TestStructuresOfStructures()
+        {
+            Shape box = Shape.Box(context, zero, ten);
+            Func<Structure, bool[]> inside = one => new Model(context, box, one)
+                .GridMembership(new Vec3(0.1, 0.1, 0.1), new Vec3(0.31, 0.31, 0.31), 32, 32, 32);
+            Structure bcc = Structure.Lattice(context, UnitCell.Bcc, 2.5, 0.3);
+            Structure gyroid = Structure.Functional(context, Function.Gyroid, 2.5);
+            bool[] a = inside(bcc), b = inside(gyroid);
+            Action<Func<bool, bool, bool>, Structure, Structure, bool> check = (both, plain, smooth, grows) =>
+            {
+                bool[] wanted = a.Zip(b, both).ToArray(), found = inside(smooth);
+                True(wanted.SequenceEqual(inside(plain)));
+                bool[] changed = wanted.Zip(found, (one, other) => one != other).ToArray();
+                True(changed.Contains(true));
+                for (int i = 0; i < changed.Length; ++i) True(!changed[i] || found[i] == grows);
+            };
+            check((x, y) => x || y, Structure.Union(bcc, gyroid), Structure.SmoothUnion(bcc, gyroid, 0.4), true);
+            check((x, y) => x && y, Structure.Intersection(bcc, gyroid), Structure.SmoothIntersection(bcc, gyroid, 0.4),
+                  false);
+            check((x, y) => x && !y, Structure.Difference(bcc, gyroid), Structure.SmoothDifference(bcc, gyroid, 0.4),
+                  false);
+            True(a.SequenceEqual(inside(Structure.Blend(bcc, gyroid, 0))));
+            True(b.SequenceEqual(inside(Structure.Blend(bcc, gyroid, 1))));
+            Throws<MsqException>(() => Structure.SmoothUnion(bcc, gyroid, -1));
+            Throws<ArgumentNullException>(() => Structure.SmoothUnion(null, gyroid, 1));
+        }
+
         static void TestRotatedGridsAndSkins()
         {
             Shape box = Shape.Box(context, zero, ten);
