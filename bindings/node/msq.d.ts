@@ -12,10 +12,18 @@ export declare class MsqError extends Error {
 }
 export declare function check(status: number): void;
 
+/** A graded period: as many cell sizes as positions. */
+export interface Period {
+  axis?: number;
+  positions: ArrayLike<number>;
+  cell_sizes: ArrayLike<number>;
+}
 /** Values for some members of a definition. A number or a field may stand for a parameter, an object of
- * msq for its address. */
+ * msq for its address, and values for a definition that a member points to. */
 export type Values<T> = {
-  [K in keyof T]?: T[K] extends msq_param ? number | Field | msq_param
+  [K in keyof T]?: K extends 'period' ? T[K] | Period
+    : K extends 'warp' ? T[K] | Values<Definitions['warp_def']>
+    : T[K] extends msq_param ? number | Field | msq_param
     : T[K] extends ArrayLike<number> ? ArrayLike<number>
     : T[K] extends object ? Values<T[K]> | Extract<T[K], ArrayBufferView | ArrayBuffer>
     : T[K] | Handle;
@@ -60,6 +68,10 @@ export declare class Structure extends Handle {
   static lattice(context: Context, values: Values<Definitions['lattice_def']>): Structure;
   static foam(context: Context, values: Values<Definitions['foam_def']>): Structure;
   static functional(context: Context, values: Values<Definitions['functional_def']>): Structure;
+  static plateLattice(context: Context, values: Values<Definitions['plate_lattice_def']>): Structure;
+  static boolean(operation: number, structures: readonly Structure[]): Structure;
+  static smoothBoolean(operation: number, a: Structure, b: Structure, radius: number | Field): Structure;
+  static blend(a: Structure, b: Structure, fraction: number | Field): Structure;
 }
 export declare class Model extends Handle {
   readonly kind: 'model';

@@ -30,6 +30,27 @@ export function check(status) {
   throw new MsqError(status, C.msq_error_message(), code);
 }
 
+// Members that point to another definition.
+const pointees = { period: 'period_def', warp: 'warp_def' };
+
+// The definition that a member points to. Its bytes keep the arrays that it points to itself.
+function pointee(name, values) {
+  const struct = definition(name, name === 'period_def' ? graded(values) : values);
+  const type = types[`msq_${name}`];
+  const bytes = Buffer.alloc(koffi.sizeof(type));
+  koffi.encode(bytes, type, struct);
+  bytes.keeps = struct;
+  return bytes;
+}
+
+// The positions and cell sizes of a period as memory, and how many there are.
+function graded({ positions = [], cell_sizes = [], ...rest }) {
+  const count = positions.length;
+  if (cell_sizes.length !== count)
+    throw new TypeError(`period has ${count} positions and ${cell_sizes.length} cell_sizes`);
+  return { ...rest, count, positions: Float64Array.from(positions), cell_sizes: Float64Array.from(cell_sizes) };
+}
+
 function set(struct, values, name) {
   for (const [key, value] of Object.entries(values)) {
     if (!(key in struct)) throw new TypeError(`${name} has no member ${key}`);
@@ -38,8 +59,9 @@ function set(struct, values, name) {
     if (isParam && typeof value === 'number') old.value = value;
     else if (isParam && value instanceof Handle) old.field = value.pointer;
     else if (value instanceof Handle) struct[key] = value.pointer;
-    else if (Object.getPrototypeOf(value ?? 0) === Object.prototype) set(old, value, `${name}.${key}`);
-    else struct[key] = value;
+    else if (Object.getPrototypeOf(value ?? 0) !== Object.prototype) struct[key] = value;
+    else if (key in pointees) struct[key] = pointee(pointees[key], value);
+    else set(old, value, `${name}.${key}`);
   }
   return struct;
 }
@@ -49,6 +71,11 @@ export function definition(name, values = {}) {
   const struct = {};
   check(C[`msq_${name}_init`](struct, koffi.sizeof(types[`msq_${name}`])));
   return set(struct, values, name);
+}
+
+// A number or a field, as a parameter beside a definition.
+function param(value) {
+  return value instanceof Handle ? { value: 0, field: value.pointer } : { value, field: null };
 }
 
 /** A report that msq has filled in: report('slicer_report', C.msq_slicer_info, slicer.pointer). */
@@ -147,6 +174,24 @@ export class Structure extends Handle {
   }
   static functional(context, values) {
     return Structure.#of('functional', context, values);
+  }
+  static plateLattice(context, values) {
+    return Structure.#of('plate_lattice', context, values);
+  }
+  /** operation: an MSQ_BOOLEAN_*. */
+  static boolean(operation, structures) {
+    const pointers = BigUint64Array.from(structures, (structure) => structure.pointer);
+    return new Structure('structure', (made) => C.msq_structure_boolean(
+      operation, pointers, pointers.length, made));
+  }
+  /** With fillets of a radius. operation: an MSQ_BOOLEAN_*. */
+  static smoothBoolean(operation, a, b, radius) {
+    return new Structure('structure', (made) => C.msq_structure_smooth_boolean(
+      operation, a.pointer, b.pointer, param(radius), made));
+  }
+  /** Becomes b as the fraction goes from 0 to 1. */
+  static blend(a, b, fraction) {
+    return new Structure('structure', (made) => C.msq_structure_blend(a.pointer, b.pointer, param(fraction), made));
   }
 }
 

@@ -89,6 +89,78 @@ test('a skin is left', () => {
   assert.equal(msq.Model.of(context, box, [{ structure, skin: 0.5 }]).membership(at)[0], 1);
 });
 
+/** Points near the origin, and the same after a ninth of a turn about the z axis. */
+function turnedPoints() {
+  const points = Float64Array.from({ length: 3000 }, (_, i) => 8 * ((i * 0.618034) % 1) - 4);
+  const [sin, cos] = [Math.sin(2 * Math.PI / 9), Math.cos(2 * Math.PI / 9)];
+  const turned = points.map((value, i) => [
+    () => cos * value - sin * points[i + 1], () => sin * points[i - 1] + cos * value, () => value][i % 3]());
+  return [points, turned];
+}
+
+function differing(a, b) {
+  return a.reduce((count, one, i) => count + (one !== b[i] ? 1 : 0), 0);
+}
+
+test('cells are warped', () => {
+  const ball = msq.Shape.sphere(context, [0, 0, 0], 8);
+  const [points, turned] = turnedPoints();
+  const values = { grid: { cell_size: [1.5, 1.5, 1.5] } };
+  for (const extra of [{}, { kind: abi.MSQ_WARP_SPHERICAL, count_polar: 5 }]) {
+    const warp = { count: 9, inner_radius: 1, outer_radius: 4, ...extra };
+    for (const structure of [
+      msq.Structure.functional(context, { ...values, function: abi.MSQ_FUNCTION_GYROID, warp }),
+      msq.Structure.lattice(context, { ...values, radius: 0.2, warp })]) {
+      const model = msq.Model.of(context, ball, [structure]);
+      const here = model.membership(points);
+      assert.ok(differing(here, model.membership(turned)) < 4);
+      assert.ok(here.includes(0) && here.includes(1));
+    }
+  }
+  assert.throws(() => msq.Structure.lattice(context, { ...values, radius: 0.2, warp: {} }), /warp.count is 0/);
+  assert.throws(() => msq.Structure.lattice(context, { warp: { counts: 9 } }), /warp_def has no member counts/);
+});
+
+function insideBox(structure) {
+  const points = Float64Array.from({ length: 9000 }, (_, i) => [8, 6, 4][i % 3] * ((i * 0.618034) % 1));
+  return msq.Model.of(context, box, [structure]).membership(points);
+}
+
+test('periods and stretches change the cells', () => {
+  const grid = { cell_size: [7, 2.5, 2.5] }; // the period has its own size along x
+  const period = (cell_sizes) => ({ axis: 0, positions: cell_sizes.map((_, i) => 5 * i), cell_sizes });
+  const bcc = (sizes) => insideBox(msq.Structure.lattice(context, { grid, radius: 0.4, period: period(sizes) }));
+  const sheet = (sizes) => insideBox(msq.Structure.functional(context, {
+    grid, function: abi.MSQ_FUNCTION_GYROID, kind: abi.MSQ_FUNCTIONAL_SHEET, thickness: 0.4, period: period(sizes) }));
+  const plain = insideBox(msq.Structure.lattice(context, { grid: { cell_size: [2.5, 2.5, 2.5] }, radius: 0.4 }));
+  assert.ok(differing(bcc([2.5]), plain) < 4);
+  assert.ok(differing(bcc([2.5, 1.5]), plain) > 50);
+  assert.ok(differing(sheet([2.5]), sheet([2.5, 1.5])) > 50);
+  assert.throws(() => bcc([]), /period.count is 0/);
+  assert.throws(() => msq.Structure.lattice(context, { period: { positions: [1, 2], cell_sizes: [1] } }),
+                /2 positions and 1 cell_sizes/);
+  const foam = (stretch) => insideBox(msq.Structure.foam(
+    context, { grid: { cell_size: [2, 2, 2] }, radius: 0.3, stretch }));
+  assert.deepEqual(foam([2, 2, 2]), foam([1, 1, 1])); // only the proportions count
+  assert.ok(differing(foam([1, 1, 3]), foam([1, 1, 1])) > 50);
+});
+
+test('plates, booleans with fillets, and blends', () => {
+  const plates = msq.Structure.plateLattice(context, { grid: { cell_size: [2, 2, 2] }, thickness: 0.4 });
+  const two = msq.Model.of(context, box, [plates]).membership(Float64Array.of(1, 1, 1.7, 1, 1, 1.9));
+  assert.deepEqual([...two], [0, 1]); // 0.3 and 0.1 from a plate
+  const bcc = msq.Structure.lattice(context, { grid: { cell_size: [2.5, 2.5, 2.5] }, radius: 0.3 });
+  const [a, b] = [insideBox(bcc), insideBox(plates)];
+  const either = insideBox(msq.Structure.boolean(abi.MSQ_BOOLEAN_UNION, [bcc, plates]));
+  assert.deepEqual(either, a.map((one, i) => one | b[i]));
+  const smooth = insideBox(msq.Structure.smoothBoolean(abi.MSQ_BOOLEAN_UNION, bcc, plates, 0.4));
+  assert.ok(differing(smooth, either) > 0 && smooth.every((one, i) => one >= either[i]));
+  assert.deepEqual(insideBox(msq.Structure.blend(bcc, plates, 1)), b);
+  const field = msq.Field.gradient(context, [0, 0, 0], 0, [8, 0, 0], 1);
+  assert.ok(differing(insideBox(msq.Structure.blend(bcc, plates, field)), a) > 0);
+  assert.throws(() => msq.Structure.smoothBoolean(abi.MSQ_BOOLEAN_UNION, bcc, plates, -1), /radius is .*-1/);
+});
+
 test('what is wrong is refused with the value', () => {
   assert.throws(() => msq.Shape.sphere(context, [0, 0, 0], -1),
                 (error) => error instanceof msq.MsqError && error.status === abi.MSQ_E_ARGUMENT

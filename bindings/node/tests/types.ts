@@ -10,6 +10,14 @@ const kind: number = definition('points_def', { kind: abi.MSQ_POINTS_GRID }).kin
 const cells: number | bigint = report('cache_report', C.msq_cache_stats, context.pointer).cells;
 for await (const layer of model.slicer({ layer_height: 0.1 }).layers()) console.log(layer.z + kind, cells);
 
+Structure.lattice(context, { radius: 0.1, warp: { count: 9, inner_radius: 1 } });
+Structure.functional(context, { period: { axis: 0, positions: [0, 1], cell_sizes: Float64Array.of(1, 2) } });
+Structure.smoothBoolean(abi.MSQ_BOOLEAN_UNION, foam, Structure.plateLattice(context, { thickness: 0.1 }), 0.2);
+
+// @ts-expect-error: no such member
+Structure.lattice(context, { warp: { counts: 9 } });
+// @ts-expect-error: no sizes
+Structure.lattice(context, { period: { positions: [0, 1] } });
 // @ts-expect-error: no such member
 Structure.foam(context, { radios: 0.2 });
 // @ts-expect-error: a parameter is no text
