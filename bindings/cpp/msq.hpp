@@ -238,6 +238,21 @@ using Camera = detail::Definition<msq_camera, msq_camera_init>;
 using RenderDef = detail::Definition<msq_render_def, msq_render_def_init>;
 using Frame = detail::Definition<msq_frame, msq_frame_init>;
 
+/// Cells whose size varies along an axis of the grid: a size for each position. The arrays must
+/// outlive the definition.
+inline PeriodDef period(int32_t axis, Span<const double> positions, Span<const double> cell_sizes) {
+  if (positions.size() != cell_sizes.size())
+    throw std::invalid_argument("msq::period: there are " + std::to_string(positions.size()) +
+                                " positions and " + std::to_string(cell_sizes.size()) +
+                                " cell_sizes");
+  PeriodDef def;
+  def.axis = axis;
+  def.positions = positions.data();
+  def.cell_sizes = cell_sizes.data();
+  def.count = positions.size();
+  return def;
+}
+
 // ---- Sets of points -----------------------------------------------------------------------------
 
 /// Triples x, y, z, which must outlive the definition.

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -239,6 +240,84 @@ void structures_of_the_host(void**) {
   assert_true(half.inside({4, 1, 1}) != half.inside({6, 1, 1}));
 }
 
+/// Membership of points in the cube.
+std::vector<uint8_t> inside_cube(const msq::Context& context, const msq::Structure& structure) {
+  std::vector<uint8_t> inside(30 * 30 * 30);
+  const msq::Model model(context, {cube(context), structure});
+  model.membership(msq::grid({0.1, 0.1, 0.1}, {0.33, 0.33, 0.33}, {30, 30, 30}), inside);
+  return inside;
+}
+
+size_t differing(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), size_t{0}, std::plus<>(),
+                            std::not_equal_to<>());
+}
+
+void cells_vary(void**) {
+  const msq::Context context;
+  msq::LatticeDef def;
+  for (double& size : def.grid.cell_size) size = 2.5;
+  def.radius = msq::param(0.4);
+  const auto inside = [&] { return inside_cube(context, msq::Structure::lattice(context, def)); };
+  const std::vector<uint8_t> plain = inside();
+
+  def.grid.cell_size[0] = 7;  // ignored: the period has its own size along x
+  const std::vector<double> positions = {0, 5}, even = {2.5, 2.5}, graded = {2.5, 1.5};
+  const msq::PeriodDef same = msq::period(0, positions, even);
+  def.period = &same;
+  assert_true(differing(inside(), plain) < 8);
+  const msq::PeriodDef period = msq::period(0, positions, graded);
+  def.period = &period;
+  assert_true(differing(inside(), plain) > 100);
+  assert_non_null(
+      std::strstr(thrown_by([&] { msq::period(0, positions, {}); }).c_str(), "2 positions and 0"));
+
+  def.period = nullptr;
+  msq::WarpDef warp;
+  def.warp = &warp;
+  assert_non_null(std::strstr(thrown_by(inside).c_str(), "warp.count is 0"));
+  warp.count = 4;  // a quarter of a turn: y takes the place of x
+  warp.inner_radius = 1;
+  for (size_t axis = 0; axis < 3; ++axis) def.grid.origin[axis] = 5;
+  const msq::Model model(context, {cube(context), msq::Structure::lattice(context, def)});
+  size_t found = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double x = std::fmod(i * 0.618034, 1) * 9 - 4.5, y = std::fmod(i * 0.754878, 1) * 9 - 4.5;
+    const double z = 5 + std::fmod(i * 0.569840, 1) * 4;
+    const bool here = model.inside({5 + x, 5 + y, z}), there = model.inside({5 - y, 5 + x, z});
+    found += here;
+    assert_true(here == there);
+  }
+  assert_true(found > 10 && found < 990);
+
+  msq::FoamDef foam;
+  for (double& size : foam.grid.cell_size) size = 2;
+  foam.radius = msq::param(0.3);
+  const auto of_foam = [&] { return inside_cube(context, msq::Structure::foam(context, foam)); };
+  const std::vector<uint8_t> round = of_foam();
+  for (double& stretch : foam.stretch) stretch = 2;  // only the proportions count
+  assert_int_equal(differing(of_foam(), round), 0);
+  foam.stretch[2] = 6;
+  assert_true(differing(of_foam(), round) > 100);
+}
+
+void plates_and_fillets(void**) {
+  const msq::Context context;
+  msq::PlateLatticeDef def;
+  for (double& size : def.grid.cell_size) size = 2;
+  def.thickness = msq::param(0.4);
+  const msq::Structure plates = msq::Structure::plate_lattice(context, def);
+  const msq::Model model(context, {cube(context), plates});
+  assert_true(model.inside({1, 1, 1.9}) && !model.inside({1, 1, 1.7}));  // 0.1 and 0.3 from a plate
+  const msq::Structure struts = foam(context, msq::param(0.3));
+  const auto plain =
+      inside_cube(context, msq::Structure::boolean(MSQ_BOOLEAN_UNION, {plates, struts}));
+  const auto smooth = inside_cube(
+      context, msq::Structure::smooth_boolean(MSQ_BOOLEAN_UNION, plates, struts, msq::param(0.5)));
+  assert_true(differing(plain, smooth) > 0);
+  for (size_t i = 0; i < plain.size(); ++i) assert_true(smooth[i] >= plain[i]);
+}
+
 void contexts_have_lambdas(void**) {
   const auto warned = std::make_shared<int>(0);
   std::atomic<uint64_t> tasks{0};
@@ -336,6 +415,8 @@ int main() {
       cmocka_unit_test(exceptions_of_objects_come_through),
       cmocka_unit_test(callbacks_are_freed_with_their_object),
       cmocka_unit_test(structures_of_the_host),
+      cmocka_unit_test(cells_vary),
+      cmocka_unit_test(plates_and_fillets),
       cmocka_unit_test(contexts_have_lambdas),
       cmocka_unit_test(everything_else_is_reached),
   };
