@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
- * msq_io: writes what msq computes as files of printers and other programs. A companion of libmsq,
- * with the libraries that the formats need; libmsq itself links none of them.
+ * msq_io: writes results of msq as files for printers and other programs. It is a library beside
+ * libmsq and links the libraries that the formats need. libmsq itself links none of them.
  *
- * A writer takes the layers of a run:
+ * A writer receives the layers of a run:
  *
  *   msq_io_writer* writer;
  *   status = msq_io_png_create(slicer, "layers", NULL, NULL, &writer);
@@ -13,18 +13,17 @@
  *
  * The rules of msq.h hold here, with these additions:
  *
- * Status. Functions return msq_status. The message of a failure is that of msq_io_error_message(),
- * also where msq refused what msq_io passed on to it.
+ * Status. Functions return msq_status. msq_io_error_message() returns the message of a failure,
+ * also if msq itself failed in a call of msq_io.
  *
  * Files. Paths are in UTF-8. A file gets its name when it is complete. Until then it has a
- * temporary name in the same folder, ".<name>.<letters>.part". A call that fails or is cancelled,
- * and a full disk, leave neither. Only the end of the process, by a signal for example, can leave
- * the temporary one. Folders of a path must exist. replace 0: a file that has the name already is
- * left as it is, and the call is refused with MSQ_E_IO. replace 1: the new file takes its place in
- * one step.
+ * temporary name in the same folder, ".<name>.<letters>.part". After a failure, a cancelled call or
+ * on a full disk neither file is left. Only a process that is killed can leave the temporary file.
+ * Folders of a path must exist. replace 0: if a file of this name exists, it stays as it is, and
+ * the call returns MSQ_E_IO. replace 1: the new file replaces it in one step.
  *
- * Same bytes. The bytes of a file depend on the layers and on the definitions, not on threads or
- * the clock.
+ * Same bytes. The bytes of a file depend on the layers and on the definitions, not on the number of
+ * threads or the clock.
  *
  * Every declaration exists since version 0.2 unless its comment says otherwise.
  */
@@ -66,7 +65,7 @@ MSQ_IO_API const char* msq_io_error_message(void);
 /** A file that appears under its name when it is complete. One thread at a time may use it. */
 typedef struct msq_io_file msq_io_file;
 
-/** Begins a file. Errors: ARGUMENT, IO (the name exists and replace is 0; the folder does not
+/** Creates a file. Errors: ARGUMENT, IO (the name exists and replace is 0; the folder does not
  * exist), MEMORY. */
 MSQ_IO_API msq_status msq_io_file_create(const char* path, int32_t replace, msq_io_file** file);
 
@@ -74,13 +73,14 @@ MSQ_IO_API msq_status msq_io_file_create(const char* path, int32_t replace, msq_
  * msq_io_file_finish), IO (a full disk, for example). */
 MSQ_IO_API msq_status msq_io_file_write(msq_io_file* file, const void* bytes, uint64_t size);
 
-/** Writes a part of a file at its offset. An msq_file_fn, for msq_surface_file: user is the
- * msq_io_file. Returns MSQ_OK or the status of the failure, which msq_error_host_code() then
- * returns. Errors: as msq_io_file_write. */
+/** Writes a part of a file at its offset. It is an msq_file_fn for msq_surface_file, where user is
+ * the msq_io_file. Returns MSQ_OK, or the status of a failure, which msq_error_host_code() then
+ * returns too. Errors: as msq_io_file_write. */
 MSQ_IO_API int32_t msq_io_file_part(void* user, const msq_file_part* part);
 
-/** Completes the file: its bytes are on the disk, and it has its name. If an earlier call failed,
- * returns the same failure. A file that cannot be completed is removed. Errors: ARGUMENT, IO. */
+/** Completes the file: writes its bytes to the disk and gives it its name. If an earlier call
+ * failed, returns the same failure. A file that cannot be completed is removed. Errors: ARGUMENT,
+ * IO. */
 MSQ_IO_API msq_status msq_io_file_finish(msq_io_file* file);
 
 /** Frees the object. A file that was not completed is removed. NULL: does nothing. */
@@ -88,25 +88,27 @@ MSQ_IO_API void msq_io_file_release(msq_io_file* file);
 
 /* ---- Writers of layers ----------------------------------------------------------------------- */
 
-/** Takes the layers of a slicer, in order, and writes them to a file or a folder. One thread at a
+/** Receives the layers of a slicer in order and writes them to a file or a folder. One thread at a
  * time may use it. */
 typedef struct msq_io_writer msq_io_writer;
 
-/** What writers of all formats have in common. */
+/** Options of writers of all formats. */
 typedef struct msq_io_writer_def {
   uint32_t struct_size;
-  /** Which of the outputs of a layer is written: its place in msq_layer.outputs. Default 0. */
+  /** Index in msq_layer.outputs of the output that is written. Default 0. */
   uint32_t output;
-  /** Threads that encode, including the one that calls msq_io_writer_layer. 0 (default): one per
-   * core. At most 256. 1: the calling thread only. Does not change the file. */
+  /** Number of threads that encode, including the one that calls msq_io_writer_layer, at most 256.
+   * 0 (default): one per core. 1: the calling thread only. Does not change the file. */
   uint32_t threads;
-  /** 1: an existing file of the same name is replaced. 0 (default): it is an error. */
+  /** 1: an existing file of the same name is replaced. 0 (default): an existing file is an error.
+   */
   int32_t replace;
-  /** Bytes of layers that wait for threads or for the disk, and of encoded ones. The thread that
-   * brings more encodes layers itself or waits, which holds msq back. A single layer may be larger.
-   * Default 16 MiB. Does not change the file. */
+  /** Maximum number of bytes of layers that wait for threads or for the disk, encoded or not. If
+   * there are more, the thread that calls msq_io_writer_layer encodes layers itself or waits. A
+   * single layer may be larger. Default 16 MiB. Does not change the file. */
   uint64_t queue_bytes;
-  /** Layers that will come, as in msq_slicer_run. Defaults 0 and UINT64_MAX: to the last. */
+  /** Layers that the writer will receive, as in msq_slicer_run. Defaults 0 and UINT64_MAX: from the
+   * first to the last. */
   uint64_t first_layer;
   uint64_t layer_count;
 } msq_io_writer_def;
@@ -114,40 +116,40 @@ typedef struct msq_io_writer_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_IO_API msq_status msq_io_writer_def_init(msq_io_writer_def* def, size_t size);
 
-/** Takes a layer, copies what it needs, and returns while threads of the writer encode it. An
- * msq_layer_fn, for msq_slicer_run: user is the msq_io_writer. A host with a callback of its own
- * calls it from there, for any number of writers. Layers must come in order, each once.
+/** Receives a layer and copies what it needs. Threads of the writer encode the layer after the
+ * call. It is an msq_layer_fn for msq_slicer_run, where user is the msq_io_writer. A host with its
+ * own callback may call it there, for any number of writers. Layers must come in order, each once.
  *
- * Returns MSQ_OK or the status of the failure of this layer or of an earlier one. That stops
- * msq_slicer_run with MSQ_E_HOST; msq_io_writer_finish then returns the failure itself. Errors:
+ * Returns MSQ_OK, or the status of the failure of this layer or of an earlier one. A failure stops
+ * msq_slicer_run with MSQ_E_HOST. msq_io_writer_finish then returns the failure itself. Errors:
  * ARGUMENT (also a layer out of order or of another size or output, and a writer that is finished),
- * IO, MEMORY; LIMIT as each format says. */
+ * IO, MEMORY; LIMIT as described for each format. */
 MSQ_IO_API int32_t msq_io_writer_layer(void* user, const msq_layer* layer);
 
 /** Waits for the threads and completes the file or folder. If an earlier call failed, returns the
- * same failure. Then, and if not all layers came, nothing is left. A second call returns what the
- * first one did. Errors: ARGUMENT, IO, LIMIT, MEMORY. */
+ * same failure. After a failure, and if layers are missing, no file is left. A second call returns
+ * the same status. Errors: ARGUMENT, IO, LIMIT, MEMORY. */
 MSQ_IO_API msq_status msq_io_writer_finish(msq_io_writer* writer);
 
-/** What a writer has done. */
+/** State of a writer. */
 typedef struct msq_io_writer_report {
   uint32_t struct_size;
   uint32_t reserved;
-  /** Layers that came. */
+  /** Layers received. */
   uint64_t layer_count;
-  /** Of these, the layers whose bytes have been written. */
+  /** Layers written. */
   uint64_t written_count;
-  /** Bytes written so far; after msq_io_writer_finish the size of the file or of all files. */
+  /** Bytes written. After msq_io_writer_finish: the size of the file, or of all files. */
   uint64_t bytes;
   /** Maximum number of bytes that were in the queue. */
   uint64_t peak_queue_bytes;
 } msq_io_writer_report;
 
-/** Reports what a writer has done. Errors: ARGUMENT. */
+/** Returns the state of a writer. Errors: ARGUMENT. */
 MSQ_IO_API msq_status msq_io_writer_info(const msq_io_writer* writer, msq_io_writer_report* report);
 
-/** Frees the object. If it was not finished with success, it first stops its threads and removes
- * what they wrote. NULL: does nothing. */
+/** Frees the object. If it was not finished with success, first stops its threads and removes what
+ * they wrote. NULL: does nothing. */
 MSQ_IO_API void msq_io_writer_release(msq_io_writer* writer);
 
 /* ---- PNG ------------------------------------------------------------------------------------- */
@@ -155,31 +157,31 @@ MSQ_IO_API void msq_io_writer_release(msq_io_writer* writer);
 /** Definition of a stack of PNG files. */
 typedef struct msq_io_png_def {
   uint32_t struct_size;
-  /** 0 (default): rows are stored as differences from the row above, whose zeros are compressed as
-   * runs, with the Huffman codes of ISA-L. That is several times as fast as the other levels, and
-   * smaller than level 1 for layers. In a build without ISA-L as level 1. 1 to 9: by libpng, at
-   * that level of zlib. The pixels are the same. */
+  /** 0 (default): rows are stored as differences from the row above. Runs of zeros and the Huffman
+   * codes of ISA-L compress them. This is several times as fast as the other levels, and layers
+   * become smaller than at level 1. A build without ISA-L uses level 1 instead. 1 to 9: libpng
+   * compresses at this level of zlib. The pixels are the same. */
   int32_t level;
-  /** Digits of the number of a layer in the name of its file, 1 to 20. Longer numbers have the
-   * digits that they need. Default 5. */
+  /** Minimum number of digits of a layer's number in the name of its file, 1 to 20. Default 5. */
   uint32_t digits;
-  /** What names begin with: 1 to 64 bytes without / \ and control characters, not beginning with a
-   * dot. NULL (default): "layer". */
+  /** Beginning of the names: 1 to 64 bytes without / \ and control characters, and without a dot
+   * at the beginning. NULL (default): "layer". */
   const char* prefix;
 } msq_io_png_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_IO_API msq_status msq_io_png_def_init(msq_io_png_def* def, size_t size);
 
-/** Begins a folder with one PNG file per layer: "layer00000.png" for layer 0 of the slicer. BITS
- * become images of 1 bit, BYTES and GREY of 8 bits; white is solid. The first row of the image is
- * row 0 of the layer, at the smallest y; MSQ_LAYER_MIRROR_Y turns the image upright.
+/** Creates a writer of a folder with one PNG file per layer: "layer00000.png" for layer 0 of the
+ * slicer. BITS become images of 1 bit per pixel, BYTES and GREY of 8 bits; white is solid. The
+ * first row of the image is row 0 of the layer, at the smallest y. With MSQ_LAYER_MIRROR_Y y points
+ * upwards in the image.
  *
- * The folder is made if it does not exist; it then appears with all its files in one step. If it
- * exists, the files are added to it at the end, each in one step, and a failure removes them.
+ * If the folder does not exist, it is created, and appears with all its files in one step. If it
+ * exists, msq_io_writer_finish adds the files to it, each in one step; a failure removes them.
  *
- * writer_def, def NULL: defaults. Errors: ARGUMENT (also an output that is neither BITS,
- * BYTES nor GREY, once layers come), IO, LIMIT (a layer of 2^31 bytes or more), MEMORY. */
+ * writer_def, def NULL: defaults. Errors: ARGUMENT (for an output that is neither BITS, BYTES nor
+ * GREY: when the first layer comes), IO, LIMIT (a layer of 2^31 bytes or more), MEMORY. */
 MSQ_IO_API msq_status msq_io_png_create(const msq_slicer* slicer, const char* path,
                                         const msq_io_writer_def* writer_def,
                                         const msq_io_png_def* def, msq_io_writer** writer);
@@ -197,8 +199,8 @@ MSQ_IO_API msq_status msq_io_picture_save(const char* path, uint32_t width, uint
  * Prusa SL1. */
 typedef struct msq_io_panel_def {
   uint32_t struct_size;
-  /** display_orientation. 1 (default): portrait, images are turned: x of the model runs along their
-   * columns. 0: landscape. */
+  /** display_orientation. 1 (default): portrait; x of the model runs along the columns of the
+   * images. 0: landscape. */
   int32_t portrait;
   /** display_pixels_x and display_pixels_y: along x and y of the model. Default 2560 and 1440. */
   uint32_t pixels[2];
@@ -212,11 +214,12 @@ typedef struct msq_io_panel_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_IO_API msq_status msq_io_panel_def_init(msq_io_panel_def* def, size_t size);
 
-/** Sets the fields of a slicer's definition that a panel decides: resolution, region, orientation
- * and, if plan has no outputs, output = MSQ_LAYER_GREY. The part is centred on the panel; the
- * bottom of layer 0 is the bottom of the model. plan must come from msq_slicer_def_init and have
- * its layer_height. A unit of the model is a millimetre. Other fields of plan remain. panel NULL:
- * defaults. Errors: ARGUMENT (also a model of all space, and one larger than the panel). */
+/** Sets the fields of a slicer's definition that depend on the panel: resolution, region,
+ * orientation and, if plan has no outputs, output = MSQ_LAYER_GREY. The part is centred on the
+ * panel. The bottom of layer 0 is the bottom of the model. plan must come from msq_slicer_def_init
+ * and have a layer_height. The unit of the model must be the millimetre. Other fields of plan stay
+ * as they are. panel NULL: defaults. Errors: ARGUMENT (also for a model of all space, and for one
+ * larger than the panel). */
 MSQ_IO_API msq_status msq_io_panel_plan(const msq_model* model, const msq_io_panel_def* panel,
                                         msq_slicer_def* plan);
 
@@ -225,20 +228,20 @@ typedef struct msq_io_sl1_def {
   uint32_t struct_size;
   /** As in msq_io_png_def. Default 0. */
   int32_t level;
-  /** faded_layers: number of layers over which the time falls from the first to the others.
-   * Default 10. */
+  /** faded_layers: number of layers over which the exposure time falls from initial_exposure_time
+   * to exposure_time. Default 10. */
   uint32_t faded_layers;
   /** NULL (default): those of msq_io_panel_def_init. Copied. */
   const msq_io_panel_def* panel;
-  /** jobDir, which names of layers begin with; as prefix in msq_io_png_def. NULL (default):
-   * "part". */
+  /** jobDir, the beginning of the names of layers; limits as for prefix in msq_io_png_def. NULL
+   * (default): "part". */
   const char* job;
   /** exposure_time. Default 8. */
   double exposure_time;
   /** initial_exposure_time. Default 35. */
   double initial_exposure_time;
-  /** fast_tilt_time and slow_tilt_time: for layers that fill at most, and more than, area_fill
-   * percent of the panel. Defaults 5, 8 and 50. They enter the estimate of the print time. */
+  /** fast_tilt_time is for layers that fill at most area_fill percent of the panel, slow_tilt_time
+   * for others. Defaults 5, 8 and 50. The estimate of the print time uses them. */
   double fast_tilt_time;
   double slow_tilt_time;
   double area_fill;
@@ -247,28 +250,28 @@ typedef struct msq_io_sl1_def {
   const char* printer_model;
   const char* printer_variant;
   const char* material;
-  /** More lines "key = value" for prusaslicer.ini, each ended by a line feed. Keys that msq_io
-   * writes are refused. NULL (default): none. */
+  /** Other lines "key = value" for prusaslicer.ini, each with a line feed at its end. Keys that
+   * msq_io writes itself are errors. NULL (default): none. */
   const char* settings;
   /** fileCreationTimestamp, in seconds since 1970-01-01 UTC, at least 315532800 (1980). 0
    * (default): that of 1980-01-01, so that the same layers make the same file. */
   int64_t created;
-  /** layer_height in millimetres. 0 (default): the distance of the layers, which are then two at
-   * least. */
+  /** layer_height in millimetres. 0 (default): the distance between layers; there must then be at
+   * least two. */
   double layer_height;
-  /** Of which the two thumbnails, of 400 x 400 and 800 x 480 pixels, are rendered when the writer
-   * is created. NULL (default): no thumbnails. */
+  /** Model of the two thumbnails, of 400 x 400 and 800 x 480 pixels. They are rendered when the
+   * writer is created. NULL (default): no thumbnails. */
   const msq_model* thumbnail_model;
 } msq_io_sl1_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_IO_API msq_status msq_io_sl1_def_init(msq_io_sl1_def* def, size_t size);
 
-/** Begins an SL1 archive: config.ini and prusaslicer.ini with PrusaSlicer's keys, one PNG of 8 bits
- * per layer, and thumbnails. Layers must have the size of the panel, as msq_io_panel_plan makes
- * them, at even heights, and hold GREY or BYTES. writer_def, def NULL: defaults. job: for the
- * thumbnails; NULL: no job. Errors: ARGUMENT, CANCELLED, HOST, IO, LIMIT (as msq_io_png_create),
- * MEMORY. */
+/** Creates a writer of an SL1 archive: config.ini and prusaslicer.ini with PrusaSlicer's keys, one
+ * PNG of 8 bits per pixel per layer, and thumbnails. Layers must have the size of the panel
+ * (msq_io_panel_plan), equal distances, and an output of GREY or BYTES. writer_def, def NULL:
+ * defaults. job: cancels the rendering of thumbnails; NULL: no job. Errors: ARGUMENT, CANCELLED,
+ * HOST, IO, LIMIT (as msq_io_png_create), MEMORY. */
 MSQ_IO_API msq_status msq_io_sl1_create(const msq_slicer* slicer, const char* path,
                                         const msq_io_writer_def* writer_def,
                                         const msq_io_sl1_def* def, msq_io_writer** writer,
@@ -278,8 +281,8 @@ MSQ_IO_API msq_status msq_io_sl1_create(const msq_slicer* slicer, const char* pa
 
 /** How layers are divided into SVG files. */
 enum msq_io_svg_layout {
-  /** One file with a group per layer, as Slic3r and PrusaSlicer write and read them: polygons,
-   * white for outer rings and black for holes. */
+  /** One file with a group per layer, in the form of Slic3r and PrusaSlicer: polygons, white for
+   * outer rings and black for holes. */
   MSQ_IO_SVG_STACK = 1,
   /** A folder with a file per layer, each one path filled by the even-odd rule. */
   MSQ_IO_SVG_FILES = 2
@@ -303,11 +306,11 @@ typedef struct msq_io_svg_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_IO_API msq_status msq_io_svg_def_init(msq_io_svg_def* def, size_t size);
 
-/** Begins an SVG file or a folder of them, from an output of CONTOURS (writer_def->output says
- * which). The picture is the rectangle of the slicer's pixels in model units, with y upwards;
- * width and height are given in millimetres. Coordinates are relative to its corner of smallest x
- * and largest y. Folders as for msq_io_png_create. writer_def, def NULL: defaults. Errors:
- * ARGUMENT, IO, MEMORY. */
+/** Creates a writer of an SVG file, or of a folder of SVG files, from the output of CONTOURS that
+ * writer_def->output selects. The picture is the rectangle of the slicer's pixels in model units,
+ * with y upwards. Its width and height are in millimetres. Coordinates are relative to its corner
+ * of smallest x and largest y. Folders are created as by msq_io_png_create. writer_def, def NULL:
+ * defaults. Errors: ARGUMENT, IO, MEMORY. */
 MSQ_IO_API msq_status msq_io_svg_create(const msq_slicer* slicer, const char* path,
                                         const msq_io_writer_def* writer_def,
                                         const msq_io_svg_def* def, msq_io_writer** writer);
@@ -322,12 +325,11 @@ MSQ_IO_API msq_status msq_io_surface_save(const msq_model* model, const msq_surf
 
 /* ---- 3MF ------------------------------------------------------------------------------------- */
 
-/** How struts are written as a beam lattice. */
+/** Definition of a beam lattice. */
 typedef struct msq_io_beams_def {
   uint32_t struct_size;
-  /** What the mesh is for: an msq_clipping. NONE (default): it is solid, and united with the beams.
-   * INSIDE, OUTSIDE: the part of the beams inside or outside it is kept; the mesh itself is not
-   * solid. */
+  /** Meaning of the mesh, an msq_clipping. NONE (default): the mesh is solid too. INSIDE, OUTSIDE:
+   * only the part of the beams inside or outside the mesh is kept, and the mesh is not solid. */
   int32_t clipping;
   /** The mesh, in the coordinates of the struts. NULL (default): none. */
   const msq_mesh_def* mesh;
@@ -337,11 +339,11 @@ typedef struct msq_io_beams_def {
 MSQ_IO_API msq_status msq_io_beams_def_init(msq_io_beams_def* def, size_t size);
 
 /** Writes struts (msq_structure_strut_graph) to a 3MF file: a beam lattice with the radii and caps
- * of their ends. Struts of no length become balls, which need the extension for balls. A unit of
- * the model is a millimetre. Numbers are written with as many digits as it takes to read the same
- * doubles; msq_beam_file_open reads the same struts, and programs with float32 read these rounded.
- * replace as in msq_io_writer_def. def NULL: defaults. Cost: about 4 us per strut, most of
- * it for compression; some megabytes of memory. Errors: ARGUMENT (also a graph without struts), IO,
+ * of their ends. Struts of length 0 become balls, for which readers need the extension for balls.
+ * The unit of the model must be the millimetre. Numbers have enough digits to read the same doubles
+ * again: msq_beam_file_open reads the same struts. Programs with float32 round them. replace as in
+ * msq_io_writer_def. def NULL: defaults. Cost: about 4 us per strut, mostly compression; some
+ * megabytes of memory. Errors: ARGUMENT (also a graph without struts), IO,
  * LIMIT (2^31 - 1 struts, nodes, vertices or triangles), MESH (no triangles, index out of range,
  * vertex that is not finite), MEMORY. */
 MSQ_IO_API msq_status msq_io_beams_save(const msq_strut_graph* graph, const msq_io_beams_def* def,
@@ -353,19 +355,21 @@ typedef struct msq_io_slices_def {
   uint32_t reserved;
   /** units of the contours (msq_contours_def), which coordinates are divided by. Default 1. */
   double units;
-  /** Height of the layer, for a stack of one. Others end halfway between layers. Default 0. */
+  /** Height of the layer if there is only one. The slices of several layers end halfway between
+   * them. Default 0. */
   double layer_height;
 } msq_io_slices_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_IO_API msq_status msq_io_slices_def_init(msq_io_slices_def* def, size_t size);
 
-/** Begins a 3MF file whose one object is a stack of slices, from an output of CONTOURS
- * (writer_def->output says which). x and y are u and v of the contours. The object's mesh is the
- * box about the slices, of low resolution: readers must know the slice extension. Numbers as in
+/** Creates a writer of a 3MF file whose one object is a stack of slices, from the output of
+ * CONTOURS that writer_def->output selects. x and y are u and v of the contours. The object's mesh
+ * is only the box around the slices, so readers must support the slice extension. Numbers as in
  * msq_io_beams_save. writer_def, def NULL: defaults. The writer retains the slicer. Cost: about
- * 1 us per point. Memory: as other writers. Errors: ARGUMENT (also if all layers are empty, when
- * they have come), IO, LIMIT (4 GB of text before compression, 30 million points or more), MEMORY.
+ * 1 us per point. Memory: as other writers. Errors: ARGUMENT (if all layers are empty: from
+ * msq_io_writer_finish), IO, LIMIT (4 GB of text before compression, 30 million points or more),
+ * MEMORY.
  */
 MSQ_IO_API msq_status msq_io_slices_create(const msq_slicer* slicer, const char* path,
                                            const msq_io_writer_def* writer_def,
