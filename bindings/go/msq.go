@@ -216,6 +216,8 @@ type Foam struct {
 	CellSize [3]float64
 	Radius   float64
 	Seed     uint64
+	// Stretch is how much longer the cells of the foam are along each axis of the grid. Zeros: not at all.
+	Stretch [3]float64
 }
 
 // NewFoam makes a foam.
@@ -232,6 +234,11 @@ func NewFoam(context *Context, foam Foam) (*Structure, error) {
 		}
 		def.radius.value = C.double(foam.Radius)
 		def.seed = C.uint64_t(foam.Seed)
+		if foam.Stretch != [3]float64{} {
+			for axis, stretch := range foam.Stretch {
+				def.stretch[axis] = C.double(stretch)
+			}
+		}
 		return C.msq_structure_foam(context.raw, &def, &made.raw)
 	})
 	runtime.SetFinalizer(made, (*Structure).Close)

@@ -3,6 +3,7 @@ package msq
 
 import (
 	"errors"
+	"math"
 	"runtime"
 	"strings"
 	"testing"
@@ -69,6 +70,46 @@ func TestRefusalsHaveStatusAndMessage(t *testing.T) {
 	_, err := Sphere(context, [3]float64{}, -1)
 	var refused *Error
 	if !errors.As(err, &refused) || refused.Status != ErrArgument || !strings.Contains(err.Error(), "-1") {
+		t.Error(err)
+	}
+}
+
+func TestFoamsAreStretched(t *testing.T) {
+	context, _ := foamModel(t)
+	ball, err := Sphere(context, [3]float64{}, 4)
+	check(t, err)
+	points := make([][3]float64, 2000)
+	for i := range points {
+		for axis, step := range [3]float64{0.618034, 0.754878, 0.569840} {
+			points[i][axis] = 6*math.Mod(float64(i)*step, 1) - 3
+		}
+	}
+	inside := func(stretch [3]float64) []bool {
+		foam, err := NewFoam(context, Foam{CellSize: [3]float64{2, 2, 2}, Radius: 0.3, Stretch: stretch})
+		check(t, err)
+		model, err := NewModel(context, ball, foam)
+		check(t, err)
+		found, err := model.Membership(points)
+		check(t, err)
+		return found
+	}
+	differ := func(a, b []bool) (count int) {
+		for i := range a {
+			if a[i] != b[i] {
+				count++
+			}
+		}
+		return
+	}
+	plain := inside([3]float64{})
+	if count := differ(plain, inside([3]float64{2, 2, 2})); count != 0 { // only the proportions count
+		t.Errorf("%d points differ", count)
+	}
+	if count := differ(plain, inside([3]float64{1, 1, 3})); count < 50 {
+		t.Errorf("only %d points differ", count)
+	}
+	_, err = NewFoam(context, Foam{CellSize: [3]float64{2, 2, 2}, Radius: 0.3, Stretch: [3]float64{1, 1, 0}})
+	if err == nil || !strings.Contains(err.Error(), "stretch[2] is 0") {
 		t.Error(err)
 	}
 }
