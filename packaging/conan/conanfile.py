@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""msq as a package of Conan 2, from the sources that this file lies in:
+"""msq as a package of Conan 2, from the sources of the tree that this file is in:
 
     conan create packaging/conan --build=missing
 
-With libraries of the system in place of packages: -pr packaging/conan/debian12.profile.
+With libraries of the system instead of packages: -pr packaging/conan/debian12.profile.
 """
 import os
 import re

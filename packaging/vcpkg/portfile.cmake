@@ -1,4 +1,4 @@
-# An overlay port: the sources are those of the tree that it lies in.
+# An overlay port: the sources are those of the tree that it is in.
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 
 vcpkg_check_features(OUT_FEATURE_OPTIONS FEATURE_OPTIONS
