@@ -90,8 +90,8 @@ namespace Msq
         }
     }
 
-    /// <summary>Cells whose size varies along one axis of the grid, which ignores its own size there. The number
-    /// of cells per unit length is linear between positions and constant beyond them.</summary>
+    /// <summary>Cells whose size varies along one axis of the grid; the grid's own cell size along this axis is
+    /// ignored. The number of cells per unit length is linear between positions and constant beyond them.</summary>
     public sealed class Period
     {
         private readonly double[] positions, cellSizes;
