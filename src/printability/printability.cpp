@@ -22,6 +22,7 @@ SlicePlan plan_of_bits(const Slicer& slicer) {
   SlicePlan plan = slicer.plan();
   plan.outputs = {OutputPlan{}};
   plan.orientation = {};
+  plan.keeps_words = true;
   return plan;
 }
 

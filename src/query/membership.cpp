@@ -212,15 +212,27 @@ void fill_regions(const Model& model, const Scales& resolved, const RowBlock& bl
 }  // namespace
 
 void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
-               uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts) {
+               uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts,
+               const FinishRows& finish) {
   const RowBlock slab = slab_of(grid, z0, z1, words);
   const Executor& executor = model.executor();
+  const auto for_each_layer = [&](const auto& visit) {
+    executor.for_each(z1 - z0, [&](uint64_t layer) {
+      check_cancelled(job);
+      RowBlock block = slab;
+      block.z0 = z0 + layer;
+      block.z1 = block.z0 + 1;
+      block.words = slab.row(0, block.z0);
+      visit(block);
+    });
+  };
+  model.prepare_skins(resolved, job);
   if (!model.regions().empty()) {
-    model.prepare_skins(resolved, job);
-    return fill_regions(model, resolved, slab, executor, job, counts);
+    fill_regions(model, resolved, slab, executor, job, counts);
+    if (finish) for_each_layer(finish);
+    return;
   }
 
-  model.prepare_skins(resolved, job);
   const auto fill_from_shape = [&](const RowBlock& block) {
     fill_shape(model.shape(), block);
     if (!counts) return;
@@ -230,13 +242,9 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
   };
   const bool is_by_tile = !resolved.empty() && fills_rows_apart(model.shape());
   if (!is_by_tile)
-    executor.for_each(z1 - z0, [&](uint64_t layer) {
-      check_cancelled(job);
-      RowBlock block = slab;
-      block.z0 = z0 + layer;
-      block.z1 = block.z0 + 1;
-      block.words = slab.row(0, block.z0);
+    for_each_layer([&](const RowBlock& block) {
       fill_from_shape(block);
+      if (resolved.empty() && finish) finish(block);
     });
   if (resolved.empty()) return;
 
@@ -248,6 +256,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
       if (const uint64_t living = counts ? samples_of(block) : 0) counts->add_group(living);
       scale->keep_rows(block, job);
     }
+    if (finish) finish(block);
   });
 }
 

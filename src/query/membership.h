@@ -3,6 +3,7 @@
 // coarsest. Finer scales evaluate only the points that coarser ones do not decide.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "base/job.h"
@@ -13,10 +14,15 @@
 
 namespace msq {
 
+/// Called with parts of a slab whose bits are final, each once, on any thread. It may change them.
+using FinishRows = std::function<void(const RowBlock&)>;
+
 /// Computes the bits of layers [z0, z1) of a grid, rows tightly packed in words_for(nx) words.
-/// Overwrites `words`. Processes whole layers, in parallel.
+/// Overwrites `words`. Processes whole layers, in parallel. `finish`: empty, or called for all
+/// rows.
 void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& grid, uint64_t z0,
-               uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts = nullptr);
+               uint64_t z1, uint64_t* words, const Job* job, QueryCounts* counts = nullptr,
+               const FinishRows& finish = {});
 
 /// The same of rows [y0, y1) of the layers alone, on the calling thread. `words` are those of whole
 /// layers. The model's skins are prepared.

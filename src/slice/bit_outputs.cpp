@@ -74,13 +74,16 @@ uint64_t count_inside(const LayerSource& source) {
                                           words_for(source.pixels.nx) * source.pixels.ny);
 }
 
+void write_bits(const uint64_t* rows, size_t words, uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(reverse_bits_of_bytes)(rows, words, out);
+}
+
 class BitOutput final : public LayerOutput {
  public:
   unsigned pixel_bytes() const override { return 0; }
   unsigned samples_across() const override { return 1; }
   uint64_t write(const LayerSource& source, uint8_t* out) const override {
-    const size_t count = words_for(source.pixels.nx) * source.pixels.ny;
-    HWY_DYNAMIC_DISPATCH(reverse_bits_of_bytes)(source.words, count, out);
+    write_bits(source.words, words_for(source.pixels.nx) * source.pixels.ny, out);
     return count_inside(source);
   }
 };
@@ -108,9 +111,14 @@ std::unique_ptr<const LayerOutput> make_bit_output() {
   return std::make_unique<BitOutput>();
 }
 
+uint64_t finish_bit_rows(uint64_t* rows, size_t words) {
+  write_bits(rows, words, reinterpret_cast<uint8_t*>(rows));
+  return HWY_DYNAMIC_DISPATCH(count_bits)(rows, words);
+}
+
 void read_bit_output(const uint8_t* written, size_t words, uint64_t* rows) {
   std::memcpy(rows, written, words * sizeof(uint64_t));
-  HWY_DYNAMIC_DISPATCH(reverse_bits_of_bytes)(rows, words, reinterpret_cast<uint8_t*>(rows));
+  write_bits(rows, words, reinterpret_cast<uint8_t*>(rows));
 }
 
 std::unique_ptr<const LayerOutput> make_byte_output() {

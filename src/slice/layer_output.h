@@ -84,6 +84,8 @@ SampleGrid divided(const SampleGrid& pixels, unsigned across);
 std::unique_ptr<const LayerOutput> make_layer_output(const OutputPlan& plan, const Model& model,
                                                      const Scales& resolved);
 
+/// Writes what the bit output writes in the place of rows of bits. Returns the number inside.
+uint64_t finish_bit_rows(uint64_t* rows, size_t words);
 /// The rows of bits, sample 0 in the lowest bit, that the bit output has written.
 void read_bit_output(const uint8_t* written, size_t words, uint64_t* rows);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "query/membership.h"
+#include "slice/layer_output.h"
 
 namespace msq {
 
@@ -22,11 +23,12 @@ bool fills_ahead(const Model& model) {
 }  // namespace
 
 SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
-                       const std::vector<SampleGrid>& grids, Depth depth, Bands bands,
-                       uint64_t first, uint64_t last, Job* job)
+                       const std::vector<SampleGrid>& grids, std::vector<bool> as_bit_output,
+                       Depth depth, Bands bands, uint64_t first, uint64_t last, Job* job)
     : model_(model),
       resolved_(resolved),
       grids_(grids),
+      as_bit_output_(std::move(as_bit_output)),
       first_(first),
       last_(last),
       depth_(depth),
@@ -42,7 +44,8 @@ SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
     const uint64_t words = words_for(grid.nx) * rows_of_pixel(grid, bands) * bands.band_rows;
     layer_words_.push_back(words);
     const auto layers = [words](uint64_t count) {
-      return std::make_unique_for_overwrite<uint64_t[]>(count * words);
+      return GridSlab{std::make_unique_for_overwrite<uint64_t[]>(count * words),
+                      std::make_unique<std::atomic<uint64_t>[]>(count)};
     };
     current_.push_back(layers(is_one_slab && is_ahead_ ? depth.first : depth.others));
     if (is_ahead_) next_.push_back(layers(is_one_slab ? depth.others - depth.first : depth.others));
@@ -75,7 +78,19 @@ void SlabsAhead::fill(const Piece& piece, Slab& slab, const Job* job) const {
     const uint64_t across = rows_of_pixel(grids_[g], bands_);
     const SampleGrid rows =
         rows_of(grids_[g], across * bands_.begin(piece.band), across * bands_.end(piece.band));
-    fill_slab(model_, resolved_, rows, piece.begin, piece.end, slab[g].get(), job);
+    FinishRows finish;
+    if (as_bit_output_[g]) {
+      std::atomic<uint64_t>* const inside = slab[g].inside.get();
+      std::fill_n(inside, piece.end - piece.begin, uint64_t{0});
+      finish = [inside, begin = piece.begin](const RowBlock& block) {
+        for (uint64_t k = block.z0; k < block.z1; ++k)
+          inside[k - begin].fetch_add(
+              finish_bit_rows(block.row(block.y0, k), block.rows() * block.row_stride),
+              std::memory_order_relaxed);
+      };
+    }
+    fill_slab(model_, resolved_, rows, piece.begin, piece.end, slab[g].words.get(), job, nullptr,
+              finish);
   }
 }
 

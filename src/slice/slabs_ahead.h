@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -41,9 +42,11 @@ class SlabsAhead {
                         uint64_t layers);
 
   /// Of layers [first, last) of grids with the same layers, of which there may be none. No slab has
-  /// more layers than there are. Fills the first slab or band.
+  /// more layers than there are. `as_bit_output`: the grids whose rows become what the bit output
+  /// writes, as soon as they are filled. Fills the first slab or band.
   SlabsAhead(const Model& model, const Scales& resolved, const std::vector<SampleGrid>& grids,
-             Depth depth, Bands bands, uint64_t first, uint64_t last, Job* job);
+             std::vector<bool> as_bit_output, Depth depth, Bands bands, uint64_t first,
+             uint64_t last, Job* job);
   /// Stops the slab ahead.
   ~SlabsAhead();
 
@@ -51,12 +54,20 @@ class SlabsAhead {
   void go_to(uint64_t layer, uint64_t band);
   /// Rows of the current band of a grid, in words_for(nx) words each. Valid until go_to().
   const uint64_t* words(size_t grid) const {
-    return current_[grid].get() + (layer_ - piece_.begin) * layer_words_[grid];
+    return current_[grid].words.get() + (layer_ - piece_.begin) * layer_words_[grid];
+  }
+  /// Samples inside of the current band of a grid of `as_bit_output`.
+  uint64_t inside_count(size_t grid) const {
+    return current_[grid].inside[layer_ - piece_.begin].load(std::memory_order_relaxed);
   }
 
  private:
-  /// Of each grid. Pages are touched as layers are filled: a shallow first slab needs few.
-  using Slab = std::vector<std::unique_ptr<uint64_t[]>>;
+  struct GridSlab {
+    /// Pages are touched as layers are filled: a shallow first slab needs few.
+    std::unique_ptr<uint64_t[]> words;
+    std::unique_ptr<std::atomic<uint64_t>[]> inside;  ///< of each layer
+  };
+  using Slab = std::vector<GridSlab>;  ///< of each grid
   /// Layers that are filled at once, or a band of one.
   struct Piece {
     uint64_t begin, end, band = 0;
@@ -69,6 +80,7 @@ class SlabsAhead {
   const Model& model_;
   const Scales& resolved_;
   const std::vector<SampleGrid>& grids_;
+  const std::vector<bool> as_bit_output_;
   const uint64_t first_, last_;
   const Depth depth_;
   const Bands bands_;

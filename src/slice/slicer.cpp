@@ -298,6 +298,9 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   }
   const Portions portion = portions(last - first, all_bytes);
   const SlabsAhead::Bands& bands = portion.bands;
+  std::vector<bool> as_bit_output(samples_.size());
+  for (const Output& output : outputs_)
+    if (is_in_place(output, bands)) as_bit_output[output.samples] = true;
   const Reservation reservation(model_->context().budget, portion.bytes,
                                 samples_.empty()    ? "a layer"
                                 : bands.count() > 1 ? "a layer and bands of its rows"
@@ -306,7 +309,8 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
     max_plain_bytes = std::max(max_plain_bytes, plain_bytes(output, bands.band_rows));
   std::vector<uint8_t> bytes(all_bytes), plain(max_plain_bytes);
   std::vector<LayerPart> parts(outputs_.size());
-  SlabsAhead slabs(*framed_, framed_resolved_, samples_, portion.depth, bands, first, last, job);
+  SlabsAhead slabs(*framed_, framed_resolved_, samples_, as_bit_output, portion.depth, bands, first,
+                   last, job);
   const auto make = [&](uint64_t layer, size_t n, Job* part) {
     return contours(layer, outputs_[with_contours[n]].plan.contours, part);
   };
@@ -318,6 +322,12 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
       const Output& output = outputs_[i];
       if (!output.pixels) continue;
       const uint64_t* words = output.samples == no_samples ? nullptr : slabs.words(output.samples);
+      if (words && as_bit_output[output.samples]) {
+        parts[i].data = reinterpret_cast<const uint8_t*>(words);
+        parts[i].inside_count = slabs.inside_count(output.samples);
+        out += layer_bytes(i);
+        continue;
+      }
       if (bands.count() == 1) parts[i].words = words;
       Job part(job);  // its progress is not that of the call
       parts[i].inside_count +=
@@ -341,6 +351,13 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
     if (job)
       job->set_progress(static_cast<double>(k + 1 - first) / static_cast<double>(last - first));
   }
+}
+
+bool Slicer::is_in_place(const Output& output, const SlabsAhead::Bands& bands) const {
+  return output.plan.format == LayerFormat::bits && !plan_.keeps_words && bands.count() == 1 &&
+         plan_.orientation.is_plain() &&
+         std::count_if(outputs_.begin(), outputs_.end(),
+                       [&](const Output& other) { return other.samples == output.samples; }) == 1;
 }
 
 uint64_t Slicer::plain_bytes(const Output& output, uint64_t rows) const {

@@ -32,13 +32,15 @@ struct SlicePlan {
   Orientation orientation;
   /// Region, pixels, heights and layers are in its coordinates.
   LayerFrame frame;
+  /// Layers of a run come with LayerPart::words.
+  bool keeps_words = false;
 };
 
 /// What one of the outputs is in a layer.
 struct LayerPart {
   const uint8_t* data = nullptr;  ///< null: contours
-  /// Rows of the bits that the output is made of, before they are turned; null: it has none, or
-  /// the layer was filled in bands.
+  /// Rows of the bits that the output is made of, before they are turned; null: it has none, the
+  /// plan does not keep them, or the layer was filled in bands.
   const uint64_t* words = nullptr;
   uint64_t inside_count = 0;
   Contours* contours = nullptr;
@@ -120,6 +122,8 @@ class Slicer final : public RefCounted {
   uint64_t band_rows(uint64_t max_sample_bytes,
                      const std::function<uint64_t(uint64_t)>& bytes_of) const;
   SampleGrid divided_pixels(unsigned across) const;
+  /// Whether an output is made in the place of its samples: bits that nothing else is made of.
+  bool is_in_place(const Output& output, const SlabsAhead::Bands& bands) const;
   /// Bytes of rows of an output as it writes them, before they are turned; 0 where they are not.
   uint64_t plain_bytes(const Output& output, uint64_t rows) const;
   /// Writes rows [begin, end) of a layer from their bits, where the output has samples. The bands
