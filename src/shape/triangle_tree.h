@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // The distance from a point to the nearest of many triangles, by a tree of bounds.
 //
-// It is a binary tree; each node is split at the median centre along its longest extent. So it is
-// balanced: its depth is the logarithm of the number of triangles, for any triangles. The search
-// visits the nearer child first, and no node that is farther than the best so far. A node's
-// triangles lie in a box, and in a round cylinder along their mean normal. Larsen, Gottschalk, Lin
-// and Manocha ("Fast proximity queries with swept sphere volumes", 1999) show how much bounds gain
-// that fit a surface. A box is as thick as its patch is wide, and far from a smooth surface very
-// many boxes are about as near as the nearest; the cylinder is flat.
+// A node has up to eight children, and a leaf is a block of eight triangles: as many are evaluated
+// at once (triangle_search.h). The triangles are halved again and again at the median centre along
+// the longest extent, up to blocks. All nodes are full but for the last ones, so the depth is the
+// logarithm of the number of triangles, for any triangles. The search visits the nearest child
+// first, and no child that is provably farther than the best so far. A child's triangles lie in a
+// box, and in a round cylinder along their mean normal. Larsen, Gottschalk, Lin and Manocha ("Fast
+// proximity queries with swept sphere volumes", 1999) show how much bounds gain that fit a surface.
+// A box is as thick as its patch is wide, and far from a smooth surface very many boxes are about
+// as near as the nearest; the cylinder is flat.
+//
+// The result is the minimum of TreeTriangle::distance_squared() over all triangles, with its bits.
+// Proof: let M be the largest coordinate of the triangles. TreeTriangle::distance_squared() is the
+// square of the distance D of a point of the triangle, and the bound that of the distance B of a
+// volume which contains the triangle. Each computes less than 100 sums, products and roots of
+// numbers up to 8 (D + M), so rounding changes it by less than 2^-43 (D + M). As B would be at most
+// D without rounding, it is at most D (1 + 2^-42) + 2^-42 M. Since (x + y)^2 is at most x^2 (1 + h)
+// + y^2 (1 + 1/h), here with h = 2^-21, its square is less than D^2 (1 + 2^-20) + 2^-62 M^2.
+// Children whose squared bound reaches that, with the best so far as D, have no nearer triangle,
+// and none as near.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +29,9 @@
 #include "base/ray.h"
 #include "base/vec.h"
 #include "shape/boundary_search.h"
+#include "shape/triangle_search.h"
 
 namespace msq {
-
-/// The corner a, and the vectors from it to the other two.
-struct TreeTriangle {
-  Vec3 a, u, v;
-
-  TreeTriangle(Vec3 a, Vec3 b, Vec3 c) : a(a), u(b - a), v(c - a) {}
-};
 
 class TriangleTree {
  public:
@@ -42,7 +48,8 @@ class TriangleTree {
     Vec3 point;  ///< of the triangle
     uint32_t triangle;
   };
-  /// The nearest triangle; the search starts from one that may be near.
+  /// The nearest triangle, the one of the lowest number among equals; the search starts from one
+  /// that may be near.
   Nearest nearest(Vec3 p, uint32_t start) const;
   /// The range of the distance to the nearest triangle; `start` becomes a triangle whose distance
   /// is in that range.
@@ -53,6 +60,7 @@ class TriangleTree {
   };
   /// Finds the first t in [from, to] at which a ray crosses a triangle, or passes it at less than
   /// `margin`. Returns false if there is none. Skips triangles in whose plane the ray runs.
+  /// Of triangles crossed at the same t, takes the one of the lowest number.
   /// Source: Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
   bool first_crossing(const Ray& ray, double from, double to, double margin,
                       Crossing& crossing) const;
@@ -62,42 +70,20 @@ class TriangleTree {
   double excess() const { return excess_; }
 
   uint64_t bytes() const {
-    return triangles_.capacity() * sizeof(TreeTriangle) + nodes_.capacity() * sizeof(Node);
+    return blocks_.capacity() * sizeof(TriangleBlock) + nodes_.capacity() * sizeof(BoundNode);
   }
   /// Bytes needed to build a tree of that many triangles.
   static uint64_t bytes_to_build(uint64_t triangles);
 
  private:
-  struct Bound {
-    Box3 box;
-    // The cylinder.
-    Vec3 centre, normal;  // the normal of length 1, or 0 if there is no mean
-    double half_height, radius;
+  struct Build;
 
-    /// If the result would exceed best, it may be any number above best.
-    double distance_squared(Vec3 p, double best) const;
-  };
-  struct Node {
-    Bound bound[2];
-    uint32_t child[2];  // node, or first triangle of a leaf
-    uint32_t count[2];  // triangles of a leaf; 0 for a node
-  };
-  struct Run {
-    uint32_t begin, end;
-  };
+  TreeTriangle triangle(uint32_t i) const { return blocks_[i / tree_width].at(i % tree_width); }
+  TriangleTreeView view() const { return {nodes_.data(), blocks_.data(), slack_}; }
 
-  static Bound bound_of(const std::vector<uint32_t>& order,
-                        const std::vector<TreeTriangle>& triangles, Run range, CancelPoll& poll);
-  /// Searches triangles nearer than sqrt(best). found(triangle, squared distance) returns the
-  /// square of the limit for the next ones, 0 to stop.
-  template <class Found>
-  void search(Vec3 p, double best, Found&& found) const;
-  uint32_t build(std::vector<uint32_t>& order, const std::vector<TreeTriangle>& triangles,
-                 Run range, CancelPoll& poll);
-
-  std::vector<TreeTriangle> triangles_;  // leaf by leaf
-  std::vector<Node> nodes_;
-  double excess_ = 0;
+  std::vector<TriangleBlock> blocks_;
+  std::vector<BoundNode> nodes_;
+  double excess_ = 0, slack_ = 0;
 };
 
 }  // namespace msq

@@ -29,12 +29,12 @@ KIND_BASE = {"foam": {"foam_data.h", "foam_graph.h"}, "lattice": set()}
 OUTSIDE = [
     (r"msq\.h", ["api/*", "document/*"]),
     # Files that are compiled once for each target include these themselves, between their own lines.
-    (r"hwy/highway\.h", ["base/simd.cpp", "base/*-inl.h", "strut/*.cpp", "strut/*-inl.h",
-                         "slice/*.cpp", "printability/*.cpp", "structure/*/*.cpp", "structure/*/*-inl.h",
+    (r"hwy/highway\.h", ["base/simd.cpp", "base/*-inl.h", "shape/*.cpp", "strut/*.cpp",
+                         "strut/*-inl.h", "slice/*.cpp", "printability/*.cpp", "structure/*/*.cpp", "structure/*/*-inl.h",
                          "structure/*/*/*.cpp", "structure/*/*/*-inl.h", "expression/*.cpp",
                          "expression/*-inl.h"]),
-    (r"hwy/foreach_target\.h", ["strut/*.cpp", "structure/*/*.cpp", "structure/*/*/*.cpp",
-                                "slice/*.cpp", "printability/*.cpp", "expression/*.cpp"]),
+    (r"hwy/foreach_target\.h", ["shape/*.cpp", "strut/*.cpp", "structure/*/*.cpp",
+                                "structure/*/*/*.cpp", "slice/*.cpp", "printability/*.cpp", "expression/*.cpp"]),
     (r"hwy/.*", ["base/simd.h", "base/simd.cpp"]),
     (r"(oneapi/)?tbb/.*", ["base/parallel.cpp"]),
     (r"tiff\w*\.h", ["io/tiff_image.cpp"]),

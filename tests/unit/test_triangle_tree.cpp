@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// Searches in a tree of triangles against all triangles one by one, to the last bit, with every
+// instruction set: distances, nearest triangles, ranges, and crossings of rays.
+#include "shape/triangle_tree.h"
+
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "meshes.h"
+#include "random.h"
+#include "suite.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+struct Row {
+  std::string name;
+  std::vector<TreeTriangle> triangles;
+  double size = 1;  ///< of the box of points
+};
+
+std::vector<TreeTriangle> triangles_of(const TriangleSoup& soup, double scale, Vec3 offset) {
+  std::vector<TreeTriangle> triangles;
+  const auto vertex = [&](uint32_t i) { return soup.vertices[i] * scale + offset; };
+  for (const Triangle& t : soup.triangles)
+    triangles.emplace_back(vertex(t[0]), vertex(t[1]), vertex(t[2]));
+  return triangles;
+}
+
+/// Of any size up to this, with every kind of degenerate triangle if wanted.
+std::vector<TreeTriangle> scattered(size_t count, double size, bool degenerate, uint64_t seed) {
+  Random random(seed);
+  const Box3 cube{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}};
+  std::vector<TreeTriangle> triangles;
+  while (triangles.size() < count) {
+    const Vec3 a = random.in_box(cube), b = a + random.in_box(cube) * size;
+    Vec3 c = a + random.in_box(cube) * size;
+    if (degenerate) {
+      const double along = random.between(-0.5, 1.5);
+      const Vec3 on = a + (b - a) * along;
+      const size_t kind = triangles.size() % 6;
+      if (kind == 0) c = a;
+      if (kind == 1) c = on;
+      if (kind == 2) c = on + (c - a) * std::pow(10.0, random.between(-16, -3));
+      if (kind == 3) {
+        triangles.emplace_back(a, a, a);
+        continue;
+      }
+    }
+    triangles.emplace_back(a, b, c);
+  }
+  return triangles;
+}
+
+/// Flat, with vertices that six triangles share: many are equally far.
+std::vector<TreeTriangle> flat_net(int side) {
+  std::vector<TreeTriangle> triangles;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      const double x = 1.0 * i / side - 0.5, y = 1.0 * j / side - 0.5, h = 1.0 / side;
+      triangles.emplace_back(Vec3{x, y, 0}, Vec3{x + h, y, 0}, Vec3{x + h, y + h, 0});
+      triangles.emplace_back(Vec3{x, y, 0}, Vec3{x + h, y + h, 0}, Vec3{x, y + h, 0});
+    }
+  return triangles;
+}
+
+std::vector<Row> rows() {
+  std::vector<Row> rows;
+  for (const size_t count : std::initializer_list<size_t>{1, 2, 7, 8, 9, 64, 65, 72, 513})
+    rows.push_back({"scattered, " + std::to_string(count), scattered(count, 0.2, false, count)});
+  rows.push_back({"large", scattered(150, 2, false, 1)});
+  rows.push_back({"degenerate", scattered(300, 0.3, true, 2)});
+  rows.push_back({"points", scattered(40, 0, false, 3)});
+  rows.push_back({"flat net", flat_net(12)});
+  rows.push_back({"torus", triangles_of(torus_mesh(0.375, 0.125, 24, 12), 1, {})});
+  rows.push_back({"ball, off", triangles_of(icosphere(0.5, 2), 1, {1000, -300, 7})});
+  rows.push_back({"ball, far off", triangles_of(icosphere(0.5, 2), 1, {1e6, 2e6, -3e6})});
+  rows.push_back({"small ball", triangles_of(icosphere(0.5, 2), 1e-6, {}), 1e-6});
+  std::vector<TreeTriangle> twice = flat_net(6), same = twice;
+  twice.insert(twice.end(), same.begin(), same.end());
+  rows.push_back({"all twice", std::move(twice)});
+  return rows;
+}
+
+Vec3 some_point(Random& random, const Row& row, size_t i) {
+  const TreeTriangle& t = row.triangles[random.below(row.triangles.size())];
+  const Vec3 by = random.in_box({{-1, -1, -1}, {1, 1, 1}}) * row.size;
+  const double s = random.unit(), r = random.unit() * (1 - s);
+  switch (i % 8) {
+    case 0:
+      return t.a;
+    case 1:
+      return t.a + (i % 16 < 8 ? t.u : t.v);
+    case 2:
+      return t.a + (t.u + t.v) * 0.5;
+    case 3:
+      return t.a + t.u * s + t.v * r;
+    case 4:
+      return t.a + by * std::pow(10.0, random.between(-15, -1));
+    case 5:
+      return t.a + by * std::pow(10.0, random.between(0, 12));
+    case 6:
+      return t.a + cross(t.u, t.v) * s;
+    default:
+      return t.a + by;
+  }
+}
+
+double least_squared(const Row& row, Vec3 p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const TreeTriangle& t : row.triangles) least = std::min(least, t.distance_squared(p));
+  return least;
+}
+
+void check_point(const Row& row, const TriangleTree& tree, Vec3 p, uint32_t other) {
+  const double squared = least_squared(row, p), distance = std::sqrt(squared);
+  const double got = tree.distance(p);
+  if (std::memcmp(&got, &distance, sizeof got) != 0)
+    fail_msg("(%.17g, %.17g, %.17g): %.17g, not %.17g", p.x, p.y, p.z, got, distance);
+  const TriangleTree::Nearest nearest = tree.nearest(p, 0);
+  assert_memory_equal(&nearest.distance, &distance, sizeof distance);
+  for (const uint32_t start : {other, nearest.triangle}) {
+    const TriangleTree::Nearest again = tree.nearest(p, start);
+    assert_memory_equal(&again.distance, &distance, sizeof distance);
+    assert_int_equal(again.triangle, nearest.triangle);
+    assert_true(again.point == nearest.point);
+  }
+  const double at_foot = length(p - nearest.point);
+  if (!(std::abs(at_foot - distance) <= 1e-12 * (distance + max_magnitude(p)) + 4 * tree.excess()))
+    fail_msg("foot at %.17g, not %.17g", at_foot, distance);
+  for (const double low : {0.0, 0.5 * distance, distance, distance * (1 + 0x1p-40), 2 * distance})
+    for (const double high : {low, low * (1 + 0x1p-30), low + distance}) {
+      const TriangleTree::Range wanted = squared < low * low     ? TriangleTree::Range::below
+                                         : squared < high * high ? TriangleTree::Range::between
+                                                                 : TriangleTree::Range::beyond;
+      uint32_t start = other;
+      assert_true(tree.compare(p, low, high, start) == wanted);
+      assert_true(start < row.triangles.size());
+      assert_true(tree.compare(p, low, high, start) == wanted);
+    }
+}
+
+void test_distances(void** state) {
+  const Row& row = *static_cast<const Row*>(*state);
+  const TriangleTree tree(row.triangles, nullptr);
+  const auto other_of = [&](Random& random) {
+    return static_cast<uint32_t>(random.below(row.triangles.size()));
+  };
+  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1) {
+    hwy::SetSupportedTargetsForTest(all & -all);
+    Random random(7);
+    for (size_t i = 0; i < 16 + test_count(800); ++i) {
+      const Vec3 p = some_point(random, row, i);
+      check_point(row, tree, p, other_of(random));
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+bool grazes(const Row& row, const Ray& ray) {
+  for (const TreeTriangle& t : row.triangles) {
+    const Vec3 normal = cross(t.u, t.v);
+    if (std::abs(dot(normal, ray.direction)) < 1e-4 * length(normal)) return true;
+  }
+  return false;
+}
+
+/// A tree of a single triangle says whether and where a ray crosses that.
+void test_crossings(void** state) {
+  const Row& row = *static_cast<const Row*>(*state);
+  // What passes a needle at the margin may be outside of its own box.
+  if (row.name == "degenerate") return;
+  const TriangleTree tree(row.triangles, nullptr);
+  std::vector<TriangleTree> single;
+  for (const TreeTriangle& t : row.triangles)
+    single.emplace_back(std::vector<TreeTriangle>{t}, nullptr);
+  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1) {
+    hwy::SetSupportedTargetsForTest(all & -all);
+    Random random(8);
+    for (size_t i = 0; i < 16 + test_count(300); ++i) {
+      // Not about as far from triangles as the margin.
+      constexpr size_t kinds[] = {0, 1, 2, 3, 6, 7};
+      const Vec3 from = some_point(random, row, 8 * i + kinds[i % 6]);
+      const Vec3 to = some_point(random, row, 8 * i + kinds[(i / 6 + i) % 6]);
+      Vec3 way = to - from;
+      if (i % 3 == 0) way = {0, 0, way.z};  // along the sides of boxes
+      if (!(length(way) > 0)) continue;
+      const Ray ray{from, way * (1 / length(way))};
+      const double begin = i % 2 ? 0 : -length(way), end = length(way);
+      const double margin = 1e-12 * row.size + 1e-14 * (max_magnitude(from) + end);
+      TriangleTree::Crossing first{std::numeric_limits<double>::infinity(), {}}, one, got;
+      bool wanted = false;
+      for (const TriangleTree& of_one : single)
+        if (of_one.first_crossing(ray, begin, end, margin, one)) {
+          wanted = true;
+          if (one.t < first.t) first = one;
+        }
+      const bool is_found = tree.first_crossing(ray, begin, end, margin, got);
+      if (wanted && !(is_found && got.t <= first.t))
+        fail_msg("missed a crossing at %.17g", first.t);
+      // What passes a triangle nearly along its plane may do so outside of its own box.
+      if (grazes(row, ray)) continue;
+      assert_int_equal(is_found, wanted);
+      if (wanted && !(got.t == first.t)) fail_msg("%.17g, not %.17g", got.t, first.t);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+}  // namespace
+
+int main() {
+  std::vector<Row> all = rows();
+  return run_for_each("distances", all, test_distances) +
+         run_for_each("crossings", all, test_crossings);
+}
