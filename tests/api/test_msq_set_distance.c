@@ -149,6 +149,25 @@ static void a_limit_leaves_the_output_alone(void** state) {
   msq_context_release(wide);
 }
 
+/* Arrays are sorted, in runs of a quarter of the points of each thread, or of fewer where the limit
+ * has no room for that. */
+static void long_arrays_need_no_room(void** state) {
+  const uint64_t count = 4 * 4250;
+  msq_context* wide = make_context_of(1, 0, 0);
+  msq_model* model = make_shape_model(wide, make_cube_mesh(wide));
+  (void)state;
+  check_array(model, count, MSQ_FLOAT32, 17, assert_answers);
+  assert_true(memory_of(wide).peak_bytes > 4250 * 40);
+  msq_model_release(model);
+  msq_context_release(wide);
+  msq_context* narrow = make_context_of(1, 0, 100000);
+  model = make_shape_model(narrow, make_cube_mesh(narrow));
+  check_array(model, count, MSQ_FLOAT32, 17, assert_answers);
+  assert_true(memory_of(narrow).peak_bytes < 100000);
+  msq_model_release(model);
+  msq_context_release(narrow);
+}
+
 static void jobs_show_progress_and_cancel(void** state) {
   enum { side = 20, samples = side * side * side };
   const msq_points_def grid = grid_points(0, 4, side);
@@ -184,6 +203,7 @@ int main(void) {
       cmocka_unit_test(finer_scales_are_left_out_at_a_length_scale),
       cmocka_unit_test(no_points_is_nothing_to_do),
       cmocka_unit_test(a_limit_leaves_the_output_alone),
+      cmocka_unit_test(long_arrays_need_no_room),
       cmocka_unit_test(jobs_show_progress_and_cancel),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
