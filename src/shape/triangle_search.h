@@ -65,7 +65,8 @@ struct TriangleBelow {
 void find_below(const TriangleTreeView& tree, Vec3 p, TriangleBelow& found);
 
 /// The bits of the children whose boxes, grown by the margin, a ray meets in [from, to] or within
-/// rounding of it; entry[i] becomes the t at which it may enter box i.
+/// rounding of it; entry[i] becomes the t at which it may enter box i. `entry` is aligned to 64
+/// bytes.
 uint32_t meet_boxes(const BoundNode& node, const Ray& ray, double from, double to, double margin,
                     double (&entry)[tree_width]);
 
