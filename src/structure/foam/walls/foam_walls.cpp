@@ -7,6 +7,7 @@
 #include "structure/common/strut_distance_bound.h"
 #include "structure/foam/section/section_lines.h"
 #include "structure/foam/walls/vent_distance.h"
+#include "structure/foam/walls/vent_ray.h"
 #include "structure/foam/walls/void_rows.h"
 #include "structure/foam/walls/wall_ray.h"
 
@@ -136,9 +137,40 @@ bool FoamWalls::find(bool wanted, const Ray& ray, double from, double to, double
   const double tolerance = ray_tolerance(ray, to);
   const double coarse = std::max(min_ray_step(), tolerance);
   const RayMarch steps{tolerance, tolerance};
+  const bool goes_by_void = wanted && vents_.exist() && tolerance <= 0x1p-23 * unit_;
+  const auto step = [&](Vec3 p) {
+    const double bound =
+        goes_by_void ? way_in_void(p, ray.direction, tolerance) : distance_bound(p);
+    return steady_ray_step(bound, coarse, thickness_, p);
+  };
   return steps.find(
-      wanted, ray, from, to, [this](Vec3 p) { return inside(p); },
-      [&](Vec3 p) { return steady_ray_step(distance_bound(p), coarse, thickness_, p); }, t, job);
+      wanted, ray, from, to, [this](Vec3 p) { return inside(p); }, step, t, job);
+}
+
+// Walls of the greatest thickness along the way hold those of the thickness there is. Where the
+// thickness has no slope, shorter ways are tried, on which it varies less.
+double FoamWalls::way_in_void(Vec3 p, Vec3 direction, double tolerance) const {
+  constexpr double rounding = 1e-12;
+  const Ray ray{p, direction};
+  const Neighbourhood::Located located = neighbourhood().locate(p);
+  const double here = thickness_.range({p, p}).high;
+  double ahead =
+      0.5 * unit_ * seeds_.spacing(located.cell, located.fraction * seeds_.seeds().scale());
+  for (int tries = 4;; ahead *= 0.125) {
+    const Box3 box = box_of(ray, 0, ahead);
+    const double slope = thickness_.lipschitz(box);
+    const bool has_slope = slope < std::numeric_limits<double>::infinity();
+    const double thickness = (has_slope ? here : thickness_.range(box).high) / unit_;
+    const VentRay vent{seeds_,
+                       vents_,
+                       neighbourhood(),
+                       unit_,
+                       thickness * (1 + rounding) + rounding,
+                       has_slope ? slope * (1 + rounding) / unit_ : 0};
+    double met = ahead;
+    vent.find(ray, 0, ahead, met);
+    if (met > tolerance || has_slope || --tries == 0) return std::max(0.0, met - tolerance);
+  }
 }
 
 double FoamWalls::leave(const Ray& ray, double from, double to, const Job* job) const {
@@ -195,31 +227,52 @@ void FoamWalls::enter(RaySearch& search, const Job* job) const {
 
 void FoamWalls::enter_vented(RaySearch& search, const Job* job) const {
   const Ray& ray = search.ray;
-  const double tolerance = ray_tolerance(ray, search.to), thickness = thickness_.at({});
-  const WallRay wall{seeds_, neighbourhood(), unit_, thickness / unit_};
-  // Holes are crossed in steps of the distance, a piece of the ray at a time.
-  const double piece = std::max(thickness, 0.25 * vents_.max_radius() * unit_);
+  const double tolerance = ray_tolerance(ray, search.to), thickness = thickness_.at({}) / unit_;
+  const auto is_inside = [this](Vec3 p) { return inside(p); };
+  const WallRay wall{seeds_, neighbourhood(), unit_, thickness};
+  const VentRay vent{seeds_, vents_, neighbourhood(), unit_, thickness, 0};
+  JobPoll poll(job);
   double from = search.from;
+  int attempts = 0;
   do {
+    poll();
     const Neighbourhood::Located located = neighbourhood().locate(ray.at(from));
+    const Vec3 q = located.fraction * seeds_.seeds().scale();
     double t = from;
-    if (!is_in_wall(seeds_, located.cell, located.fraction * seeds_.seeds().scale(),
-                    thickness / unit_)) {
+    if (!is_in_wall(seeds_, located.cell, q, thickness)) {
       const WallRay::Way way = wall.find(ray, from, search.to, tolerance, t);
       if (way == WallRay::Way::passes) return;
       // The void up to there is that of a cell.
       t = way == WallRay::Way::meets ? std::max(from, t - tolerance) : from;
     }
+    // Slabs and holes are crossed a piece of the ray at a time: of longer ones, more seeds are
+    // near.
+    const double piece =
+        unit_ * std::max(thickness, 0.25 * std::min(1.0, seeds_.spacing(located.cell, q)));
+    const double end = std::min(search.to, t + piece);
+    double met;
+    from = end;
+    if (!vent.find(ray, t, end, met)) continue;
+    const double first = std::max(search.from, t);
+    if (settle_entry(ray, first, tolerance, is_inside, met)) {
+      search.found = true;
+      search.t = met;
+      return;
+    }
+    from = met + tolerance;
+    // A ray that all but slides along a wall may come out of rounding's reach only after some
+    // tries.
+    if (++attempts % 16 != 0) continue;
     RaySearch rest = search;
-    rest.from = t;
-    rest.to = std::min(search.to, t + piece);
+    rest.from = met;
+    rest.to = end;
     Structure::enter(&rest, 1, job);
     if (rest.found) {
       search.found = true;
       search.t = rest.t;
       return;
     }
-    from = rest.to;
+    from = end;
   } while (from < search.to);
 }
 

@@ -68,9 +68,13 @@ class FoamWalls final : public Structure {
   /// By how much distances may be off, in model units.
   double slack(Vec3 p, double distance) const;
   void enter(RaySearch& search, const Job* job) const;
-  /// As Structure::march(), in smaller steps where the thickness has a slope in boxes alone.
+  /// As Structure::march(), in smaller steps where the thickness has a slope in boxes alone; with
+  /// holes, from void to void.
   bool find(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const;
-  /// The same with holes: from void to void.
+  /// A length along a ray from p, which is in the void, within which the ray does not meet a wall
+  /// with holes; less than a cell. For thicknesses that vary.
+  double way_in_void(Vec3 p, Vec3 direction, double tolerance) const;
+  /// As enter() with holes: from void to void.
   void enter_vented(RaySearch& search, const Job* job) const;
 
   const Ref<Context> context_;

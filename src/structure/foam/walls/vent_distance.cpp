@@ -25,7 +25,7 @@ struct VentDistance {
   CellIndex cell;
   Vec3 q;
 
-  VentedWall wall(Vec3 a, Vec3 b) const { return vents.wall(seeds, cell, q, a, b); }
+  VentedWall wall(Vec3 a, Vec3 b) const { return vents.wall(seeds, cell, a, b); }
 
   /// f of a seed, or `most` if that is less; not below 0.
   double in_cell_of(Vec3 own, const std::vector<Vec3>& near, double thickness, double most) const {

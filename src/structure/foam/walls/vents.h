@@ -55,8 +55,8 @@ class Vents {
   /// Foam units.
   double max_radius() const { return radius_.range().high / unit_; }
 
-  /// The wall between two of the seeds that NearSeeds::find() finds near q, in a cell.
-  VentedWall wall(const NearSeeds& seeds, CellIndex cell, Vec3 q, Vec3 a, Vec3 b) const;
+  /// The wall between two seeds, as NearSeeds::find() finds them near points of a cell.
+  VentedWall wall(const NearSeeds& seeds, CellIndex cell, Vec3 a, Vec3 b) const;
 
  private:
   const Neighbourhood grid_;
