@@ -200,6 +200,10 @@ class Caster {
       return false;
     }
     const double last = progress_[i].from;
+    if (level > 0 && level + 1 == levels_ && !is_within(i, std::max(t, last))) {
+      leave(i, level);
+      return false;
+    }
     if (t > last) {
       progress_[i].from = t;
       hits_[i].scale = static_cast<int32_t>(level);
@@ -207,6 +211,17 @@ class Caster {
     }
     if (level + 1 == levels_) hit(i, t > last ? t : last);
     return true;
+  }
+
+  /// Whether an entry into the finest level is in those above it, too. Where they end, the ray is
+  /// outside, at most a tolerance past their boundary. If the finest level begins at this boundary,
+  /// as the complement of a coarser one does, its entry lies there and nothing is inside.
+  bool is_within(uint32_t i, double t) {
+    const double way = end(i, levels_ - 1) - t;
+    double tolerance = 0;
+    for (size_t level = 0; level + 1 < levels_; ++level)
+      tolerance = std::max(tolerance, tolerance_of(i, level));
+    return way > 2 * tolerance || model_.inside(ray(i).at(t), resolved_);
   }
 
   /// Continues on the next level, up to the end of this one.

@@ -191,6 +191,70 @@ static void hits_what_begins_at_its_end(void** state) {
   }
 }
 
+/* A scale that is the complement of the coarser one, and a strut along a face on the far side of
+ * it: boundaries meet, but nothing is within both. */
+static void hits_nothing_where_only_boundaries_meet(void** state) {
+  enum { rays = 200 };
+  static double origins[rays][3], directions[rays][3];
+  static msq_ray_hit hits[rays];
+  const double low[3] = {0, 1e-300, 0}, high[3] = {1, 1, 1};
+  uint64_t seed = 3;
+  (void)state;
+  for (int is_thin = 0; is_thin < 2; ++is_thin) {
+    msq_context* context = make_context();
+    msq_model* model;
+    msq_rays_def def;
+    if (is_thin) {
+      /* Struts along all edges of the cells; their axes lie outside of the box, in its faces. */
+      msq_lattice_def lattice_def;
+      msq_structure* lattice;
+      msq_shape* box;
+      assert_ok(msq_lattice_def_init(&lattice_def, sizeof lattice_def));
+      lattice_def.unit_cell = MSQ_UNIT_CELL_CUBIC;
+      lattice_def.radius.value = 1e-200;
+      assert_ok(msq_structure_lattice(context, &lattice_def, &lattice));
+      assert_ok(msq_shape_from_box(context, low, high, &box));
+      model = make_model(context, box, lattice, NULL);
+    } else {
+      msq_functional_def gyroid_def;
+      msq_lattice_def lattice_def;
+      msq_structure *parts[2], *rest;
+      assert_ok(msq_lattice_def_init(&lattice_def, sizeof lattice_def));
+      lattice_def.radius.value = 0.3;
+      lattice_def.unit_cell = MSQ_UNIT_CELL_BCC;
+      assert_ok(msq_structure_lattice(context, &lattice_def, &parts[0]));
+      assert_ok(msq_functional_def_init(&gyroid_def, sizeof gyroid_def));
+      gyroid_def.kind = MSQ_FUNCTIONAL_NETWORK;
+      assert_ok(msq_structure_functional(context, &gyroid_def, &parts[1]));
+      assert_ok(msq_structure_boolean(MSQ_BOOLEAN_DIFFERENCE, (const msq_structure* const*)parts, 2,
+                                      &rest));
+      msq_structure_release(parts[0]);
+      model = make_model(context, make_box_of(context, -1, 1), rest, parts[1]);
+    }
+    for (int i = 0; i < rays; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        origins[i][axis] = (double)(seed >> 11) * 0x1p-53;
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        directions[i][axis] = (double)(seed >> 11) * 0x1p-53 - 0.5;
+        if (!is_thin) continue;
+        /* To the strut along x. */
+        const double to_strut[3] = {0, -0.5, 0}, from[3] = {0.1 + 0.004 * i, 0.5, 0};
+        origins[i][axis] = from[axis];
+        directions[i][axis] = to_strut[axis];
+      }
+    assert_ok(msq_rays_def_init(&def, sizeof def));
+    def.count = rays;
+    def.origins = origins;
+    def.directions = directions;
+    assert_ok(msq_ray_cast(model, &def, NULL, hits, rays, NULL));
+    for (int i = 0; i < rays; ++i)
+      if (hits[i].scale != -1) fail_msg("ray %d hits at %.17g", i, hits[i].t);
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+}
+
 static void hits_struts_within_a_box(void** state) {
   msq_context* context = make_context();
   msq_model* model = make_struts_model(context);
@@ -436,6 +500,7 @@ int main(void) {
       cmocka_unit_test(hits_a_cylinder_along_its_axis),
       cmocka_unit_test(hits_nothing_past_the_end),
       cmocka_unit_test(hits_what_begins_at_its_end),
+      cmocka_unit_test(hits_nothing_where_only_boundaries_meet),
       cmocka_unit_test(hits_struts_within_a_box),
       cmocka_unit_test(meets_struts_beside_others_along_the_ray),
       cmocka_unit_test(tells_the_material),
