@@ -37,10 +37,10 @@ namespace msq {
 
 namespace {
 
-/// D^2, in sizes of the own leaf. Among leaves of one level it covers about 43 seeds, enough for
-/// most cells. With fewer than `enough` seeds, D grows. With more than `crowd`, as near a coarse
-/// leaf among fine ones, it shrinks. Any D is correct, and all vertices are compared with all seeds
-/// in memory.
+/// D^2, in sizes of the own leaf if that is a cube, or else in the side of a cube of its volume.
+/// Among leaves of one level it covers about 43 seeds, enough for most cells. With fewer than
+/// `enough` seeds, D grows. With more than `crowd`, as near a coarse leaf among fine ones, it
+/// shrinks. Any D is correct, and all vertices are compared with all seeds in memory.
 constexpr double first_reach_squared = 4.75;
 constexpr size_t enough = 32, crowd = 2048;
 /// If more than `max_at_first` seeds are in memory, this number of each octant is used.
@@ -66,6 +66,9 @@ class CellBuilder {
     trees_.move_to(seeds);
     home_ = home;
     empty_radius_ = seeds->cells().empty_radius();
+    const Vec3 scale = seeds->scale();
+    const double side = std::cbrt(scale.x * scale.y * scale.z);
+    first_reach_squared_ = first_reach_squared * (side * side);
   }
 
   size_t bytes() const { return sizeof *this + trees_.bytes(); }
@@ -122,7 +125,7 @@ class CellBuilder {
   /// Gathers the seeds within D, which grows until they suffice for a cell, or shrinks until they
   /// are not too many.
   void gather() {
-    reach_squared_ = first_reach_squared;
+    reach_squared_ = first_reach_squared_;
     for (bool is_crowded = false;;) {
       near_.clear();
       const double squared = reach_squared_ * (unit_ * unit_);
@@ -372,7 +375,7 @@ class CellBuilder {
 
   SeedTrees trees_;
   CellIndex home_;
-  double empty_radius_ = 0;
+  double empty_radius_ = 0, first_reach_squared_ = first_reach_squared;
   LeafSeed own_{};
   double unit_ = 1;                // size of the own leaf, in foam units
   double reach_squared_ = 0;       // D^2
