@@ -164,6 +164,11 @@ void bench_variants(bench::Report& report, uint32_t resolution) {
       report.note("  against constant r", waving / constant, "times the time");
     }
     setup.samples = 0;
+    setup.is_formula = true;
+    const double formula = seconds();
+    setup.is_formula = false;
+    report.add(name + ", r by an expression", formula, samples, "sample");
+    report.note("  against constant r", formula / constant, "times the time");
     if (!(hwy::SupportedTargets() & HWY_AVX2)) continue;
     hwy::SetSupportedTargetsForTest(HWY_AVX2);
     const double avx2 = seconds();

@@ -15,11 +15,12 @@ struct FoamSetup {
   int32_t method;
   uint64_t cache_bytes = uint64_t{192} << 20;
   uint32_t threads = 2;
-  double extent = 1;       ///< the shape: a cube from the origin with such sides
-  bool is_graded = false;  ///< r from 0.05 cell at one corner of the cube to 0.15 at the other
-  double wall = 0;         ///< thickness in cells, in place of struts; 0: struts
-  double vent = 0;         ///< radius of holes in walls, in cells
-  uint64_t samples = 0;    ///< of a radius that waves so, along each axis; 0: none
+  double extent = 1;        ///< the shape: a cube from the origin with such sides
+  bool is_graded = false;   ///< r from 0.05 cell at one corner of the cube to 0.15 at the other
+  double wall = 0;          ///< thickness in cells, in place of struts; 0: struts
+  double vent = 0;          ///< radius of holes in walls, in cells
+  uint64_t samples = 0;     ///< of a radius that waves so, along each axis; 0: none
+  bool is_formula = false;  ///< r waves so by an expression
 };
 
 inline double wall_seconds(const std::function<void()>& work) {
@@ -66,6 +67,18 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
       grid.image.grid.cell_size[axis] = setup.extent * step;
     }
     check(msq_field_grid(context, &grid, &field));
+    def.radius = {0, field};
+  }
+  if (setup.is_formula) {
+    const msq_named_value parameters[] = {{"extent", setup.extent},
+                                          {"cells", static_cast<double>(setup.cells)}};
+    msq_expression_field_def waves;
+    check(msq_expression_field_def_init(&waves, sizeof waves));
+    waves.expression = "(0.1 + 0.05*sin(5*x/extent)*cos((4*y + 3*z)/extent)) / cells";
+    waves.parameters = parameters;
+    waves.parameter_count = 2;
+    waves.high = 0.15 / setup.cells;
+    check(msq_field_expression(context, &waves, &field));
     def.radius = {0, field};
   }
   msq_structure* structure;

@@ -963,8 +963,8 @@ MSQ_API msq_status msq_host_field_def_init(msq_host_field_def* def, size_t size)
  *
  * msq decides whole blocks of points by the range over a box. Without range and lipschitz the range
  * is low to high everywhere: correct, but slow. If range or lipschitz are too narrow, results are
- * wrong, but behaviour stays defined. Cost: single points and struts call back with one point; sets
- * and slices of functional structures with batches.
+ * wrong, but behaviour stays defined. Cost: points and struts call back with one point; sets, and
+ * slices of functional structures, of foams and of turned lattices, with batches.
  * Errors: ARGUMENT, MEMORY. Calls that use the field: HOST. */
 MSQ_API msq_status msq_field_host(msq_context* context, const msq_host_field_def* def,
                                   msq_field** field);

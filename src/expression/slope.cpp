@@ -331,4 +331,11 @@ Slope enclose_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale,
   return {piece.most, piece.error};
 }
 
+std::optional<Derivatives> enclose_derivatives(const Tape& tape, const Interval (&box)[3]) {
+  const Borrowed<Differentiation> differentiation;
+  const Part* root = differentiation->over(tape, box, 0);
+  if (!root) return {};
+  return Derivatives{root->value, {root->along[0], root->along[1], root->along[2]}, root->error};
+}
+
 }  // namespace msq

@@ -5,6 +5,9 @@
 // (forward mode). The maximum slope is found by bisection of the boxes that may contain it.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "base/interval.h"
 #include "base/vec.h"
 #include "expression/tape.h"
@@ -28,5 +31,16 @@ Slope bound_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale, double
 /// The same from one enclosure, for small boxes: takes microseconds instead of milliseconds.
 Slope enclose_slope(const Tape& tape, const Interval (&box)[3], Vec3 scale,
                     double coordinate_error);
+
+/// Over a box: enclosures of the function's values and of its derivatives along each axis, and the
+/// error as above, for exact coordinates.
+struct Derivatives {
+  Interval value;
+  std::array<Interval, 3> along;
+  double error;
+};
+
+/// From one enclosure, for small boxes: takes microseconds. Empty if something is unbounded.
+std::optional<Derivatives> enclose_derivatives(const Tape& tape, const Interval (&box)[3]);
 
 }  // namespace msq

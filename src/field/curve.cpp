@@ -16,6 +16,19 @@ double Curve::slope_to(size_t i) const {
   return std::abs(b.value - a.value) / (b.at - a.at) * (1 + 0x1p-50);
 }
 
+Interval Curve::slopes(Interval over) const {
+  const size_t begin = knots_to(over.low), end = knots_to(over.high);
+  Interval slopes{0, 0};
+  bool is_first = begin > 0 && end < knots_.size();  // otherwise the curve is constant somewhere
+  for (size_t i = std::max<size_t>(begin, 1); i < std::min(end + 1, knots_.size()); ++i) {
+    const double slope = std::copysign(slope_to(i), knots_[i].value - knots_[i - 1].value);
+    slopes = is_first ? Interval{slope, slope}
+                      : Interval{std::min(slopes.low, slope), std::max(slopes.high, slope)};
+    is_first = false;
+  }
+  return slopes;
+}
+
 double Curve::lipschitz(Interval over) const {
   double most = 0;
   const size_t end = std::min(knots_to(over.high) + 1, knots_.size());

@@ -27,10 +27,13 @@ class Curve {
   double lipschitz() const { return lipschitz_; }
   /// The same for arguments in an interval.
   double lipschitz(Interval over) const;
+  /// Bounds of the difference of two values over that of their arguments, from an interval, without
+  /// rounding. The ends may be infinite.
+  Interval slopes(Interval over) const;
   void describe(HashInput& input) const;
 
  private:
-  /// The slope of the piece that ends at knot i.
+  /// The steepness of the piece that ends at knot i.
   double slope_to(size_t i) const;
   /// Number of knots at or below v.
   size_t knots_to(double v) const;

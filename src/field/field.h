@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 #include "base/hash_input.h"
 #include "base/interval.h"
@@ -12,6 +13,13 @@
 #include "base/vec.h"
 
 namespace msq {
+
+/// The slopes of a field in a box: for all points p and q of the box, at(p) - at(q) is
+/// dot(s, p - q) for some s of `between`, up to the rounding of the two values.
+struct Slopes {
+  Box3 between;
+  double rounding = 0;  ///< of a value
+};
 
 class Field : public Described {
  public:
@@ -43,6 +51,12 @@ class Field : public Described {
   virtual double lipschitz(const Box3& box) const {
     (void)box;
     return lipschitz();
+  }
+  /// Encloses the slopes in a small box. Empty if nothing is known, or if the box contains too much
+  /// of the field to be examined within microseconds.
+  virtual std::optional<Slopes> slopes(const Box3& box) const {
+    (void)box;
+    return {};
   }
   /// Nesting depth of fields over other fields.
   virtual unsigned depth() const { return 0; }
@@ -76,6 +90,9 @@ class Parameter {
   }
   double lipschitz() const { return field_ ? field_->lipschitz() : 0; }
   double lipschitz(const Box3& box) const { return field_ ? field_->lipschitz(box) : 0; }
+  std::optional<Slopes> slopes(const Box3& box) const {
+    return field_ ? field_->slopes(box) : Slopes{};
+  }
   /// The gradient at p; if the field is not linear there, by differences over `step` on either
   /// side.
   Vec3 gradient(Vec3 p, double step) const {

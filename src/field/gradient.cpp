@@ -60,6 +60,21 @@ Interval GradientField::range(const Box3& box) const {
           std::min(all.high, std::max(a, b) + rounding)};
 }
 
+std::optional<Slopes> GradientField::slopes(const Box3& box) const {
+  const auto [t, reach] = parameters(box);
+  // The error of t, as in range(box), and of the slope times the way across the box.
+  const double far = (max_magnitude(box.min) + max_magnitude(box.max) + max_magnitude(from_)) /
+                     std::sqrt(axis_squared_);
+  const double slack = 0x1p-46 * (1 + reach + std::abs(t) + far);
+  const double rise = to_value_ - from_value_;
+  const double rounding =
+      slack * std::abs(rise) + 0x1p-50 * (std::abs(from_value_) + std::abs(to_value_));
+  if (t + reach < -slack || t - reach > 1 + slack) return Slopes{{}, rounding};
+  const Vec3 slope = axis_ * (rise / axis_squared_);
+  if (t - reach > slack && t + reach < 1 - slack) return Slopes{{slope, slope}, rounding};
+  return Slopes{{min(slope, Vec3{}), max(slope, Vec3{})}, rounding};
+}
+
 void GradientField::describe(HashInput& input) const {
   input.kind("field: gradient");
   input.point(from_);

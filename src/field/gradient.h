@@ -15,6 +15,7 @@ class GradientField final : public Field {
   Interval range() const override;
   Interval range(const Box3& box) const override;
   double lipschitz() const override;
+  std::optional<Slopes> slopes(const Box3& box) const override;
 
  private:
   void describe(HashInput& input) const override;

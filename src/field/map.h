@@ -2,6 +2,8 @@
 // A piecewise linear curve over another field.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "field/curve.h"
@@ -36,6 +38,7 @@ class MapField final : public Field {
   double lipschitz(const Box3& box) const override {
     return product_of(curve_.lipschitz(argument_->range(box)), argument_->lipschitz(box));
   }
+  std::optional<Slopes> slopes(const Box3& box) const override;
   unsigned depth() const override { return depth_; }
 
  private:
@@ -53,5 +56,26 @@ class MapField final : public Field {
   Curve curve_;
   unsigned depth_;
 };
+
+inline std::optional<Slopes> MapField::slopes(const Box3& box) const {
+  const std::optional<Slopes> argument = argument_->slopes(box);
+  if (!argument) return {};
+  const Interval by = curve_.slopes(argument_->range(box)), values = range();
+  const double steepest = std::max(-by.low, by.high);
+  // The curve loses a few units of 2^-53 of its values; slopes of pieces are 2^-50 too steep.
+  const double size = std::max(std::abs(values.low), std::abs(values.high));
+  const Vec3 across = box.extent() * max(argument->between.max, argument->between.min * -1);
+  const double way = std::abs(across.x) + std::abs(across.y) + std::abs(across.z);
+  Slopes slopes{{}, steepest * (argument->rounding + 0x1p-48 * way) + 0x1p-48 * size};
+  if (!std::isfinite(slopes.rounding)) return {};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = argument->between.min[axis], high = argument->between.max[axis];
+    const auto [least, most] =
+        std::minmax({by.low * low, by.low * high, by.high * low, by.high * high});
+    slopes.between.min[axis] = least;
+    slopes.between.max[axis] = most;
+  }
+  return slopes;
+}
 
 }  // namespace msq

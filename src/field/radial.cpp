@@ -39,7 +39,7 @@ Interval RadialField::range() const {
   return {std::min(ramp_.from_value, ramp_.to_value), std::max(ramp_.from_value, ramp_.to_value)};
 }
 
-Interval RadialField::range(const Box3& box) const {
+Interval RadialField::distances(const Box3& box, double& slack) const {
   // Distances are monotone in each coordinate's magnitude from the centre. Distances from a line
   // change by at most the distance from the box's middle.
   double least, most;
@@ -60,10 +60,48 @@ Interval RadialField::range(const Box3& box) const {
     most = middle + reach;
   }
   // Distances lose a few tens of units of 2^-53 of the coordinates, here and in at().
-  const double slack = 0x1p-46 * (max_magnitude(far) + max_magnitude(centre_));
+  slack = 0x1p-46 * (max_magnitude(far) + max_magnitude(centre_));
+  return {least - slack, most + slack};
+}
+
+Interval RadialField::range(const Box3& box) const {
+  double slack;
+  const Interval d = distances(box, slack);
   // value() is monotone.
-  const double a = value(least - slack), b = value(most + slack);
+  const double a = value(d.low), b = value(d.high);
   return {std::min(a, b), std::max(a, b)};
+}
+
+std::optional<Slopes> RadialField::slopes(const Box3& box) const {
+  double slack;
+  const Interval d = distances(box, slack);
+  const double slope = (ramp_.to_value - ramp_.from_value) / (ramp_.to_radius - ramp_.from_radius);
+  const double rounding = 2 * slack * std::abs(slope) +
+                          0x1p-48 * (std::abs(ramp_.from_value) + std::abs(ramp_.to_value));
+  if (!std::isfinite(rounding)) return {};
+  Slopes slopes{{}, rounding};
+  if (d.high < ramp_.from_radius || d.low > ramp_.to_radius) return slopes;
+  const bool is_ramp = d.low > ramp_.from_radius && d.high < ramp_.to_radius;
+  // Along the direction from the point or the line, whose components are those of the way from
+  // there over the distance.
+  const Vec3 from = box.min - centre_, to = box.max - centre_;
+  for (int i = 0; i < 3; ++i) {
+    Interval way{-slack, slack};
+    for (int j = 0; j < 3; ++j) {
+      const double m = (i == j ? 1 : 0) - axis_[i] * axis_[j];
+      way.low += std::min(m * from[j], m * to[j]);
+      way.high += std::max(m * from[j], m * to[j]);
+    }
+    const auto component = [&](double v, double sign) {
+      const double nearest = v * sign > 0 ? d.low : d.high;
+      return nearest > 0 ? std::clamp(v / nearest, -1.0, 1.0) : v * sign > 0 ? sign : 0;
+    };
+    const double low = component(way.low, -1) * slope, high = component(way.high, 1) * slope;
+    slopes.between.min[i] = std::min(low, high);
+    slopes.between.max[i] = std::max(low, high);
+  }
+  if (!is_ramp) slopes.between = {min(slopes.between.min, Vec3{}), max(slopes.between.max, Vec3{})};
+  return slopes;
 }
 
 double RadialField::lipschitz() const {

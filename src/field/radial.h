@@ -20,11 +20,14 @@ class RadialField final : public Field {
   Interval range() const override;
   Interval range(const Box3& box) const override;
   double lipschitz() const override;
+  std::optional<Slopes> slopes(const Box3& box) const override;
 
  private:
   void describe(HashInput& input) const override;
   double distance(Vec3 p) const;
   double value(double distance) const;
+  /// Bounds of distance(p) of a box, with its rounding, which is at most `slack`.
+  Interval distances(const Box3& box, double& slack) const;
 
   Vec3 centre_, axis_;  // the axis of length 1, or 0
   Ramp ramp_;

@@ -108,6 +108,9 @@ class Image {
   double at(Vec3 p) const { return value(to_voxels(p)); }
   /// Encloses at(p) for all p of a box.
   Interval range(const Box3& box) const;
+  /// Encloses the gradient of the function in a box. rounding: bound of the difference of at(p) and
+  /// the function. False if the box has too many samples.
+  bool slopes(const Box3& box, Box3& slopes, double& rounding) const;
   /// Minimum and maximum sample of cells, examined one by one.
   Interval samples_of(const VoxelRange& cells) const;
   /// Whether at(p) is constant in a box, to the last bit.
@@ -143,16 +146,22 @@ class Image {
   static uint64_t bytes_of(Type type);
 
  private:
-  /// For the samples of some cells: their range, and along each axis the maximum difference of
-  /// neighbours.
+  /// For the samples of some cells: their range, and along each axis the least and the greatest
+  /// difference of neighbours.
   struct Spread {
     Interval range;
-    Vec3 slope;
+    Box3 slopes;
+    Vec3 steepest() const { return msq::max(slopes.max, slopes.min * -1); }
   };
   template <class T>
   Spread spread_of(const T* values, const VoxelRange& cells) const;
+  /// Slopes along each axis, in samples, of the function in the part of the cells that a box of
+  /// voxel coordinates covers. Few cells only.
+  template <class T>
+  Box3 slopes_of(const T* values, const VoxelRange& cells, const Box3& voxels) const;
   /// Whether they have so few samples that all may be examined.
-  bool are_few(const VoxelRange& cells) const;
+  static constexpr uint64_t max_few_samples = 64;
+  static bool are_few(const VoxelRange& cells, uint64_t max_samples = max_few_samples);
   double lipschitz_of(Vec3 slope) const;
 
   Type type_;

@@ -26,11 +26,12 @@
 // sqrt(E)) everywhere. The error of the centre (g ux for the cylinder) and of the sums is at most
 // 32 u (U / A + 1), and that of column numbers at most the target's slack. If the radius varies
 // between bounds, the outer ends are those of the maximum and the inner ends those of the minimum,
-// each within these bounds. If the radius is linear, each row has its own bounds. A row's span
-// reaches at most R / sqrt(A) from the cylinder's centre, or from the nearest of the columns
-// between a and b if the centre is beyond them. So the radius differs from its value there by at
-// most |gx| R / sqrt(A). The error of computing it is at most 8 u U, which adds to D half of the
-// error that it has anyway.
+// each within these bounds. If the radius is nearly linear, each row also has bounds of its own. A
+// row's span reaches at most R / sqrt(A) from the cylinder's centre, or from the nearest of the
+// columns between a and b if the centre is beyond them. So the linear function differs from its
+// value there by at most |gx| R / sqrt(A), and the radius from that by its departure. The error of
+// computing it is at most 8 u U, which adds to D half of the error that it has anyway. The radii of
+// the two shells are bounded by the maximum, too, since the departure only holds within its reach.
 #if defined(MSQ_STRUT_FAST_SPANS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MSQ_STRUT_FAST_SPANS_INL_H
 #undef MSQ_STRUT_FAST_SPANS_INL_H
@@ -75,7 +76,8 @@ void make_shapes(D d, const RasterTarget& target, LaneShape* out) {
   }
 }
 
-/// The radii of one strut: constant, between a minimum and a maximum, or linear in the position.
+/// The radii of one strut: constant, between a minimum and a maximum, or nearly linear in the
+/// position and between the two.
 enum class Radii { constant, bounded, linear };
 
 template <Radii radii>
@@ -225,14 +227,13 @@ HWY_INLINE void FastSpans<radii>::add_vectors(D d, const LaneShape& shape, size_
     if constexpr (radii == Radii::linear) {
       const V middle =
           hn::Min(hn::Max(body_centre, hn::Min(a_column, b_column)), hn::Max(a_column, b_column));
-      const auto slope = [&](double g) HWY_ATTR { return hn::Set(d, static_cast<float>(g)); };
-      V r = hn::MulAdd(hn::Sub(middle, a_column), slope(batch_.gradient.x), set(setups_.radius_a));
-      r = hn::MulAdd(v, slope(batch_.gradient.y), r);
-      r = hn::MulAdd(w, slope(batch_.gradient.z), r);
+      V r = hn::MulAdd(hn::Sub(middle, a_column), set(setups_.gradient[0]), set(setups_.radius_a));
+      r = hn::MulAdd(v, set(setups_.gradient[1]), r);
+      r = hn::MulAdd(w, set(setups_.gradient[2]), r);
       const V spread = set(setups_.spread);
       const V most = hn::Add(r, spread), least = hn::Max(hn::Sub(r, spread), zero);
-      high2 = hn::Mul(most, most);
-      low2 = hn::Mul(least, least);
+      low2 = hn::Min(hn::Max(low2, hn::Mul(least, least)), high2);
+      high2 = hn::Min(high2, hn::Mul(most, most));
     }
     V low, high, low_error, high_error;
     V least = ends(high2, low, high, low_error, high_error);

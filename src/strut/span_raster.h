@@ -5,8 +5,9 @@
 // thinner by a margin than the minimum radius in its reach, and one thicker by the margin than the
 // maximum. Samples inside the thin one are certainly inside, and the raster draws them. Samples
 // outside the thick one are ruled out. The other samples are first compared with that one strut, in
-// double precision and with the radius at the sample. Only those within the margin of the strut's
-// surface go to the caller's scalar predicate. The margin exceeds, many times over, the rounding of
+// double precision: with bounds of the radius at the sample if it is nearly linear, then with the
+// radius itself, many samples at a time. Only those within the margin of the strut's surface go to
+// the caller's scalar predicate. The margin exceeds, many times over, the rounding of
 // the span's ends, of the sample positions and of the predicate. So the result equals the predicate
 // at every sample, bit for bit, for constant and varying radii, on every instruction set.
 //
@@ -38,10 +39,11 @@ class SpanRaster {
   /// Samples in the box.
   double samples() const { return samples_; }
 
-  /// `margin`: at least the error of positions, struts and predicate, in model units. radius_at(p)
-  /// is the radius at a sample, between the bounds of the strut that reaches it.
-  template <class RadiusAt>
-  void add(const StrutBatch& struts, double margin, RadiusAt&& radius_at);
+  /// `margin`: at least the error of positions, struts and predicate, in model units.
+  /// find_radii(points, count, radii) computes the radii at samples, between the bounds of the
+  /// struts that reach them.
+  template <class FindRadii>
+  void add(const StrutBatch& struts, double margin, FindRadii&& find_radii);
 
   /// The same for solids that draw(target, doubts) draws: it sets certain samples and adds
   /// undecided ones to `doubts`. holds(solid, p) then decides one solid at a point; `solid` is a
@@ -72,6 +74,16 @@ class SpanRaster {
   uint64_t* certain_row(size_t j, size_t k) {
     return certain_->data() + k * layer_words_ + j * alive_.row_words();
   }
+  /// Samples whose radius is asked for together, with their squared distance from a strut.
+  struct Asked {
+    static constexpr size_t capacity = 128;
+    size_t count = 0;
+    Vec3 points[capacity];
+    double squared[capacity];
+    Sample samples[capacity];
+  };
+  template <class FindRadii>
+  void decide(Asked& asked, double margin, FindRadii& find_radii);
   /// Leaves the sample to the predicate.
   void leave(Sample sample);
 
@@ -87,13 +99,14 @@ class SpanRaster {
   size_t max_left_ = size_t{1} << 20;
 };
 
-template <class RadiusAt>
-void SpanRaster::add(const StrutBatch& struts, double margin, RadiusAt&& radius_at) {
+template <class FindRadii>
+void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_radii) {
   doubtful_.clear();
   draw(target(margin), struts, doubtful_);
   const SampleGrid& grid = *alive_.grid;
+  Asked asked;
   uint32_t strut = UINT32_MAX;
-  Vec3 a, ab;
+  Vec3 a, ab, slope;
   double inverse_squared = 0;
   for (const DoubtfulSpan& span : doubtful_) {
     if (span.strut != strut) {
@@ -102,6 +115,7 @@ void SpanRaster::add(const StrutBatch& struts, double margin, RadiusAt&& radius_
       ab = struts.to(strut) - a;
       const double squared = dot(ab, ab);
       inverse_squared = squared > 0 ? 1 / squared : 0;
+      if (struts.linear) slope = struts.slope(strut);
     }
     uint64_t* const certain = certain_row(span.j, span.k);
     const uint64_t* const alive = alive_.row(alive_.y0 + span.j, alive_.z0 + span.k);
@@ -112,15 +126,46 @@ void SpanRaster::add(const StrutBatch& struts, double margin, RadiusAt&& radius_
       const Vec3 from_a = p - a;
       const double t = std::clamp(dot(from_a, ab) * inverse_squared, 0.0, 1.0);
       const Vec3 away = from_a - ab * t;
-      const double squared = dot(away, away), r = radius_at(p);
-      const double thick = r + margin, thin = r - margin;
-      if (squared > thick * thick) continue;
-      if (thin > 0 && squared < thin * thin)
-        certain[i / bits_per_word] |= bit;
-      else
-        leave({i, span.j, span.k});
+      const double squared = dot(away, away);
+      if (struts.linear) {
+        // Samples in the strut are in its reach, where these bounds hold. So are those within its
+        // maximum radius.
+        const double about = struts.at_a[strut] + dot(slope, from_a);
+        const double departure = struts.departure[strut];
+        const double thick = std::min(about + departure, struts.high[strut]) + margin;
+        const double thin = std::min(about - departure, struts.high[strut]) - margin;
+        if (thick < 0 || squared > thick * thick) continue;
+        if (thin > 0 && squared < thin * thin) {
+          certain[i / bits_per_word] |= bit;
+          continue;
+        }
+      }
+      if (asked.count == Asked::capacity) decide(asked, margin, find_radii);
+      asked.points[asked.count] = p;
+      asked.squared[asked.count] = squared;
+      asked.samples[asked.count++] = {i, span.j, span.k};
     }
   }
+  if (asked.count > 0) decide(asked, margin, find_radii);
+}
+
+template <class FindRadii>
+void SpanRaster::decide(Asked& asked, double margin, FindRadii& find_radii) {
+  double radii[Asked::capacity];
+  find_radii(asked.points, asked.count, radii);
+  for (size_t n = 0; n < asked.count; ++n) {
+    const Sample s = asked.samples[n];
+    const double thick = radii[n] + margin, thin = radii[n] - margin;
+    if (asked.squared[n] > thick * thick) continue;
+    uint64_t& word = certain_row(s.j, s.k)[s.i / bits_per_word];
+    const uint64_t bit = uint64_t{1} << (s.i % bits_per_word);
+    if (word & bit) continue;
+    if (thin > 0 && asked.squared[n] < thin * thin)
+      word |= bit;
+    else
+      leave(s);
+  }
+  asked.count = 0;
 }
 
 template <class Draw, class Holds>

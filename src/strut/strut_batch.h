@@ -17,15 +17,16 @@ struct StrutBatch {
   size_t count = 0;
   double a[3][capacity + padding], b[3][capacity + padding];
   double low[capacity + padding], high[capacity + padding];
-  /// If `linear`: the radius at p is, within the margin, at_a + dot(gradient, p - a).
+  /// If `linear`: at points in a strut's reach, the radius differs from at_a + dot(gradient, p - a)
+  /// by at most `departure`.
   static constexpr double max_gradient = 0.5;  // of each component
   bool linear = false;
-  Vec3 gradient;
-  double at_a[capacity + padding];
+  double gradient[3][capacity + padding], at_a[capacity + padding], departure[capacity + padding];
 
   bool full() const { return count == capacity; }
   Vec3 from(size_t i) const { return {a[0][i], a[1][i], a[2][i]}; }
   Vec3 to(size_t i) const { return {b[0][i], b[1][i], b[2][i]}; }
+  Vec3 slope(size_t i) const { return {gradient[0][i], gradient[1][i], gradient[2][i]}; }
   void push(Vec3 from, Vec3 to) {
     for (int axis = 0; axis < 3; ++axis) {
       a[axis][count] = from[axis];

@@ -56,7 +56,8 @@ struct StrutSetups {
   float signed_ux2[room];                            // ux |ux|
   float inverse_across[room];                        // 1 / (uy^2 + uz^2)
   float high2[room], low2[room];                     // squared radii; low2 negative: no inner span
-  float radius_a[room], spread[room];                // of a linear radius: at a; along a row
+  // Of a linear radius: its gradient, its value at a, and what it may differ by along a row.
+  float gradient[3][room], radius_a[room], spread[room];
   float error[room], root_error[room], end_error[room];  // E, sqrt(E); see fast_spans-inl.h
 };
 
@@ -250,8 +251,13 @@ HWY_INLINE void set_up_struts(const RasterTarget& target, const StrutBatch& batc
     put(hn::Sqrt(hn::Mul(error, hn::Set(d, 1.01))), setups.root_error);
     put(end_error, setups.end_error);
     if (!batch.linear) continue;
-    const V spread = hn::Mul(hn::Mul(r, hn::Sqrt(inverse_across)),
-                             hn::Set(d, 1.01 * std::abs(batch.gradient.x)));
+    const V gx = hn::LoadU(d, batch.gradient[0] + i);
+    const V along_row = hn::Mul(hn::Mul(r, hn::Sqrt(inverse_across)), hn::Abs(gx));
+    const V spread =
+        hn::Mul(hn::MulAdd(hn::LoadU(d, batch.departure + i), scale, along_row), hn::Set(d, 1.01));
+    put(gx, setups.gradient[0]);
+    put(hn::LoadU(d, batch.gradient[1] + i), setups.gradient[1]);
+    put(hn::LoadU(d, batch.gradient[2] + i), setups.gradient[2]);
     put(hn::Mul(hn::LoadU(d, batch.at_a + i), scale), setups.radius_a);
     put(spread, setups.spread);
   }

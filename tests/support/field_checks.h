@@ -15,11 +15,12 @@ struct FieldOutcome {
   size_t boxes = 0;
   size_t linear = 0;   ///< boxes on which it is known to be linear
   size_t bounded = 0;  ///< whose Lipschitz constant is known
+  size_t sloped = 0;   ///< whose slopes are known
   double width = 0;    ///< range of a box over that of the points sampled in it: least
 };
 
-/// Checks range(), is_linear() and lipschitz(), of all and of boxes, of a field by `boxes` boxes,
-/// of sizes from `least` to `most`, in `space`.
+/// Checks range(), is_linear(), lipschitz() and slopes(), of all and of boxes, of a field by
+/// `boxes` boxes, of sizes from `least` to `most`, in `space`.
 inline FieldOutcome check_field(const Field& field, const Box3& space, double least, double most,
                                 size_t boxes, Random& random) {
   FieldOutcome outcome;
@@ -48,6 +49,8 @@ inline FieldOutcome check_field(const Field& field, const Box3& space, double le
     if (!(in_box <= lipschitz))
       fail_msg("lipschitz() of a box is %g, %g of all", in_box, lipschitz);
     outcome.bounded += std::isfinite(in_box);
+    const std::optional<Slopes> slopes = field.slopes(box);
+    outcome.sloped += slopes.has_value();
     double low = 1e300, high = -1e300;
     Vec3 last = box.min;
     for (int i = 0; i < 24; ++i) {
@@ -69,6 +72,20 @@ inline FieldOutcome check_field(const Field& field, const Box3& space, double le
       if (way > 0 && !(change <= in_box * way * (1 + 1e-12) + rounding + rounded))
         fail_msg("changes by %.17g within %.17g, Lipschitz constant of the box %.17g", change, way,
                  in_box);
+      if (slopes) {
+        double least = 0, greatest = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          const double along = (p - last)[axis];
+          const double from = along * slopes->between.min[axis];
+          const double to = along * slopes->between.max[axis];
+          least += std::min(from, to);
+          greatest += std::max(from, to);
+        }
+        const double slack = 2 * slopes->rounding + 1e-12 * (std::abs(least) + std::abs(greatest));
+        const double rise = v - field.at(last);
+        if (!(rise >= least - slack && rise <= greatest + slack))
+          fail_msg("changes by %.17g, by its slopes by %.17g to %.17g", rise, least, greatest);
+      }
       last = p;
       if (!is_linear) continue;
       const double along = field.at(box.min) + dot(gradient, p - box.min);

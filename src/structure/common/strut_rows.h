@@ -6,6 +6,7 @@
 #include "cell/neighbourhood.h"
 #include "field/field.h"
 #include "structure/common/grid_boxes.h"
+#include "structure/common/radius_bounds.h"
 #include "strut/segment_selection.h"
 #include "strut/span_raster.h"
 
@@ -21,7 +22,8 @@ class StrutRows {
       : radius_(radius),
         raster_(block),
         margin_(margin + position_margin(raster_.box(), grid.origin) + block.grid->rounding()),
-        reach_(raster_.box().grown(max_factor * radius.range().high + margin_)) {}
+        reach_(raster_.box().grown(max_factor * radius.range().high + margin_)),
+        bounds_(radius, margin_, *block.grid, raster_.box()) {}
 
   /// True if no sample is alive: nothing to do.
   bool empty() const { return raster_.empty(); }
@@ -59,8 +61,11 @@ class StrutRows {
   /// Draws the struts added so far.
   void flush() {
     if (batch_.count == 0) return;
-    set_radii();
-    raster_.add(batch_, margin_, [this](Vec3 p) { return factor_ * radius_.at(p); });
+    bounds_.set(batch_, factor_);
+    raster_.add(batch_, margin_, [this](const Vec3* points, size_t count, double* radii) {
+      radius_.values(points, count, radii);
+      for (size_t i = 0; i < count; ++i) radii[i] = factor_ * radii[i];
+    });
     batch_.count = 0;
   }
   /// Clears the samples outside all struts; inside(p) decides the doubtful samples.
@@ -71,42 +76,6 @@ class StrutRows {
   }
 
  private:
-  void set_radii() {
-    // The radius at samples that a strut may contain, with an error below the margin.
-    const Interval range{factor_ * radius_.range().low, factor_ * radius_.range().high};
-    const double most = range.high, around = most + margin_;
-    const auto extent = [&](size_t i) {
-      return Box3{min(batch_.from(i), batch_.to(i)), max(batch_.from(i), batch_.to(i))};
-    };
-    batch_.linear = false;
-    if (!radius_.is_constant()) {
-      Box3 all = extent(0);
-      for (size_t i = 1; i < batch_.count; ++i) {
-        const Box3 box = extent(i);
-        all = {min(all.min, box.min), max(all.max, box.max)};
-      }
-      batch_.linear = radius_.is_linear(all.grown(around * (1 + 1e-6)), batch_.gradient);
-      batch_.gradient = batch_.gradient * factor_;
-      batch_.linear = batch_.linear && max_magnitude(batch_.gradient) < StrutBatch::max_gradient;
-    }
-    for (size_t i = 0; i < batch_.count; ++i) {
-      Interval r{most, most};
-      if (batch_.linear) {
-        const Vec3 a = batch_.from(i), ab = batch_.to(i) - a, g = batch_.gradient;
-        const double at_a = factor_ * radius_.at(a), along = dot(g, ab);
-        const double about = around * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)) + 1e-9 * most;
-        batch_.at_a[i] = at_a;
-        r = {std::max(range.low, at_a + std::min(along, 0.0) - about),
-             std::min(most, at_a + std::max(along, 0.0) + about)};
-      } else if (!radius_.is_constant()) {
-        r = radius_.range(extent(i).grown(around));
-        r = {factor_ * r.low, factor_ * r.high};
-      }
-      batch_.low[i] = r.low;
-      batch_.high[i] = r.high;
-    }
-  }
-
   /// The error of positions on either side is a few units of 2^-53 of the largest magnitude; this
   /// is 2^-40.
   static double position_margin(const Box3& box, Vec3 origin) {
@@ -117,6 +86,7 @@ class StrutRows {
   SpanRaster raster_;
   double margin_;
   Box3 reach_;
+  RadiusBounds bounds_;
   double factor_ = 1;  // of the batch
   StrutBatch batch_;
   SegmentSelection selection_;
