@@ -1861,7 +1861,7 @@ export interface Functions {
   /**
    * Creates a field from callbacks. def must not be NULL.
    *
-   * msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz are too narrow, results are wrong, but behaviour stays defined. Cost: single points and struts call back with one point; sets and slices of functional structures with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.
+   * msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz are too narrow, results are wrong, but behaviour stays defined. Cost: points and struts call back with one point; sets, and slices of functional structures, of foams and of turned lattices, with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.
    */
   msq_field_host(context: Memory, def: msq_host_field_def | null, field: [Pointer]): number;
   /** Sets the defaults. Errors: ARGUMENT. */

@@ -3048,7 +3048,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a field from callbacks. def must not be NULL.</summary>
         /// <remarks>
-        /// <para>msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz are too narrow, results are wrong, but behaviour stays defined. Cost: single points and struts call back with one point; sets and slices of functional structures with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.</para>
+        /// <para>msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz are too narrow, results are wrong, but behaviour stays defined. Cost: points and struts call back with one point; sets, and slices of functional structures, of foams and of turned lattices, with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]

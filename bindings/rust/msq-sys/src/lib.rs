@@ -2229,7 +2229,7 @@ extern "C" {
     pub fn msq_host_field_def_init(def: *mut msq_host_field_def, size: usize) -> msq_status;
     /// Creates a field from callbacks. def must not be NULL.
     ///
-    /// msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz are too narrow, results are wrong, but behaviour stays defined. Cost: single points and struts call back with one point; sets and slices of functional structures with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.
+    /// msq decides whole blocks of points by the range over a box. Without range and lipschitz the range is low to high everywhere: correct, but slow. If range or lipschitz are too narrow, results are wrong, but behaviour stays defined. Cost: points and struts call back with one point; sets, and slices of functional structures, of foams and of turned lattices, with batches. Errors: ARGUMENT, MEMORY. Calls that use the field: HOST.
     pub fn msq_field_host(context: *mut msq_context, def: *const msq_host_field_def, field: *mut *mut msq_field) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_grid_field_def_init(def: *mut msq_grid_field_def, size: usize) -> msq_status;
