@@ -2550,12 +2550,13 @@ typedef struct msq_calibration_report {
  * field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not
  * wanted. sample NULL: 2 points in each of 64^3 parts of one cell (lattices, functional
  * structures), or of 16^3 cells (foams, waves; with a period, of the smallest size; unions: of the
- * grid with the largest cells), from the origin of the grid. job NULL: no job. Cost: the onset of
- * each point (lattices 0.1 us, foams 1.5 us, in parallel) and a sort; 16 bytes per point, accounted
- * to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more
- * unit cells, lattices of plates and struts, foams of struts and walls, host structures and
- * functions, beams, and structures made of others, except unions of lattices and foams), CANCELLED,
- * LIMIT (target above max_fraction; memory), MEMORY. */
+ * grid with the largest cells), from the origin of the grid; an error in warped cells. job NULL: no
+ * job. Cost: the onset of each point (lattices 0.1 us, in warped cells 10 to 100 us; foams 1.5 us;
+ * in parallel) and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT,
+ * UNSUPPORTED (kinds without onset: lattices with two or more unit cells, lattices of plates and
+ * struts, foams of struts and walls, host structures and functions, beams, and structures made of
+ * others, except unions of lattices and foams), CANCELLED, LIMIT (target above max_fraction;
+ * memory), MEMORY. */
 MSQ_API msq_status msq_structure_calibrate(msq_context* context, const msq_structure* structure,
                                            const msq_points_def* sample, double target,
                                            double* parameters, double* fractions,

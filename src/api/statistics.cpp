@@ -30,6 +30,10 @@ StratifiedPoints read_sample(const msq_points_def* sample) {
 /// one cell where all are alike, otherwise 16^3. Of several grids that with the largest cells.
 StratifiedPoints usual_sample(const Structure& structure) {
   constexpr uint64_t side = 64;
+  if (!structure.is_alike_from_origin())
+    fail(Status::argument,
+         "sample is NULL, and cells around an axis or a point differ from those at the grid's "
+         "origin; give a sample of the part");
   Neighbourhood grid = structure.neighbourhood();
   structure.for_each_grid([&](const Neighbourhood& other) {
     if (max_component(other.cell_size) > max_component(grid.cell_size)) grid = other;

@@ -93,6 +93,8 @@ class Structure : public Described {
   virtual double onset_limit() const { return std::numeric_limits<double>::infinity(); }
   /// Whether all cells are equal, apart from the effect of fields.
   virtual bool is_periodic() const { return false; }
+  /// Whether the cells from the grid's origin on are like those elsewhere.
+  virtual bool is_alike_from_origin() const { return true; }
 
   /// Sets alive[i] to 0 where points[i] is outside. Evaluates only points with alive[i] != 0, which
   /// are 1. Takes fewer than 2^32 points, in any order.

@@ -266,7 +266,7 @@ static void cells_around_a_point_have_their_struts(void** state) {
 }
 
 /* The struts of whole turns: as many as cells, each once, joined in rings of a closed graph. */
-enum { max_taken = 100 };
+enum { max_taken = 128 };
 typedef struct taken_struts {
   msq_strut struts[max_taken];
   size_t count;
@@ -332,12 +332,76 @@ static void rings_close(void** state) {
   msq_context_release(context);
 }
 
+static void count_struts(int32_t unit_cell, const msq_warp_def* warp, double high, size_t struts,
+                         size_t nodes) {
+  msq_context* context = make_context();
+  msq_structure* structure;
+  msq_lattice_def def;
+  msq_struts_def selection;
+  static taken_struts taken;
+  uint64_t found[2 * max_taken][2];
+  size_t found_count = 0;
+  assert_ok(msq_lattice_def_init(&def, sizeof def));
+  def.unit_cell = unit_cell;
+  def.radius.value = 0.01;
+  def.warp = warp;
+  assert_ok(msq_structure_lattice(context, &def, &structure));
+  assert_ok(msq_struts_def_init(&selection, sizeof selection));
+  for (int axis = 0; axis < 3; ++axis) {
+    selection.max[axis] = axis < 2 ? 6 : high;
+    selection.min[axis] = -selection.max[axis];
+  }
+  taken.count = 0;
+  assert_ok(msq_structure_struts(context, structure, &selection, take_struts, &taken, NULL));
+  assert_int_equal(taken.count, struts);
+  for (size_t i = 0; i < taken.count; ++i) {
+    const msq_strut* const s = &taken.struts[i];
+    const uint64_t* const ends[2] = {s->node_a, s->node_b};
+    assert_memory_not_equal(s->a, s->b, sizeof s->a);
+    for (int end = 0; end < 2; ++end) {
+      size_t n = 0;
+      while (n < found_count && memcmp(found[n], ends[end], sizeof found[n])) ++n;
+      if (n == found_count) memcpy(found[found_count++], ends[end], sizeof found[n]);
+    }
+    for (size_t j = 0; j < i; ++j) {
+      const msq_strut* const t = &taken.struts[j];
+      assert_false(!memcmp(s->a, t->a, sizeof s->a) && !memcmp(s->b, t->b, sizeof s->b));
+      assert_false(!memcmp(s->a, t->b, sizeof s->a) && !memcmp(s->b, t->a, sizeof s->b));
+      if (!memcmp(s->node_a, t->node_a, sizeof s->node_a))
+        assert_memory_equal(s->a, t->a, sizeof s->a);
+      if (!memcmp(s->node_b, t->node_a, sizeof s->node_b))
+        assert_memory_equal(s->b, t->a, sizeof s->b);
+    }
+  }
+  assert_int_equal(found_count, nodes);
+  msq_structure_release(structure);
+  msq_context_release(context);
+}
+
+static void nodes_at_poles_and_in_the_middle_are_one(void** state) {
+  msq_warp_def round;
+  (void)state;
+  assert_ok(msq_warp_def_init(&round, sizeof round));
+  round.count = 6;
+  round.outer_radius = 1;
+  count_struts(MSQ_UNIT_CELL_CUBIC, &round, 0.25, 6 + 6, 7); /* without those along the axis */
+  count_struts(MSQ_UNIT_CELL_CUBIC, &round, 0.995, 3 * (6 + 6) + 2 * 7, 3 * 7);
+  round.kind = MSQ_WARP_SPHERICAL;
+  round.count_polar = 4;
+  count_struts(MSQ_UNIT_CELL_CUBIC, &round, 6, 20 + 3 * 6 + 4 * 6, 20 + 1);
+  count_struts(MSQ_UNIT_CELL_BCC, &round, 6, 12 * (1 + 4) + 12 * (1 + 3), 24 + 20 + 1);
+  round.inner_radius = 1;
+  round.outer_radius = 2;
+  count_struts(MSQ_UNIT_CELL_CUBIC, &round, 6, 20 + 2 * (3 * 6 + 4 * 6), 2 * 20);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(graded_cells_have_their_struts),
       cmocka_unit_test(cells_around_an_axis_have_their_struts),
       cmocka_unit_test(cells_around_a_point_have_their_struts),
       cmocka_unit_test(rings_close),
+      cmocka_unit_test(nodes_at_poles_and_in_the_middle_are_one),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

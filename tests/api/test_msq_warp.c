@@ -103,6 +103,11 @@ static void what_does_not_go_with_a_warp_is_refused(void** state) {
   assert_refused(msq_fill_calibrate(context, structure, 0.4, 0.1, cell_size, NULL),
                  MSQ_E_UNSUPPORTED, "");
   assert_true(cell_size[0] == 7 && cell_size[1] == 7 && cell_size[2] == 7);
+  msq_calibration_report report = {.struct_size = sizeof report, .parameter = 7};
+  assert_refused(
+      msq_structure_calibrate(context, structure, NULL, 0.2, NULL, NULL, 0, &report, NULL),
+      MSQ_E_ARGUMENT, "give a sample of the part");
+  assert_true(report.parameter == 7);
   msq_structure_release(structure);
   def.level.value = 0;
   def.thickness.value = 0.1;

@@ -53,6 +53,12 @@ CombinedStructure::CombinedStructure(StructureList members)
   if (!(smallest_cell_ < infinity)) smallest_cell_ = cell_length();
 }
 
+bool CombinedStructure::is_alike_from_origin() const {
+  return std::all_of(members_.begin(), members_.end(), [](const Ref<const Structure>& member) {
+    return member->is_alike_from_origin();
+  });
+}
+
 void CombinedStructure::for_each_grid(const TakeGrid& take) const {
   for (const Ref<const Structure>& member : members_) member->for_each_grid(take);
 }

@@ -16,6 +16,7 @@ using StructureList = std::vector<Ref<const Structure>>;
 class CombinedStructure : public Structure {
  public:
   void for_each_grid(const TakeGrid& take) const final;
+  bool is_alike_from_origin() const final;
   unsigned nesting() const final { return nesting_; }
   /// How many structures of other kinds it evaluates, the same one as often as it occurs.
   uint64_t terms() const { return terms_; }

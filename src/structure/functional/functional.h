@@ -57,6 +57,7 @@ class Functional final : public Structure {
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return level_.at(p); }
   bool is_periodic() const override { return !angles_.period() && !angles_.warp(); }
+  bool is_alike_from_origin() const override { return !angles_.warp(); }
   ThinWalls thin_walls() const override {
     if (angles_.warp()) return ThinWalls::none;
     return !angles_.period() && (is_sheet() || level_.is_constant()) ? ThinWalls::uniform

@@ -31,6 +31,8 @@ class CellPlaces {
   /// The grid with the smallest of the cells, and the size of the largest.
   virtual const Neighbourhood& smallest() const = 0;
   virtual double largest() const = 0;
+  /// Structure::is_alike_from_origin().
+  virtual bool is_alike_from_origin() const = 0;
   /// The cell that contains a point in grid coordinates.
   virtual CellIndex cell_of(Vec3 g) const = 0;
   /// The same cell, in the one of its numbers that its nodes are placed by.
@@ -40,6 +42,13 @@ class CellPlaces {
   virtual CellIndex nearest_with_struts(CellIndex cell) const { return canonical(cell); }
   /// The point at `fraction`, each component in [0, 1), of a canonical cell: the definition.
   virtual Vec3 place(CellIndex cell, Vec3 fraction) const = 0;
+  /// The axes, bit 0 for x, along which the coordinate of such a point does not count: on the axis
+  /// and at poles, which all cells around share.
+  virtual unsigned folded_axes(CellIndex cell, Vec3 fraction) const {
+    (void)cell;
+    (void)fraction;
+    return 0;
+  }
   /// Where cells end, in each direction: a cell that is the first along an axis, or the one after
   /// the last, which has no struts but those on its lower face.
   enum class End : uint8_t { none, first, last };

@@ -13,6 +13,7 @@ class GradedPlaces final : public CellPlaces {
 
   const Neighbourhood& smallest() const override { return smallest_; }
   double largest() const override;
+  bool is_alike_from_origin() const override { return true; }
   CellIndex cell_of(Vec3 g) const override;
   Vec3 place(CellIndex cell, Vec3 fraction) const override;
   Box3 bounds(const CellBlock& cells) const override;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The struts of a unit cell, placed in cells that vary in size or are bent. A node that several
 // cells share is placed from its owner (graph/lattice_graph.h), so it is one point in all of them.
+// On an axis and at poles the nodes of all cells around are one: that of the first cell with the
+// lowest number.
 #pragma once
 
 #include <array>
@@ -39,16 +41,21 @@ class PlacedGraph {
   const std::vector<double>& factors() const { return factors_; }
   const CellPlaces& places() const { return places_; }
 
-  CellIndex owner(CellIndex cell, const LatticeGraph::End& corner) const {
-    return places_.canonical(
-        {cell.x + corner.offset[0], cell.y + corner.offset[1], cell.z + corner.offset[2]});
-  }
+  struct Node {
+    CellIndex cell;
+    uint32_t number;
+    unsigned folded_axes;  // CellPlaces::folded_axes()
+    friend bool operator==(const Node& a, const Node& b) {
+      return a.cell == b.cell && a.number == b.number;
+    }
+  };
+  /// The node at a corner of a cell.
+  Node node(CellIndex cell, const LatticeGraph::End& corner) const;
   /// Writes the corners of a canonical cell, in grid coordinates.
-  void place(CellIndex cell, std::vector<Vec3>& corners) const {
-    corners.resize(corners_.size());
-    for (size_t i = 0; i < corners_.size(); ++i)
-      corners[i] = places_.place(owner(cell, corners_[i]), graph_.node(corners_[i].node));
-  }
+  void place(CellIndex cell, std::vector<Vec3>& corners) const;
+  /// Whether a strut that a canonical cell owns, by its place in struts_of(), is one of the graph:
+  /// where nodes are one, so that struts coincide, the thickest is, and none of length 0.
+  bool is_in_graph(CellIndex cell, size_t number) const;
 
  private:
   const CellPlaces& places_;

@@ -94,6 +94,16 @@ Vec3 RoundPlaces::place(CellIndex cell, Vec3 fraction) const {
   return warp_.from_cells(Vec3{double(cell.x), double(cell.y), double(cell.z)} + fraction);
 }
 
+unsigned RoundPlaces::folded_axes(CellIndex cell, Vec3 fraction) const {
+  constexpr unsigned y = 2, z = 4;
+  const bool is_in_middle = cell.x == 0 && fraction.x == 0 && warp_.shell().inner == 0;
+  if (!is_spherical()) return is_in_middle ? y : 0;
+  if (is_in_middle) return y | z;
+  const bool is_pole =
+      fraction.z == 0 && (cell.z == 0 || cell.z == static_cast<int32_t>(warp_.shell().count_polar));
+  return is_pole ? y : 0;
+}
+
 Box3 RoundPlaces::bounds(const CellBlock& cells) const {
   const Warp::Shell& shell = warp_.shell();
   const Vec3 size = warp_.grid().cell_size;

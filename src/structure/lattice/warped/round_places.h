@@ -19,11 +19,13 @@ class RoundPlaces final : public CellPlaces {
 
   const Neighbourhood& smallest() const override { return smallest_; }
   double largest() const override { return largest_; }
+  bool is_alike_from_origin() const override { return false; }
   CellIndex cell_of(Vec3 g) const override;
   CellIndex canonical(CellIndex cell) const override;
   CellIndex nearest_with_struts(CellIndex cell) const override;
   Ends ends(CellIndex cell) const override;
   Vec3 place(CellIndex cell, Vec3 fraction) const override;
+  unsigned folded_axes(CellIndex cell, Vec3 fraction) const override;
   Box3 bounds(const CellBlock& cells) const override;
   void for_each_block(const Box3& box, const TakeBlock& take) const override;
   void describe(HashInput& input) const override;

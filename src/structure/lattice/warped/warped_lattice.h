@@ -48,6 +48,7 @@ class WarpedLattice final : public Structure {
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
   bool has_onset() const override { return true; }
+  bool is_alike_from_origin() const override { return places_->is_alike_from_origin(); }
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return radius_.at(p); }
   double onset_limit() const override;

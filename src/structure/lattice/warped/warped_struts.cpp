@@ -68,14 +68,19 @@ void WarpedStruts::append(uint64_t part, StrutList& list) const {
     check_cancelled();
     graph_.place(cell, corners);
     for (Vec3& corner : corners) corner = grid_.from_grid(corner);
-    for (const PlacedGraph::Strut& s : graph_.struts_of(cell)) {
+    const std::vector<PlacedGraph::Strut>& struts = graph_.struts_of(cell);
+    for (size_t n = 0; n < struts.size(); ++n) {
+      const PlacedGraph::Strut& s = struts[n];
       Strut strut;
       strut.a = corners[s.a];
       strut.b = corners[s.b];
       if (!selection_.selects(strut.a, strut.b, s.factor * max_radius)) continue;
-      const LatticeGraph::End ends[2] = {graph_.corners()[s.a], graph_.corners()[s.b]};
-      for (int end = 0; end < 2; ++end)
-        strut.nodes[end] = id_of(graph_.owner(cell, ends[end]), ends[end].node);
+      if (!graph_.is_in_graph(cell, n)) continue;
+      const uint32_t corners_of[2] = {s.a, s.b};
+      for (int end = 0; end < 2; ++end) {
+        const PlacedGraph::Node node = graph_.node(cell, graph_.corners()[corners_of[end]]);
+        strut.nodes[end] = id_of(node.cell, node.number);
+      }
       strut.id = id_of(cell, s.edge);
       strut.cell = cell;
       strut.radii[0] = strut.radii[1] = s.factor * max_radius;
