@@ -54,7 +54,7 @@ uint64_t ContourGrid::bytes(const Model& model, const Scales& resolved) const {
 }
 
 void ContourGrid::find_nodes(const Model& model, const Scales& resolved, const Job* job) {
-  bits_.assign(words(), 0);
+  memory_->bits.assign(words(), 0);
   const uint64_t across = u_.inner(), rows = v_.inner();
   const double u0 = u_.first(), v0 = v_.first();
   find_part(model, resolved, {u0, v0, across, rows, first_inner, 2}, job);
@@ -69,17 +69,18 @@ void ContourGrid::find_nodes(const Model& model, const Scales& resolved, const J
 
 void ContourGrid::find_nodes(const PlaneStruts& struts, const ContourGrid& shape,
                              ContourPoints& points) {
-  bits_.assign(words(), 0);
+  std::vector<uint64_t>& bits = memory_->bits;
+  bits.assign(words(), 0);
   std::vector<GridNode> doubtful;
-  struts.draw(*this, {bits_.data(), row_words_, doubtful}, points.job());
+  struts.draw(*this, {bits.data(), row_words_, doubtful}, points.job());
   std::erase_if(doubtful, [&](const GridNode& n) { return inside(n.column, n.row); });
   points.clear();
   for (const GridNode& n : doubtful) points.add({u(n.column), v(n.row)});
   const std::vector<uint8_t>& held = points.find_inside();
   for (size_t i = 0; i < doubtful.size(); ++i)
-    bits_[doubtful[i].row * row_words_ + doubtful[i].column / 64] |= uint64_t{held[i]}
-                                                                     << (doubtful[i].column % 64);
-  for (size_t w = 0; w < bits_.size(); ++w) bits_[w] &= shape.bits_[w];
+    bits[doubtful[i].row * row_words_ + doubtful[i].column / 64] |= uint64_t{held[i]}
+                                                                    << (doubtful[i].column % 64);
+  for (size_t w = 0; w < bits.size(); ++w) bits[w] &= shape.memory_->bits[w];
 }
 
 void ContourGrid::find_part(const Model& model, const Scales& resolved, const Part& part,
@@ -91,7 +92,7 @@ void ContourGrid::find_part(const Model& model, const Scales& resolved, const Pa
 }
 
 void ContourGrid::put_row(const uint64_t* words, const Part& part, uint32_t row) {
-  uint64_t* const out = bits_.data() + row * row_words_ + part.column / 64;
+  uint64_t* const out = memory_->bits.data() + row * row_words_ + part.column / 64;
   if (part.column % 64 == 0)
     for (size_t w = 0; w < words_for(part.across); ++w) out[w] |= words[w];
   else

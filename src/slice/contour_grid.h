@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/borrowed.h"
 #include "base/job.h"
 #include "base/vec.h"
 #include "model/model.h"
@@ -90,6 +91,12 @@ class ContourGrid {
   ContourGrid(LayerPlane plane, const double window_min[2], const double window_max[2],
               double pitch);
 
+  /// A grid with the same nodes, of which none is found yet.
+  ContourGrid alike() const {
+    const double low[2] = {u_.low(), v_.low()}, high[2] = {u_.high(), v_.high()};
+    return ContourGrid(plane_, low, high, pitch_);
+  }
+
   const LayerPlane& plane() const { return plane_; }
   double pitch() const { return pitch_; }
 
@@ -127,7 +134,7 @@ class ContourGrid {
   const ContourAxis& u_nodes() const { return u_; }
   const ContourAxis& v_nodes() const { return v_; }
 
-  const uint64_t* row(uint32_t row) const { return bits_.data() + row * row_words_; }
+  const uint64_t* row(uint32_t row) const { return memory_->bits.data() + row * row_words_; }
   bool inside(uint32_t column, uint32_t row) const {
     return this->row(row)[column / 64] >> (column % 64) & 1;
   }
@@ -146,7 +153,12 @@ class ContourGrid {
   ContourAxis u_, v_;
   double pitch_;
   size_t row_words_;
-  std::vector<uint64_t> bits_;
+  // Kept between calls: fresh memory of this size takes a while to get.
+  struct Memory {
+    std::vector<uint64_t> bits;
+    size_t bytes() const { return bits.capacity() * sizeof(uint64_t); }
+  };
+  const Borrowed<Memory> memory_;
 };
 
 }  // namespace msq

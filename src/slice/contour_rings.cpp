@@ -10,10 +10,12 @@ namespace {
 
 /// Rings lead through rows above their lowest one.
 constexpr uint32_t rows_ahead = 16;
+/// What is known of so many crossings stays in the core's cache while they are looked into.
+constexpr uint32_t crossings_at_once = 1 << 14;
 
 }  // namespace
 
-ContourRings::ContourRings(ContourSection& section, const Job* job)
+ContourRings::ContourRings(const ContourSection& section)
     : grid_(section.grid()),
       axes_{{grid_.u_nodes().first(), grid_.pitch(), grid_.u_nodes().low(), grid_.u_nodes().high(),
              ContourGrid::first_inner, ContourGrid::left_beyond, ContourGrid::left_edge,
@@ -27,6 +29,10 @@ ContourRings::ContourRings(ContourSection& section, const Job* job)
     memory_->edges.resize(section.count());
     memory_->kinds.resize(section.count());
   }
+}
+
+void ContourRings::follow_all(ContourSection& section, const Job* job,
+                              const std::function<void()>& visit) {
   const EdgeCrossing* const crossings = section.crossings();
   uint32_t id = 0;
   for (uint32_t r = 0; r < grid_.rows(); ++r) {
@@ -45,8 +51,14 @@ ContourRings::ContourRings(ContourSection& section, const Job* job)
         const uint32_t first = count();
         const bool is_closed = follow(section, id, column, r, job);
         rings_.push_back({first, count(), beside, grid_.inside(column, r), is_closed});
+        if (count() < crossings_at_once) continue;
+        visit();
+        rings_before_ += static_cast<uint32_t>(rings_.size());
+        rings_.clear();
+        count_ = 0;
       }
   }
+  visit();
 }
 
 bool ContourRings::follow(ContourSection& section, uint32_t id, uint32_t column, uint32_t row,
@@ -62,7 +74,7 @@ bool ContourRings::follow(ContourSection& section, uint32_t id, uint32_t column,
                              {0, 1, 0, 1, 0},
                              {horizontal | first_inside, 0, 1, 0, 1},
                              {first_inside, 0, 0, -1, 0}};
-  const uint32_t number = static_cast<uint32_t>(rings_.size());
+  const uint32_t number = rings_before_ + static_cast<uint32_t>(rings_.size());
   EdgeCrossing* const crossings = section.crossings();
   const double* const ends = section.ends();
   double* const x = memory_->x.data();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/borrowed.h"
@@ -20,12 +21,16 @@ struct RingEdge {
 
 class ContourRings {
  public:
-  /// Follows the rings of a section; its crossings then know the numbers of their rings.
-  ContourRings(ContourSection& section, const Job* job);
+  explicit ContourRings(const ContourSection& section);
+
+  /// Follows all rings of the section; its crossings then know the numbers of their rings. Calls
+  /// visit() whenever there are some: then rings() and all else here tell of these alone.
+  void follow_all(ContourSection& section, const Job* job, const std::function<void()>& visit);
 
   struct Ring {
     uint32_t first, end;  ///< its crossings
-    uint32_t beside;      ///< a ring that borders on the same; none if nothing is around both
+    uint32_t beside;      ///< the number among all rings of one that borders on the same; none if
+                          ///< nothing is around both
     bool is_hole;
     bool is_closed;  ///< none of its crossings lies beyond the window
   };
@@ -101,6 +106,7 @@ class ContourRings {
   const Axis axes_[2];
   const double margin_;
   std::vector<Ring> rings_;
+  uint32_t rings_before_ = 0;  // rings of earlier visits
   // Kept between calls: fresh memory of this size takes a while to get. May hold more than count_.
   struct Memory {
     std::vector<double> x, y;

@@ -50,9 +50,9 @@ uint64_t ContourSection::count_crossings(const Job* job) {
       }
     }
   };
-  count([&](uint32_t r, size_t w) { return horizontal(r, w); }, horizontal_, rows);
+  count([&](uint32_t r, size_t w) { return horizontal(r, w); }, memory_->horizontal, rows);
   const uint64_t across = sum;
-  count([&](uint32_t r, size_t w) { return vertical(r, w); }, vertical_, rows - 1);
+  count([&](uint32_t r, size_t w) { return vertical(r, w); }, memory_->vertical, rows - 1);
   if (sum >= UINT32_MAX)
     fail(Status::limit, "the layer has %llu crossings of the grid; the limit is %u",
          static_cast<unsigned long long>(sum), UINT32_MAX - 1);
@@ -76,8 +76,8 @@ void ContourSection::link(const Job* job) {
   for (uint32_t r = 0; r + 1 < rows; ++r) {
     if (r % 64 == 0) check_cancelled(job);
     // Crossings of each kind come in the order of columns.
-    uint32_t low = horizontal_[r * words], high = horizontal_[(r + 1) * words];
-    uint32_t up = vertical_[r * words];
+    uint32_t low = memory_->horizontal[r * words], high = memory_->horizontal[(r + 1) * words];
+    uint32_t up = memory_->vertical[r * words];
     for (size_t w = 0; w < words; ++w) {
       const uint64_t below = horizontal(r, w), above = horizontal(r + 1, w);
       const uint64_t before = vertical(r, w);
@@ -118,8 +118,9 @@ void ContourSection::prefetch(uint32_t row) const {
       hwy::Prefetch(memory_->ends.data() + id);
     }
   };
-  fetch(horizontal_[row * words], horizontal_[next]);
-  fetch(vertical_[row * words], next < vertical_.size() ? vertical_[next] : crossing_count_);
+  fetch(memory_->horizontal[row * words], memory_->horizontal[next]);
+  fetch(memory_->vertical[row * words],
+        next < memory_->vertical.size() ? memory_->vertical[next] : crossing_count_);
 }
 
 void ContourSection::settle_saddles(ContourPoints& points) {
@@ -199,12 +200,12 @@ void ContourSection::for_open_edges(const ContourGrid& shape, const Job* job, Ta
             const uint64_t beyond = w + 1 < words ? bits[w + 1] << 63 : 0;
             return choose(grid_.row(r)[w], bits[w], bits[w] >> 1 | beyond);
           },
-          horizontal_, grid_.rows(), horizontal_count_, true);
+          memory_->horizontal, grid_.rows(), horizontal_count_, true);
   look_at([&](uint32_t r, size_t w) { return vertical(r, w); },
           [&](uint32_t r, size_t w) {
             return choose(grid_.row(r)[w], shape.row(r)[w], shape.row(r + 1)[w]);
           },
-          vertical_, grid_.rows() - 1, crossing_count_, false);
+          memory_->vertical, grid_.rows() - 1, crossing_count_, false);
 }
 
 void ContourSection::locate(ContourPoints& points, double accuracy, const PlaneStruts* struts,
@@ -222,8 +223,8 @@ void ContourSection::locate(ContourPoints& points, double accuracy, const PlaneS
   // Struts give their ends. On edges that the shape ends on, membership tells.
   if (struts) {
     struts->propose(grid_,
-                    {grid_.row(0), grid_.row_words(), horizontal_.data(), vertical_.data(),
-                     grid_.rows(), memory_->ends.data(), crossing_count_},
+                    {grid_.row(0), grid_.row_words(), memory_->horizontal.data(),
+                     memory_->vertical.data(), grid_.rows(), memory_->ends.data(), crossing_count_},
                     points.job());
     count_unseen(*struts, points);
     settle_saddles(points);

@@ -108,13 +108,14 @@ class ContourSection {
   const ContourGrid& grid_;
   const double margin_;
   uint32_t horizontal_count_ = 0, crossing_count_ = 0;
-  std::vector<uint32_t> horizontal_, vertical_;  // the first crossing of each word of edges
   // Kept between calls: fresh memory of this size takes a while to get. May hold more than count().
   struct Memory {
     std::vector<EdgeCrossing> crossings;
     std::vector<double> ends;
+    std::vector<uint32_t> horizontal, vertical;  // the first crossing of each word of edges
     size_t bytes() const {
-      return crossings.capacity() * sizeof(EdgeCrossing) + ends.capacity() * sizeof(double);
+      return crossings.capacity() * sizeof(EdgeCrossing) + ends.capacity() * sizeof(double) +
+             (horizontal.capacity() + vertical.capacity()) * sizeof(uint32_t);
     }
   };
   const Borrowed<Memory> memory_;

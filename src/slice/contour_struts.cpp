@@ -116,8 +116,9 @@ void PlaneStruts::sort(const Job* job) {
   const size_t squares = size_t{u_.count} * v_.count, count = from.size();
   if (count > UINT32_MAX)
     fail(Status::limit, "%zu struts of the layer; the limit is %u", count, UINT32_MAX);
-  const Reservation held(budget_, count * bytes_of_strut + (squares + 1) * sizeof(uint32_t),
-                         "the struts of a layer");
+  const Reservation held(
+      budget_, count * (bytes_of_strut + sizeof(size_t)) + (squares + 1) * sizeof(uint32_t),
+      "the struts of a layer");
   const auto square_of = [&](size_t n) {
     const PlaneStrut& s = from[n];
     const double middle = 0.5 * (parts_from[n].from + parts_from[n].to);
@@ -125,17 +126,20 @@ void PlaneStruts::sort(const Job* job) {
   };
   std::vector<uint32_t>& starts = unsorted->starts;
   starts.assign(squares + 1, 0);
+  std::vector<size_t>& of_struts = unsorted->squares;
+  of_struts.resize(count);
   CancelPoll poll(job);
   for (size_t n = 0; n < count; ++n) {
     poll();
-    ++starts[square_of(n) + 1];
+    of_struts[n] = square_of(n);
+    ++starts[of_struts[n] + 1];
   }
   for (size_t i = 0; i < squares; ++i) starts[i + 1] += starts[i];
   to.resize(count);
   parts_to.resize(count);
   for (size_t n = 0; n < count; ++n) {
     poll();
-    const uint32_t at = starts[square_of(n)]++;
+    const uint32_t at = starts[of_struts[n]]++;
     to[at] = from[n];
     parts_to[at] = parts_from[n];
   }

@@ -88,9 +88,10 @@ class PlaneStruts {
     std::vector<PlaneStrut> struts;
     std::vector<AxisPart> parts;
     std::vector<uint32_t> starts;  // by square
+    std::vector<size_t> squares;   // of struts
     size_t bytes() const {
       return struts.capacity() * sizeof(PlaneStrut) + parts.capacity() * sizeof(AxisPart) +
-             starts.capacity() * sizeof(uint32_t);
+             starts.capacity() * sizeof(uint32_t) + squares.capacity() * sizeof(size_t);
     }
   };
   Squares u_, v_;

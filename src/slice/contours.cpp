@@ -36,16 +36,13 @@ double three_digits(double x) {
 /// Writes the rings, with no more points than needed.
 class RingBuilder {
  public:
-  RingBuilder(const ContourRings& rings, const ContourDetails& details, double tolerance,
-              double units, Contours& out)
-      : rings_(rings),
-        detail_(details.points().data()),
-        end_(detail_ + details.points().size()),
-        tolerance_(tolerance),
-        units_(units),
-        out_(out) {}
+  RingBuilder(const ContourRings& rings, double tolerance, double units, Contours& out)
+      : rings_(rings), tolerance_(tolerance), units_(units), out_(out) {}
 
-  void build(const Job* job) {
+  /// The rings that there are now.
+  void build(const ContourDetails& details, const Job* job) {
+    detail_ = details.points().data();
+    end_ = detail_ + details.points().size();
     JobPoll poll(job);
     for (const ContourRings::Ring& ring : rings_.rings()) {
       poll();
@@ -122,7 +119,7 @@ class RingBuilder {
   }
 
   const ContourRings& rings_;
-  const DetailPoint *detail_, *const end_;
+  const DetailPoint *detail_ = nullptr, *end_ = nullptr;
   const double tolerance_, units_;
   Contours& out_;
   uint64_t dropped_ = 0;
@@ -143,7 +140,7 @@ struct LayerStruts {
   LayerStruts(const Model& model, const Structure& structure, const ContourGrid& grid,
               double around, const Job* job)
       : held(model.context().budget, grid.words() * sizeof(uint64_t), "the nodes of a layer"),
-        shape(grid),
+        shape(grid.alike()),
         all(structure, grid, around, model.context().budget, job) {
     shape.find_nodes(model, {}, job);
   }
@@ -308,15 +305,18 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch),
                 struts ? &struts->all : nullptr, struts ? &struts->shape : nullptr);
   if (job) job->set_progress(0.75);
-  const ContourRings rings(section, job);
-  ContourDetails details(rings, part, plan.format != ContourFormat::float64 ? plan.units : 0);
-  details.find(points);
-  if (job) job->set_progress(0.9);
+  ContourRings rings(section);
   const Borrowed<ContourNumbers> room;
   out->begin(*room);
-  RingBuilder builder(rings, details, part, plan.units, *out);
-  builder.build(job);
-  out->set_unresolved(section.unresolved() + details.unresolved());
+  RingBuilder builder(rings, part, plan.units, *out);
+  uint64_t unresolved = section.unresolved();
+  rings.follow_all(section, job, [&] {
+    ContourDetails details(rings, part, plan.format != ContourFormat::float64 ? plan.units : 0);
+    details.find(points);
+    builder.build(details, job);
+    unresolved += details.unresolved();
+  });
+  out->set_unresolved(unresolved);
   out->close(*room);
   if (plan.topology_samples != 0)
     out->set_topology(builder.dropped() +

@@ -404,7 +404,7 @@ void test_struts_draw_nodes(void**) {
         const LayerPlane plane{axis, axis == 1 ? random.between(1, 3) : 1.3125};
         const double low[2] = {random.between(-0.1, 1), 0.1}, high[2] = {3.9, 3.3125};
         const ContourGrid nodes(plane, low, high, 0.0625);
-        ContourGrid wanted = nodes, drawn = nodes, alone = nodes;
+        ContourGrid wanted = nodes.alike(), drawn = nodes.alike(), alone = nodes.alike();
         wanted.find_nodes(*model, resolved, nullptr);
         alone.find_nodes(*model, {}, nullptr);
         const PlaneStruts struts(*resolved[0]->structure, nodes, 0.02, context()->budget, nullptr);
