@@ -385,7 +385,7 @@ static void nodes_at_poles_and_in_the_middle_are_one(void** state) {
   round.count = 6;
   round.outer_radius = 1;
   count_struts(MSQ_UNIT_CELL_CUBIC, &round, 0.25, 6 + 6, 7); /* without those along the axis */
-  count_struts(MSQ_UNIT_CELL_CUBIC, &round, 0.995, 3 * (6 + 6) + 2 * 7, 3 * 7);
+  count_struts(MSQ_UNIT_CELL_CUBIC, &round, 0.75, 6 + 6 + 2 * 7, 3 * 7);
   round.kind = MSQ_WARP_SPHERICAL;
   round.count_polar = 4;
   count_struts(MSQ_UNIT_CELL_CUBIC, &round, 6, 20 + 3 * 6 + 4 * 6, 20 + 1);
