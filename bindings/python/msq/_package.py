@@ -196,6 +196,9 @@ class LevelSet:
         self.transform = _transform(given.get("transform"), f"{what}: the levelset's transform")
         self.min_feature_size = number_of(given.get("minfeaturesize", "0"),
                                           f"{what}: minfeaturesize")
+        if self.min_feature_size < 0:
+            raise FileError(None, f"{what}: minfeaturesize is {self.min_feature_size:g}; it must be at "
+                                  "least 0")
         self.box_only = _truth(given.get("meshbboxonly", "false"), f"{what}: meshbboxonly")
         self.fallback = number_of(given.get("fallbackvalue", "0"), f"{what}: fallbackvalue")
         volume = given.get("volumeid")

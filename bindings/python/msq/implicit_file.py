@@ -441,6 +441,8 @@ def _part(package: Package, one: Object, transform: np.ndarray, context: Context
                               "finite and not 0")
     low, high = _triple(corners.min(axis=0)), _triple(corners.max(axis=0))
     is_box = level_set is not None and level_set.box_only
+    if is_box and not (corners.min(axis=0) < corners.max(axis=0)).all():
+        raise FileError(None, f"{one.what}: the bounding box of its mesh, {low} to {high}, is flat")
     if is_box and (np.count_nonzero(transform[:3], axis=0) == 1).all():
         shape = Shape.box(low, high, context=context)
     else:

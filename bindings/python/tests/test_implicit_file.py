@@ -462,6 +462,10 @@ class Refused(unittest.TestCase):
         text = self.of(lambda g: g.constant(1))
         level = 'functionid="1" channel="shape" '
         self.refused(msq.FileError, "fallbackvalue is 'NaN'", text, level + 'fallbackvalue="NaN"')
+        self.refused(msq.FileError, "minfeaturesize is -1; it must be at least 0", text,
+                     level + 'minfeaturesize="-1"')
+        self.refused(msq.FileError, "object 1000.*bounding box .* is flat", text,
+                     level + 'meshbboxonly="true"', mesh=mesh_object(900, LOW, (*HIGH[:2], LOW[2])))
         self.refused(msq.FileError, "transform has 11 numbers; it must have 12", text,
                      level + 'transform="1 0 0 0 1 0 0 0 1 0 0"')
         self.refused(msq.FileError, "determinant 0.0", text,

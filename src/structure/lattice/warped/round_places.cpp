@@ -53,7 +53,8 @@ RoundPlaces::RoundPlaces(const Warp& warp)
   layers_ = std::floor((warp.outer() - shell.inner) / size * (1 + 1e-12));
   if (!(layers_ >= 1))
     fail(Status::argument,
-         "warp.outer_radius is %g and inner_radius %g: no whole cell of grid.cell_size[0], %g, "
+         "warp.outer_radius is %.17g and inner_radius %.17g: no whole cell of grid.cell_size[0], "
+         "%g, "
          "fits between them",
          shell.outer, shell.inner, size);
   smallest_.cell_size.y = middle * (two_pi / shell.count);
