@@ -332,8 +332,8 @@ static void rings_close(void** state) {
   msq_context_release(context);
 }
 
-static void count_struts(int32_t unit_cell, const msq_warp_def* warp, double high, size_t struts,
-                         size_t nodes) {
+static void count_struts(int32_t unit_cell, const msq_warp_def* warp, double high,
+                         size_t strut_count, size_t node_count) {
   msq_context* context = make_context();
   msq_structure* structure;
   msq_lattice_def def;
@@ -353,7 +353,7 @@ static void count_struts(int32_t unit_cell, const msq_warp_def* warp, double hig
   }
   taken.count = 0;
   assert_ok(msq_structure_struts(context, structure, &selection, take_struts, &taken, NULL));
-  assert_int_equal(taken.count, struts);
+  assert_int_equal(taken.count, strut_count);
   for (size_t i = 0; i < taken.count; ++i) {
     const msq_strut* const s = &taken.struts[i];
     const uint64_t* const ends[2] = {s->node_a, s->node_b};
@@ -373,7 +373,7 @@ static void count_struts(int32_t unit_cell, const msq_warp_def* warp, double hig
         assert_memory_equal(s->b, t->a, sizeof s->b);
     }
   }
-  assert_int_equal(found_count, nodes);
+  assert_int_equal(found_count, node_count);
   msq_structure_release(structure);
   msq_context_release(context);
 }
