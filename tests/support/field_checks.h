@@ -76,10 +76,10 @@ inline FieldOutcome check_field(const Field& field, const Box3& space, double le
         double least = 0, greatest = 0;
         for (int axis = 0; axis < 3; ++axis) {
           const double along = (p - last)[axis];
-          const double from = along * slopes->between.min[axis];
-          const double to = along * slopes->between.max[axis];
-          least += std::min(from, to);
-          greatest += std::max(from, to);
+          const double by_min = along * slopes->between.min[axis];
+          const double by_max = along * slopes->between.max[axis];
+          least += std::min(by_min, by_max);
+          greatest += std::max(by_min, by_max);
         }
         const double slack = 2 * slopes->rounding + 1e-12 * (std::abs(least) + std::abs(greatest));
         const double rise = v - field.at(last);
