@@ -73,18 +73,18 @@ inline FieldOutcome check_field(const Field& field, const Box3& space, double le
         fail_msg("changes by %.17g within %.17g, Lipschitz constant of the box %.17g", change, way,
                  in_box);
       if (slopes) {
-        double least = 0, greatest = 0;
+        double lowest = 0, highest = 0;
         for (int axis = 0; axis < 3; ++axis) {
           const double along = (p - last)[axis];
           const double by_min = along * slopes->between.min[axis];
           const double by_max = along * slopes->between.max[axis];
-          least += std::min(by_min, by_max);
-          greatest += std::max(by_min, by_max);
+          lowest += std::min(by_min, by_max);
+          highest += std::max(by_min, by_max);
         }
-        const double slack = 2 * slopes->rounding + 1e-12 * (std::abs(least) + std::abs(greatest));
+        const double slack = 2 * slopes->rounding + 1e-12 * (std::abs(lowest) + std::abs(highest));
         const double rise = v - field.at(last);
-        if (!(rise >= least - slack && rise <= greatest + slack))
-          fail_msg("changes by %.17g, by its slopes by %.17g to %.17g", rise, least, greatest);
+        if (!(rise >= lowest - slack && rise <= highest + slack))
+          fail_msg("changes by %.17g, by its slopes by %.17g to %.17g", rise, lowest, highest);
       }
       last = p;
       if (!is_linear) continue;
