@@ -101,12 +101,7 @@ msq_structure* make_lattice(msq_context* context, int cells) {
 }
 
 Seconds slice(msq_model* model, uint32_t resolution) {
-  msq_slicer_def def;
-  bench::check(msq_slicer_def_init(&def, sizeof def));
-  def.resolution[0] = def.resolution[1] = resolution;
-  def.layer_height = 1.0 / resolution;
-  msq_slicer* slicer;
-  bench::check(msq_slicer_create(model, &def, &slicer));
+  msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(resolution));
   bench::Reader reader;
   const Seconds seconds = measure(
       [&] {

@@ -82,20 +82,10 @@ double uniform(uint64_t& state) {
   return msq::random_fraction(msq::splitmix_output(77, state++));
 }
 
-msq_slicer* make_slicer(const msq_model* model) {
-  msq_slicer_def def;
-  check(msq_slicer_def_init(&def, sizeof def));
-  def.resolution[0] = def.resolution[1] = 1024;
-  def.layer_height = 1.0 / 1024;
-  msq_slicer* slicer;
-  check(msq_slicer_create(model, &def, &slicer));
-  return slicer;
-}
-
 /// A stack of slabs, bottom to top.
 void slice_upwards(msq_context* context) {
   msq_model* model = bench::make_foam_model(context, 128);
-  msq_slicer* slicer = make_slicer(model);
+  msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(1024));
   bench::Reader reader;
   check(msq_slicer_run(slicer, 0, 512, bench::Reader::take, &reader, nullptr));
   msq_slicer_release(slicer);
@@ -105,7 +95,7 @@ void slice_upwards(msq_context* context) {
 /// Parts of the stack, as someone asks who looks through it: on and back, now and then elsewhere.
 void slice_about(msq_context* context) {
   msq_model* model = bench::make_foam_model(context, 128);
-  msq_slicer* slicer = make_slicer(model);
+  msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(1024));
   bench::Reader reader;
   uint64_t state = 0;
   double z = 300;

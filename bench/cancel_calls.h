@@ -176,19 +176,9 @@ inline msq_status ask_distance(Setup& setup, msq_job* job) {
   return msq_set_distance(setup.model, &points, nullptr, setup.values.data(), points.count, job);
 }
 
-inline msq_slicer_def slices_of(uint32_t resolution) {
-  msq_slicer_def def;
-  check(msq_slicer_def_init(&def, sizeof def));
-  def.resolution[0] = def.resolution[1] = resolution;
-  def.layer_height = 1.0 / resolution;
-  return def;
-}
-
 inline Call slice(uint32_t resolution) {
   return [=](Setup& setup, msq_job* job) {
-    const msq_slicer_def def = slices_of(resolution);
-    msq_slicer* slicer;
-    check(msq_slicer_create(setup.model, &def, &slicer));
+    msq_slicer* slicer = make_slicer(setup.model, slices_of(resolution));
     const auto take = [](void*, const msq_layer*) -> int32_t { return 0; };
     const msq_status status = msq_slicer_run(slicer, 0, UINT64_MAX, take, nullptr, job);
     msq_slicer_release(slicer);
@@ -198,9 +188,7 @@ inline Call slice(uint32_t resolution) {
 
 inline Call slice_one(uint32_t resolution) {
   return [=](Setup& setup, msq_job* job) {
-    const msq_slicer_def def = slices_of(resolution);
-    msq_slicer* slicer;
-    check(msq_slicer_create(setup.model, &def, &slicer));
+    msq_slicer* slicer = make_slicer(setup.model, slices_of(resolution));
     std::vector<uint8_t> layer(resolution * resolution);
     const msq_status status =
         msq_slice_layer(slicer, resolution / 2, layer.data(), layer.size(), job);
@@ -334,9 +322,7 @@ inline Call mesh(uint32_t resolution) {
 
 inline Call examine(uint32_t resolution) {
   return [=](Setup& setup, msq_job* job) {
-    const msq_slicer_def plan = slices_of(resolution);
-    msq_slicer* slicer;
-    check(msq_slicer_create(setup.model, &plan, &slicer));
+    msq_slicer* slicer = make_slicer(setup.model, slices_of(resolution));
     msq_printability_def def;
     check(msq_printability_def_init(&def, sizeof def));
     def.kinds |= MSQ_FINDING_THIN;

@@ -88,13 +88,9 @@ msq_structure* make_structure(msq_context* context, const Setting& setting) {
 }
 
 double slice_seconds(msq_context* context, const msq_model* model, const Setting& setting) {
-  msq_slicer_def def;
-  bench::check(msq_slicer_def_init(&def, sizeof def));
-  def.resolution[0] = def.resolution[1] = setting.resolution;
-  def.layer_height = 1.0 / setting.resolution;
+  msq_slicer_def def = bench::slices_of(setting.resolution);
   def.slab_layers = setting.slab;
-  msq_slicer* slicer;
-  bench::check(msq_slicer_create(model, &def, &slicer));
+  msq_slicer* slicer = bench::make_slicer(model, def);
   std::vector<uint8_t> layer(size_t{setting.resolution} * (setting.resolution / 8 + 8));
   bench::Reader reader;
   const double seconds = bench::min_processor_seconds([&] {
@@ -295,12 +291,7 @@ void note_waits(bench::CliffReport& report) {
     msq_context* context = bench::make_context(2, setting.cache);
     msq_model* model =
         bench::make_model(context, bench::make_cube(context), make_structure(context, setting));
-    msq_slicer_def def;
-    bench::check(msq_slicer_def_init(&def, sizeof def));
-    def.resolution[0] = def.resolution[1] = setting.resolution;
-    def.layer_height = 1.0 / setting.resolution;
-    msq_slicer* slicer;
-    bench::check(msq_slicer_create(model, &def, &slicer));
+    msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(setting.resolution));
     double first = 0;
     const double start = bench::processor_seconds();
     msq_slicer_run(

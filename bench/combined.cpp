@@ -17,12 +17,7 @@ constexpr uint32_t pixels = 2048;
 /// structure.
 double processor_time(msq_context* context, msq_structure* structure, uint64_t layers) {
   msq_model* model = bench::make_model(context, bench::make_cube(context, cells), structure);
-  msq_slicer_def def;
-  bench::check(msq_slicer_def_init(&def, sizeof def));
-  def.resolution[0] = def.resolution[1] = pixels;
-  def.layer_height = cells / pixels;
-  msq_slicer* slicer;
-  bench::check(msq_slicer_create(model, &def, &slicer));
+  msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(pixels, cells));
   std::vector<double> times;
   for (int run = 0; run < 3; ++run) {
     bench::Reader reader;

@@ -86,12 +86,7 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
   msq_field_release(field);
   msq_model* model = make_model(context, make_cube(context, setup.extent), structure);
 
-  msq_slicer_def slicer_def;
-  check(msq_slicer_def_init(&slicer_def, sizeof slicer_def));
-  slicer_def.resolution[0] = slicer_def.resolution[1] = resolution;
-  slicer_def.layer_height = setup.extent / resolution;
-  msq_slicer* slicer;
-  check(msq_slicer_create(model, &slicer_def, &slicer));
+  msq_slicer* slicer = make_slicer(model, slices_of(resolution, setup.extent));
   Reader reader;
   const double seconds = measure([&] {
     check(msq_cache_clear(context));

@@ -62,12 +62,7 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   msq_structure* structure;
   bench::check(msq_structure_functional(context, &def, &structure));
   msq_model* model = bench::make_model(context, bench::make_cube(context), structure);
-  msq_slicer_def slicer_def;
-  bench::check(msq_slicer_def_init(&slicer_def, sizeof slicer_def));
-  slicer_def.resolution[0] = slicer_def.resolution[1] = resolution;
-  slicer_def.layer_height = 1.0 / resolution;
-  msq_slicer* slicer;
-  bench::check(msq_slicer_create(model, &slicer_def, &slicer));
+  msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(resolution));
   bench::Reader reader;
   const double seconds = bench::median_seconds([&] {
     bench::check(msq_slicer_run(slicer, 0, layers, bench::Reader::take, &reader, nullptr));

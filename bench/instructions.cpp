@@ -73,12 +73,7 @@ msq_model* make_part(msq_context* context) {
 
 /// Layers as bits, after one run that fills the caches.
 void slice(msq_model* model, uint64_t layers) {
-  msq_slicer_def def;
-  check(msq_slicer_def_init(&def, sizeof def));
-  def.resolution[0] = def.resolution[1] = side;
-  def.layer_height = 1.0 / side;
-  msq_slicer* slicer;
-  check(msq_slicer_create(model, &def, &slicer));
+  msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(side));
   bench::Reader reader;
   const auto run = [&] {
     check(msq_slicer_run(slicer, side / 8, layers, bench::Reader::take, &reader, nullptr));
@@ -173,12 +168,7 @@ void read_part() {
 /// A layer of a foam, as bits.
 void encode(msq_model* model, int level) {
   constexpr uint32_t width = 1024;
-  msq_slicer_def def;
-  check(msq_slicer_def_init(&def, sizeof def));
-  def.resolution[0] = def.resolution[1] = width;
-  def.layer_height = 1.0 / width;
-  msq_slicer* slicer;
-  check(msq_slicer_create(model, &def, &slicer));
+  msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(width));
   std::vector<uint8_t> pixels(size_t{width} * width / 8), rows, stream;
   check(msq_slice_layer(slicer, width / 2, pixels.data(), pixels.size(), nullptr));
   msq_slicer_release(slicer);

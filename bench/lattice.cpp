@@ -41,12 +41,7 @@ class Solid {
   Solid(const Solid&) = delete;
 
   Seconds slice(uint32_t resolution) const {
-    msq_slicer_def def;
-    bench::check(msq_slicer_def_init(&def, sizeof def));
-    def.resolution[0] = def.resolution[1] = resolution;
-    def.layer_height = 1.0 / resolution;
-    msq_slicer* slicer;
-    bench::check(msq_slicer_create(model_, &def, &slicer));
+    msq_slicer* slicer = bench::make_slicer(model_, bench::slices_of(resolution));
     bench::Reader reader;
     const Seconds seconds = measure([&] {
       bench::check(msq_slicer_run(slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));

@@ -113,20 +113,15 @@ msq_status make_voxels(Setup& s, msq_job*) {
   return status;
 }
 
-msq_slicer* make_slicer(const Setup& s, int32_t output) {
-  msq_slicer_def def;
-  check(msq_slicer_def_init(&def, sizeof def));
+msq_slicer* slicer_for(const Setup& s, int32_t output) {
+  msq_slicer_def def = bench::slices_of(width);
   def.output = output;
-  def.resolution[0] = def.resolution[1] = width;
-  def.layer_height = 1.0 / width;
-  msq_slicer* slicer;
-  check(msq_slicer_create(s.model, &def, &slicer));
-  return slicer;
+  return bench::make_slicer(s.model, def);
 }
 
 std::function<msq_status(Setup&, msq_job*)> slices(int32_t output, uint64_t layers) {
   return [=](Setup& s, msq_job* job) {
-    msq_slicer* slicer = make_slicer(s, output);
+    msq_slicer* slicer = slicer_for(s, output);
     const auto take = [](void*, const msq_layer*) -> int32_t { return 0; };
     const msq_status status = msq_slicer_run(slicer, width / 2, layers, take, nullptr, job);
     msq_slicer_release(slicer);
@@ -140,7 +135,7 @@ void add_layer(Setup& s) {
 }
 
 msq_status slice_one(Setup& s, msq_job* job) {
-  msq_slicer* slicer = make_slicer(s, MSQ_LAYER_BITS);
+  msq_slicer* slicer = slicer_for(s, MSQ_LAYER_BITS);
   const msq_status status = msq_slice_layer(slicer, width / 2, s.bytes.data(), s.bytes.size(), job);
   msq_slicer_release(slicer);
   return status;
@@ -160,7 +155,7 @@ msq_status outline(Setup& s, msq_job* job) {
 }
 
 msq_status examine(Setup& s, msq_job* job) {
-  msq_slicer* slicer = make_slicer(s, MSQ_LAYER_BITS);
+  msq_slicer* slicer = slicer_for(s, MSQ_LAYER_BITS);
   msq_printability_report report{};
   report.struct_size = sizeof report;
   const msq_status status = msq_printability(slicer, nullptr, nullptr, nullptr, &report, job);

@@ -51,12 +51,7 @@ double slice(const Work& work, uint32_t resolution) {
   bench::check(msq_structure_plate_lattice(context, &def, &structure));
   msq_field_release(field);
   msq_model* model = bench::make_model(context, bench::make_cube(context), structure);
-  msq_slicer_def plan;
-  bench::check(msq_slicer_def_init(&plan, sizeof plan));
-  plan.resolution[0] = plan.resolution[1] = resolution;
-  plan.layer_height = 1.0 / resolution;
-  msq_slicer* slicer;
-  bench::check(msq_slicer_create(model, &plan, &slicer));
+  msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(resolution));
   bench::Reader reader;
   const std::clock_t start = std::clock();
   bench::check(msq_slicer_run(slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));

@@ -223,12 +223,7 @@ constexpr uint64_t layers = resolution / 8;
 /// Slices by DIRECT, which asks samples one by one below its critical count.
 void bench_slices(bench::Report& report, int cells) {
   const Foam foam = make_foam(cells, MSQ_FOAM_DIRECT);
-  msq_slicer_def def;
-  bench::check(msq_slicer_def_init(&def, sizeof def));
-  def.resolution[0] = def.resolution[1] = resolution;
-  def.layer_height = 1.0 / resolution;
-  msq_slicer* slicer;
-  bench::check(msq_slicer_create(foam.model, &def, &slicer));
+  msq_slicer* slicer = bench::make_slicer(foam.model, bench::slices_of(resolution));
   bench::Reader reader;
   const auto slice = [&] {
     reader = {};

@@ -112,12 +112,7 @@ Parts run(const Case& of, uint32_t threads, uint32_t resolution, uint64_t layers
     bench::check(msq_structure_lattice(context, &lattice, &structure));
   }
   msq_model* model = bench::make_model(context, bench::make_cube(context), structure);
-  msq_slicer_def slices;
-  bench::check(msq_slicer_def_init(&slices, sizeof slices));
-  slices.resolution[0] = slices.resolution[1] = resolution;
-  slices.layer_height = 1.0 / resolution;
-  msq_slicer* slicer;
-  bench::check(msq_slicer_create(model, &slices, &slicer));
+  msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(resolution));
 
   Delivery delivery;
   const double start = thread_seconds();

@@ -49,6 +49,21 @@ inline msq_model* make_model(msq_context* context, msq_shape* shape, msq_structu
   return model;
 }
 
+/// Layers along z of a cube, whose pixels are as wide as the layers are high.
+inline msq_slicer_def slices_of(uint32_t resolution, double extent = 1) {
+  msq_slicer_def def;
+  check(msq_slicer_def_init(&def, sizeof def));
+  def.resolution[0] = def.resolution[1] = resolution;
+  def.layer_height = extent / resolution;
+  return def;
+}
+
+inline msq_slicer* make_slicer(const msq_model* model, const msq_slicer_def& def) {
+  msq_slicer* slicer;
+  check(msq_slicer_create(model, &def, &slicer));
+  return slicer;
+}
+
 /// About two axes, by no angle that anything repeats at.
 inline void turn(msq_neighbourhood& grid) {
   const double c = std::cos(0.7), s = std::sin(0.7), d = std::cos(0.4), t = std::sin(0.4);

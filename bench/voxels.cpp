@@ -62,12 +62,7 @@ int main(int count, char** arguments) try {
     report.note("  memory a voxel", double(memory.bytes) / double(values.size()), "bytes");
 
     msq_model* model = bench::make_model(context, shape, nullptr);
-    msq_slicer_def slicer_def;
-    bench::check(msq_slicer_def_init(&slicer_def, sizeof slicer_def));
-    slicer_def.resolution[0] = slicer_def.resolution[1] = resolution;
-    slicer_def.layer_height = double(side) / resolution;
-    msq_slicer* slicer;
-    bench::check(msq_slicer_create(model, &slicer_def, &slicer));
+    msq_slicer* slicer = bench::make_slicer(model, bench::slices_of(resolution, side));
     bench::Reader reader;
     const double sliced = bench::median_seconds([&] {
       bench::check(msq_slicer_run(slicer, 0, UINT64_MAX, bench::Reader::take, &reader, nullptr));
