@@ -4,6 +4,8 @@
 //
 // Sets and points use a foam through this interface. Rays do not: they keep lists of edges for each
 // cell, in a different form for each kind (rays/cell_lists.h, rays/graded_lists.h).
+//
+// The functions that have a default have that of one seed per cell.
 #pragma once
 
 #include <memory>
@@ -29,16 +31,16 @@ class FoamGraph {
   struct BrickLayout {
     int side, lead;
   };
-  virtual BrickLayout brick_layout() const = 0;
+  virtual BrickLayout brick_layout() const;
   /// The edges that the seeds of a brick own (edges/edge_brick.h).
   virtual std::shared_ptr<const EdgeBrick> make_brick(CellIndex corner) const = 0;
   /// Maximum error of an edge of a brick.
   virtual double brick_error() const = 0;
   /// Whether a brick may own edges that come into a box (grid coordinates, model units).
-  virtual bool may_own_edges(CellIndex corner, const Box3& box) const = 0;
+  virtual bool may_own_edges(CellIndex corner, const Box3& box) const;
   /// Samples per cell of a box (grid coordinates, model units) above which building and drawing the
   /// cells' edges costs less than evaluating every sample.
-  virtual double critical_samples(const Box3& box, double max_radius) const = 0;
+  virtual double critical_samples(const Box3& box, double max_radius) const;
 };
 
 }  // namespace msq

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/foam/stretched_graph.h"
 
-#include <algorithm>
-
 #include "structure/foam/edges/edge_brick.h"
 #include "structure/foam/point/stretched_point.h"
 
@@ -16,10 +14,6 @@ double StretchedGraph::onset(CellIndex cell, Vec3 q) const {
   return stretched_onset(stretch_, cell, q);
 }
 
-FoamGraph::BrickLayout StretchedGraph::brick_layout() const {
-  return {EdgeBrick::side, EdgeBrick::lead};
-}
-
 std::shared_ptr<const EdgeBrick> StretchedGraph::make_brick(CellIndex corner) const {
   return std::make_shared<const EdgeBrick>(EdgeBrick(stretch_.seeds(), corner), stretch_.factor());
 }
@@ -28,12 +22,6 @@ std::shared_ptr<const EdgeBrick> StretchedGraph::make_brick(CellIndex corner) co
 // model space, they are below 8 factors, and rounded once more: by at most 2^-22 factors.
 double StretchedGraph::brick_error() const {
   return 2 * edge_error * stretch_.max_factor();
-}
-
-double StretchedGraph::critical_samples(const Box3&, double max_radius) const {
-  constexpr double at_tenth = 60;
-  const double r = std::max(max_radius, 0.08);
-  return at_tenth * 0.01 / (r * r);
 }
 
 }  // namespace msq

@@ -13,11 +13,8 @@ class UniformGraph final : public FoamGraph {
 
   bool inside(CellIndex cell, Vec3 q, double radius) const override;
   double onset(CellIndex cell, Vec3 q) const override;
-  BrickLayout brick_layout() const override;
   std::shared_ptr<const EdgeBrick> make_brick(CellIndex corner) const override;
   double brick_error() const override;
-  bool may_own_edges(CellIndex, const Box3&) const override { return true; }
-  double critical_samples(const Box3& box, double max_radius) const override;
 
  private:
   const FoamSeeds seeds_;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/foam_graph.h"
+
+#include <algorithm>
+
+#include "structure/foam/edges/edge_brick.h"
+
+namespace msq {
+
+FoamGraph::BrickLayout FoamGraph::brick_layout() const {
+  return {EdgeBrick::side, EdgeBrick::lead};
+}
+
+bool FoamGraph::may_own_edges(CellIndex, const Box3&) const {
+  return true;
+}
+
+// The cost of a sample grows with the square of the radius, from about 0.08 on
+// (docs/benchmarks.md).
+double FoamGraph::critical_samples(const Box3&, double max_radius) const {
+  constexpr double at_tenth = 60;
+  const double r = std::max(max_radius, 0.08);
+  return at_tenth * 0.01 / (r * r);
+}
+
+}  // namespace msq
