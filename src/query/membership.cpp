@@ -117,12 +117,6 @@ bool has_samples(const RowBlock& block) {
   return false;
 }
 
-/// Whether the rows of parts of a layer take no longer than those of the layer: of other kinds of
-/// shapes, each part would look for what meets the layer.
-bool fills_rows_apart(const Shape& shape) {
-  return dynamic_cast<const Primitive*>(&shape) != nullptr;
-}
-
 /// The samples of a shape, layer by layer.
 void fill_shape(const Shape& shape, const RowBlock& block) {
   for (uint64_t k = block.z0; k < block.z1; ++k) {
@@ -180,8 +174,7 @@ void fill_regions(const Model& model, const Scales& resolved, const RowBlock& bl
       part.z0 = rows.z0 + layer;
       part.z1 = part.z0 + 1;
       part.words = rows.row(rows.y0, part.z0);
-      std::fill_n(part.words, part.rows() * part.row_stride, 0);
-      region.shape().fill_rows(part);
+      fill_shape(region.shape(), part);
       for (uint64_t j = part.y0; j < part.y1; ++j) {
         uint64_t* found = part.row(j, part.z0);
         uint64_t* before = taken.row(j, part.z0);
@@ -240,7 +233,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
     counts->points += points;
     counts->by_shape += resolved.empty() ? points : points - samples_of(block);
   };
-  const bool is_by_tile = !resolved.empty() && fills_rows_apart(model.shape());
+  const bool is_by_tile = !resolved.empty() && model.shape().fills_rows_apart();
   if (!is_by_tile)
     for_each_layer([&](const RowBlock& block) {
       fill_from_shape(block);

@@ -23,6 +23,7 @@ class Primitive : public Shape {
              const Job* job) const override;
   /// Uses the sections of rows.
   void fill_rows(const RowBlock& block) const override;
+  bool fills_rows_apart() const override { return true; }
 
  protected:
   /// Narrows [from, to] to the section of the shape with its surface moved outwards by `grow`,

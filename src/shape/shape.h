@@ -116,6 +116,9 @@ class Shape : public Described {
   /// Sets the bits of the samples that are inside, in a block of zeros. Default: asks inside() of
   /// every sample in bounds().
   virtual void fill_rows(const RowBlock& block) const;
+  /// Whether fill_rows() of the parts of a layer takes no longer than that of the layer: of other
+  /// shapes, each part would search for what meets the layer.
+  virtual bool fills_rows_apart() const { return false; }
 
  protected:
   /// A lower bound of the distance from a point to the boundary of the solid, on either side of it;
