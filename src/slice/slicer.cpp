@@ -307,7 +307,11 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
                                                     : "slabs of layers");
   for (const Output& output : outputs_)
     max_plain_bytes = std::max(max_plain_bytes, plain_bytes(output, bands.band_rows));
-  std::vector<uint8_t> bytes(all_bytes), plain(max_plain_bytes);
+  std::vector<uint8_t> plain(max_plain_bytes);
+  // Of each output that is not made in place; none for contours.
+  std::vector<std::vector<uint8_t>> layers(outputs_.size());
+  for (size_t i = 0; i < outputs_.size(); ++i)
+    if (!is_in_place(outputs_[i], bands)) layers[i].resize(layer_bytes(i));
   std::vector<LayerPart> parts(outputs_.size());
   SlabsAhead slabs(*framed_, framed_resolved_, samples_, as_bit_output, portion.depth, bands, first,
                    last, job);
@@ -317,7 +321,6 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   ContoursAhead rings(*model_, make, with_contours.size(), first, last, job);
   const auto write_band = [&](uint64_t layer, uint64_t band) {
     slabs.go_to(layer, band);
-    uint8_t* out = bytes.data();
     for (size_t i = 0; i < outputs_.size(); ++i) {
       const Output& output = outputs_[i];
       if (!output.pixels) continue;
@@ -325,21 +328,17 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
       if (words && as_bit_output[output.samples]) {
         parts[i].data = reinterpret_cast<const uint8_t*>(words);
         parts[i].inside_count = slabs.inside_count(output.samples);
-        out += layer_bytes(i);
         continue;
       }
       if (bands.count() == 1) parts[i].words = words;
       Job part(job);  // its progress is not that of the call
-      parts[i].inside_count +=
-          write(output, layer, bands.begin(band), bands.end(band), words, plain.data(), out, &part);
+      parts[i].inside_count += write(output, layer, bands.begin(band), bands.end(band), words,
+                                     plain.data(), layers[i].data(), &part);
       if (job) job->counts().add(part.counts());
-      out += layer_bytes(i);
     }
   };
   for (uint64_t k = first; k < last; ++k) {
-    const uint8_t* out = bytes.data();
-    for (size_t i = 0; i < outputs_.size(); out += layer_bytes(i), ++i)
-      parts[i] = {outputs_[i].pixels ? out : nullptr};
+    for (size_t i = 0; i < outputs_.size(); ++i) parts[i] = {layers[i].data()};
     for (uint64_t band = 0; band < bands.count(); ++band) {
       check_cancelled(job);
       write_band(k, band);
