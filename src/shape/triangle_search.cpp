@@ -84,11 +84,6 @@ HWY_INLINE V bounds_squared(D d, const BoundNode& node, const Vector& p, V limit
   return hn::Max(of_box, hn::MulAdd(above, above, hn::Mul(beyond, beyond)));
 }
 
-struct Waiting {
-  double bound;
-  uint32_t child;
-};
-
 /// goal.best(): the square of the limit. goal.take(triangle, squared), for those up to it, returns
 /// false to stop.
 template <class Goal>
@@ -129,15 +124,7 @@ HWY_INLINE void search(const TriangleTreeView& tree, Vec3 at, Goal& goal) {
       bits |= static_cast<uint32_t>(bits_of(d, hn::Lt(bound, most))) << i;
     }
     bits &= (uint32_t{1} << node.count) - 1;
-    // The nearest is the next.
-    const size_t first = count;
-    for (; bits; bits &= bits - 1) {
-      const uint32_t i = static_cast<uint32_t>(std::countr_zero(bits));
-      size_t place = count++;
-      for (; place > first && waiting[place - 1].bound < squared[i]; --place)
-        waiting[place] = waiting[place - 1];
-      waiting[place] = {squared[i], node.child[i]};
-    }
+    count = add_waiting(waiting, count, node, bits, squared);
   }
 }
 

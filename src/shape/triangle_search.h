@@ -2,6 +2,7 @@
 // Kernels of a tree of triangles: eight bounds or triangles at a time, in vectors of doubles.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -46,6 +47,26 @@ struct TriangleTreeView {
 
 /// For trees of up to 2^32 triangles: each of up to 11 levels leaves seven children waiting.
 constexpr size_t max_waiting = 128;
+
+/// A child that is still to be searched, and a lower bound of what is sought in it.
+struct Waiting {
+  double bound;
+  uint32_t child;
+};
+/// Adds the children of a node whose bits are set; the one of the lowest bound is the last. Returns
+/// how many wait then.
+inline size_t add_waiting(Waiting* waiting, size_t count, const BoundNode& node, uint32_t bits,
+                          const double* bounds) {
+  const size_t first = count;
+  for (; bits; bits &= bits - 1) {
+    const uint32_t i = static_cast<uint32_t>(std::countr_zero(bits));
+    size_t place = count++;
+    for (; place > first && waiting[place - 1].bound < bounds[i]; --place)
+      waiting[place] = waiting[place - 1];
+    waiting[place] = {bounds[i], node.child[i]};
+  }
+  return count;
+}
 
 struct NearestTriangle {
   double squared = std::numeric_limits<double>::infinity();

@@ -2,7 +2,6 @@
 #include "shape/triangle_tree.h"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 #include "base/job.h"
@@ -245,16 +244,12 @@ bool TriangleTree::first_crossing(const Ray& ray, double from, double to, double
     crossed = i;
     crossing = {at, normal};
   };
-  struct Waiting {
-    double from;
-    uint32_t child;
-  };
   Waiting waiting[max_waiting];
   size_t count = 0;
   waiting[count++] = {from, 0};
   while (count > 0) {
     const Waiting next = waiting[--count];
-    if (next.from > to) continue;
+    if (next.bound > to) continue;
     if (next.child & BoundNode::block_bit) {
       const uint32_t first = (next.child & ~BoundNode::block_bit) * tree_width;
       for (uint32_t i = first; i < first + tree_width; ++i) cross_triangle(i);
@@ -262,16 +257,8 @@ bool TriangleTree::first_crossing(const Ray& ray, double from, double to, double
     }
     const BoundNode& node = nodes_[next.child];
     alignas(64) double entry[tree_width];
-    uint32_t bits = meet_boxes(node, ray, from, to, margin, entry);
-    // The first is the next.
-    const size_t before = count;
-    for (; bits; bits &= bits - 1) {
-      const uint32_t i = static_cast<uint32_t>(std::countr_zero(bits));
-      size_t place = count++;
-      for (; place > before && waiting[place - 1].from < entry[i]; --place)
-        waiting[place] = waiting[place - 1];
-      waiting[place] = {entry[i], node.child[i]};
-    }
+    const uint32_t bits = meet_boxes(node, ray, from, to, margin, entry);
+    count = add_waiting(waiting, count, node, bits, entry);
   }
   return found;
 }
