@@ -49,6 +49,21 @@ const char* Maker::formula() {
   return expressions[input_.below(std::size(expressions))];
 }
 
+const msq_period_def* Maker::grade(Period& period) {
+  msq_period_def& def = period.def = make_def(msq_period_def_init);
+  def.axis = static_cast<int32_t>(input_.below(3));
+  def.count = 1 + input_.below(5);
+  double at = sight_.unit * input_.number(-2, 0);
+  for (uint64_t i = 0; i < def.count; ++i) {
+    period.positions[i] = at;
+    period.sizes[i] = sight_.unit * input_.number(0.4, 2);
+    at += sight_.unit * input_.number(0.1, 1.5);
+  }
+  def.positions = period.positions;
+  def.cell_sizes = period.sizes;
+  return &def;
+}
+
 Owner<msq_structure> Maker::lattice() {
   msq_lattice_def def = make_def(msq_lattice_def_init);
   def.grid = grid();
@@ -85,22 +100,9 @@ Owner<msq_structure> Maker::lattice() {
   factors.reserve(256);
   struts.reserve(256);
   if (def.unit_cell == MSQ_UNIT_CELL_CUSTOM) fill(&def);
-  msq_period_def period = make_def(msq_period_def_init);
+  Period period;
   msq_warp_def warp = make_def(msq_warp_def_init);
-  double positions[5], sizes[5];
-  if (input_.chance(80)) {
-    period.axis = static_cast<int32_t>(input_.below(3));
-    period.count = 1 + input_.below(5);
-    double at = sight_.unit * input_.number(-2, 0);
-    for (uint64_t i = 0; i < period.count; ++i) {
-      positions[i] = at;
-      sizes[i] = sight_.unit * input_.number(0.4, 2);
-      at += sight_.unit * input_.number(0.1, 1.5);
-    }
-    period.positions = positions;
-    period.cell_sizes = sizes;
-    def.period = &period;
-  }
+  if (input_.chance(80)) def.period = grade(period);
   if (input_.chance(80)) {
     warp.count = 2 + input_.below(30);
     if (input_.chance(100)) {
@@ -168,21 +170,8 @@ Owner<msq_structure> Maker::functional() {
     def.thickness = param(0.02 * sight_.unit, 0.4 * sight_.unit);
   else
     def.level = param(def.kind == MSQ_FUNCTIONAL_SHEET ? 0.01 : -1, 1);
-  msq_period_def period = make_def(msq_period_def_init);
-  double positions[5], sizes[5];
-  if (input_.chance(60)) {
-    period.axis = static_cast<int32_t>(input_.below(3));
-    period.count = 1 + input_.below(5);
-    double at = sight_.unit * input_.number(-2, 0);
-    for (uint64_t i = 0; i < period.count; ++i) {
-      positions[i] = at;
-      sizes[i] = sight_.unit * input_.number(0.4, 2);
-      at += sight_.unit * input_.number(0.1, 1.5);
-    }
-    period.positions = positions;
-    period.cell_sizes = sizes;
-    def.period = &period;
-  }
+  Period period;
+  if (input_.chance(60)) def.period = grade(period);
   msq_warp_def warp = make_def(msq_warp_def_init);
   if (input_.chance(60)) {
     warp.kind = 1 + static_cast<int32_t>(input_.below(2));

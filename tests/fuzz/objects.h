@@ -38,6 +38,12 @@ class Maker {
   Owner<msq_structure> host_structure();
   Owner<msq_structure> host_function();
   msq_image image(std::vector<double>* values, double low, double high);
+  struct Period {
+    msq_period_def def;
+    double positions[5], sizes[5];
+  };
+  /// Makes a graded period, which must outlive what is returned.
+  const msq_period_def* grade(Period& period);
   double coordinate(int axis, double cells) {
     return sight_.at[axis] + sight_.unit * input_.number(-cells, cells);
   }
