@@ -2,16 +2,14 @@
  * msq_lattice_def.period and msq_lattice_def.warp: the solid against a search through all struts of
  * a region, which are placed by the C library's functions. 1.5 x 10^4 points for each of six
  * lattices; with MSQ_TEST_SCALE=10, 1.5 x 10^5. */
-#include "fixtures.h"
+#include "periods.h"
 
-static const double positions[4] = {-1, 0.5, 0.75, 2}, sizes[4] = {1, 0.6, 0.75, 0.5};
 static const double nodes[6][3] = {{0, 0.25, 0.75}, {1, 0.5, 0.125},   {0.3, 0, 1},
                                    {0.7, 1, 0},     {0.6, 0.45, 0.55}, {1, 1, 0.4}};
 static const uint32_t struts[5][2] = {{0, 1}, {2, 3}, {4, 0}, {4, 3}, {5, 4}};
 static const double mixed_factors[5] = {1, 0.5, 1.75, 1.25, 0.75},
                     equal_factors[5] = {1, 1, 1, 1, 1};
 static const double* factors = mixed_factors;
-static const double turn = 6.283185307179586;
 static const double radius = 0.06;
 
 typedef struct placed_strut {
@@ -21,21 +19,6 @@ typedef struct placed_strut {
 enum { max_struts = 100000 };
 static placed_strut placed[max_struts];
 static size_t placed_count;
-
-/* The integral of the frequency from the first position, by Simpson's rule, exact for lines. */
-static double integral(double s) {
-  double sum = 0;
-  if (s < positions[0]) return (s - positions[0]) / sizes[0];
-  for (int i = 0; i < 4; ++i) {
-    const double end = i < 3 && positions[i + 1] < s ? positions[i + 1] : s;
-    const double h = i < 3 ? sizes[i + 1] : sizes[3];
-    const double part = i < 3 ? (end - positions[i]) / (positions[i + 1] - positions[i]) : 0;
-    const double at_end = (1 - part) / sizes[i] + part / h;
-    sum += (end - positions[i]) * 0.5 * (1 / sizes[i] + at_end);
-    if (end == s) break;
-  }
-  return sum;
-}
 
 /* Where the integral from 0 is u. */
 static double position(double u) {
@@ -212,12 +195,8 @@ static void graded_cells_have_their_struts(void** state) {
   (void)state;
   for (graded_axis = 0; graded_axis < 3; ++graded_axis) {
     msq_lattice_def def = lattice_def();
-    msq_period_def period;
-    assert_ok(msq_period_def_init(&period, sizeof period));
+    msq_period_def period = period_def();
     period.axis = graded_axis;
-    period.positions = positions;
-    period.cell_sizes = sizes;
-    period.count = 4;
     def.period = &period;
     for (int axis = 0; axis < 3; ++axis) def.grid.cell_size[axis] = axis == graded_axis ? 50 : 0.8;
     const int first[3] = {-5, -5, -5}, last[3] = {5, 5, 5};

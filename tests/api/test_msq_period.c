@@ -1,19 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_period_def_init, and msq_functional_def.period. */
 #include "definitions.h"
+#include "periods.h"
 
 DEFINE_CREATE(structure, structure_functional, functional_def)
-
-static const double positions[4] = {-1, 0.5, 0.75, 2}, sizes[4] = {1, 0.6, 0.75, 0.5};
-
-static msq_period_def period_def(void) {
-  msq_period_def def;
-  assert_ok(msq_period_def_init(&def, sizeof def));
-  def.positions = positions;
-  def.cell_sizes = sizes;
-  def.count = 4;
-  return def;
-}
 
 static msq_functional_def functional_def(const msq_period_def* period) {
   msq_functional_def def;
@@ -121,28 +111,12 @@ static void what_does_not_go_with_a_period_is_refused(void** state) {
 
 /* ---- the solid, against the C library's sines and the integral of the frequency */
 
-/* The integral from the first position, by Simpson's rule, exact for lines. */
-static double integral(double s) {
-  double sum = 0;
-  if (s < positions[0]) return (s - positions[0]) / sizes[0];
-  for (int i = 0; i < 4; ++i) {
-    const double end = i < 3 && positions[i + 1] < s ? positions[i + 1] : s;
-    const double h = i < 3 ? sizes[i + 1] : sizes[3];
-    const double part = i < 3 ? (end - positions[i]) / (positions[i + 1] - positions[i]) : 0;
-    const double at_end = (1 - part) / sizes[i] + part / h;
-    sum += (end - positions[i]) * 0.5 * (1 / sizes[i] + at_end);
-    if (end == s) break;
-  }
-  return sum;
-}
-
-static const double turn = 6.283185307179586;
-enum { side = 24, samples = side * side * side };
+enum { samples = turned_side * turned_side * turned_side };
 
 static void cells_have_their_sizes(void** state) {
   msq_context* context = make_context();
   static uint8_t inside[samples];
-  const double c = cos(0.5), s = sin(0.5), low[3] = {-2, -2, -2}, high[3] = {2, 2, 2};
+  const double c = cos(0.5), s = sin(0.5);
   const double rotation[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
   (void)state;
   for (int axis = 0; axis < 3; ++axis)
@@ -157,39 +131,19 @@ static void cells_have_their_sizes(void** state) {
       def.grid.cell_size[axis] = 100; /* ignored */
       def.grid.origin[1] = 0.3;
       if (is_turned) memcpy(def.grid.rotation, rotation, sizeof rotation);
-      msq_shape* box;
       msq_structure* structure;
-      msq_model* model;
-      assert_ok(msq_shape_from_box(context, low, high, &box));
       assert_ok(msq_structure_functional(context, &def, &structure));
       memset(copied, 0, sizeof copied);
-      const msq_scale_def scales[2] = {{.shape = box}, {.structure = structure}};
-      msq_model_def model_def;
-      assert_ok(msq_model_def_init(&model_def, sizeof model_def));
-      model_def.scales = scales;
-      model_def.scale_count = 2;
-      assert_ok(msq_model_create(context, &model_def, &model));
+      msq_model* model = make_model(context, make_box_of(context, -2, 2), structure, NULL);
       double length;
       assert_ok(msq_model_scale_length(model, 1, &length));
       assert_true(length == (axis == 0 ? 1 : 1.25));
-      msq_points_def points;
-      assert_ok(msq_points_def_init(&points, sizeof points));
-      points.kind = MSQ_POINTS_GRID;
-      for (int a = 0; a < 3; ++a) {
-        points.origin[a] = -1.9 + 0.01 * a;
-        points.spacing[a] = 0.157;
-        points.counts[a] = side;
-      }
+      const msq_points_def points = turned_points();
       assert_ok(msq_set_membership(model, &points, NULL, inside, samples, NULL));
       int held = 0;
       for (int i = 0; i < samples; ++i) {
-        const int index[3] = {i % side, i / side % side, i / side / side};
-        double p[3], g[3], u[3];
-        for (int a = 0; a < 3; ++a) p[a] = points.origin[a] + index[a] * points.spacing[a];
-        p[1] -= 0.3;
-        g[0] = is_turned ? c * p[0] + s * p[1] : p[0];
-        g[1] = is_turned ? c * p[1] - s * p[0] : p[1];
-        g[2] = p[2];
+        double g[3], u[3];
+        turned_position(&points, i, is_turned ? rotation : NULL, g);
         for (int a = 0; a < 3; ++a) u[a] = turn * g[a] / (a == 0 ? 1.25 : 1);
         u[axis] = turn * (integral(g[axis]) - integral(0));
         const double onset = sin(u[0]) * cos(u[1]) + sin(u[1]) * cos(u[2]) + sin(u[2]) * cos(u[0]);
@@ -198,8 +152,6 @@ static void cells_have_their_sizes(void** state) {
       }
       assert_in_range(held, 1, samples - 1);
       msq_model_release(model);
-      msq_structure_release(structure);
-      msq_shape_release(box);
     }
   msq_context_release(context);
 }

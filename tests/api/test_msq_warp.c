@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * msq_warp_def_init, and msq_functional_def.warp. */
 #include "definitions.h"
+#include "periods.h"
 
 DEFINE_CREATE(structure, structure_functional, functional_def)
 
@@ -85,15 +86,15 @@ static void what_makes_no_map_is_refused(void** state) {
 static void what_does_not_go_with_a_warp_is_refused(void** state) {
   msq_context* context = make_context();
   const msq_warp_def warp = warp_def(MSQ_WARP_CYLINDRICAL);
-  const double positions[1] = {0}, sizes[1] = {1};
+  const double start = 0, size = 1;
   msq_functional_def def = functional_def(&warp);
   msq_period_def period;
   msq_structure* structure;
   double cell_size[3] = {7, 7, 7};
   (void)state;
   assert_ok(msq_period_def_init(&period, sizeof period));
-  period.positions = positions;
-  period.cell_sizes = sizes;
+  period.positions = &start;
+  period.cell_sizes = &size;
   period.count = 1;
   def.period = &period;
   assert_refused(create(context, &def), MSQ_E_UNSUPPORTED, "both period and warp are given");
@@ -117,13 +118,12 @@ static void what_does_not_go_with_a_warp_is_refused(void** state) {
 
 /* ---- the solid, against the C library's angles */
 
-static const double turn = 6.283185307179586;
-enum { side = 24, samples = side * side * side };
+enum { samples = turned_side * turned_side * turned_side };
 
 static void cells_lie_around_an_axis_or_a_point(void** state) {
   msq_context* context = make_context();
   static uint8_t inside[samples];
-  const double c = cos(0.5), s = sin(0.5), low[3] = {-2, -2, -2}, high[3] = {2, 2, 2};
+  const double c = cos(0.5), s = sin(0.5);
   const double rotation[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
   (void)state;
   for (int32_t kind = MSQ_WARP_CYLINDRICAL; kind <= MSQ_WARP_SPHERICAL; ++kind)
@@ -135,35 +135,15 @@ static void cells_lie_around_an_axis_or_a_point(void** state) {
       def.grid.cell_size[2] = kind == MSQ_WARP_CYLINDRICAL ? 0.9 : 100;
       def.grid.origin[1] = 0.3;
       if (is_turned) memcpy(def.grid.rotation, rotation, sizeof rotation);
-      msq_shape* box;
       msq_structure* structure;
-      msq_model* model;
-      assert_ok(msq_shape_from_box(context, low, high, &box));
       assert_ok(msq_structure_functional(context, &def, &structure));
-      const msq_scale_def scales[2] = {{.shape = box}, {.structure = structure}};
-      msq_model_def model_def;
-      assert_ok(msq_model_def_init(&model_def, sizeof model_def));
-      model_def.scales = scales;
-      model_def.scale_count = 2;
-      assert_ok(msq_model_create(context, &model_def, &model));
-      msq_points_def points;
-      assert_ok(msq_points_def_init(&points, sizeof points));
-      points.kind = MSQ_POINTS_GRID;
-      for (int a = 0; a < 3; ++a) {
-        points.origin[a] = -1.9 + 0.01 * a;
-        points.spacing[a] = 0.157;
-        points.counts[a] = side;
-      }
+      msq_model* model = make_model(context, make_box_of(context, -2, 2), structure, NULL);
+      const msq_points_def points = turned_points();
       assert_ok(msq_set_membership(model, &points, NULL, inside, samples, NULL));
       int held = 0;
       for (int i = 0; i < samples; ++i) {
-        const int index[3] = {i % side, i / side % side, i / side / side};
-        double p[3], g[3], u[3];
-        for (int a = 0; a < 3; ++a) p[a] = points.origin[a] + index[a] * points.spacing[a];
-        p[1] -= 0.3;
-        g[0] = is_turned ? c * p[0] + s * p[1] : p[0];
-        g[1] = is_turned ? c * p[1] - s * p[0] : p[1];
-        g[2] = p[2];
+        double g[3], u[3];
+        turned_position(&points, i, is_turned ? rotation : NULL, g);
         const double rho = sqrt(g[0] * g[0] + g[1] * g[1]);
         const double r = kind == MSQ_WARP_CYLINDRICAL ? rho : sqrt(rho * rho + g[2] * g[2]);
         u[0] = turn * (r - 0.5) / 0.7;
@@ -193,8 +173,6 @@ static void cells_lie_around_an_axis_or_a_point(void** state) {
       assert_true(hit.cell[1] == 0 || hit.cell[1] == 8); /* either side of the seam */
       assert_int_equal(hit.cell[2], kind == MSQ_WARP_CYLINDRICAL ? 0 : 2);
       msq_model_release(model);
-      msq_structure_release(structure);
-      msq_shape_release(box);
     }
   msq_context_release(context);
 }
