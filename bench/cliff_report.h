@@ -2,33 +2,12 @@
 // Cases beside a plain case of the same work: their ratios, and the worst of them.
 #pragma once
 
-#include <ctime>
 #include <string>
 #include <vector>
 
 #include "bench.h"
 
 namespace bench {
-
-/// Processor time of all threads: on a loaded machine it varies less than elapsed time.
-inline double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// The least of up to five runs that take about half a second together.
-inline double min_processor_seconds(const std::function<void()>& work) {
-  double least = 1e300, total = 0;
-  for (int run = 0; run < 5 && (run == 0 || total < 0.5); ++run) {
-    const double start = processor_seconds();
-    work();
-    const double seconds = processor_seconds() - start;
-    least = std::min(least, seconds);
-    total += seconds;
-  }
-  return least;
-}
 
 class CliffReport {
  public:

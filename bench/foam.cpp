@@ -185,9 +185,11 @@ int main(int count, char** arguments) try {
   bench_edges(report);
   bench_grids(report);
   const uint32_t largest = count > 2 ? static_cast<uint32_t>(std::atoi(arguments[2])) : 2048;
-  bench_slices(report, largest);
-  bench_walls(report, largest);
-  bench_variants(report, largest);
+  if (largest > 0) {
+    bench_slices(report, largest);
+    bench_walls(report, largest);
+    bench_variants(report, largest);
+  }
   report.write(count, arguments);
   return 0;
 } catch (const std::exception& error) {

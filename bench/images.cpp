@@ -4,7 +4,6 @@
 //
 // usage: images [results.json] [pixels along a side, default 2048] [layers, default 2048] [folder]
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 
 #include "msq_io.h"
@@ -14,10 +13,6 @@ namespace {
 
 void check_io(msq_status status) {
   if (status != MSQ_OK) throw std::runtime_error(msq_io_error_message());
-}
-
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 enum class Way { engine, png_fast, png_libpng, sl1_fast, sl1_libpng };
@@ -128,10 +123,10 @@ int main(int count, char** arguments) {
     // Grey costs 16 times the samples, and rates settle soon.
     const uint64_t taken =
         work.output == MSQ_LAYER_GREY ? std::max<uint64_t>(layers / 8, 2) : layers;
-    const double start = processor_seconds();
+    const double start = bench::processor_seconds();
     double bytes = 0;
     const double seconds = bench::seconds_of([&] { bytes = images.run(work, taken); });
-    const double processor = processor_seconds() - start;
+    const double processor = bench::processor_seconds() - start;
     report.add(work.name, seconds, static_cast<double>(taken), "layer");
     const std::string name = work.name;
     report.note(name + ": processor time", processor / static_cast<double>(taken) * 1e3,

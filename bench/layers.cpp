@@ -11,7 +11,6 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <memory>
 #include <random>
 #include <thread>
@@ -141,17 +140,6 @@ class Slices {
   uint64_t bytes_;
 };
 
-double processor_seconds(const std::function<void()>& work) {
-  const auto now = [] {
-    timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  };
-  const double start = now();
-  work();
-  return now() - start;
-}
-
 /// Threads of the host take layer after layer from a counter, or each a range of its own.
 void ask_by_threads(const Slices& slices, unsigned threads, uint64_t first, uint64_t count,
                     bool is_by_ranges) {
@@ -179,7 +167,7 @@ void bench_work(bench::Report& report, const Work& work, uint32_t resolution) {
       const Slices slices(work, resolution, 1);
       // What is made at the first use is not measured, and cells of other layers are not there.
       slices.run(0, 1);
-      times.push_back(processor_seconds([&] { ask(slices); }));
+      times.push_back(bench::processor_seconds_of([&] { ask(slices); }));
     }
     std::sort(times.begin(), times.end());
     return times[1];
@@ -223,7 +211,7 @@ void bench_grey(bench::Report& report, const Work& work, uint32_t resolution) {
     slices.run(first, count);
     std::vector<double> times;
     for (int i = 0; i < 5; ++i)
-      times.push_back(processor_seconds([&] { slices.run(first, count); }));
+      times.push_back(bench::processor_seconds_of([&] { slices.run(first, count); }));
     std::sort(times.begin(), times.end());
     return times[2];
   };

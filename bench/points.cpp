@@ -5,7 +5,6 @@
 // usage: points [results.json] [millions of points, default 10] [0: sets alone]
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <string>
 
 #include "base/random.h"
@@ -41,13 +40,6 @@ void release(const Foam& foam) {
   msq_context_release(foam.context);
 }
 
-/// Processor time of all threads in one run of the work: steadier than seconds on a shared machine.
-double processor_seconds(const std::function<void()>& work) {
-  const std::clock_t start = std::clock();
-  work();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
 std::vector<double> random_points(size_t count) {
   std::vector<double> coordinates(3 * count);
   for (size_t i = 0; i < coordinates.size(); ++i)
@@ -72,7 +64,7 @@ void bench_grouping(bench::Report& report, int cells, const std::vector<double>&
   };
   const double seconds = bench::median_seconds(group_all);
   report.add("  grouping alone", seconds, static_cast<double>(count), "point");
-  const double processor = processor_seconds(group_all);
+  const double processor = bench::processor_seconds_of(group_all);
   report.note("  processor time of all threads", processor / static_cast<double>(count) * 1e9,
               "ns / point");
   report.mark("  grouping on two threads, by processor time",
@@ -106,7 +98,7 @@ double paper_seconds(int cells, const std::vector<double>& coordinates) {
   const Foam foam = make_foam(cells, MSQ_FOAM_POINT);
   std::vector<uint8_t> inside(count);
   const msq_points_def points = array_of(coordinates, count);
-  const double seconds = processor_seconds([&] {
+  const double seconds = bench::processor_seconds_of([&] {
     bench::check(
         msq_set_membership(foam.model, &points, nullptr, inside.data(), inside.size(), nullptr));
   });
@@ -127,7 +119,7 @@ void bench_array(bench::Report& report, int cells, const std::vector<double>& co
   };
   const double set = bench::median_seconds(ask_set);
   report.add("set of random points, " + name, set, points_in_all, "point");
-  const double set_processor = processor_seconds(ask_set) / points_in_all;
+  const double set_processor = bench::processor_seconds_of(ask_set) / points_in_all;
   report.note("  processor time of all threads", set_processor * 1e9, "ns / point");
   msq_memory_report memory{};
   memory.struct_size = sizeof memory;
@@ -137,7 +129,7 @@ void bench_array(bench::Report& report, int cells, const std::vector<double>& co
   bench_grouping(report, cells, coordinates);
   const size_t sample = std::min<size_t>(count, 200000);
   size_t differ = 0;
-  const double alone = processor_seconds([&] {
+  const double alone = bench::processor_seconds_of([&] {
     for (size_t i = 0; i < sample; ++i) {
       int32_t answer;
       bench::check(msq_point_membership(foam.model, &coordinates[3 * i], nullptr, &answer));
@@ -175,7 +167,7 @@ void bench_parts(bench::Report& report, const std::vector<double>& coordinates) 
     };
     ask();
     report.note("4^3 cells, by " + std::to_string(parts) + "^3 parts of a cell, processor time",
-                processor_seconds(ask) / static_cast<double>(count) * 1e9, "ns / point");
+                bench::processor_seconds_of(ask) / static_cast<double>(count) * 1e9, "ns / point");
   }
   release(foam);
 }
@@ -202,7 +194,7 @@ void bench_stratified(bench::Report& report, int cells, size_t count) {
                  std::to_string(cells) + ")^3 strata",
              seconds, static_cast<double>(all), "point");
   report.note("  processor time of all threads",
-              processor_seconds([&] {
+              bench::processor_seconds_of([&] {
                 bench::check(msq_set_membership(foam.model, &points, nullptr, inside.data(),
                                                 inside.size(), job));
               }) / static_cast<double>(all) *
@@ -234,7 +226,7 @@ void bench_slices(bench::Report& report, int cells) {
   const double samples = static_cast<double>(resolution) * resolution * static_cast<double>(layers);
   report.add("an eighth of 512^3, " + std::to_string(cells) + "^3 cells, DIRECT", seconds, samples,
              "sample");
-  report.note("  processor time of all threads", processor_seconds(slice) / samples * 1e9,
+  report.note("  processor time of all threads", bench::processor_seconds_of(slice) / samples * 1e9,
               "ns / sample");
   report.note("  volume fraction", static_cast<double>(reader.inside) / samples, "");
   msq_slicer_release(slicer);
@@ -274,7 +266,7 @@ void bench_rows(bench::Report& report, int cells) {
   const double seconds = bench::median_seconds(ask);
   const double samples = static_cast<double>(resolution) * resolution * static_cast<double>(layers);
   report.add("  each sample asked", seconds, samples, "sample");
-  report.note("  processor time of all threads", processor_seconds(ask) / samples * 1e9,
+  report.note("  processor time of all threads", bench::processor_seconds_of(ask) / samples * 1e9,
               "ns / sample");
 }
 

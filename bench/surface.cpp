@@ -3,7 +3,6 @@
 // and beside one point query for each crossing of an edge.
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -57,11 +56,6 @@ struct Triangles {
   }
 };
 
-/// Of this process, all threads.
-double processor_seconds() {
-  return double(std::clock()) / CLOCKS_PER_SEC;
-}
-
 void measure(bench::Report& report, const std::string& name, const msq_model* model, double pitch,
              bool has_target) {
   msq_surface_def def;
@@ -71,9 +65,9 @@ void measure(bench::Report& report, const std::string& name, const msq_model* mo
   std::vector<double> processor;
   const double seconds = bench::median_seconds([&] {
     mesh = {};
-    const double start = processor_seconds();
+    const double start = bench::processor_seconds();
     bench::check(msq_surface_mesh(model, &def, Triangles::take, &mesh, nullptr));
-    processor.push_back(processor_seconds() - start);
+    processor.push_back(bench::processor_seconds() - start);
   });
   std::nth_element(processor.begin(), processor.begin() + processor.size() / 2, processor.end());
   const double own = processor[processor.size() / 2];

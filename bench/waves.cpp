@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <string>
 
-#include "cliff_report.h"
 #include "setup.h"
 
 namespace {

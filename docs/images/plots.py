@@ -108,6 +108,25 @@ def plot_bench(folder):
     save(figure, "benchmarks")
 
 
+def plot_paper_tables(found, resolutions):
+    """Seconds by (fine scale, cells, query) and samples along a side; bench/tables calls it."""
+    figure, panels = plt.subplots(1, 3, figsize=(12, 3.8), sharey=True)
+    lines = (("point of the paper", "the paper's point query"), ("METHOD_1", "method 1"), ("METHOD_2", "method 2"),
+             ("set", "msq"))
+    for axes, cells in zip(panels, (32, 128, 256)):
+        for query, label in lines:
+            seconds = found.get(("Voronoi foam", cells, query), {})
+            wanted = [r for r in resolutions if r in seconds]
+            axes.plot(wanted, [seconds[r] for r in wanted], marker="o", label=label)
+        axes.set(title=f"Voronoi foam, {cells}³ cells", xlabel="samples along a side", xscale="log", yscale="log")
+        axes.xaxis.set_major_locator(matplotlib.ticker.FixedLocator(list(resolutions)))
+        axes.xaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%d"))
+        axes.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+    panels[0].set(ylabel="seconds, one thread")
+    panels[0].legend()
+    save(figure, "paper_tables")
+
+
 def main():
     if len(sys.argv) != 3 or sys.argv[1] not in ("statistics", "bench"):
         print(__doc__, file=sys.stderr)
