@@ -34,8 +34,9 @@
  * byte past that size, and sets bytes of unknown fields to 0.
  *
  * Inputs. A constructor copies the arrays and strings that it is given. NULL is refused unless the
- * comment gives it a meaning. A job may be NULL everywhere: the call then reports no progress and
- * cannot be cancelled. Numbers that are not finite are refused.
+ * comment gives it a meaning. Outputs must not overlap inputs or each other. Set queries and rays
+ * refuse outputs that overlap their inputs. A job may be NULL everywhere: the call then reports no
+ * progress and cannot be cancelled. Numbers that are not finite are refused.
  *
  * Threads. Every function may be called from any thread. Callbacks run on the thread that called
  * msq and may call msq. Only callbacks of objects defined with concurrent = 1 may run on other
@@ -226,19 +227,24 @@ typedef int32_t (*msq_parallel_for_fn)(void* user, uint64_t count, msq_task_fn b
 typedef struct msq_context_def {
   uint32_t struct_size;
   /** Threads per call, including the caller. 0 (default): one per core; larger values are clamped
-   * to that. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024. */
+   * to that, unless beyond_cores is 1. 1: the calling thread only. With parallel_for: tasks per
+   * loop, clamped to 1024. */
   uint32_t threads;
   /** Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.
    */
   uint64_t cache_bytes;
   /** Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and
    * file reading (8 times the size of the file). Cached cells are evicted to make room. 0
-   * (default): no limit. */
+   * (default): no limit. Not counted: what a thread works on (about 5 MB per thread for foams, 1 to
+   * 36 MB in all for two threads and layers of 16384^2 or sets of 1e9 points), working memory that
+   * is kept between calls (at most 16 MiB for most kinds), and arrays of the host.
+   * docs/howto/memory.md has a table. */
   uint64_t memory_limit;
   /** An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results. */
   int32_t cache_policy;
-  /** Must be 0. */
-  uint32_t reserved;
+  /** 1: threads may exceed the cores, up to 1024. For tests with more threads than cores. 0
+   * (default): clamped. Ignored with parallel_for. Does not change results. */
+  uint32_t beyond_cores;
   /** Receives warnings about objects of this context. NULL (default): none. Must be valid as long
    * as the context. Models keep the context alive. */
   msq_warning_fn warning;
@@ -2399,9 +2405,9 @@ MSQ_API msq_status msq_point_distance(const msq_model* model, const double point
 /** Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance
  * for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job.
  * ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost:
- * msq_point_distance in parallel, less for foams if points of a cell follow each other. Cancelling
- * does not interrupt the construction of a mesh's tree. Errors: ARGUMENT (also points that are not
- * finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
+ * msq_point_distance in parallel, less for foams if points of a cell follow each other. Errors:
+ * ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source:
+ * paper, section "Set-based queries".
  */
 MSQ_API msq_status msq_set_distance(const msq_model* model, const msq_points_def* points,
                                     const msq_query_def* query, double* distance,

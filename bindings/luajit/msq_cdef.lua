@@ -53,7 +53,7 @@ typedef void (*msq_warning_fn)(void* user, int32_t code, const char* message);
 typedef void (*msq_release_fn)(void* user);
 typedef void (*msq_task_fn)(void* task, uint64_t i);
 typedef int32_t (*msq_parallel_for_fn)(void* user, uint64_t count, msq_task_fn body, void* task);
-typedef struct msq_context_def { uint32_t struct_size; uint32_t threads; uint64_t cache_bytes; uint64_t memory_limit; int32_t cache_policy; uint32_t reserved; msq_warning_fn warning; void* warning_user; msq_parallel_for_fn parallel_for; void* parallel_for_user; msq_release_fn parallel_for_release; msq_release_fn warning_release; } msq_context_def;
+typedef struct msq_context_def { uint32_t struct_size; uint32_t threads; uint64_t cache_bytes; uint64_t memory_limit; int32_t cache_policy; uint32_t beyond_cores; msq_warning_fn warning; void* warning_user; msq_parallel_for_fn parallel_for; void* parallel_for_user; msq_release_fn parallel_for_release; msq_release_fn warning_release; } msq_context_def;
 typedef struct msq_memory_report { uint32_t struct_size; uint32_t reserved; uint64_t bytes; uint64_t peak_bytes; uint64_t limit_bytes; } msq_memory_report;
 typedef struct msq_cache_report { uint32_t struct_size; uint32_t reserved; uint64_t hits; uint64_t misses; uint64_t evictions; uint64_t bytes; uint64_t peak_bytes; uint64_t limit_bytes; uint64_t building_bytes; uint64_t cells; uint64_t duplicates; uint64_t unkept; } msq_cache_report;
 typedef struct msq_job_report { uint32_t struct_size; uint32_t reserved; uint64_t points; uint64_t by_shape; uint64_t by_point; uint64_t by_set; uint64_t groups; } msq_job_report;

@@ -298,16 +298,16 @@ export type msq_parallel_for_fn = (user: bigint | null, count: number | bigint, 
 /** Definition of a context. */
 export interface msq_context_def {
   struct_size: number;
-  /** Threads per call, including the caller. 0 (default): one per core; larger values are clamped to that. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024. */
+  /** Threads per call, including the caller. 0 (default): one per core; larger values are clamped to that, unless beyond_cores is 1. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024. */
   threads: number;
   /** Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results. */
   cache_bytes: number | bigint;
-  /** Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file). Cached cells are evicted to make room. 0 (default): no limit. */
+  /** Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file). Cached cells are evicted to make room. 0 (default): no limit. Not counted: what a thread works on (about 5 MB per thread for foams, 1 to 36 MB in all for two threads and layers of 16384^2 or sets of 1e9 points), working memory that is kept between calls (at most 16 MiB for most kinds), and arrays of the host. docs/howto/memory.md has a table. */
   memory_limit: number | bigint;
   /** An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results. */
   cache_policy: number;
-  /** Must be 0. */
-  reserved: number;
+  /** 1: threads may exceed the cores, up to 1024. For tests with more threads than cores. 0 (default): clamped. Ignored with parallel_for. Does not change results. */
+  beyond_cores: number;
   /** Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context. Models keep the context alive. */
   warning: msq_warning_fn | bigint | null;
   /** Passed to warning. */
@@ -2124,7 +2124,7 @@ export interface Functions {
    * Cost: a mesh builds a tree of its triangles on first use (n log n; seconds for millions; about 120 bytes per triangle until the shape is freed) and then visits about log n nodes. A lattice evaluates the struts that can be nearest, a foam the edges of the seeds around the point (microseconds). A functional structure takes about ten milliseconds on first use to bound its slope. Errors: ARGUMENT, LIMIT (tree above the memory limit), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing", 1996.
    */
   msq_point_distance(model: Memory, point: Memory, query: msq_query_def | null, distance: Memory): number;
-  /** Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Cancelling does not interrupt the construction of a mesh's tree. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries". */
+  /** Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries". */
   msq_set_distance(model: Memory, points: msq_points_def | null, query: msq_query_def | null, distance: Memory, distance_count: number | bigint, job: Memory): number;
   /**
    * Writes the onset of a structure, without a model, at each point of a set. value: an msq_onset_value. onsets[i]: the onset of point i; infinity where it is not a number or is above a limit. The limit is 4 times the smallest cell size for lattices and plates, the smallest cell size for foams, and the smallest limit of the members for unions. onset_count must be the number of points.

@@ -165,7 +165,7 @@ export function types(koffi) {
     cache_bytes: 'uint64_t',
     memory_limit: 'uint64_t',
     cache_policy: 'int32_t',
-    reserved: 'uint32_t',
+    beyond_cores: 'uint32_t',
     warning: koffi.pointer(T.msq_warning_fn),
     warning_user: 'void *',
     parallel_for: koffi.pointer(T.msq_parallel_for_fn),

@@ -28,14 +28,15 @@ msq_status msq_context_create(const msq_context_def* def, msq_context** context)
         def ? read_def(def, context_defaults(), "def") : context_defaults();
     const int32_t policy =
         require_range(known.cache_policy, MSQ_CACHE_FIFO, MSQ_CACHE_SEGMENTED, "cache_policy");
-    require_reserved(known.reserved, "reserved");
+    if (known.beyond_cores > 1)
+      fail(Status::argument, "beyond_cores is %u; it must be 0 or 1", known.beyond_cores);
     if (!known.parallel_for && (known.parallel_for_user || known.parallel_for_release))
       fail(Status::argument, "parallel_for is NULL, and %s is not",
            known.parallel_for_user ? "parallel_for_user" : "parallel_for_release");
     if (!known.warning && known.warning_release)
       fail(Status::argument, "warning is NULL, and warning_release is not");
     Ref<Context> made = make_ref<Context>(known.threads, known.cache_bytes, known.memory_limit,
-                                          false, static_cast<CachePolicy>(policy),
+                                          known.beyond_cores != 0, static_cast<CachePolicy>(policy),
                                           HostLoop{known.parallel_for, known.parallel_for_user});
     made->loop_user.own(known.parallel_for_user, known.parallel_for_release);
     made->warning_user.own(known.warning_user, known.warning_release);

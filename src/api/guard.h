@@ -118,6 +118,17 @@ inline PointArray point_array(const void* data, uint64_t count, uint64_t stride,
   return points;
 }
 
+/// Throws Error(argument) if an output overlaps an array that the call reads.
+void require_apart(const void* input, uint64_t input_bytes, const char* input_name,
+                   const void* output, uint64_t bytes, const char* name);
+inline void require_apart(const PointArray& points, const char* points_name, const void* output,
+                          uint64_t bytes, const char* name) {
+  if (points.count == 0) return;
+  const uint64_t packed = 3 * (points.is_float32 ? sizeof(float) : sizeof(double));
+  require_apart(points.data, (points.count - 1) * points.stride + packed, points_name, output,
+                bytes, name);
+}
+
 /// Size that a struct of the ABI had when it was first published. A struct that grows gets its old
 /// size here, as a specialisation; less was never right, such as the size of a pointer to it.
 template <class T>

@@ -172,7 +172,10 @@ msq_status msq_set_material(const msq_model* model, const msq_points_def* points
       fail(Status::argument, "value_count is %llu; id_count times channel_count is %llu",
            static_cast<unsigned long long>(value_count),
            static_cast<unsigned long long>(id_count * channel_count));
-    if (value_count > 0) require(values, "values");
+    if (value_count > 0) {
+      require(values, "values");
+      require_apart(points, values, value_count * sizeof *values, "values");
+    }
     ask_set(model, points, query, ids, "ids", id_count, "id_count", job,
             [&](const Model& of, const Scales& resolved, const PointSet& set, const QueryPlan& plan,
                 uint32_t* out,

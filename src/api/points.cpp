@@ -95,6 +95,15 @@ std::unique_ptr<PointSet> read_points(const msq_points_def* points) {
   }
 }
 
+void require_apart(const msq_points_def* points, const void* output, uint64_t bytes,
+                   const char* name) {
+  const msq_points_def known = read_def(points, points_defaults(), "points");
+  if (known.kind != MSQ_POINTS_ARRAY) return;
+  require_apart(point_array(known.coordinates, known.count, known.stride, known.coordinate_type,
+                            "coordinates"),
+                "coordinates", output, bytes, name);
+}
+
 void require_finite_points(const PointSet& points, const Executor& executor) {
   if (!points.is_given()) return;
   const uint64_t first = find_first_point(points, executor, [](Vec3 p) { return !is_finite(p); });

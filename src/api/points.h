@@ -22,6 +22,10 @@ std::unique_ptr<PointSet> read_points(const msq_points_def* points);
 /// Of a definition that must be of kind MSQ_POINTS_STRATIFIED.
 Strata read_strata(const msq_points_def& known);
 
+/// Throws Error(argument) if an output overlaps the array that the definition names.
+void require_apart(const msq_points_def* points, const void* output, uint64_t bytes,
+                   const char* name);
+
 /// Throws Error(argument), which names the first point that is not finite. Generated points are.
 void require_finite_points(const PointSet& points, const Executor& executor);
 
@@ -60,6 +64,7 @@ void ask_set(const msq_model* model, const msq_points_def* points, const msq_que
   Job* work = job ? &object(job, "job") : nullptr;
   require_count(count, count_name, set->count());
   if (set->count() > 0) require(values, name);
+  require_apart(points, values, count * sizeof(Answer), name);
   require_finite_points(*set, known.context().executor);
   require_reach(known, resolved, *set);
   JobScope scope(work);

@@ -119,6 +119,11 @@ msq_status msq_ray_cast(const msq_model* model, const msq_rays_def* rays,
       fail(Status::argument, "hit_count is %llu; there are %llu rays",
            static_cast<unsigned long long>(hit_count), static_cast<unsigned long long>(def.count));
     if (def.count > 0) require(hits, "hits");
+    const uint64_t bytes = checked_product(def.count, sizeof *hits, "hits");
+    require_apart(array.origins, "origins", hits, bytes, "hits");
+    require_apart(array.directions, "directions", hits, bytes, "hits");
+    require_apart(def.t_min, def.count * sizeof(double), "t_min", hits, bytes, "hits");
+    require_apart(def.t_max, def.count * sizeof(double), "t_max", hits, bytes, "hits");
     JobPoll poll(work);
     for (uint64_t i = 0; i < def.count; ++i) {
       check_ray(array, i);

@@ -30,6 +30,8 @@ msq_status msq_set_onset(msq_context* context, const msq_structure* structure,
            static_cast<unsigned long long>(gradient_count),
            static_cast<unsigned long long>(onset_count));
     plan.gradients = gradients;
+    require_apart(points, onsets, onset_count * sizeof *onsets, "onsets");
+    require_apart(points, gradients, gradient_count * sizeof *gradients, "gradients");
     require_finite_points(*set, owner.executor);
     require_reach(known, owner.executor, *set, gradients ? gradient_step(known) : 0);
     Job* work = job ? &object(job, "job") : nullptr;
@@ -49,6 +51,7 @@ msq_status msq_field_evaluate(msq_context* context, const msq_field* field,
     const std::unique_ptr<PointSet> set = read_points(points);
     require_count(value_count, "value_count", set->count());
     if (value_count > 0) require(values, "values");
+    require_apart(points, values, value_count * sizeof *values, "values");
     require_finite_points(*set, owner.executor);
     Job* work = job ? &object(job, "job") : nullptr;
     JobScope scope(work);

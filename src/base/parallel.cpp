@@ -44,7 +44,8 @@ struct HostTask {
 class Executor::Arena {
  public:
   Arena(int slots, bool beyond_cores) : slots_(slots), arena_(slots) {
-    if (beyond_cores)
+    // Fewer than oneTBB's own number would hold for all contexts of the process.
+    if (beyond_cores && slots > tbb::info::default_concurrency())
       allowed_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(slots));
   }
 
@@ -74,6 +75,7 @@ Executor::Executor(unsigned threads, bool beyond_cores) : threads_(threads) {
   if (threads_ == 1) return;
   const unsigned cores = static_cast<unsigned>(std::max(1, tbb::info::default_concurrency()));
   if (threads_ == 0 || (threads_ > cores && !beyond_cores)) threads_ = cores;
+  threads_ = std::min(threads_, std::max(cores, max_host_tasks));
   if (threads_ > 1) arena_ = std::make_unique<Arena>(static_cast<int>(threads_), beyond_cores);
 }
 

@@ -21,7 +21,7 @@ struct HostLoop {
 /// run in the environment of the thread that made the call, on any thread.
 class Executor {
  public:
-  /// `beyond_cores`: do not clamp. For tests of many threads on few cores.
+  /// `beyond_cores`: clamp to 1024 in place of the cores. For tests of many threads on few cores.
   explicit Executor(unsigned threads, bool beyond_cores = false);
   /// Threads of the host, `threads` at once, 0 for one per core. The thread library is not used.
   Executor(unsigned threads, const HostLoop& host);

@@ -10,7 +10,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.cache_bytes, (uint64_t)1 << 30);
   assert_int_equal(def.memory_limit, 0);
   assert_int_equal(def.cache_policy, MSQ_CACHE_FIFO);
-  assert_int_equal(def.reserved, 0);
+  assert_int_equal(def.beyond_cores, 0);
   assert_true(def.parallel_for == NULL);
   assert_null(def.parallel_for_user);
   assert_true(def.parallel_for_release == NULL);
@@ -46,6 +46,28 @@ static void any_number_of_threads_gives_the_same_answers(void** state) {
     msq_model_release(model);
     msq_context_release(context);
   }
+  free(first);
+  free(other);
+}
+
+/* With more threads than cores, whatever the machine has. */
+static void threads_may_exceed_the_cores(void** state) {
+  const msq_points_def points = grid_points(-0.1, 4.1, 23);
+  uint8_t *first = (uint8_t*)malloc(23 * 23 * 23), *other = (uint8_t*)malloc(23 * 23 * 23);
+  (void)state;
+  for (int i = 0; i < 2; ++i) {
+    msq_context_def def;
+    msq_context* context;
+    assert_ok(msq_context_def_init(&def, sizeof def));
+    def.threads = i ? 24 : 1;
+    def.beyond_cores = 1;
+    assert_ok(msq_context_create(&def, &context));
+    msq_model* model = make_foam_model(context, MSQ_FOAM_AUTO);
+    assert_ok(msq_set_membership(model, &points, NULL, i ? other : first, 23 * 23 * 23, NULL));
+    msq_model_release(model);
+    msq_context_release(context);
+  }
+  assert_memory_equal(first, other, 23 * 23 * 23);
   free(first);
   free(other);
 }
@@ -97,6 +119,7 @@ int main(void) {
       cmocka_unit_test(no_definition_means_defaults),
       cmocka_unit_test(definition_is_taken_over),
       cmocka_unit_test(any_number_of_threads_gives_the_same_answers),
+      cmocka_unit_test(threads_may_exceed_the_cores),
       cmocka_unit_test(retain_adds_a_reference),
       cmocka_unit_test(release_of_null_does_nothing),
       cmocka_unit_test(objects_outlive_the_hosts_reference),

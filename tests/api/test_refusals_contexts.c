@@ -21,7 +21,8 @@ static void contexts(void** state) {
     assert_ok(msq_context_def_init(def, sizeof *def));
     wrong_sizes(table, def, offsetof(msq_context_def, cache_policy), sizeof *def);
     wrong_enum(table, &def->cache_policy, "cache_policy", 0, 1);
-    WRONG(ARGUMENT, "reserved is 7", def->reserved = 7);
+    WRONG(ARGUMENT, "beyond_cores is 7|0 or 1", def->beyond_cores = 7);
+    RIGHT(def->beyond_cores = 1; def->threads = 3);
     WRONG(ARGUMENT, "parallel_for is NULL|parallel_for_user", def->parallel_for_user = table);
     WRONG(ARGUMENT, "parallel_for is NULL|parallel_for_release",
           def->parallel_for_release = release_nothing);

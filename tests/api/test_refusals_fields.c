@@ -230,6 +230,8 @@ static void values_of_fields(void** state) {
     msq_job* job = NULL;
     WRONG(ARGUMENT, "context", in = NULL);
     WRONG(ARGUMENT, "field", field = NULL);
+    WRONG(ARGUMENT, "values begins 0 bytes after coordinates",
+          values = (double*)of_some_points(points, 0));
     WRONG(ARGUMENT, "values", values = NULL);
     WRONG(ARGUMENT, "value_count is 9", count = 9);
     WRONG(ARGUMENT, "value_count is 7", count = 7);

@@ -90,6 +90,8 @@ static void sets(void** state) {
     WRONG(ARGUMENT, "model is NULL", model = NULL);
     WRONG(ARGUMENT, "inside is NULL", inside = NULL);
     WRONG(ARGUMENT, "inside is NULL", set_grid(points); inside = NULL);
+    WRONG(ARGUMENT, "inside begins 184 bytes after coordinates|192 bytes|overlap",
+          inside = (uint8_t*)of_some_points(points, 184));
     WRONG(ARGUMENT, "inside_count is 7|8", count = 7);
     WRONG(ARGUMENT, "inside_count is 9|8", count = 9);
     WRONG(ARGUMENT, "inside_count is 4|8", set_grid(points); count = 4);
@@ -113,6 +115,8 @@ static void sets(void** state) {
     WRONG(ARGUMENT, "model is NULL", model = NULL);
     WRONG(ARGUMENT, "distance is NULL", distance = NULL);
     WRONG(ARGUMENT, "distance is NULL", set_grid(points); distance = NULL);
+    WRONG(ARGUMENT, "distance begins 0 bytes after coordinates|192 bytes|overlap",
+          distance = (double*)of_some_points(points, 0));
     WRONG(ARGUMENT, "distance_count is 7|8", count = 7);
     WRONG(ARGUMENT, "distance_count is 9|8", count = 9);
     WRONG(ARGUMENT, "distance_count is 4|8", set_grid(points); count = 4);
@@ -156,6 +160,10 @@ static void sets(void** state) {
     WRONG(ARGUMENT, "channel 0 is NULL", names[0] = NULL);
     WRONG(ARGUMENT, "colour", names[1] = "colour");
     WRONG(ARGUMENT, "257", channel_count = 257);
+    WRONG(ARGUMENT, "ids begins 0 bytes after coordinates",
+          ids = (uint32_t*)of_some_points(points, 0));
+    WRONG(ARGUMENT, "values begins 64 bytes after coordinates",
+          values = (double*)of_some_points(points, 64));
     WRONG(ARGUMENT, "ids is NULL", ids = NULL);
     WRONG(ARGUMENT, "values is NULL", values = NULL);
     WRONG(ARGUMENT, "id_count is 7", id_count = 7; value_count = 14);
@@ -194,6 +202,10 @@ static void onsets(void** state) {
     WRONG(ARGUMENT, "context", in = NULL);
     WRONG(ARGUMENT, "structure", structure = NULL);
     wrong_enum(table, &value, "value", 0, 1);
+    WRONG(ARGUMENT, "onsets begins 0 bytes after coordinates",
+          onsets = (double*)of_some_points(points, 0));
+    WRONG(ARGUMENT, "gradients begins 128 bytes before coordinates|192 bytes",
+          points->coordinates = (unsigned char*)gradients + 128);
     WRONG(ARGUMENT, "onsets", onsets = NULL);
     WRONG(ARGUMENT, "onset_count is 7", count = 7);
     WRONG(ARGUMENT, "onset_count is 9", count = 9);

@@ -108,6 +108,11 @@ static inline msq_points_def* some_points(int number) {
   return def;
 }
 
+/* Their coordinates, as an output. */
+static inline void* of_some_points(const msq_points_def* def, size_t byte) {
+  return (unsigned char*)(uintptr_t)def->coordinates + byte;
+}
+
 /* As many, in a grid. */
 static inline void set_grid(msq_points_def* def) {
   *def = grid_points(0, 1, 2);

@@ -29,11 +29,11 @@ extern "C" {
 
 namespace {
 
-/// Threads of the heavy tests: 64, or as MSQ_TEST_SCALE says.
+/// Threads of the heavy tests: 64, or fewer as MSQ_TEST_SCALE says, but at least 32.
 size_t thread_count() {
   const char* scale = std::getenv("MSQ_TEST_SCALE");
   const double part = scale ? std::atof(scale) : 1;
-  return part >= 1 ? 64 : std::max<size_t>(8, static_cast<size_t>(64 * part));
+  return part >= 1 ? 64 : std::max<size_t>(32, static_cast<size_t>(64 * part));
 }
 
 void check(msq_status status) {
@@ -59,6 +59,7 @@ msq_context* make_context(uint32_t threads, msq_parallel_for_fn parallel_for = n
   msq_context_def def;
   check(msq_context_def_init(&def, sizeof def));
   def.threads = threads;
+  def.beyond_cores = 1;
   def.cache_bytes = 1 << 20;  // cells are evicted
   def.parallel_for = parallel_for;
   msq_context* context;
@@ -268,7 +269,7 @@ void test_shared_context(void**) {
 void test_own_contexts(void**) {
   const uint64_t hash = expected();
   std::atomic<int> wrong{0};
-  on_threads(thread_count() / 4, [&](size_t i) { wrong += ask_own(i % 2 ? 1 : 2) != hash; });
+  on_threads(thread_count() / 4, [&](size_t i) { wrong += ask_own(i % 2 ? 1 : 8) != hash; });
   assert_int_equal(wrong, 0);
 }
 

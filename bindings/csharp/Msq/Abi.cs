@@ -522,16 +522,16 @@ namespace Msq.Interop
     public unsafe struct msq_context_def
     {
         public uint struct_size;
-        /// <summary>Threads per call, including the caller. 0 (default): one per core; larger values are clamped to that. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024.</summary>
+        /// <summary>Threads per call, including the caller. 0 (default): one per core; larger values are clamped to that, unless beyond_cores is 1. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024.</summary>
         public uint threads;
         /// <summary>Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.</summary>
         public ulong cache_bytes;
-        /// <summary>Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file). Cached cells are evicted to make room. 0 (default): no limit.</summary>
+        /// <summary>Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file). Cached cells are evicted to make room. 0 (default): no limit. Not counted: what a thread works on (about 5 MB per thread for foams, 1 to 36 MB in all for two threads and layers of 16384^2 or sets of 1e9 points), working memory that is kept between calls (at most 16 MiB for most kinds), and arrays of the host. docs/howto/memory.md has a table.</summary>
         public ulong memory_limit;
         /// <summary>An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results.</summary>
         public int cache_policy;
-        /// <summary>Must be 0.</summary>
-        public uint reserved;
+        /// <summary>1: threads may exceed the cores, up to 1024. For tests with more threads than cores. 0 (default): clamped. Ignored with parallel_for. Does not change results.</summary>
+        public uint beyond_cores;
         /// <summary>Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context. Models keep the context alive.</summary>
         public IntPtr warning;
         /// <summary>Passed to warning.</summary>
@@ -3867,7 +3867,7 @@ namespace Msq.Interop
 #endif
         int msq_point_distance(msq_model* model, double* point, msq_query_def* query, double* distance);
 
-        /// <summary>Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Cancelling does not interrupt the construction of a mesh's tree. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".</summary>
+        /// <summary>Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial

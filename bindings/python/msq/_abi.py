@@ -217,7 +217,7 @@ msq_parallel_for_fn = CFUNCTYPE(c_int32, c_void_p, c_uint64, msq_task_fn, c_void
 
 class msq_context_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("threads", c_uint32), ("cache_bytes", c_uint64),
-                ("memory_limit", c_uint64), ("cache_policy", c_int32), ("reserved", c_uint32),
+                ("memory_limit", c_uint64), ("cache_policy", c_int32), ("beyond_cores", c_uint32),
                 ("warning", msq_warning_fn), ("warning_user", c_void_p),
                 ("parallel_for", msq_parallel_for_fn), ("parallel_for_user", c_void_p),
                 ("parallel_for_release", msq_release_fn), ("warning_release", msq_release_fn)]

@@ -526,16 +526,16 @@ pub type msq_parallel_for_fn = Option<
 #[derive(Clone, Copy)]
 pub struct msq_context_def {
     pub struct_size: u32,
-    /// Threads per call, including the caller. 0 (default): one per core; larger values are clamped to that. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024.
+    /// Threads per call, including the caller. 0 (default): one per core; larger values are clamped to that, unless beyond_cores is 1. 1: the calling thread only. With parallel_for: tasks per loop, clamped to 1024.
     pub threads: u32,
     /// Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.
     pub cache_bytes: u64,
-    /// Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file). Cached cells are evicted to make room. 0 (default): no limit.
+    /// Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file). Cached cells are evicted to make room. 0 (default): no limit. Not counted: what a thread works on (about 5 MB per thread for foams, 1 to 36 MB in all for two threads and layers of 16384^2 or sets of 1e9 points), working memory that is kept between calls (at most 16 MiB for most kinds), and arrays of the host. docs/howto/memory.md has a table.
     pub memory_limit: u64,
     /// An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results.
     pub cache_policy: i32,
-    /// Must be 0.
-    pub reserved: u32,
+    /// 1: threads may exceed the cores, up to 1024. For tests with more threads than cores. 0 (default): clamped. Ignored with parallel_for. Does not change results.
+    pub beyond_cores: u32,
     /// Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context. Models keep the context alive.
     pub warning: msq_warning_fn,
     /// Passed to warning.
@@ -2449,7 +2449,7 @@ extern "C" {
     ///
     /// Cost: a mesh builds a tree of its triangles on first use (n log n; seconds for millions; about 120 bytes per triangle until the shape is freed) and then visits about log n nodes. A lattice evaluates the struts that can be nearest, a foam the edges of the seeds around the point (microseconds). A functional structure takes about ten milliseconds on first use to bound its slope. Errors: ARGUMENT, LIMIT (tree above the memory limit), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; Hart, "Sphere tracing", 1996.
     pub fn msq_point_distance(model: *const msq_model, point: *const f64, query: *const msq_query_def, distance: *mut f64) -> msq_status;
-    /// Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Cancelling does not interrupt the construction of a mesh's tree. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
+    /// Signed distances of a set: distance[i] receives, bit for bit, the result of msq_point_distance for point i. distance_count must be the number of points. query NULL: defaults. job NULL: no job. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave distance partly written. Cost: msq_point_distance in parallel, less for foams if points of a cell follow each other. Errors: ARGUMENT (also points that are not finite, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set-based queries".
     pub fn msq_set_distance(model: *const msq_model, points: *const msq_points_def, query: *const msq_query_def, distance: *mut f64, distance_count: u64, job: *mut msq_job) -> msq_status;
     /// Writes the onset of a structure, without a model, at each point of a set. value: an msq_onset_value. onsets[i]: the onset of point i; infinity where it is not a number or is above a limit. The limit is 4 times the smallest cell size for lattices and plates, the smallest cell size for foams, and the smallest limit of the members for unions. onset_count must be the number of points.
     ///
