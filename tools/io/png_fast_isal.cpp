@@ -22,15 +22,27 @@ namespace {
 
 /// Of rows: what a block of codes is made for.
 constexpr size_t block_bytes = size_t{1} << 20;
+/// Of rows: what is filtered, summed and made tokens of while it is near the core.
+constexpr size_t part_bytes = size_t{1} << 14;
 /// Runs of zeros with a code in the table. A match repeats 258 bytes at most, after one that stands
 /// by itself.
 constexpr uint32_t max_match = 258, max_short_run = max_match + 1;
 /// A token is a run of zeros and the byte that ends it: in its high 24 bits and low 8 bits.
 constexpr uint32_t max_run = 0xffffff;
 
-struct Code {
-  uint64_t bits;
-  uint32_t count;
+/// Bits of a stream, the first one lowest, and their count, in one word.
+class Code {
+ public:
+  Code() = default;
+  /// At most 56 bits.
+  Code(uint64_t bits, uint32_t count) : word_(bits | uint64_t{count} << 56) {}
+  uint64_t bits() const { return word_ & ((uint64_t{1} << 56) - 1); }
+  uint32_t count() const { return static_cast<uint32_t>(word_ >> 56); }
+  /// The bits of this code and then those of `next`.
+  Code then(Code next) const { return {bits() | next.bits() << count(), count() + next.count()}; }
+
+ private:
+  uint64_t word_;
 };
 
 /// What one layer needs beside its stream.
@@ -53,26 +65,38 @@ uint32_t symbol_of_length(uint32_t length) {
   return 257 + 4 * extra + (from >> extra);
 }
 
+/// Which bytes are not zero, of 64 of them.
+uint64_t some_of(const uint8_t* bytes) {
+  uint64_t mask = 0;
+  for (size_t i = 0; i < 8; ++i) {
+    uint64_t word;
+    std::memcpy(&word, bytes + 8 * i, 8);
+    constexpr uint64_t low = 0x7f7f7f7f7f7f7f7f;
+    // The highest bit of each byte that is not zero; the product brings those bits side by side.
+    const uint64_t some = (((word & low) + low) | word) & ~low;
+    mask |= (((some >> 7) * 0x0102040810204080) >> 56) << (8 * i);
+  }
+  return mask;
+}
+
 /// Tokens of a block.
 class Tokens {
  public:
   void clear() { count_ = 0, run_ = 0; }
-  /// A row of differences, with zeros behind it up to a multiple of 8 bytes.
-  void add_row(const uint8_t* row, size_t size) {
+  /// Differences, with zeros behind them up to a multiple of 64 bytes.
+  void add(const uint8_t* bytes, size_t size) {
     make_room(size);
-    size_t begin = 0;  // of the zeros
-    for (size_t at = 0; at < size; at += 8) {
-      uint64_t word;
-      std::memcpy(&word, row + at, 8);
-      constexpr uint64_t low = 0x7f7f7f7f7f7f7f7f;
-      // The highest bit of each byte that is not zero.
-      for (uint64_t some = (((word & low) + low) | word) & ~low; some; some &= some - 1) {
-        const size_t place = at + static_cast<size_t>(std::countr_zero(some)) / 8;
-        put(static_cast<uint32_t>(place - begin), row[place]);
+    uint32_t* next = tokens_.get() + count_;
+    uint32_t begin = 0 - run_;  // of the zeros; before the bytes, this wraps around
+    for (uint32_t at = 0; at < size; at += 64) {
+      for (uint64_t some = some_of(bytes + at); some; some &= some - 1) {
+        const uint32_t place = at + static_cast<uint32_t>(std::countr_zero(some));
+        *next++ = (place - begin) << 8 | bytes[place];
         begin = place + 1;
       }
     }
-    run_ += static_cast<uint32_t>(size - begin);
+    run_ = static_cast<uint32_t>(size) - begin;
+    count_ = static_cast<size_t>(next - tokens_.get());
   }
   const uint32_t* begin() const { return tokens_.get(); }
   const uint32_t* end() const { return tokens_.get() + count_; }
@@ -80,10 +104,6 @@ class Tokens {
   uint32_t tail() const { return run_; }
 
  private:
-  void put(uint32_t zeros, uint8_t byte) {
-    tokens_[count_++] = (run_ + zeros) << 8 | byte;
-    run_ = 0;
-  }
   void make_room(size_t size) {
     if (count_ + size <= room_) return;
     const size_t room = std::max(count_ + size, 2 * room_);
@@ -143,28 +163,42 @@ void make_codes(const Tokens& tokens, Scratch& scratch) {
   if (isal_create_hufftables(&codes, &histogram) != 0) fail(MSQ_E_INTERNAL, "ISA-L makes no codes");
   for (size_t i = 0; i < 256; ++i)
     scratch.byte_codes[i] = {codes.lit_table[i], codes.lit_table_sizes[i]};
-  const auto behind = [](Code a, Code b) {
-    return Code{a.bits | b.bits << a.count, a.count + b.count};
-  };
   const Code zero = scratch.byte_codes[0];
   scratch.run_codes[0] = {0, 0};
   for (uint32_t run = 1; run < 4; ++run)
-    scratch.run_codes[run] = behind(zero, scratch.run_codes[run - 1]);
+    scratch.run_codes[run] = zero.then(scratch.run_codes[run - 1]);
   const auto entry = [](uint32_t code) { return Code{code >> 5, code & 31}; };
   const Code distance = entry(codes.dist_table[0]);
   for (uint32_t run = 4; run <= max_short_run; ++run)
-    scratch.run_codes[run] = behind(zero, behind(entry(codes.len_table[run - 4]), distance));
+    scratch.run_codes[run] = zero.then(entry(codes.len_table[run - 4])).then(distance);
 }
 
 /// Bits that the tokens take at most, with the header and the end.
 uint64_t bits_of(const Scratch& scratch) {
   uint64_t bits = 8 * uint64_t{ISAL_DEF_MAX_HDR_SIZE} + 64;
-  for (size_t i = 0; i < 256; ++i) bits += uint64_t{scratch.bytes[i]} * scratch.byte_codes[i].count;
+  for (size_t i = 0; i < 256; ++i)
+    bits += uint64_t{scratch.bytes[i]} * scratch.byte_codes[i].count();
   for (size_t i = 0; i <= max_short_run; ++i)
-    bits += uint64_t{scratch.runs[i]} * scratch.run_codes[i].count;
+    bits += uint64_t{scratch.runs[i]} * scratch.run_codes[i].count();
   // Long runs: no match has more bits than that of 258, or 15 + 5 + 15.
   return bits + 35 * (2 * scratch.long_matches) + 15 * scratch.single_zeros;
 }
+
+/// Where the next bits go. Loops keep a copy, so that it stays in registers.
+struct BitPlace {
+  uint8_t* at = nullptr;
+  uint64_t word = 0;
+  uint32_t filled = 0;
+
+  void put(Code code) {
+    word |= code.bits() << filled;
+    filled += code.count();
+    std::memcpy(at, &word, 8);
+    at += filled / 8;
+    word >>= filled & ~7u;
+    filled &= 7;
+  }
+};
 
 /// Appends bits to a stream, the lowest first.
 class BitWriter {
@@ -173,73 +207,67 @@ class BitWriter {
 
   /// Room for so many bits, from here on.
   void make_room(uint64_t bits) {
-    size_ = at_ ? size() : stream_.size();
-    stream_.resize(size_ + static_cast<size_t>(bits / 8) + 16);
-    at_ = stream_.data() + size_;
-  }
-  /// At most 56 bits.
-  void put(Code code) {
-    word_ |= code.bits << filled_;
-    filled_ += code.count;
-    std::memcpy(at_, &word_, 8);
-    at_ += filled_ / 8;
-    word_ >>= filled_ & ~7u;
-    filled_ &= 7;
+    const size_t size = place.at ? this->size() : stream_.size();
+    stream_.resize(size + static_cast<size_t>(bits / 8) + 16);
+    place.at = stream_.data() + size;
   }
   /// Fills the last byte, and cuts the stream behind it.
   void end() {
-    if (filled_ > 0) ++at_;
+    if (place.filled > 0) ++place.at;
     stream_.resize(size());
   }
 
+  BitPlace place;
+
  private:
-  size_t size() const { return static_cast<size_t>(at_ - stream_.data()); }
+  size_t size() const { return static_cast<size_t>(place.at - stream_.data()); }
 
   std::vector<uint8_t>& stream_;
-  uint8_t* at_ = nullptr;
-  size_t size_ = 0;
-  uint64_t word_ = 0;
-  uint32_t filled_ = 0;
 };
 
-void write_run(uint32_t run, const Scratch& scratch, BitWriter& out) {
-  if (run <= max_short_run) [[likely]] {
-    out.put(scratch.run_codes[run]);
-    return;
-  }
+/// Begins a run that the table has no code for. Returns what is left of it for the next code.
+Code begin_long_run(uint32_t run, const Scratch& scratch, BitPlace& out) {
   const Code zero = scratch.byte_codes[0];
   const auto match = [&](uint32_t length) {  // without the zero before it
     const Code code = scratch.run_codes[length + 1];
-    out.put({code.bits >> zero.count, code.count - zero.count});
+    return Code{code.bits() >> zero.count(), code.count() - zero.count()};
   };
   out.put(zero);
   uint32_t left = run - 1;
-  for (; left >= max_match; left -= max_match) match(max_match);
-  if (left >= 3) {
-    match(left);
-  } else {
-    for (; left > 0; --left) out.put(zero);
-  }
+  for (; left >= max_match; left -= max_match) out.put(match(max_match));
+  return left >= 3 ? match(left) : scratch.run_codes[left];
 }
 
 void write_block(const Tokens& tokens, bool is_last, Scratch& scratch, BitWriter& out) {
   make_codes(tokens, scratch);
   out.make_room(bits_of(scratch));
+  BitPlace place = out.place;
   const isal_hufftables& codes = scratch.codes;
   // The header of ISA-L is that of a last block.
   for (uint32_t i = 0; i < codes.deflate_hdr_count; ++i)
-    out.put({codes.deflate_hdr[i] & (i == 0 && !is_last ? 0xfeu : 0xffu), 8});
+    place.put({codes.deflate_hdr[i] & (i == 0 && !is_last ? 0xfeu : 0xffu), 8});
   const uint32_t extra = codes.deflate_hdr_extra_bits;
-  if (extra > 0) out.put({codes.deflate_hdr[codes.deflate_hdr_count] & ((1u << extra) - 1), extra});
-  for (const uint32_t token : tokens) {
-    write_run(token >> 8, scratch, out);
-    out.put(scratch.byte_codes[token & 0xff]);
-  }
-  write_run(tokens.tail(), scratch, out);
-  out.put({codes.lit_table[256], codes.lit_table_sizes[256]});
+  if (extra > 0)
+    place.put({codes.deflate_hdr[codes.deflate_hdr_count] & ((1u << extra) - 1), extra});
+  // A zero, a length with its extra bits, a distance and a byte: at most 15 + 20 + 4 + 15 bits at
+  // a time. ISA-L gives all 30 distances a code. Only the first one counts, so its code is the
+  // shortest.
+  const auto put = [&](uint32_t run, Code end) {
+    if (run <= max_short_run) [[likely]] {
+      place.put(scratch.run_codes[run].then(end));
+      return;
+    }
+    BitPlace beyond = place;
+    const Code rest = begin_long_run(run, scratch, beyond);
+    place = beyond;
+    place.put(rest.then(end));
+  };
+  for (const uint32_t token : tokens) put(token >> 8, scratch.byte_codes[token & 0xff]);
+  put(tokens.tail(), {codes.lit_table[256], codes.lit_table_sizes[256]});
+  out.place = place;
 }
 
-/// A row less the one above it, with its filter, and zeros up to a multiple of 8 bytes.
+/// A row less the one above it, with its filter.
 void filter_row(const uint8_t* above, const uint8_t* row, size_t size, uint8_t* to) {
   constexpr uint8_t up = 2;
   to[0] = up;
@@ -257,21 +285,28 @@ bool encode_fast(const PngRows& image, const std::vector<uint8_t>& rows,
   const uint32_t block_rows = static_cast<uint32_t>(std::max<size_t>(block_bytes / size, 1));
   if (size >= max_run) return false;
   const auto scratch = std::make_unique_for_overwrite<Scratch>();
-  std::vector<uint8_t> row((size + 7) / 8 * 8), none(size);
+  const uint32_t part_rows = static_cast<uint32_t>(std::max<size_t>(part_bytes / size, 1));
+  std::vector<uint8_t> part((part_rows * size + 63) / 64 * 64), none(size);
   Tokens tokens;
   const size_t chunk = begin_png(image, stream);
   stream.insert(stream.end(), {0x78, 0x01});
   BitWriter out(stream);
   uint32_t adler = 1;
-  for (uint32_t y = 0; y < image.height; ++y) {
-    const uint8_t* own = rows.data() + y * size;
-    filter_row(y > 0 ? own - size : none.data(), own, size, row.data());
-    adler = isal_adler32(adler, row.data(), size);
-    tokens.add_row(row.data(), size);
-    const bool is_last = y + 1 == image.height;
-    if (!is_last && (y + 1) % block_rows != 0) continue;
-    write_block(tokens, is_last, *scratch, out);
+  for (uint32_t first = 0; first < image.height;) {
+    const uint32_t end = std::min(image.height, first + block_rows);
     tokens.clear();
+    for (uint32_t y = first; y < end;) {
+      size_t filled = 0;
+      for (const uint32_t stop = std::min(end, y + part_rows); y < stop; ++y, filled += size) {
+        const uint8_t* own = rows.data() + y * size;
+        filter_row(y > 0 ? own - size : none.data(), own, size, part.data() + filled);
+      }
+      std::fill(part.begin() + static_cast<ptrdiff_t>(filled), part.end(), uint8_t{0});
+      adler = isal_adler32(adler, part.data(), filled);
+      tokens.add(part.data(), filled);
+    }
+    write_block(tokens, end == image.height, *scratch, out);
+    first = end;
   }
   out.end();
   for (int shift = 24; shift >= 0; shift -= 8)
