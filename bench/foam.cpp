@@ -58,6 +58,14 @@ void bench_grids(bench::Report& report) {
     report.add(std::string("edges of 32^3 seeds, ") + grid.name, seconds, side * side * side,
                "seed");
   }
+  for (const double weight : {0.5, 1.0}) {
+    const msq::FoamSeeds seeds(0, 1, {1, 1, 1}, weight);
+    const double seconds = bench::median_seconds([&] {
+      for_each_brick([&](msq::CellIndex at) { msq::EdgeBrick::of_weighted(seeds, at); });
+    });
+    report.add("edges of 32^3 seeds, cubes, weight " + std::to_string(weight).substr(0, 3), seconds,
+               side * side * side, "seed");
+  }
 }
 
 void bench_edges(bench::Report& report) {
@@ -140,6 +148,30 @@ void bench_walls(bench::Report& report, uint32_t resolution) {
     }
 }
 
+/// Power diagrams against Voronoi diagrams.
+void bench_weights(bench::Report& report, uint32_t resolution) {
+  for (int cells : {32, 128})
+    for (double wall : {0.0, 0.1}) {
+      double plain = 0;
+      for (double weight : {0.0, 0.5, 1.0}) {
+        bench::FoamSetup setup{cells, MSQ_FOAM_DIRECT};
+        setup.wall = wall;
+        setup.weight = weight;
+        double peak;
+        const double seconds = bench::foam_slice_seconds(setup, resolution, UINT64_MAX, peak);
+        char name[64];
+        std::snprintf(name, sizeof name, "%s, weight %g cell, ", wall > 0 ? "walls" : "struts",
+                      weight);
+        report.add(name + bench::foam_work(resolution, cells), seconds,
+                   std::pow(double(resolution), 3), "sample");
+        if (weight > 0)
+          report.note("  against no weight", seconds / plain, "times the time");
+        else
+          plain = seconds;
+      }
+    }
+}
+
 /// What fields of r, and AVX2 in place of wider vectors, cost.
 void bench_variants(bench::Report& report, uint32_t resolution) {
   const double samples = std::pow(double(resolution), 3);
@@ -188,6 +220,7 @@ int main(int count, char** arguments) try {
   if (largest > 0) {
     bench_slices(report, largest);
     bench_walls(report, largest);
+    bench_weights(report, largest);
     bench_variants(report, largest);
   }
   report.write(count, arguments);

@@ -19,6 +19,7 @@ struct FoamSetup {
   bool is_graded = false;   ///< r from 0.05 cell at one corner of the cube to 0.15 at the other
   double wall = 0;          ///< thickness in cells, in place of struts; 0: struts
   double vent = 0;          ///< radius of holes in walls, in cells
+  double weight = 0;        ///< of seeds, in cells
   uint64_t samples = 0;     ///< of a radius that waves so, along each axis; 0: none
   bool is_formula = false;  ///< r waves so by an expression
 };
@@ -38,6 +39,7 @@ inline double foam_slice_seconds(const FoamSetup& setup, uint32_t resolution, ui
   def.method = setup.method;
   for (double& size : def.grid.cell_size) size = 1.0 / setup.cells;
   def.vent_radius.value = setup.vent / setup.cells;
+  def.weight = setup.weight / setup.cells;
   if (setup.wall > 0)
     def.wall_thickness.value = setup.wall / setup.cells;
   else

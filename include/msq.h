@@ -1386,6 +1386,12 @@ typedef struct msq_foam_def {
    * count; cell_size[i] / stretch[i] may differ by a factor of up to 16. Turn the grid for other
    * directions. */
   double stretch[3];
+  /** The greatest radius of the seeds' spheres, in model units, from 0 (default) to the smallest
+   * cell size. Each seed has a radius r from 0 to weight by a hash. The cell of a seed s is where
+   * |p - s|^2 - r^2 is least of all seeds: the Laguerre tessellation (power diagram) of the
+   * spheres. Cells then differ more in size, and some seeds have none. Seeds stay where they are.
+   * 0: the Voronoi diagram. */
+  double weight;
 } msq_foam_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -1401,11 +1407,15 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
  * and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2
  * recursively. Each leaf has one jittered seed, and the mean number of seeds is the density
  * (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius,
- * wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor
- * above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a
- * stretch, or density above 1, with a method other than AUTO and DIRECT; a stretch with density
- * above 1 or with vent_radius), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams";
- * Martinez, Dumas and Lefebvre 2016. */
+ * wall_thickness, vent_radius or weight above the smallest cell size; cell sizes that differ by a
+ * factor above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL;
+ * walls, a stretch, a weight, or density above 1, with a method other than AUTO and DIRECT; a
+ * stretch or a weight with density above 1 or with vent_radius; a weight with a stretch), MEMORY.
+ * Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.
+ * Weights: Imai, Iri and Murota, "Voronoi diagram in the Laguerre geometry and its applications",
+ * 1985; Aurenhammer, "Power diagrams: properties, algorithms and applications", 1987; for foams
+ * Fan, Wu, Zhao and Lu, "Simulation of polycrystalline structure with Voronoi diagram in Laguerre
+ * geometry based on random closed packing of spheres", 2004. */
 MSQ_API msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
                                       msq_structure** structure);
 

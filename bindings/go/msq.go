@@ -218,6 +218,8 @@ type Foam struct {
 	Seed     uint64
 	// Stretch is how much longer the cells of the foam are along each axis of the grid. Zeros: not at all.
 	Stretch [3]float64
+	// Weight is the greatest radius of the seeds' spheres. Above 0, cells are those of a Laguerre tessellation.
+	Weight float64
 }
 
 // NewFoam makes a foam.
@@ -234,6 +236,7 @@ func NewFoam(context *Context, foam Foam) (*Structure, error) {
 		}
 		def.radius.value = C.double(foam.Radius)
 		def.seed = C.uint64_t(foam.Seed)
+		def.weight = C.double(foam.Weight)
 		if foam.Stretch != [3]float64{} {
 			for axis, stretch := range foam.Stretch {
 				def.stretch[axis] = C.double(stretch)

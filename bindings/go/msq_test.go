@@ -112,6 +112,12 @@ func TestFoamsAreStretched(t *testing.T) {
 	if err == nil || !strings.Contains(err.Error(), "stretch[2] is 0") {
 		t.Error(err)
 	}
+	_, err = NewFoam(context, Foam{CellSize: [3]float64{2, 2, 2}, Radius: 0.3, Weight: 2})
+	check(t, err)
+	_, err = NewFoam(context, Foam{CellSize: [3]float64{2, 2, 2}, Radius: 0.3, Weight: 2.5})
+	if err == nil || !strings.Contains(err.Error(), "weight is 2.5") {
+		t.Error(err)
+	}
 }
 
 func TestJobsCancel(t *testing.T) {

@@ -422,6 +422,7 @@ export function types(koffi) {
     wall_thickness: T.msq_param,
     vent_radius: T.msq_param,
     stretch: koffi.array('double', 3),
+    weight: 'double',
   });
   T.msq_functional_def = koffi.struct('msq_functional_def', {
     struct_size: 'uint32_t',

@@ -355,6 +355,7 @@ void walk(DefinitionWalk& in, msq_foam_def& def) {
   in.param("wall_thickness", def.wall_thickness);
   in.param("vent_radius", def.vent_radius);
   in.numbers("stretch", def.stretch);
+  in.number("weight", def.weight);
 }
 
 void walk(DefinitionWalk& in, msq_functional_def& def) {

@@ -135,6 +135,39 @@ void refuse_stretched(const msq_foam_def& def, Vec3 stretch, FoamMethod method, 
         stretch.x, stretch.y, stretch.z, vent_radius);
 }
 
+double read_weight(const msq_foam_def& def, const Neighbourhood& grid) {
+  if (!(def.weight >= 0) || !std::isfinite(def.weight))
+    fail(Status::argument, "weight is %g; it must be finite and not negative", def.weight);
+  const double most = min_component(grid.cell_size);
+  if (def.weight > most)
+    fail(Status::limit, "weight is %g; the limit is %g (the smallest cell size)", def.weight, most);
+  return def.weight;
+}
+
+/// What a weighted foam cannot be yet.
+void refuse_weighted(const msq_foam_def& def, double weight, FoamMethod method, Vec3 stretch,
+                     double density, double vent_radius) {
+  if (!(weight > 0)) return;
+  if (method != FoamMethod::automatic && method != FoamMethod::direct)
+    fail(Status::unsupported,
+         "weight is %g and method %d; with a weight, the method of a foam must be MSQ_FOAM_AUTO or "
+         "MSQ_FOAM_DIRECT",
+         weight, static_cast<int>(def.method));
+  if (Stretch::is_any(stretch))
+    fail(Status::unsupported,
+         "weight is %g and stretch (%g, %g, %g); with a weight, the three numbers of stretch must "
+         "be equal",
+         weight, stretch.x, stretch.y, stretch.z);
+  if (density > 1)
+    fail(Status::unsupported,
+         "weight is %g and density reaches %g; with a weight, density must not exceed 1", weight,
+         density);
+  if (!is_none(def.vent_radius))
+    fail(Status::unsupported,
+         "weight is %g and vent_radius reaches %g; with a weight, vent_radius must be 0", weight,
+         vent_radius);
+}
+
 }  // namespace
 
 msq_status msq_foam_def_init(msq_foam_def* def, size_t size) {
@@ -173,9 +206,11 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            thickness.range().high);
     const Parameter vent_radius = read_vent_radius(known, grid);
     refuse_stretched(known, stretch, method, density.range().high, vent_radius.range().high);
+    const double weight = read_weight(known, grid);
+    refuse_weighted(known, weight, method, stretch, density.range().high, vent_radius.range().high);
     const auto make_walls = [&] {
       return make_ref<FoamWalls>(Ref<Context>(&owner), grid, thickness, known.jitter, known.seed,
-                                 density, vent_radius, stretch);
+                                 density, vent_radius, stretch, weight);
     };
     if (has_walls && is_none(known.radius)) {
       const Ref<Structure> made = make_walls();
@@ -185,7 +220,7 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     }
     Ref<Foam> struts =
         make_ref<Foam>(Ref<Context>(&owner), grid, read_radius(known.radius, grid, 1), known.jitter,
-                       known.seed, method, density, stretch);
+                       known.seed, method, density, stretch, weight);
     const Ref<Structure> made =
         has_walls ? Ref<Structure>(make_ref<WalledFoam>(std::move(struts), make_walls()))
                   : Ref<Structure>(std::move(struts));

@@ -75,6 +75,7 @@ static const char* const documents[] = {
         "{\"foam\": {\"method\": \"direct\", \"radius\": 0.1, \"jitter\": 0.5, \"seed\": "
         "18446744073709551615, \"density\": 4, \"wall_thickness\": 0.05, \"vent_radius\": 0.2}}"),
     IN_BOX("{\"foam\": {\"radius\": 0.1, \"wall_thickness\": 0.05, \"stretch\": [1, 0.5, 2.25]}}"),
+    IN_BOX("{\"foam\": {\"radius\": 0.1, \"wall_thickness\": 0.05, \"weight\": 0.75}}"),
     IN_BOX("{\"foam\": {\"radius\": 0, \"wall_thickness\": {\"radial\": {\"from_value\": 0.1, "
            "\"to_value\": 0.2}}}}"),
     IN_BOX("{\"functional\": {\"function\": \"split_p\", \"kind\": \"sheet\", \"clusters\": 4, "

@@ -31,6 +31,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_null(def.vent_radius.field);
   assert_true(def.vent_radius.value == 0);
   for (int axis = 0; axis < 3; ++axis) assert_true(def.stretch[axis] == 1);
+  assert_true(def.weight == 0);
 }
 
 /* Samples of a foam in the box, as a grid. */
@@ -47,6 +48,29 @@ static void sample_foam_at(const msq_foam_def* def, double high, uint64_t n, uin
 
 static void sample_foam(const msq_foam_def* def, uint8_t inside[samples]) {
   sample_foam_at(def, 3.95, side, inside);
+}
+
+static void weight_picks_another_foam(void** state) {
+  uint8_t plain[samples], other[samples];
+  msq_foam_def def = foam_def();
+  (void)state;
+  sample_foam(&def, plain);
+  for (int with_walls = 0; with_walls < 2; ++with_walls) {
+    if (with_walls) {
+      def.wall_thickness.value = 0.1;
+      def.radius.value = def.weight = 0;
+      sample_foam(&def, plain);
+    }
+    size_t differ = 0, more = 0;
+    def.weight = 0.5;
+    sample_foam(&def, other);
+    for (size_t i = 0; i < samples; ++i) differ += plain[i] != other[i];
+    assert_true(differ > samples / 50);
+    def.weight = 1;
+    sample_foam(&def, other);
+    for (size_t i = 0; i < samples; ++i) more += plain[i] != other[i];
+    assert_true(more > differ);
+  }
 }
 
 static void seed_picks_another_foam_and_the_same_again(void** state) {
@@ -331,6 +355,7 @@ static void method_2_needs_cgal(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(defaults_are_those_of_the_header),
+      cmocka_unit_test(weight_picks_another_foam),
       cmocka_unit_test(seed_picks_another_foam_and_the_same_again),
       cmocka_unit_test(foam_without_jitter_is_the_cubic_lattice),
       cmocka_unit_test(methods_give_the_same_solid),

@@ -299,6 +299,8 @@ static void foams_hash_seeds_and_sizes(void** state) {
     CHANGES(def.stretch[2], def.stretch[2] = 2);
     CHANGES(def.stretch[2], def.stretch[2] = 0.5);
     KEEPS(def.stretch, def.stretch[0] = def.stretch[1] = def.stretch[2] = 3);
+    CHANGES(def.weight, def.weight = 0.25);
+    CHANGES(def.weight, def.weight = 0.5);
   }
   other = def;
   def.density.field = other.density.field = NULL;
@@ -334,6 +336,8 @@ static void walls_hash_seeds_and_sizes(void** state) {
       CHANGES(def.stretch[1], def.stretch[1] = 2);
       CHANGES(def.stretch[2], def.stretch[2] = 2);
       KEEPS(def.stretch, def.stretch[0] = def.stretch[1] = def.stretch[2] = 3);
+      CHANGES(def.weight, def.weight = 0.25);
+      CHANGES(def.weight, def.weight = 0.5);
     }
   }
 }

@@ -136,6 +136,32 @@ static void foams(void** state) {
     RIGHT(def->stretch[1] = 2; def->wall_thickness.value = 0.1; def->radius.value = 0);
     if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
   }
+  REFUSALS("msq_structure_foam") { /* weighted seeds */
+    msq_foam_def* def = foam_of();
+    msq_structure** structure = (msq_structure**)output(0);
+    def->grid.cell_size[2] = 0.5;
+    for (int i = 0; i < 4; ++i)
+      WRONG(ARGUMENT, "weight is |finite and not negative", def->weight = numbers[i]);
+    RIGHT(def->weight = 0.5);
+    WRONG(LIMIT, "weight is 0.515625|the limit is 0.5|smallest cell size", def->weight = 0.515625);
+    for (int method = 0; method < 5; ++method)
+      if (method == MSQ_FOAM_POINT || method == MSQ_FOAM_METHOD_1)
+        WRONG(UNSUPPORTED, "weight is 0.25|method|MSQ_FOAM_DIRECT", def->weight = 0.25;
+              def->method = method);
+    WRONG(UNSUPPORTED, "", def->weight = 0.25; def->method = MSQ_FOAM_METHOD_2);
+    RIGHT(def->weight = 0.25; def->method = MSQ_FOAM_DIRECT);
+    RIGHT(def->weight = 0; def->method = MSQ_FOAM_POINT);
+    WRONG(UNSUPPORTED, "weight is 0.25|stretch (1, 2, 1)", def->weight = 0.25; def->stretch[1] = 2);
+    RIGHT(def->weight = 0.25; def->stretch[0] = def->stretch[1] = def->stretch[2] = 2);
+    WRONG(UNSUPPORTED, "weight is 0.25|density reaches 2", def->weight = 0.25;
+          def->density.value = 2);
+    RIGHT(def->weight = 0.25; def->density.value = 0.5);
+    WRONG(UNSUPPORTED, "weight is 0.25|vent_radius reaches 0.125", def->weight = 0.25;
+          def->wall_thickness.value = 0.1; def->vent_radius.value = 0.125);
+    RIGHT(def->weight = 0.25; def->wall_thickness.value = 0.1);
+    RIGHT(def->weight = 0.25; def->wall_thickness.value = 0.1; def->radius.value = 0);
+    if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
+  }
   release_fields(fields);
   release_fields(dense);
 }

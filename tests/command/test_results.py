@@ -40,6 +40,8 @@ class Structures(Case):
                  ["--foam", "2", "--thickness", "0.2", "--vent", "0.1"]),
                 (msq.Foam(cell_size=2, radius=0.2, stretch=(1, 1, 2.5), context=CONTEXT),
                  ["--foam", "2", "--radius", "0.2", "--stretch", "1,1,2.5"]),
+                (msq.Foam(cell_size=2, radius=0.2, weight=1.5, context=CONTEXT),
+                 ["--foam", "2", "--radius", "0.2", "--weight", "1.5"]),
                 (msq.Lattice("octet", radius=0.2, **cell),
                  ["--lattice", "octet", "--cell", "2,3,4", "--radius", "0.2"]),
                 (msq.Functional("gyroid", **cell), ["--function", "gyroid", "--cell", "2,3,4"]),

@@ -75,6 +75,23 @@ Factory stretched_walls_factory(double jitter, Vec3 stretch) {
   };
 }
 
+/// weight: over the smallest cell size.
+Factory weighted_factory(double jitter, double weight) {
+  return [=](const Neighbourhood& grid, Parameter radius) {
+    return Ref<const Structure>(make_ref<Foam>(
+        shared_context(), grid, std::move(radius), jitter, uint64_t{7}, FoamMethod::direct,
+        Parameter(1), Vec3{1, 1, 1}, weight * min_component(grid.cell_size)));
+  };
+}
+
+Factory weighted_walls_factory(double jitter, double weight) {
+  return [=](const Neighbourhood& grid, Parameter thickness) {
+    return Ref<const Structure>(make_ref<FoamWalls>(
+        shared_context(), grid, std::move(thickness), jitter, uint64_t{7}, Parameter(1),
+        Parameter(0), Vec3{1, 1, 1}, weight * min_component(grid.cell_size)));
+  };
+}
+
 /// The parameter of the suite stands for the thickness of the walls.
 Factory walls_factory(double jitter, bool has_density = false) {
   return [=](const Neighbourhood& grid, Parameter thickness) {
@@ -384,6 +401,13 @@ std::vector<Kind> kinds() {
   kinds.push_back({"foam stretched", "walls", 0.06, 1, stretched_walls_factory(1, {1, 2.5, 1})});
   kinds.push_back(
       {"foam stretched", "walls, jitter 0.5", 0.1, 0.5, stretched_walls_factory(0.5, {3, 1, 2})});
+  kinds.push_back({"foam weighted", "most", 0.08, 1, weighted_factory(1, 1)});
+  kinds.push_back({"foam weighted", "half", 0.06, 0.5, weighted_factory(0.5, 0.5)});
+  kinds.push_back({"foam weighted", "jitter 0", 0.1, 0, weighted_factory(0, 0.7)});
+  kinds.push_back(
+      {"foam weighted", "sampled radius", 0.1, 1, weighted_factory(1, 0.6), sampled_field});
+  kinds.push_back({"foam weighted", "walls", 0.06, 1, weighted_walls_factory(1, 1)});
+  kinds.push_back({"foam weighted", "walls, jitter 0", 0.1, 0, weighted_walls_factory(0, 0.5)});
   for (double jitter : {1.0, 0.01, 0.0})
     for (double thickness : {0.02, 0.1, 0.45}) {
       if (jitter < 1 && thickness != 0.1) continue;
@@ -525,7 +549,7 @@ std::vector<StructureRow> structures_by_point() {
   std::vector<StructureRow> rows;
   for (const StructureRow& row : structures())
     if (row.is_lattice() || row.kind.family == "foam DIRECT" || row.kind.family == "foam walls" ||
-        row.kind.family == "foam stretched")
+        row.kind.family == "foam stretched" || row.kind.family == "foam weighted")
       rows.push_back(row);
   return rows;
 }

@@ -101,6 +101,16 @@ std::vector<ModelRow> models() {
                                      Parameter(1), Parameter(0), Vec3{3, 1, 0.8})});
        }});
   rows.push_back(
+      {"weighted walls in a weighted foam", 8, [](Ref<Context> c) {
+         return make_ref<Model>(
+             c, make_ref<BoxShape>(Box3{{-0.5, -0.4, -0.2}, {0.5, 0.4, 0.2}}),
+             Structures{
+                 make_ref<Foam>(c, cells_of(0.6, 0.2), Parameter(0.1), 1.0, uint64_t{6},
+                                FoamMethod::direct, Parameter(1), Vec3{1, 1, 1}, 0.6),
+                 make_ref<FoamWalls>(c, cells_of(0.4, 0.3), Parameter(0.04), 1.0, uint64_t{2},
+                                     Parameter(1), Parameter(0), Vec3{1, 1, 1}, 0.2)});
+       }});
+  rows.push_back(
       {"walls in a foam with struts and walls", 8, [](Ref<Context> c) {
          const Ref<const Field> field =
              make_ref<GradientField>(Vec3{-1, 0, 0}, 0.01, Vec3{1, 0.5, 0.2}, 0.09);

@@ -113,9 +113,11 @@ void seeds_at_centres_make_a_cubic_lattice(void**) {
 
 void circumcentres_are_equally_far(void**) {
   Vec3 centre;
-  assert_true(find_circumcentre({{0, 0, 0}, {2, 0, 0}, {0, 4, 0}, {0, 0, 6}}, centre));
+  assert_true(
+      find_circumcentre({{{0, 0, 0}, 0}, {{2, 0, 0}, 0}, {{0, 4, 0}, 0}, {{0, 0, 6}, 0}}, centre));
   assert_true(max_magnitude(centre - Vec3{1, 2, 3}) < 1e-15);
-  assert_false(find_circumcentre({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, centre));
+  assert_false(
+      find_circumcentre({{{0, 0, 0}, 0}, {{1, 0, 0}, 0}, {{0, 1, 0}, 0}, {{1, 1, 0}, 0}}, centre));
 }
 
 }  // namespace

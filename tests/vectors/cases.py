@@ -42,6 +42,8 @@ CASES = {
                                      grid={"cell_size": [4, 5, 3], "origin": [0.5, 0, 0.25]})),
     "foam": model(structure("foam", grid={"cell_size": 2}, radius=0.45, seed=18446744073709551615,
                             jitter=0.875), shape=TETRAHEDRON),
+    "foam_weighted": model(structure("foam", grid={"cell_size": 3}, radius=0.3, wall_thickness=0.1,
+                                     weight=2.5, seed=5)),
     "foam_walls": model(structure("foam", grid={"cell_size": 3}, radius=0.2, wall_thickness=0.3,
                                   vent_radius=0.4, density={"expression": {
                                       "expression": "1 + a * x", "parameters": {"a": 0.2},

@@ -69,6 +69,8 @@ constexpr Option STRUCTURE[] = {
     {"vent", 0, "MM", Value::TEXT, "", "radius of a hole in each wall of a foam (default: none)"},
     {"stretch", 0, "X,Y,Z", Value::TEXT, "",
      "how much longer the cells of a foam are along each axis (default 1,1,1)"},
+    {"weight", 0, "MM", Value::TEXT, "",
+     "greatest radius of the spheres of a foam's seeds: unlike cells (default 0)"},
     {"skin", 0, "MM", Value::TEXT, "", "solid skin under the surface of the part (default 0)"},
 };
 

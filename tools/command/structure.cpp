@@ -19,7 +19,7 @@ struct Kind {
   std::span<const std::string_view> takes;
 };
 constexpr std::string_view FOAM_TAKES[] = {"radius", "radius-top", "thickness", "density", "jitter",
-                                           "seed",   "vent",       "stretch",   "skin"};
+                                           "seed",   "vent",       "stretch",   "weight",  "skin"};
 constexpr std::string_view LATTICE_TAKES[] = {"cell", "radius", "radius-top", "skin"};
 constexpr std::string_view FUNCTION_TAKES[] = {"cell", "thickness", "level", "sheet", "skin"};
 constexpr std::string_view WAVES_TAKES[] = {"level", "sheet", "volume-fraction", "count", "cones",
@@ -101,6 +101,7 @@ Structure make_foam(const Arguments& arguments, const Place& place) {
   def.seed = arguments.count("seed", 0);
   def.vent_radius.value = arguments.number("vent", 0);
   if (arguments.has("stretch")) arguments.sizes("stretch", def.stretch);
+  def.weight = arguments.number("weight", 0);
   Structure structure;
   check(msq_structure_foam(place.context, &def, structure.out()), "--foam");
   return structure;

@@ -299,6 +299,9 @@ void cells_vary(void**) {
   assert_int_equal(differing(of_foam(), round), 0);
   foam.stretch[2] = 6;
   assert_true(differing(of_foam(), round) > 100);
+  foam.stretch[2] = 2;
+  foam.weight = 2;
+  assert_true(differing(of_foam(), round) > 100);
 }
 
 void plates_and_fillets(void**) {

@@ -21,6 +21,9 @@ namespace Msq
         public Param? VentRadius { get; set; }
         /// <summary>How much longer the cells of the foam are along each axis of the grid: three numbers.</summary>
         public double[] Stretch { get; set; }
+        /// <summary>The greatest radius of the seeds' spheres; above 0, cells are those of a Laguerre
+        /// tessellation.</summary>
+        public double Weight { get; set; }
     }
 
     /// <summary>A lattice, beside its unit cell, grid and radius. null: all cells are boxes of one size.</summary>
@@ -164,6 +167,7 @@ namespace Msq
             Grid.Set(&def.grid, grid);
             def.method = (int)options.Method;
             def.seed = unchecked((ulong)options.Seed);
+            def.weight = options.Weight;
             if (options.Jitter.HasValue) def.jitter = options.Jitter.Value;
             using (var call = new Call())
             {

@@ -306,6 +306,11 @@ namespace Msq.Tests
             True(foam(new double[] { 2, 2, 2 }).SequenceEqual(foam(null))); // only the proportions count
             True(differ(foam(new double[] { 1, 1, 3 }), foam(null)) > 100);
             Throws<ArgumentException>(() => foam(new double[2]));
+            Func<double, bool[]> weighted = weight =>
+                inside(Structure.Foam(context, 2, 0.3, new FoamOptions { Weight = weight }));
+            True(weighted(0).SequenceEqual(foam(null)));
+            True(differ(weighted(2), foam(null)) > 100);
+            Throws<MsqException>(() => weighted(2.5));
         }
 
         static void TestPlates()

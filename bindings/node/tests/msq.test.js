@@ -143,6 +143,10 @@ test('periods and stretches change the cells', () => {
     context, { grid: { cell_size: [2, 2, 2] }, radius: 0.3, stretch }));
   assert.deepEqual(foam([2, 2, 2]), foam([1, 1, 1])); // only the proportions count
   assert.ok(differing(foam([1, 1, 3]), foam([1, 1, 1])) > 50);
+  const weighted = (weight) => insideBox(msq.Structure.foam(
+    context, { grid: { cell_size: [2, 2, 2] }, radius: 0.3, weight }));
+  assert.deepEqual(weighted(0), foam([1, 1, 1]));
+  assert.ok(differing(weighted(2), foam([1, 1, 1])) > 50);
 });
 
 test('plates, booleans with fillets, and blends', () => {

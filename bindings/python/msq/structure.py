@@ -351,7 +351,8 @@ class Foam(Structure):
     radius may be 0 (no struts) where wall_thickness is not (no walls: open cells). vent_radius: of a
     hole through the middle of each wall; 0: none. jitter: 0, seeds at cell centres, to 1, anywhere in
     their cells. density: seeds in a cell's volume. stretch: how much longer the cells of the foam are
-    along each axis of the grid, three numbers. method: how sets and slices are answered, `auto` the fastest.
+    along each axis of the grid. weight: the greatest radius of the seeds' spheres; above 0: a Laguerre
+    tessellation. method: how sets and slices are answered, `auto` the fastest.
     """
 
     radius: parameter[Param] = parameter("Of the struts.")
@@ -365,13 +366,14 @@ class Foam(Structure):
     wall_thickness: parameter[Param] = parameter("0: no walls.")
     vent_radius: parameter[Param] = parameter("Of a hole in each wall; 0: none.")
     stretch: parameter[Sequence[float]] = parameter("Of the cells along the grid's axes.")
+    weight: parameter[float] = parameter("Of the seeds; 0: a Voronoi diagram.")
 
     @remembers
     def __init__(self, *, radius: Param = 0.0, cell_size: Cell = 1.0, jitter: float = 1.0,
                  seed: int = 0, density: Param = 1.0, method: str = "auto",
                  origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
                  wall_thickness: Param = 0.0, vent_radius: Param = 0.0,
-                 stretch: Sequence[float] = (1, 1, 1),
+                 stretch: Sequence[float] = (1, 1, 1), weight: float = 0.0,
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_foam_def)
         set_grid(definition.grid, cell_size, origin, rotation)
@@ -380,6 +382,7 @@ class Foam(Structure):
         set_param(definition.wall_thickness, wall_thickness)
         set_param(definition.vent_radius, vent_radius)
         definition.stretch[:] = triple(stretch, "stretch")
+        definition.weight = weight
         definition.jitter = jitter
         definition.seed = unsigned(seed, 64, "seed")
         definition.method = constant("MSQ_FOAM_", method, "method")

@@ -22,9 +22,10 @@
 namespace msq {
 
 Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-           double jitter, uint64_t seed, FoamMethod method, const Parameter& density, Vec3 stretch)
-    : FoamData(std::move(context), neighbourhood, std::move(radius), jitter, seed, density,
-               stretch),
+           double jitter, uint64_t seed, FoamMethod method, const Parameter& density, Vec3 stretch,
+           double weight)
+    : FoamData(std::move(context), neighbourhood, std::move(radius), jitter, seed, density, stretch,
+               weight),
       method_(method == FoamMethod::automatic ? FoamMethod::direct : method),
       is_concurrent_(this->radius().is_concurrent() && density.is_concurrent()) {}
 
@@ -160,7 +161,7 @@ Vec3 Foam::normal(const Ray& ray, double t) const {
 }
 
 LineGraph Foam::wall_lines(const WallSection& section) const {
-  if (stretch()) return Structure::wall_lines(section);
+  if (stretch() || is_weighted()) return Structure::wall_lines(section);
   return foam_section({context(), neighbourhood(), seeds(), graded(), unit()}, section);
 }
 

@@ -24,11 +24,11 @@ enum class FoamMethod : int32_t {
 
 class Foam final : public FoamData {
  public:
-  /// `density`, `stretch`: as in FoamData. If the density exceeds 1 anywhere, or cells are
-  /// stretched, the method is `direct`.
+  /// `density`, `stretch`, `weight`: as in FoamData. If the density exceeds 1 anywhere, or cells
+  /// are stretched, or seeds weighted, the method is `direct`.
   Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius, double jitter,
        uint64_t seed, FoamMethod method, const Parameter& density = Parameter(1),
-       Vec3 stretch = {1, 1, 1});
+       Vec3 stretch = {1, 1, 1}, double weight = 0);
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return is_concurrent_; }
@@ -61,7 +61,7 @@ class Foam final : public FoamData {
   Vec3 normal(const Ray& ray, double t) const override;
 
   ThinWalls thin_walls() const override {
-    if (stretch()) return ThinWalls::none;
+    if (stretch() || is_weighted()) return ThinWalls::none;
     return graded() ? ThinWalls::varying : ThinWalls::uniform;
   }
   /// The faces of the Voronoi diagram.
@@ -77,8 +77,8 @@ class Foam final : public FoamData {
   /// Errors of onsets, foam units.
   double onset_error() const;
   /// Whether sets of points and single rays may rely on the seeds of cells: one in each, and not
-  /// stretched.
-  bool is_plain() const { return !graded() && !stretch(); }
+  /// stretched, and seeds without weights.
+  bool is_plain() const { return !graded() && !stretch() && !is_weighted(); }
   /// Finds the entry by marching. Returns false if it may have missed struts, or if its result may
   /// differ from that of walk_cells(). Then the caller searches by cells.
   bool enter_by_steps(RaySearch& search, const Job* job) const;

@@ -4,6 +4,7 @@
 #include "structure/foam/graded_graph.h"
 #include "structure/foam/stretched_graph.h"
 #include "structure/foam/uniform_graph.h"
+#include "structure/foam/weighted_graph.h"
 
 namespace msq {
 
@@ -20,13 +21,14 @@ std::unique_ptr<const FoamGraph> make_graph(const FoamSeeds& seeds,
                                             const Stretch* stretch) {
   if (graded) return std::make_unique<const GradedGraph>(graded);
   if (stretch) return std::make_unique<const StretchedGraph>(*stretch);
+  if (seeds.is_weighted()) return std::make_unique<const WeightedGraph>(seeds);
   return std::make_unique<const UniformGraph>(seeds);
 }
 
 }  // namespace
 
 FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-                   double jitter, uint64_t seed, Parameter density, Vec3 stretch)
+                   double jitter, uint64_t seed, Parameter density, Vec3 stretch, double weight)
     : Structure(neighbourhood),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
@@ -36,7 +38,7 @@ FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Par
       paper_cells_id_(context_->new_structure_id()),
       radius_(std::move(radius)),
       unit_(max_component(neighbourhood.cell_size)),
-      seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_)),
+      seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_), weight / unit_),
       graded_(grade(seeds_, neighbourhood, std::move(density))),
       stretch_(Stretch::is_any(stretch)
                    ? std::make_unique<const Stretch>(neighbourhood, jitter, seed, stretch)

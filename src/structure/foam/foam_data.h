@@ -27,6 +27,8 @@ class FoamData : public Structure {
   const FoamSeeds& diagram_seeds() const { return stretch_ ? stretch_->seeds() : seeds_; }
   Vec3 to_diagram(Vec3 q) const { return stretch_ ? stretch_->to_diagram(q) : q; }
   Vec3 from_diagram(Vec3 p) const { return stretch_ ? p * stretch_->factor() : p; }
+  /// Whether the diagram is a power diagram (seeds/seeds.h).
+  bool is_weighted() const { return seeds_.is_weighted(); }
   const FoamGraph& graph() const { return *graph_; }
   /// Length of a foam unit in model units.
   double unit() const { return unit_; }
@@ -52,9 +54,10 @@ class FoamData : public Structure {
 
  protected:
   /// `density`: as in GradedSeeds. `stretch`: of the cells, along the axes of the grid; only with a
-  /// density of at most 1.
+  /// density of at most 1. `weight`: of the seeds (seeds/seeds.h), in model units, at most the
+  /// smallest cell size; above 0 only without a stretch and with a density of at most 1.
   FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-           double jitter, uint64_t seed, Parameter density, Vec3 stretch);
+           double jitter, uint64_t seed, Parameter density, Vec3 stretch, double weight);
   /// Removes the data from the cache.
   ~FoamData() override;
 

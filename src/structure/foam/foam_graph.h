@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Voronoi graph of a foam's seeds, with one seed per cell (UniformGraph; StretchedGraph for
-// stretched cells) or more (GradedGraph).
+// stretched cells, WeightedGraph for seeds with weights) or more (GradedGraph).
 //
 // Sets and points use a foam through this interface. Rays do not: they keep lists of edges for each
 // cell, in a different form for each kind (rays/cell_lists.h, rays/graded_lists.h).

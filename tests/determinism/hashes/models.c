@@ -129,6 +129,21 @@ static msq_model* walls_stretched(Kit* kit) {
   return filled(kit, sphere(kit, 9.5), foam(kit, &def));
 }
 
+static msq_model* foam_weighted(Kit* kit) {
+  msq_foam_def def = foam_def(4, number(0.3));
+  set_cells(&def.grid, 4, 5, 3.5);
+  turn(&def.grid);
+  def.weight = 3;
+  return filled(kit, mesh(kit, 0), foam(kit, &def));
+}
+
+static msq_model* walls_weighted(Kit* kit) {
+  msq_foam_def def = foam_def(5, number(0));
+  def.wall_thickness = number(0.3);
+  def.weight = 5;
+  return filled(kit, sphere(kit, 9.5), foam(kit, &def));
+}
+
 static msq_model* walled(Kit* kit) {
   msq_foam_def def = foam_def(5, number(0.5));
   def.wall_thickness = number(0.3);
@@ -287,8 +302,10 @@ static const struct {
     {"foam-graded", foam_graded},
     {"foam-regular", foam_regular},
     {"foam-stretched", foam_stretched},
+    {"foam-weighted", foam_weighted},
     {"walls", walls},
     {"walls-stretched", walls_stretched},
+    {"walls-weighted", walls_weighted},
     {"walled", walled},
     {"gyroid-open-mesh", gyroid},
     {"p-sheet", sheet},

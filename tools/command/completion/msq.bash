@@ -42,6 +42,7 @@ _msq() {
     --seed) return ;;
     --vent) return ;;
     --stretch) return ;;
+    --weight) return ;;
     --skin) return ;;
     --box) return ;;
     --length-scale) return ;;
@@ -68,15 +69,15 @@ _msq() {
     --curve) return ;;
   esac
   case ${COMP_WORDS[1]} in
-    slice) options='--output --format --pitch --layer-height --layers --grey --mirror --tolerance --panel --panel-size --landscape --exposure --first-exposure --fade --material --no-thumbnails --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --skin --box --length-scale --threads --memory --quiet --help' ;;
-    mesh) options='--output --pitch --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --skin --box --length-scale --threads --memory --quiet --help' ;;
-    render) options='--output --size --view --zoom --at --perspective --samples --glass --plain --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --skin --threads --memory --quiet --help' ;;
-    model) options='--output --title --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --skin --threads --memory --quiet --help' ;;
-    info) options='--self-intersections --json --output --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --skin --threads --memory --quiet --help' ;;
-    stats) options='--samples --sample-seed --phase --two-point --lineal-path --direction --surface --json --output --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --skin --box --length-scale --threads --memory --quiet --help' ;;
-    query) options='--output --what --channels --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --skin --length-scale --threads --memory --quiet --help' ;;
-    struts) options='--output --whole --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --skin --scale --region --box --threads --memory --quiet --help' ;;
-    calibrate) options='--fraction --curve --json --output --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --skin --scale --region --any-files --threads --memory --quiet --help' ;;
+    slice) options='--output --format --pitch --layer-height --layers --grey --mirror --tolerance --panel --panel-size --landscape --exposure --first-exposure --fade --material --no-thumbnails --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --weight --skin --box --length-scale --threads --memory --quiet --help' ;;
+    mesh) options='--output --pitch --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --weight --skin --box --length-scale --threads --memory --quiet --help' ;;
+    render) options='--output --size --view --zoom --at --perspective --samples --glass --plain --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --weight --skin --threads --memory --quiet --help' ;;
+    model) options='--output --title --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --weight --skin --threads --memory --quiet --help' ;;
+    info) options='--self-intersections --json --output --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --weight --skin --threads --memory --quiet --help' ;;
+    stats) options='--samples --sample-seed --phase --two-point --lineal-path --direction --surface --json --output --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --weight --skin --box --length-scale --threads --memory --quiet --help' ;;
+    query) options='--output --what --channels --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --weight --skin --length-scale --threads --memory --quiet --help' ;;
+    struts) options='--output --whole --unit --up --any-files --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --weight --skin --scale --region --box --threads --memory --quiet --help' ;;
+    calibrate) options='--fraction --curve --json --output --foam --lattice --function --expression --waves --cell --radius --radius-top --thickness --level --sheet --volume-fraction --count --cones --density --jitter --seed --vent --stretch --weight --skin --scale --region --any-files --threads --memory --quiet --help' ;;
   esac
   if [[ $word == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")

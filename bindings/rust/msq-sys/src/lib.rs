@@ -1067,6 +1067,8 @@ pub struct msq_foam_def {
     pub vent_radius: msq_param,
     /// How much longer the cells of the foam are along each axis of the grid: 1/16 to 16, default 1. The Voronoi diagram is that of the seeds where lengths along axis i are divided by stretch[i]. Struts stay circular, and walls keep their thickness. Only the proportions of the three numbers count; cell_size[i] / stretch[i] may differ by a factor of up to 16. Turn the grid for other directions.
     pub stretch: [f64; 3],
+    /// The greatest radius of the seeds' spheres, in model units, from 0 (default) to the smallest cell size. Each seed has a radius r from 0 to weight by a hash. The cell of a seed s is where |p - s|^2 - r^2 is least of all seeds: the Laguerre tessellation (power diagram) of the spheres. Cells then differ more in size, and some seeds have none. Seeds stay where they are. 0: the Voronoi diagram.
+    pub weight: f64,
 }
 
 /// A functional structure.
@@ -2283,7 +2285,7 @@ extern "C" {
     pub fn msq_foam_def_init(def: *mut msq_foam_def, size: usize) -> msq_status;
     /// Creates a Voronoi foam of one jittered seed per neighbourhood cell: all points within radius of an edge of the Voronoi diagram, or within half of wall_thickness of a face. def must not be NULL.
     ///
-    /// Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness or vent_radius above the smallest cell size; cell sizes that differ by a factor above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, or density above 1, with a method other than AUTO and DIRECT; a stretch with density above 1 or with vent_radius), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.
+    /// Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness, vent_radius or weight above the smallest cell size; cell sizes that differ by a factor above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, a weight, or density above 1, with a method other than AUTO and DIRECT; a stretch or a weight with density above 1 or with vent_radius; a weight with a stretch), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. Weights: Imai, Iri and Murota, "Voronoi diagram in the Laguerre geometry and its applications", 1985; Aurenhammer, "Power diagrams: properties, algorithms and applications", 1987; for foams Fan, Wu, Zhao and Lu, "Simulation of polycrystalline structure with Voronoi diagram in Laguerre geometry based on random closed packing of spheres", 2004.
     pub fn msq_structure_foam(context: *mut msq_context, def: *const msq_foam_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_functional_def_init(def: *mut msq_functional_def, size: usize) -> msq_status;
@@ -2643,7 +2645,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_lattice_def>(), 232);
     assert_eq!(std::mem::size_of::<msq_lattice_faces_report>(), 80);
     assert_eq!(std::mem::size_of::<msq_plate_lattice_def>(), 232);
-    assert_eq!(std::mem::size_of::<msq_foam_def>(), 232);
+    assert_eq!(std::mem::size_of::<msq_foam_def>(), 240);
     assert_eq!(std::mem::size_of::<msq_functional_def>(), 208);
     assert_eq!(std::mem::size_of::<msq_waves_def>(), 200);
     assert_eq!(std::mem::size_of::<msq_beams_def>(), 168);

@@ -170,6 +170,8 @@ pub struct Foam {
     pub vent_radius: Param,
     /// How much longer the cells of the foam are along each axis of the grid.
     pub stretch: [f64; 3],
+    /// The greatest radius of the seeds' spheres; above 0, cells are those of a Laguerre tessellation.
+    pub weight: f64,
 }
 
 impl Foam {
@@ -185,6 +187,7 @@ impl Foam {
             wall_thickness: Param::default(),
             vent_radius: Param::default(),
             stretch: [1.0; 3],
+            weight: 0.0,
         }
     }
 }
@@ -205,6 +208,7 @@ impl Structure {
         def.wall_thickness = foam.wall_thickness.raw();
         def.vent_radius = foam.vent_radius.raw();
         def.stretch = foam.stretch;
+        def.weight = foam.weight;
         Structure::make(|raw| unsafe { sys::msq_structure_foam(context.as_ptr(), &def, raw) })
     }
 

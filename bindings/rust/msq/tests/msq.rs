@@ -147,6 +147,11 @@ fn periods_and_stretches_change_cells() {
     };
     assert_eq!(foam([2.0; 3]), foam([1.0; 3]));
     assert_ne!(foam([1.0, 1.0, 3.0]), foam([1.0; 3]));
+    let weighted = |weight| {
+        inside(Structure::foam(&context, &Foam { weight, ..Foam::new(2.0, 0.3) }).unwrap())
+    };
+    assert_eq!(weighted(0.0), foam([1.0; 3]));
+    assert_ne!(weighted(2.0), foam([1.0; 3]));
 }
 
 #[test]

@@ -11,6 +11,7 @@ void ClippedCell::start(double half_width) {
   vertices_.clear();
   cuts_ = 0;
   made_ = 0;
+  is_empty_ = false;
   // Plane 2 axis is low, 2 axis + 1 high.
   for (int axis = 0; axis < 3; ++axis)
     for (double sign : {-1.0, 1.0}) {
@@ -41,8 +42,7 @@ void ClippedCell::place(Vertex& vertex) const {
   vertex.position = (qr * p.offset + rp * q.offset + pq * r.offset) * (1 / dot(p.normal, qr));
 }
 
-bool ClippedCell::cut(Vec3 neighbour) {
-  const double offset = 0.5 * dot(neighbour, neighbour);
+bool ClippedCell::cut(Vec3 neighbour, double offset) {
   removed_.clear();
   made_ = vertices_.size();
   size_t left = 0;
@@ -61,7 +61,8 @@ bool ClippedCell::cut(Vec3 neighbour) {
   ++cuts_;
   planes_.push_back({neighbour, offset, 0, 0});
   if (removed_.empty()) return true;
-  if (left == 0) return false;
+  is_empty_ = left == 0;
+  if (is_empty_) return false;
 
   hole_.clear();
   for (uint32_t v : removed_)

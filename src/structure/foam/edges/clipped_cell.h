@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Voronoi cell of one seed, cut from a cube by one neighbour after the other.
+// The Voronoi cell of one seed, or its cell of a power diagram, cut from a cube by one neighbour
+// after the other.
 //
-// For cells with more faces than the walk (voronoi_cell.h) has room for, and for seeds on one
-// sphere, where it fails. Vertices are triples of planes with references to their three neighbours.
-// A cut removes the vertices beyond it and joins the loop of planes around the hole with the new
-// plane, as in N. Ray, D. Sokolov, S. Lefebvre and B. Levy, "Meshless Voronoi on the GPU", 2018. A
-// plane that passes a vertex by no more than a tolerance does not remove it. If more than three
-// planes meet in a point, the later ones are left out there, and the polytope stays simple.
+// For cells of power diagrams (weighted_cells.h), cells with more faces than the walk
+// (voronoi_cell.h) has room for, and for seeds on one sphere, where it fails. Vertices are triples
+// of planes with references to their three neighbours. A cut removes the vertices beyond it and
+// joins the loop of planes around the hole with the new plane, as in N. Ray, D. Sokolov, S.
+// Lefebvre and B. Levy, "Meshless Voronoi on the GPU", 2018. A plane that passes a vertex by no
+// more than a tolerance does not remove it. If more than three planes meet in a point, the later
+// ones are left out there, and the polytope stays simple.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +34,11 @@ class ClippedCell {
   /// Cuts off the part nearer to a neighbour (relative to the seed). The neighbour becomes plane
   /// number first_neighbour + the number of cuts before. Returns false if rounding has made a
   /// polytope impossible; call start() again then.
-  bool cut(Vec3 neighbour);
+  bool cut(Vec3 neighbour) { return cut(neighbour, 0.5 * dot(neighbour, neighbour)); }
+  /// The same with the plane neighbour . x = offset, from the seed. Also returns false if nothing
+  /// is left: is_empty().
+  bool cut(Vec3 neighbour, double offset);
+  bool is_empty() const { return is_empty_; }
 
   /// Starts with the cube and cuts with neighbours, which have a `position` and its
   /// `distance_squared` and ascend by it, until no vertex is farther than half the distance.
@@ -92,6 +98,7 @@ class ClippedCell {
   std::vector<Side> hole_;
   size_t made_ = 0;
   uint32_t cuts_ = 0;
+  bool is_empty_ = false;
 };
 
 }  // namespace msq

@@ -4,6 +4,7 @@
 #include "base/borrowed.h"
 #include "structure/foam/edges/edge_builder.h"
 #include "structure/foam/edges/facet_walk.h"
+#include "structure/foam/edges/weighted_edges.h"
 
 namespace msq {
 
@@ -11,6 +12,13 @@ namespace {
 
 struct Workspace {
   EdgeBuilder builder;
+  std::vector<SegmentSet::Node> nodes;
+
+  size_t bytes() const { return builder.bytes(); }
+};
+
+struct WeightedEdgesWorkspace {
+  WeightedEdges builder;
   std::vector<SegmentSet::Node> nodes;
 
   size_t bytes() const { return builder.bytes(); }
@@ -43,6 +51,21 @@ EdgeBrick EdgeBrick::by_cells(const FoamSeeds& seeds, CellIndex corner) {
   for (uint32_t i = 0; i < nodes.size(); ++i) {
     const Vec3 p = builder.vertex(i) - brick.origin_;
     nodes[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  }
+  brick.segments_ = SegmentSet(nodes, builder.ends(), builder.starts());
+  return brick;
+}
+
+EdgeBrick EdgeBrick::of_weighted(const FoamSeeds& seeds, CellIndex corner) {
+  const Borrowed<WeightedEdgesWorkspace> workspace;
+  auto& [builder, nodes] = *workspace;
+  builder.build(seeds, corner, side);
+  EdgeBrick brick;
+  brick.origin_ = seeds.scale() * (0.5 * side);
+  nodes.clear();
+  for (const Vec3& vertex : builder.vertices()) {
+    const Vec3 p = vertex - brick.origin_;
+    nodes.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
   }
   brick.segments_ = SegmentSet(nodes, builder.ends(), builder.starts());
   return brick;

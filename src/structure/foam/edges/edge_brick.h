@@ -20,7 +20,7 @@ struct FoamEdge {
 
 /// Segments are in single precision, relative to the middle of bricks of 8 cells and to the corner
 /// of smaller ones. Owners lie within 4 units of that point, and their edges within the empty
-/// radius, below 2, of owners. So coordinates stay below 8, roundings below 2^-22 in each and
+/// radius, at most 2, of owners. So coordinates stay below 8, roundings below 2^-22 in each and
 /// 4.2e-7 together. The rest of edge_error is for the vertices themselves, in double precision.
 constexpr double edge_error = 5e-7;
 
@@ -38,6 +38,8 @@ class EdgeBrick final : public CellData {
   /// By the walk over Voronoi cells (edge_builder.h), which works for all seeds. The same edges, in
   /// another order within each owner.
   static EdgeBrick by_cells(const FoamSeeds& seeds, CellIndex corner);
+  /// Of the power diagram of weighted seeds (weighted_edges.h).
+  static EdgeBrick of_weighted(const FoamSeeds& seeds, CellIndex corner);
   /// From edges that were found in another way, relative to the brick's corner, in runs as in
   /// SegmentSet.
   EdgeBrick(const std::vector<FloatSegment>& edges, const std::vector<uint32_t>& starts)

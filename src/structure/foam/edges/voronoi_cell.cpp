@@ -184,12 +184,27 @@ struct Walk {
     return true;
   }
 
-  /// Slides from the midpoint to the nearest neighbour along its face to an edge, and along that to
-  /// a vertex.
+  T squared(uint32_t i) const {
+    return planes.x[i] * planes.x[i] + planes.y[i] * planes.y[i] + planes.z[i] * planes.z[i];
+  }
+
+  /// Slides from the foot on the nearest plane, which is the midpoint to the nearest neighbour if
+  /// there are no lifts, along its face to an edge, and along that to a vertex.
+  template <bool has_lifts>
   bool start(size_t plane_count) {
     uint32_t a = 0;
-    for (uint32_t i = 1; i < plane_count; ++i)
-      if (planes.offset[i] < planes.offset[a]) a = i;
+    T foot = T(0.5);
+    if constexpr (has_lifts) {
+      const auto distance = [&](uint32_t i) {
+        return planes.offset[i] * planes.offset[i] / squared(i);
+      };
+      for (uint32_t i = 1; i < plane_count; ++i)
+        if (distance(i) < distance(a)) a = i;
+      foot = planes.offset[a] / squared(a);
+    } else {
+      for (uint32_t i = 1; i < plane_count; ++i)
+        if (planes.offset[i] < planes.offset[a]) a = i;
+    }
     const T n[3] = {planes.x[a], planes.y[a], planes.z[a]};
     T along[3] = {0, n[2], -n[1]};
     const T x = std::abs(n[0]), y = std::abs(n[1]), z = std::abs(n[2]);
@@ -202,7 +217,7 @@ struct Walk {
       along[1] = -n[0];
       along[2] = 0;
     }
-    T p[3] = {n[0] / 2, n[1] / 2, n[2] / 2};
+    T p[3] = {n[0] * foot, n[1] * foot, n[2] * foot};
     const PlaneHit<T> edge = first_plane(planes, p, along);
     if (!(edge.t < no_hit<T>)) return false;
     for (int i = 0; i < 3; ++i) p[i] += along[i] * edge.t;
@@ -262,7 +277,7 @@ HWY_INLINE void mark_planes(const VoronoiCell::Graph& graph, size_t first, uint6
 }
 
 /// Walks from `known` vertices of the graph, or from none.
-template <int known_vectors, class T>
+template <bool has_lifts, int known_vectors, class T>
 bool walk(const PlaneArrays<T>& planes, size_t plane_count, size_t known,
           VoronoiCell::Graph& graph) {
   if (graph.ends.empty() || ++graph.epoch > 0xff) {
@@ -270,7 +285,7 @@ bool walk(const PlaneArrays<T>& planes, size_t plane_count, size_t known,
     graph.epoch = 1;
   }
   Walk<T> walk(planes, graph);
-  if (!(known ? walk.resume(known) : walk.start(plane_count))) return false;
+  if (!(known ? walk.resume(known) : walk.template start<has_lifts>(plane_count))) return false;
   if (!walk.template go_on<known_vectors>()) return false;
   graph.count = walk.count;
   uint64_t used[2] = {0, 0};
@@ -330,8 +345,16 @@ Placement place_vertices(const PlaneArrays<double>& planes, size_t known,
   return {hn::GetLane(hn::MaxOfLanes(d, off)), hn::GetLane(hn::MaxOfLanes(d, most))};
 }
 
-bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, VoronoiCell::Graph& graph,
-                double& radius_squared) {
+/// has_lifts: of a power diagram. `lifts` of the seeds, and of the own one.
+template <bool has_lifts>
+HWY_INLINE bool build(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, const double* lifts,
+                      double own_lift, VoronoiCell::Graph& graph, double& radius_squared) {
+  const auto offset_of = [&](const Vec3& normal, size_t i) {
+    if constexpr (has_lifts)
+      return 0.5 * (dot(normal, normal) + (lifts[planes.seed[i]] - own_lift));
+    else
+      return 0.5 * dot(normal, normal);
+  };
   // Fills the last vector with planes that no ray meets.
   const hn::ScalableTag<float> d;
   const size_t lanes = hn::Lanes(d), count = planes.count;
@@ -347,7 +370,7 @@ bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, Vorono
     x[i] = normal.x;
     y[i] = normal.y;
     z[i] = normal.z;
-    offset[i] = 0.5 * dot(normal, normal);
+    offset[i] = offset_of(normal, i);
   };
   const PlaneArrays<float> single{planes.x, planes.y, planes.z, planes.offset, padded};
   const PlaneArrays<double> full{x, y, z, offset, padded};
@@ -358,7 +381,7 @@ bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, Vorono
     double most = 0;
     for (size_t i = 0; i < count; ++i) {
       const Vec3 normal = seeds[planes.seed[i]] - own;
-      most = std::max(most, dot(normal, p) - 0.5 * dot(normal, normal));
+      most = std::max(most, dot(normal, p) - offset_of(normal, i));
     }
     return most;
   };
@@ -375,8 +398,9 @@ bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, Vorono
     // within 2 and planes are of sizes up to 4; larger planes do not come as near. So a vertex that
     // is inside all planes except its own three by more than that is correct. Others are tested in
     // double precision.
+    // Lifts add up to 1/2 to an offset.
     const bool is_far = !(radius_squared <= 4);
-    const auto near = hn::Set(d, -2e-5f);
+    const auto near = hn::Set(d, has_lifts ? -4e-5f : -2e-5f);
     for (size_t v = known; v < graph.count; ++v) {
       const Vec3& p = graph.vertices[v].position;
       const auto px = hn::Set(d, static_cast<float>(p.x)), py = hn::Set(d, static_cast<float>(p.y)),
@@ -398,9 +422,9 @@ bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, Vorono
   for (size_t v = 0; v < known; ++v)
     known_radius_squared =
         std::max(known_radius_squared, dot(graph.vertices[v].position, graph.vertices[v].position));
-  const bool walked = vectors == 3   ? walk<3>(single, count, known, graph)
-                      : vectors == 6 ? walk<6>(single, count, known, graph)
-                                     : walk<0>(single, count, known, graph);
+  const bool walked = vectors == 3   ? walk<has_lifts, 3>(single, count, known, graph)
+                      : vectors == 6 ? walk<has_lifts, 6>(single, count, known, graph)
+                                     : walk<has_lifts, 0>(single, count, known, graph);
   if (walked && is_right(known)) {
     radius_squared = std::max(radius_squared, known_radius_squared);
     return true;
@@ -410,10 +434,20 @@ bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, Vorono
     x[i] = y[i] = z[i] = 0;
     offset[i] = 1;
   }
-  if (!walk<0>(full, count, 0, graph) || !is_right(0)) return false;
+  if (!walk<has_lifts, 0>(full, count, 0, graph) || !is_right(0)) return false;
   graph.known = 0;
   graph.found_anew = true;
   return true;
+}
+
+bool build_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, VoronoiCell::Graph& graph,
+                double& radius_squared) {
+  return build<false>(planes, seeds, own, nullptr, 0, graph, radius_squared);
+}
+
+bool build_power_cell(VoronoiCell::Planes& planes, const Vec3* seeds, Vec3 own, const double* lifts,
+                      double own_lift, VoronoiCell::Graph& graph, double& radius_squared) {
+  return build<true>(planes, seeds, own, lifts, own_lift, graph, radius_squared);
 }
 
 }  // namespace
@@ -427,6 +461,7 @@ namespace msq {
 static_assert(VoronoiCell::max_planes % (2 * max_simd_doubles) == 0);
 
 HWY_EXPORT(build_cell);
+HWY_EXPORT(build_power_cell);
 
 void VoronoiCell::clear() {
   refill(nullptr, {});
@@ -465,6 +500,14 @@ bool VoronoiCell::walk() {
   radius_squared_ = 0;
   if (planes_.count < 4 || planes_.count > max_planes) return false;
   return HWY_DYNAMIC_DISPATCH(build_cell)(planes_, seeds_, own_, graph_, radius_squared_);
+}
+
+bool VoronoiCell::walk_power(const double* lifts, double own_lift) {
+  graph_.count = graph_.known = 0;
+  radius_squared_ = 0;
+  if (planes_.count < 4 || planes_.count > max_planes) return false;
+  return HWY_DYNAMIC_DISPATCH(build_power_cell)(planes_, seeds_, own_, lifts, own_lift, graph_,
+                                                radius_squared_);
 }
 
 }  // namespace msq

@@ -53,6 +53,7 @@ class VoronoiCell {
   void add(Vec3 neighbour);
   size_t count() const { return planes_.count; }
   const Planes& planes() const { return planes_; }
+  Planes& planes() { return planes_; }
 
   /// Forgets all neighbours of the seed `own`. The caller writes new ones into the returned planes,
   /// with indices into `seeds`.
@@ -65,6 +66,11 @@ class VoronoiCell {
   /// Finds the vertices among the planes added. Returns false if the walk fails: degenerate, too
   /// many planes, or unbounded.
   bool walk();
+
+  /// The same for a cell of a power diagram that holds its seed (seeds/seeds.h). The caller has set
+  /// the offsets of the planes: half the squared lengths plus half of the lift of a neighbour less
+  /// the own one. `lifts`: of `seeds`.
+  bool walk_power(const double* lifts, double own_lift);
 
   /// After walk(): squared distance of the farthest vertex. Seeds at more than twice that distance
   /// cannot cut the cell.

@@ -28,9 +28,9 @@ Id id_of(const std::vector<NamedSeed>& seeds) {
 /// seed's cell.
 bool place(const std::vector<NamedSeed>& seeds, Vec3 scale, Vec3& position) {
   const CellIndex home = seeds[0].cell;
-  Vec3 at[max_near];
+  LiftedSeed at[max_near];
   const size_t count = std::min(seeds.size(), max_near);
-  for (size_t i = 0; i < count; ++i) at[i] = seeds[i].from(home, scale);
+  for (size_t i = 0; i < count; ++i) at[i] = {seeds[i].from(home, scale), seeds[i].lift};
   for (size_t d = 3; d < count; ++d)
     for (size_t c = 2; c < d; ++c)
       for (size_t b = 1; b < c; ++b)
@@ -41,8 +41,9 @@ bool place(const std::vector<NamedSeed>& seeds, Vec3 scale, Vec3& position) {
 
 }  // namespace
 
-bool find_circumcentre(const Vec3 (&points)[4], Vec3& centre) {
-  const Vec3 u = points[1] - points[0], v = points[2] - points[0], w = points[3] - points[0];
+bool find_circumcentre(const LiftedSeed (&seeds)[4], Vec3& centre) {
+  const Vec3 u = seeds[1].place - seeds[0].place, v = seeds[2].place - seeds[0].place,
+             w = seeds[3].place - seeds[0].place;
   const Vec3 vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
   const double volume = dot(u, vw);
   if (!(std::abs(volume) > flat * length(u) * length(v) * length(w))) return false;
@@ -50,11 +51,16 @@ bool find_circumcentre(const Vec3 (&points)[4], Vec3& centre) {
   const auto solve = [&](double a, double b, double c) {
     return (vw * a + wu * b + uv * c) * scale;
   };
-  Vec3 x = solve(dot(u, u), dot(v, v), dot(w, w));
+  const auto twice_offset = [&](Vec3 n, const LiftedSeed& seed) {
+    return dot(n, n) + (seed.lift - seeds[0].lift);
+  };
+  const double to_u = twice_offset(u, seeds[1]), to_v = twice_offset(v, seeds[2]),
+               to_w = twice_offset(w, seeds[3]);
+  Vec3 x = solve(to_u, to_v, to_w);
   // One step of refinement: what is left of the three equations.
-  const auto rest = [&](Vec3 n) { return dot(n, n) - 2 * dot(n, x); };
-  x = x + solve(rest(u), rest(v), rest(w));
-  centre = points[0] + x;
+  const auto rest = [&](double offset, Vec3 n) { return offset - 2 * dot(n, x); };
+  x = x + solve(rest(to_u, u), rest(to_v, v), rest(to_w, w));
+  centre = seeds[0].place + x;
   return true;
 }
 
@@ -84,22 +90,23 @@ void JointFinder::try_all(const NamedSeeds& seeds, Vec3 p, double within) {
   const Vec3 scale = seeds.scale();
   const CellIndex home = near_[0].cell, corner = seeds.corner();
   const size_t count = near_.size();
-  Vec3 at[max_near];
-  for (size_t i = 0; i < count; ++i) at[i] = near_[i].from(home, scale);
+  LiftedSeed at[max_near];
+  for (size_t i = 0; i < count; ++i) at[i] = {near_[i].from(home, scale), near_[i].lift};
   const Vec3 place_of_p =
       p -
       Vec3{double(home.x - corner.x), double(home.y - corner.y), double(home.z - corner.z)} * scale;
   const auto try_four = [&](size_t a, size_t b, size_t c, size_t d) {
     Vec3 centre;
     if (!find_circumcentre({at[a], at[b], at[c], at[d]}, centre)) return;
-    const double radius = length(at[a] - centre);
+    const auto distance = [&](size_t i) { return std::sqrt(squared_from(at[i], centre)); };
+    const double radius = distance(a);
     for (size_t i = 0; i < count; ++i)
-      if (length(at[i] - centre) < radius - equally_far) return;
+      if (distance(i) < radius - equally_far) return;
     if (length(centre - place_of_p) > 0.5 * within) return;
     Joint joint;
     joint.seeds.reserve(count);
     for (size_t i = 0; i < count; ++i)
-      if (length(at[i] - centre) <= radius + equally_far) joint.seeds.push_back(near_[i]);
+      if (distance(i) <= radius + equally_far) joint.seeds.push_back(near_[i]);
     joint.id = id_of(joint.seeds);
     const auto is_known = [&](const Joint& other) { return other.id == joint.id; };
     if (joint.seeds.size() < 4 || std::any_of(joints_.begin(), joints_.end(), is_known)) return;

@@ -3,8 +3,9 @@
 //
 // A vertex is equally far from four seeds, or more, and no seed is nearer. Its seeds name it, and
 // its position follows from them in double precision, computed in the same way wherever it is
-// found. So the result does not depend on the brick of edges that led to it, whose positions are
-// rounded to single precision (edges/edge_brick.h).
+// found. Distances are lifted ones if seeds have weights (seeds/seeds.h). So the result does not
+// depend on the brick of edges that led to it, whose positions are rounded to single precision
+// (edges/edge_brick.h).
 //
 // A rounded position is within edge_error of the vertex, so the vertex's seeds are farther from it
 // than the nearest one by at most twice that. Usually these are four seeds. If there are more,
@@ -46,8 +47,9 @@ class JointFinder {
   std::vector<Joint> joints_;
 };
 
-/// The centre of the sphere through four points. Returns false if they are in a plane.
-bool find_circumcentre(const Vec3 (&points)[4], Vec3& centre);
+/// The point equally far from four seeds, by lifted distances (seeds/seeds.h). Returns false if
+/// they are in a plane.
+bool find_circumcentre(const LiftedSeed (&seeds)[4], Vec3& centre);
 /// Whether three seeds are on a line.
 bool are_collinear(const NamedSeed& a, const NamedSeed& b, const NamedSeed& c, Vec3 scale);
 

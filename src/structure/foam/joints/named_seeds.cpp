@@ -21,12 +21,16 @@ void NamedSeeds::move_to(const FoamSeeds& seeds, const std::shared_ptr<const Gra
     size_[axis] = static_cast<size_t>(side + 2 * halo_[axis]);
   }
   in_cell_.resize(size_[0] * size_[1] * size_[2]);
+  lifts_.resize(seeds.is_weighted() ? in_cell_.size() : 0);
   size_t i = 0;
   for (int z = -halo_[2]; z < side + halo_[2]; ++z)
     for (int y = -halo_[1]; y < side + halo_[1]; ++y) {
       const uint64_t row = seeds.row_key(corner, y, z);
-      for (int x = -halo_[0]; x < side + halo_[0]; ++x)
-        in_cell_[i++] = seeds.fractions(splitmix_output(row, static_cast<uint32_t>(corner.x + x)));
+      for (int x = -halo_[0]; x < side + halo_[0]; ++x, ++i) {
+        const uint64_t bits = splitmix_output(row, static_cast<uint32_t>(corner.x + x));
+        in_cell_[i] = seeds.fractions(bits);
+        if (!lifts_.empty()) lifts_[i] = seeds.lift(bits);
+      }
     }
 }
 
@@ -39,7 +43,7 @@ void NamedSeeds::find(Vec3 p, double more, std::vector<NamedSeed>& near) {
   };
   const auto squared_to = [&](int x, int y, int z) {
     const Vec3 d = (Vec3{double(x), double(y), double(z)} + in_cell(x, y, z)) * scale_ - p;
-    return dot(d, d);
+    return dot(d, d) + lift(x, y, z);
   };
   const int own[3] = {cell_of(p.x, 0), cell_of(p.y, 1), cell_of(p.z, 2)};
   double least = squared_to(own[0], own[1], own[2]);
@@ -65,7 +69,8 @@ void NamedSeeds::find(Vec3 p, double more, std::vector<NamedSeed>& near) {
   for (const Found& found : found_)
     if (found.squared <= reach * reach) {
       const auto [x, y, z] = found.cell;
-      near.push_back({{corner_.x + x, corner_.y + y, corner_.z + z}, 0, in_cell(x, y, z)});
+      near.push_back(
+          {{corner_.x + x, corner_.y + y, corner_.z + z}, 0, in_cell(x, y, z), lift(x, y, z)});
     }
 }
 

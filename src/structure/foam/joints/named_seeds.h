@@ -17,8 +17,9 @@ namespace msq {
 /// A seed of a foam. Its name is its cell and its leaf there, which is 0 in a cell with one seed.
 struct NamedSeed {
   CellIndex cell;
-  uint32_t leaf;  ///< of GradedSeeds::Node, order << 3 | level: ascends in the order of leaves
-  Vec3 in_cell;   ///< position in the cell, whose box has size 1
+  uint32_t leaf;    ///< of GradedSeeds::Node, order << 3 | level: ascends in the order of leaves
+  Vec3 in_cell;     ///< position in the cell, whose box has size 1
+  double lift = 0;  ///< of seeds with weights (seeds/seeds.h)
 
   /// By cell (z, then y, then x), then by leaf: the order of seeds.
   friend bool operator<(const NamedSeed& a, const NamedSeed& b) {
@@ -50,14 +51,15 @@ class NamedSeeds {
                CellIndex corner, int side);
 
   /// Fills `near`, in the order of seeds, with all seeds that are farther from p than its nearest
-  /// one by at most `more`. p, in foam units from the brick's corner, is within the empty radius of
-  /// a seed of the brick.
+  /// one by at most `more`; distances are lifted (seeds/seeds.h). p, in foam units from the brick's
+  /// corner, is within the empty radius of a seed of the brick.
   void find(Vec3 p, double more, std::vector<NamedSeed>& near);
 
   Vec3 scale() const { return scale_; }
   CellIndex corner() const { return corner_; }
   size_t bytes() const {
-    return in_cell_.capacity() * sizeof(Vec3) + found_.capacity() * sizeof(Found) + trees_.bytes();
+    return in_cell_.capacity() * sizeof(Vec3) + lifts_.capacity() * sizeof(double) +
+           found_.capacity() * sizeof(Found) + trees_.bytes();
   }
 
  private:
@@ -67,12 +69,13 @@ class NamedSeeds {
   };
 
   void find_graded(Vec3 p, double more, std::vector<NamedSeed>& near);
-  const Vec3& in_cell(int x, int y, int z) const {
-    return in_cell_[(static_cast<size_t>(z + halo_[2]) * size_[1] +
-                     static_cast<size_t>(y + halo_[1])) *
-                        size_[0] +
-                    static_cast<size_t>(x + halo_[0])];
+  size_t index(int x, int y, int z) const {
+    return (static_cast<size_t>(z + halo_[2]) * size_[1] + static_cast<size_t>(y + halo_[1])) *
+               size_[0] +
+           static_cast<size_t>(x + halo_[0]);
   }
+  const Vec3& in_cell(int x, int y, int z) const { return in_cell_[index(x, y, z)]; }
+  double lift(int x, int y, int z) const { return lifts_.empty() ? 0 : lifts_[index(x, y, z)]; }
 
   std::shared_ptr<const GradedSeeds> graded_;
   CellIndex corner_;
@@ -80,6 +83,7 @@ class NamedSeeds {
   int halo_[3] = {0, 0, 0};
   size_t size_[3] = {0, 0, 0};
   std::vector<Vec3> in_cell_;
+  std::vector<double> lifts_;  // with a weight only
   std::vector<Found> found_;
   SeedTrees trees_;
 };

@@ -10,6 +10,7 @@
 #include "structure/foam/point/edges_near.h"
 #include "structure/foam/point/graded_point.h"
 #include "structure/foam/point/stretched_point.h"
+#include "structure/foam/point/weighted_point.h"
 #include "structure/foam/rays/strut_entry.h"
 #include "structure/foam/rays/tapered_entry.h"
 
@@ -25,6 +26,8 @@ class NearStruts {
     q = located.fraction * foam.seeds().scale();
     if (foam.stretch())
       find_stretched_edges_near(*foam.stretch(), located.cell, q, radius, *struts_);
+    else if (foam.is_weighted())
+      find_weighted_edges_near(foam.seeds(), located.cell, q, radius, *struts_);
     else
       find_edges_near(foam.seeds(), located.cell, q, radius, *struts_);
   }

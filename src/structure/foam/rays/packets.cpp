@@ -482,8 +482,8 @@ class Walker {
 }  // namespace
 
 bool walk_cells(const FoamData& foam, RaySearch* searches, size_t count, const Job* job) {
-  // The lists of cells and their proofs are those of the diagram in model space.
-  if (foam.stretch() || !RayBrick::fits(foam.seeds())) return false;
+  // The lists of cells and their proofs are those of the Voronoi diagram in model space.
+  if (foam.stretch() || foam.is_weighted() || !RayBrick::fits(foam.seeds())) return false;
   // On the heap: walkers are too large for the stacks of a host's threads.
   if (foam.graded()) {
     const Borrowed<Memory<GradedLists>> memory;
@@ -496,7 +496,7 @@ bool walk_cells(const FoamData& foam, RaySearch* searches, size_t count, const J
 }
 
 bool enter_by_cells(const FoamData& foam, RaySearch* searches, size_t count, const Job* job) {
-  return !foam.stretch() && RayDemand::pays_for(foam, searches, count) &&
+  return !foam.stretch() && !foam.is_weighted() && RayDemand::pays_for(foam, searches, count) &&
          walk_cells(foam, searches, count, job);
 }
 

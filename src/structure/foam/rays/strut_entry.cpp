@@ -10,6 +10,7 @@
 
 #include "structure/foam/point/edge_line.h"
 #include "structure/foam/point/stretched_line.h"
+#include "structure/foam/point/weighted_line.h"
 #include "strut/segment.h"
 
 namespace msq {
@@ -191,13 +192,20 @@ StrutLine StrutEntries::line(const std::array<CellIndex, 3>& cells) const {
                                     cells[i].z - home.z);
   };
   StrutLine strut;
-  double by_stretch = 1;
+  double by_more = 1;
   if (const Stretch* stretch = foam_.stretch()) {
     const StretchedLine line(stretch->factor(), seed(0), seed(1), seed(2));
     strut.line = line.of_foam;
     // The error of the line in diagram units, in foam units.
-    by_stretch = stretch->max_factor() * std::sqrt(line.of_diagram.inverse_squared /
-                                                   std::max(1e-300, line.of_foam.inverse_squared));
+    by_more = stretch->max_factor() * std::sqrt(line.of_diagram.inverse_squared /
+                                                std::max(1e-300, line.of_foam.inverse_squared));
+  } else if (foam_.is_weighted()) {
+    const auto lifted = [&](size_t i) {
+      return LiftedSeed{seed(i), seeds.lift(seeds.bits(cells[i]))};
+    };
+    strut.line = WeightedLine(lifted(0), lifted(1), lifted(2)).line;
+    // Seeds are up to 4 apart, twice the empty radius: products are below 2^8.
+    by_more = 8;
   } else {
     strut.line = EdgeLine(seed(0), seed(1), seed(2));
   }
@@ -209,7 +217,7 @@ StrutLine StrutEntries::line(const std::array<CellIndex, 3>& cells) const {
   const double inverse_size = std::sqrt(strut.line.inverse_squared);
   strut.home = corner_of(home, seeds.scale());
   strut.along = strut.line.direction * inverse_size;
-  strut.error = 0x1p-47 * inverse_size * by_stretch;
+  strut.error = 0x1p-47 * inverse_size * by_more;
   return strut;
 }
 

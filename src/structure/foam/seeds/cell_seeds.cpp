@@ -32,6 +32,22 @@ double squared_distances(const double* x, const double* y, const double* z, size
   return hn::GetLane(hn::MinOfLanes(d, least));
 }
 
+double lifted_squares(const double* x, const double* y, const double* z, const double* lift,
+                      size_t count, Vec3 q, double* out) {
+  const hn::ScalableTag<double> d;
+  const auto qx = hn::Set(d, q.x), qy = hn::Set(d, q.y), qz = hn::Set(d, q.z);
+  auto least = hn::Set(d, 1e300);
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto dx = hn::Sub(hn::LoadU(d, x + i), qx), dy = hn::Sub(hn::LoadU(d, y + i), qy),
+               dz = hn::Sub(hn::LoadU(d, z + i), qz);
+    const auto d2 = hn::Add(hn::Add(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Mul(dz, dz)),
+                            hn::LoadU(d, lift + i));
+    hn::StoreU(d2, d, out + i);
+    least = hn::Min(least, d2);
+  }
+  return hn::GetLane(hn::MinOfLanes(d, least));
+}
+
 // The seeds of cells that differ from a home cell by steps: FoamSeeds::in_row, with the key of each
 // one's row. May write up to a vector past `count`.
 #if HWY_TARGET == HWY_SCALAR
@@ -83,6 +99,7 @@ HWY_AFTER_NAMESPACE();
 namespace msq {
 
 HWY_EXPORT(squared_distances);
+HWY_EXPORT(lifted_squares);
 HWY_EXPORT(seed_positions);
 
 void CellSeeds::move_to(const FoamSeeds& seeds, CellIndex cell) {
@@ -144,13 +161,25 @@ const CellSeeds::Block& CellSeeds::block(size_t step) {
      block.z.data());
     for (std::vector<double>* v : {&block.x, &block.y, &block.z})
       std::fill(v->begin() + static_cast<ptrdiff_t>(block.count), v->end(), 1e100);
+    if (seeds_->is_weighted()) find_lifts(block);
     ++known_;
   }
   return blocks_[step];
 }
 
+void CellSeeds::find_lifts(Block& block) const {
+  block.lift.assign(block.count + max_simd_doubles, 0);
+  for (size_t i = 0; i < block.count; ++i)
+    block.lift[i] = seeds_->lift(splitmix_output(
+        keys_[i], static_cast<uint32_t>(cell_.x + static_cast<int>(block.cells.x[i]))));
+}
+
 double CellSeeds::find_distances(const Block& block, Vec3 q) {
   distance_squared_.resize(block.count + max_simd_doubles);
+  if (seeds_->is_weighted())
+    return HWY_DYNAMIC_DISPATCH(lifted_squares)(block.x.data(), block.y.data(), block.z.data(),
+                                                block.lift.data(), block.count, q,
+                                                distance_squared_.data());
   return HWY_DYNAMIC_DISPATCH(squared_distances)(block.x.data(), block.y.data(), block.z.data(),
                                                  block.count, q, distance_squared_.data());
 }

@@ -28,15 +28,17 @@ class CellSeeds {
     int half[3] = {};             // cells on either side
     CellSteps cells;              // of each seed
     std::vector<double> x, y, z;  // padded by a vector of seeds at infinity
+    std::vector<double> lift;     // with a weight only
     size_t count = 0;
 
     Vec3 position(uint32_t i) const { return {x[i], y[i], z[i]}; }
+    LiftedSeed lifted(uint32_t i) const { return {position(i), lift[i]}; }
     /// Distance from a point of the cell up to which the block contains all seeds.
     double reach(Vec3 q, Vec3 scale) const;
   };
   /// Fills `found` with the seeds within nearest distance + 2 radius + near_slack (seeds.h) of a
-  /// point of the cell. Their numbers are those of the returned block, which is valid until the
-  /// next call.
+  /// point of the cell; distances are lifted ones, which are no less than those that reach()
+  /// bounds. Their numbers are those of the returned block, which is valid until the next call.
   const Block& find_near(Vec3 q, double radius, std::vector<uint32_t>& found);
 
   /// Approximate memory, which decides whether this is kept or deleted (base/borrowed.h).
@@ -49,6 +51,7 @@ class CellSeeds {
   const Block& block(size_t step);
   /// Computes the squared distances of a block's seeds; returns the minimum.
   double find_distances(const Block& block, Vec3 q);
+  void find_lifts(Block& block) const;
 
   std::vector<double> distance_squared_;
   std::vector<uint64_t> keys_;  // of each seed's row

@@ -14,7 +14,7 @@ void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
   const FoamGraph::BrickLayout layout = graph.brick_layout();
   // Without jitter, all seeds are at the centres of their cells, so one brick serves for all. It
   // takes many times as long to build as others, since its seeds are on common spheres.
-  const bool are_equal = !foam.graded() && foam.seeds().jitter() == 0;
+  const bool are_equal = !foam.graded() && !foam.is_weighted() && foam.seeds().jitter() == 0;
   CellCache::Data data;
   for_each_brick_near(
       grid, box, foam.owner_distance(), foam.owner_reach(), layout.side, layout.lead,

@@ -10,6 +10,7 @@
 #include "base/borrowed.h"
 #include "base/job.h"
 #include "structure/foam/edges/brick_cells.h"
+#include "structure/foam/edges/weighted_cells.h"
 
 namespace msq {
 
@@ -140,6 +141,99 @@ class FaceBuilder {
   Vec3 factor_;  // from the space of the diagram; at most 1
 };
 
+/// The same of a power diagram.
+class WeightedFaceBuilder {
+ public:
+  void build(const FoamSeeds& seeds, CellIndex corner, std::vector<FaceBrick::Cell>& cells,
+             std::vector<FaceBrick::Face>& faces) {
+    constexpr int side = FaceBrick::side;
+    cells_.move_to(seeds, corner, side);
+    for (int z = 0; z < side; ++z)
+      for (int y = 0; y < side; ++y) {
+        check_cancelled();
+        for (int x = 0; x < side; ++x) {
+          const size_t own = cells_.block().index(x, y, z);
+          const WeightedCells::Found found = cells_.find(own);
+          if (found == WeightedCells::Found::none) continue;
+          found == WeightedCells::Found::walked
+              ? add_walked(own, cells, faces)
+              : add(own, found == WeightedCells::Found::cell, cells, faces);
+        }
+      }
+  }
+
+  size_t bytes() const { return sizeof *this - sizeof cells_ + cells_.bytes(); }
+
+ private:
+  void add_walked(size_t own, std::vector<FaceBrick::Cell>& cells,
+                  std::vector<FaceBrick::Face>& faces) {
+    const VoronoiCell& walked = cells_.walked();
+    const Vec3 seed = cells_.block().position(own);
+    std::array<bool, VoronoiCell::max_planes> used{};
+    walked.for_each_edge(0,
+                         [&](size_t, size_t, uint32_t a, uint32_t b) { used[a] = used[b] = true; });
+    Vec3 low = Vec3{1, 1, 1} * 1e300, high = low * -1.0;
+    for (size_t v = 0; v < walked.vertex_count(); ++v) {
+      low = min(low, walked.vertex(v));
+      high = max(high, walked.vertex(v));
+    }
+    begin(own, low, high, cells, faces);
+    for (size_t i = 0; i < walked.count(); ++i) {
+      if (!used[i]) continue;
+      const uint32_t other = walked.planes().seed[i];
+      const Vec3 d = cells_.block().position(other) - seed;
+      const double size = length(d);
+      add_face(d * (1 / size), 0.5 * (dot(d, d) + (cells_.lift(other) - cells_.lift(own))) / size,
+               faces);
+    }
+    cells.back().count = static_cast<uint32_t>(faces.size()) - cells.back().first;
+  }
+
+  void begin(size_t own, Vec3 low, Vec3 high, std::vector<FaceBrick::Cell>& cells,
+             const std::vector<FaceBrick::Face>& faces) const {
+    FaceBrick::Cell cell{
+        cells_.block().position(own), {}, {}, static_cast<uint32_t>(faces.size()), 0};
+    for (int axis = 0; axis < 3; ++axis) {
+      cell.low[axis] = static_cast<float>(low[axis] - 2 * FaceBrick::box_slack);
+      cell.high[axis] = static_cast<float>(high[axis] + 2 * FaceBrick::box_slack);
+    }
+    cells.push_back(cell);
+  }
+
+  static void add_face(Vec3 n, double distance, std::vector<FaceBrick::Face>& faces) {
+    faces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
+                     static_cast<float>(distance)});
+  }
+
+  /// knows_cell: otherwise all planes stand for the faces, in a cube that holds the cell.
+  void add(size_t own, bool knows_cell, std::vector<FaceBrick::Cell>& cells,
+           std::vector<FaceBrick::Face>& faces) {
+    const std::vector<WeightedCells::Neighbour>& neighbours = cells_.neighbours();
+    Vec3 high = Vec3{1, 1, 1} * cells_.empty_radius(), low = high * -1.0;
+    used_.assign(neighbours.size(), !knows_cell);
+    if (knows_cell) {
+      std::swap(low, high);
+      for (const ClippedCell::Vertex& vertex : cells_.clipped().vertices()) {
+        if (!vertex.is_there) continue;
+        low = min(low, vertex.position);
+        high = max(high, vertex.position);
+        for (const uint32_t plane : vertex.plane)
+          if (plane >= ClippedCell::first_neighbour)
+            used_[plane - ClippedCell::first_neighbour] = true;
+      }
+    }
+    begin(own, low, high, cells, faces);
+    for (size_t i = 0; i < used_.size(); ++i)
+      if (used_[i])
+        add_face(neighbours[i].position * (1 / length(neighbours[i].position)), neighbours[i].plane,
+                 faces);
+    cells.back().count = static_cast<uint32_t>(faces.size()) - cells.back().first;
+  }
+
+  WeightedCells cells_;
+  std::vector<bool> used_;
+};
+
 }  // namespace
 
 FaceBrick::FaceBrick(const FoamSeeds& seeds, CellIndex corner, bool with_areas) {
@@ -148,6 +242,13 @@ FaceBrick::FaceBrick(const FoamSeeds& seeds, CellIndex corner, bool with_areas) 
   faces_.reserve(size_t{side} * side * side * 17);
   if (with_areas) areas_.reserve(faces_.capacity());
   builder->build(seeds, corner, nullptr, cells_, faces_, with_areas ? &areas_ : nullptr);
+}
+
+FaceBrick::FaceBrick(Weighted, const FoamSeeds& seeds, CellIndex corner) {
+  const Borrowed<WeightedFaceBuilder> builder;
+  cells_.reserve(size_t{side} * side * side);
+  faces_.reserve(size_t{side} * side * side * 17);
+  builder->build(seeds, corner, cells_, faces_);
 }
 
 FaceBrick::FaceBrick(const Stretch& stretch, CellIndex corner) {

@@ -21,7 +21,7 @@ class FaceBrick final : public CellData {
 
   struct Face {
     float normal[3];  // outward, of length 1
-    float distance;   // of its plane from the seed
+    float distance;   // of its plane from the seed; below 0 if the seed is beyond it
   };
   struct Cell {
     Vec3 seed;              // from the corner of the brick
@@ -33,6 +33,9 @@ class FaceBrick final : public CellData {
 
   /// The brick whose first cell is `corner`.
   FaceBrick(const FoamSeeds& seeds, CellIndex corner, bool with_areas);
+  /// Of weighted seeds (seeds/seeds.h); without areas. Seeds without a cell are left out.
+  struct Weighted {};
+  FaceBrick(Weighted, const FoamSeeds& seeds, CellIndex corner);
   /// Of stretched cells; without areas.
   FaceBrick(const Stretch& stretch, CellIndex corner);
 

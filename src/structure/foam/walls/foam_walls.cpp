@@ -16,9 +16,9 @@ namespace msq {
 namespace {
 
 NearSeeds make_seeds(const Neighbourhood& grid, double unit, double jitter, uint64_t seed,
-                     Parameter density, Vec3 stretch) {
+                     Parameter density, Vec3 stretch, double weight) {
   if (Stretch::is_any(stretch)) return NearSeeds(Stretch(grid, jitter, seed, stretch));
-  const FoamSeeds cells(seed, jitter, grid.cell_size * (1 / unit));
+  const FoamSeeds cells(seed, jitter, grid.cell_size * (1 / unit), weight / unit);
   if (!(density.range().high > 1)) return NearSeeds(cells, nullptr);
   return NearSeeds(cells, std::make_shared<const GradedSeeds>(cells, grid, std::move(density)));
 }
@@ -27,13 +27,13 @@ NearSeeds make_seeds(const Neighbourhood& grid, double unit, double jitter, uint
 
 FoamWalls::FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
                      double jitter, uint64_t seed, const Parameter& density, Parameter vent_radius,
-                     Vec3 stretch)
+                     Vec3 stretch, double weight)
     : Structure(neighbourhood),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
       thickness_(std::move(thickness)),
       unit_(max_component(neighbourhood.cell_size)),
-      seeds_(make_seeds(neighbourhood, unit_, jitter, seed, density, stretch)),
+      seeds_(make_seeds(neighbourhood, unit_, jitter, seed, density, stretch, weight)),
       vents_(neighbourhood, unit_, std::move(vent_radius)),
       is_concurrent_(thickness_.is_concurrent() && density.is_concurrent() &&
                      vents_.radius().is_concurrent()) {}
@@ -69,7 +69,8 @@ double FoamWalls::slack(Vec3 p, double distance) const {
   // and the normal of a face by that over their distance: room for seeds down to 1e-6 of a cell
   // from each other.
   const Vec3 scale = seeds_.seeds().scale();
-  double of_faces = scale == Vec3{1, 1, 1} ? 0x1p-47 : 1e-9;
+  // With weights, lifts are rounded by 2^-53.
+  double of_faces = scale == Vec3{1, 1, 1} && !seeds_.is_weighted() ? 0x1p-47 : 1e-9;
   if (seeds_.stretch()) of_faces = 1e-9 * seeds_.stretch()->max_factor();
   if (vents_.exist())
     of_faces += vent_error(std::max(min_vent_radius, vents_.radius().range().low / unit_));
@@ -294,7 +295,8 @@ Vec3 FoamWalls::normal(const Ray& ray, double t) const {
 }
 
 LineGraph FoamWalls::wall_lines(const WallSection& section) const {
-  if (vents_.exist() || seeds_.stretch()) return Structure::wall_lines(section);
+  if (vents_.exist() || seeds_.stretch() || seeds_.is_weighted())
+    return Structure::wall_lines(section);
   return foam_section({*context_, neighbourhood(), seeds_.seeds(), seeds_.graded(), unit_},
                       section);
 }

@@ -16,10 +16,12 @@ namespace msq {
 class FoamWalls final : public Structure {
  public:
   /// `density`: as in GradedSeeds. `vent_radius`: of the holes. `stretch`: of the cells, along the
-  /// axes of the grid; only without holes and with a density of at most 1.
+  /// axes of the grid; only without holes and with a density of at most 1. `weight`: of the seeds
+  /// (seeds/seeds.h), at most the smallest cell size; above 0 only without a stretch, without holes
+  /// and with a density of at most 1.
   FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
             double jitter, uint64_t seed, const Parameter& density = Parameter(1),
-            Parameter vent_radius = Parameter(0), Vec3 stretch = {1, 1, 1});
+            Parameter vent_radius = Parameter(0), Vec3 stretch = {1, 1, 1}, double weight = 0);
   ~FoamWalls() override;
 
   bool inside(Vec3 p) const override;
@@ -45,9 +47,9 @@ class FoamWalls final : public Structure {
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 
-  /// None with holes: the lines would close them. None of stretched cells.
+  /// None with holes: the lines would close them. None of stretched cells and weighted seeds.
   ThinWalls thin_walls() const override {
-    if (vents_.exist() || seeds_.stretch()) return ThinWalls::none;
+    if (vents_.exist() || seeds_.stretch() || seeds_.is_weighted()) return ThinWalls::none;
     return seeds_.graded() ? ThinWalls::varying : ThinWalls::uniform;
   }
   LineGraph wall_lines(const WallSection& section) const override;

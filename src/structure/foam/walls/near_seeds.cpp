@@ -53,6 +53,15 @@ void NearSeeds::find(CellIndex cell, Vec3 q, double more, std::vector<Vec3>& nea
   for (const uint32_t i : found) near.push_back(block.position(i));
 }
 
+void NearSeeds::find(CellIndex cell, Vec3 q, double more, std::vector<LiftedSeed>& near) const {
+  near.clear();
+  const Borrowed<NearSeedsWorkspace> workspace;
+  auto& [around, found] = *workspace;
+  around.move_to(seeds_, cell);
+  const CellSeeds::Block& block = around.find_near(q, 0.5 * more, found);
+  for (const uint32_t i : found) near.push_back(block.lifted(i));
+}
+
 double NearSeeds::spacing(CellIndex cell, Vec3 q) const {
   if (!graded_) return 1;
   const Borrowed<SeedTrees> trees;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The seeds whose faces may be near a point, for foams with one seed per cell, stretched or not,
-// and for graded ones. Points and seeds are in the space of the diagram (seeds/stretch.h), lengths
-// in foam units.
+// The seeds whose faces may be near a point, for foams with one seed per cell, stretched, weighted
+// or neither, and for graded ones. Points and seeds are in the space of the diagram
+// (seeds/stretch.h), lengths in foam units.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ namespace msq {
 
 class NearSeeds {
  public:
-  /// `graded`: null where there is one seed in each cell.
+  /// `graded`: null where there is one seed in each cell, as there must be with a weight.
   NearSeeds(const FoamSeeds& seeds, std::shared_ptr<const GradedSeeds> graded)
       : seeds_(seeds), graded_(std::move(graded)) {}
   /// Of a stretched foam.
@@ -33,6 +33,9 @@ class NearSeeds {
   /// nearest one by `more` and near_slack (seeds.h); of a stretched foam, by that over the least
   /// factor. The point: q from the corner of `cell`; so are the seeds.
   void find(CellIndex cell, Vec3 q, double more, std::vector<Vec3>& near) const;
+  /// The same of a weighted foam, by lifted distances (seeds/seeds.h).
+  void find(CellIndex cell, Vec3 q, double more, std::vector<LiftedSeed>& near) const;
+  bool is_weighted() const { return seeds_.is_weighted(); }
   /// The size of the leaf that holds the point: how far apart seeds are there, about.
   double spacing(CellIndex cell, Vec3 q) const;
 

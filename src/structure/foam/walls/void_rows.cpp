@@ -287,7 +287,7 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
   const double around = stretch ? 0 : seeds.empty_radius() * walls.unit() * (1 + 1e-9);
   const Vec3 beyond = stretch ? stretch->reach() * walls.unit() : Vec3{};
   // Without jitter, one brick serves for all.
-  const bool are_equal = seeds.jitter() == 0;
+  const bool are_equal = seeds.jitter() == 0 && !seeds.is_weighted();
   CellCache::Data brick;
   for_each_brick_near(
       grid, voids.box(), around, beyond, FaceBrick::side, FaceBrick::lead,
@@ -296,9 +296,10 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
         if (!are_equal) brick.reset();
         if (!brick)
           brick = walls.context().cache.fetch(walls.id(), are_equal ? CellIndex{} : corner, [&] {
-            return stretch
-                       ? std::make_shared<const FaceBrick>(*stretch, corner)
-                       : std::make_shared<const FaceBrick>(seeds, corner, walls.vents().exist());
+            if (stretch) return std::make_shared<const FaceBrick>(*stretch, corner);
+            if (seeds.is_weighted())
+              return std::make_shared<const FaceBrick>(FaceBrick::Weighted{}, seeds, corner);
+            return std::make_shared<const FaceBrick>(seeds, corner, walls.vents().exist());
           });
         voids.take(static_cast<const FaceBrick&>(*brick), corner);
         if (voids.has_many_doubts()) voids.decide(job);

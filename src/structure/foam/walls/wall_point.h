@@ -17,8 +17,13 @@
 // plane is moved back to model space: the divisor becomes |(a - b) / factor|. That is at most |a -
 // b| over the least factor, so seeds matter that are farther by up to t over the least factor.
 //
+// If seeds have weights (seeds/seeds.h), all of this holds of lifted distances: the cells of a
+// power diagram are convex, and |a - b| is no more than the distance of the lifted seeds. The
+// divisor stays |a - b|, since the plane of equal power is normal to a - b.
+//
 // The quotient is computed as n . ((a - p) + (b - p)), n being the unit vector from a to b. So it
-// carries a few roundings of the distances, however near to each other a and b are.
+// carries a few roundings of the distances, however near to each other a and b are. With weights,
+// the difference of the lifts over |a - b| comes on top.
 #pragma once
 
 #include <cmath>
@@ -42,6 +47,8 @@ inline double plane_onset(Vec3 a, Vec3 b, Vec3 q) {
 
 /// The number of the seed nearest to q, the first of several.
 size_t nearest_of(const std::vector<Vec3>& seeds, Vec3 q);
+/// The same by lifted distances.
+size_t nearest_of(const std::vector<LiftedSeed>& seeds, Vec3 q);
 /// The nearest face, among some of the seeds that hold the one nearest to q.
 NearFace nearest_face(const NearSeeds& seeds, const std::vector<Vec3>& near, Vec3 q);
 

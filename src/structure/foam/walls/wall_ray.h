@@ -23,6 +23,10 @@ struct WallRay {
   /// From a point outside all walls, the first t in [from, to] at which the ray meets one, but for
   /// rounding. `unknown`: it was not found in some dozen steps.
   Way find(const Ray& ray, double from, double to, double tolerance, double& t) const;
+
+ private:
+  template <class Seed>
+  Way find_among(const Ray& ray, double from, double to, double tolerance, double& t) const;
 };
 
 }  // namespace msq
