@@ -50,13 +50,10 @@ static void rays(void** state) {
     wrong_query(table, query);
     WRONG(ARGUMENT, "rays is NULL", rays = NULL);
     RIGHT(query = NULL);
-    WRONG(ARGUMENT, "hits begins 0 bytes after origins", hits = (msq_ray_hit*)origins);
-    WRONG(ARGUMENT, "hits begins 8 bytes after directions",
-          hits = (msq_ray_hit*)((unsigned char*)directions + 8));
-    WRONG(ARGUMENT, "hits begins 0 bytes after t_min|32 bytes", rays->t_min = limits;
-          hits = (msq_ray_hit*)limits);
-    WRONG(ARGUMENT, "hits begins 0 bytes after t_max|32 bytes", rays->t_max = limits;
-          hits = (msq_ray_hit*)limits);
+    WRONG(ARGUMENT, "hits begins 0 bytes after origins|96 bytes", hits = (msq_ray_hit*)origins);
+    WRONG(ARGUMENT, "hits begins|overlap", hits = (msq_ray_hit*)((unsigned char*)directions + 8));
+    WRONG(ARGUMENT, "hits begins|overlap", rays->t_min = limits; hits = (msq_ray_hit*)limits);
+    WRONG(ARGUMENT, "hits begins|overlap", rays->t_max = limits; hits = (msq_ray_hit*)limits);
     TRY(msq_ray_cast(model, rays, query, hits, count, job));
   }
   REFUSALS("msq_ray_cast") { /* without bounds each ray needs an end */
