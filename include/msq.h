@@ -518,18 +518,25 @@ typedef struct msq_period_def {
 /** Sets the defaults. Errors: ARGUMENT. */
 MSQ_API msq_status msq_period_def_init(msq_period_def* def, size_t size);
 
+/** A number at every point of space, with a known range. */
+typedef struct msq_field msq_field;
+
 /** Maps from space to warped cells. */
 enum msq_warp_kind {
   /** Cells around the z axis of the grid. */
   MSQ_WARP_CYLINDRICAL = 1,
   /** Cells around the origin of the grid. */
-  MSQ_WARP_SPHERICAL = 2
+  MSQ_WARP_SPHERICAL = 2,
+  /** Cells by a map that the host samples. */
+  MSQ_WARP_SAMPLED = 3
 };
 
-/** Warped cells: cells around an axis or around a point, in place of boxes.
+/** Warped cells: cells around an axis, around a point or by a map that the host samples, in place
+ * of boxes.
  *
- * The structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is
- * the axis, or points to the north pole. Cells have three coordinates, each counted in cells:
+ * CYLINDRICAL and SPHERICAL: the structure's grid is the frame: its origin is on the axis, or is
+ * the centre, and its z axis is the axis, or points to the north pole. Cells have three
+ * coordinates, each counted in cells:
  * - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the
  *   centre.
  * - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So
@@ -543,19 +550,39 @@ enum msq_warp_kind {
  *
  * Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a
  * functional structure; lattices have whole cells there (msq_lattice_def.warp).
+ *
+ * SAMPLED: u, v and w are fields of samples (msq_field_grid) on one grid of at least 2 samples
+ * along each axis. Their values, which are interpolated, are the coordinates at a point, counted in
+ * cells, at most 2^22 in magnitude. Cells are those of whole numbers. The structure's grid is not
+ * used. The cells fill the box of the samples: points beyond it are outside of a functional
+ * structure, and a lattice has the struts whose two nodes are in it. So sample one cell more than
+ * the part needs. The map must not fold: the determinant of its derivatives has one sign in all
+ * voxels, is nowhere 0, and is above 2^-40 times the product of the gradients' lengths. An angle
+ * that jumps by a whole turn is a fold: a ring takes CYLINDRICAL, or a part of a turn. If two
+ * points have the same coordinates, nodes of lattices are placed at one of them. Cost: SAMPLED
+ * makes two passes over the samples, about 0.1 us per voxel, and for lattices places all nodes in
+ * the box, about 1 us each.
+ *
  * docs/concepts.md defines the map bit for bit. */
 typedef struct msq_warp_def {
   uint32_t struct_size;
   /** An msq_warp_kind. Default MSQ_WARP_CYLINDRICAL. */
   int32_t kind;
-  /** Cells around the z axis, 1 to 65536. No default. */
+  /** CYLINDRICAL, SPHERICAL: cells around the z axis, 1 to 65536; no default. SAMPLED: 0. */
   uint32_t count;
-  /** SPHERICAL: cells from pole to pole, 1 to 65536; no default. CYLINDRICAL: 0. */
+  /** SPHERICAL: cells from pole to pole, 1 to 65536; no default. Otherwise 0. */
   uint32_t count_polar;
-  /** In model units, 0 to 1e75. Default 0. */
+  /** In model units, 0 to 1e75. Default 0. SAMPLED: 0. */
   double inner_radius;
-  /** In model units, above inner_radius, at most 1e75. 0 (default): no limit. */
+  /** In model units, above inner_radius, at most 1e75. 0 (default): no limit. SAMPLED: 0. */
   double outer_radius;
+  /** SAMPLED: the coordinate x at each point, counted in cells: a field of msq_field_grid, whose
+   * grid v and w share; no default. Otherwise NULL. */
+  const msq_field* u;
+  /** SAMPLED: the coordinate y, likewise. */
+  const msq_field* v;
+  /** SAMPLED: the coordinate z, likewise. */
+  const msq_field* w;
 } msq_warp_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -897,9 +924,6 @@ MSQ_API msq_status msq_shape_self_intersections(const msq_shape* shape, uint64_t
                                                 msq_job* job);
 
 /* ---- Fields ---------------------------------------------------------------------------------- */
-
-/** A number at every point of space, with a known range. */
-typedef struct msq_field msq_field;
 
 /** Creates a linear gradient: from_value in the plane through from, to_value in the plane through
  * to, both normal to to - from; linear between the planes and constant beyond them. Errors:

@@ -10,7 +10,7 @@ enum msq_warning_code { MSQ_WARNING_OPEN_MESH = 1, MSQ_WARNING_COARSE_PITCH = 2,
 enum msq_winding { MSQ_WINDING_NONZERO = 0, MSQ_WINDING_EVEN_ODD = 1, MSQ_WINDING_POSITIVE = 2, MSQ_WINDING_AUTO = 3 };
 enum msq_number_type { MSQ_FLOAT32 = 1, MSQ_FLOAT64 = 2, MSQ_UINT8 = 3, MSQ_INT16 = 4, MSQ_UINT16 = 5, MSQ_INT32 = 6, MSQ_INT64 = 7 };
 enum msq_format { MSQ_FORMAT_AUTO = 0, MSQ_FORMAT_STL = 1, MSQ_FORMAT_OBJ = 2, MSQ_FORMAT_PLY = 3, MSQ_FORMAT_OFF = 4, MSQ_FORMAT_3MF = 5, MSQ_FORMAT_AMF = 6, MSQ_FORMAT_GLTF = 7 };
-enum msq_warp_kind { MSQ_WARP_CYLINDRICAL = 1, MSQ_WARP_SPHERICAL = 2 };
+enum msq_warp_kind { MSQ_WARP_CYLINDRICAL = 1, MSQ_WARP_SPHERICAL = 2, MSQ_WARP_SAMPLED = 3 };
 enum msq_solid_side { MSQ_SOLID_ABOVE = 0, MSQ_SOLID_BELOW = 1 };
 enum msq_boolean_operation { MSQ_BOOLEAN_UNION = 1, MSQ_BOOLEAN_INTERSECTION = 2, MSQ_BOOLEAN_DIFFERENCE = 3 };
 enum msq_unit_cell { MSQ_UNIT_CELL_CUSTOM = 0, MSQ_UNIT_CELL_CUBIC = 1, MSQ_UNIT_CELL_BCC = 2, MSQ_UNIT_CELL_OCTET = 3, MSQ_UNIT_CELL_FCC = 4, MSQ_UNIT_CELL_KELVIN = 5, MSQ_UNIT_CELL_DIAMOND = 6, MSQ_UNIT_CELL_RHOMBIC_DODECAHEDRON = 7, MSQ_UNIT_CELL_REENTRANT = 8 };
@@ -62,7 +62,7 @@ typedef int32_t (*msq_values_fn)(void* user, const double* points, uint64_t coun
 typedef int32_t (*msq_range_fn)(void* user, const double* min, const double* max, double* low, double* high);
 typedef struct msq_neighbourhood { double origin[3]; double cell_size[3]; double rotation[9]; } msq_neighbourhood;
 typedef struct msq_period_def { uint32_t struct_size; int32_t axis; const double* positions; const double* cell_sizes; uint64_t count; } msq_period_def;
-typedef struct msq_warp_def { uint32_t struct_size; int32_t kind; uint32_t count; uint32_t count_polar; double inner_radius; double outer_radius; } msq_warp_def;
+typedef struct msq_warp_def { uint32_t struct_size; int32_t kind; uint32_t count; uint32_t count_polar; double inner_radius; double outer_radius; const msq_field* u; const msq_field* v; const msq_field* w; } msq_warp_def;
 typedef struct msq_image { const void* values; int32_t value_type; uint32_t reserved; uint64_t size[3]; uint64_t row_stride; uint64_t layer_stride; msq_neighbourhood grid; } msq_image;
 typedef struct msq_file_def { uint32_t struct_size; int32_t format; int32_t winding_rule; uint32_t reserved; double unit_mm; uint64_t max_bytes; uint64_t max_triangles; } msq_file_def;
 typedef struct msq_mesh_def { uint32_t struct_size; int32_t coordinate_type; int32_t winding_rule; uint32_t reserved; const void* vertices; uint64_t vertex_count; uint64_t vertex_stride; const uint32_t* triangles; uint64_t triangle_count; } msq_mesh_def;

@@ -41,6 +41,7 @@ export const MSQ_FORMAT_AMF = 6;
 export const MSQ_FORMAT_GLTF = 7;
 export const MSQ_WARP_CYLINDRICAL = 1;
 export const MSQ_WARP_SPHERICAL = 2;
+export const MSQ_WARP_SAMPLED = 3;
 export const MSQ_SOLID_ABOVE = 0;
 export const MSQ_SOLID_BELOW = 1;
 export const MSQ_BOOLEAN_UNION = 1;
@@ -228,6 +229,9 @@ export function types(koffi) {
     count_polar: 'uint32_t',
     inner_radius: 'double',
     outer_radius: 'double',
+    u: 'void *',
+    v: 'void *',
+    w: 'void *',
   });
   T.msq_image = koffi.struct('msq_image', {
     values: 'void *',

@@ -60,7 +60,8 @@ constexpr Choice functions[] = {{"expression", MSQ_FUNCTION_EXPRESSION},
                                 {"rods", MSQ_FUNCTION_RODS}};
 constexpr Choice kinds[] = {{"network", MSQ_FUNCTIONAL_NETWORK}, {"sheet", MSQ_FUNCTIONAL_SHEET}};
 constexpr Choice warps[] = {{"cylindrical", MSQ_WARP_CYLINDRICAL},
-                            {"spherical", MSQ_WARP_SPHERICAL}};
+                            {"spherical", MSQ_WARP_SPHERICAL},
+                            {"sampled", MSQ_WARP_SAMPLED}};
 constexpr Choice caps[] = {
     {"sphere", MSQ_CAP_SPHERE}, {"hemisphere", MSQ_CAP_HEMISPHERE}, {"butt", MSQ_CAP_BUTT}};
 constexpr Choice types[] = {{"float32", MSQ_FLOAT32},
@@ -127,6 +128,9 @@ void walk_warp(DefinitionWalk& in, msq_warp_def& def) {
   in.whole("count_polar", def.count_polar);
   in.number("inner_radius", def.inner_radius);
   in.number("outer_radius", def.outer_radius);
+  in.object("u", def.u);
+  in.object("v", def.v);
+  in.object("w", def.w);
 }
 
 #define MSQ_DEFAULTS(Def, init) \

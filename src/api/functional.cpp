@@ -59,7 +59,7 @@ Parameter read_thickness(const msq_functional_def& def, FunctionalKind kind, con
     fail(Status::argument,
          "thickness runs from %g to %g; it must not be negative, nor 0 everywhere", range.low,
          range.high);
-  if (cells.warp)
+  if (cells.warp || cells.sampled)
     fail(Status::unsupported,
          "thickness is given, but the cells are warped: their widths differ everywhere. Give a "
          "level, which may be a field");
@@ -101,8 +101,10 @@ msq_status msq_structure_functional(msq_context* context, const msq_functional_d
     msq_warp_def known_warp;
     CellShape cells;
     cells.period = read_period(known.period, known_period);
-    cells.warp = read_warp(known.warp, known_warp, grid);
-    if (cells.period && cells.warp)
+    const CellMap map = read_warp(known.warp, known_warp, grid);
+    cells.warp = map.round;
+    cells.sampled = map.sampled;
+    if (cells.period && map)
       fail(Status::unsupported, "both period and warp are given; a structure takes one of them");
     Parameter level = is_given(known.thickness) ? read_thickness(known, kind, function, grid, cells)
                                                 : read_level(known.level, known.kind);

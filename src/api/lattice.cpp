@@ -14,6 +14,7 @@
 #include "structure/lattice/mixed/mixed_lattice.h"
 #include "structure/lattice/warped/graded_places.h"
 #include "structure/lattice/warped/round_places.h"
+#include "structure/lattice/warped/sampled_places.h"
 #include "structure/lattice/warped/warped_lattice.h"
 
 using namespace msq;
@@ -139,14 +140,17 @@ msq_status msq_structure_lattice(msq_context* context, const msq_lattice_def* de
       places = std::make_unique<const GradedPlaces>(grid, *std::move(period));
     }
     msq_warp_def known_warp;
-    if (const std::optional<Warp> warp = read_warp(known.warp, known_warp, grid)) {
+    if (const CellMap map = read_warp(known.warp, known_warp, grid)) {
       if (places)
         fail(Status::unsupported, "a period and a warp are given; a lattice takes one of them");
       if (library.size() > 1)
         fail(Status::unsupported,
              "a warp is given, and a library of %zu unit cells; a lattice with a warp has one",
              library.size());
-      places = std::make_unique<const RoundPlaces>(*warp);
+      if (map.sampled)
+        places = std::make_unique<const SampledPlaces>(map.sampled, library[0], owner->budget);
+      else
+        places = std::make_unique<const RoundPlaces>(*map.round);
     }
     double max_factor = 0;
     for (const UnitCell& cell : library)

@@ -7,6 +7,13 @@ static msq_context* context;
 #define BOX "{\"box\": {\"min\": [0, 0, 0], \"max\": [4, 4, 4]}}"
 #define MODEL_OF(shape, structure) \
   "{\"msq_model\": 1, \"scales\": [{\"shape\": " shape "}, {\"structure\": " structure "}]}"
+#define COORDINATE(values)                                                                         \
+  "{\"grid\": {\"image\": {\"value_type\": \"float64\", \"size\": [2, 2, 2], \"values\": [" values \
+  "], \"grid\": {\"cell_size\": 4}}}}"
+#define MAPPED \
+  "{\"lattice\": {\"radius\": 0.1, \"warp\": {\"kind\": \"sampled\", \"u\": " COORDINATE( \
+      "0, 3, 0, 3, 0, 3, 0, 3") ", \"v\": " COORDINATE("0, 0.5, 3, 3, 0, 0, 3, 3.5") ", \"w\": " \
+      COORDINATE("0, 0, 0, 0, 3, 3, 3, 3") "}}}"
 #define IN_BOX(structure) MODEL_OF(BOX, structure)
 #define GYROID "{\"functional\": {\"level\": 0.3}}"
 #define OF_SHAPE(shape) MODEL_OF(shape, GYROID)
@@ -108,6 +115,7 @@ static const char* const documents[] = {
     IN_BOX("{\"lattice\": {\"radius\": 0.1, \"period\": {\"positions\": [0, 2], \"cell_sizes\": "
            "[1, 0.5]}}}"),
     IN_BOX("{\"lattice\": {\"radius\": 0.1, \"warp\": {\"count\": 9, \"inner_radius\": 1}}}"),
+    IN_BOX(MAPPED),
     "{\"msq_model\": 1, \"materials\": {\"b\": {\"plain\": {\"id\": 2, \"channels\": [{\"name\": "
     "\"E\", \"value\": 2}]}}}, \"scales\": [{\"shape\": " BOX
     ", \"material\": {\"plain\": {\"id\": 7}}}, {\"structure\": " GYROID

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "hashes.h"
+#include "maps.h"
 #include "wrong_values.h"
 
 static msq_context* context;
@@ -102,6 +103,9 @@ static void lattices_hash_warps(void** state) {
     CHANGES(def.count_polar, def.count_polar = 7);
     CHANGES(def.inner_radius, def.inner_radius = 2);
     CHANGES(def.outer_radius, def.outer_radius = 9);
+    NOT_HASHED(def.u);
+    NOT_HASHED(def.v);
+    NOT_HASHED(def.w);
   }
 }
 
@@ -458,6 +462,39 @@ static void warps_hash_kind_counts_and_radii(void** state) {
     CHANGES(def.count_polar, def.count_polar = 4);
     CHANGES(def.inner_radius, def.inner_radius = 0);
     CHANGES(def.outer_radius, def.outer_radius = 0);
+    NOT_HASHED(def.u);
+    NOT_HASHED(def.v);
+    NOT_HASHED(def.w);
+  }
+}
+
+static void maps_hash_their_samples(void** state) {
+  static double mirrored[3][map_samples];
+  msq_field *fields[3], *others[3];
+  (void)state;
+  sample_map();
+  msq_warp_def def = sampled_warp(context, fields);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < map_samples; ++i) mirrored[axis][i] = -map_values[axis][i];
+    const msq_image image = map_image(mirrored[axis]);
+    others[axis] = make_grid_field(context, &image);
+  }
+  for (int is_lattice = 0; is_lattice < 2; ++is_lattice)
+    HASHES(context, "msq_warp_def", &def, sizeof def,
+           is_lattice ? hash_warped_lattice : hash_warp) {
+      NOT_HASHED(def.struct_size);
+      NOT_HASHED(def.kind);
+      NOT_HASHED(def.count);
+      NOT_HASHED(def.count_polar);
+      NOT_HASHED(def.inner_radius);
+      NOT_HASHED(def.outer_radius);
+      CHANGES(def.u, def.u = others[0]);
+      CHANGES(def.v, def.v = others[1]);
+      CHANGES(def.w, def.w = others[2]);
+    }
+  for (int axis = 0; axis < 3; ++axis) {
+    msq_field_release(fields[axis]);
+    msq_field_release(others[axis]);
   }
 }
 
@@ -475,6 +512,7 @@ int main(void) {
       cmocka_unit_test(waves_hash_what_they_are_made_of),
       cmocka_unit_test(periods_hash_axis_and_sizes),
       cmocka_unit_test(warps_hash_kind_counts_and_radii),
+      cmocka_unit_test(maps_hash_their_samples),
   };
   if (!MSQ_WITH_XXHASH) return 0;
   context = make_context();

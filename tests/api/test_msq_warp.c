@@ -32,6 +32,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.count, 0);
   assert_int_equal(def.count_polar, 0);
   assert_true(def.inner_radius == 0 && def.outer_radius == 0);
+  assert_true(!def.u && !def.v && !def.w);
 }
 
 static msq_status create_with(void* env, void* warp) {
@@ -63,8 +64,8 @@ static void what_makes_no_map_is_refused(void** state) {
     change;                                                           \
     assert_refused(create_with(context, &def), MSQ_E_ARGUMENT, text); \
   } while (0)
-  REFUSED(CYLINDRICAL, def.kind = 0, "warp.kind is 0; it must be from 1 to 2");
-  REFUSED(CYLINDRICAL, def.kind = 3, "warp.kind is 3");
+  REFUSED(CYLINDRICAL, def.kind = 0, "warp.kind is 0; it must be from 1 to 3");
+  REFUSED(CYLINDRICAL, def.kind = 4, "warp.kind is 4");
   REFUSED(CYLINDRICAL, def.count = 0, "warp.count is 0; it must be from 1 to 65536");
   REFUSED(SPHERICAL, def.count = 65537, "warp.count is 65537");
   REFUSED(SPHERICAL, def.count_polar = 0, "warp.count_polar is 0; it must be from 1 to 65536");

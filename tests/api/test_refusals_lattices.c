@@ -102,7 +102,9 @@ static void lattices(void** state) {
           def->cells = cells; def->cell_count = 2);
     RIGHT(def->warp = &warp);
     WRONG(ARGUMENT, "warp.kind is 0", def->warp = &warp; warp.kind = 0);
-    WRONG(ARGUMENT, "warp.kind is 3", def->warp = &warp; warp.kind = 3);
+    WRONG(ARGUMENT, "warp.kind is 4", def->warp = &warp; warp.kind = 4);
+    WRONG(ARGUMENT, "warp.count is 3", def->warp = &warp; warp.kind = MSQ_WARP_SAMPLED);
+    WRONG(ARGUMENT, "warp.u", def->warp = &warp; warp.kind = MSQ_WARP_SAMPLED; warp.count = 0);
     WRONG(ARGUMENT, "warp.count is 0", def->warp = &warp; warp.count = 0);
     WRONG(ARGUMENT, "warp.count is 2|180 degrees|150", def->warp = &warp; warp.count = 2);
     WRONG(ARGUMENT, "count_polar 5|156 degrees|150", def->warp = &warp; warp.count_polar = 5;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lattice_structures.h"
 
+#include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "field/gradient.h"
 #include "structure/lattice/lattice.h"
@@ -11,6 +13,7 @@
 #include "structure/lattice/plates/plate_lattice.h"
 #include "structure/lattice/warped/graded_places.h"
 #include "structure/lattice/warped/round_places.h"
+#include "structure/lattice/warped/sampled_places.h"
 #include "structure/lattice/warped/warped_lattice.h"
 
 namespace msq::test {
@@ -61,6 +64,38 @@ Factory round_lattice_factory(UnitCell cell, Warp::Kind kind, Vec3 centre, Warp:
     return Ref<const Structure>(make_ref<WarpedLattice>(
         shared_context(), std::make_unique<const RoundPlaces>(Warp(kind, grid, sized)), cell,
         std::move(radius)));
+  };
+}
+
+std::shared_ptr<const SampledMap> sampled_map(const Neighbourhood& grid) {
+  constexpr uint64_t nx = 12, ny = 9, nz = 10;
+  const Vec3 spacing = Vec3{0.31, 0.4, 0.37} * grid.cell_size;
+  const Vec3 corner = Vec3{-1.9, -1.7, -1.6} * grid.cell_size;
+  std::vector<double> values[3];
+  for (uint64_t i = 0; i < nx * ny * nz; ++i) {
+    const Vec3 p{-1.9 + 0.31 * static_cast<double>(i % nx),
+                 -1.7 + 0.4 * static_cast<double>(i / nx % ny),
+                 -1.6 + 0.37 * static_cast<double>(i / nx / ny)};
+    values[0].push_back(p.x + 0.3 * p.y + 0.1 * std::sin(1.5 * p.z));
+    values[1].push_back(1.1 * p.y + 0.12 * std::sin(1.3 * p.x) + 0.03 * p.x * p.z);
+    values[2].push_back(0.9 * p.z - 0.1 * p.x + 0.04 * p.y * p.y);
+  }
+  const ImageFrame frame{grid.from_grid(corner), spacing, grid.rotation};
+  const auto field = [&](int axis) {
+    const Image::Source source{
+        values[axis].data(), Image::Type::float64, {nx, ny, nz}, nx * 8, nx * ny * 8};
+    return Ref<const GridField>(
+        make_ref<GridField>(Image(source, frame, std::make_shared<MemoryBudget>(0))));
+  };
+  return std::make_shared<const SampledMap>(SampledMap::Fields{field(0), field(1), field(2)});
+}
+
+Factory sampled_lattice_factory(UnitCell cell) {
+  return [=](const Neighbourhood& grid, Parameter radius) {
+    auto places = std::make_unique<const SampledPlaces>(sampled_map(grid), cell,
+                                                        std::make_shared<MemoryBudget>(0));
+    return Ref<const Structure>(
+        make_ref<WarpedLattice>(shared_context(), std::move(places), cell, std::move(radius)));
   };
 }
 

@@ -194,6 +194,16 @@ Factory warped_factory(const char* expression, FunctionalKind kind, Warp::Kind w
   };
 }
 
+Factory sampled_factory(const char* expression, FunctionalKind kind) {
+  const Tape tape = parse_expression(expression, {});
+  return [=](const Neighbourhood& grid, Parameter level) {
+    CellShape cells;
+    cells.sampled = sampled_map(grid);
+    return Ref<const Structure>(
+        make_ref<Functional>(grid, tape, kind, std::move(level), 0, std::move(cells)));
+  };
+}
+
 /// A turned grid with smaller cells.
 Neighbourhood other_grid(const Neighbourhood& grid) {
   return {grid.origin + grid.cell_size * 0.3, grid.cell_size * 0.8, skew_rotation()};
@@ -331,6 +341,10 @@ std::vector<Kind> kinds() {
                    warped_factory(choice, network, cylinder, 0)});
   kinds.push_back({"warped", "gyroid around a point", 0.2, 1,
                    warped_factory(preset_expressions[0], sheet, sphere)});
+  kinds.push_back({"sampled", "gyroid", 0.2, 1, sampled_factory(preset_expressions[0], network)});
+  kinds.push_back(
+      {"sampled", "split P sheet", 0.1, 1, sampled_factory(preset_expressions[7], sheet)});
+  kinds.push_back({"sampled", "choice", 0.05, 1, sampled_factory(choice, network)});
   kinds.push_back(
       {"graded lattice", "BCC along z", 0.08, 1, graded_lattice_factory(bcc_unit_cell(), 2)});
   kinds.push_back({"graded lattice", "skew along x, fat", 0.21, 1,
@@ -348,6 +362,11 @@ std::vector<Kind> kinds() {
   kinds.push_back(
       {"warped lattice", "factors around a point", 0.07, 1,
        round_lattice_factory(factored_unit_cell(), ball, {-1.3, -1.1, -1.7}, {16, 8, 0.4, 0})});
+  kinds.push_back({"sampled lattice", "BCC", 0.08, 1, sampled_lattice_factory(bcc_unit_cell())});
+  kinds.push_back(
+      {"sampled lattice", "skew, fat", 0.15, 1, sampled_lattice_factory(skew_unit_cell())});
+  kinds.push_back(
+      {"sampled lattice", "factors", 0.07, 1, sampled_lattice_factory(factored_unit_cell())});
   kinds.push_back({"waves", "network", 0.2, 1, waves_factory(WavesKind::network, 40)});
   kinds.push_back({"waves", "sheet", 0.15, 1, waves_factory(WavesKind::sheet, 15)});
   for (bool by_cell : {false, true})

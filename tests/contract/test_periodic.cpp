@@ -55,9 +55,9 @@ int main() {
   // Neither a varying radius repeats nor cells that vary or are warped; beams are a list; waves
   // repeat with a tile alone (unit/test_waves.cpp); members of a combination have grids of their
   // own.
-  const std::set<std::string> aperiodic = {"mixed",    "graded period",  "graded lattice",
-                                           "warped",   "warped lattice", "waves",
-                                           "combined", "blended",        "smooth"};
+  const std::set<std::string> aperiodic = {
+      "mixed",    "graded period", "graded lattice", "warped",  "warped lattice", "waves",
+      "combined", "blended",       "smooth",         "sampled", "sampled lattice"};
   std::erase_if(rows, [&](const StructureRow& r) {
     return !r.is_lattice() || r.is_beams() || r.is_graded || aperiodic.count(r.kind.family);
   });

@@ -112,6 +112,7 @@ Owner<msq_structure> Maker::lattice() {
     warp.inner_radius = input_.number(0, 3) * sight_.unit;
     if (input_.chance(100))
       warp.outer_radius = warp.inner_radius + input_.number(0, 6) * sight_.unit;
+    if (input_.chance(80)) sample(warp);
     def.warp = &warp;
   }
   if (input_.chance(50)) {
@@ -180,11 +181,50 @@ Owner<msq_structure> Maker::functional() {
     warp.count_polar = warp.kind == MSQ_WARP_SPHERICAL ? warp.count : 0;
     warp.inner_radius = input_.chance(128) ? sight_.unit * input_.number(0, 2) : 0;
     warp.outer_radius = input_.chance(128) ? sight_.unit * input_.number(2, 5) : 0;
+    if (input_.chance(80)) sample(warp);
     def.warp = &warp;
   }
   return make<msq_structure>("msq_structure_functional", [&](msq_structure** s) {
     return msq_structure_functional(context_, &def, s);
   });
+}
+
+void Maker::sample(msq_warp_def& warp) {
+  is_rough();
+  warp = make_def(msq_warp_def_init);
+  warp.kind = MSQ_WARP_SAMPLED;
+  msq_grid_field_def def = make_def(msq_grid_field_def_init);
+  uint64_t count = 1;
+  double spacing[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    def.image.size[axis] = 2 + input_.below(4);
+    count *= def.image.size[axis];
+    spacing[axis] = input_.number(0.3, 2);
+    def.image.grid.cell_size[axis] = spacing[axis] * sight_.unit;
+    def.image.grid.origin[axis] = coordinate(axis, 3);
+  }
+  def.image.value_type = MSQ_FLOAT64;
+  // Sheared cells whose corners are displaced; large displacements fold.
+  const double shear = input_.number(-0.5, 0.5), most = input_.chance(30) ? 0.6 : 0.1;
+  const double shift = input_.number(-3, 3);
+  const msq_field** const fields[3] = {&warp.u, &warp.v, &warp.w};
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (uint64_t i = 0; i < count; ++i) {
+      const uint64_t at[3] = {i % def.image.size[0], i / def.image.size[0] % def.image.size[1],
+                              i / def.image.size[0] / def.image.size[1]};
+      const int other = (axis + 1) % 3;
+      values.push_back(shift + static_cast<double>(at[axis]) * spacing[axis] +
+                       shear * static_cast<double>(at[other]) * spacing[other] +
+                       input_.number(-most, most));
+    }
+    def.image.values = values.data();
+    Owner<msq_field> made = make<msq_field>(
+        "msq_field_grid", [&](msq_field** f) { return msq_field_grid(context_, &def, f); });
+    if (!made) return;  // the warp lacks a field and is refused
+    *fields[axis] = made.get();
+    fields_.push_back(std::move(made));
+  }
 }
 
 Owner<msq_structure> Maker::beams() {

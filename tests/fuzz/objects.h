@@ -31,6 +31,7 @@ class Maker {
   Owner<msq_structure> lattice();
   Owner<msq_structure> foam();
   Owner<msq_structure> functional();
+  void sample(msq_warp_def& warp);
   Owner<msq_structure> beams();
   Owner<msq_structure> waves();
   Owner<msq_structure> plates();

@@ -99,6 +99,8 @@ namespace Msq
         Cylindrical = 1,
         /// <summary>Cells around the origin of the grid.</summary>
         Spherical = 2,
+        /// <summary>Cells by a map that the host samples.</summary>
+        Sampled = 3,
     }
 
     /// <summary>Which side of an image's threshold is solid. The threshold itself is solid.</summary>
@@ -671,10 +673,12 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>Warped cells: cells around an axis or around a point, in place of boxes.</summary>
+    /// <summary>Warped cells: cells around an axis, around a point or by a map that the host samples, in place of boxes.</summary>
     /// <remarks>
-    /// <para>The structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.</para>
-    /// <para>Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a functional structure; lattices have whole cells there (msq_lattice_def.warp). docs/concepts.md defines the map bit for bit.</para>
+    /// <para>CYLINDRICAL and SPHERICAL: the structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.</para>
+    /// <para>Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a functional structure; lattices have whole cells there (msq_lattice_def.warp).</para>
+    /// <para>SAMPLED: u, v and w are fields of samples (msq_field_grid) on one grid of at least 2 samples along each axis. Their values, which are interpolated, are the coordinates at a point, counted in cells, at most 2^22 in magnitude. Cells are those of whole numbers. The structure's grid is not used. The cells fill the box of the samples: points beyond it are outside of a functional structure, and a lattice has the struts whose two nodes are in it. So sample one cell more than the part needs. The map must not fold: the determinant of its derivatives has one sign in all voxels, is nowhere 0, and is above 2^-40 times the product of the gradients' lengths. An angle that jumps by a whole turn is a fold: a ring takes CYLINDRICAL, or a part of a turn. If two points have the same coordinates, nodes of lattices are placed at one of them. Cost: SAMPLED makes two passes over the samples, about 0.1 us per voxel, and for lattices places all nodes in the box, about 1 us each.</para>
+    /// <para>docs/concepts.md defines the map bit for bit.</para>
     /// </remarks>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_warp_def
@@ -682,14 +686,20 @@ namespace Msq.Interop
         public uint struct_size;
         /// <summary>An msq_warp_kind. Default MSQ_WARP_CYLINDRICAL.</summary>
         public int kind;
-        /// <summary>Cells around the z axis, 1 to 65536. No default.</summary>
+        /// <summary>CYLINDRICAL, SPHERICAL: cells around the z axis, 1 to 65536; no default. SAMPLED: 0.</summary>
         public uint count;
-        /// <summary>SPHERICAL: cells from pole to pole, 1 to 65536; no default. CYLINDRICAL: 0.</summary>
+        /// <summary>SPHERICAL: cells from pole to pole, 1 to 65536; no default. Otherwise 0.</summary>
         public uint count_polar;
-        /// <summary>In model units, 0 to 1e75. Default 0.</summary>
+        /// <summary>In model units, 0 to 1e75. Default 0. SAMPLED: 0.</summary>
         public double inner_radius;
-        /// <summary>In model units, above inner_radius, at most 1e75. 0 (default): no limit.</summary>
+        /// <summary>In model units, above inner_radius, at most 1e75. 0 (default): no limit. SAMPLED: 0.</summary>
         public double outer_radius;
+        /// <summary>SAMPLED: the coordinate x at each point, counted in cells: a field of msq_field_grid, whose grid v and w share; no default. Otherwise NULL.</summary>
+        public msq_field* u;
+        /// <summary>SAMPLED: the coordinate y, likewise.</summary>
+        public msq_field* v;
+        /// <summary>SAMPLED: the coordinate z, likewise.</summary>
+        public msq_field* w;
 
         /// <summary>One with the defaults of msq.</summary>
         public static msq_warp_def Defaults()
@@ -2444,6 +2454,7 @@ namespace Msq.Interop
         public const int MSQ_FORMAT_GLTF = 7;
         public const int MSQ_WARP_CYLINDRICAL = 1;
         public const int MSQ_WARP_SPHERICAL = 2;
+        public const int MSQ_WARP_SAMPLED = 3;
         public const int MSQ_SOLID_ABOVE = 0;
         public const int MSQ_SOLID_BELOW = 1;
         public const int MSQ_BOOLEAN_UNION = 1;

@@ -11,7 +11,7 @@ Lengths are in the model's unit, millimetres with files. What the words mean exa
 docs/concepts.md of msq; msq.h says the rest. Objects are immutable, and any thread may use them;
 calls let other Python threads run. Failures are exceptions with the library's message: see Error.
 """
-from ._grid import Grid, Period, Warp
+from ._grid import Grid, Period, SampledWarp, Warp
 from ._host import HostPoints
 from .beam_file import BeamFile, BeamLattice
 from .camera import Camera
@@ -52,6 +52,6 @@ __all__ = [
     "OutOfMemoryError", "Output", "Param", "Period", "Picture", "PlateLattice", "PointGrid", "PointSet",
     "Printability", "RenderPass", "Scale",
     "Shape", "ShapeInfo", "Slicer", "Stratified", "Structure", "StrutGraph", "UnitCell", "UnitCellInfo",
-    "UnsupportedError", "Warp", "Waves", "build_info", "progress",
+    "SampledWarp", "UnsupportedError", "Warp", "Waves", "build_info", "progress",
     "read_3mf_implicit",
 ]

@@ -44,6 +44,7 @@ MSQ_FORMAT_AMF = 6
 MSQ_FORMAT_GLTF = 7
 MSQ_WARP_CYLINDRICAL = 1
 MSQ_WARP_SPHERICAL = 2
+MSQ_WARP_SAMPLED = 3
 MSQ_SOLID_ABOVE = 0
 MSQ_SOLID_BELOW = 1
 MSQ_BOOLEAN_UNION = 1
@@ -263,7 +264,8 @@ class msq_period_def(Structure):
 
 class msq_warp_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("count", c_uint32),
-                ("count_polar", c_uint32), ("inner_radius", c_double), ("outer_radius", c_double)]
+                ("count_polar", c_uint32), ("inner_radius", c_double), ("outer_radius", c_double),
+                ("u", POINTER(msq_field)), ("v", POINTER(msq_field)), ("w", POINTER(msq_field))]
 
 
 class msq_image(Structure):

@@ -85,12 +85,26 @@ class Warp(NamedTuple):
     count_polar: int = 0
 
 
-def set_warp(definition: Any, warp: Optional[Warp]) -> Any:
+class SampledWarp(NamedTuple):
+    """Cells by a map: fields of samples (Field.grid) on one grid, which give the coordinates of
+    cells at a point. cell_size, origin and rotation of the structure are not used."""
+
+    u: Any
+    v: Any
+    w: Any
+
+
+def set_warp(definition: Any, warp: Union[Warp, SampledWarp, None]) -> Any:
     """Writes a warp; returns what must be kept until the call is made. None: cells are boxes."""
     if warp is None:
         return None
-    warp = Warp(*warp)
     warped = defaults(_abi.msq_warp_def)
+    if isinstance(warp, SampledWarp):
+        warped.kind = _abi.MSQ_WARP_SAMPLED
+        warped.u, warped.v, warped.w = (field._pointer for field in warp)
+        definition.warp = ctypes.pointer(warped)
+        return warped, warp
+    warp = Warp(*warp)
     warped.kind = _abi.MSQ_WARP_SPHERICAL if warp.count_polar else _abi.MSQ_WARP_CYLINDRICAL
     warped.count = unsigned(warp.count, 32, "count")
     warped.count_polar = unsigned(warp.count_polar, 32, "count_polar")

@@ -12,7 +12,7 @@ import numpy as np
 from . import _abi, statistics
 from ._arrays import Elements, elements, output, pointer, triples, vector
 from ._given import parameter, remembers
-from ._grid import Cell, Period, Warp, set_grid, set_period, set_warp
+from ._grid import Cell, Period, SampledWarp, Warp, set_grid, set_period, set_warp
 from ._handle import Handle, hash_of
 from ._host import HashKey, HostPoints, create
 from ._interrupt import build, interruptible
@@ -230,7 +230,8 @@ class Lattice(Structure):
     unit_cell: a name (`cubic`, `bcc`, `octet`, ...: see UnitCell), a UnitCell, or a pair of nodes
     (n, 3) and struts (m, 2); or with cell_choice a list of those, of which the choice, rounded to
     an index, names the one that stands in each cell. period: a Period, for cells whose size varies
-    along an axis; cell_size along it is ignored. warp: a Warp, for cells around an axis or a point.
+    along an axis; cell_size along it is ignored. warp: a Warp, for cells around an axis or a point,
+    or a SampledWarp, for a map.
     """
 
     unit_cell: parameter[Any] = parameter("As given.")
@@ -241,13 +242,14 @@ class Lattice(Structure):
     origin: parameter[Sequence[float]] = parameter("Of the grid.")
     rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
     period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
-    warp: parameter[Optional[Warp]] = parameter("Cells that are bent; None: boxes.")
+    warp: parameter[Union[Warp, SampledWarp, None]] = parameter("Cells that are bent; None: boxes.")
 
     @remembers
     def __init__(self, unit_cell: Union[UnitCellLike, Sequence[UnitCellLike]] = "bcc", *,
                  radius: Param, cell_choice: Optional[Param] = None, cell_size: Cell = 1.0,
                  clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 period: Optional[Period] = None, warp: Optional[Warp] = None,
+                 period: Optional[Period] = None,
+                 warp: Union[Warp, SampledWarp, None] = None,
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_lattice_def)
         set_grid(definition.grid, cell_size, origin, rotation)
@@ -479,7 +481,7 @@ class Functional(Structure):
     `double_diamond`, `double_p`, `honeycomb`, `rods`); or give an expression in x, y, z (angles, 0 to 2 pi) with the values of its
     parameters. Of sheets thickness, the mean one of the walls, may be given instead of level.
     period: a Period, for cells whose size varies along an axis; cell_size along it is ignored.
-    warp: a Warp, for cells around an axis or a point.
+    warp: a Warp, for cells around an axis or a point, or a SampledWarp, for a map.
     """
 
     function: parameter[Optional[str]] = parameter("Its name; None: an expression.")
@@ -493,14 +495,15 @@ class Functional(Structure):
     origin: parameter[Sequence[float]] = parameter("Of the grid.")
     rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
     period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
-    warp: parameter[Optional[Warp]] = parameter("Cells around an axis or a point; None: boxes.")
+    warp: parameter[Union[Warp, SampledWarp, None]] = parameter("Cells that are bent; None: boxes.")
 
     @remembers
     def __init__(self, function: Optional[str] = None, *, expression: Optional[str] = None,
                  parameters: Optional[Mapping[str, float]] = None, kind: str = "network",
                  level: Param = 0.0, thickness: Param = 0.0, cell_size: Cell = 1.0,
                  clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 period: Optional[Period] = None, warp: Optional[Warp] = None,
+                 period: Optional[Period] = None,
+                 warp: Union[Warp, SampledWarp, None] = None,
                  context: Optional[Context] = None) -> None:
         if (function is None) == (expression is None):
             raise TypeError("Functional takes a function's name or an expression, one of the two")

@@ -9,7 +9,17 @@
 
 namespace msq {
 
+namespace {
+
+Vec3 fraction_of(Vec3 cells) {
+  return {cells.x - std::floor(cells.x), cells.y - std::floor(cells.y),
+          cells.z - std::floor(cells.z)};
+}
+
+}  // namespace
+
 Neighbourhood smallest_cells(Neighbourhood grid, const CellShape& shape) {
+  if (shape.sampled) return shape.sampled->smallest();
   if (shape.period) grid.cell_size[shape.period->axis()] = shape.period->smallest();
   if (shape.warp) {
     grid.cell_size.y = grid.cell_size.x;
@@ -19,6 +29,7 @@ Neighbourhood smallest_cells(Neighbourhood grid, const CellShape& shape) {
 }
 
 double largest_cell(const Neighbourhood& grid, const CellShape& shape) {
+  if (shape.sampled) return shape.sampled->largest_size();
   Vec3 size = smallest_cells(grid, shape).cell_size;
   if (shape.period) size[shape.period->axis()] = shape.period->largest();
   return max_component(size);
@@ -26,6 +37,7 @@ double largest_cell(const Neighbourhood& grid, const CellShape& shape) {
 
 Vec3 CellAngles::fraction(Vec3 p) const {
   if (warp_) return warp_->locate(warp_->to_cells(p)).fraction;
+  if (sampled_) return fraction_of(sampled_->to_cells(p));
   Vec3 fraction = grid_.locate(p).fraction;
   if (period_) {
     const double u = period_->cells(position(p));
@@ -41,6 +53,13 @@ void CellAngles::find(Values x, Values y, Values z, size_t count,
     radii->resize(count + batch_padding);
     return find_warped_places(*warp_, x, y, z, count, angles, radii->data());
   }
+  if (sampled_) {
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3 all = at({x[i], y[i], z[i]});
+      for (int axis = 0; axis < 3; ++axis) angles[axis][i] = all[axis];
+    }
+    return;
+  }
   find_angles(grid_, x, y, z, count, angles);
   if (!period_) return;
   double* const to = angles[period_->axis()];
@@ -52,6 +71,11 @@ void CellAngles::find(Values x, Values y, Values z, size_t count,
 
 CellIndex CellAngles::cell_of(Vec3 p) const {
   if (warp_) return warp_->locate(warp_->to_cells(p)).cell;
+  if (sampled_) {
+    const Vec3 cells = sampled_->to_cells(p);
+    return {static_cast<int32_t>(std::floor(cells.x)), static_cast<int32_t>(std::floor(cells.y)),
+            static_cast<int32_t>(std::floor(cells.z))};
+  }
   CellIndex cell = grid_.locate(p).cell;
   if (!period_) return cell;
   const int32_t number = static_cast<int32_t>(std::floor(period_->cells(position(p))));
@@ -60,8 +84,8 @@ CellIndex CellAngles::cell_of(Vec3 p) const {
 }
 
 Vec3 CellAngles::gradient(Vec3 p, Vec3 by_angle) const {
-  if (warp_) {
-    const std::array<Vec3, 3> of_cells = warp_->gradients(p);
+  if (is_mapped()) {
+    const std::array<Vec3, 3> of_cells = warp_ ? warp_->gradients(p) : sampled_->gradients(p);
     return (of_cells[0] * by_angle.x + of_cells[1] * by_angle.y + of_cells[2] * by_angle.z) *
            two_pi;
   }

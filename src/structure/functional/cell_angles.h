@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The coordinates of functional structures: angles, 2 pi times the position in the cell, in cells
-// of one size, of a graded period or warped.
+// of one size, of a graded period, warped, or by a map that the host samples.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "base/pi.h"
 #include "base/vec.h"
 #include "cell/graded_period.h"
 #include "cell/neighbourhood.h"
+#include "cell/sampled_map.h"
 #include "cell/warp.h"
 #include "structure/functional/row_kernels.h"
 
 namespace msq {
 
-/// What cells are made of: one of these, or neither.
+/// What cells are made of: one of these, or none.
 struct CellShape {
   CellShape() = default;
   CellShape(GradedPeriod graded) : period(std::move(graded)) {}
@@ -22,11 +24,12 @@ struct CellShape {
 
   std::optional<GradedPeriod> period;
   std::optional<Warp> warp;
+  std::shared_ptr<const SampledMap> sampled;
 };
 
 /// The grid with the smallest of the period's cells; with boxes in place of warped cells, as long
 /// as those are outwards and, around an axis, along it. As far as indices of these boxes are
-/// limited, those of warped cells are below twice that.
+/// limited, those of warped cells are below twice that. Of a sampled map, SampledMap::smallest().
 Neighbourhood smallest_cells(Neighbourhood grid, const CellShape& shape);
 double largest_cell(const Neighbourhood& grid, const CellShape& shape);
 
@@ -38,10 +41,18 @@ class CellAngles {
  public:
   /// `grid`: that of smallest_cells().
   CellAngles(const Neighbourhood& grid, CellShape shape)
-      : grid_(grid), period_(std::move(shape.period)), warp_(shape.warp) {}
+      : grid_(grid), period_(std::move(shape.period)), warp_(shape.warp), sampled_(shape.sampled) {}
 
   const std::optional<GradedPeriod>& period() const { return period_; }
   const std::optional<Warp>& warp() const { return warp_; }
+  const SampledMap* sampled() const { return sampled_.get(); }
+  /// Whether all cells are alike.
+  bool is_uniform() const { return !period_ && !is_mapped(); }
+  bool is_mapped() const { return warp_ || sampled_; }
+  /// Whether the cells fill the place of a point.
+  bool holds(Vec3 p) const {
+    return warp_ ? warp_->is_in_shell(warp_->radius(p)) : !sampled_ || sampled_->is_in_box(p);
+  }
   /// The coordinate of a point along the period's axis.
   double position(Vec3 p) const { return grid_.to_grid(p)[period_->axis()]; }
 
@@ -56,13 +67,14 @@ class CellAngles {
   /// The gradient in the model's frame of a function with this gradient by angles.
   Vec3 gradient(Vec3 p, Vec3 by_angle) const;
   /// Bound on the rounding of the number of cells, in addition to that of the position, for points
-  /// within that distance of p. Not for warped cells (Warp::slack()).
+  /// within that distance of p. Not for warped cells and maps (their slack()).
   double error(Vec3 p, double distance) const;
 
  private:
   Neighbourhood grid_;
   std::optional<GradedPeriod> period_;
   std::optional<Warp> warp_;
+  std::shared_ptr<const SampledMap> sampled_;
 };
 
 }  // namespace msq

@@ -70,9 +70,9 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       side_(clusters ? clusters : automatic_clusters(onset_)),
       repeats_(msq::repeats(onset_)) {
   // Steps of rows have the same angles only in cells of one size.
-  const bool is_uniform = !angles_.period() && !angles_.warp();
+  const bool is_uniform = angles_.is_uniform();
   if (sample_axis_[0] < 0 && is_uniform) form_ = TrigonometricForm::of(onset_);
-  if (is_uniform) return;
+  if (is_uniform || angles_.sampled()) return;
   double most = 0;
   if (angles_.period()) most = angles_.period()->most() * (1 + 0x1p-45);
   if (angles_.warp()) {
@@ -99,16 +99,11 @@ double Functional::value(Vec3 p) const {
 
 double Functional::onset(Vec3 p) const {
   const double onset = value(p);
-  return std::isnan(onset) || !is_in_shell(p) ? std::numeric_limits<double>::infinity() : onset;
+  return std::isnan(onset) || !angles_.holds(p) ? std::numeric_limits<double>::infinity() : onset;
 }
 
 bool Functional::inside(Vec3 p) const {
-  return is_in_shell(p) && value(p) <= level_.at(p);
-}
-
-bool Functional::is_in_shell(Vec3 p) const {
-  const std::optional<Warp>& warp = angles_.warp();
-  return !warp || warp->is_in_shell(warp->radius(p));
+  return angles_.holds(p) && value(p) <= level_.at(p);
 }
 
 double Functional::frequency(size_t n) const {
@@ -130,8 +125,14 @@ const Slope& Functional::slope(size_t n) const {
       const double rho = axis_distance(n);
       angles_per_unit = angles_.warp()->slopes(rho, rho) * two_pi;
     }
+    double coordinate_error = 0x1p-49;
+    if (const SampledMap* map = angles_.sampled()) {
+      // With J the map's derivatives, |J^T g| is at most its steepness times |g|.
+      angles_per_unit = Vec3{1, 1, 1} * (two_pi * map->steepness());
+      coordinate_error += two_pi * map->rounding();
+    }
     return std::make_unique<const Slope>(
-        bound_slope(onset_, {cell, cell, cell}, angles_per_unit * (1 + 0x1p-50), 0x1p-49));
+        bound_slope(onset_, {cell, cell, cell}, angles_per_unit * (1 + 0x1p-50), coordinate_error));
   });
 }
 
@@ -142,14 +143,14 @@ double Functional::min_ray_step() const {
 }
 
 void Functional::enter(RaySearch* searches, size_t count, const Job* job) const {
-  if (angles_.warp()) return ShellRays(*this, job).enter(searches, count);
+  if (angles_.is_mapped()) return ShellRays(*this, job).enter(searches, count);
   FunctionalRays rays(*this, job);
   rays.find(true, searches, count);
   rays.find_normals(searches, count);
 }
 
 double Functional::leave(const Ray& ray, double from, double to, const Job* job) const {
-  if (angles_.warp()) return ShellRays(*this, job).leave(ray, from, to);
+  if (angles_.is_mapped()) return ShellRays(*this, job).leave(ray, from, to);
   RaySearch search{ray, from, to};
   FunctionalRays(*this, job).find(false, &search, 1);
   return search.found ? search.t : to;
@@ -208,6 +209,20 @@ double Functional::warped_distance(double gap, bool is_inside, Vec3 fraction, Ve
   return is_inside ? std::min(best, within) : best;
 }
 
+/// As above, of the box of the samples in place of the shell.
+double Functional::sampled_distance(double gap, bool is_inside, Vec3 fraction, Vec3 p) const {
+  const SampledMap& map = *angles_.sampled();
+  double best = gap > 0 ? steady_distance(gap, steepest().most, 1, level_, p) : 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!repeats_[static_cast<size_t>(axis)])
+      best = std::min(best, (std::min(fraction[axis], 1 - fraction[axis]) - 2 * map.rounding()) /
+                                map.slopes()[axis]);
+  best = std::max(0.0, best);
+  const double within = map.distance_within(p);
+  if (within < 0) return is_inside ? -within : std::max(best, -within);
+  return is_inside ? std::min(best, within) : best;
+}
+
 bool Functional::has_steady_distance() const {
   return has_steepest_ && std::isfinite(steepest().most) && std::isfinite(level_.lipschitz());
 }
@@ -227,6 +242,12 @@ double Functional::distance_bound(Vec3 p) const {
     const double bound =
         std::min(warped_distance((1 - 0x1p-40) * gap, onset <= level.low, fraction, p), far);
     return std::max(0.0, (1 - 0x1p-40) * bound - 2 * angles_.warp()->slack(p, bound));
+  }
+  if (const SampledMap* map = angles_.sampled()) {
+    const double far = 0x1p30 * characteristic_length();
+    const double bound =
+        std::min(sampled_distance((1 - 0x1p-40) * gap, onset <= level.low, fraction, p), far);
+    return std::max(0.0, (1 - 0x1p-40) * bound - 2 * map->slack(p, bound));
   }
   // The grid's rotation may stretch distances in the last bits. A constant function has no
   // boundary.
@@ -270,6 +291,9 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
     if (warp)
       for (size_t i = 0; i < size; ++i)
         if (!warp->is_in_shell(radii[i])) bits[i / 64] &= ~(uint64_t{1} << i % 64);
+    if (const SampledMap* map = angles_.sampled())
+      for (size_t i = 0; i < size; ++i)
+        if (!map->is_in_box(asked[i])) bits[i / 64] &= ~(uint64_t{1} << i % 64);
     for (size_t i = 0; i < size; ++i) alive[index[i]] = bits[i / 64] >> (i % 64) & 1;
   }
 }
@@ -277,7 +301,7 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
 void Functional::keep_rows(const RowBlock& block, const Job* job) const {
   if (angles_.warp() && WarpedRows::serves(*this))
     WarpedRows(*this, block).keep(job);
-  else if (angles_.warp())
+  else if (angles_.is_mapped())
     Structure::keep_rows(block, job);
   else if (sample_axis_[0] >= 0)
     FunctionalRows(*this, block).keep(job);
@@ -288,7 +312,7 @@ void Functional::keep_rows(const RowBlock& block, const Job* job) const {
 }
 
 BoxClass Functional::classify(const Box3& box) const {
-  return angles_.warp() ? classify_warped(*this, box) : BoxClass::mixed;
+  return angles_.is_mapped() ? classify_warped(*this, box) : BoxClass::mixed;
 }
 
 const RowPlan& Functional::warped_plan(unsigned changing) const {
@@ -300,7 +324,7 @@ const RowPlan& Functional::warped_plan(unsigned changing) const {
 }
 
 LineGraph Functional::wall_lines(const WallSection& section) const {
-  if (angles_.warp()) return Structure::wall_lines(section);
+  if (angles_.is_mapped()) return Structure::wall_lines(section);
   return LevelLines(*this, section).find();
 }
 
@@ -313,6 +337,7 @@ void Functional::describe(HashInput& input) const {
   input.integer(angles_.period() ? 1 : 0);
   if (angles_.period()) angles_.period()->describe(input);
   if (angles_.warp()) angles_.warp()->describe(input);
+  if (angles_.sampled()) angles_.sampled()->describe(input);
 }
 
 }  // namespace msq

@@ -38,7 +38,8 @@ class Functional final : public Structure {
   /// constant is that of the whole cell; in cells of varying size, of all cells that are as near as
   /// the distance. Along axes on which the function is not periodic by
   /// itself, at most the distance to the cell's border. 0 everywhere if the slope is unbounded. In
-  /// warped cells the shell that they fill counts, too; 0 near the axis and the poles.
+  /// warped cells the shell that they fill counts, too; 0 near the axis and the poles. Of a sampled
+  /// map the box of the samples counts, and the steepest place of the map.
   double distance_bound(Vec3 p) const override;
   bool has_steady_distance() const override;
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
@@ -47,19 +48,19 @@ class Functional final : public Structure {
   double min_ray_step() const override;
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   /// Then the level is bounded block by block, or tables serve all layers of a block.
-  bool gains_by_layers() const override { return !level_.is_constant() || angles_.warp(); }
+  bool gains_by_layers() const override { return !level_.is_constant() || angles_.is_mapped(); }
   void keep_rows(const RowBlock& block, const Job* job) const override;
-  /// Only in warped cells.
+  /// Only in warped and sampled cells.
   BoxClass classify(const Box3& box) const override;
-  bool knows_boxes() const override { return angles_.warp().has_value(); }
+  bool knows_boxes() const override { return angles_.is_mapped(); }
   uint64_t critical_count() const override { return 3; }
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return level_.at(p); }
-  bool is_periodic() const override { return !angles_.period() && !angles_.warp(); }
-  bool is_alike_from_origin() const override { return !angles_.warp(); }
+  bool is_periodic() const override { return angles_.is_uniform(); }
+  bool is_alike_from_origin() const override { return !angles_.is_mapped(); }
   ThinWalls thin_walls() const override {
-    if (angles_.warp()) return ThinWalls::none;
+    if (angles_.is_mapped()) return ThinWalls::none;
     return !angles_.period() && (is_sheet() || level_.is_constant()) ? ThinWalls::uniform
                                                                      : ThinWalls::varying;
   }
@@ -99,6 +100,7 @@ class Functional final : public Structure {
   double steady_distance_of(double gap, Vec3 p) const;
   /// Where the cells with frequency(n) are, and beyond, in warped cells.
   double axis_distance(size_t n) const;
+  double sampled_distance(double gap, bool is_inside, Vec3 fraction, Vec3 p) const;
   double warped_distance(double gap, bool is_inside, Vec3 fraction, Vec3 p) const;
   /// Data for rows along the axes.
   struct Prepared {
@@ -106,7 +108,6 @@ class Functional final : public Structure {
     std::vector<RowPlan> row_plans;
   };
   const Prepared& prepared() const;
-  bool is_in_shell(Vec3 p) const;
   /// The value of the onset's tape.
   double value(Vec3 p) const;
 

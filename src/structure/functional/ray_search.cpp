@@ -66,7 +66,7 @@ double FunctionalRays::position_error(const RaySearch& search) const {
 }
 
 double FunctionalRays::angle_error(const RaySearch& search, double position_error) const {
-  if (solid_.angles().warp()) return 0x1p-47;  // others depend on the piece (bend())
+  if (solid_.angles().is_mapped()) return 0x1p-47;  // others depend on the piece (bend())
   const double error = two_pi * position_error / cell_ + 0x1p-47;
   const CellAngles& angles = solid_.angles();
   if (!angles.period()) return error;
@@ -173,7 +173,7 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
     if (live.border >= 0) {
       Vec3 back;
       back[live.border] = live.rates[live.border] > 0 ? -1 : 1;
-      search.normal = solid_.angles().warp()
+      search.normal = solid_.angles().is_mapped()
                           ? unit_along(solid_.angles().gradient(search.ray.at(search.t), back))
                           : grid_.rotation.apply(back);
     }
@@ -205,7 +205,8 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
     live.blind_steps = live.near_steps = 0;
     return live.t < search.to;
   }
-  if (is_clear && span > 2 * least && (!is_bounded || (gap <= 0 && level.is_vague))) {
+  if (is_clear && span > 2 * least &&
+      (!is_bounded || (gap <= 0 && (level.is_vague || is_vague_[lane])))) {
     live.span = 0.25 * span;
     return true;
   }
@@ -305,16 +306,54 @@ void FunctionalRays::bend(const RaySearch& search, Live& live, size_t lane) {
   pieces_.error[lane] += two_pi * (1 + 0x1p-40) * error;
 }
 
+/// Of a sampled map the slopes in the box of a piece are known. The angles follow the mean of these
+/// slopes, up to half of their spread.
+void FunctionalRays::follow(const RaySearch& search, Live& live, size_t lane) {
+  const SampledMap& map = *solid_.angles().sampled();
+  const Vec3 p = points_[lane], along = search.ray.direction;
+  const double span = pieces_.span[lane] * cell_, off = map.slack(p, span);
+  const Vec3 q = search.ray.at(live.t + span);
+  const Box3 box = Box3{min(p, q), max(p, q)}.grown(2 * off);
+  double error = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const size_t a = static_cast<size_t>(axis);
+    const std::optional<Slopes> slopes = map.slopes_in(axis, box);
+    pieces_.bends[a][lane] = 0;
+    if (!slopes) {
+      pieces_.bends[a][lane] = infinity;
+      live.rates[axis] = 0;
+      max_rates_[a][lane] = infinity;
+      continue;
+    }
+    Interval rate{0, 0};
+    for (int i = 0; i < 3; ++i) {
+      const double one = slopes->between.min[i] * along[i],
+                   other = slopes->between.max[i] * along[i];
+      rate.low += std::min(one, other);
+      rate.high += std::max(one, other);
+    }
+    const double most = std::max(std::abs(rate.low), std::abs(rate.high));
+    live.rates[axis] = two_pi * (0.5 * (rate.low + rate.high) * cell_);
+    max_rates_[a][lane] = two_pi * (1 + 0x1p-40) * most * cell_;
+    error = std::max(error, 0.5 * (rate.high - rate.low) * span + 2 * slopes->rounding +
+                                most * (2 * off + 0x1p-45 * span));
+  }
+  is_vague_[lane] = true;
+  pieces_.error[lane] += two_pi * (1 + 0x1p-40) * error;
+}
+
 void FunctionalRays::set_piece(const RaySearch& search, Live& live, size_t lane) {
   pieces_.span[lane] = std::max(std::min(live.span, search.to - live.t), tolerance_) / cell_;
   pieces_.error[lane] = live.error;
   border_[lane] = infinity;
   border_axis_[lane] = -1;
   is_clear_[lane] = true;
+  is_vague_[lane] = false;
   const std::optional<GradedPeriod>& period = solid_.angles().period();
-  const bool is_warped = solid_.angles().warp().has_value();
+  const bool is_warped = solid_.angles().is_mapped();
   if (period) grade(search, live, lane);
-  if (is_warped) bend(search, live, lane);
+  if (solid_.angles().warp()) bend(search, live, lane);
+  if (solid_.angles().sampled()) follow(search, live, lane);
   const double error = pieces_.error[lane];
   for (int axis = 0; axis < 3; ++axis) {
     const double rate = live.rates[axis];

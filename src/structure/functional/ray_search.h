@@ -71,6 +71,7 @@ class FunctionalRays {
   void set_piece(const RaySearch& search, Live& live, size_t lane);
   void grade(const RaySearch& search, Live& live, size_t lane);
   void bend(const RaySearch& search, Live& live, size_t lane);
+  void follow(const RaySearch& search, Live& live, size_t lane);
   /// Sets points_, levels_ and the coordinates of pieces_ for the lanes below `count`.
   void locate(const RaySearch* searches, size_t count);
   Level level_over(const Ray& ray, double t, double span, double value) const;
@@ -90,6 +91,7 @@ class FunctionalRays {
   double border_[lanes];    // distance to the next border across which the function is not periodic
   int border_axis_[lanes];  // its axis
   bool is_clear_[lanes];    // of borders, rounding included
+  bool is_vague_[lanes];    // shorter pieces have smaller errors
   double levels_[lanes];
   double max_rates_[3][lanes];  // of angles, where they differ along a piece
 };

@@ -249,16 +249,27 @@ size_t fractions_of(Interval cells, Interval (&to)[2]) {
 /// Positions in the cell and angles are monotone in the coordinates, rounding included, so the ends
 /// of intervals enclose them.
 BoxClass classify_warped(const Functional& structure, const Box3& box) {
-  const Warp& warp = *structure.angles().warp();
-  const Warp::Image image = warp.image(box);
-  if (image.radius.high < warp.shell().inner || image.radius.low > warp.outer())
-    return BoxClass::outside;
-  const Vec3 extent = image.cells.extent();
+  Box3 cells;
+  bool is_within;  // whether the cells fill the box
+  if (const SampledMap* map = structure.angles().sampled()) {
+    const SampledMap::Side side = map->side_of(box);
+    if (side == SampledMap::Side::outside) return BoxClass::outside;
+    is_within = side == SampledMap::Side::inside;
+    cells = map->image_of(box);
+  } else {
+    const Warp& warp = *structure.angles().warp();
+    const Warp::Image image = warp.image(box);
+    if (image.radius.high < warp.shell().inner || image.radius.low > warp.outer())
+      return BoxClass::outside;
+    is_within = warp.is_in_shell(image.radius.low) && warp.is_in_shell(image.radius.high);
+    cells = image.cells;
+  }
+  const Vec3 extent = cells.extent();
   if (min_component(extent) >= 1) return BoxClass::mixed;
   Interval parts[3][2];
   size_t counts[3];
   for (int axis = 0; axis < 3; ++axis)
-    counts[axis] = fractions_of({image.cells.min[axis], image.cells.max[axis]}, parts[axis]);
+    counts[axis] = fractions_of({cells.min[axis], cells.max[axis]}, parts[axis]);
   const Borrowed<std::vector<Enclosure>> nodes;
   Interval onset{infinity, -infinity};
   for (size_t x = 0; x < counts[0]; ++x)
@@ -274,9 +285,7 @@ BoxClass classify_warped(const Functional& structure, const Box3& box) {
       }
   const Interval level = structure.level().range(box);
   if (onset.low > level.high) return BoxClass::outside;
-  const bool is_in_shell =
-      warp.is_in_shell(image.radius.low) && warp.is_in_shell(image.radius.high);
-  return is_in_shell && onset.high <= level.low ? BoxClass::inside : BoxClass::mixed;
+  return is_within && onset.high <= level.low ? BoxClass::inside : BoxClass::mixed;
 }
 
 }  // namespace msq

@@ -53,7 +53,8 @@ class WarpedRows {
   double slack_ = 0;
 };
 
-/// The coverage of a box, from the image of the box and enclosures of the onset there.
+/// The coverage of a box in warped or sampled cells, from the image of the box and enclosures of
+/// the onset there.
 BoxClass classify_warped(const Functional& structure, const Box3& box);
 
 }  // namespace msq

@@ -114,6 +114,9 @@ pub const MSQ_WARP_CYLINDRICAL: i32 = 1;
 /// Cells around the origin of the grid.
 pub const MSQ_WARP_SPHERICAL: i32 = 2;
 
+/// Cells by a map that the host samples.
+pub const MSQ_WARP_SAMPLED: i32 = 3;
+
 pub const MSQ_SOLID_ABOVE: i32 = 0;
 
 pub const MSQ_SOLID_BELOW: i32 = 1;
@@ -659,25 +662,35 @@ pub struct msq_period_def {
     pub count: u64,
 }
 
-/// Warped cells: cells around an axis or around a point, in place of boxes.
+/// Warped cells: cells around an axis, around a point or by a map that the host samples, in place of boxes.
 ///
-/// The structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.
+/// CYLINDRICAL and SPHERICAL: the structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.
 ///
-/// Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a functional structure; lattices have whole cells there (msq_lattice_def.warp). docs/concepts.md defines the map bit for bit.
+/// Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a functional structure; lattices have whole cells there (msq_lattice_def.warp).
+///
+/// SAMPLED: u, v and w are fields of samples (msq_field_grid) on one grid of at least 2 samples along each axis. Their values, which are interpolated, are the coordinates at a point, counted in cells, at most 2^22 in magnitude. Cells are those of whole numbers. The structure's grid is not used. The cells fill the box of the samples: points beyond it are outside of a functional structure, and a lattice has the struts whose two nodes are in it. So sample one cell more than the part needs. The map must not fold: the determinant of its derivatives has one sign in all voxels, is nowhere 0, and is above 2^-40 times the product of the gradients' lengths. An angle that jumps by a whole turn is a fold: a ring takes CYLINDRICAL, or a part of a turn. If two points have the same coordinates, nodes of lattices are placed at one of them. Cost: SAMPLED makes two passes over the samples, about 0.1 us per voxel, and for lattices places all nodes in the box, about 1 us each.
+///
+/// docs/concepts.md defines the map bit for bit.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct msq_warp_def {
     pub struct_size: u32,
     /// An msq_warp_kind. Default MSQ_WARP_CYLINDRICAL.
     pub kind: i32,
-    /// Cells around the z axis, 1 to 65536. No default.
+    /// CYLINDRICAL, SPHERICAL: cells around the z axis, 1 to 65536; no default. SAMPLED: 0.
     pub count: u32,
-    /// SPHERICAL: cells from pole to pole, 1 to 65536; no default. CYLINDRICAL: 0.
+    /// SPHERICAL: cells from pole to pole, 1 to 65536; no default. Otherwise 0.
     pub count_polar: u32,
-    /// In model units, 0 to 1e75. Default 0.
+    /// In model units, 0 to 1e75. Default 0. SAMPLED: 0.
     pub inner_radius: f64,
-    /// In model units, above inner_radius, at most 1e75. 0 (default): no limit.
+    /// In model units, above inner_radius, at most 1e75. 0 (default): no limit. SAMPLED: 0.
     pub outer_radius: f64,
+    /// SAMPLED: the coordinate x at each point, counted in cells: a field of msq_field_grid, whose grid v and w share; no default. Otherwise NULL.
+    pub u: *const msq_field,
+    /// SAMPLED: the coordinate y, likewise.
+    pub v: *const msq_field,
+    /// SAMPLED: the coordinate z, likewise.
+    pub w: *const msq_field,
 }
 
 /// Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about 1/7 byte per value in addition.
@@ -2626,7 +2639,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_window>(), 48);
     assert_eq!(std::mem::size_of::<msq_neighbourhood>(), 120);
     assert_eq!(std::mem::size_of::<msq_period_def>(), 32);
-    assert_eq!(std::mem::size_of::<msq_warp_def>(), 32);
+    assert_eq!(std::mem::size_of::<msq_warp_def>(), 56);
     assert_eq!(std::mem::size_of::<msq_image>(), 176);
     assert_eq!(std::mem::size_of::<msq_file_def>(), 40);
     assert_eq!(std::mem::size_of::<msq_mesh_def>(), 56);

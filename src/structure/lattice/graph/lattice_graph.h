@@ -39,6 +39,7 @@ class LatticeGraph {
   /// Position of a node in its owner, in cell sizes.
   Vec3 node(uint32_t number) const { return nodes_[number]; }
   const Edge& edge(uint32_t number) const { return edges_[number]; }
+  size_t node_count() const { return nodes_.size(); }
   size_t edge_count() const { return edges_.size(); }
 
   /// The struts that a cell owns if the cell that is `back` before it (bit 0: along x, bit 1: along

@@ -3,6 +3,7 @@
 // grid coordinates. Nodes are placed by it; the struts between them are straight.
 #pragma once
 
+#include <cmath>
 #include <functional>
 
 #include "base/hash_input.h"
@@ -35,12 +36,22 @@ class CellPlaces {
   virtual bool is_alike_from_origin() const = 0;
   /// The cell that contains a point in grid coordinates.
   virtual CellIndex cell_of(Vec3 g) const = 0;
+  /// The list of near struts that serves a point, and a box that contains all points of a list.
+  /// Lists are those of cells, unless these have no simple bounds.
+  virtual CellIndex list_of(Vec3 g) const { return cell_of(g); }
+  virtual Box3 list_bounds(CellIndex list) const {
+    const double at[3] = {double(list.x), double(list.y), double(list.z)};
+    CellBlock own;
+    for (int axis = 0; axis < 3; ++axis) own.first[axis] = own.last[axis] = at[axis];
+    return bounds(own);
+  }
   /// The same cell, in the one of its numbers that its nodes are placed by.
   virtual CellIndex canonical(CellIndex cell) const { return cell; }
   /// A canonical cell that has struts, the cell itself or one nearby. Cells without struts are
   /// where points may be.
   virtual CellIndex nearest_with_struts(CellIndex cell) const { return canonical(cell); }
-  /// The point at `fraction`, each component in [0, 1), of a canonical cell: the definition.
+  /// The point at `fraction`, each component in [0, 1), of a canonical cell: the definition. Not
+  /// finite if there is none: then nodes there have no struts.
   virtual Vec3 place(CellIndex cell, Vec3 fraction) const = 0;
   /// The axes, bit 0 for x, along which the coordinate of such a point does not count: on the axis
   /// and at poles, which all cells around share.

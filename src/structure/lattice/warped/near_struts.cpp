@@ -28,12 +28,9 @@ bool meets(Vec3 a, Vec3 b, const Box3& box) {
 
 }  // namespace
 
-NearStruts::NearStruts(const PlacedGraph& graph, CellIndex cell, double widened, double reach) {
+NearStruts::NearStruts(const PlacedGraph& graph, CellIndex list, double widened, double reach) {
   const CellPlaces& places = graph.places();
-  const double at[3] = {double(cell.x), double(cell.y), double(cell.z)};
-  CellBlock own;
-  for (int axis = 0; axis < 3; ++axis) own.first[axis] = own.last[axis] = at[axis];
-  const Box3 bounds = places.bounds(own);
+  const Box3 bounds = places.list_bounds(list);
   box_ = bounds.grown(0.5 * widened);
   const Box3 all = bounds.grown(widened + reach * (1 + 1e-9));
   struct Near {
@@ -48,7 +45,7 @@ NearStruts::NearStruts(const PlacedGraph& graph, CellIndex cell, double widened,
         check_cancelled();
         graph.place(other, corners);
         for (const PlacedGraph::Strut& s : graph.struts_of(other))
-          if (meets(corners[s.a], corners[s.b], all))
+          if (graph.is_placed(corners, s) && meets(corners[s.a], corners[s.b], all))
             near.push_back({Segment(corners[s.a], corners[s.b]), s.factor});
       });
   std::stable_sort(near.begin(), near.end(),

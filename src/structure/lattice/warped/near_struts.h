@@ -11,15 +11,15 @@
 
 namespace msq {
 
-/// All struts that come within a distance of the bounds of a cell, the thickest first, in grid
+/// All struts that come within a distance of the bounds of a list, the thickest first, in grid
 /// coordinates.
 class NearStruts final : public CellData {
  public:
-  /// `widened`: by how much the cell's bounds are grown first. Stops by Error(cancelled) with the
+  /// `widened`: by how much the list's bounds are grown first. Stops by Error(cancelled) with the
   /// thread's job.
-  NearStruts(const PlacedGraph& graph, CellIndex cell, double widened, double reach);
+  NearStruts(const PlacedGraph& graph, CellIndex list, double widened, double reach);
 
-  /// The bounds of the cell, widened by half as much.
+  /// The bounds of the list, widened by half as much.
   const Box3& box() const { return box_; }
   const CapsuleList& struts() const { return struts_; }
 

@@ -53,6 +53,10 @@ class PlacedGraph {
   Node node(CellIndex cell, const LatticeGraph::End& corner) const;
   /// Writes the corners of a canonical cell, in grid coordinates.
   void place(CellIndex cell, std::vector<Vec3>& corners) const;
+  /// Whether both ends of a strut have a place.
+  static bool is_placed(const std::vector<Vec3>& corners, const Strut& strut) {
+    return is_finite(corners[strut.a]) && is_finite(corners[strut.b]);
+  }
   /// Whether a strut that a canonical cell owns, by its place in struts_of(), is one of the graph:
   /// where nodes are one, so that struts coincide, the thickest is, and none of length 0.
   bool is_in_graph(CellIndex cell, size_t number) const;

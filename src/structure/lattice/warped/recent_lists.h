@@ -21,7 +21,7 @@ class RecentLists final : public StrutLists {
     runs.push_back({0, static_cast<uint32_t>(find(cell).struts().size())});
   }
   const Box3* box_about(Vec3 p, CellIndex& cell) override {
-    cell = lattice_.cell_of(p);
+    cell = lattice_.list_of(p);
     return &find(cell).box();
   }
 

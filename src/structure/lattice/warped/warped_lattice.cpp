@@ -33,9 +33,9 @@ WarpedLattice::~WarpedLattice() {
   context_->cache.drop(id_);
 }
 
-WarpedLattice::List WarpedLattice::near(CellIndex cell) const {
-  return std::static_pointer_cast<const NearStruts>(context_->cache.fetch(id_, cell, [&] {
-    return std::make_shared<const NearStruts>(graph_, cell, widened(),
+WarpedLattice::List WarpedLattice::near(CellIndex list) const {
+  return std::static_pointer_cast<const NearStruts>(context_->cache.fetch(id_, list, [&] {
+    return std::make_shared<const NearStruts>(graph_, list, widened(),
                                               graph_.max_factor() * radius_.range().high);
   }));
 }
@@ -47,6 +47,7 @@ double WarpedLattice::least(Vec3 q, Measure&& measure, Reach&& reach) const {
   const auto visit = [&](CellIndex cell) {
     graph_.place(cell, corners);
     for (const PlacedGraph::Strut& s : graph_.struts_of(cell)) {
+      if (!PlacedGraph::is_placed(corners, s)) continue;
       const Segment axis(corners[s.a], corners[s.b]);
       least = std::min(least, measure(std::sqrt(axis.distance_squared(q)), s.factor));
     }
@@ -65,7 +66,7 @@ double WarpedLattice::least(Vec3 q, Measure&& measure, Reach&& reach) const {
 
 bool WarpedLattice::inside(Vec3 p) const {
   const Vec3 q = neighbourhood().to_grid(p);
-  return near(places_->cell_of(q))->holds(q, radius_.at(p));
+  return near(places_->list_of(q))->holds(q, radius_.at(p));
 }
 
 void WarpedLattice::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
@@ -79,7 +80,7 @@ void WarpedLattice::keep_points(const Vec3* points, uint8_t* alive, size_t count
     for (size_t i = 0; i < size; ++i) {
       if (!alive[first + i]) continue;
       const Vec3 q = neighbourhood().to_grid(points[first + i]);
-      alive[first + i] = lists.find(places_->cell_of(q)).holds(q, radii[i]);
+      alive[first + i] = lists.find(places_->list_of(q)).holds(q, radii[i]);
     }
   }
 }
@@ -138,7 +139,7 @@ void WarpedLattice::for_each_strut(const Box3& box, const TakeStrut& take, const
     graph_.place(cell, corners);
     for (Vec3& corner : corners) corner = grid.from_grid(corner);
     for (const PlacedGraph::Strut& s : graph_.struts_of(cell))
-      take(corners[s.a], corners[s.b], s.factor * radius);
+      if (PlacedGraph::is_placed(corners, s)) take(corners[s.a], corners[s.b], s.factor * radius);
   });
 }
 
@@ -167,7 +168,7 @@ void WarpedLattice::keep_rows(const RowBlock& block, const Job* job) const {
       graph_.place(cell, corners);
       for (Vec3& corner : corners) corner = grid.from_grid(corner);
       for (; s != struts.end() && s->factor == factor; ++s)
-        rows.add(corners[s->a], corners[s->b], factor);
+        if (PlacedGraph::is_placed(corners, *s)) rows.add(corners[s->a], corners[s->b], factor);
     }
   rows.finish(job, [this](Vec3 p) { return inside(p); });
 }

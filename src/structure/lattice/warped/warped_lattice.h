@@ -4,8 +4,9 @@
 // its distance to some strut of any cell is at most the radius there times that strut's factor.
 //
 // A cell's struts lie in the bounds of the cell, a box in grid coordinates. For each cell that is
-// evaluated, the cache keeps the struts that come within the greatest radius of its bounds. Points
-// and rays use these lists. Distances, rows and struts of boxes place the cells themselves.
+// evaluated, or each cube if cells have no simple bounds, the cache keeps the struts that come
+// within the greatest radius of its bounds. Points and rays use these lists. Distances, rows and
+// struts of boxes place the cells themselves.
 #pragma once
 
 #include <memory>
@@ -57,8 +58,10 @@ class WarpedLattice final : public Structure {
   static constexpr double max_radius = 4;
 
   using List = std::shared_ptr<const NearStruts>;
-  /// The struts that may contain a point of the cell, or of its box.
-  List near(CellIndex cell) const;
+  /// The struts that may contain a point of the list, or of its box.
+  List near(CellIndex list) const;
+  /// The list of a point.
+  CellIndex list_of(Vec3 p) const { return places_->list_of(neighbourhood().to_grid(p)); }
 
  private:
   void describe(HashInput& input) const override;

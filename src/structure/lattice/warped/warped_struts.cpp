@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/job.h"
 
@@ -50,8 +51,9 @@ WarpedStruts::WarpedStruts(const PlacedGraph& graph, const Neighbourhood& grid,
 }
 
 void WarpedStruts::append(uint64_t part, StrutList& list) const {
-  const auto block = std::find_if(blocks_.rbegin(), blocks_.rend(),
-                                  [&](const Block& b) { return b.first_part <= part; });
+  const auto block =
+      std::prev(std::upper_bound(blocks_.begin(), blocks_.end(), part,
+                                 [](uint64_t p, const Block& b) { return p < b.first_part; }));
   uint64_t index = part - block->first_part;
   CellBlock cells;
   for (int axis = 0; axis < 3; ++axis) {
@@ -74,6 +76,7 @@ void WarpedStruts::append(uint64_t part, StrutList& list) const {
       Strut strut;
       strut.a = corners[s.a];
       strut.b = corners[s.b];
+      if (!PlacedGraph::is_placed(corners, s)) continue;
       if (!selection_.selects(strut.a, strut.b, s.factor * max_radius)) continue;
       if (!graph_.is_in_graph(cell, n)) continue;
       const uint32_t corners_of[2] = {s.a, s.b};
