@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "bench.h"
 
@@ -83,8 +84,52 @@ inline msq_warp_def warp_of(int32_t kind, double cells) {
   def.kind = kind;
   def.count = static_cast<uint32_t>(1.57 * cells);
   def.count_polar = kind == MSQ_WARP_SPHERICAL ? static_cast<uint32_t>(0.78 * cells) : 0;
-  def.inner_radius = 0.1;
+  def.inner_radius = kind == MSQ_WARP_SAMPLED ? 0 : 0.1;
   return def;
 }
+
+/// Sheared and bent cells in the unit cube, by 65^3 samples that reach beyond it. The fields live
+/// as long as this.
+class SampledCells {
+ public:
+  SampledCells(msq_context* context, double cells) {
+    constexpr uint64_t n = 65;
+    std::vector<double> values(n * n * n);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (uint64_t i = 0; i < values.size(); ++i) {
+        const double x = at(i % n), y = at(i / n % n), z = at(i / n / n);
+        values[i] = cells * (axis == 0   ? x + 0.3 * y + 0.05 * std::sin(3 * z)
+                             : axis == 1 ? y + 0.06 * std::sin(3 * x) + 0.1 * x * z
+                                         : z - 0.1 * x + 0.05 * y * y);
+      }
+      msq_grid_field_def def;
+      check(msq_grid_field_def_init(&def, sizeof def));
+      def.image.values = values.data();
+      def.image.value_type = MSQ_FLOAT64;
+      for (int i = 0; i < 3; ++i) {
+        def.image.size[i] = n;
+        def.image.grid.origin[i] = at(0);
+        def.image.grid.cell_size[i] = at(1) - at(0);
+      }
+      check(msq_field_grid(context, &def, &fields_[axis]));
+    }
+  }
+  ~SampledCells() {
+    for (msq_field* field : fields_) msq_field_release(field);
+  }
+  SampledCells(const SampledCells&) = delete;
+  SampledCells& operator=(const SampledCells&) = delete;
+
+  void set(msq_warp_def& def) const {
+    def.count = 0;
+    def.u = fields_[0];
+    def.v = fields_[1];
+    def.w = fields_[2];
+  }
+
+ private:
+  static double at(uint64_t i) { return (static_cast<double>(i) - 3) / 58; }
+  msq_field* fields_[3] = {};
+};
 
 }  // namespace bench
