@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/random.h"
+#include "beam_lists.h"
 #include "expression/parser.h"
 #include "field/gradient.h"
 #include "meshes.h"
@@ -16,11 +17,21 @@
 #include "shape/mesh.h"
 #include "shape/primitive.h"
 #include "slice/slicer.h"
+#include "structure/beams/beams.h"
+#include "structure/combined/blended_structure.h"
+#include "structure/combined/boolean_structure.h"
+#include "structure/combined/smooth_boolean.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/paper/delaunay.h"
 #include "structure/foam/walled_foam.h"
 #include "structure/functional/functional.h"
+#include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
+#include "structure/lattice/plated_lattice.h"
+#include "structure/lattice/warped/graded_places.h"
+#include "structure/lattice/warped/round_places.h"
+#include "structure/lattice/warped/warped_lattice.h"
+#include "structure/waves/waves.h"
 #include "suite.h"
 
 using namespace msq;
@@ -50,7 +61,111 @@ Ref<const Structure> foam(Ref<Context> context, double size, double radius, Foam
                         uint64_t{6}, method);
 }
 
+Ref<const Structure> gyroid(const Neighbourhood& grid, FunctionalKind kind, double level,
+                            CellShape cells = {}) {
+  return make_ref<Functional>(grid, parse_expression(preset_expressions[0], {}), kind,
+                              Parameter(level), 0, std::move(cells));
+}
+
+Ref<const Structure> waves(const Neighbourhood& grid, uint32_t count) {
+  WaveDirections directions;
+  directions.count = count;
+  directions.half_angles = {0.9, 0.5, 0};
+  return make_ref<Waves>(grid, directions, WavesKind::sheet, Parameter(0.25));
+}
+
+Ref<const Structure> random_beams(const Context& context) {
+  Random random(3);
+  std::vector<Beam> beams(300, Beam{});
+  for (Beam& beam : beams) {
+    beam.a = random.in_box({{-0.6, -0.5, -0.3}, {0.6, 0.5, 0.3}});
+    beam.b = beam.a + random.in_box({{-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}});
+    beam.radius_a = random.between(0.005, 0.03);
+    beam.radius_b = random.between(0.005, 0.03);
+  }
+  return Beams::make(source_of(beams), 0, context.executor, context.budget, nullptr);
+}
+
+/// Cells whose size varies along an axis.
+GradedPeriod period_of(int axis, double size) {
+  return GradedPeriod(axis, {{-0.5, size}, {-0.1, 0.5 * size}, {0.3, 1.3 * size}});
+}
+
+Ref<const Structure> graded_lattice(Ref<Context> context, const Neighbourhood& grid) {
+  return make_ref<WarpedLattice>(
+      std::move(context),
+      std::make_unique<const GradedPlaces>(grid, period_of(0, grid.cell_size.x)), bcc_unit_cell(),
+      Parameter(0.03));
+}
+
+Neighbourhood round_cells(double size) {
+  return {{-0.2, 0.1, 0.05}, {size, size, size}, {}};
+}
+
 constexpr double layer_height = 0.05;
+
+Ref<const Shape> flat_box() {
+  return make_ref<BoxShape>(Box3{{-0.5, -0.4, -0.2}, {0.5, 0.4, 0.2}});
+}
+
+/// Pairs of kinds.
+void add_pairs(std::vector<ModelRow>& rows) {
+  rows.push_back({"waves in a vented wall foam", 8, [](Ref<Context> c) {
+                    return make_ref<Model>(
+                        c, flat_box(),
+                        Structures{make_ref<FoamWalls>(c, cells_of(0.4, 0.3), Parameter(0.12), 1.0,
+                                                       uint64_t{2}, Parameter(1), Parameter(0.06)),
+                                   waves(cells_of(0.1, 0.2), 30)});
+                  }});
+  rows.push_back(
+      {"plates, struts and a graded period", 8, [](Ref<Context> c) {
+         const Neighbourhood grid = cells_of(0.5, 0.2);
+         return make_ref<Model>(
+             c, flat_box(),
+             Structures{
+                 make_ref<PlatedLattice>(
+                     make_ref<Lattice>(grid, bcc_unit_cell(), Parameter(0.06)),
+                     make_ref<PlateLattice>(grid, cubic_octet_plate_cell(), Parameter(0.12))),
+                 gyroid(cells_of(0.2, 0), FunctionalKind::sheet, 0.4, period_of(1, 0.2))});
+       }});
+  rows.push_back(
+      {"beams or warped cells", 6, [](Ref<Context> c) {
+         const Neighbourhood round = round_cells(0.3);
+         const Warp around(Warp::Kind::cylindrical, round, {9, 0, 0.2, 0.7});
+         const Warp shells(Warp::Kind::spherical, {{}, round.cell_size, {}}, {8, 5, 0.1, 0});
+         return make_ref<Model>(
+             c, flat_box(),
+             Structures{make_ref<BooleanStructure>(
+                 BooleanStructure::Operation::united,
+                 StructureList{
+                     random_beams(*c), gyroid(round, FunctionalKind::network, -0.6, around),
+                     make_ref<WarpedLattice>(c, std::make_unique<const RoundPlaces>(shells),
+                                             cubic_unit_cell(), Parameter(0.03))})});
+       }});
+  rows.push_back(
+      {"blend of a graded lattice to a gyroid", 6, [](Ref<Context> c) {
+         const Ref<const Field> fraction =
+             make_ref<GradientField>(Vec3{-0.4, 0, 0}, 0, Vec3{0.4, 0.2, 0.1}, 1);
+         return make_ref<Model>(
+             c, flat_box(),
+             Structures{make_ref<BlendedStructure>(
+                 graded_lattice(c, cells_of(0.3, 0.2)),
+                 gyroid(cells_of(0.25, 0), FunctionalKind::sheet, 0.3), Parameter(fraction))});
+       }});
+  rows.push_back({"skin and smooth foam in two regions", 8, [](Ref<Context> c) {
+                    const Ref<const Structure> smooth = make_ref<SmoothBoolean>(
+                        BooleanStructure::Operation::united, foam(c, 0.4, 0.05, FoamMethod::direct),
+                        make_ref<Lattice>(cells_of(0.3, 0), octet_unit_cell(), Parameter(0.02)),
+                        Parameter(0.05));
+                    const Ref<const Structure> fine =
+                        make_ref<Lattice>(cells_of(0.2, 0.1), kelvin_unit_cell(), Parameter(0.015));
+                    const Ref<const Model> ball =
+                        make_ref<Model>(c, make_ref<SphereShape>(Vec3{0.1, 0, 0}, 0.3),
+                                        std::vector<Model::ScaleParts>{{smooth, Parameter(0.04)}});
+                    const Ref<const Model> rest = make_ref<Model>(c, flat_box(), Structures{fine});
+                    return make_ref<Model>(c, std::vector<Ref<const Model>>{ball, rest});
+                  }});
+}
 
 std::vector<ModelRow> models() {
   std::vector<ModelRow> rows;
@@ -137,6 +252,7 @@ std::vector<ModelRow> models() {
                         make_ref<Functional>(cells_of(0.4, 0), choice, FunctionalKind::sheet,
                                              Parameter(field), 0)});
        }});
+  add_pairs(rows);
   if (can_triangulate())
     rows.push_back({"foam by METHOD_2", 8, [](Ref<Context> c) {
                       return make_ref<Model>(
