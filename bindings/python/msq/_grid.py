@@ -94,7 +94,10 @@ class SampledWarp(NamedTuple):
     w: Any
 
 
-def set_warp(definition: Any, warp: Union[Warp, SampledWarp, None]) -> Any:
+AnyWarp = Union[Warp, SampledWarp]
+
+
+def set_warp(definition: Any, warp: Optional[AnyWarp]) -> Any:
     """Writes a warp; returns what must be kept until the call is made. None: cells are boxes."""
     if warp is None:
         return None

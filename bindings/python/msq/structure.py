@@ -12,7 +12,7 @@ import numpy as np
 from . import _abi, statistics
 from ._arrays import Elements, elements, output, pointer, triples, vector
 from ._given import parameter, remembers
-from ._grid import Cell, Period, SampledWarp, Warp, set_grid, set_period, set_warp
+from ._grid import AnyWarp, Cell, Period, set_grid, set_period, set_warp
 from ._handle import Handle, hash_of
 from ._host import HashKey, HostPoints, create
 from ._interrupt import build, interruptible
@@ -230,8 +230,7 @@ class Lattice(Structure):
     unit_cell: a name (`cubic`, `bcc`, `octet`, ...: see UnitCell), a UnitCell, or a pair of nodes
     (n, 3) and struts (m, 2); or with cell_choice a list of those, of which the choice, rounded to
     an index, names the one that stands in each cell. period: a Period, for cells whose size varies
-    along an axis; cell_size along it is ignored. warp: a Warp, for cells around an axis or a point,
-    or a SampledWarp, for a map.
+    along an axis; cell_size along it is ignored. warp: a Warp (around an axis or a point) or a SampledWarp.
     """
 
     unit_cell: parameter[Any] = parameter("As given.")
@@ -242,14 +241,13 @@ class Lattice(Structure):
     origin: parameter[Sequence[float]] = parameter("Of the grid.")
     rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
     period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
-    warp: parameter[Union[Warp, SampledWarp, None]] = parameter("Cells that are bent; None: boxes.")
+    warp: parameter[Optional[AnyWarp]] = parameter("Cells that are bent; None: boxes.")
 
     @remembers
     def __init__(self, unit_cell: Union[UnitCellLike, Sequence[UnitCellLike]] = "bcc", *,
                  radius: Param, cell_choice: Optional[Param] = None, cell_size: Cell = 1.0,
                  clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 period: Optional[Period] = None,
-                 warp: Union[Warp, SampledWarp, None] = None,
+                 period: Optional[Period] = None, warp: Optional[AnyWarp] = None,
                  context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_lattice_def)
         set_grid(definition.grid, cell_size, origin, rotation)
@@ -495,15 +493,14 @@ class Functional(Structure):
     origin: parameter[Sequence[float]] = parameter("Of the grid.")
     rotation: parameter[Any] = parameter("Of the grid; None: the identity.")
     period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
-    warp: parameter[Union[Warp, SampledWarp, None]] = parameter("Cells that are bent; None: boxes.")
+    warp: parameter[Optional[AnyWarp]] = parameter("Cells that are bent; None: boxes.")
 
     @remembers
     def __init__(self, function: Optional[str] = None, *, expression: Optional[str] = None,
                  parameters: Optional[Mapping[str, float]] = None, kind: str = "network",
                  level: Param = 0.0, thickness: Param = 0.0, cell_size: Cell = 1.0,
                  clusters: int = 0, origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 period: Optional[Period] = None,
-                 warp: Union[Warp, SampledWarp, None] = None,
+                 period: Optional[Period] = None, warp: Optional[AnyWarp] = None,
                  context: Optional[Context] = None) -> None:
         if (function is None) == (expression is None):
             raise TypeError("Functional takes a function's name or an expression, one of the two")
