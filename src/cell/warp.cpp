@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/infinity.h"
 #include "base/pi.h"
 #include "base/status.h"
 #include "cell/warp-inl.h"
@@ -81,7 +81,7 @@ Warp::Warp(Kind kind, const Neighbourhood& grid, const Shell& shell)
   for (int axis = 0; axis < 3; ++axis) numbers_.origin[axis] = grid.origin[axis];
   std::copy_n(grid.rotation.m.begin(), 9, numbers_.matrix);
   numbers_.inner = shell.inner;
-  numbers_.outer = shell.outer > 0 ? shell.outer : std::numeric_limits<double>::infinity();
+  numbers_.outer = shell.outer > 0 ? shell.outer : infinity;
   numbers_.radial = grid.cell_size.x;
   numbers_.count = shell.count;
   numbers_.around = shell.count / two_pi;
@@ -134,7 +134,7 @@ double Warp::slack(Vec3 p, double distance) const {
 }
 
 Vec3 Warp::slopes(double axis_distance, double radius) const {
-  constexpr double up = 1 + relative_margin, infinity = std::numeric_limits<double>::infinity();
+  constexpr double up = 1 + relative_margin;
   const auto around = [](double cells, double at) { return at > 0 ? cells / at * up : infinity; };
   return {up / numbers_.radial, around(numbers_.around, axis_distance),
           numbers_.is_spherical ? around(numbers_.along, std::max(radius, axis_distance))

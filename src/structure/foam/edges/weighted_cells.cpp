@@ -9,7 +9,7 @@ namespace msq {
 namespace {
 
 /// D^2 of the first neighbours, for cells of volume 1: without weights, and what weights add to it.
-constexpr double first_distance_squared = 4.75, first_per_weight = 2;
+constexpr double typical_distance_squared = 4.75, first_per_weight = 2;
 /// The square of the first guess of V: as without weights, and what they add to it where the own
 /// lift is the mean one, 2/3 of the square of the weight, and where it is less. With more seeds
 /// than are within the greatest D at first, on average, walks have no room.
@@ -25,8 +25,8 @@ void WeightedCells::move_to(const FoamSeeds& seeds, CellIndex corner, int side) 
   max_squared_ = 4 * empty_radius_ * empty_radius_ * (1 + 1e-9);
   weight_squared_ = empty_radius_ * empty_radius_ - dot(scale, scale);
   const double side_squared = std::pow(scale.x * scale.y * scale.z, 2.0 / 3);
-  first_squared_ = first_distance_squared * side_squared + first_per_weight * weight_squared_;
-  typical_squared_ = 0.25 * first_distance_squared * side_squared;
+  first_squared_ = typical_distance_squared * side_squared + first_per_weight * weight_squared_;
+  typical_squared_ = 0.25 * typical_distance_squared * side_squared;
   block_.move_to(seeds, corner, side, first_squared_);
   lifts_.resize(block_.positions().size());
   for (size_t i = 0; i < lifts_.size(); ++i) {
