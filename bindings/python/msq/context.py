@@ -112,8 +112,9 @@ def _forget_warning(user: int) -> None:
 class Context(Handle):
     """Threads, cell cache and memory limit that objects share.
 
-    threads: of a call, the caller's included; 0: one a core. cache_bytes: of cell data, default
-    1 GiB. memory_limit: bytes that meshes, slabs and cached cells may hold; 0: no limit.
+    threads: of a call, the caller's included; 0: one a core; at most that unless beyond_cores, for
+    tests. cache_bytes: of cell data, default 1 GiB. memory_limit: bytes that meshes, slabs and
+    cached cells may hold; 0: no limit.
     cache_policy: `fifo`, or `segmented`, which rather keeps cells that are asked for again. Results
     never depend on them. The `parallel_for` of msq_context_def is not offered: a task of Python would
     take the interpreter lock, so threads of msq are quicker. Objects made without a context share that of what they are made from, or
@@ -128,13 +129,15 @@ class Context(Handle):
     threads: parameter[int] = parameter("As given; 0: one a core.")
     memory_limit: parameter[int] = parameter("Bytes; 0: none.")
     cache_policy: parameter[str] = parameter("As given.")
+    beyond_cores: parameter[bool] = parameter("Whether threads may exceed the cores.")
 
     @remembers
     def __init__(self, *, threads: int = 0, cache_bytes: Optional[int] = None,
-                 memory_limit: int = 0, cache_policy: str = "fifo",
+                 memory_limit: int = 0, cache_policy: str = "fifo", beyond_cores: bool = False,
                  on_warning: Optional[Callable[[str, str], Any]] = None) -> None:
         definition = defaults(_abi.msq_context_def)
         definition.threads = unsigned(threads, 32, "threads")
+        definition.beyond_cores = bool(beyond_cores)
         if cache_bytes is not None:
             definition.cache_bytes = unsigned(cache_bytes, 64, "cache_bytes")
         definition.memory_limit = unsigned(memory_limit, 64, "memory_limit")
