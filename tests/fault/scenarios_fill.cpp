@@ -18,7 +18,8 @@ std::vector<Scenario> fill_scenarios() {
     if (kind.name.find("foam") == std::string::npos && kind.name != "gyroid" &&
         kind.name != "turned sheet of a thickness")
       continue;
-    if (kind.name == "foam of walls with holes") continue;  // has no lines
+    if (kind.name == "foam of walls with holes" || kind.name == "stretched foam")
+      continue;  // they have no lines
     scenarios.push_back(
         {"msq_fill_lines: " + kind.name, [&kind](Stage& stage) {
            World world(stage);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace msq::test {
 
@@ -167,6 +168,64 @@ MakeStructure functional(World& world, int32_t function, int32_t kind, msq_param
     std::copy_n(turned, 9, def.grid.rotation);
   }
   return [&world, def](msq_structure** made) {
+    return msq_structure_functional(world.context, &def, made);
+  };
+}
+
+MakeStructure stretched_foam(World& world, double radius, double thickness) {
+  msq_foam_def def = make_def(msq_foam_def_init);
+  def.radius.value = radius;
+  def.wall_thickness.value = thickness;
+  def.stretch[1] = 2;
+  return
+      [&world, def](msq_structure** made) { return msq_structure_foam(world.context, &def, made); };
+}
+
+/// Cells from 1 to 0.7 along z.
+msq_period_def graded_period() {
+  static const double positions[2] = {0, 4}, sizes[2] = {1, 0.7};
+  msq_period_def def = make_def(msq_period_def_init);
+  def.positions = positions;
+  def.cell_sizes = sizes;
+  def.count = 2;
+  return def;
+}
+
+/// Cells around the z axis.
+msq_warp_def cylinder() {
+  msq_warp_def def = make_def(msq_warp_def_init);
+  def.count = 12;
+  def.inner_radius = 0.5;
+  def.outer_radius = 5.5;
+  return def;
+}
+
+/// A period, a warp, or none of them.
+struct Places {
+  std::optional<msq_period_def> period;
+  std::optional<msq_warp_def> warp;
+
+  template <class Def>
+  Def placed(Def def) const {
+    if (period) def.period = &*period;
+    if (warp) def.warp = &*warp;
+    return def;
+  }
+};
+
+MakeStructure placed_lattice(World& world, Places places) {
+  return [&world, places](msq_structure** made) {
+    auto def = places.placed(make_def(msq_lattice_def_init));
+    def.radius.value = 0.12;
+    return msq_structure_lattice(world.context, &def, made);
+  };
+}
+
+MakeStructure placed_gyroid(World& world, Places places) {
+  return [&world, places](msq_structure** made) {
+    auto def = places.placed(make_def(msq_functional_def_init));
+    def.clusters = 4;
+    def.level.value = 0.1;
     return msq_structure_functional(world.context, &def, made);
   };
 }
@@ -474,6 +533,24 @@ const std::vector<Kind>& kinds() {
         {"blend", blend, false},
         {"smooth union", [](World& w) { return smooth(w, MSQ_BOOLEAN_UNION); }, false},
         {"smooth difference", [](World& w) { return smooth(w, MSQ_BOOLEAN_DIFFERENCE); }, false},
+        {"stretched foam", [](World& w) { return stretched_foam(w, 0.15, 0); }},
+        {"stretched walls", [](World& w) { return stretched_foam(w, 0, 0.1); }},
+        {"lattice of graded period",
+         [](World& w) {
+           return placed_lattice(w, {graded_period(), {}});
+         }},
+        {"gyroid of graded period",
+         [](World& w) {
+           return placed_gyroid(w, {graded_period(), {}});
+         }},
+        {"warped lattice",
+         [](World& w) {
+           return placed_lattice(w, {{}, cylinder()});
+         }},
+        {"warped gyroid",
+         [](World& w) {
+           return placed_gyroid(w, {{}, cylinder()});
+         }},
     };
 #if MSQ_WITH_CGAL
     all.push_back(
