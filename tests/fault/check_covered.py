@@ -13,7 +13,7 @@ sys.path.insert(0, str(here.parent / "header"))
 from declared import declared_functions  # noqa: E402
 
 text = "\n".join(file.read_text(encoding="utf-8")
-                 for pattern in ("scenarios*.cpp", "world.*", "stage.*")
+                 for pattern in ("scenarios*.cpp", "world.*", "kinds.*", "stage.*")
                  for file in here.glob(pattern))
 text = re.sub(r'"(?:[^"\\\n]|\\.)*"', '""', text)  # names of scenarios are no calls
 missing = [name for name in declared_functions(sys.argv[1])
