@@ -114,9 +114,10 @@ struct Determinants {
       for (int c = 0; c < 3; ++c) visit(a * j + c * k, step);
   }
   Determinants(const double (&samples)[3][8], double sign) : from{0, 0, 0}, to{1, 1, 1} {
-    for (int i = 0; i < 27; ++i)
-      b[i] = sign *
-             jacobian_of(samples, {0.5 * (i % 3), 0.5 * (i / 3 % 3), 0.5 * (i / 9)}).determinant();
+    for (int i = 0; i < 27; ++i) {
+      const int x = i % 3, y = i / 3 % 3, z = i / 9;
+      b[i] = sign * jacobian_of(samples, {0.5 * x, 0.5 * y, 0.5 * z}).determinant();
+    }
     for (int axis = 0; axis < 3; ++axis)
       for_each_line(axis, [&](int first, int step) {
         double* const at = b + first;
