@@ -53,7 +53,7 @@ def bits(raw, width, height):
 def main():
     program, converter = sys.argv[1:]
     if converter.endswith("NOTFOUND"):
-        print("rsvg-convert is not installed (Debian: librsvg2-bin)")
+        print("skipped: no rsvg-convert (Debian: librsvg2-bin)")
         return 77
     with tempfile.TemporaryDirectory() as folder:
         said = subprocess.run([program, "svg", folder], check=True, capture_output=True, text=True).stdout

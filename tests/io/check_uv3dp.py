@@ -22,7 +22,7 @@ def layers(path):
 def main():
     program, converter = sys.argv[1:]
     if converter.endswith("NOTFOUND"):
-        print("uv3dp is not installed")
+        print("skipped: no uv3dp")
         return 77
     for orientation in ("landscape", "portrait"):
         for mirrors in (("0", "0"), ("1", "1")):

@@ -20,7 +20,7 @@ from msq import _abi
 from support import box_model
 
 if "MSQ_IO_LIBRARY" not in os.environ:
-    print("SKIPPED: msq_io is not built (MSQ_BUILD_TOOLS)")
+    print("skipped: msq_io is not built (MSQ_BUILD_TOOLS)")
     sys.exit(77)
 
 import msq.io
