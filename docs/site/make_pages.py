@@ -395,7 +395,7 @@ def document(site: Site, path: pathlib.Path) -> None:
                           if (ROOT / m.group(1)).is_file() and not line.startswith("#") else m.group(0), line)
         out.append(line)
     text = "\n".join(out)
-    text = re.sub(r"^<!-- c$.*?^-->\n", "", text, flags=re.S | re.M)  # what only the test sees
+    text = re.sub(r"^<!-- (?:c|python)$.*?^-->\n", "", text, flags=re.S | re.M)  # what only the test sees
     site.write(page, text.split("\n"))
 
 
