@@ -89,12 +89,6 @@ static msq_fill* fill_layer(const infill* infill, const msq_ring* expolygon, uin
   return fill;
 }
 
-static msq_fill_report paths_of(const msq_fill* fill) {
-  msq_fill_report paths = {.struct_size = sizeof paths};
-  check(msq_fill_info(fill, &paths));
-  return paths;
-}
-
 static void draw(const char* file, const msq_fill_report* paths, double line_width) {
   FILE* out = fopen(file, "w");
   if (!out) {
@@ -119,10 +113,10 @@ static void draw(const char* file, const msq_fill_report* paths, double line_wid
 }
 
 int main(int argc, char** argv) {
-  const enum pattern kind = argc < 2                         ? foam
-                            : strcmp(argv[1], "gyroid") == 0 ? gyroid
-                            : strcmp(argv[1], "graded") == 0 ? graded
-                                                             : foam;
+  const char* name = argc > 1 ? argv[1] : "foam";
+  const enum pattern kind = !strcmp(name, "gyroid")   ? gyroid
+                            : !strcmp(name, "graded") ? graded
+                                                      : foam;
   const double density = argc > 2 ? atof(argv[2]) : 0.15, line_width = 0.45, layer_height = 0.2;
   /* 60 x 40 mm with a hole. Rings may run either way, and may be where the slicer keeps them. */
   static const int64_t contour[4][2] = {{0, 0}, {60000000, 0}, {60000000, 40000000}, {0, 40000000}};
@@ -137,7 +131,8 @@ int main(int argc, char** argv) {
   const int layers = 200;
   for (int layer = 0; layer < layers; ++layer) {
     msq_fill* fill = fill_layer(&infill, expolygon, 2, (layer + 0.5) * layer_height, line_width);
-    const msq_fill_report paths = paths_of(fill);
+    msq_fill_report paths = {.struct_size = sizeof paths};
+    check(msq_fill_info(fill, &paths));
     length += paths.length;
     travel += paths.travel;
     count += paths.path_count;

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A host with its own threads: msq shares its loops among them and starts none itself. The pool
  * lets callers do tasks of their own loop, so loops within tasks and loops of several threads at
- * once cannot wait for each other.
- *
- * usage: host_thread_pool */
+ * once cannot wait for each other. */
 #include <msq.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -19,27 +17,26 @@ static void check(msq_status status) {
 typedef struct loop {
   msq_task_fn body;
   void* task;
-  uint64_t count, next; /* the tasks, and the next to begin */
-  uint64_t running;
+  uint64_t count, next, running; /* the tasks; the next to begin; those that run */
   struct loop* older;
 } loop;
 
 enum { worker_count = 3 };
 
 typedef struct pool {
-  pthread_mutex_t mutex;       /* guards all of this */
-  pthread_cond_t begun, ended; /* a loop, or the pool; a task */
-  loop* newest;                /* of the loops with tasks to begin */
-  int is_over, started;        /* workers */
+  pthread_mutex_t mutex;  /* guards all of this */
+  pthread_cond_t changed; /* a loop began, the last task of one ended, or the pool ends */
+  loop* newest;           /* of the loops with tasks to begin */
+  int is_over, started;   /* workers */
+  uint64_t tasks;         /* that a thread has begun */
   pthread_t workers[worker_count];
-  uint64_t of_callers, of_workers; /* tasks done */
 } pool;
 
 /* Does one task of a loop that has some left, with the mutex held before and after. */
-static void do_task(pool* p, loop* l, uint64_t* counter) {
+static void do_task(pool* p, loop* l) {
   const uint64_t i = l->next++;
   ++l->running;
-  ++*counter;
+  ++p->tasks;
   if (l->next == l->count) { /* the list has only loops with tasks to begin */
     loop** at = &p->newest;
     while (*at != l) at = &(*at)->older;
@@ -48,18 +45,17 @@ static void do_task(pool* p, loop* l, uint64_t* counter) {
   pthread_mutex_unlock(&p->mutex);
   l->body(l->task, i);
   pthread_mutex_lock(&p->mutex);
-  if (--l->running == 0) pthread_cond_broadcast(&p->ended);
+  if (--l->running == 0) pthread_cond_broadcast(&p->changed);
 }
 
 static void* work(void* argument) {
   pool* p = argument;
   pthread_mutex_lock(&p->mutex);
-  while (!p->is_over) {
+  while (!p->is_over)
     if (p->newest)
-      do_task(p, p->newest, &p->of_workers);
+      do_task(p, p->newest);
     else
-      pthread_cond_wait(&p->begun, &p->mutex);
-  }
+      pthread_cond_wait(&p->changed, &p->mutex);
   pthread_mutex_unlock(&p->mutex);
   return NULL;
 }
@@ -71,18 +67,14 @@ static int32_t parallel_for(void* user, uint64_t count, msq_task_fn body, void* 
   pthread_mutex_lock(&p->mutex);
   loop own = {body, task, count, 0, 0, p->newest};
   p->newest = &own;
-  pthread_cond_broadcast(&p->begun);
-  while (own.next < own.count) do_task(p, &own, &p->of_callers);
-  while (own.running > 0) pthread_cond_wait(&p->ended, &p->mutex);
+  pthread_cond_broadcast(&p->changed);
+  while (own.next < own.count) do_task(p, &own);
+  while (own.running > 0) pthread_cond_wait(&p->changed, &p->mutex);
   pthread_mutex_unlock(&p->mutex);
   return 0; /* a code of the host's own would stop the call of msq */
 }
 
 static void start_pool(pool* p) {
-  *p = (pool){.newest = NULL};
-  pthread_mutex_init(&p->mutex, NULL);
-  pthread_cond_init(&p->begun, NULL);
-  pthread_cond_init(&p->ended, NULL);
   while (p->started < worker_count && pthread_create(&p->workers[p->started], NULL, work, p) == 0)
     ++p->started;
 }
@@ -91,7 +83,7 @@ static void end_pool(void* user) {
   pool* p = user;
   pthread_mutex_lock(&p->mutex);
   p->is_over = 1;
-  pthread_cond_broadcast(&p->begun);
+  pthread_cond_broadcast(&p->changed);
   pthread_mutex_unlock(&p->mutex);
   for (int i = 0; i < p->started; ++i) pthread_join(p->workers[i], NULL);
 }
@@ -103,13 +95,14 @@ static int32_t add_layer(void* user, const msq_layer* layer) {
 }
 
 /* Pixels in the layers of a block of 20 mm filled with a foam. */
-static uint64_t slice_block(msq_context* context) {
+static uint64_t slice_block(const msq_context_def* context_def) {
+  msq_context* context;
+  check(msq_context_create(context_def, &context));
   const double min[3] = {0, 0, 0}, max[3] = {20, 20, 20};
   msq_shape* block;
   check(msq_shape_from_box(context, min, max, &block));
   msq_foam_def foam_def;
   check(msq_foam_def_init(&foam_def, sizeof foam_def));
-  for (int i = 0; i < 3; ++i) foam_def.grid.cell_size[i] = 1;
   foam_def.radius.value = 0.1;
   msq_structure* foam;
   check(msq_structure_foam(context, &foam_def, &foam));
@@ -132,31 +125,25 @@ static uint64_t slice_block(msq_context* context) {
   msq_model_release(model);
   msq_structure_release(foam);
   msq_shape_release(block);
+  msq_context_release(context);
   return pixels;
 }
 
 int main(void) {
-  pool threads;
+  static pool threads = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
   start_pool(&threads);
   msq_context_def def;
   check(msq_context_def_init(&def, sizeof def));
-  def.threads = worker_count + 1; /* tasks of a loop: the workers and the caller */
+  def.threads = 1;
+  const uint64_t alone = slice_block(&def); /* on this thread, for comparison */
+
+  def.threads = worker_count + 1; /* tasks of a loop at once: the workers and the caller */
   def.parallel_for = parallel_for;
   def.parallel_for_user = &threads;
   def.parallel_for_release = end_pool; /* when the last object of the context is gone */
-  msq_context *context, *alone;
-  check(msq_context_create(&def, &context));
-  const uint64_t pixels = slice_block(context);
-  msq_context_release(context);
-
-  check(msq_context_def_init(&def, sizeof def));
-  def.threads = 1;
-  check(msq_context_create(&def, &alone));
-  const uint64_t same = slice_block(alone);
-  msq_context_release(alone);
-  printf("%llu pixels with the pool, %llu without; %llu tasks on its %d threads, %llu on callers\n",
-         (unsigned long long)pixels, (unsigned long long)same,
-         (unsigned long long)threads.of_workers, threads.started,
-         (unsigned long long)threads.of_callers);
-  return pixels != same || pixels == 0 || threads.of_workers + threads.of_callers == 0;
+  const uint64_t pixels = slice_block(&def);
+  printf("%llu pixels in %llu tasks, shared with %d threads of the pool; %llu without it\n",
+         (unsigned long long)pixels, (unsigned long long)threads.tasks, threads.started,
+         (unsigned long long)alone);
+  return pixels != alone || pixels == 0 || threads.tasks == 0;
 }
