@@ -2,6 +2,7 @@
 // Beams as input, and as stored: in the order of the tree over them.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,10 +13,17 @@
 namespace msq {
 
 struct BeamSource {
-  uint64_t count = 0;  ///< below 2^32
+  uint64_t count = 0;  ///< below 2^31
   /// Gets beam i, for i < count. Returns false if the beam is to be left out, which is required if
   /// it has no solid. Several threads call this at once.
   std::function<bool(uint64_t i, Beam& beam)> get;
+};
+
+/// A beam that equals one before it in the source.
+struct BeamRepeat {
+  uint32_t place;   ///< of the other beam, in the order of the tree
+  uint32_t number;  ///< in the source
+  friend auto operator<=>(const BeamRepeat&, const BeamRepeat&) = default;
 };
 
 class BeamList {

@@ -7,6 +7,7 @@
 #include <bit>
 #include <limits>
 
+#include "base/random.h"
 #include "base/run_parts.h"
 #include "structure/beams/hilbert.h"
 
@@ -22,6 +23,30 @@ constexpr uint64_t min_run = 32;
 constexpr int max_rounds = 24;
 constexpr unsigned digit_bits = 11;
 constexpr size_t digits = size_t{1} << digit_bits;
+
+/// Marks a beam that equals another; source.count is smaller.
+constexpr uint32_t is_repeat = uint32_t{1} << 31;
+
+std::array<uint64_t, 9> bits_of(const Beam& beam) {
+  const auto bits = [](double value) { return std::bit_cast<uint64_t>(value); };
+  return {bits(beam.a.x),
+          bits(beam.a.y),
+          bits(beam.a.z),
+          bits(beam.b.x),
+          bits(beam.b.y),
+          bits(beam.b.z),
+          bits(beam.radius_a),
+          bits(beam.radius_b),
+          uint64_t{4} * static_cast<uint64_t>(beam.cap_a) + static_cast<uint64_t>(beam.cap_b)};
+}
+bool is_same(const Beam& one, const Beam& other) {
+  return bits_of(one) == bits_of(other);
+}
+uint64_t hash_of(const Beam& beam) {
+  uint64_t hash = 0;
+  for (const uint64_t bits : bits_of(beam)) hash = splitmix_output(hash ^ bits, 1);
+  return hash;
+}
 
 uint64_t blocks_of(uint64_t count) {
   return (count + beams_in_block - 1) / beams_in_block;
@@ -108,9 +133,12 @@ class Ordering {
     sort_by_digits(0, keys_.size(), part(0.4, 0.8));
     sort_runs();
     order.numbers.resize(keys_.size());
-    run_parts(executor_, blocks_of(keys_.size()), job_, part(0.8, 1), [&](uint64_t n) {
+    run_parts(executor_, blocks_of(keys_.size()), job_, part(0.8, 0.9), [&](uint64_t n) {
       for_block(n, keys_.size(), [&](uint64_t i) { order.numbers[i] = number_of(keys_[i]); });
     });
+    run_parts(executor_, blocks_of(keys_.size()), job_, part(0.9, 1),
+              [&](uint64_t n) { mark_repeats_in(n, order.numbers); });
+    move_repeats(order);
   }
 
  private:
@@ -243,6 +271,77 @@ class Ordering {
       if (j - i >= min_run) runs.push_back({i, j});
       i = j;
     }
+  }
+
+  /// Finds equal beams. They have equal keys and lie side by side, for every curve gives equal
+  /// beams equal positions. A block finds those of the groups of equal keys that begin in it.
+  void mark_repeats_in(uint64_t block, std::vector<uint32_t>& numbers) {
+    const auto same_place = [&](uint64_t i, uint64_t j) {
+      return keys_[i] >> index_bits_ == keys_[j] >> index_bits_;
+    };
+    uint64_t i = block * beams_in_block;
+    const uint64_t end = std::min<uint64_t>(keys_.size(), i + beams_in_block);
+    while (i > 0 && i < end && same_place(i, i - 1)) ++i;
+    while (i < end) {
+      uint64_t next = i + 1;
+      while (next < keys_.size() && same_place(i, next)) ++next;
+      if (next > i + 1) mark_repeats(i, next, numbers);
+      i = next;
+    }
+  }
+
+  /// In place of a repeat's number, writes the position of the first beam that equals it, and
+  /// is_repeat. A table of positions by hashes of beams, two to a word, is in other_.
+  void mark_repeats(uint64_t begin, uint64_t end, std::vector<uint32_t>& numbers) {
+    const uint64_t slots = 2 * (end - begin);
+    std::fill(other_.begin() + static_cast<std::ptrdiff_t>(begin),
+              other_.begin() + static_cast<std::ptrdiff_t>(end), 0);
+    CancelPoll poll(job_);
+    for (uint64_t i = begin; i < end; ++i) {
+      poll();
+      Beam beam, known;
+      source_.get(numbers[i], beam);
+      for (uint64_t slot = (hash_of(beam) >> 32) * slots >> 32;; slot = (slot + 1) % slots) {
+        uint64_t& word = other_[begin + slot / 2];
+        const unsigned shift = slot % 2 ? 32 : 0;
+        const uint64_t position = word >> shift & 0xffffffffU;  // in the group, plus 1; 0: none
+        if (position == 0) {
+          word |= (i - begin + 1) << shift;
+          break;
+        }
+        const uint64_t first = begin + position - 1;
+        source_.get(numbers[first], known);
+        if (!is_same(beam, known)) continue;
+        numbers[i] = is_repeat | static_cast<uint32_t>(first);
+        break;
+      }
+    }
+  }
+
+  /// Moves the marked beams to the list of repeats.
+  void move_repeats(BeamOrder& order) {
+    const auto is_marked = [](uint32_t number) { return (number & is_repeat) != 0; };
+    const auto count = std::count_if(order.numbers.begin(), order.numbers.end(), is_marked);
+    if (count == 0) return;
+    std::vector<uint64_t>().swap(other_);  // its memory counts for the repeats
+    order.repeats.reserve(static_cast<size_t>(count));
+    CancelPoll poll(job_);
+    uint32_t kept = 0;
+    for (uint64_t i = 0; i < keys_.size(); ++i) {
+      poll();
+      const uint32_t number = order.numbers[i];
+      if (is_marked(number)) {
+        order.repeats.push_back(
+            {static_cast<uint32_t>(keys_[number & ~is_repeat]), number_of(keys_[i])});
+        continue;
+      }
+      order.numbers[kept] = number;
+      keys_[i] = kept++;
+    }
+    order.numbers.resize(kept);
+    order.numbers.shrink_to_fit();
+    if (!std::is_sorted(order.repeats.begin(), order.repeats.end()))
+      std::sort(order.repeats.begin(), order.repeats.end());
   }
 
   const BeamSource& source_;

@@ -7,6 +7,7 @@
 #include "structure/beams/beam_order.h"
 #include "structure/beams/beam_rays.h"
 #include "structure/beams/beam_rows.h"
+#include "structure/beams/beam_samples.h"
 #include "structure/beams/beam_struts.h"
 
 namespace msq {
@@ -51,6 +52,7 @@ void add(Hash& sum, const Hash& hash) {
 struct Beams::Parts {
   Reservation reservation;
   std::vector<uint32_t> numbers;
+  std::vector<BeamRepeat> repeats;
   BeamList beams;
   BeamTree tree;
   double longest;
@@ -70,7 +72,8 @@ Ref<Beams> Beams::make(const BeamSource& source, double length_scale, const Exec
   const bool has_caps = !share_caps(source, order, executor, job, caps);
   Reservation kept(budget,
                    BeamList::bytes(count, has_caps) + BeamTree::bytes(count) +
-                       order.numbers.capacity() * sizeof(uint32_t),
+                       order.numbers.capacity() * sizeof(uint32_t) +
+                       order.repeats.capacity() * sizeof(BeamRepeat),
                    "beams");
   BeamList beams(count, has_caps ? nullptr : caps);
   run_parts(executor, (count + at_once - 1) / at_once, job, {0.6, 0.8}, [&](uint64_t n) {
@@ -81,9 +84,10 @@ Ref<Beams> Beams::make(const BeamSource& source, double length_scale, const Exec
     }
   });
   BeamTree tree(beams, order.box, executor, job, {0.8, 1});
-  return Ref<Beams>::adopt(new Beams(
-      {std::move(kept), std::move(order.numbers), std::move(beams), std::move(tree), order.longest},
-      length_scale));
+  return Ref<Beams>::adopt(
+      new Beams({std::move(kept), std::move(order.numbers), std::move(order.repeats),
+                 std::move(beams), std::move(tree), order.longest},
+                length_scale));
 }
 
 Beams::Beams(Parts&& parts, double length_scale)
@@ -91,6 +95,7 @@ Beams::Beams(Parts&& parts, double length_scale)
                 length_scale > 0 ? length_scale : parts.longest),
       reservation_(std::move(parts.reservation)),
       numbers_(std::move(parts.numbers)),
+      repeats_(std::move(parts.repeats)),
       beams_(std::move(parts.beams)),
       tree_(std::move(parts.tree)) {}
 
@@ -126,8 +131,10 @@ double Beams::distance_bound(Vec3 p) const {
 void Beams::keep_rows(const RowBlock& block, const Job* job) const {
   BeamRows rows(*this, block, job);
   if (rows.empty()) return;
-  if (!rows.find()) return Structure::keep_rows(block, job);
-  rows.keep();
+  if (rows.find())
+    rows.keep();
+  else
+    BeamSamples(*this, block, job).keep();
 }
 
 void Beams::enter(RaySearch* searches, size_t count, const Job* job) const {
@@ -157,12 +164,11 @@ Vec3 Beams::normal(const Ray& ray, double t) const {
 void Beams::describe(HashInput& input) const {
   input.kind("structure: beams");
   input.number(characteristic_length());
-  input.integer(beams_.size());
+  input.integer(beams_.size() + repeats_.size());
   Hash sum{};
-  for (size_t i = 0; i < beams_.size(); ++i) {
-    const Beam beam = beams_.at(i);
+  const auto add_beam = [&](const Beam& beam, uint32_t number) {
     HashInput one;
-    one.integer(numbers_[i]);
+    one.integer(number);
     one.point(beam.a);
     one.point(beam.b);
     one.number(beam.radius_a);
@@ -170,7 +176,9 @@ void Beams::describe(HashInput& input) const {
     one.integer(static_cast<uint64_t>(beam.cap_a));
     one.integer(static_cast<uint64_t>(beam.cap_b));
     add(sum, one.finish());
-  }
+  };
+  for (size_t i = 0; i < beams_.size(); ++i) add_beam(beams_.at(i), numbers_[i]);
+  for (const BeamRepeat& repeat : repeats_) add_beam(beams_.at(repeat.place), repeat.number);
   input.hash(sum);
 }
 

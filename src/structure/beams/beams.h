@@ -33,10 +33,12 @@ class Beams final : public Structure {
   void keep_rows(const RowBlock& block, const Job* job) const override;
   std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
 
-  /// In the order of the tree.
+  /// In the order of the tree; each of equal beams once.
   const BeamList& beams() const { return beams_; }
   /// The number in the source of the beam at that place in the order of the tree.
   uint32_t number(size_t i) const { return numbers_[i]; }
+  /// The others of equal beams, in the order of the places of those in beams().
+  const std::vector<BeamRepeat>& repeats() const { return repeats_; }
   const BeamTree& tree() const { return tree_; }
 
  private:
@@ -46,6 +48,7 @@ class Beams final : public Structure {
 
   Reservation reservation_;
   std::vector<uint32_t> numbers_;
+  std::vector<BeamRepeat> repeats_;
   BeamList beams_;
   BeamTree tree_;
 };
