@@ -20,6 +20,7 @@ sys.path.insert(0, str(HERE / "abi"))
 import csharp_module  # noqa: E402
 import ctypes_module  # noqa: E402
 import json_file  # noqa: E402
+import julia_module  # noqa: E402
 import lua_module  # noqa: E402
 import node_module  # noqa: E402
 import rust_crate  # noqa: E402
@@ -28,6 +29,7 @@ from header import HeaderError, read_header  # noqa: E402
 WRITERS = {
     "abi.json": json_file.write,
     "csharp/Msq/Abi.cs": csharp_module.write,
+    "julia/abi.jl": julia_module.write,
     "luajit/msq_cdef.lua": lua_module.write,
     "node/abi.d.ts": node_module.write_types,
     "node/abi.js": node_module.write,

@@ -32,7 +32,7 @@ API_PAGES = {"msq.h": "api/index.md", "msq_io.h": "api/msq_io.md"}
 RULES_PAGES = {"msq.h": "api/rules.md", "msq_io.h": "api/msq_io_rules.md"}
 # Debian 12's Pygments does not know the private members of JavaScript.
 LANGUAGES = {".c": "c", ".h": "c", ".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".cmake": "cmake",
-             ".json": "json", ".rs": "rust", ".js": "text", ".go": "go", ".lua": "lua"}
+             ".json": "json", ".rs": "rust", ".js": "text", ".go": "go", ".lua": "lua", ".jl": "julia"}
 
 
 # When a function fails, if its comment only names the status.

@@ -14,7 +14,8 @@ import xml.etree.ElementTree as xml
 
 # The tests of each language, by their names.
 LANGUAGES = {"C": r"api\.", "C++": r"(bindings|vectors)\.cpp$", "C#": r"(bindings|vectors)\.csharp$",
-             "Go": r"(bindings|vectors)\.go$", "LuaJIT": r"(bindings|vectors)\.luajit$",
+             "Go": r"(bindings|vectors)\.go$", "Julia": r"(bindings|vectors)\.julia$",
+             "LuaJIT": r"(bindings|vectors)\.luajit$",
              "Node": r"(bindings|vectors)\.node$", "TypeScript": r"bindings\.node_types$",
              "Python": r"(bindings\.python_|vectors\.python$)", "Rust": r"(bindings|vectors)\.rust$"}
 

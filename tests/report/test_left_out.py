@@ -41,7 +41,7 @@ class LeftOut(unittest.TestCase):
 
     def test_one_build(self):
         self.assertEqual(self.report(("Node: no koffi\n", FIRST)), (0, [
-            "Languages tested: C, C++, Python, Rust", "Languages not tested: C#, Go, LuaJIT, Node, TypeScript",
+            "Languages tested: C, C++, Python, Rust", "Languages not tested: C#, Go, Julia, LuaJIT, Node, TypeScript",
             "Left out:", "  Node: no koffi", "  bindings.python_notebook, test_a: no VTK",
             "  bindings.python_notebook, test_c: no 'x'", "  io.svg: no rsvg-convert", "  io.uv3dp: SKIP_RETURN_CODE=77", ""]))
 
