@@ -29,6 +29,7 @@ class MsqConan(ConanFile):
         "with_cgal": [True, False],  # foam method 2, self-intersections
         "with_xxhash": [True, False],  # hashes
         "with_json": [True, False],  # documents, glTF
+        "with_tiff": [True, False],  # stacks of TIFF in documents
         "tools": [True, False],  # the library msq_io and the command msq
         "with_isal": [True, False],  # fast PNG in msq_io
     }
@@ -38,6 +39,7 @@ class MsqConan(ConanFile):
         "with_cgal": False,
         "with_xxhash": True,
         "with_json": True,
+        "with_tiff": False,
         "tools": False,
         "with_isal": True,
     }
@@ -77,6 +79,8 @@ class MsqConan(ConanFile):
             self.requires("xxhash/[>=0.8 <1]")
         if self.options.with_json or self.options.tools:
             self.requires("nlohmann_json/[>=3.10 <4]")
+        if self.options.with_tiff:
+            self.requires("libtiff/[>=4.5 <5]")
         if self.options.tools:
             self.requires("cli11/[>=2.1 <3]")
             self.requires("libpng/[>=1.6 <2]")
@@ -95,7 +99,7 @@ class MsqConan(ConanFile):
             "MSQ_WITH_JSON": self.options.with_json,
             "MSQ_BUILD_TOOLS": self.options.tools,
             "MSQ_WITH_ISAL": self.options.get_safe("with_isal", False),
-            "MSQ_WITH_TIFF": False,
+            "MSQ_WITH_TIFF": self.options.with_tiff,
             "MSQ_WITH_PYTHON": False,
             "MSQ_BUILD_EXAMPLES": False,
             "MSQ_BUILD_TESTS": False,

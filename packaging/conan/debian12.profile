@@ -13,6 +13,7 @@ gmp/6.2.1
 mpfr/4.2.0
 xxhash/0.8.1
 nlohmann_json/3.11.2
+libtiff/4.5.0
 cli11/2.1.2
 libpng/1.6.39
 isa-l/2.30.0

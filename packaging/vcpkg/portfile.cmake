@@ -8,6 +8,7 @@ vcpkg_check_features(OUT_FEATURE_OPTIONS FEATURE_OPTIONS
         hashes  MSQ_WITH_XXHASH
         isal    MSQ_WITH_ISAL
         json    MSQ_WITH_JSON
+        tiff    MSQ_WITH_TIFF
         tools   MSQ_BUILD_TOOLS
 )
 # For libhwy, minizip and libisal.
@@ -21,7 +22,6 @@ vcpkg_cmake_configure(
         -DMSQ_BUILD_TESTS=OFF
         -DMSQ_BUILD_FUZZERS=OFF
         -DMSQ_WITH_PYTHON=OFF
-        -DMSQ_WITH_TIFF=OFF
 )
 vcpkg_cmake_install()
 vcpkg_copy_pdbs()
