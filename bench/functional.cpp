@@ -3,6 +3,7 @@
 //
 // usage: functional [results.json] [largest slices, default 2048]
 #include <cstdlib>
+#include <optional>
 #include <string>
 
 #include "setup.h"
@@ -48,7 +49,9 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   period.cell_sizes = sizes;
   period.count = 2;
   if (setting.period_axis >= 0) def.period = &period;
-  const msq_warp_def warp = bench::warp_of(setting.warp, setting.cells);
+  msq_warp_def warp = bench::warp_of(setting.warp, setting.cells);
+  std::optional<bench::SampledCells> map;
+  if (setting.warp == MSQ_WARP_SAMPLED) map.emplace(context, setting.cells).set(warp);
   if (setting.warp) {
     bench::put_in_middle(def.grid);
     def.warp = &warp;
@@ -116,6 +119,8 @@ int main(int count, char** arguments) try {
   add("gyroid, 32 cells across, around an axis", setting, 2048);
   setting.warp = MSQ_WARP_SPHERICAL;
   add("gyroid, 32 cells across, around a point", setting, 2048, 64);
+  setting.warp = MSQ_WARP_SAMPLED;
+  add("gyroid, 32 cells across, by a map of 65^3 samples", setting, 2048);
   setting.warp = 0;
   setting.expression = gyroid;
   add("gyroid as an expression, 32^3 cells", setting, 1024);

@@ -5,6 +5,7 @@
 // usage: lattice [results.json] [largest slices, default 2048]
 #include <cstdlib>
 #include <ctime>
+#include <optional>
 #include <string>
 
 #include "base/random.h"
@@ -83,7 +84,9 @@ class Solid {
     for (double& size : def.grid.cell_size) size = 1 / setting.cells;
     def.radius.value = 0.1 / setting.cells;
     if (setting.is_turned) bench::turn(def.grid);
-    const msq_warp_def warp = bench::warp_of(setting.warp, setting.cells);
+    msq_warp_def warp = bench::warp_of(setting.warp, setting.cells);
+    std::optional<bench::SampledCells> map;
+    if (setting.warp == MSQ_WARP_SAMPLED) map.emplace(context_, setting.cells).set(warp);
     if (setting.warp) {
       bench::put_in_middle(def.grid);
       def.warp = &warp;
@@ -154,6 +157,8 @@ void bench_slices(bench::Report& report, uint32_t resolution) {
   add("BCC, 32 cells across, around an axis", &setting);
   setting.warp = MSQ_WARP_SPHERICAL;
   add("BCC, 32 cells across, around a point", &setting);
+  setting.warp = MSQ_WARP_SAMPLED;
+  add("BCC, 32 cells across, by a map of 65^3 samples", &setting);
 }
 
 /// The same points sorted by the cell that they lie in, or by its clusters, parts^3 a cell, those

@@ -42,6 +42,30 @@ WaveDirections waves_of(uint32_t count) {
   return directions;
 }
 
+/// Bent cells in the unit cube, by samples 1/8 apart along these axes.
+CellShape cells_by_samples(const Rotation& rotation) {
+  constexpr uint64_t n = 13;
+  const ImageFrame frame{rotation.apply({-0.25, -0.25, -0.25}), {0.125, 0.125, 0.125}, rotation};
+  std::vector<double> values[3];
+  for (uint64_t i = 0; i < n * n * n; ++i) {
+    const double x = static_cast<double>(i % n), y = static_cast<double>(i / n % n),
+                 z = static_cast<double>(i / n / n);
+    values[0].push_back(0.6 * x + 0.05 * y);
+    values[1].push_back(0.5 * y + 0.01 * x * z);
+    values[2].push_back(0.7 * z - 0.002 * x * x);
+  }
+  const auto field = [&](int axis) {
+    const Image::Source source{
+        values[axis].data(), Image::Type::float64, {n, n, n}, n * 8, n * n * 8};
+    return Ref<const GridField>(
+        make_ref<GridField>(Image(source, frame, std::make_shared<MemoryBudget>(0))));
+  };
+  CellShape cells;
+  cells.sampled =
+      std::make_shared<const SampledMap>(SampledMap::Fields{field(0), field(1), field(2)});
+  return cells;
+}
+
 using Make = std::function<Ref<const Structure>(Ref<Context>)>;
 
 /// Of a sphere of a structure. `grey`: samples of a pixel along an axis; 0: bits.
@@ -176,6 +200,15 @@ void all_instruction_sets_give_the_same_layers(void**) {
         return make_ref<Functional>(turned(), parse_expression(preset_expressions[6], {}),
                                     FunctionalKind::network, Parameter(0.1), 0,
                                     Warp(Warp::Kind::spherical, turned(), {19, 8, 0, 0}));
+      },
+      [](Ref<Context>) {
+        return make_ref<Functional>(Neighbourhood{}, parse_expression(preset_expressions[6], {}),
+                                    FunctionalKind::sheet, Parameter(0.2), 0, cells_by_samples({}));
+      },
+      [](Ref<Context>) {
+        return make_ref<Functional>(Neighbourhood{}, parse_expression(preset_expressions[0], {}),
+                                    FunctionalKind::network, Parameter(0.1), 0,
+                                    cells_by_samples(turned().rotation));
       },
       [](Ref<Context>) {
         return make_ref<PlateLattice>(Neighbourhood{{}, {0.21, 0.2, 0.23}, {}}, kelvin_plate_cell(),

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/borrowed.h"
+#include "structure/functional/map_places.h"
 #include "structure/functional/warped_places.h"
 
 namespace msq {
@@ -53,13 +54,7 @@ void CellAngles::find(Values x, Values y, Values z, size_t count,
     radii->resize(count + batch_padding);
     return find_warped_places(*warp_, x, y, z, count, angles, radii->data());
   }
-  if (sampled_) {
-    for (size_t i = 0; i < count; ++i) {
-      const Vec3 all = at({x[i], y[i], z[i]});
-      for (int axis = 0; axis < 3; ++axis) angles[axis][i] = all[axis];
-    }
-    return;
-  }
+  if (sampled_) return find_map_places(*sampled_, x, y, z, count, angles, nullptr);
   find_angles(grid_, x, y, z, count, angles);
   if (!period_) return;
   double* const to = angles[period_->axis()];

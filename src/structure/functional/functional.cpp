@@ -9,6 +9,8 @@
 #include "structure/common/strut_distance_bound.h"
 #include "structure/functional/functional_rows.h"
 #include "structure/functional/level_lines.h"
+#include "structure/functional/map_places.h"
+#include "structure/functional/map_rows.h"
 #include "structure/functional/ray_search.h"
 #include "structure/functional/row_kernels.h"
 #include "structure/functional/shell_rays.h"
@@ -71,7 +73,8 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
       repeats_(msq::repeats(onset_)) {
   // Steps of rows have the same angles only in cells of one size.
   const bool is_uniform = angles_.is_uniform();
-  if (sample_axis_[0] < 0 && is_uniform) form_ = TrigonometricForm::of(onset_);
+  const bool is_mapped_along = angles_.sampled() && this->neighbourhood().sample_axes()[0] >= 0;
+  if ((sample_axis_[0] < 0 && is_uniform) || is_mapped_along) form_ = TrigonometricForm::of(onset_);
   if (is_uniform || angles_.sampled()) return;
   double most = 0;
   if (angles_.period()) most = angles_.period()->most() * (1 + 0x1p-45);
@@ -269,6 +272,7 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
   const Borrowed<Points> borrowed;
   auto& [coordinates, angles, levels, radii, asked, index] = *borrowed;
   const std::optional<Warp>& warp = angles_.warp();
+  const SampledMap* const map = angles_.sampled();
   for (size_t axis = 0; axis < 3; ++axis) batch.set_input(axis, {angles[axis], false});
   for (size_t next = 0; next < count;) {
     size_t size = 0;
@@ -281,24 +285,28 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
     level_.values(asked, size, levels);
     const Values x{coordinates[0], false}, y{coordinates[1], false}, z{coordinates[2], false};
     double* const all[3] = {angles[0], angles[1], angles[2]};
+    uint64_t bits[batch_points / 64 + 1], in_box[batch_points / 64 + 1];
     if (warp)
       find_warped_places(*warp, x, y, z, size, all, radii);
+    else if (map)
+      find_map_places(*map, x, y, z, size, all, in_box);
     else
       angles_.find(x, y, z, size, all);
     batch.run(size);
-    uint64_t bits[batch_points / 64 + 1];
     compare_values(batch.output(0), {levels, false}, size, bits);
     if (warp)
       for (size_t i = 0; i < size; ++i)
         if (!warp->is_in_shell(radii[i])) bits[i / 64] &= ~(uint64_t{1} << i % 64);
-    if (const SampledMap* map = angles_.sampled())
-      for (size_t i = 0; i < size; ++i)
-        if (!map->is_in_box(asked[i])) bits[i / 64] &= ~(uint64_t{1} << i % 64);
+    for (size_t i = 0; map && i < size; i += 64) bits[i / 64] &= in_box[i / 64];
     for (size_t i = 0; i < size; ++i) alive[index[i]] = bits[i / 64] >> (i % 64) & 1;
   }
 }
 
 void Functional::keep_rows(const RowBlock& block, const Job* job) const {
+  if (angles_.sampled() && form_) {
+    MapRows rows(*this, block);
+    if (rows.serves()) return rows.keep(job);
+  }
   if (angles_.warp() && WarpedRows::serves(*this))
     WarpedRows(*this, block).keep(job);
   else if (angles_.is_mapped())

@@ -88,7 +88,8 @@ class Functional final : public Structure {
   /// One for each of the clusters' tapes; empty if the grid is turned.
   const std::vector<RowPlan>& row_plans() const { return prepared().row_plans; }
 
-  /// The form of the onset; none for tapes of another form, or if the grid is not turned.
+  /// The form of the onset; none for tapes of another form. In cells of one size only if the grid
+  /// is turned, by a sampled map only if the grid of the samples is not.
   const std::optional<TrigonometricForm>& form() const { return form_; }
 
  private:

@@ -85,12 +85,12 @@ std::optional<TrigonometricForm> TrigonometricForm::of(const Tape& tape) {
 // S with four rounded factors, two products and a sum, and |s C| + |c S| is at most sqrt(2): less
 // than 6 u in addition to the angles' error. The tape's own roundings in double precision are
 // within the slack of the factor 1.01.
-double TrigonometricForm::slack(double angle_error) const {
+double TrigonometricForm::slack(double angle_error, double of_waves) const {
   std::vector<double> error(tape_.nodes.size());
   for (size_t i = 0; i < error.size(); ++i) {
     const Node& node = tape_.nodes[i];
     if (frequency_[i] != 0) {
-      error[i] = 8 * u + std::abs(frequency_[i]) * angle_error;
+      error[i] = of_waves + std::abs(frequency_[i]) * angle_error;
       continue;
     }
     if (node.op == Op::constant) {

@@ -25,10 +25,12 @@ class TrigonometricForm {
   const std::vector<Wave>& waves() const { return waves_; }
   /// Inputs: sine and cosine of each wave. Output: the tape's value; rational operations only.
   const Program& values() const { return values_; }
+  /// The error, besides that of the angle, of a sine or cosine that is a sum of two products in
+  /// single precision.
+  static constexpr double wave_error = 0x1p-21;
   /// Bound of the error of the value in single precision. The angles of the tape's samples and
-  /// those of the sums must differ by at most angle_error. Each sine and cosine is a sum of two
-  /// products in single precision.
-  double slack(double angle_error) const;
+  /// those of the sines and cosines must differ by at most angle_error, times the frequency.
+  double slack(double angle_error, double of_waves = wave_error) const;
 
  private:
   Tape tape_;
