@@ -1222,12 +1222,12 @@ typedef struct msq_lattice_def {
    * The nodes move with the cells; struts stay straight and keep their radius. Not with a library
    * of several unit cells. NULL (default): all cells have one size. */
   const msq_period_def* period;
-  /** Cells around an axis or around a point. Nodes are placed in them; the struts between nodes are
-   * straight and keep their radius. They cut across the arc of a cell, so few cells around make
-   * coarse rings: a cell may span at most 150 degrees, count and count_polar together. The cells
-   * are whole: as many as fit between the radii. Struts of the first and the last ones reach beyond
-   * by their radius. Not with a period, nor with a library of several unit cells. NULL (default):
-   * cells are boxes. */
+  /** Cells around an axis or a point, or by a sampled map. Nodes are placed in them; the struts
+   * between nodes are straight and keep their radius. They cut across the arc of a cell, so few
+   * cells around make coarse rings: a cell may span at most 150 degrees, count and count_polar
+   * together. The cells are whole: as many as fit between the radii. Struts of the first and the
+   * last ones reach beyond by their radius. Not with a period, nor with a library of several unit
+   * cells. NULL (default): cells are boxes. */
   const msq_warp_def* warp;
 } msq_lattice_def;
 
@@ -1526,8 +1526,8 @@ typedef struct msq_functional_def {
   msq_param thickness;
   /** Cells of varying size. NULL (default): all cells have the size of the grid. */
   const msq_period_def* period;
-  /** Cells around an axis or a point. NULL (default): boxes. Not together with a period or a
-   * thickness. */
+  /** Cells around an axis or a point, or by a sampled map. NULL (default): boxes. Not together with
+   * a period or a thickness. */
   const msq_warp_def* warp;
 } msq_functional_def;
 
@@ -1575,7 +1575,7 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they
  * cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of
  * cylindrical cells take rows along which the function is tabulated; other layers decide boxes,
- * then points, which takes 30 to 40 times as long. There are no thin walls to fill along.
+ * then points, which takes 30 to 40 times as long. msq_fill_lines refuses them.
  *
  * Functions use IEEE operations only, not the C library, so their bits are equal on every machine.
  * Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by
@@ -3125,9 +3125,9 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
 /** Computes the middle lines of a structure's thin walls at a height, within a polygon.
  *
  * Foams: the faces of the Voronoi diagram, cut by the plane. Sheets: where the function is 0.
- * Networks, which have no walls: where the function is the level, the boundary of the solid.
- * Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it.
- * Strut lattices, beams and structures of the host have no such lines; use contours for them.
+ * Networks: where the function is the level, the boundary of the solid. Radius, level of sheets and
+ * thickness are ignored: a line is as wide as the nozzle makes it. Other kinds, foams with holes, a
+ * stretch or a weight, and functions in warped cells have no such lines; use contours for them.
  *
  * Each line is in one path. No line is printed twice unless pair_distance is set. The number of
  * paths is the minimum: half the number of points where a path has to end. These are the points at

@@ -724,7 +724,7 @@ export interface msq_lattice_def {
   cell_choice: msq_param;
   /** Cells whose size varies along an axis of the grid; grid.cell_size along that axis is ignored. The nodes move with the cells; struts stay straight and keep their radius. Not with a library of several unit cells. NULL (default): all cells have one size. */
   period: Memory;
-  /** Cells around an axis or around a point. Nodes are placed in them; the struts between nodes are straight and keep their radius. They cut across the arc of a cell, so few cells around make coarse rings: a cell may span at most 150 degrees, count and count_polar together. The cells are whole: as many as fit between the radii. Struts of the first and the last ones reach beyond by their radius. Not with a period, nor with a library of several unit cells. NULL (default): cells are boxes. */
+  /** Cells around an axis or a point, or by a sampled map. Nodes are placed in them; the struts between nodes are straight and keep their radius. They cut across the arc of a cell, so few cells around make coarse rings: a cell may span at most 150 degrees, count and count_polar together. The cells are whole: as many as fit between the radii. Struts of the first and the last ones reach beyond by their radius. Not with a period, nor with a library of several unit cells. NULL (default): cells are boxes. */
   warp: Memory;
 }
 
@@ -826,7 +826,7 @@ export interface msq_functional_def {
   thickness: msq_param;
   /** Cells of varying size. NULL (default): all cells have the size of the grid. */
   period: Memory;
-  /** Cells around an axis or a point. NULL (default): boxes. Not together with a period or a thickness. */
+  /** Cells around an axis or a point, or by a sampled map. NULL (default): boxes. Not together with a period or a thickness. */
   warp: Memory;
 }
 
@@ -1959,7 +1959,7 @@ export interface Functions {
    *
    * With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness is kept: at each position along the axis, msq uses the level that gives walls of this thickness in cells of the size there. Only the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost as much as those of a structure without a period whose cell size is no multiple of the pitch.
    *
-   * With warped cells, the function is that of the position in the cell, so walls are thicker where cells are wider; a level that is a field of the radius counters that. Distances are lower bounds that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of cylindrical cells take rows along which the function is tabulated; other layers decide boxes, then points, which takes 30 to 40 times as long. There are no thin walls to fill along.
+   * With warped cells, the function is that of the position in the cell, so walls are thicker where cells are wider; a level that is a field of the radius counters that. Distances are lower bounds that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of cylindrical cells take rows along which the function is tabulated; other layers decide boxes, then points, which takes 30 to 40 times as long. msq_fill_lines refuses them.
    *
    * Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; what msq_warp_def limits; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period; a thickness or a period with a warp), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).
    */
@@ -2219,7 +2219,7 @@ export interface Functions {
   /**
    * Computes the middle lines of a structure's thin walls at a height, within a polygon.
    *
-   * Foams: the faces of the Voronoi diagram, cut by the plane. Sheets: where the function is 0. Networks, which have no walls: where the function is the level, the boundary of the solid. Radius, and level or thickness of sheets, are ignored: a line is as wide as the nozzle makes it. Strut lattices, beams and structures of the host have no such lines; use contours for them.
+   * Foams: the faces of the Voronoi diagram, cut by the plane. Sheets: where the function is 0. Networks: where the function is the level, the boundary of the solid. Radius, level of sheets and thickness are ignored: a line is as wide as the nozzle makes it. Other kinds, foams with holes, a stretch or a weight, and functions in warped cells have no such lines; use contours for them.
    *
    * Each line is in one path. No line is printed twice unless pair_distance is set. The number of paths is the minimum: half the number of points where a path has to end. These are the points at the border and the junctions of three, five, ... lines. At a junction, the lines that are most nearly straight are joined, unless this adds paths. Paths come in printing order: each begins near the end of the one before. The travel between connected lines is a few percent above the minimum.
    *
