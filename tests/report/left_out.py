@@ -58,8 +58,11 @@ def lines(builds):
     rest = [name for name in LANGUAGES if name not in tested]
     if rest:
         yield f"Languages not tested: {', '.join(rest)}"
-    missing = [line for line in builds[0].missing
-               if all(line.split(": ")[0] in (other.split(": ")[0] for other in build.missing) for build in builds)]
+    missing = []
+    for line in builds[0].missing:
+        whats = [[other for other in build.missing if other.split(": ")[0] == line.split(": ")[0]] for build in builds]
+        if all(whats):  # a program that is missing says more than a static library
+            missing.append(min((found[0] for found in whats), key=lambda one: ": the library is " in one))
     skipped = {}
     for build in builds:
         for name, reason in build.skipped.items():

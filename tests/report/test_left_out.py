@@ -49,6 +49,8 @@ class LeftOut(unittest.TestCase):
         status, lines = self.report(("Node: no koffi\nRust: no cargo\n", FIRST),
                                     ("Node: the library is static\nPython: the library is static\n", SECOND))
         self.assertEqual(status, 0)
+        _, turned = self.report(("Node: the library is static\n", SECOND), ("Node: no koffi\n", SECOND))
+        self.assertEqual(turned[2:], ["Left out:", "  Node: no koffi", ""])
         self.assertEqual(lines[2:], [
             "Left out:", "  Node: no koffi", "  bindings.python_notebook, test_a: no VTK",
             "  bindings.python_notebook, test_c: no 'x'", "  io.svg: no rsvg-convert", ""])
