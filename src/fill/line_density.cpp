@@ -32,10 +32,13 @@ double length_within(Vec2 a, Vec2 b, const Box2& box) {
 }  // namespace
 
 double mean_line_density(const Structure& structure) {
+  if (structure.thin_walls() != ThinWalls::none && !structure.is_on_grid())
+    fail(Status::unsupported,
+         "the structure is made of others and has no cell size of its own; calibrate these");
   if (structure.thin_walls() == ThinWalls::varying)
     fail(Status::unsupported,
-         "the walls of the structure are denser in some places; calibrate it without the field "
-         "or period that does so");
+         "the walls of the structure are denser in some places; calibrate it without the field, "
+         "period or warp that does so");
   const Neighbourhood& grid = structure.neighbourhood();
   const std::array<int, 3> axes = grid.sample_axes();
   const bool is_turned = axes[0] < 0, repeats = structure.is_periodic() && !is_turned;

@@ -14,7 +14,6 @@
 #include "msq_test.h"
 #include "random.h"
 #include "structure/functional/functional.h"
-#include "structure/functional/level_lines.h"
 #include "structure/functional/presets.h"
 
 using namespace msq;
@@ -136,7 +135,7 @@ void test_lines_are_on_the_level(void**) {
 void test_saddles_are_joined_as_their_middle_is(void**) {
   // sin x sin y = c has the two branches of a hyperbola about 0, of which a square in the middle of
   // which 0 is sees nothing but its corners.
-  const double half = 0.5 / LevelLines::squares_per_cell;
+  const double half = 0.5 / 32;
   const Neighbourhood grid{{half, half, 0}, {1, 1, 1}, {}};
   for (const double c : {0.003, -0.003}) {
     const auto f = make("sin(x)*sin(y)", FunctionalKind::network, grid, Parameter(c));

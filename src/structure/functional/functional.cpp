@@ -7,8 +7,8 @@
 #include "base/infinity.h"
 #include "expression/period.h"
 #include "structure/common/strut_distance_bound.h"
+#include "structure/functional/function_lines.h"
 #include "structure/functional/functional_rows.h"
-#include "structure/functional/level_lines.h"
 #include "structure/functional/map_places.h"
 #include "structure/functional/map_rows.h"
 #include "structure/functional/ray_search.h"
@@ -332,8 +332,7 @@ const RowPlan& Functional::warped_plan(unsigned changing) const {
 }
 
 LineGraph Functional::wall_lines(const WallSection& section) const {
-  if (angles_.is_mapped()) return Structure::wall_lines(section);
-  return LevelLines(*this, section).find();
+  return find_function_lines(*this, section);
 }
 
 void Functional::describe(HashInput& input) const {

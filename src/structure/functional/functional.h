@@ -60,9 +60,8 @@ class Functional final : public Structure {
   bool is_periodic() const override { return angles_.is_uniform(); }
   bool is_alike_from_origin() const override { return !angles_.is_mapped(); }
   ThinWalls thin_walls() const override {
-    if (angles_.is_mapped()) return ThinWalls::none;
-    return !angles_.period() && (is_sheet() || level_.is_constant()) ? ThinWalls::uniform
-                                                                     : ThinWalls::varying;
+    return angles_.is_uniform() && (is_sheet() || level_.is_constant()) ? ThinWalls::uniform
+                                                                        : ThinWalls::varying;
   }
   /// Of sheets the lines where the function is 0, of networks those where it is the level.
   LineGraph wall_lines(const WallSection& section) const override;

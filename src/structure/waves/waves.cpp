@@ -8,6 +8,7 @@
 #include "base/pi.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/waves/wave_kernels.h"
+#include "structure/waves/wave_lines.h"
 #include "structure/waves/wave_rays.h"
 #include "structure/waves/wave_rows.h"
 
@@ -102,6 +103,10 @@ Vec3 Waves::normal(const Ray& ray, double t) const {
 
 void Waves::keep_rows(const RowBlock& block, const Job* job) const {
   WaveRows(*this, block, job).keep();
+}
+
+LineGraph Waves::wall_lines(const WallSection& section) const {
+  return find_wave_lines(*this, section);
 }
 
 void Waves::describe(HashInput& input) const {

@@ -36,6 +36,12 @@ class Waves final : public Structure {
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return level_.at(p); }
 
+  ThinWalls thin_walls() const override {
+    return is_sheet() || level_.is_constant() ? ThinWalls::uniform : ThinWalls::varying;
+  }
+  /// Of sheets the lines where the sum is 0, of networks those where it is the level.
+  LineGraph wall_lines(const WallSection& section) const override;
+
   const WaveSet& waves() const { return waves_; }
   const Parameter& level() const { return level_; }
   bool is_sheet() const { return kind_ == WavesKind::sheet; }

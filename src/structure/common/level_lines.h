@@ -1,27 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines in a plane of constant z on which the function of a functional structure is 0 (sheets:
-// the middle of the walls) or its level (networks: the boundary).
+// The lines in a plane of constant z on which a function is 0: the middle of the walls of sheets,
+// the boundary of networks.
 //
 // Source: marching squares, the plane form of Lorensen and Cline, "Marching cubes", 1987. The
-// squares are those of a grid in model coordinates, 32 for each smallest cell size: lines closer
-// than that may be joined, and closed lines smaller than that lost. Crossings with the grid are
+// squares are those of a grid in model coordinates: lines closer than a square may be joined, and
+// closed lines smaller than one lost. Crossings with the grid are
 // found by the Illinois method (Dowell and Jarratt, "A modified regula falsi method", 1971); lines
 // that bend more than the tolerance are halved.
 #pragma once
 
 #include <vector>
 
-#include "expression/batch.h"
+#include "base/vec.h"
 #include "structure/common/line_graph.h"
-#include "structure/functional/functional.h"
 
 namespace msq {
 
+/// Points are inside where it is at most 0. What is no number is outside.
+class LevelFunction {
+ public:
+  /// Points that row() takes at once.
+  static constexpr size_t row_points = 256;
+
+  virtual ~LevelFunction() = default;
+  virtual double at(Vec3 p) const = 0;
+  /// The same, to the last bit, at points of a row. x is readable up to batch_padding beyond.
+  virtual void row(const double* x, double y, double z, size_t count, double* to) = 0;
+};
+
 class LevelLines {
  public:
-  static constexpr double squares_per_cell = 32;
-
-  LevelLines(const Functional& structure, const WallSection& section);
+  /// `pitch`: of the grid. Where the function jumps from inside to outside there is a line only if
+  /// `follows_jumps`. The function must stay alive.
+  LevelLines(LevelFunction& function, double pitch, bool follows_jumps, const WallSection& section);
 
   LineGraph find();
 
@@ -36,7 +47,7 @@ class LevelLines {
   Vec2 node(int64_t i, int64_t j) const {
     return {pitch_ * static_cast<double>(first_x_ + i), pitch_ * static_cast<double>(first_y_ + j)};
   }
-  /// The function less the level: inside where at most 0. What is no number is outside.
+  /// The function, infinite where it is no number.
   double value(Vec2 p) const;
   void evaluate(int64_t j, Row& row);
   /// The point where the function passes the level between two points, one inside and one outside;
@@ -49,14 +60,12 @@ class LevelLines {
   /// Halves a line as long as its middle is farther from the level than the tolerance.
   void halve(uint32_t a, uint32_t b, int depth);
 
-  const Functional& structure_;
+  LevelFunction& function_;
   const WallSection& section_;
-  const Tape& function_;
-  Program program_;
   double pitch_;
+  bool follows_jumps_;
   int64_t first_x_, first_y_, columns_, rows_;  // nodes
-  std::vector<double> x_, angles_[3], levels_;
-  std::vector<Vec3> points_;
+  std::vector<double> x_;
   LineGraph graph_;
 };
 

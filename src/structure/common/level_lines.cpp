@@ -1,43 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "structure/functional/level_lines.h"
+#include "structure/common/level_lines.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/job.h"
-#include "structure/functional/row_kernels.h"
+#include "expression/batch.h"
 
 namespace msq {
 
 namespace {
 
-/// Nodes along a side of the grid, at least 32 for each cell.
+/// Nodes along a side of the grid.
 constexpr double max_nodes = 0x1p26;
 
-void require_near(const Neighbourhood& grid, const WallSection& section) {
-  const Box2& w = section.window;
-  const Box3 box = grid.to_grid(Box3{{w.min.x, w.min.y, section.z}, {w.max.x, w.max.y, section.z}});
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = box.min[axis] / grid.cell_size[axis] - 1,
-                 high = box.max[axis] / grid.cell_size[axis] + 1;
-    if (!(low > -max_cell_index && high < max_cell_index))
-      fail(Status::limit,
-           "the section reaches from cell %g to cell %g along axis %d; the limit is %g cells from "
-           "the grid's origin",
-           std::floor(low), std::floor(high), axis, max_cell_index);
-  }
+double number_or_infinity(double value) {
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
 
 }  // namespace
 
-LevelLines::LevelLines(const Functional& structure, const WallSection& section)
-    : structure_(structure),
-      section_(section),
-      function_(structure.function()),
-      program_(compile(structure.function())),
-      pitch_(min_component(structure.neighbourhood().cell_size) / squares_per_cell) {
-  require_near(structure.neighbourhood(), section);
+LevelLines::LevelLines(LevelFunction& function, double pitch, bool follows_jumps,
+                       const WallSection& section)
+    : function_(function), section_(section), pitch_(pitch), follows_jumps_(follows_jumps) {
   const Box2& w = section.window;
   // A square more on each side, so that each line in the window has those before and after it.
   const double x = std::floor(w.min.x / pitch_) - 1, y = std::floor(w.min.y / pitch_) - 1;
@@ -45,53 +31,30 @@ LevelLines::LevelLines(const Functional& structure, const WallSection& section)
   const double rows = std::ceil(w.max.y / pitch_) - y + 2;
   if (!(std::max(columns, rows) < max_nodes) || !(std::max(std::abs(x), std::abs(y)) < 0x1p50))
     fail(Status::limit,
-         "the window has %g by %g squares of %g, 1/%g of a cell; the limit is %g along a side",
-         columns - 1, rows - 1, pitch_, squares_per_cell, max_nodes);
+         "the window has %g by %g squares of %g, a part of a cell; the limit is %g along a side",
+         columns - 1, rows - 1, pitch_, max_nodes);
   first_x_ = static_cast<int64_t>(x);
   first_y_ = static_cast<int64_t>(y);
   columns_ = static_cast<int64_t>(columns);
   rows_ = static_cast<int64_t>(rows);
-  for (std::vector<double>& angles : angles_) angles.resize(batch_points + batch_padding);
-  x_.resize(batch_points + batch_padding);
-  if (!structure.is_sheet() && !structure.level().is_constant()) {
-    points_.resize(batch_points);
-    levels_.resize(batch_points + batch_padding);
-  }
+  x_.resize(LevelFunction::row_points + batch_padding);
 }
 
 double LevelLines::value(Vec2 p) const {
-  const Vec3 at{p.x, p.y, section_.z};
-  const double f = msq::evaluate(function_, structure_.angles().at(at));
-  const double over = structure_.is_sheet() ? f : f - structure_.level().at(at);
-  return std::isnan(over) ? std::numeric_limits<double>::infinity() : over;
+  return number_or_infinity(function_.at({p.x, p.y, section_.z}));
 }
 
 void LevelLines::evaluate(int64_t j, Row& row) {
-  Batch batch(program_);
-  for (size_t axis = 0; axis < 3; ++axis) batch.set_input(axis, {angles_[axis].data(), false});
-  const Parameter& level = structure_.level();
-  const double y = node(0, j).y, z = section_.z;
+  constexpr auto most = static_cast<int64_t>(LevelFunction::row_points);
+  const double y = node(0, j).y;
   row.values.resize(static_cast<size_t>(columns_));
-  for (int64_t begin = 0; begin < columns_; begin += static_cast<int64_t>(batch_points)) {
-    const size_t count =
-        static_cast<size_t>(std::min(columns_ - begin, static_cast<int64_t>(batch_points)));
+  for (int64_t begin = 0; begin < columns_; begin += most) {
+    const size_t count = static_cast<size_t>(std::min(columns_ - begin, most));
     check_cancelled();
     for (size_t i = 0; i < count; ++i) x_[i] = node(begin + static_cast<int64_t>(i), j).x;
-    structure_.angles().find({x_.data(), false}, {&y, true}, {&z, true}, count,
-                             {angles_[0].data(), angles_[1].data(), angles_[2].data()});
-    batch.run(count);
-    const Values values = batch.output(0);
-    const bool varies = !levels_.empty();
-    if (varies) {
-      for (size_t i = 0; i < count; ++i) points_[i] = {x_[i], y, z};
-      level.values(points_.data(), count, levels_.data());
-    }
-    const double constant = structure_.is_sheet() || varies ? 0 : level.range().high;
-    for (size_t i = 0; i < count; ++i) {
-      const double over = values[i] - (varies ? levels_[i] : constant);
-      row.values[static_cast<size_t>(begin) + i] =
-          std::isnan(over) ? std::numeric_limits<double>::infinity() : over;
-    }
+    double* const values = row.values.data() + begin;
+    function_.row(x_.data(), y, section_.z, count, values);
+    for (size_t i = 0; i < count; ++i) values[i] = number_or_infinity(values[i]);
   }
 }
 
@@ -143,7 +106,7 @@ uint32_t LevelLines::crossing(Vec2 a, double at_a, Vec2 b, double at_b) {
   if ((at_a <= 0) == (at_b <= 0)) return nothing;
   const bool is_jump = !find_root(a, at_a, b, at_b);
   // The boundary of a network may be a jump; the middle of a wall may not.
-  if (is_jump && structure_.is_sheet()) return nothing;
+  if (is_jump && !follows_jumps_) return nothing;
   graph_.points.push_back(std::abs(at_a) <= std::abs(at_b) ? a : b);
   return static_cast<uint32_t>(graph_.points.size() - 1);
 }

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/functional/function_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/infinity.h"
+#include "structure/common/kept_lines.h"
+#include "structure/common/level_lines.h"
+#include "structure/common/plane_cells.h"
+#include "structure/functional/functional.h"
+
+namespace msq {
+
+namespace {
+
+/// The function, less the level of a network.
+class FunctionLevel final : public LevelFunction {
+ public:
+  static_assert(row_points <= batch_points);
+
+  explicit FunctionLevel(const Functional& structure)
+      : structure_(structure),
+        function_(structure.function()),
+        program_(compile(structure.function())),
+        batch_(program_) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      angles_[axis].resize(row_points + batch_padding);
+      batch_.set_input(axis, {angles_[axis].data(), false});
+    }
+    if (structure.is_sheet() || structure.level().is_constant()) return;
+    points_.resize(row_points);
+    levels_.resize(row_points + batch_padding);
+  }
+
+  double at(Vec3 p) const override {
+    const double f = msq::evaluate(function_, structure_.angles().at(p));
+    return structure_.is_sheet() ? f : f - structure_.level().at(p);
+  }
+  void row(const double* x, double y, double z, size_t count, double* to) override {
+    structure_.angles().find({x, false}, {&y, true}, {&z, true}, count,
+                             {angles_[0].data(), angles_[1].data(), angles_[2].data()});
+    batch_.run(count);
+    const Values values = batch_.output(0);
+    const Parameter& level = structure_.level();
+    if (levels_.empty()) {
+      const double constant = structure_.is_sheet() ? 0 : level.range().high;
+      for (size_t i = 0; i < count; ++i) to[i] = values[i] - constant;
+      return;
+    }
+    for (size_t i = 0; i < count; ++i) points_[i] = {x[i], y, z};
+    level.values(points_.data(), count, levels_.data());
+    for (size_t i = 0; i < count; ++i) to[i] = values[i] - levels_[i];
+  }
+
+ private:
+  const Functional& structure_;
+  const Tape& function_;
+  const Program program_;
+  Batch batch_;
+  std::vector<double> angles_[3], levels_;
+  std::vector<Vec3> points_;
+};
+
+constexpr double squares_per_cell = 32;
+
+/// The cell size that the grid of squares is for. Around an axis or a point cells have any size, as
+/// far as it counts: half of their radial size, or what they have at the inner radius.
+double smallest_in_plane(const Functional& structure) {
+  const Neighbourhood& grid = structure.neighbourhood();
+  const double smallest = min_component(grid.cell_size);
+  const std::optional<Warp>& warp = structure.angles().warp();
+  if (!warp) return smallest;
+  const Warp::Shell& shell = warp->shell();
+  const double least = 0.5 * grid.cell_size.x;
+  const double around = std::max(least, two_pi * shell.inner / shell.count);
+  if (warp->kind() == Warp::Kind::cylindrical) return std::min(smallest, around);
+  return std::min(
+      {smallest, around, std::max(least, 0.5 * two_pi * shell.inner / shell.count_polar)});
+}
+
+/// Of a warp and of a sampled map: whether the cells fill the place, and how far that is so.
+KeptPoint filled(const CellAngles& angles, Vec3 p) {
+  if (!angles.warp()) {
+    const double within = angles.sampled()->distance_within(p);
+    return {angles.holds(p), std::abs(within)};
+  }
+  const Warp& warp = *angles.warp();
+  const double r = warp.radius(p);
+  return {warp.is_in_shell(r),
+          std::min(std::abs(r - warp.shell().inner), std::abs(warp.outer() - r))};
+}
+
+}  // namespace
+
+LineGraph find_function_lines(const Functional& structure, const WallSection& section) {
+  require_in_cells(structure.neighbourhood(), section);
+  FunctionLevel function(structure);
+  LineGraph graph = LevelLines(function, smallest_in_plane(structure) / squares_per_cell,
+                               !structure.is_sheet(), section)
+                        .find();
+  const CellAngles& angles = structure.angles();
+  // The function goes on beyond the cells, so that lines end where these do.
+  if (angles.is_mapped())
+    keep_parts(graph, section.tolerance, [&](Vec2 p) {
+      return filled(angles, {p.x, p.y, section.z});
+    });
+  return graph;
+}
+
+}  // namespace msq
