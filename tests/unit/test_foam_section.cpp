@@ -24,6 +24,8 @@ struct Row {
   double jitter = 1, density = 1;
   double z = 0.37;
   bool is_graded = false;
+  Vec3 stretch{1, 1, 1};
+  double weight = 0;
 };
 
 Rotation turned() {
@@ -40,6 +42,24 @@ const Row rows[] = {
     {"far away", {{-4e6, 3e6, 1e6}, {1, 1, 1}, {}}, 1, 1, 0.1},
     {"dense", {}, 1, 8, 0.3},
     {"graded", {{0, 0, 0}, {2, 2, 2}, turned()}, 1, 20, 0.3, true},
+    {"stretched along z", {}, 1, 1, 0.37, false, {1, 1, 2.5}},
+    {"stretched", {{0.3, -0.2, 0.1}, {1, 0.6, 1.7}, {}}, 1, 1, 0.37, false, {0.7, 1.6, 1}},
+    {"stretched and turned",
+     {{0.3, 0.2, -0.7}, {1, 0.75, 0.5}, turned()},
+     1,
+     1,
+     0.37,
+     false,
+     {1, 0.5, 2}},
+    {"weighted", {{0.3, -0.2, 0.1}, {1, 0.9, 1.2}, {}}, 1, 1, 0.37, false, {1, 1, 1}, 0.9},
+    {"weighted and turned",
+     {{0.3, 0.2, -0.7}, {1, 0.75, 0.5}, turned()},
+     0.7,
+     1,
+     0.2,
+     false,
+     {1, 1, 1},
+     0.45},
 };
 
 const Box2 window{{-1.5, -2.25}, {2.75, 1.5}};
@@ -52,23 +72,31 @@ Parameter density_of(const Row& row) {
 
 Ref<Foam> make(Context& context, const Row& row) {
   return make_ref<Foam>(Ref<Context>(&context), row.grid, Parameter(0.05), row.jitter, 7,
-                        FoamMethod::automatic, density_of(row));
+                        FoamMethod::automatic, density_of(row), row.stretch, row.weight);
 }
 
+/// A seed, and the square of the radius of its sphere.
+struct Sphere {
+  Vec3 centre;
+  double squared = 0;
+};
+
 /// All seeds of cells near the window, in model coordinates.
-std::vector<Vec3> all_seeds(const Row& row) {
-  const FoamSeeds cells(7, row.jitter,
-                        row.grid.cell_size * (1 / max_component(row.grid.cell_size)));
+std::vector<Sphere> all_seeds(const Row& row) {
+  const double unit = max_component(row.grid.cell_size);
+  const FoamSeeds cells(7, row.jitter, row.grid.cell_size * (1 / unit), row.weight / unit);
   const GradedSeeds seeds(cells, row.grid, density_of(row));
   const Box3 near = row.grid.to_grid(
       Box3{{window.min.x, window.min.y, row.z}, {window.max.x, window.max.y, row.z}});
   int low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const double size = row.grid.cell_size[axis], reach = 2.2 * length(row.grid.cell_size);
+    const double size = row.grid.cell_size[axis], reach = 2.2 * length(row.grid.cell_size) *
+                                                          max_component(row.stretch) /
+                                                          min_component(row.stretch);
     low[axis] = static_cast<int>(std::floor((near.min[axis] - reach) / size));
     high[axis] = static_cast<int>(std::floor((near.max[axis] + reach) / size));
   }
-  std::vector<Vec3> all;
+  std::vector<Sphere> all;
   for (int z = low[2]; z <= high[2]; ++z)
     for (int y = low[1]; y <= high[1]; ++y)
       for (int x = low[0]; x <= high[0]; ++x) {
@@ -77,8 +105,10 @@ std::vector<Vec3> all_seeds(const Row& row) {
         for (const GradedSeed& leaf : leaves) {
           // In the box of the cell, exact; then as points of the grid.
           const Vec3 in_cell = seeds.in_leaf(leaf.leaf);
-          all.push_back(row.grid.from_grid(Vec3{x + in_cell.x, y + in_cell.y, z + in_cell.z} *
-                                           row.grid.cell_size));
+          const Vec3 place = row.grid.from_grid(Vec3{x + in_cell.x, y + in_cell.y, z + in_cell.z} *
+                                                row.grid.cell_size);
+          const double lift = cells.is_weighted() ? cells.lift(cells.bits({x, y, z})) : 0;
+          all.push_back({place, row.weight * row.weight - lift * unit * unit});
         }
       }
   return all;
@@ -89,11 +119,14 @@ struct Nearest {
   double distance, second;
 };
 
-Nearest nearest(const std::vector<Vec3>& seeds, Vec3 p) {
+/// By the power of the spheres where lengths along the grid's axes are divided by the stretch;
+/// lifted, so that distances are real.
+Nearest nearest(const Row& row, const std::vector<Sphere>& seeds, Vec3 p) {
   Nearest found{0, 1e300, 1e300};
   for (size_t i = 0; i < seeds.size(); ++i) {
-    const Vec3 d = seeds[i] - p;
-    const double squared = dot(d, d);
+    const Vec3 g = row.grid.rotation.apply_inverse(seeds[i].centre - p);
+    const Vec3 d{g.x / row.stretch.x, g.y / row.stretch.y, g.z / row.stretch.z};
+    const double squared = dot(d, d) + row.weight * row.weight - seeds[i].squared;
     if (squared < found.distance) {
       found = {i, squared, found.distance};
     } else if (squared < found.second) {
@@ -117,7 +150,7 @@ void check(const Row& row) {
   Context context(1, 0, 0);
   const Ref<Foam> foam = make(context, row);
   const LineGraph graph = foam->wall_lines({row.z, window, 1});
-  const std::vector<Vec3> seeds = all_seeds(row);
+  const std::vector<Sphere> seeds = all_seeds(row);
   const double cell = min_component(row.grid.cell_size) / std::cbrt(row.density);
   // Corners closer than that are one.
   const double rounding = 4e-7 * max_component(row.grid.cell_size);
@@ -130,7 +163,7 @@ void check(const Row& row) {
     const Vec2 from = graph.points[a], way = graph.points[b] - from;
     const double t = random.between(0.2, 0.8);
     const Vec2 p = from + way * t;
-    const Nearest on = nearest(seeds, {p.x, p.y, row.z});
+    const Nearest on = nearest(row, seeds, {p.x, p.y, row.z});
     if (on.second - on.distance > 10 * rounding)
       fail_msg("at %.17g, %.17g the nearest seeds are at %.17g and %.17g", p.x, p.y, on.distance,
                on.second);
@@ -138,8 +171,8 @@ void check(const Row& row) {
     if (off < 100 * rounding) continue;
     const Vec2 normal = Vec2{-way.y, way.x} * (off / length(way));
     const Vec2 left = p + normal, right = p - normal;
-    if (nearest(seeds, {left.x, left.y, row.z}).seed ==
-        nearest(seeds, {right.x, right.y, row.z}).seed)
+    if (nearest(row, seeds, {left.x, left.y, row.z}).seed ==
+        nearest(row, seeds, {right.x, right.y, row.z}).seed)
       fail_msg("the same seed on both sides at %.17g, %.17g", p.x, p.y);
     ++crossed;
   }
@@ -151,7 +184,7 @@ void check(const Row& row) {
     const double y = random.between(window.min.y, window.max.y), step = cell / 25;
     size_t last = SIZE_MAX;
     for (double x = window.min.x; x <= window.max.x; x += step) {
-      const size_t now = nearest(seeds, {x, y, row.z}).seed;
+      const size_t now = nearest(row, seeds, {x, y, row.z}).seed;
       if (last != SIZE_MAX && now != last) {
         ++changes;
         const double away = distance_to(graph, {x - 0.5 * step, y});
@@ -277,7 +310,7 @@ std::set<Line> lines_within(const LineGraph& graph, const Box2& box) {
 
 void test_windows_have_the_same_lines(void**) {
   Context context(1, 0, 0);
-  for (const Row& row : {rows[0], rows[3], rows[7]}) {
+  for (const Row& row : {rows[0], rows[3], rows[7], rows[10], rows[12]}) {
     const Ref<Foam> foam = make(context, row);
     const LineGraph whole = foam->wall_lines({row.z, window, 1});
     const Box2 small{{-1.4, -2.1}, {2.5, 1.1}};

@@ -161,8 +161,8 @@ Vec3 Foam::normal(const Ray& ray, double t) const {
 }
 
 LineGraph Foam::wall_lines(const WallSection& section) const {
-  if (stretch() || is_weighted()) return Structure::wall_lines(section);
-  return foam_section({context(), neighbourhood(), seeds(), graded(), unit()}, section);
+  return foam_section({context(), neighbourhood(), diagram_seeds(), graded(), unit(), stretch()},
+                      section);
 }
 
 void Foam::describe(HashInput& input) const {

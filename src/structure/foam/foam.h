@@ -61,7 +61,6 @@ class Foam final : public FoamData {
   Vec3 normal(const Ray& ray, double t) const override;
 
   ThinWalls thin_walls() const override {
-    if (stretch() || is_weighted()) return ThinWalls::none;
     return graded() ? ThinWalls::varying : ThinWalls::uniform;
   }
   /// The faces of the Voronoi diagram.

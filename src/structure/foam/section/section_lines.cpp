@@ -22,9 +22,11 @@ bool may_meet(Vec2 a, Vec2 b, const Box2& box) {
 }  // namespace
 
 LineGraph foam_section(const SectionFoam& foam, const WallSection& section) {
-  const SectionSeeds seeds = find_section_seeds(foam, section.z, section.window);
-  SectionCells cells(seeds, section.window);
-  const Box2 owners = section.window.grown(seeds.reach);
+  const SectionPlane plane(foam, section.z);
+  const Box2 window = plane.image(section.window);
+  const SectionSeeds seeds = find_section_seeds(foam, plane, window);
+  SectionCells cells(seeds, window);
+  const Box2 owners = window.grown(seeds.reach);
   LineGraph graph;
   JobPoll poll(current_job());
   for (uint32_t i = 0; i < seeds.seeds.size(); ++i) {
@@ -35,7 +37,7 @@ LineGraph foam_section(const SectionFoam& foam, const WallSection& section) {
       const SectionCells::Corner &from = cell[c], &to = cell[c + 1 < cell.size() ? c + 1 : 0];
       // The first of the two seeds owns the line between them.
       if (from.beyond == SectionCells::nobody || from.beyond < i) continue;
-      if (!may_meet(from.point, to.point, section.window)) continue;
+      if (!may_meet(from.point, to.point, window)) continue;
       const uint32_t number = static_cast<uint32_t>(graph.points.size());
       graph.points.push_back(from.point);
       graph.points.push_back(to.point);
@@ -43,6 +45,7 @@ LineGraph foam_section(const SectionFoam& foam, const WallSection& section) {
     }
   }
   graph.weld(weld_distance * seeds.reach);
+  for (Vec2& point : graph.points) point = plane.to_model(point);
   return graph;
 }
 

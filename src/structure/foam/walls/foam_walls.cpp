@@ -7,6 +7,7 @@
 #include "structure/common/strut_distance_bound.h"
 #include "structure/foam/section/section_lines.h"
 #include "structure/foam/walls/vent_distance.h"
+#include "structure/foam/walls/vent_lines.h"
 #include "structure/foam/walls/vent_ray.h"
 #include "structure/foam/walls/void_rows.h"
 #include "structure/foam/walls/wall_ray.h"
@@ -295,10 +296,11 @@ Vec3 FoamWalls::normal(const Ray& ray, double t) const {
 }
 
 LineGraph FoamWalls::wall_lines(const WallSection& section) const {
-  if (vents_.exist() || seeds_.stretch() || seeds_.is_weighted())
-    return Structure::wall_lines(section);
-  return foam_section({*context_, neighbourhood(), seeds_.seeds(), seeds_.graded(), unit_},
-                      section);
+  LineGraph graph = foam_section(
+      {*context_, neighbourhood(), seeds_.seeds(), seeds_.graded(), unit_, seeds_.stretch()},
+      section);
+  if (vents_.exist()) cut_vents(*this, section.z, graph);
+  return graph;
 }
 
 void FoamWalls::describe(HashInput& input) const {

@@ -47,11 +47,11 @@ class FoamWalls final : public Structure {
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 
-  /// None with holes: the lines would close them. None of stretched cells and weighted seeds.
   ThinWalls thin_walls() const override {
-    if (vents_.exist() || seeds_.stretch() || seeds_.is_weighted()) return ThinWalls::none;
-    return seeds_.graded() ? ThinWalls::varying : ThinWalls::uniform;
+    return seeds_.graded() || !vents_.radius().is_constant() ? ThinWalls::varying
+                                                             : ThinWalls::uniform;
   }
+  /// The walls, with their holes, cut by the plane.
   LineGraph wall_lines(const WallSection& section) const override;
 
   const NearSeeds& seeds() const { return seeds_; }
