@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "structure/common/strut_distance_bound.h"
+#include "structure/lattice/plates/plate_lines.h"
 #include "structure/lattice/rows/lattice_rows.h"
 
 namespace msq {
@@ -210,6 +211,10 @@ void PlateLattice::keep_rows(const RowBlock& block, const Job* job) const {
   LatticeRows(neighbourhood(), row_axes_, plates, thickness_, block).keep(job, [&](Vec3 p) {
     return holds(clusters, p, thickness_.at(p));
   });
+}
+
+LineGraph PlateLattice::wall_lines(const WallSection& section) const {
+  return find_plate_lines(plates_, neighbourhood(), section);
 }
 
 void PlateLattice::describe(HashInput& input) const {

@@ -43,6 +43,10 @@ class PlateLattice final : public Structure {
   double onset_limit() const override;
   bool is_periodic() const override { return true; }
 
+  ThinWalls thin_walls() const override { return ThinWalls::uniform; }
+  /// The plates, cut by the plane.
+  LineGraph wall_lines(const WallSection& section) const override;
+
   /// Thickness of the thickest plates, in units of the smallest cell size.
   static constexpr double max_thickness = 4;
 
