@@ -5,6 +5,7 @@
 
 #include "base/hash_input.h"
 #include "base/infinity.h"
+#include "structure/combined/member_lines.h"
 #include "structure/combined/union_struts.h"
 #include "structure/common/struts.h"
 
@@ -163,6 +164,14 @@ unsigned BooleanStructure::row_copies() const {
                        : is_union() && members().size() > 2                         ? 2
                                                                                     : 1;
   return own + CombinedStructure::row_copies();
+}
+
+ThinWalls BooleanStructure::thin_walls() const {
+  return walls_of_members(operation_, members());
+}
+
+LineGraph BooleanStructure::wall_lines(const WallSection& section) const {
+  return lines_of_members(operation_, members(), section);
 }
 
 void BooleanStructure::describe(HashInput& input) const {

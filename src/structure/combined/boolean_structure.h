@@ -45,6 +45,10 @@ class BooleanStructure final : public CombinedStructure {
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 
+  ThinWalls thin_walls() const override;
+  /// member_lines.h
+  LineGraph wall_lines(const WallSection& section) const override;
+
  private:
   void describe(HashInput& input) const override;
   bool is_union() const { return operation_ == Operation::united; }

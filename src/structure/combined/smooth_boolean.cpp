@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/hash_input.h"
+#include "structure/combined/member_lines.h"
 #include "structure/common/strut_distance_bound.h"
 
 namespace msq {
@@ -243,6 +244,14 @@ Vec3 SmoothBoolean::normal(const Ray& ray, double t) const {
   if (std::abs(at.u - at.v) >= radius_.at(p)) return plain_->normal(ray, t);
   const double sign = is_union() ? 1 : -1;
   return normal_by_value([&](Vec3 q) { return sign * pair(q).smooth(radius_.at(q)); }, ray, t);
+}
+
+ThinWalls SmoothBoolean::thin_walls() const {
+  return walls_of_members(operation_, members());
+}
+
+LineGraph SmoothBoolean::wall_lines(const WallSection& section) const {
+  return lines_of_members(operation_, members(), section);
 }
 
 void SmoothBoolean::describe(HashInput& input) const {

@@ -47,6 +47,10 @@ class SmoothBoolean final : public SteadyPair {
   void enter(RaySearch* searches, size_t count, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
 
+  ThinWalls thin_walls() const override;
+  /// member_lines.h; fillets are ignored, as thickness is.
+  LineGraph wall_lines(const WallSection& section) const override;
+
  private:
   static constexpr double max_lipschitz = std::numeric_limits<double>::max();
 
