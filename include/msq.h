@@ -1575,7 +1575,7 @@ MSQ_API msq_status msq_functional_def_init(msq_functional_def* def, size_t size)
  * that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they
  * cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of
  * cylindrical cells take rows along which the function is tabulated; other layers decide boxes,
- * then points, which takes 30 to 40 times as long. msq_fill_lines refuses them.
+ * then points, which takes 30 to 40 times as long. Fill lines end at the shell.
  *
  * Functions use IEEE operations only, not the C library, so their bits are equal on every machine.
  * Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by
@@ -1934,7 +1934,7 @@ MSQ_API msq_status msq_structure_host_function(msq_context* context,
  * msq_boolean_operation) from their memberships. structures: count structures, 1 to 4096, each on
  * its own grid or on none. They may be of any kind, also made of structures themselves.
  *
- * The characteristic length is the largest of theirs. Hits of rays name no cell. msq_fill_lines
+ * The characteristic length is the largest of theirs. Hits of rays name no cell. msq_fill_calibrate
  * refuses the result: call it for the structures themselves. Unions of structures with struts have
  * struts, and an onset if all of them have one (msq_structure_struts, msq_set_onset). Distance of a
  * union: the smallest of their signed distances, exact outside if theirs are, a bound inside. Of an
@@ -3124,10 +3124,10 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
 
 /** Computes the middle lines of a structure's thin walls at a height, within a polygon.
  *
- * Foams: the faces of the Voronoi diagram, cut by the plane. Sheets: where the function is 0.
- * Networks: where the function is the level, the boundary of the solid. Radius, level of sheets and
- * thickness are ignored: a line is as wide as the nozzle makes it. Other kinds, foams with holes, a
- * stretch or a weight, and functions in warped cells have no such lines; use contours for them.
+ * Foams: the faces of the diagram, interrupted by holes. Plate lattices: the plates. Sheets: where
+ * the function, or the sum of waves, is 0; networks: where it is the level. Unions: the lines of
+ * all; intersections and differences: those of the first within, or outside of, all others. Radius,
+ * level of sheets and thickness are ignored. Other kinds have no such lines; use contours for them.
  *
  * Each line is in one path. No line is printed twice unless pair_distance is set. The number of
  * paths is the minimum: half the number of points where a path has to end. These are the points at
@@ -3139,17 +3139,17 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  * Ends at the polygon's border are rounded to whole coordinates. All other decisions are exact.
  * Lines on the border itself count as inside on one side of the polygon. The lines do not depend on
  * the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are
- * followed on a grid of 1/32 of the smallest cell size: lines closer together than that may be
- * joined, and smaller closed lines lost.
+ * followed on a grid of 1/32 of the smallest cell size (waves: 1/16; docs/concepts.md tells of
+ * warped cells): lines closer together than that may be joined, and smaller closed lines lost.
  *
  * def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells
  * from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box.
- * Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam in the
- * plane; about 1 us per square that a line of a function crosses and 20 ns per other square.
- * Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are on one
- * line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power
- * diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson, "Matching,
- * Euler tours and the Chinese postman", 1973. */
+ * Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam or of
+ * plates; 1 us per square that a function's line crosses; 20 ns, or 3 ns per wave, per other
+ * square. Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are
+ * on one line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer,
+ * "Power diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson,
+ * "Matching, Euler tours and the Chinese postman", 1973. */
 MSQ_API msq_status msq_fill_lines(msq_context* context, const msq_structure* structure,
                                   const msq_fill_def* def, msq_fill** fill, msq_job* job);
 /** Adds a reference. */
@@ -3186,11 +3186,11 @@ MSQ_API msq_status msq_fill_info(const msq_fill* fill, msq_fill_report* report);
  * grid, all multiplied by the same factor. Create the structure anew with these and the same
  * rotation. density: more than 0, at most 1. job NULL: no job. Single layers differ from the
  * average, those of a gyroid by a tenth. The length is measured on the structure as it is: one cell
- * at 64 heights; 8 x 8 cells if the grid is rotated; 32 x 32 cells of a foam at 32 heights,
- * accurate to about 0.5 %. Calibrate a foam without its field of density: d seeds per cell volume
- * then multiply the density of lines by about the cube root of d. Cost: up to 0.5 s for a foam.
- * Errors: ARGUMENT, UNSUPPORTED (no thin walls; a field of density, or of the level of a network),
- * LIMIT (no lines), CANCELLED, HOST, MEMORY. */
+ * at 64 heights; 8 x 8 cells if rotated; 32 x 32 of a foam or of waves at 32 heights, accurate to
+ * about 0.5 %. Multiply weight and vent_radius by the factor, too. Calibrate a foam without its
+ * field of density: d seeds per cell volume multiply the density of lines by about the cube root of
+ * d. Cost: up to 0.5 s for a foam, 0.03 s per wave. Errors: ARGUMENT, UNSUPPORTED (no thin walls;
+ * walls not uniform; made of structures), LIMIT (no lines), CANCELLED, HOST, MEMORY. */
 MSQ_API msq_status msq_fill_calibrate(msq_context* context, const msq_structure* structure,
                                       double line_width, double density, double cell_size[3],
                                       msq_job* job);

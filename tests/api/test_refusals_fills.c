@@ -10,10 +10,17 @@ static void fill_lines(void** state) {
   msq_context* small = make_context_of(1, 0, 20000);
   msq_structure *foam = make_foam_of(context, 5), *lattice = make_lattice(context);
   msq_structure* gyroid = make_sheet(context, MSQ_FUNCTION_GYROID, 8);
-  msq_structure* of_small = make_foam_of(small, 5);
+  msq_structure *of_small = make_foam_of(small, 5), *united, *within, *blended;
+  const msq_structure* members[2];
+  const msq_param half = {0.5, NULL};
   const msq_fill_def square = square_def(1);
   msq_fill* made = make_fill(context, foam, &square);
   (void)state;
+  members[0] = lattice;
+  members[1] = foam;
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, members, 2, &united));
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_INTERSECTION, members, 2, &within));
+  assert_ok(msq_structure_blend(foam, gyroid, &half, &blended));
   REFUSALS("msq_fill_lines") {
     msq_ring rings[2] = {square_rings[0], square_rings[1]};
     int64_t hole[4][2];
@@ -31,6 +38,9 @@ static void fill_lines(void** state) {
     WRONG(ARGUMENT, "structure is NULL", structure = NULL);
     WRONG(ARGUMENT, "fill is NULL", fill = NULL);
     WRONG(UNSUPPORTED, "use its contours", structure = lattice);
+    WRONG(UNSUPPORTED, "use its contours", structure = blended);
+    WRONG(UNSUPPORTED, "structure 0 of the union|contours", structure = united);
+    WRONG(UNSUPPORTED, "structure 0, the first one|contours", structure = within);
     WRONG(ARGUMENT, "ring_count is 0", def->ring_count = 0);
     WRONG(ARGUMENT, "rings is NULL", def->rings = NULL);
     WRONG(ARGUMENT, "ring 1 has 2 points", rings[1].count = 2);
@@ -87,6 +97,9 @@ static void fill_lines(void** state) {
     TRY(msq_fill_info(fill, report));
   }
   msq_fill_release(made);
+  msq_structure_release(blended);
+  msq_structure_release(within);
+  msq_structure_release(united);
   msq_structure_release(of_small);
   msq_structure_release(gyroid);
   msq_structure_release(lattice);
@@ -97,6 +110,9 @@ static void fill_lines(void** state) {
 static void fill_calibrations(void** state) {
   const double widths[] = {0, -1, NAN, INFINITY}, densities[] = {0, -1, 1.01, NAN};
   msq_structure *foam = make_foam_of(context, 1), *lattice = make_lattice(context), *graded, *full;
+  msq_structure *warped, *united;
+  const msq_structure* members[2];
+  msq_warp_def warp;
   msq_field* field = ramp_of(context, 1, 3);
   msq_foam_def foam_def;
   msq_functional_def functional_def;
@@ -108,6 +124,12 @@ static void fill_calibrations(void** state) {
   assert_ok(msq_functional_def_init(&functional_def, sizeof functional_def));
   functional_def.level.value = 9;
   assert_ok(msq_structure_functional(context, &functional_def, &full));
+  assert_ok(msq_warp_def_init(&warp, sizeof warp));
+  warp.count = 6;
+  functional_def.warp = &warp;
+  assert_ok(msq_structure_functional(context, &functional_def, &warped));
+  members[0] = members[1] = foam;
+  assert_ok(msq_structure_boolean(MSQ_BOOLEAN_UNION, members, 2, &united));
   REFUSALS("msq_fill_calibrate") {
     msq_context* in = context;
     const msq_structure* structure = foam;
@@ -123,10 +145,14 @@ static void fill_calibrations(void** state) {
     }
     WRONG(UNSUPPORTED, "contours", structure = lattice);
     WRONG(UNSUPPORTED, "without the field", structure = graded);
+    WRONG(UNSUPPORTED, "warp", structure = warped);
+    WRONG(UNSUPPORTED, "no cell size of its own", structure = united);
     WRONG(LIMIT, "no wall", structure = full);
     WRONG(CANCELLED, "cancel", job = cancelled_job());
     TRY(msq_fill_calibrate(in, structure, line_width, density, cell_size, job));
   }
+  msq_structure_release(united);
+  msq_structure_release(warped);
   msq_structure_release(full);
   msq_structure_release(graded);
   msq_structure_release(lattice);

@@ -178,8 +178,8 @@ class Structure(Handle):
                    origin: Sequence[float] = (0, 0), tolerance: float = 0.0,
                    min_length: float = 0.0, pair_distance: float = 0.0,
                    job: Optional[Job] = None) -> Fill:
-        """The middle lines of the structure's thin walls at height z, within a polygon: paths for a
-        nozzle. Foams, sheets and networks have such lines.
+        """The middle lines of thin walls at height z, within a polygon: paths for a nozzle. A union has
+        those of all its structures, an intersection or a difference those of the first, bounded.
 
         polygon: a ring, (n, 2) of whole numbers, or a list of rings, outlines and holes in any order
         and direction. int32 stays int32 in the result; all else is int64. scale: model units per unit

@@ -105,9 +105,29 @@ class FillLines(unittest.TestCase):
         total = sum(gyroid.fill_lines(square, z).length for z in heights)
         self.assertAlmostEqual(total * 0.45 / (40 * side ** 2), 0.2, delta=0.004)
 
+    def test_kinds_with_walls(self):
+        foam = msq.Foam(radius=0, wall_thickness=0.3, cell_size=4)
+        whole = foam.fill_lines(SQUARE, 1.3).length
+        vented = msq.Foam(radius=0, wall_thickness=0.3, vent_radius=1, cell_size=4)
+        struts = msq.Lattice("bcc", radius=0.8, cell_size=4)
+        plates = msq.PlateLattice("cubic", thickness=0.2, cell_size=5)
+        for less in vented, foam - struts, foam & struts:
+            self.assertTrue(0 < less.fill_lines(SQUARE, 1.3).length < 0.95 * whole)
+        # Planes 5 mm apart along both axes; those on two sides of the rectangle count.
+        self.assertAlmostEqual(plates.fill_lines(SQUARE + 1_000_000, 1.3).length, 6 * 20 + 4 * 30,
+                               places=5)
+        both = (foam | plates).fill_lines(SQUARE + 1_000_000, 1.3).length
+        self.assertAlmostEqual(both, foam.fill_lines(SQUARE + 1_000_000, 1.3).length + 240, places=3)
+        for curved in (msq.Waves(6, kind="sheet", level=0.2),
+                       msq.Functional("gyroid", kind="sheet", level=0.2, cell_size=5,
+                                      warp=msq.Warp(12, 2, 25))):
+            self.assertGreater(curved.fill_lines(SQUARE, 1.3).length, 100)
+
     def test_refusals(self):
         with self.assertRaisesRegex(msq.UnsupportedError, "contours"):
             msq.Lattice("bcc", radius=0.1).fill_lines(SQUARE, 1)
+        with self.assertRaisesRegex(msq.UnsupportedError, "structure 1 of the union"):
+            (msq.Foam(radius=0.1) | msq.Lattice("bcc", radius=0.1)).fill_lines(SQUARE, 1)
         foam = msq.Foam(radius=0.1)
         with self.assertRaisesRegex(msq.ArgumentError, "ring 0 has 2 points"):
             foam.fill_lines(SQUARE[:2], 1)
