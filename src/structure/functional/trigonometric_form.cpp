@@ -78,6 +78,11 @@ std::optional<TrigonometricForm> TrigonometricForm::of(const Tape& tape) {
   if (!(form.slack(0) < 1e-2)) return std::nullopt;
 
   form.values_ = compile(tape.nodes, inputs, {static_cast<uint32_t>(count - 1)});
+  std::vector<int> parts(count, -1), frequencies;
+  for (size_t i = 0; i < inputs.size(); ++i)
+    if (inputs[i] != UINT32_MAX) parts[inputs[i]] = static_cast<int>(i);
+  for (const Wave& wave : form.waves_) frequencies.push_back(wave.frequency);
+  form.products_ = WaveProducts::of(tape, parts, frequencies);
   return form;
 }
 

@@ -9,6 +9,7 @@
 
 #include "expression/enclosure.h"
 #include "expression/program.h"
+#include "structure/functional/wave_products.h"
 
 namespace msq {
 
@@ -28,6 +29,8 @@ class TrigonometricForm {
   /// The error, besides that of the angle, of a sine or cosine that is a sum of two products in
   /// single precision.
   static constexpr double wave_error = 0x1p-21;
+  /// Null if the tape is no sum of products of waves, or one of many.
+  const WaveProducts* products() const { return products_ ? &*products_ : nullptr; }
   /// Bound of the error of the value in single precision. The angles of the tape's samples and
   /// those of the sines and cosines must differ by at most angle_error, times the frequency.
   double slack(double angle_error, double of_waves = wave_error) const;
@@ -38,6 +41,7 @@ class TrigonometricForm {
   std::vector<double> most_;    // magnitude of each node
   std::vector<Wave> waves_;
   Program values_;
+  std::optional<WaveProducts> products_;
 };
 
 }  // namespace msq
