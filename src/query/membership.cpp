@@ -222,7 +222,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
   model.prepare_skins(resolved, job);
   if (!model.regions().empty()) {
     fill_regions(model, resolved, slab, executor, job, counts);
-    if (finish) for_each_layer(finish);
+    if (finish) for_each_layer([&](const RowBlock& block) { finish(block, 1); });
     return;
   }
 
@@ -237,7 +237,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
   if (!is_by_tile)
     for_each_layer([&](const RowBlock& block) {
       fill_from_shape(block);
-      if (resolved.empty() && finish) finish(block);
+      if (resolved.empty() && finish) finish(block, 1);
     });
   if (resolved.empty()) return;
 
@@ -249,7 +249,7 @@ void fill_slab(const Model& model, const Scales& resolved, const SampleGrid& gri
       if (const uint64_t living = counts ? samples_of(block) : 0) counts->add_group(living);
       scale->keep_rows(block, job);
     }
-    if (finish) finish(block);
+    if (finish) finish(block, 1);
   });
 }
 

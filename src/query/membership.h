@@ -14,8 +14,9 @@
 
 namespace msq {
 
-/// Called with parts of a slab whose bits are final, each once, on any thread. It may change them.
-using FinishRows = std::function<void(const RowBlock&)>;
+/// Called with parts of a slab whose bits are final, each once, on any thread, and with how many
+/// rows of the slab each row stands for. It may change them.
+using FinishRows = std::function<void(const RowBlock&, uint64_t times)>;
 
 /// Computes the bits of layers [z0, z1) of a grid, rows tightly packed in words_for(nx) words.
 /// Overwrites `words`. Processes whole layers, in parallel. `finish`: empty, or called for all

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 #include <hwy/foreach_target.h>
@@ -187,11 +188,37 @@ class GreyOutput final : public LayerOutput {
   unsigned pixel_bytes() const override { return 1; }
   unsigned samples_across() const override { return samples_; }
 
+  bool takes_repeats() const override { return true; }
+
   uint64_t write(const LayerSource& source, uint8_t* out) const override {
-    const uint64_t height = source.pixels.ny, strips = (height + strip_rows - 1) / strip_rows;
+    const uint64_t height = source.pixels.ny;
+    if (!source.repeats) return write_strips(source, 0, height, out);
+    // Rows of pixels repeat, too: after a period of samples that is a whole number of pixels.
+    const RowRepeats& rows = *source.repeats;
+    const uint64_t period = std::lcm(rows.period, uint64_t{samples_}) / samples_;
+    const uint64_t first = (rows.first + samples_ - 1) / samples_, end = rows.end / samples_;
+    if (!source.flips->empty() || end < first + 2 * period)
+      return write_strips(source, 0, height, out);
+    const uint64_t whole = (end - first) / period, rest = (end - first) % period;
+    const uint64_t sum = write_strips(source, 0, first, out) +
+                         (whole + 1) * write_strips(source, first, first + rest, out) +
+                         whole * write_strips(source, first + rest, first + period, out) +
+                         write_strips(source, end, height, out);
+    const uint64_t stride = layer_stride(1, source.pixels.nx);
+    source.model.context().executor.for_each(whole - 1 + (rest > 0), [&](uint64_t n) {
+      const uint64_t from = first + (n + 1) * period;
+      std::memcpy(out + from * stride, out + first * stride, std::min(period, end - from) * stride);
+    });
+    return sum;
+  }
+
+ private:
+  uint64_t write_strips(const LayerSource& source, uint64_t begin, uint64_t end,
+                        uint8_t* out) const {
+    const uint64_t strips = (end - begin + strip_rows - 1) / strip_rows;
     std::vector<uint64_t> inside(strips);
     source.model.context().executor.for_each(strips, [&](uint64_t strip) {
-      const uint64_t first = strip * strip_rows, last = std::min(height, first + strip_rows);
+      const uint64_t first = begin + strip * strip_rows, last = std::min(end, first + strip_rows);
       inside[strip] = write_rows(source, first, last, out);
     });
     uint64_t sum = 0;
@@ -199,18 +226,34 @@ class GreyOutput final : public LayerOutput {
     return sum;
   }
 
- private:
   uint64_t write_rows(const LayerSource& source, uint64_t first, uint64_t last,
                       uint8_t* out) const {
     const uint64_t width = source.pixels.nx, stride = layer_stride(1, width);
-    const size_t row_bytes = words_for(width * samples_) * sizeof(uint64_t);
-    const auto* samples = reinterpret_cast<const uint8_t*>(source.words);
+    const size_t row_words = words_for(width * samples_), row_bytes = row_words * sizeof(uint64_t);
+    std::vector<uint64_t> gathered(source.repeats ? samples_ * row_words : 0);
     uint64_t inside = 0;
-    for (uint64_t j = first; j < last; ++j)
+    for (uint64_t j = first; j < last; ++j) {
+      const uint64_t* rows = source.words + j * samples_ * row_words;
+      if (source.repeats) {
+        gather(source, j * samples_, row_words, gathered.data());
+        rows = gathered.data();
+      }
       inside +=
-          HWY_DYNAMIC_DISPATCH(write_grey_row)(samples_, samples + j * samples_ * row_bytes,
+          HWY_DYNAMIC_DISPATCH(write_grey_row)(samples_, reinterpret_cast<const uint8_t*>(rows),
                                                row_bytes, greys_.data(), out + j * stride, stride);
+    }
     return inside;
+  }
+
+  /// The rows of samples of a row of pixels, from `first` on, some of which repeat others.
+  void gather(const LayerSource& source, uint64_t first, size_t row_words, uint64_t* rows) const {
+    for (uint64_t row = 0; row < samples_; ++row)
+      std::copy_n(source.words + source.repeats->source(first + row) * row_words, row_words,
+                  rows + row * row_words);
+    for (const RowFlip& flip : *source.flips)
+      if (flip.j >= first && flip.j < first + samples_)
+        rows[(flip.j - first) * row_words + flip.i / bits_per_word] ^= uint64_t{1}
+                                                                       << (flip.i % bits_per_word);
   }
 
   const unsigned samples_;

@@ -13,6 +13,7 @@
 #include "base/job.h"
 #include "base/sample_grid.h"
 #include "model/model.h"
+#include "query/repeating_rows.h"
 #include "slice/contours.h"
 #include "slice/layer_frame.h"
 
@@ -55,6 +56,9 @@ struct LayerSource {
   SampleGrid pixels;      ///< of the one layer, in the frame
   const uint64_t* words;  ///< rows of bits in words_for() words; null for outputs without samples
   Job* job;
+  /// Of `words`: null if all rows are there. Otherwise those that repeat others are not.
+  const RowRepeats* repeats = nullptr;
+  const std::vector<RowFlip>* flips = nullptr;  ///< of the layer
 };
 
 class LayerOutput {
@@ -68,6 +72,8 @@ class LayerOutput {
   /// Writes height rows of layer_stride() bytes, with zeros past the width. Returns the number of
   /// samples, or pixels where there are none, that are inside.
   virtual uint64_t write(const LayerSource& source, uint8_t* out) const = 0;
+  /// Whether write() serves sources whose repeated rows are not there.
+  virtual bool takes_repeats() const { return false; }
 };
 
 /// Bytes from one row to the next, a multiple of 8.

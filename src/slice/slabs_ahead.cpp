@@ -23,12 +23,12 @@ bool fills_ahead(const Model& model) {
 }  // namespace
 
 SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
-                       const std::vector<SampleGrid>& grids, std::vector<bool> as_bit_output,
-                       Depth depth, Bands bands, uint64_t first, uint64_t last, Job* job)
+                       const std::vector<SampleGrid>& grids, std::vector<GridUse> uses, Depth depth,
+                       Bands bands, uint64_t first, uint64_t last, Job* job)
     : model_(model),
       resolved_(resolved),
       grids_(grids),
-      as_bit_output_(std::move(as_bit_output)),
+      uses_(std::move(uses)),
       first_(first),
       last_(last),
       depth_(depth),
@@ -45,7 +45,9 @@ SlabsAhead::SlabsAhead(const Model& model, const Scales& resolved,
     layer_words_.push_back(words);
     const auto layers = [words](uint64_t count) {
       return GridSlab{std::make_unique_for_overwrite<uint64_t[]>(count * words),
-                      std::make_unique<std::atomic<uint64_t>[]>(count)};
+                      std::make_unique<std::atomic<uint64_t>[]>(count),
+                      {},
+                      {}};
     };
     current_.push_back(layers(is_one_slab && is_ahead_ ? depth.first : depth.others));
     if (is_ahead_) next_.push_back(layers(is_one_slab ? depth.others - depth.first : depth.others));
@@ -79,15 +81,29 @@ void SlabsAhead::fill(const Piece& piece, Slab& slab, const Job* job) const {
     const SampleGrid rows =
         rows_of(grids_[g], across * bands_.begin(piece.band), across * bands_.end(piece.band));
     FinishRows finish;
-    if (as_bit_output_[g]) {
+    if (uses_[g].is_as_bit_output) {
       std::atomic<uint64_t>* const inside = slab[g].inside.get();
       std::fill_n(inside, piece.end - piece.begin, uint64_t{0});
-      finish = [inside, begin = piece.begin](const RowBlock& block) {
+      finish = [inside, begin = piece.begin](const RowBlock& block, uint64_t times) {
         for (uint64_t k = block.z0; k < block.z1; ++k)
           inside[k - begin].fetch_add(
-              finish_bit_rows(block.row(block.y0, k), block.rows() * block.row_stride),
+              times * finish_bit_rows(block.row(block.y0, k), block.rows() * block.row_stride),
               std::memory_order_relaxed);
       };
+    }
+    const RowRepeats repeats = uses_[g].repeats.of_rows(
+        rows.first[1] - grids_[g].first[1], rows.first[1] - grids_[g].first[1] + rows.ny);
+    slab[g].repeats = {};
+    if (repeats.any()) {
+      const bool takes_repeats = uses_[g].takes_repeats;
+      if (takes_repeats) {
+        slab[g].repeats = repeats;
+        slab[g].flips.resize(std::max<uint64_t>(slab[g].flips.size(), piece.end - piece.begin));
+      }
+      fill_repeating_slab(model_, resolved_, rows, repeats, piece.begin, piece.end,
+                          slab[g].words.get(), job, finish,
+                          takes_repeats ? &slab[g].flips : nullptr);
+      continue;
     }
     fill_slab(model_, resolved_, rows, piece.begin, piece.end, slab[g].words.get(), job, nullptr,
               finish);

@@ -15,6 +15,7 @@
 #include "base/job.h"
 #include "base/sample_grid.h"
 #include "model/model.h"
+#include "query/repeating_rows.h"
 
 namespace msq {
 
@@ -41,12 +42,18 @@ class SlabsAhead {
                         const std::vector<SampleGrid>& grids, Depth depth, Bands bands,
                         uint64_t layers);
 
+  /// What becomes of the rows of a grid.
+  struct GridUse {
+    RowRepeats repeats;             ///< of all its rows
+    bool is_as_bit_output = false;  ///< they become what the bit output writes when they are filled
+    bool takes_repeats = false;     ///< rows that repeat others need not be there
+  };
+
   /// Of layers [first, last) of grids with the same layers, of which there may be none. No slab has
-  /// more layers than there are. `as_bit_output`: the grids whose rows become what the bit output
-  /// writes, as soon as they are filled. Fills the first slab or band.
+  /// more layers than there are. Fills the first slab or band.
   SlabsAhead(const Model& model, const Scales& resolved, const std::vector<SampleGrid>& grids,
-             std::vector<bool> as_bit_output, Depth depth, Bands bands, uint64_t first,
-             uint64_t last, Job* job);
+             std::vector<GridUse> uses, Depth depth, Bands bands, uint64_t first, uint64_t last,
+             Job* job);
   /// Stops the slab ahead.
   ~SlabsAhead();
 
@@ -56,7 +63,12 @@ class SlabsAhead {
   const uint64_t* words(size_t grid) const {
     return current_[grid].words.get() + (layer_ - piece_.begin) * layer_words_[grid];
   }
-  /// Samples inside of the current band of a grid of `as_bit_output`.
+  /// Of the current band of a grid: rows that are not there.
+  const RowRepeats& repeats(size_t grid) const { return current_[grid].repeats; }
+  const std::vector<RowFlip>& flips(size_t grid) const {
+    return current_[grid].flips[layer_ - piece_.begin];
+  }
+  /// Samples inside of the current band of a grid of `is_as_bit_output`.
   uint64_t inside_count(size_t grid) const {
     return current_[grid].inside[layer_ - piece_.begin].load(std::memory_order_relaxed);
   }
@@ -66,6 +78,8 @@ class SlabsAhead {
     /// Pages are touched as layers are filled: a shallow first slab needs few.
     std::unique_ptr<uint64_t[]> words;
     std::unique_ptr<std::atomic<uint64_t>[]> inside;  ///< of each layer
+    RowRepeats repeats;                               ///< rows that are not there
+    std::vector<std::vector<RowFlip>> flips;          ///< of each layer
   };
   using Slab = std::vector<GridSlab>;  ///< of each grid
   /// Layers that are filled at once, or a band of one.
@@ -80,7 +94,7 @@ class SlabsAhead {
   const Model& model_;
   const Scales& resolved_;
   const std::vector<SampleGrid>& grids_;
-  const std::vector<bool> as_bit_output_;
+  const std::vector<GridUse> uses_;
   const uint64_t first_, last_;
   const Depth depth_;
   const Bands bands_;

@@ -185,7 +185,15 @@ void Slicer::plan_outputs() {
     if (output.samples < across.size()) continue;
     across.push_back(wanted);
     samples_.push_back(divided_pixels(wanted));
+    repeats_.push_back(find_row_repeats(*framed_, framed_resolved_, samples_.back()));
   }
+}
+
+bool Slicer::takes_repeats(size_t samples) const {
+  return repeats_[samples].any() && !plan_.keeps_words &&
+         std::all_of(outputs_.begin(), outputs_.end(), [&](const Output& output) {
+           return output.samples != samples || output.pixels->takes_repeats();
+         });
 }
 
 SampleGrid Slicer::divided_pixels(unsigned across) const {
@@ -279,7 +287,11 @@ Slicer::Portions Slicer::portions(uint64_t layers, uint64_t beside) const {
     made.depth = slab_depth((made.depth.others + 1) / 2);
   if (made.depth.others == 1) {
     uint64_t most = std::min(automatic_slab_bytes, slab_share(context.budget->limit()));
-    if (is_shallow() && model_->executor().threads() == 1) most = std::min(most, near_band_bytes);
+    // Rows that repeat are filled once for all bands.
+    bool repeats = true;
+    for (size_t i = 0; i < samples_.size(); ++i) repeats = repeats && takes_repeats(i);
+    if (is_shallow() && !repeats && model_->executor().threads() == 1)
+      most = std::min(most, near_band_bytes);
     made.bands.band_rows = band_rows(most, bytes_of);
   }
   made.bytes = bytes_of(made.bands.band_rows);
@@ -298,9 +310,11 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   }
   const Portions portion = portions(last - first, all_bytes);
   const SlabsAhead::Bands& bands = portion.bands;
-  std::vector<bool> as_bit_output(samples_.size());
+  std::vector<SlabsAhead::GridUse> uses;
+  for (size_t i = 0; i < samples_.size(); ++i)
+    uses.push_back({repeats_[i], false, takes_repeats(i)});
   for (const Output& output : outputs_)
-    if (is_in_place(output, bands)) as_bit_output[output.samples] = true;
+    if (is_in_place(output, bands)) uses[output.samples].is_as_bit_output = true;
   const Reservation reservation(model_->context().budget, portion.bytes,
                                 samples_.empty()    ? "a layer"
                                 : bands.count() > 1 ? "a layer and bands of its rows"
@@ -313,8 +327,8 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
   for (size_t i = 0; i < outputs_.size(); ++i)
     if (!is_in_place(outputs_[i], bands)) layers[i].resize(layer_bytes(i));
   std::vector<LayerPart> parts(outputs_.size());
-  SlabsAhead slabs(*framed_, framed_resolved_, samples_, as_bit_output, portion.depth, bands, first,
-                   last, job);
+  SlabsAhead slabs(*framed_, framed_resolved_, samples_, uses, portion.depth, bands, first, last,
+                   job);
   const auto make = [&](uint64_t layer, size_t n, Job* part) {
     return contours(layer, outputs_[with_contours[n]].plan.contours, part);
   };
@@ -324,15 +338,21 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
     for (size_t i = 0; i < outputs_.size(); ++i) {
       const Output& output = outputs_[i];
       if (!output.pixels) continue;
-      const uint64_t* words = output.samples == no_samples ? nullptr : slabs.words(output.samples);
-      if (words && as_bit_output[output.samples]) {
-        parts[i].data = reinterpret_cast<const uint8_t*>(words);
+      SampleRows rows;
+      if (output.samples != no_samples) rows.words = slabs.words(output.samples);
+      if (rows.words && uses[output.samples].is_as_bit_output) {
+        parts[i].data = reinterpret_cast<const uint8_t*>(rows.words);
         parts[i].inside_count = slabs.inside_count(output.samples);
         continue;
       }
-      if (bands.count() == 1) parts[i].words = words;
+      if (rows.words && slabs.repeats(output.samples).any()) {
+        rows.repeats = &slabs.repeats(output.samples);
+        rows.flips = &slabs.flips(output.samples);
+      } else if (bands.count() == 1) {
+        parts[i].words = rows.words;
+      }
       Job part(job);  // its progress is not that of the call
-      parts[i].inside_count += write(output, layer, bands.begin(band), bands.end(band), words,
+      parts[i].inside_count += write(output, layer, bands.begin(band), bands.end(band), rows,
                                      plain.data(), layers[i].data(), &part);
       if (job) job->counts().add(part.counts());
     }
@@ -365,7 +385,7 @@ uint64_t Slicer::plain_bytes(const Output& output, uint64_t rows) const {
 }
 
 uint64_t Slicer::write(const Output& output, uint64_t index, uint64_t begin, uint64_t end,
-                       const uint64_t* words, uint8_t* plain, uint8_t* out, Job* job) const {
+                       const SampleRows& samples, uint8_t* plain, uint8_t* out, Job* job) const {
   SampleGrid pixels = rows_of(grid_, begin, end);
   pixels.nz = 1;
   pixels.origin.z = grid_.z(index);
@@ -374,9 +394,9 @@ uint64_t Slicer::write(const Output& output, uint64_t index, uint64_t begin, uin
   pixels.first[2] = 0;
   const unsigned pixel_bytes = output.pixels->pixel_bytes();
   const bool is_plain = plan_.orientation.is_plain();
-  const uint64_t inside =
-      output.pixels->write({*model_, resolved_, plan_.frame, pixels, words, job},
-                           is_plain ? out + begin * layer_stride(pixel_bytes, grid_.nx) : plain);
+  const uint64_t inside = output.pixels->write(
+      {*model_, resolved_, plan_.frame, pixels, samples.words, job, samples.repeats, samples.flips},
+      is_plain ? out + begin * layer_stride(pixel_bytes, grid_.nx) : plain);
   if (!is_plain)
     orient_rows(plan_.orientation, pixel_bytes, plain, begin, end, grid_.nx, grid_.ny, out,
                 model_->context().executor);
@@ -426,7 +446,7 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
     const uint64_t end = std::min(grid_.ny, begin + band);
     if (samples && !(is_ahead && ahead_->take(index, words, job)))
       fill_slab(*framed_, framed_resolved_, sample_rows(begin, end), index, index + 1, words, job);
-    write(output, index, begin, end, words, plain.data(), bytes, job);
+    write(output, index, begin, end, {words}, plain.data(), bytes, job);
   }
   if (beside) std::memcpy(out, bytes, layer_bytes(0));
   scope.done();

@@ -124,12 +124,19 @@ class Slicer final : public RefCounted {
   SampleGrid divided_pixels(unsigned across) const;
   /// Whether an output is made in the place of its samples: bits that nothing else is made of.
   bool is_in_place(const Output& output, const SlabsAhead::Bands& bands) const;
+  /// Whether all outputs of some samples serve without the rows that repeat others.
+  bool takes_repeats(size_t samples) const;
   /// Bytes of rows of an output as it writes them, before they are turned; 0 where they are not.
   uint64_t plain_bytes(const Output& output, uint64_t rows) const;
+  struct SampleRows {
+    const uint64_t* words = nullptr;
+    const RowRepeats* repeats = nullptr;  ///< as in LayerSource
+    const std::vector<RowFlip>* flips = nullptr;
+  };
   /// Writes rows [begin, end) of a layer from their bits, where the output has samples. The bands
   /// of a layer come in order. `plain`: plain_bytes(). `out`: of the whole layer.
   uint64_t write(const Output& output, uint64_t index, uint64_t begin, uint64_t end,
-                 const uint64_t* words, uint8_t* plain, uint8_t* out, Job* job) const;
+                 const SampleRows& samples, uint8_t* plain, uint8_t* out, Job* job) const;
 
   Ref<const Model> model_;
   SlicePlan plan_;
@@ -142,6 +149,7 @@ class Slicer final : public RefCounted {
   /// What the bits of outputs are of: the pixels, or finer grids of the same layers. No two are
   /// equal.
   std::vector<SampleGrid> samples_;
+  std::vector<RowRepeats> repeats_;  ///< of samples_
   std::array<uint64_t, 3> whole_;
   uint64_t slab_layers_ = 1;
   std::unique_ptr<LayersAhead> ahead_;  ///< null where single layers cost no more

@@ -6,6 +6,7 @@
 #include "base/borrowed.h"
 #include "base/infinity.h"
 #include "expression/period.h"
+#include "structure/common/row_period.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/functional/function_lines.h"
 #include "structure/functional/functional_rows.h"
@@ -317,6 +318,19 @@ void Functional::keep_rows(const RowBlock& block, const Job* job) const {
     TurnedRows(*this, block).keep(job);
   else
     keep_turned_rows(*this, block, job);
+}
+
+uint64_t Functional::row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const {
+  if (sample_axis_[0] < 0 || !angles_.is_uniform() || !level_.is_constant()) return 0;
+  const size_t count = y1 - y0;
+  std::vector<double> y(count + batch_padding), angles[3];
+  for (size_t i = 0; i < count; ++i) y[i] = grid.y(y0 + i);
+  for (std::vector<double>& of_axis : angles) of_axis.resize(count + batch_padding);
+  const double x = grid.x(0), z = grid.z(0);  // which do not matter
+  angles_.find({&x, true}, {y.data(), false}, {&z, true}, count,
+               {angles[0].data(), angles[1].data(), angles[2].data()});
+  const auto axis = std::find(sample_axis_.begin(), sample_axis_.end(), 1) - sample_axis_.begin();
+  return period_of(angles[axis].data(), count, 0);
 }
 
 BoxClass Functional::classify(const Box3& box) const {

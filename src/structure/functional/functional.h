@@ -14,6 +14,7 @@
 #include "expression/slope.h"
 #include "field/field.h"
 #include "structure/common/max_clusters.h"
+#include "structure/common/repeating_structure.h"
 #include "structure/functional/cell_angles.h"
 #include "structure/functional/clusters.h"
 #include "structure/functional/row_plan.h"
@@ -24,7 +25,7 @@ namespace msq {
 
 enum class FunctionalKind : int32_t { network = 1, sheet = 2 };
 
-class Functional final : public Structure {
+class Functional final : public Structure, public RepeatingStructure {
  public:
   /// `clusters`: number along an axis of the cell; 1: none, 0: the most efficient number. A period
   /// takes the place of the cell size along its axis.
@@ -50,6 +51,12 @@ class Functional final : public Structure {
   /// Then the level is bounded block by block, or tables serve all layers of a block.
   bool gains_by_layers() const override { return !level_.is_constant() || angles_.is_mapped(); }
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  /// Of rows with the same angles, bit for bit: there are no flips.
+  uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const override;
+  void keep_repeated_rows(const RowBlock& block, uint64_t, std::vector<RowFlip>&,
+                          const Job* job) const override {
+    keep_rows(block, job);
+  }
   /// Only in warped and sampled cells.
   BoxClass classify(const Box3& box) const override;
   bool knows_boxes() const override { return angles_.is_mapped(); }

@@ -173,16 +173,30 @@ double Lattice::onset(Vec3 p) const {
   return onsets.onset(fraction, fraction * size);
 }
 
+const RowStruts& Lattice::row_struts() const {
+  return row_struts_.get([&] {
+    return std::make_unique<RowStruts>(struts_, neighbourhood().cell_size, row_axes_,
+                                       radius_.range().high);
+  });
+}
+
+uint64_t Lattice::row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const {
+  if (row_axes_[0] < 0 || !radius_.is_constant()) return 0;
+  return LatticeRows::row_period(neighbourhood(), row_axes_, row_struts(), grid, y0, y1);
+}
+
+void Lattice::keep_repeated_rows(const RowBlock& block, uint64_t end, std::vector<RowFlip>& flips,
+                                 const Job* job) const {
+  LatticeRows(neighbourhood(), row_axes_, row_struts(), radius_, block, {block.rows(), end, &flips})
+      .keep(job, [this](Vec3 p) { return inside(p); });
+}
+
 void Lattice::keep_rows(const RowBlock& block, const Job* job) const {
   const Neighbourhood& grid = neighbourhood();
-  if (row_axes_[0] >= 0) {
-    const RowStruts& struts = row_struts_.get([&] {
-      return std::make_unique<RowStruts>(struts_, grid.cell_size, row_axes_, radius_.range().high);
-    });
-    return LatticeRows(grid, row_axes_, struts, radius_, block).keep(job, [this](Vec3 p) {
+  if (row_axes_[0] >= 0)
+    return LatticeRows(grid, row_axes_, row_struts(), radius_, block).keep(job, [this](Vec3 p) {
       return inside(p);
     });
-  }
   StrutRows rows(block, grid, radius_, 1e-9 * max_factor_ * radius_.range().high, max_factor_);
   if (rows.empty()) return;
   if (!rows.pays(grid, critical_samples)) return Structure::keep_rows(block, job);

@@ -7,6 +7,7 @@
 
 #include "base/lazy.h"
 #include "field/field.h"
+#include "structure/common/repeating_structure.h"
 #include "structure/lattice/cell/strut_clusters.h"
 #include "structure/lattice/cell/unit_cell.h"
 #include "structure/lattice/graph/lattice_graph.h"
@@ -17,7 +18,7 @@
 
 namespace msq {
 
-class Lattice final : public Structure {
+class Lattice final : public Structure, public RepeatingStructure {
  public:
   /// `clusters`: number along an axis of the cell, for sets of points; 1: none, 0: the most
   /// efficient number.
@@ -30,6 +31,9 @@ class Lattice final : public Structure {
   /// Then rows are drawn strut by strut, or the radius is bounded block by block.
   bool gains_by_layers() const override { return row_axes_[0] < 0 || !radius_.is_constant(); }
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const override;
+  void keep_repeated_rows(const RowBlock& block, uint64_t end, std::vector<RowFlip>& flips,
+                          const Job* job) const override;
   /// For grids along the axes only: a box about a turned grid's layer holds far more cells than the
   /// layer.
   bool has_struts() const override { return row_axes_[0] >= 0 && radius_.is_constant(); }
@@ -62,6 +66,7 @@ class Lattice final : public Structure {
   void describe(HashInput& input) const override;
   const StrutClusters& clusters() const;
   const CellParts& parts() const;
+  const RowStruts& row_struts() const;
 
   UnitCell cell_;
   Parameter radius_;

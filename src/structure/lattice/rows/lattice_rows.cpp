@@ -11,6 +11,7 @@
 
 #include "base/sample_bounds.h"
 #include "base/simd.h"
+#include "structure/common/row_period.h"
 #include "strut/restrict_words.h"
 
 namespace msq {
@@ -20,17 +21,24 @@ namespace {
 /// Rows of a layer that share bounds of a radius that is not linear.
 constexpr uint64_t bounded_rows = 16;
 
+/// Positions in the cell within this are one, of rows and layers.
+double same_position(const RowParts& parts) {
+  return 0x1p-40 * parts.extent;
+}
+
 }  // namespace
 
 LatticeRows::LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& axis,
-                         const RowParts& parts, const Parameter& radius, const RowBlock& block)
+                         const RowParts& parts, const Parameter& radius, const RowBlock& block,
+                         const Repeats& repeats)
     : cells_(grid),
       axis_(axis),
       parts_(parts),
       radius_(radius),
       block_(block),
+      repeats_(repeats),
       grid_(*block.grid),
-      same_(0x1p-40 * parts.extent),
+      same_(same_position(parts)),
       margin_(4 * same_),
       level_margin_(0x1p-24 * parts.extent + parts.error) {
   SampleBounds alive;
@@ -64,6 +72,20 @@ std::vector<double> LatticeRows::positions(int axis, uint64_t first, uint64_t en
     out.push_back(cells_.locate(p).fraction[along]);
   }
   return out;
+}
+
+// Rows of a period are drawn for positions within `same` of their own, or within twice that if they
+// are found drawn. So those that repeat them are drawn for positions within three times that; the
+// margin is more.
+uint64_t LatticeRows::row_period(const Neighbourhood& grid, const std::array<int, 3>& axis,
+                                 const RowParts& parts, const SampleGrid& samples, uint64_t y0,
+                                 uint64_t y1) {
+  std::vector<double> at;
+  at.reserve(y1 - y0);
+  const int along = axis[1];
+  for (uint64_t j = y0; j < y1; ++j)
+    at.push_back(grid.locate(samples.at(0, j, 0)).fraction[along] * grid.cell_size[along]);
+  return period_of(at.data(), at.size(), same_position(parts));
 }
 
 void LatticeRows::keep(const Job* job, const std::function<bool(Vec3)>& inside) {
@@ -231,7 +253,12 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
           const uint64_t j = rows.members[m], k = layers.members[n];
           uint64_t& word = block_.row(j, k)[window.first_word + w];
           if (!(word & bit)) continue;
-          if (inside(grid_.at(window.base + sample.column, j, k))) restored.push_back({&word, bit});
+          const uint64_t i = window.base + sample.column;
+          const bool holds = inside(grid_.at(i, j, k));
+          if (holds) restored.push_back({&word, bit});
+          if (!repeats_.period) continue;
+          for (uint64_t other = j + repeats_.period; other < repeats_.end; other += repeats_.period)
+            if (inside(grid_.at(i, other, k)) != holds) repeats_.flips->push_back({i, other, k});
         }
       if (++asked_ % 256 == 0) check_cancelled(job);
     }

@@ -9,6 +9,7 @@
 #include "base/job.h"
 #include "base/sample_grid.h"
 #include "cell/neighbourhood.h"
+#include "structure/common/repeating_structure.h"
 #include "structure/lattice/rows/row_kernel.h"
 #include "structure/lattice/rows/row_tables.h"
 
@@ -16,9 +17,24 @@ namespace msq {
 
 class LatticeRows {
  public:
+  /// The rows of a block stand for those some periods after them, too
+  /// (RepeatingStructure::row_period()).
+  struct Repeats {
+    uint64_t period = 0, end = 0;
+    std::vector<RowFlip>* flips = nullptr;
+  };
+
   /// axis[i]: the axis of the grid parallel to axis i of the samples.
   LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& axis, const RowParts& parts,
-              const Parameter& radius, const RowBlock& block);
+              const Parameter& radius, const RowBlock& block)
+      : LatticeRows(grid, axis, parts, radius, block, Repeats()) {}
+  LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& axis, const RowParts& parts,
+              const Parameter& radius, const RowBlock& block, const Repeats& repeats);
+
+  /// RepeatingStructure::row_period(), for a constant radius.
+  static uint64_t row_period(const Neighbourhood& grid, const std::array<int, 3>& axis,
+                             const RowParts& parts, const SampleGrid& samples, uint64_t y0,
+                             uint64_t y1);
 
   /// Clears the bits of samples that are outside; inside(p) decides the doubtful samples.
   void keep(const Job* job, const std::function<bool(Vec3)>& inside);
@@ -61,6 +77,7 @@ class LatticeRows {
   const RowParts& parts_;
   const Parameter& radius_;
   const RowBlock& block_;
+  const Repeats repeats_;
   const Borrowed<RowTables> tables_;
   const SampleGrid& grid_;
   double same_, margin_, level_margin_;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structures whose rows of samples repeat where cells are a whole number of rows high.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/job.h"
+#include "base/sample_grid.h"
+
+namespace msq {
+
+/// A sample of a row that repeats another, but for the membership of this sample.
+struct RowFlip {
+  uint64_t i, j, k;
+};
+
+class RepeatingStructure {
+ public:
+  virtual ~RepeatingStructure() = default;
+
+  /// The least number of rows after which the membership of the samples of rows [y0, y1) repeats,
+  /// in any layer, but for flips. At most half of the rows; 0: none is known.
+  virtual uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const = 0;
+  /// As Structure::keep_rows(), of a period of rows. The samples that are alive are so in all rows
+  /// up to `end`. Appends those whose membership differs from that of the row of the block that
+  /// they repeat.
+  virtual void keep_repeated_rows(const RowBlock& block, uint64_t end, std::vector<RowFlip>& flips,
+                                  const Job* job) const = 0;
+};
+
+}  // namespace msq
