@@ -22,6 +22,7 @@ struct Setting {
   bool is_graded = false, is_turned = false;
   int32_t period_axis = -1;  // cells along it from half to twice the size; -1: of one size
   int32_t warp = 0;          // an msq_warp_kind about the middle of the cube; 0: none
+  double shear = 0;          // along the axis
   uint32_t clusters = 0;
   int32_t kind = MSQ_FUNCTIONAL_NETWORK;
   double level = 0;
@@ -50,6 +51,7 @@ double slice_seconds(const Setting& setting, uint32_t resolution, uint64_t layer
   period.count = 2;
   if (setting.period_axis >= 0) def.period = &period;
   msq_warp_def warp = bench::warp_of(setting.warp, setting.cells);
+  warp.shear_along = setting.shear;
   std::optional<bench::SampledCells> map;
   if (setting.warp == MSQ_WARP_SAMPLED) map.emplace(context, setting.cells).set(warp);
   if (setting.warp) {
@@ -117,6 +119,9 @@ int main(int count, char** arguments) try {
   setting.is_turned = false;
   setting.warp = MSQ_WARP_CYLINDRICAL;
   add("gyroid, 32 cells across, around an axis", setting, 2048);
+  setting.shear = 0.5;
+  add("gyroid, 32 cells across, around an axis, twisted", setting, 2048);
+  setting.shear = 0;
   setting.warp = MSQ_WARP_SPHERICAL;
   add("gyroid, 32 cells across, around a point", setting, 2048, 64);
   setting.warp = MSQ_WARP_SAMPLED;

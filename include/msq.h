@@ -543,10 +543,12 @@ enum msq_warp_kind {
  *   the pattern closes. cell_size[1] is not used.
  * - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the
  *   north pole: count_polar cells in half a turn, and cell_size[2] is not used.
- * On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther
- * out are wider. They shrink to nothing at the axis and at the poles: there a structure has no
- * least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and
- * cut the poles off by the shape.
+ * Around an axis the cells may be sheared: shear_outwards times x and shear_along times z are added
+ * to y, and whole turns are removed. The pattern closes around the axis for any shear. A positive
+ * shear turns it from the y axis towards the x axis. On the positive x axis of the grid the cells
+ * lie as those of the grid do, without a shear. Cells that are farther out are wider. They shrink
+ * to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius
+ * so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.
  *
  * Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a
  * functional structure; lattices have whole cells there (msq_lattice_def.warp).
@@ -583,6 +585,12 @@ typedef struct msq_warp_def {
   const msq_field* v;
   /** SAMPLED: the coordinate z, likewise. */
   const msq_field* w;
+  /** CYLINDRICAL: by how many cells the pattern turns around the axis from cell to cell outwards:
+   * at most 65536 in magnitude. Default 0. Otherwise 0. */
+  double shear_outwards;
+  /** CYLINDRICAL: the same from cell to cell along the axis, as in a twisted rope. count over
+   * shear_along cells make a whole turn. */
+  double shear_along;
 } msq_warp_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */

@@ -164,7 +164,7 @@ struct msq_job_report; struct_size::UInt32; reserved::UInt32; points::UInt64; by
 struct msq_window; first::NTuple{3,UInt64}; count::NTuple{3,UInt64}; end
 struct msq_neighbourhood; origin::NTuple{3,Cdouble}; cell_size::NTuple{3,Cdouble}; rotation::NTuple{9,Cdouble}; end
 struct msq_period_def; struct_size::UInt32; axis::Int32; positions::Ptr{Cdouble}; cell_sizes::Ptr{Cdouble}; count::UInt64; end
-struct msq_warp_def; struct_size::UInt32; kind::Int32; count::UInt32; count_polar::UInt32; inner_radius::Cdouble; outer_radius::Cdouble; u::Ptr{msq_field}; v::Ptr{msq_field}; w::Ptr{msq_field}; end
+struct msq_warp_def; struct_size::UInt32; kind::Int32; count::UInt32; count_polar::UInt32; inner_radius::Cdouble; outer_radius::Cdouble; u::Ptr{msq_field}; v::Ptr{msq_field}; w::Ptr{msq_field}; shear_outwards::Cdouble; shear_along::Cdouble; end
 struct msq_image; values::Ptr{Cvoid}; value_type::Int32; reserved::UInt32; size::NTuple{3,UInt64}; row_stride::UInt64; layer_stride::UInt64; grid::msq_neighbourhood; end
 struct msq_file_def; struct_size::UInt32; format::Int32; winding_rule::Int32; reserved::UInt32; unit_mm::Cdouble; max_bytes::UInt64; max_triangles::UInt64; end
 struct msq_mesh_def; struct_size::UInt32; coordinate_type::Int32; winding_rule::Int32; reserved::UInt32; vertices::Ptr{Cvoid}; vertex_count::UInt64; vertex_stride::UInt64; triangles::Ptr{UInt32}; triangle_count::UInt64; end

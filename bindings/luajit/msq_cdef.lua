@@ -62,7 +62,7 @@ typedef int32_t (*msq_values_fn)(void* user, const double* points, uint64_t coun
 typedef int32_t (*msq_range_fn)(void* user, const double* min, const double* max, double* low, double* high);
 typedef struct msq_neighbourhood { double origin[3]; double cell_size[3]; double rotation[9]; } msq_neighbourhood;
 typedef struct msq_period_def { uint32_t struct_size; int32_t axis; const double* positions; const double* cell_sizes; uint64_t count; } msq_period_def;
-typedef struct msq_warp_def { uint32_t struct_size; int32_t kind; uint32_t count; uint32_t count_polar; double inner_radius; double outer_radius; const msq_field* u; const msq_field* v; const msq_field* w; } msq_warp_def;
+typedef struct msq_warp_def { uint32_t struct_size; int32_t kind; uint32_t count; uint32_t count_polar; double inner_radius; double outer_radius; const msq_field* u; const msq_field* v; const msq_field* w; double shear_outwards; double shear_along; } msq_warp_def;
 typedef struct msq_image { const void* values; int32_t value_type; uint32_t reserved; uint64_t size[3]; uint64_t row_stride; uint64_t layer_stride; msq_neighbourhood grid; } msq_image;
 typedef struct msq_file_def { uint32_t struct_size; int32_t format; int32_t winding_rule; uint32_t reserved; double unit_mm; uint64_t max_bytes; uint64_t max_triangles; } msq_file_def;
 typedef struct msq_mesh_def { uint32_t struct_size; int32_t coordinate_type; int32_t winding_rule; uint32_t reserved; const void* vertices; uint64_t vertex_count; uint64_t vertex_stride; const uint32_t* triangles; uint64_t triangle_count; } msq_mesh_def;

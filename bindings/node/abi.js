@@ -232,6 +232,8 @@ export function types(koffi) {
     u: 'void *',
     v: 'void *',
     w: 'void *',
+    shear_outwards: 'double',
+    shear_along: 'double',
   });
   T.msq_image = koffi.struct('msq_image', {
     values: 'void *',

@@ -131,6 +131,8 @@ void walk_warp(DefinitionWalk& in, msq_warp_def& def) {
   in.object("u", def.u);
   in.object("v", def.v);
   in.object("w", def.w);
+  in.number("shear_outwards", def.shear_outwards);
+  in.number("shear_along", def.shear_along);
 }
 
 #define MSQ_DEFAULTS(Def, init) \

@@ -36,6 +36,10 @@ std::shared_ptr<const SampledMap> read_sampled(const msq_warp_def& def) {
     fail(Status::argument,
          "warp.inner_radius is %g and warp.outer_radius %g; of a sampled map both are 0",
          def.inner_radius, def.outer_radius);
+  if (def.shear_outwards != 0 || def.shear_along != 0)
+    fail(Status::argument,
+         "warp.shear_outwards is %g and warp.shear_along %g; of a sampled map both are 0",
+         def.shear_outwards, def.shear_along);
   return std::make_shared<const SampledMap>(SampledMap::Fields{
       read_samples(def.u, "warp.u"), read_samples(def.v, "warp.v"), read_samples(def.w, "warp.w")});
 }
@@ -55,7 +59,8 @@ CellMap read_warp(const msq_warp_def*& def, msq_warp_def& known, const Neighbour
          "them",
          kind);
   return {Warp(static_cast<Warp::Kind>(kind), grid,
-               {known.count, known.count_polar, known.inner_radius, known.outer_radius}),
+               {known.count, known.count_polar, known.inner_radius, known.outer_radius,
+                known.shear_outwards, known.shear_along}),
           {}};
 }
 

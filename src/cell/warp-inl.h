@@ -31,6 +31,18 @@ HWY_INLINE typename A::V cells_around(const A& a, const Warp::Numbers& n, typena
   return a.choose(a.less(v, count), v, zero);
 }
 
+/// v in sheared cells.
+template <class A>
+HWY_INLINE typename A::V sheared(const A& a, const Warp::Numbers& n, typename A::V u,
+                                 typename A::V v, typename A::V w) {
+  const auto zero = a.set(0), count = a.set(n.count);
+  v = a.add(v, a.add(a.multiply(u, a.set(n.shear_outwards)), a.multiply(w, a.set(n.shear_along))));
+  v = a.subtract(v, a.multiply(count, a.floor(a.divide(v, count))));
+  // Rounding may leave it just outside.
+  v = a.choose(a.less(v, zero), zero, v);
+  return a.choose(a.less(v, count), v, zero);
+}
+
 /// u from the radius.
 template <class A>
 HWY_INLINE typename A::V cells_outwards(const A& a, const Warp::Numbers& n, typename A::V radius) {
@@ -54,6 +66,7 @@ HWY_INLINE WarpedPlace<A> warped_place(const A& a, const Warp::Numbers& n, typen
     place.w = a.divide(z, a.set(n.along));
   }
   place.u = cells_outwards(a, n, place.radius);
+  if (n.is_sheared) place.v = sheared(a, n, place.u, place.v, place.w);
   return place;
 }
 

@@ -64,6 +64,15 @@ void check(const Warp::Shell& shell, Warp::Kind kind) {
          "warp.outer_radius is %g; it must be 0, for no limit, or above inner_radius, %g, and at "
          "most %g",
          shell.outer, shell.inner, most);
+  const auto check_shear = [&](double shear, const char* name) {
+    if (!(std::abs(shear) <= Warp::max_shear))
+      fail(Status::argument, "warp.%s is %g; it must be at most %g in magnitude", name, shear,
+           Warp::max_shear);
+    if (shear != 0 && kind == Warp::Kind::spherical)
+      fail(Status::argument, "warp.%s is %g; around a point it must be 0", name, shear);
+  };
+  check_shear(shell.shear_outwards, "shear_outwards");
+  check_shear(shell.shear_along, "shear_along");
 }
 
 /// Rounding of the definition after the position in the grid's frame, whose relative error is a few
@@ -89,6 +98,9 @@ Warp::Warp(Kind kind, const Neighbourhood& grid, const Shell& shell)
   numbers_.along = numbers_.is_spherical ? shell.count_polar / pi : grid.cell_size.z;
   numbers_.quarter_turn = pi / 2;
   numbers_.last = shell.count_polar;
+  numbers_.shear_outwards = shell.shear_outwards;
+  numbers_.shear_along = shell.shear_along;
+  numbers_.is_sheared = shell.is_sheared();
 }
 
 Warp::Place Warp::place(Vec3 p) const {
@@ -108,7 +120,10 @@ Neighbourhood::Located Warp::locate(Vec3 cells) const {
 
 Vec3 Warp::from_cells(Vec3 cells) const {
   const double r = numbers_.inner + cells.x * numbers_.radial;
-  const double v = cells.y - numbers_.count * std::floor(cells.y / numbers_.count);
+  const auto closed = [&](double v) { return v - numbers_.count * std::floor(v / numbers_.count); };
+  double v = closed(cells.y);
+  if (numbers_.is_sheared)
+    v = closed(v - (cells.x * numbers_.shear_outwards + cells.z * numbers_.shear_along));
   const Vec3 around = direction(v * (two_pi / numbers_.count));
   double across = r, along = cells.z * numbers_.along;
   if (numbers_.is_spherical) {
@@ -130,15 +145,31 @@ double Warp::slack(Vec3 p, double distance) const {
   // are within 2^-48 of the true ones, as arcs at a distance of at most twice the reach; radii
   // within 2^-51.
   const double reach = max_magnitude(p) + max_magnitude(grid_.origin) + distance;
-  return 0x1p-45 * (reach + numbers_.inner) + tiny;
+  const double slack = 0x1p-45 * (reach + numbers_.inner) + tiny;
+  if (!numbers_.is_sheared) return slack;
+  // The shear is of the u and w that are computed. It has four roundings; as v goes around, they
+  // are arcs at a distance of at most twice the reach. Whole turns are removed without rounding.
+  const double in_cells =
+      2 * (std::abs(numbers_.shear_outwards) * ((reach + numbers_.inner) / numbers_.radial) +
+           std::abs(numbers_.shear_along) * (reach / numbers_.along));
+  return slack + 0x1p-48 * reach * (in_cells / numbers_.around);
 }
 
+// With S the lengths without a shear and s, t its two numbers, the squared length of a grad u + b
+// grad v + c grad w is (S_u (a + s b))^2 + (S_v b)^2 + (S_w (c + t b))^2, and (a + s b)^2 is at
+// most 2 a^2 + 2 s^2 b^2.
 Vec3 Warp::slopes(double axis_distance, double radius) const {
   constexpr double up = 1 + relative_margin;
   const auto around = [](double cells, double at) { return at > 0 ? cells / at * up : infinity; };
-  return {up / numbers_.radial, around(numbers_.around, axis_distance),
-          numbers_.is_spherical ? around(numbers_.along, std::max(radius, axis_distance))
-                                : up / numbers_.along};
+  const Vec3 straight{up / numbers_.radial, around(numbers_.around, axis_distance),
+                      numbers_.is_spherical
+                          ? around(numbers_.along, std::max(radius, axis_distance))
+                          : up / numbers_.along};
+  if (!numbers_.is_sheared) return straight;
+  const double s = straight.x * numbers_.shear_outwards, t = straight.z * numbers_.shear_along;
+  const double root = std::sqrt(2.0) * up;
+  return {straight.x * root, std::sqrt(straight.y * straight.y + 2 * (s * s + t * t)) * up,
+          straight.z * root};
 }
 
 Vec3 Warp::bends(double axis_distance, double radius) const {
@@ -148,21 +179,27 @@ Vec3 Warp::bends(double axis_distance, double radius) const {
   // it is at most rho'' / r + 2 |k / r| |r'| / r^2 <= 1 / (rho r) + 1 / r^2.
   constexpr double up = 1 + relative_margin;
   const double r = std::max(radius, axis_distance);
-  return {up / (r * numbers_.radial), up * numbers_.around / (axis_distance * axis_distance),
-          numbers_.is_spherical ? up * 2 * numbers_.along / (axis_distance * r) : 0};
+  Vec3 bends{up / (r * numbers_.radial), up * numbers_.around / (axis_distance * axis_distance),
+             numbers_.is_spherical ? up * 2 * numbers_.along / (axis_distance * r) : 0};
+  // w is linear where cells are sheared.
+  if (numbers_.is_sheared) bends.y += up * std::abs(numbers_.shear_outwards) * bends.x;
+  return bends;
 }
 
 std::array<Vec3, 3> Warp::gradients(Vec3 p) const {
   const Vec3 g = grid_.to_grid(p);
   const double across = g.x * g.x + g.y * g.y, rho = std::sqrt(across);
-  const Vec3 around = Vec3{-g.y, g.x, 0} * (numbers_.around / across);
+  Vec3 around = Vec3{-g.y, g.x, 0} * (numbers_.around / across);
   Vec3 outwards{g.x / rho, g.y / rho, 0}, along{0, 0, 1 / numbers_.along};
   if (numbers_.is_spherical) {
     const double square = across + g.z * g.z;
     along = Vec3{-g.z * outwards.x, -g.z * outwards.y, rho} * (numbers_.along / square);
     outwards = g * (1 / std::sqrt(square));
   }
-  return {grid_.rotation.apply(outwards * (1 / numbers_.radial)), grid_.rotation.apply(around),
+  outwards = outwards * (1 / numbers_.radial);
+  if (numbers_.is_sheared)
+    around = around + outwards * numbers_.shear_outwards + along * numbers_.shear_along;
+  return {grid_.rotation.apply(outwards), grid_.rotation.apply(around),
           grid_.rotation.apply(along)};
 }
 
@@ -218,8 +255,21 @@ Warp::Image Warp::image(const Box3& box) const {
     ahead = std::max(ahead, angle);
   }
   const double at = angle_of(m.y, m.x), margin = 8 * relative_margin;
-  const double v0 = (at + back - margin) * numbers_.around,
-               v1 = (at + ahead + margin) * numbers_.around;
+  double v0 = (at + back - margin) * numbers_.around, v1 = (at + ahead + margin) * numbers_.around;
+  if (numbers_.is_sheared) {
+    const auto span = [](double a, double b, double times) {
+      return Interval{std::min(a * times, b * times), std::max(a * times, b * times)};
+    };
+    const Interval s = span(image.cells.min.x, image.cells.max.x, numbers_.shear_outwards),
+                   t = span(image.cells.min.z, image.cells.max.z, numbers_.shear_along);
+    const double most = std::max({-s.low, s.high, 0.0}) + std::max({-t.low, t.high, 0.0}),
+                 rounding = relative_margin * (most + numbers_.count);
+    v0 += s.low + t.low - rounding;
+    v1 += s.high + t.high + rounding;
+    const double turns = numbers_.count * std::floor(v0 / numbers_.count);
+    v0 -= turns;
+    v1 -= turns;
+  }
   if (!(v1 - v0 < numbers_.count)) return image;
   image.cells.min.y = v0;
   image.cells.max.y = v1;
@@ -232,6 +282,9 @@ void Warp::describe(HashInput& input) const {
   input.integer(shell_.count_polar);
   input.number(shell_.inner);
   input.number(shell_.outer);
+  if (!shell_.is_sheared()) return;
+  input.number(shell_.shear_outwards);
+  input.number(shell_.shear_along);
 }
 
 }  // namespace msq

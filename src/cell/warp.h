@@ -9,12 +9,15 @@
 // at the south pole to count_polar at the north pole. On the positive x axis the directions of u, v
 // and w are those of x, y and z. warp-inl.h says in which order they are rounded.
 //
+// Around an axis the cells may be sheared: shear_outwards u + shear_along w is added to v, and v is
+// taken modulo count again. So cells turn around the axis from cell to cell.
+//
 // Cells are those of whole numbers. v is counted modulo count, so the cells close. Points with r
 // below the inner or above the outer radius are outside of the shell that the cells fill.
 //
-// Slopes. The gradients of u, v and w are perpendicular to each other. Their lengths are
-// 1 / cell size x; count / (2 pi rho) at a distance rho from the axis; and 1 / cell size z, or
-// count_polar / (pi r).
+// Slopes. Without a shear the gradients of u, v and w are perpendicular to each other. Their
+// lengths are 1 / cell size x; count / (2 pi rho) at a distance rho from the axis; and 1 / cell
+// size z, or count_polar / (pi r).
 #pragma once
 
 #include <array>
@@ -31,8 +34,13 @@ class Warp {
   struct Shell {
     uint32_t count = 0, count_polar = 0;  // cells around; from pole to pole, if spherical
     double inner = 0, outer = 0;          // radii; outer 0: no limit
+    // Around an axis: cells around per cell outwards, and per cell along the axis.
+    double shear_outwards = 0, shear_along = 0;
+
+    bool is_sheared() const { return shear_outwards != 0 || shear_along != 0; }
   };
   static constexpr uint32_t max_count = 65536;
+  static constexpr double max_shear = 65536;
 
   /// Throws Error(argument), which names the value and its limit. Of the grid's cell size, y is not
   /// used, nor is z around a point.
@@ -81,7 +89,9 @@ class Warp {
   double axis_distance(Vec3 p) const;
   double radius(Vec3 p) const { return place(p).radius; }
   /// Upper bounds on the lengths of the gradients of u, v and w at all points that are at least
-  /// that far from the axis, and from the point if spherical. Infinite at a distance of 0.
+  /// that far from the axis, and from the point if spherical. Infinite at a distance of 0. For any
+  /// numbers a, b and c the length of a grad u + b grad v + c grad w is at most that of (a, b, c)
+  /// times these bounds.
   Vec3 slopes(double axis_distance, double radius) const;
 
   /// The gradients of u, v and w at a point, in the model's frame, up to rounding. Not finite on
@@ -101,7 +111,8 @@ class Warp {
   struct Numbers {
     double origin[3], matrix[9];
     double inner, outer, radial, around, along, quarter_turn, count, last;
-    bool is_spherical;
+    double shear_outwards, shear_along;
+    bool is_spherical, is_sheared;
   };
   const Numbers& numbers() const { return numbers_; }
 

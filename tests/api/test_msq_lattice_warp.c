@@ -47,6 +47,11 @@ static void place_around_axis(const double u[3], double g[3]) {
   g[1] = r * sin(angle);
   g[2] = 0.7 * u[2];
 }
+/* The same, turned by 0.6 cells from cell to cell along the axis, and by -0.3 outwards. */
+static void place_twisted(const double u[3], double g[3]) {
+  const double around[3] = {u[0], u[1] + 0.3 * u[0] - 0.6 * u[2], u[2]};
+  place_around_axis(around, g);
+}
 /* 9 cells around, 5 from pole to pole, 0.5 wide from the centre on. */
 static void place_around_point(const double u[3], double g[3]) {
   const double r = 0.5 * u[0], angle = turn * u[1] / 9, latitude = turn / 2 * (u[2] / 5 - 0.5);
@@ -223,7 +228,11 @@ static void cells_around_an_axis_have_their_struts(void** state) {
     place_cells(place_around_axis, first, last);
     compare(&def, half);
   }
-  factors = mixed_factors;
+  def.strut_factors = factors = mixed_factors;
+  warp.shear_outwards = -0.3;
+  warp.shear_along = 0.6;
+  place_cells(place_twisted, first, last);
+  compare(&def, half);
 }
 
 static void cells_around_a_point_have_their_struts(void** state) {

@@ -106,6 +106,8 @@ static void lattices_hash_warps(void** state) {
     NOT_HASHED(def.u);
     NOT_HASHED(def.v);
     NOT_HASHED(def.w);
+    NOT_HASHED(def.shear_outwards);
+    NOT_HASHED(def.shear_along);
   }
 }
 
@@ -465,6 +467,24 @@ static void warps_hash_kind_counts_and_radii(void** state) {
     NOT_HASHED(def.u);
     NOT_HASHED(def.v);
     NOT_HASHED(def.w);
+    NOT_HASHED(def.shear_outwards);
+    NOT_HASHED(def.shear_along);
+  }
+  /* Only around an axis. */
+  def.kind = MSQ_WARP_CYLINDRICAL;
+  def.count_polar = 0;
+  HASHES(context, "msq_warp_def", &def, sizeof def, hash_warp) {
+    NOT_HASHED(def.struct_size);
+    NOT_HASHED(def.kind);
+    CHANGES(def.count, def.count = 8);
+    NOT_HASHED(def.count_polar);
+    CHANGES(def.inner_radius, def.inner_radius = 0);
+    CHANGES(def.outer_radius, def.outer_radius = 0);
+    NOT_HASHED(def.u);
+    NOT_HASHED(def.v);
+    NOT_HASHED(def.w);
+    CHANGES(def.shear_outwards, def.shear_outwards = 0.25);
+    CHANGES(def.shear_along, def.shear_along = 0.25);
   }
 }
 
@@ -491,6 +511,8 @@ static void maps_hash_their_samples(void** state) {
       CHANGES(def.u, def.u = others[0]);
       CHANGES(def.v, def.v = others[1]);
       CHANGES(def.w, def.w = others[2]);
+      NOT_HASHED(def.shear_outwards);
+      NOT_HASHED(def.shear_along);
     }
   for (int axis = 0; axis < 3; ++axis) {
     msq_field_release(fields[axis]);

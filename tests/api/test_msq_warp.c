@@ -33,6 +33,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_int_equal(def.count_polar, 0);
   assert_true(def.inner_radius == 0 && def.outer_radius == 0);
   assert_true(!def.u && !def.v && !def.w);
+  assert_true(def.shear_outwards == 0 && def.shear_along == 0);
 }
 
 static msq_status create_with(void* env, void* warp) {
@@ -76,7 +77,13 @@ static void what_makes_no_map_is_refused(void** state) {
   REFUSED(CYLINDRICAL, def.outer_radius = 0.5, "above inner_radius, 0.5");
   REFUSED(CYLINDRICAL, def.outer_radius = -1, "warp.outer_radius is -1");
   REFUSED(CYLINDRICAL, def.outer_radius = 2e75, "at most 1e+75");
+  REFUSED(CYLINDRICAL, def.shear_outwards = 65537, "warp.shear_outwards is 65537; it must be at");
+  REFUSED(CYLINDRICAL, def.shear_along = -1e9, "warp.shear_along is -1e+09; it must be at most");
+  REFUSED(SPHERICAL, def.shear_along = 0.5, "warp.shear_along is 0.5; around a point it must be 0");
+  REFUSED(SPHERICAL, def.shear_outwards = 1, "warp.shear_outwards is 1; around a point");
   for (int which = 0; which < 3; ++which) {
+    REFUSED(CYLINDRICAL, def.shear_along = not_finite(which), "warp.shear_along is ");
+    REFUSED(CYLINDRICAL, def.shear_outwards = not_finite(which), "warp.shear_outwards is ");
     REFUSED(CYLINDRICAL, def.inner_radius = not_finite(which), "warp.inner_radius is ");
     REFUSED(SPHERICAL, def.outer_radius = not_finite(which), "warp.outer_radius is ");
   }
@@ -178,6 +185,45 @@ static void cells_lie_around_an_axis_or_a_point(void** state) {
   msq_context_release(context);
 }
 
+/* Slices along each axis of the grid have the twisted gyroid, too. */
+static void sheared_cells_turn_around_the_axis(void** state) {
+  msq_context* context = make_context();
+  static uint8_t inside[samples];
+  (void)state;
+  for (int is_turned = 0; is_turned < 2; ++is_turned) {
+    const double c = cos(0.5), s = sin(0.5), rotation[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
+    msq_warp_def warp = warp_def(MSQ_WARP_CYLINDRICAL);
+    warp.shear_outwards = is_turned ? -0.4 : 0;
+    warp.shear_along = 1.75;
+    msq_functional_def def = functional_def(&warp);
+    def.grid.cell_size[0] = 0.7;
+    def.grid.cell_size[2] = 0.9;
+    def.grid.origin[1] = 0.3;
+    if (is_turned) memcpy(def.grid.rotation, rotation, sizeof rotation);
+    msq_structure* structure;
+    assert_ok(msq_structure_functional(context, &def, &structure));
+    msq_model* model = make_model(context, make_box_of(context, -2, 2), structure, NULL);
+    const msq_points_def points = turned_points();
+    assert_ok(msq_set_membership(model, &points, NULL, inside, samples, NULL));
+    int held = 0;
+    for (int i = 0; i < samples; ++i) {
+      double g[3];
+      turned_position(&points, i, is_turned ? rotation : NULL, g);
+      const double r = sqrt(g[0] * g[0] + g[1] * g[1]);
+      const double x = (r - 0.5) / 0.7, z = g[2] / 0.9,
+                   y = 9 * atan2(g[1], g[0]) / turn + warp.shear_outwards * x + 1.75 * z;
+      const double onset = sin(turn * x) * cos(turn * y) + sin(turn * y) * cos(turn * z) +
+                           sin(turn * z) * cos(turn * x);
+      held += inside[i];
+      if (fabs(onset - 0.25) > 1e-12 && fabs(r - 0.5) > 1e-12 && fabs(r - 1.75) > 1e-12)
+        assert_int_equal(inside[i], onset <= 0.25 && r >= 0.5 && r <= 1.75);
+    }
+    assert_in_range(held, samples / 50, samples / 2);
+    msq_model_release(model);
+  }
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(defaults_are_those_of_the_header),
@@ -185,6 +231,7 @@ int main(void) {
       cmocka_unit_test(what_makes_no_map_is_refused),
       cmocka_unit_test(what_does_not_go_with_a_warp_is_refused),
       cmocka_unit_test(cells_lie_around_an_axis_or_a_point),
+      cmocka_unit_test(sheared_cells_turn_around_the_axis),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -283,6 +283,8 @@ static void what_makes_no_map_is_refused(void** state) {
   REFUSED(def.count = 3, "warp.count is 3");
   REFUSED(def.count_polar = 4, "warp.count_polar 4");
   REFUSED(def.inner_radius = 2, "warp.inner_radius is 2");
+  REFUSED(def.shear_outwards = 1, "warp.shear_outwards is 1");
+  REFUSED(def.shear_along = 3, "warp.shear_along 3; of a sampled map both are 0");
   REFUSED(def.outer_radius = 5, "warp.outer_radius 5");
   REFUSED(def.kind = MSQ_WARP_CYLINDRICAL; def.count = 3, "only a sampled map has them");
   /* In place of v: other grids. */

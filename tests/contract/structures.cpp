@@ -184,11 +184,16 @@ namespace {
 
 /// Six cells around the grid's z axis or origin, some of the shell's ends within reach.
 Factory warped_factory(const char* expression, FunctionalKind kind, Warp::Kind warp,
-                       double inner = 0.4) {
+                       double inner = 0.4, double shear_outwards = 0, double shear_along = 0) {
   const Tape tape = parse_expression(expression, {});
   return [=](const Neighbourhood& grid, Parameter level) {
     const double size = grid.cell_size.x;
-    const Warp::Shell shell{6, warp == Warp::Kind::spherical ? 4u : 0u, inner * size, 2.6 * size};
+    const Warp::Shell shell{6,
+                            warp == Warp::Kind::spherical ? 4u : 0u,
+                            inner * size,
+                            2.6 * size,
+                            shear_outwards,
+                            shear_along};
     return Ref<const Structure>(
         make_ref<Functional>(grid, tape, kind, std::move(level), 0, Warp(warp, grid, shell)));
   };
@@ -341,6 +346,12 @@ std::vector<Kind> kinds() {
                    warped_factory(choice, network, cylinder, 0)});
   kinds.push_back({"warped", "gyroid around a point", 0.2, 1,
                    warped_factory(preset_expressions[0], sheet, sphere)});
+  kinds.push_back({"warped", "gyroid, sheared", 0.2, 1,
+                   warped_factory(preset_expressions[0], network, cylinder, 0.4, 0.3, -0.7)});
+  kinds.push_back({"warped", "lidinoid sheet, twisted", 0.1, 1,
+                   warped_factory(preset_expressions[6], sheet, cylinder, 0.4, 0, 1.25)});
+  kinds.push_back({"warped", "choice, sheared", 0.05, 1,
+                   warped_factory(choice, network, cylinder, 0.4, 0.5, 0.5)});
   kinds.push_back({"sampled", "gyroid", 0.2, 1, sampled_factory(preset_expressions[0], network)});
   kinds.push_back(
       {"sampled", "split P sheet", 0.1, 1, sampled_factory(preset_expressions[7], sheet)});
@@ -362,6 +373,12 @@ std::vector<Kind> kinds() {
   kinds.push_back(
       {"warped lattice", "factors around a point", 0.07, 1,
        round_lattice_factory(factored_unit_cell(), ball, {-1.3, -1.1, -1.7}, {16, 8, 0.4, 0})});
+  kinds.push_back(
+      {"warped lattice", "BCC, twisted", 0.08, 1,
+       round_lattice_factory(bcc_unit_cell(), round, {-2.3, -2.2, 0}, {20, 0, 0, 0, 0, 0.75})});
+  kinds.push_back({"warped lattice", "skew, sheared, fat", 0.15, 1,
+                   round_lattice_factory(skew_unit_cell(), round, {-1.1, 0.2, 0.3},
+                                         {9, 0, 0.5, 2.2, -0.6, 0.9})});
   kinds.push_back({"sampled lattice", "BCC", 0.08, 1, sampled_lattice_factory(bcc_unit_cell())});
   kinds.push_back(
       {"sampled lattice", "skew, fat", 0.15, 1, sampled_lattice_factory(skew_unit_cell())});

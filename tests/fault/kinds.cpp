@@ -191,6 +191,7 @@ msq_warp_def cylinder() {
   def.count = 12;
   def.inner_radius = 0.5;
   def.outer_radius = 5.5;
+  def.shear_along = 0.25;
   return def;
 }
 

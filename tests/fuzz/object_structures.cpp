@@ -112,6 +112,10 @@ Owner<msq_structure> Maker::lattice() {
     warp.inner_radius = input_.number(0, 3) * sight_.unit;
     if (input_.chance(100))
       warp.outer_radius = warp.inner_radius + input_.number(0, 6) * sight_.unit;
+    if (warp.kind == MSQ_WARP_CYLINDRICAL && input_.chance(100)) {
+      warp.shear_outwards = input_.number(-2, 2);
+      warp.shear_along = input_.number(-2, 2);
+    }
     if (input_.chance(80)) sample(warp);
     def.warp = &warp;
   }
@@ -181,6 +185,10 @@ Owner<msq_structure> Maker::functional() {
     warp.count_polar = warp.kind == MSQ_WARP_SPHERICAL ? warp.count : 0;
     warp.inner_radius = input_.chance(128) ? sight_.unit * input_.number(0, 2) : 0;
     warp.outer_radius = input_.chance(128) ? sight_.unit * input_.number(2, 5) : 0;
+    if (warp.kind == MSQ_WARP_CYLINDRICAL && input_.chance(100)) {
+      warp.shear_outwards = input_.number(-2, 2);
+      warp.shear_along = input_.number(-2, 2);
+    }
     if (input_.chance(80)) sample(warp);
     def.warp = &warp;
   }

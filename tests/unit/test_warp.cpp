@@ -43,6 +43,10 @@ Warp random_warp(Random& random, Warp::Kind kind) {
   if (kind == Warp::Kind::spherical)
     shell.count_polar = static_cast<uint32_t>(1 + random.below(random.below(3) ? 20 : 65536));
   shell.inner = random.below(2) ? random.between(0, 3) : 0;
+  if (kind == Warp::Kind::cylindrical) {
+    if (random.below(3) == 0) shell.shear_outwards = random.between(-3, 3);
+    if (random.below(3) == 0) shell.shear_along = random.between(-3, 3);
+  }
   return Warp(kind, grid, shell);
 }
 
@@ -68,8 +72,11 @@ void cells_are_those_of_the_formula(void**) {
       const Vec3 size = warp.grid().cell_size;
       assert_true(std::abs(place.radius - r) < 1e-13);
       assert_true(std::abs(place.cells.x - (r - shell.inner) / size.x) < 1e-12);
-      const double v = shell.count * std::atan2(g.y, g.x) / two_pi;
-      assert_true(std::abs(around(place.cells.y, v, shell.count)) < 1e-14 * shell.count);
+      const double sheared =
+          shell.shear_outwards * place.cells.x + shell.shear_along * place.cells.z;
+      const double v = shell.count * std::atan2(g.y, g.x) / two_pi + sheared;
+      assert_true(std::abs(around(place.cells.y, v, shell.count)) <
+                  1e-14 * (shell.count + std::abs(sheared)));
       assert_true(place.cells.y >= 0 && place.cells.y < shell.count);
       const double w =
           is_sphere ? shell.count_polar * (std::atan2(g.z, rho) / pi + 0.5) : g.z / size.z;
@@ -82,7 +89,8 @@ void cells_are_those_of_the_formula(void**) {
       assert_true(std::abs(located.cell.z + located.fraction.z - place.cells.z) < 1e-10);
       const Vec3 back = warp.from_cells(place.cells);
       const double reach = length(p) + 2 * length(warp.grid().origin);
-      if (length(back - p) > 0x1p-46 * reach)
+      const double error = shell.is_sheared() ? 2 * warp.slack(p, 0) : 0x1p-46 * reach;
+      if (length(back - p) > error)
         fail_msg("%.17g %.17g %.17g came back %g away", p.x, p.y, p.z, length(back - p));
       assert_true(std::abs(warp.axis_distance(p) - rho) < 1e-13);
       assert_true(std::abs(warp.radius(p) - r) < 1e-13);
@@ -146,6 +154,27 @@ Box3 random_box(Random& random) {
     box.max[axis] = box.min[axis] + (random.below(5) ? size * random.unit() : 0);
   }
   return box;
+}
+
+/// Its slopes bound the gradients of sums of the coordinates, too, as those of functions are.
+void sheared_cells_bound_sums_of_gradients(void**) {
+  Random random(6);
+  double steepest = 0;
+  for (int n = 0; n < tries(all); ++n) {
+    const Warp warp = random_warp(random, Warp::Kind::cylindrical);
+    const Vec3 p = random.in_box({{-12, -12, -12}, {12, 12, 12}});
+    const double rho = warp.axis_distance(p);
+    if (!(rho > 0.01)) continue;
+    const auto of_cells = warp.gradients(p);
+    const Vec3 slopes = warp.slopes(rho, rho);
+    const Vec3 by{random.normal() / slopes.x, random.normal() / slopes.y,
+                  random.normal() / slopes.z};
+    const double sum = length(of_cells[0] * by.x + of_cells[1] * by.y + of_cells[2] * by.z);
+    const double most = length(by * slopes);
+    assert_true(sum <= most * (1 + 1e-12));
+    steepest = std::max(steepest, sum / most);
+  }
+  assert_true(steepest > 0.5);
 }
 
 void images_contain_the_cells_of_points(void**) {
@@ -276,6 +305,7 @@ int main() {
       cmocka_unit_test(cells_are_those_of_the_formula),
       cmocka_unit_test(axes_are_those_of_the_grid),
       cmocka_unit_test(seams_and_poles_are_in_cells),
+      cmocka_unit_test(sheared_cells_bound_sums_of_gradients),
       cmocka_unit_test(images_contain_the_cells_of_points),
       cmocka_unit_test(slopes_bound_the_change),
       cmocka_unit_test(bends_bound_the_departure_from_lines),

@@ -265,7 +265,8 @@ class msq_period_def(Structure):
 class msq_warp_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("kind", c_int32), ("count", c_uint32),
                 ("count_polar", c_uint32), ("inner_radius", c_double), ("outer_radius", c_double),
-                ("u", POINTER(msq_field)), ("v", POINTER(msq_field)), ("w", POINTER(msq_field))]
+                ("u", POINTER(msq_field)), ("v", POINTER(msq_field)), ("w", POINTER(msq_field)),
+                ("shear_outwards", c_double), ("shear_along", c_double)]
 
 
 class msq_image(Structure):

@@ -77,12 +77,16 @@ def set_period(definition: Any, period: Optional[Period]) -> Any:
 class Warp(NamedTuple):
     """Cells around the z axis of the grid; with count_polar around its origin, that many from pole to
     pole. count cells lie around. cell_size is that outwards, from inner_radius on, and that along
-    the axis. Outside of the radii there is nothing; outer_radius 0: no limit."""
+    the axis. Outside of the radii there is nothing; outer_radius 0: no limit. Around the axis the
+    pattern turns by shear_outwards cells from cell to cell outwards, and by shear_along cells along
+    the axis."""
 
     count: int
     inner_radius: float = 0.0
     outer_radius: float = 0.0
     count_polar: int = 0
+    shear_outwards: float = 0.0
+    shear_along: float = 0.0
 
 
 class SampledWarp(NamedTuple):
@@ -113,6 +117,8 @@ def set_warp(definition: Any, warp: Optional[AnyWarp]) -> Any:
     warped.count_polar = unsigned(warp.count_polar, 32, "count_polar")
     warped.inner_radius = warp.inner_radius
     warped.outer_radius = warp.outer_radius
+    warped.shear_outwards = warp.shear_outwards
+    warped.shear_along = warp.shear_along
     definition.warp = ctypes.pointer(warped)
     return warped
 

@@ -14,6 +14,7 @@
 #include "structure/functional/map_rows.h"
 #include "structure/functional/ray_search.h"
 #include "structure/functional/row_kernels.h"
+#include "structure/functional/sheared_rows.h"
 #include "structure/functional/shell_rays.h"
 #include "structure/functional/turned_rows.h"
 #include "structure/functional/warped_places.h"
@@ -75,7 +76,10 @@ Functional::Functional(const Neighbourhood& neighbourhood, const Tape& function,
   // Steps of rows have the same angles only in cells of one size.
   const bool is_uniform = angles_.is_uniform();
   const bool is_mapped_along = angles_.sampled() && this->neighbourhood().sample_axes()[0] >= 0;
-  if ((sample_axis_[0] < 0 && is_uniform) || is_mapped_along) form_ = TrigonometricForm::of(onset_);
+  const bool is_sheared = angles_.warp() && angles_.warp()->shell().is_sheared();
+  if (is_mapped_along || (is_uniform && sample_axis_[0] < 0) ||
+      (is_sheared && sample_axis_[0] >= 0))
+    form_ = TrigonometricForm::of(onset_);
   if (is_uniform || angles_.sampled()) return;
   double most = 0;
   if (angles_.period()) most = angles_.period()->most() * (1 + 0x1p-45);
@@ -306,6 +310,10 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
 void Functional::keep_rows(const RowBlock& block, const Job* job) const {
   if (angles_.sampled() && form_) {
     MapRows rows(*this, block);
+    if (rows.serves()) return rows.keep(job);
+  }
+  if (angles_.warp() && form_) {
+    ShearedRows rows(*this, block);
     if (rows.serves()) return rows.keep(job);
   }
   if (angles_.warp() && WarpedRows::serves(*this))

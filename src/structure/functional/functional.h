@@ -95,7 +95,7 @@ class Functional final : public Structure, public RepeatingStructure {
   const std::vector<RowPlan>& row_plans() const { return prepared().row_plans; }
 
   /// The form of the onset; none for tapes of another form. In cells of one size only if the grid
-  /// is turned, by a sampled map only if the grid of the samples is not.
+  /// is turned, by a sampled map, or sheared, only if the grid is not.
   const std::optional<TrigonometricForm>& form() const { return form_; }
 
  private:

@@ -13,7 +13,8 @@
 namespace msq {
 
 bool WarpedRows::serves(const Functional& structure) {
-  return structure.angles().warp()->kind() == Warp::Kind::cylindrical &&
+  const Warp& warp = *structure.angles().warp();
+  return warp.kind() == Warp::Kind::cylindrical && !warp.shell().is_sheared() &&
          structure.sample_axis()[2] >= 0;
 }
 

@@ -14,7 +14,7 @@ namespace msq {
 
 class WarpedRows {
  public:
-  /// Whether the structure's axis is parallel to one of the samples.
+  /// Whether the structure's axis is parallel to one of the samples, and cells are not sheared.
   static bool serves(const Functional& structure);
 
   WarpedRows(const Functional& structure, const RowBlock& block);

@@ -282,6 +282,32 @@ static msq_model* lattice_shells(Kit* kit) {
   return filled(kit, sphere(kit, 9.7), lattice(kit, &def));
 }
 
+static msq_model* twisted_lattice(Kit* kit) {
+  msq_warp_def warp;
+  must(msq_warp_def_init(&warp, sizeof warp));
+  warp.count = 13;
+  warp.inner_radius = 2;
+  warp.shear_outwards = -0.25;
+  warp.shear_along = 0.7;
+  msq_lattice_def def = lattice_def(MSQ_UNIT_CELL_BCC, 3, number(0.4));
+  def.warp = &warp;
+  return filled(kit, mesh(kit, 0), lattice(kit, &def));
+}
+
+static msq_model* twisted_gyroid(Kit* kit) {
+  msq_warp_def warp;
+  must(msq_warp_def_init(&warp, sizeof warp));
+  warp.count = 11;
+  warp.inner_radius = 1;
+  warp.shear_along = 0.6;
+  msq_functional_def def;
+  must(msq_functional_def_init(&def, sizeof def));
+  for (int i = 0; i < 3; ++i) def.grid.cell_size[i] = 3;
+  def.level.value = 0.2;
+  def.warp = &warp;
+  return filled(kit, box(kit), functional(kit, &def));
+}
+
 static const struct {
   const char* name;
   msq_model* (*make)(Kit* kit);
@@ -297,6 +323,8 @@ static const struct {
     {"graded-lattice", graded_lattice},
     {"warped-lattice", warped_lattice},
     {"lattice-shells", lattice_shells},
+    {"twisted-lattice", twisted_lattice},
+    {"twisted-gyroid", twisted_gyroid},
     {"foam", foam_plain},
     {"foam-turned", foam_turned},
     {"foam-graded", foam_graded},

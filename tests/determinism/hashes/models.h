@@ -5,7 +5,7 @@
 
 #include <msq.h>
 
-enum { model_count = 35 };
+enum { model_count = 37 };
 
 /** One word. */
 const char* model_name(int i);

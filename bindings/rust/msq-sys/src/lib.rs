@@ -664,7 +664,7 @@ pub struct msq_period_def {
 
 /// Warped cells: cells around an axis, around a point or by a map that the host samples, in place of boxes.
 ///
-/// CYLINDRICAL and SPHERICAL: the structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. On the positive x axis of the grid the cells lie as those of the grid do. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.
+/// CYLINDRICAL and SPHERICAL: the structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. Around an axis the cells may be sheared: shear_outwards times x and shear_along times z are added to y, and whole turns are removed. The pattern closes around the axis for any shear. A positive shear turns it from the y axis towards the x axis. On the positive x axis of the grid the cells lie as those of the grid do, without a shear. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.
 ///
 /// Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a functional structure; lattices have whole cells there (msq_lattice_def.warp).
 ///
@@ -691,6 +691,10 @@ pub struct msq_warp_def {
     pub v: *const msq_field,
     /// SAMPLED: the coordinate z, likewise.
     pub w: *const msq_field,
+    /// CYLINDRICAL: by how many cells the pattern turns around the axis from cell to cell outwards: at most 65536 in magnitude. Default 0. Otherwise 0.
+    pub shear_outwards: f64,
+    /// CYLINDRICAL: the same from cell to cell along the axis, as in a twisted rope. count over shear_along cells make a whole turn.
+    pub shear_along: f64,
 }
 
 /// Numbers on a regular grid, interpolated trilinearly. The values are copied, and msq keeps about 1/7 byte per value in addition.
@@ -2639,7 +2643,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_window>(), 48);
     assert_eq!(std::mem::size_of::<msq_neighbourhood>(), 120);
     assert_eq!(std::mem::size_of::<msq_period_def>(), 32);
-    assert_eq!(std::mem::size_of::<msq_warp_def>(), 56);
+    assert_eq!(std::mem::size_of::<msq_warp_def>(), 72);
     assert_eq!(std::mem::size_of::<msq_image>(), 176);
     assert_eq!(std::mem::size_of::<msq_file_def>(), 40);
     assert_eq!(std::mem::size_of::<msq_mesh_def>(), 56);

@@ -30,6 +30,12 @@ Interval cosine(Interval angle) {
   return range;
 }
 
+Warp without_shear(const Warp& warp, const Neighbourhood& grid) {
+  Warp::Shell shell = warp.shell();
+  shell.shear_outwards = shell.shear_along = 0;
+  return {warp.kind(), grid, shell};
+}
+
 Interval product(Interval a, Interval b) {
   const auto [low, high] =
       std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
@@ -39,16 +45,20 @@ Interval product(Interval a, Interval b) {
 }  // namespace
 
 RoundPlaces::RoundPlaces(const Warp& warp)
-    : warp_(warp.kind(), in_grid(warp.grid()), warp.shell()), smallest_(warp.grid()) {
+    : warp_(warp.kind(), in_grid(warp.grid()), warp.shell()),
+      straight_(without_shear(warp, in_grid(warp.grid()))),
+      smallest_(warp.grid()) {
   const Warp::Shell& shell = warp.shell();
   const double size = smallest_.cell_size.x, middle = shell.inner + 0.5 * size;
-  double angle = two_pi / shell.count;
+  const double wide_as = 1 + std::abs(shell.shear_outwards) + std::abs(shell.shear_along);
+  double angle = wide_as * (two_pi / shell.count);
   if (is_spherical()) angle += pi / shell.count_polar;
   if (!(angle <= max_angle * pi / 180))
     fail(Status::argument,
-         "warp.count is %u and count_polar %u: struts would reach over %g degrees; the limit for "
-         "lattices is %g",
-         shell.count, shell.count_polar, angle * 180 / pi, max_angle);
+         "warp.count is %u, count_polar %u and the shear %g and %g: struts would reach over %g "
+         "degrees; the limit for lattices is %g",
+         shell.count, shell.count_polar, shell.shear_outwards, shell.shear_along, angle * 180 / pi,
+         max_angle);
   dip_ = std::cos(0.5 * angle) * (1 - 1e-9);
   layers_ = std::floor((warp.outer() - shell.inner) / size * (1 + 1e-12));
   if (!(layers_ >= 1))
@@ -62,6 +72,16 @@ RoundPlaces::RoundPlaces(const Warp& warp)
   const double wide = std::isfinite(layers_) ? shell.outer / middle : 1;
   largest_ = std::max(
       {size, smallest_.cell_size.y * wide, smallest_.cell_size.z * (is_spherical() ? wide : 1)});
+}
+
+Interval RoundPlaces::shear(const CellBlock& cells) const {
+  const Warp::Shell& shell = warp_.shell();
+  if (!shell.is_sheared()) return {0, 0};
+  const auto span = [&](int axis, double times) {
+    return product({cells.first[axis], cells.last[axis] + 1}, {times, times});
+  };
+  const Interval outwards = span(0, shell.shear_outwards), along = span(2, shell.shear_along);
+  return {outwards.low + along.low, outwards.high + along.high};
 }
 
 CellIndex RoundPlaces::cell_of(Vec3 g) const {
@@ -123,21 +143,28 @@ Box3 RoundPlaces::bounds(const CellBlock& cells) const {
     along = {cells.first[2] * size.z, (cells.last[2] + 1) * size.z};
   }
   const double turn = two_pi / shell.count;
-  const Interval around{cells.first[1] * turn, (cells.last[1] + 1) * turn};
+  const Interval shear_of = shear(cells);
+  // Whole turns do not matter, but the cosine's slack is for few of them.
+  const double turns = std::floor((cells.first[1] - shear_of.high) / shell.count) * shell.count;
+  const Interval around{(cells.first[1] - shear_of.high - turns) * turn,
+                        (cells.last[1] + 1 - shear_of.low - turns) * turn};
   const Interval x = product(across, cosine(around)),
                  y = product(across, cosine({around.low - pi / 2, around.high - pi / 2}));
   // Nodes and the cells of points are rounded by far less.
+  const double sheared = std::max(std::abs(shear_of.low), std::abs(shear_of.high)) * turn;
   const double slack =
-      0x1p-38 * (most + shell.inner + std::max(std::abs(along.low), std::abs(along.high)));
+      0x1p-38 * (most + shell.inner + std::max(std::abs(along.low), std::abs(along.high))) +
+      0x1p-44 * sheared * most;
   return Box3{{x.low, y.low, along.low}, {x.high, y.high, along.high}}.grown(slack);
 }
 
 // A strut stays between the half planes of constant v of its cell, as less than half a turn lies
 // between them: the wedge is convex. Around an axis it stays between planes of constant w. Its
 // distance from the middle is at most that of its ends, and at least that times the cosine of half
-// the angle between them.
+// the angle between them. In sheared cells the same holds of half planes of constant angle: those
+// between which v, less the shear of all of the cell's points, lies.
 void RoundPlaces::for_each_block(const Box3& box, const TakeBlock& take) const {
-  const Warp::Image image = warp_.image(box);
+  const Warp::Image image = straight_.image(box);
   constexpr double slack = 1e-6;
   const double size = warp_.grid().cell_size.x, count = warp_.shell().count;
   CellBlock cells;
@@ -151,8 +178,10 @@ void RoundPlaces::for_each_block(const Box3& box, const TakeBlock& take) const {
     cells.first[2] = std::floor(image.cells.min.z - slack);
     cells.last[2] = std::floor(image.cells.max.z + slack);
   }
-  const double first = std::floor(image.cells.min.y - slack),
-               last = std::floor(image.cells.max.y + slack);
+  if (!(cells.first[0] <= cells.last[0])) return;
+  const Interval shear_of = shear(cells);
+  const double first = std::floor(image.cells.min.y + shear_of.low - slack),
+               last = std::floor(image.cells.max.y + shear_of.high + slack);
   if (last - first + 1 >= count) {
     cells.first[1] = 0;
     cells.last[1] = count - 1;

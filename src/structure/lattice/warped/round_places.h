@@ -14,7 +14,7 @@ class RoundPlaces final : public CellPlaces {
   /// The most that a cell may span, seen from the axis or the point.
   static constexpr double max_angle = 150;  // degrees
 
-  /// Throws Error(argument) if no whole cell fits between the radii, or cells span more.
+  /// Throws Error(argument) if no whole cell fits between the radii, or cells, sheared, span more.
   explicit RoundPlaces(const Warp& warp);
 
   const Neighbourhood& smallest() const override { return smallest_; }
@@ -32,8 +32,11 @@ class RoundPlaces final : public CellPlaces {
 
  private:
   bool is_spherical() const { return warp_.kind() == Warp::Kind::spherical; }
+  /// What the shear adds to v in some cells.
+  Interval shear(const CellBlock& cells) const;
 
-  Warp warp_;  // in grid coordinates
+  Warp warp_;      // in grid coordinates
+  Warp straight_;  // the same without a shear
   Neighbourhood smallest_;
   double largest_;
   double layers_;  // of cells outwards; may be infinite
