@@ -675,6 +675,22 @@ class Field : public detail::Handle<msq_field, msq_field_retain, msq_field_relea
     return Field(std::in_place,
                  [&](auto** made) { return msq_field_grid(context.get(), &def, made); });
   }
+  /// Samples at origin + (i, j, k) * spacing, x fastest; the values are copied.
+  static Field grid(const Context& context, Span<const double> values,
+                    const std::array<uint64_t, 3>& size, const Vec3& origin, const Vec3& spacing) {
+    if (size[0] * size[1] * size[2] != values.size())
+      throw std::invalid_argument("msq::Field::grid: there are " + std::to_string(values.size()) +
+                                  " values; size has other counts");
+    GridFieldDef def;
+    def.image.values = values.data();
+    def.image.value_type = MSQ_FLOAT64;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      def.image.size[axis] = size[axis];
+      def.image.grid.origin[axis] = origin[axis];
+      def.image.grid.cell_size[axis] = spacing[axis];
+    }
+    return grid(context, def);
+  }
   static Field expression(const Context& context, const ExpressionFieldDef& def) {
     return Field(std::in_place,
                  [&](auto** made) { return msq_field_expression(context.get(), &def, made); });
@@ -733,6 +749,16 @@ class Field : public detail::Handle<msq_field, msq_field_retain, msq_field_relea
   Field(std::in_place_t, Create&& create) : Handle(std::in_place, create) {}
   explicit Field(msq_field* made) : Handle(made) {}
 };
+
+/// Cells by a map: fields of samples (Field::grid) on one grid, which must outlive the definition.
+inline WarpDef sampled_warp(const Field& u, const Field& v, const Field& w) {
+  WarpDef def;
+  def.kind = MSQ_WARP_SAMPLED;
+  def.u = u.get();
+  def.v = v.get();
+  def.w = w.get();
+  return def;
+}
 
 /// A parameter: a number, or a field that must live until the definition was used.
 inline msq_param param(double value) {

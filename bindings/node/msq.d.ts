@@ -61,6 +61,8 @@ export declare class Field extends Handle {
   readonly kind: 'field';
   private constructor();
   static gradient(context: Context, from: Vector, fromValue: number, to: Vector, toValue: number): Field;
+  static grid(context: Context, values: ArrayLike<number>, size: Vector,
+              grid?: { origin?: Vector; cell_size?: Vector; rotation?: ArrayLike<number> }): Field;
 }
 export declare class Structure extends Handle {
   readonly kind: 'structure';

@@ -158,6 +158,13 @@ export class Field extends Handle {
     return new Field('field', (made) => C.msq_field_gradient(
       context.pointer, Float64Array.from(from), fromValue, Float64Array.from(to), toValue, made));
   }
+  /** Samples, x fastest, at the origin of the grid + (i, j, k) cell_size. They are copied. */
+  static grid(context, values, size, grid = {}) {
+    if (values.length !== size[0] * size[1] * size[2])
+      throw new TypeError(`there are ${values.length} values; size has ${size.join(' x ')}`);
+    const image = { values: Float64Array.from(values), value_type: abi.MSQ_FLOAT64, size, grid };
+    return new Field('field', (made) => C.msq_field_grid(context.pointer, definition('grid_field_def', { image }), made));
+  }
 }
 
 /** A fine structure. The values are members of its definition in msq.h. */

@@ -29,6 +29,13 @@ IMAGE = {"value_type": "uint8", "size": [4, 4, 4], "grid": {"cell_size": 2},
          "values": [(7 * i * i + 3 * i) % 251 for i in range(64)]}
 GRADIENT = {"gradient": {"from": [0, 0, 0], "from_value": 0.2, "to": [0, 0, 6], "to_value": 0.7}}
 
+# The coordinates of bent cells, in quarters, which all languages write and read alike.
+MAP_GRID = {"origin": [-2, -2, -2], "cell_size": [7, 6, 5]}
+MAP = [{"grid": {"image": {"value_type": "float64", "size": [3, 3, 3], "grid": MAP_GRID,
+                           "values": [coordinate(i % 3, i // 3 % 3, i // 9) for i in range(27)]}}}
+       for coordinate in (lambda x, y, z: 2.25 * x + 0.25 * y, lambda x, y, z: 2 * y + 0.25 * x * z,
+                          lambda x, y, z: 1.75 * z - 0.25 * x)]
+
 #: name: model file. A text is read as it stands.
 CASES = {
     "box": model(title="A box, ü and all"),
@@ -42,6 +49,8 @@ CASES = {
                                      grid={"cell_size": [4, 5, 3], "origin": [0.5, 0, 0.25]})),
     "foam": model(structure("foam", grid={"cell_size": 2}, radius=0.45, seed=18446744073709551615,
                             jitter=0.875), shape=TETRAHEDRON),
+    "foam_stretched": model(structure("foam", grid={"cell_size": 2.5}, radius=0.35, seed=3,
+                                      stretch=[1, 0.5, 2])),
     "foam_weighted": model(structure("foam", grid={"cell_size": 3}, radius=0.3, wall_thickness=0.1,
                                      weight=2.5, seed=5)),
     "foam_walls": model(structure("foam", grid={"cell_size": 3}, radius=0.2, wall_thickness=0.3,
@@ -50,6 +59,23 @@ CASES = {
                                       "low": 1, "high": 3}})),
     "gyroid": model(structure("functional", function="gyroid", kind="sheet", thickness=0.4,
                               grid={"cell_size": 4}), slicing={"output": "distance"}),
+    "period": model(structure("lattice", unit_cell="bcc", grid={"cell_size": [9, 3, 3]}, radius=0.35,
+                              period={"axis": 0, "positions": [1, 9], "cell_sizes": [2, 4]}),
+                    structure("functional", function="schwarz_p", level=0.5,
+                              grid={"cell_size": [1.5, 9, 1.5]},
+                              period={"axis": 1, "positions": [0, 8], "cell_sizes": [1, 2]})),
+    "warped": model(structure("lattice", unit_cell="bcc", radius=0.3,
+                              grid={"cell_size": [2, 9, 2.5], "origin": [5, 4, 0]},
+                              warp={"count": 9, "inner_radius": 1, "shear_along": 0.75,
+                                    "shear_outwards": -0.25}),
+                    structure("functional", function="gyroid", level=0.6,
+                              grid={"cell_size": 1.5, "origin": [5, 4, 3]},
+                              warp={"kind": "spherical", "count": 16, "count_polar": 8,
+                                    "outer_radius": 6})),
+    "sampled_map": model(structure("lattice", unit_cell="bcc", radius=0.35,
+                                   warp={"kind": "sampled", "u": MAP[0], "v": MAP[1], "w": MAP[2]}),
+                         structure("functional", function="gyroid", level=0.75,
+                                   warp={"kind": "sampled", "u": MAP[0], "v": MAP[1], "w": MAP[2]})),
     "expression": model(structure("functional", function="expression", level=0.25,
                                   expression="cos(2*pi*x) + cos(2*pi*y) - z",
                                   grid={"cell_size": 5})),

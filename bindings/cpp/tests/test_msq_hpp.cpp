@@ -278,6 +278,7 @@ void cells_vary(void**) {
   assert_non_null(std::strstr(thrown_by(inside).c_str(), "warp.count is 0"));
   warp.count = 4;  // a quarter of a turn: y takes the place of x
   warp.inner_radius = 1;
+  warp.shear_along = 0.5;
   for (size_t axis = 0; axis < 3; ++axis) def.grid.origin[axis] = 5;
   const msq::Model model(context, {cube(context), msq::Structure::lattice(context, def)});
   size_t found = 0;
@@ -302,6 +303,40 @@ void cells_vary(void**) {
   foam.stretch[2] = 2;
   foam.weight = 2;
   assert_true(differing(of_foam(), round) > 100);
+}
+
+void cells_by_samples(void**) {
+  const msq::Context context;
+  msq::LatticeDef def;
+  def.radius = msq::param(0.4);
+  for (double& size : def.grid.cell_size) size = 2.5;
+  const auto inside = [&] { return inside_cube(context, msq::Structure::lattice(context, def)); };
+  const std::vector<uint8_t> plain = inside();
+  // A map of the same cells, and one of larger ones.
+  const auto coordinate = [&](int axis, double cell_size) {
+    std::vector<double> values;
+    for (int i = 0; i < 216; ++i) {
+      const int at[3] = {i % 6, i / 6 % 6, i / 36};
+      values.push_back((4 * at[axis] - 5) / cell_size);
+    }
+    return msq::Field::grid(context, values, {6, 6, 6}, {-5, -5, -5}, {4, 4, 4});
+  };
+  const msq::Field u = coordinate(0, 2.5), v = coordinate(1, 2.5), w = coordinate(2, 2.5);
+  const msq::WarpDef same = msq::sampled_warp(u, v, w);
+  def.warp = &same;
+  assert_true(differing(inside(), plain) < 8);
+  const msq::Field larger = coordinate(2, 4);
+  const msq::WarpDef other = msq::sampled_warp(u, v, larger);
+  def.warp = &other;
+  assert_true(differing(inside(), plain) > 100);
+  const msq::WarpDef flat = msq::sampled_warp(u, v, v);
+  def.warp = &flat;
+  assert_non_null(std::strstr(thrown_by(inside).c_str(), "folds"));
+  assert_non_null(std::strstr(
+      thrown_by([&] {
+        msq::Field::grid(context, std::vector<double>(7), {2, 2, 2}, {0, 0, 0}, {1, 1, 1});
+      }).c_str(),
+      "there are 7 values"));
 }
 
 void plates_and_fillets(void**) {
@@ -419,6 +454,7 @@ int main() {
       cmocka_unit_test(callbacks_are_freed_with_their_object),
       cmocka_unit_test(structures_of_the_host),
       cmocka_unit_test(cells_vary),
+      cmocka_unit_test(cells_by_samples),
       cmocka_unit_test(plates_and_fillets),
       cmocka_unit_test(contexts_have_lambdas),
       cmocka_unit_test(everything_else_is_reached),

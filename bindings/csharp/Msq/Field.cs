@@ -37,6 +37,30 @@ namespace Msq
             return new Field(made);
         }
 
+        /// <summary>Samples at origin + (i, j, k) * spacing, x fastest, interpolated linearly along each axis and
+        /// constant beyond the border. The values are copied.</summary>
+        public static Field Grid(Context context, double[] values, int nx, int ny, int nz, Vec3 origin, Vec3 spacing)
+        {
+            if (values == null) throw new ArgumentNullException(nameof(values));
+            if (nx < 1 || ny < 1 || nz < 1 || (decimal)nx * ny * nz != values.Length)
+                throw new ArgumentException("values has " + values.Length + " numbers for " + nx + " x " + ny + " x " +
+                                            nz + " samples", nameof(values));
+            msq_grid_field_def def = msq_grid_field_def.Defaults();
+            def.image.value_type = (int)NumberType.Float64;
+            def.image.size[0] = (ulong)nx;
+            def.image.size[1] = (ulong)ny;
+            def.image.size[2] = (ulong)nz;
+            *(Vec3*)def.image.grid.origin = origin;
+            *(Vec3*)def.image.grid.cell_size = spacing;
+            msq_field* made;
+            using (var call = new Call())
+            {
+                def.image.values = call.Pin(values);
+                call.Check(Abi.msq_field_grid(call.Use(context), &def, &made));
+            }
+            return new Field(made);
+        }
+
         /// <summary>A curve over another field: pairs of an argument and a value, in ascending order.</summary>
         public Field Map(Context context, params Vec2[] curve)
         {

@@ -127,21 +127,41 @@ namespace Msq
         }
     }
 
-    /// <summary>Cells around the z axis of the grid, or around its origin. The first cell size of the grid is that
-    /// outwards.</summary>
+    /// <summary>Cells around the z axis of the grid, around its origin, or by a map of samples. The first cell size of
+    /// the grid is that outwards.</summary>
     public sealed class Warp
     {
         /// <summary>count: cells in a whole turn. outerRadius 0: no limit. countPolar: null for cells around the
-        /// axis; otherwise the cells from pole to pole, around the origin.</summary>
-        public Warp(uint count, double innerRadius = 0, double outerRadius = 0, uint? countPolar = null)
+        /// axis; otherwise the cells from pole to pole, around the origin. shearOutwards, shearAlong: around the axis,
+        /// the cells around that the pattern turns by from cell to cell outwards and along the axis.</summary>
+        public Warp(uint count, double innerRadius = 0, double outerRadius = 0, uint? countPolar = null,
+                    double shearOutwards = 0, double shearAlong = 0)
         {
+            ShearOutwards = shearOutwards;
+            ShearAlong = shearAlong;
             Count = count;
             InnerRadius = innerRadius;
             OuterRadius = outerRadius;
             CountPolar = countPolar;
         }
 
+        private readonly Field[] map;
+
+        private Warp(Field[] map) { this.map = map; }
+
+        /// <summary>Cells by a map: fields of samples (Field.Grid) on one grid give the coordinates of cells at a
+        /// point.</summary>
+        public static Warp Sampled(Field u, Field v, Field w)
+        {
+            if (u == null) throw new ArgumentNullException(nameof(u));
+            if (v == null) throw new ArgumentNullException(nameof(v));
+            if (w == null) throw new ArgumentNullException(nameof(w));
+            return new Warp(new[] { u, v, w });
+        }
+
         public uint Count { get; }
+        public double ShearOutwards { get; }
+        public double ShearAlong { get; }
         public uint? CountPolar { get; }
         public double InnerRadius { get; }
         public double OuterRadius { get; }
@@ -152,11 +172,21 @@ namespace Msq
             if (value == null) return null;
             var kept = (msq_warp_def*)call.Pin(new long[(sizeof(msq_warp_def) + 7) / 8]);
             *kept = msq_warp_def.Defaults();
+            if (value.map != null)
+            {
+                kept->kind = (int)WarpKind.Sampled;
+                kept->u = (msq_field*)call.Use(value.map[0], "u");
+                kept->v = (msq_field*)call.Use(value.map[1], "v");
+                kept->w = (msq_field*)call.Use(value.map[2], "w");
+                return kept;
+            }
             kept->kind = (int)(value.CountPolar.HasValue ? WarpKind.Spherical : WarpKind.Cylindrical);
             kept->count = value.Count;
             kept->count_polar = value.CountPolar ?? 0;
             kept->inner_radius = value.InnerRadius;
             kept->outer_radius = value.OuterRadius;
+            kept->shear_outwards = value.ShearOutwards;
+            kept->shear_along = value.ShearAlong;
             return kept;
         }
     }

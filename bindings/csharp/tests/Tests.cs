@@ -264,7 +264,7 @@ namespace Msq.Tests
             double sin = Math.Sin(2 * Math.PI / 9), cos = Math.Cos(2 * Math.PI / 9);
             Vec3[] turned = Array.ConvertAll( // by one cell
                 points, one => new Vec3(cos * one.X - sin * one.Y, sin * one.X + cos * one.Y, one.Z));
-            foreach (Warp warp in new[] { new Warp(9, 1, 4), new Warp(9, 1, 4, countPolar: 5) })
+            foreach (Warp warp in new[] { new Warp(9, 1, 4, shearAlong: 0.5), new Warp(9, 1, 4, countPolar: 5) })
             {
                 Structure gyroid = Structure.Functional(context, Function.Gyroid, 1.5, new FunctionalOptions { Warp = warp });
                 Structure bcc = Structure.Lattice(context, UnitCell.Bcc, 1.5, 0.2, new LatticeOptions { Warp = warp });
@@ -278,6 +278,29 @@ namespace Msq.Tests
             var none = new LatticeOptions { Warp = new Warp(0) };
             True(Throws<MsqException>(() => Structure.Lattice(context, UnitCell.Bcc, 5, 0.2, none))
                      .Message.Contains("warp.count is 0"));
+        }
+
+        static void TestCellsBySamples()
+        {
+            Shape box = Shape.Box(context, zero, ten);
+            Func<Warp, bool[]> inside = warp => new Model(
+                context, box, Structure.Lattice(context, UnitCell.Bcc, 2.5, 0.4, new LatticeOptions { Warp = warp }))
+                .GridMembership(new Vec3(0.1, 0.1, 0.1), new Vec3(0.49, 0.49, 0.49), 20, 20, 20);
+            Func<int, double, Field> coordinate = (axis, size) =>
+            {
+                var values = new double[216];
+                for (int i = 0; i < 216; ++i)
+                    values[i] = (4 * new[] { i % 6, i / 6 % 6, i / 36 }[axis] - 5) / size;
+                return Field.Grid(context, values, 6, 6, 6, new Vec3(-5, -5, -5), new Vec3(4, 4, 4));
+            };
+            Func<Field, Warp> map = third => Warp.Sampled(coordinate(0, 2.5), coordinate(1, 2.5), third);
+            bool[] plain = inside(null);
+            Func<Warp, int> differing = warp => inside(warp).Zip(plain, (a, b) => a != b).Count(differs => differs);
+            True(differing(map(coordinate(2, 2.5))) < 8);
+            True(differing(map(coordinate(2, 4))) > 100);
+            True(Throws<MsqException>(() => inside(map(coordinate(1, 2.5)))).Message.Contains("folds"));
+            Throws<ArgumentException>(() => Field.Grid(context, new double[7], 2, 2, 2, zero, ten));
+            Throws<ArgumentNullException>(() => Warp.Sampled(null, null, null));
         }
 
         static void TestPeriodsAndStretches()

@@ -106,7 +106,7 @@ test('cells are warped', () => {
   const ball = msq.Shape.sphere(context, [0, 0, 0], 8);
   const [points, turned] = turnedPoints();
   const values = { grid: { cell_size: [1.5, 1.5, 1.5] } };
-  for (const extra of [{}, { kind: abi.MSQ_WARP_SPHERICAL, count_polar: 5 }]) {
+  for (const extra of [{ shear_along: 0.5 }, { kind: abi.MSQ_WARP_SPHERICAL, count_polar: 5 }]) {
     const warp = { count: 9, inner_radius: 1, outer_radius: 4, ...extra };
     for (const structure of [
       msq.Structure.functional(context, { ...values, function: abi.MSQ_FUNCTION_GYROID, warp }),
@@ -125,6 +125,21 @@ function insideBox(structure) {
   const points = Float64Array.from({ length: 9000 }, (_, i) => [8, 6, 4][i % 3] * ((i * 0.618034) % 1));
   return msq.Model.of(context, box, [structure]).membership(points);
 }
+
+test('cells are mapped by samples', () => {
+  const coordinate = (axis, size) => {
+    const values = Array.from({ length: 216 }, (_, i) => (4 * (Math.floor(i / 6 ** axis) % 6) - 5) / size);
+    return msq.Field.grid(context, values, [6, 6, 6], { origin: [-5, -5, -5], cell_size: [4, 4, 4] });
+  };
+  const lattice = (warp) => insideBox(msq.Structure.lattice(
+    context, { grid: { cell_size: [2.5, 2.5, 2.5] }, radius: 0.4, ...(warp && { warp }) }));
+  const map = (w) => ({ kind: abi.MSQ_WARP_SAMPLED, u: coordinate(0, 2.5), v: coordinate(1, 2.5), w });
+  const plain = lattice();
+  assert.ok(differing(plain, lattice(map(coordinate(2, 2.5)))) < 8);
+  assert.ok(differing(plain, lattice(map(coordinate(2, 4)))) > 100);
+  assert.throws(() => lattice(map(coordinate(1, 2.5))), /folds/);
+  assert.throws(() => msq.Field.grid(context, [0], [2, 2, 2]), /there are 1 values/);
+});
 
 test('periods and stretches change the cells', () => {
   const grid = { cell_size: [7, 2.5, 2.5] }; // the period has its own size along x

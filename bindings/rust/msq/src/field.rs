@@ -48,6 +48,33 @@ impl Field {
         })
     }
 
+    /// Samples at origin + (i, j, k) * spacing, x fastest, interpolated linearly along each axis and
+    /// constant beyond the border. The values are copied.
+    pub fn grid(
+        context: &Context,
+        values: &[f64],
+        size: [u64; 3],
+        origin: [f64; 3],
+        spacing: [f64; 3],
+    ) -> Result<Field> {
+        if size.iter().product::<u64>() != values.len() as u64 {
+            return Err(Error::argument(format!(
+                "there are {} values; size has {} x {} x {}",
+                values.len(),
+                size[0],
+                size[1],
+                size[2]
+            )));
+        }
+        let mut def = definition!(msq_grid_field_def_init, msq_grid_field_def);
+        def.image.values = values.as_ptr() as *const c_void;
+        def.image.value_type = sys::MSQ_FLOAT64;
+        def.image.size = size;
+        def.image.grid.origin = origin;
+        def.image.grid.cell_size = spacing;
+        Field::make(|raw| unsafe { sys::msq_field_grid(context.as_ptr(), &def, raw) })
+    }
+
     /// A formula of x, y and z, with values from low to high.
     pub fn expression(context: &Context, formula: &str, low: f64, high: f64) -> Result<Field> {
         let text = CString::new(formula)

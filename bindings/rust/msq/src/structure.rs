@@ -3,7 +3,7 @@
 use std::ffi::CString;
 
 use crate::context::{raw_job, Context, Job};
-use crate::field::Param;
+use crate::field::{Field, Param};
 use crate::{check, sys, Error, Result};
 
 handle!(
@@ -42,8 +42,9 @@ impl Period {
     }
 }
 
-/// Cells around the z axis of the grid, or around its origin. `cell_size[0]` is their size outwards.
-#[derive(Clone, Copy, Debug, Default)]
+/// Cells around the z axis of the grid, or around its origin, or by a map of samples. `cell_size[0]`
+/// is their size outwards.
+#[derive(Clone, Debug, Default)]
 pub struct Warp {
     /// Cells in a whole turn.
     pub count: u32,
@@ -52,11 +53,28 @@ pub struct Warp {
     pub inner_radius: f64,
     /// None: no limit.
     pub outer_radius: Option<f64>,
+    /// Around the axis: cells around from cell to cell outwards, and along the axis.
+    pub shear_outwards: f64,
+    pub shear_along: f64,
+    /// The coordinates of cells by samples (`Field::grid`) on one grid. All else is then 0 or None.
+    pub map: Option<[Field; 3]>,
 }
 
 impl Warp {
+    /// Cells by a map: fields of samples (`Field::grid`) on one grid.
+    pub fn sampled(u: Field, v: Field, w: Field) -> Warp {
+        Warp { map: Some([u, v, w]), ..Warp::default() }
+    }
+
+    /// Valid as long as this warp.
     fn raw(&self) -> Result<sys::msq_warp_def> {
         let mut def = definition!(msq_warp_def_init, msq_warp_def);
+        if let Some([u, v, w]) = &self.map {
+            def.kind = sys::MSQ_WARP_SAMPLED;
+            (def.u, def.v, def.w) = (u.as_ptr(), v.as_ptr(), w.as_ptr());
+        }
+        def.shear_outwards = self.shear_outwards;
+        def.shear_along = self.shear_along;
         if let Some(count_polar) = self.count_polar {
             def.kind = sys::MSQ_WARP_SPHERICAL;
             def.count_polar = count_polar;

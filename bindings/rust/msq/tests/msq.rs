@@ -88,8 +88,11 @@ fn cells_are_warped() {
     let gyroid = Functional::network(sys::MSQ_FUNCTION_GYROID, 1.5, 0.2);
     let bcc = Lattice::new(sys::MSQ_UNIT_CELL_BCC, 1.5, 0.2);
     for count_polar in [None, Some(5)] {
-        let warp = Some(Warp { count: 9, count_polar, inner_radius: 1.0, outer_radius: Some(4.0) });
-        let gyroid = Functional { warp, ..gyroid.clone() };
+        let shear_along = if count_polar.is_none() { 0.5 } else { 0.0 };
+        let (inner_radius, outer_radius) = (1.0, Some(4.0));
+        let warp = Warp { count: 9, count_polar, inner_radius, outer_radius, shear_along, ..Warp::default() };
+        let warp = Some(warp);
+        let gyroid = Functional { warp: warp.clone(), ..gyroid.clone() };
         let bcc = Lattice { warp, ..bcc.clone() };
         let make = |k| match k {
             0 => Structure::functional(&context, &gyroid).unwrap(),
@@ -106,6 +109,30 @@ fn cells_are_warped() {
     assert_ne!(plain, inside(Structure::functional(&context, &gyroid).unwrap(), &turned));
     let error = Structure::lattice(&context, &Lattice { warp: Some(Warp::default()), ..bcc });
     assert!(error.unwrap_err().to_string().contains("warp.count is 0"));
+}
+
+#[test]
+fn cells_are_mapped_by_samples() {
+    let context = Context::new().unwrap();
+    let inside = |warp: Option<Warp>| {
+        let grid = Grid { origin: [0.1; 3], spacing: [0.31; 3], counts: [32; 3] };
+        let bcc = Lattice { warp, ..Lattice::new(sys::MSQ_UNIT_CELL_BCC, 2.5, 0.4) };
+        let structure = Structure::lattice(&context, &bcc)?;
+        Model::new(&context, &cube(&context), &[&structure])?.grid_membership(&grid, None)
+    };
+    let coordinate = |axis: u32, cell_size: f64| {
+        let at = |i: u32| f64::from(i / 6u32.pow(axis) % 6);
+        let values: Vec<f64> = (0..216).map(|i| (4.0 * at(i) - 5.0) / cell_size).collect();
+        Field::grid(&context, &values, [6; 3], [-5.0; 3], [4.0; 3]).unwrap()
+    };
+    let map = |third| Some(Warp::sampled(coordinate(0, 2.5), coordinate(1, 2.5), third));
+    let plain = inside(None).unwrap();
+    let differing = |other: Vec<u8>| plain.iter().zip(other).filter(|(a, b)| **a != *b).count();
+    assert!(differing(inside(map(coordinate(2, 2.5))).unwrap()) < 8);
+    assert!(differing(inside(map(coordinate(2, 4.0))).unwrap()) > 100);
+    assert!(inside(map(coordinate(1, 2.5))).unwrap_err().to_string().contains("folds"));
+    let few = Field::grid(&context, &[0.0; 7], [2; 3], [0.0; 3], [1.0; 3]);
+    assert!(few.unwrap_err().to_string().contains("there are 7 values"));
 }
 
 #[test]
