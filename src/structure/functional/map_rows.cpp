@@ -15,8 +15,8 @@ namespace msq {
 
 namespace {
 
-constexpr size_t batch_words = single_points / bits_per_word;
-constexpr size_t wave_stride = single_points + batch_padding;
+constexpr size_t map_batch_words = single_points / bits_per_word;
+constexpr size_t map_stride = single_points + batch_padding;
 
 }  // namespace
 
@@ -41,13 +41,13 @@ MapRows::MapRows(const Functional& structure, const RowBlock& block)
     rises_[c].resize(voxels_ + map_padding);
   }
   const size_t waves = form_.waves().size();
-  at_ = allocate_aligned(2 * waves * wave_stride);
-  std::fill_n(at_.get(), 2 * waves * wave_stride, 0.0f);
-  for (size_t i = 0; i < 2 * waves; ++i) values_.set_input(i, {at_.get() + i * wave_stride, false});
+  at_ = allocate_aligned(2 * waves * map_stride);
+  std::fill_n(at_.get(), 2 * waves * map_stride, 0.0f);
+  for (size_t i = 0; i < 2 * waves; ++i) values_.set_input(i, {at_.get() + i * map_stride, false});
   for (size_t i = 0; i < waves; ++i) {
     const TrigonometricForm::Wave& wave = form_.waves()[i];
-    float* const to = at_.get() + 2 * i * wave_stride;
-    waves_.push_back({wave.axis, static_cast<float>(wave.frequency), to, to + wave_stride});
+    float* const to = at_.get() + 2 * i * map_stride;
+    waves_.push_back({wave.axis, static_cast<float>(wave.frequency), to, to + map_stride});
   }
   if (structure.level().is_constant()) bounds_.set(structure.level().range(), slack_);
 }
@@ -116,8 +116,8 @@ void MapRows::keep_group(const RowGroup& group) {
   for (size_t row = 0; row < group.rows(); ++row) {
     if (!find_words(group.y(row), group.z(row))) continue;
     find_row(group.y(row), group.z(row));
-    for (size_t first = 0; first < words_.size(); first += batch_words)
-      decide(group, row, first, std::min(batch_words, words_.size() - first));
+    for (size_t first = 0; first < words_.size(); first += map_batch_words)
+      decide(group, row, first, std::min(map_batch_words, words_.size() - first));
   }
 }
 
@@ -171,7 +171,7 @@ void MapRows::decide(const RowGroup& group, size_t row, size_t first, size_t cou
   find_map_waves(samples, words_.data() + first, count, waves_.data(), waves_.size());
   values_.run(count * bits_per_word);
   const ValuesOf<float> values = values_.output(0);
-  uint64_t at_most_low[batch_words], at_most_high[batch_words];
+  uint64_t at_most_low[map_batch_words], at_most_high[map_batch_words];
   compare_singles(values, words_.data() + first, count, bounds_.low.data(), bounds_.high.data(),
                   structure_.level().is_constant(), at_most_low, at_most_high);
   uint64_t* const words = block_.row(group.y(row), group.z(row));

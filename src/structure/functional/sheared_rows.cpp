@@ -16,8 +16,8 @@ namespace msq {
 
 namespace {
 
-constexpr uint32_t batch_words = single_points / bits_per_word;
-constexpr size_t stride = single_points + batch_padding;
+constexpr uint32_t sheared_batch_words = single_points / bits_per_word;
+constexpr size_t sheared_stride = single_points + batch_padding;
 
 Warp straightened(const Warp& warp) {
   Warp::Shell shell = warp.shell();
@@ -54,8 +54,8 @@ ShearedRows::ShearedRows(const Functional& structure, const RowBlock& block)
     tables_.push_back(allocate_aligned(room));
     std::fill_n(tables_.back().get(), room, 0.0f);
   }
-  turned_ = allocate_aligned(2 * waves * stride);
-  std::fill_n(turned_.get(), 2 * waves * stride, 0.0f);
+  turned_ = allocate_aligned(2 * waves * sheared_stride);
+  std::fill_n(turned_.get(), 2 * waves * sheared_stride, 0.0f);
   of_row_.resize(2 * waves);
   shell_.assign(words + 1, ~uint64_t{0});
   scratch_.resize(words + 1);
@@ -206,7 +206,7 @@ void ShearedRows::keep_group(const RowGroup& group) {
         continue;
       }
       uint32_t end = first + 1;
-      while (end < count && end - first < batch_words && words[end]) ++end;
+      while (end < count && end - first < sheared_batch_words && words[end]) ++end;
       decide(group, row, waves, first, end - first);
       first = end;
     }
@@ -231,7 +231,8 @@ void ShearedRows::decide(const RowGroup& group, size_t row, const RowWaves& wave
       values_.set_input(2 * i + 1, {cosines, false});
       continue;
     }
-    float *const to_sines = turned_.get() + 2 * i * stride, *const to_cosines = to_sines + stride;
+    float *const to_sines = turned_.get() + 2 * i * sheared_stride, *const to_cosines =
+                                                                        to_sines + sheared_stride;
     for (size_t at = 0; at < count * bits_per_word; at += bits_per_word)
       turn_angles(sine, cosine, 1, cosines + at, sines + at, to_sines + at, to_cosines + at);
     values_.set_input(2 * i, {to_sines, false});
@@ -239,7 +240,7 @@ void ShearedRows::decide(const RowGroup& group, size_t row, const RowWaves& wave
   }
   values_.run(count * bits_per_word);
   const ValuesOf<float> values = values_.output(0);
-  uint64_t at_most_low[batch_words], at_most_high[batch_words];
+  uint64_t at_most_low[sheared_batch_words], at_most_high[sheared_batch_words];
   compare_singles(values, all_words_.data() + first, count, bounds_.low.data(), bounds_.high.data(),
                   structure_.level().is_constant(), at_most_low, at_most_high);
   uint64_t* const words = block_.row(group.y(row), group.z(row)) + first;
