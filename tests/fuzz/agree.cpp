@@ -15,8 +15,14 @@ bool is_bound(double number) {
 
 class Checker {
  public:
-  Checker(Input& input, const msq_model* model, const Sight& sight, const Job& job)
-      : input_(input), model_(model), sight_(sight), job_(job), random_(input.word(4)) {
+  Checker(Input& input, msq_context* context, const msq_model* model, const Sight& sight,
+          const Job& job)
+      : input_(input),
+        context_(context),
+        model_(model),
+        sight_(sight),
+        job_(job),
+        random_(input.word(4)) {
     query_.struct_size = 0;
     query_ = make_def(msq_query_def_init);
     if (input.chance(32)) query_.length_scale = input.number(0, 2 * sight.unit);
@@ -46,7 +52,8 @@ class Checker {
         high_[axis] = middle + 4 * sight_.unit;
       }
     }
-    check_points() && check_grid() && check_layers() && check_strata() && check_rays();
+    check_points() && check_grid() && check_layers() && check_strata() && check_rays() &&
+        check_onsets();
   }
 
  private:
@@ -392,19 +399,32 @@ class Checker {
       size = std::max({size, std::abs(origin[axis] - sight_.at[axis]), std::abs(sight_.at[axis])});
       if (is_bounded_) size = std::max(size, max_[axis] - min_[axis]);
     }
+    // The tolerance is a part of the longest cell, also where the others are far shorter.
+    double length = 0;
+    for (uint32_t scale = 1; msq_model_scale_length(model_, scale, &length) == MSQ_OK; ++scale)
+      if (is_bound(length)) size = std::max(size, length);
     const double tolerance = 0x1p-34 * size / speed;
     const double part = std::max(tolerance, sight_.part * sight_.unit / speed);
     const bool is_hit = std::isfinite(hit.t);
     uint8_t inside;
     if (!inside_of(origin, &inside)) return false;
-    if (hit.starts_inside != inside)
+    // A single point, as of a strut with a radius below rounding, may be lost.
+    bool is_alone = inside == 1;
+    for (const double t : {-2 * tolerance, -tolerance, tolerance, 2 * tolerance}) {
+      double p[3];
+      uint8_t beside;
+      for (int axis = 0; axis < 3; ++axis) p[axis] = origin[axis] + t * direction[axis];
+      if (!inside_of(p, &beside)) return false;
+      is_alone = is_alone && !beside;
+    }
+    if (hit.starts_inside != inside && !is_alone)
       wrong("a ray from (%.17g, %.17g, %.17g) starts_inside %d; membership is %d", origin[0],
             origin[1], origin[2], hit.starts_inside, inside);
     if (hit.starts_inside && hit.t != 0) wrong("a ray that starts inside hits at %.17g", hit.t);
     if (is_hit != (hit.scale >= 0)) wrong("t is %.17g and the scale %d", hit.t, hit.scale);
-    const double length = std::hypot(hit.normal[0], hit.normal[1], hit.normal[2]);
-    if (!(std::abs(length - is_hit) < 1e-6))
-      wrong("a normal of length %.17g, t %.17g", length, hit.t);
+    const double normal_length = std::hypot(hit.normal[0], hit.normal[1], hit.normal[2]);
+    if (!(std::abs(normal_length - is_hit) < 1e-6))
+      wrong("a normal of length %.17g, t %.17g", normal_length, hit.t);
     if (is_hit && !(hit.t >= 0 && hit.t <= end)) wrong("t is %.17g; it ends at %.17g", hit.t, end);
     bool all, any;
     // In a shape so large that the tolerance is more than cells, nothing is known.
@@ -440,7 +460,54 @@ class Checker {
     return true;
   }
 
+  /// Where the onset of the first structure is at most the parameter, the structure is solid.
+  bool check_onsets() {
+    msq_structure* raw = nullptr;
+    if (msq_model_scale(model_, 0, 1, nullptr, &raw) != MSQ_OK) return true;
+    const Owner<msq_structure> structure(raw);
+    const Owner<msq_model> alone = in_all_space(structure.get());
+    if (!alone) return true;
+    const std::vector<double> points = some_points(48);
+    const msq_points_def array = array_of(points);
+    std::vector<double> onsets(points.size() / 3, 7);
+    if (!goes_on(MSQ_FUZZ(msq_set_onset, context_, structure.get(), &array, MSQ_ONSET_SIGNED,
+                          onsets.data(), onsets.size(), nullptr, 0, job_)))
+      return true;
+    for (size_t i = 0; i < onsets.size(); ++i) {
+      int32_t inside = -7;
+      if (!MSQ_FUZZ(msq_point_membership, alone.get(), &points[3 * i], nullptr, &inside))
+        return true;
+      // Distances are rounded: within 1e-9 of a cell either is right.
+      double rounding = 1e-9 * sight_.unit;
+      for (int axis = 0; axis < 3; ++axis)
+        rounding =
+            std::max(rounding, 0x1p-46 * std::abs(points[3 * i + static_cast<size_t>(axis)]));
+      if (std::abs(onsets[i]) > rounding && (onsets[i] <= 0) != (inside == 1))
+        wrong("onset %.17g at (%.17g, %.17g, %.17g), which is %s", onsets[i], points[3 * i],
+              points[3 * i + 1], points[3 * i + 2], inside == 1 ? "inside" : "outside");
+    }
+    return true;
+  }
+
+  Owner<msq_model> in_all_space(msq_structure* structure) const {
+    const auto shape = make<msq_shape>("msq_shape_all_space", [&](msq_shape** handle) {
+      return msq_shape_all_space(context_, handle);
+    });
+    if (!shape) return nullptr;
+    msq_scale_def scales[2] = {};
+    scales[0].shape = shape.get();
+    scales[1].structure = structure;
+    msq_model_def def = make_def(msq_model_def_init);
+    def.scales = scales;
+    def.scale_count = 2;
+    def.scale_size = sizeof scales[0];
+    return make<msq_model>("msq_model_create", [&](msq_model** handle) {
+      return msq_model_create(context_, &def, handle);
+    });
+  }
+
   Input& input_;
+  msq_context* context_;
   const msq_model* model_;
   const Sight sight_;
   const Job& job_;
@@ -452,9 +519,9 @@ class Checker {
 
 }  // namespace
 
-void check_model(Input& input, msq_context*, const msq_model* model, const Sight& sight,
+void check_model(Input& input, msq_context* context, const msq_model* model, const Sight& sight,
                  const Job& job) {
-  Checker(input, model, sight, job).check();
+  Checker(input, context, model, sight, job).check();
 }
 
 }  // namespace msq::fuzz

@@ -17,8 +17,8 @@ struct Sight {
 };
 
 /// Membership by point is the definition. Compares with it: arrays, grids, windows, strata, layers,
-/// distances, materials and rays. Points are about the model and on the grid of `sight`. Returns
-/// when a call is refused or the job is cancelled.
+/// distances, materials, rays and onsets. Points are about the model and on the grid of `sight`.
+/// Returns when a call is refused or the job is cancelled.
 void check_model(Input& input, msq_context* context, const msq_model* model, const Sight& sight,
                  const Job& job);
 
