@@ -15,6 +15,7 @@
 #include "slice/slicer.h"
 #include "structure/functional/functional.h"
 #include "structure/lattice/lattice.h"
+#include "structure/lattice/plates/plate_lattice.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -82,6 +83,11 @@ void a_period_stands_for_all_rows(void**) {
     for (const double radius : {0.03, 0.0412, std::sqrt(10.0) * half, std::sqrt(50.0) * half})
       flips += check_period(*lattice(unit_cell, radius), grid, 24);
   assert_in_range(flips, 1, 100000);
+  for (const double thickness : {0.03, 6 * half})
+    flips +=
+        check_period(*make_ref<PlateLattice>(Neighbourhood{{0.1, 0.7, 0.4}, {cell, cell, cell}, {}},
+                                             cubic_octet_plate_cell(), Parameter(thickness)),
+                     grid, 24);
   // Angles are equal to the last bit only if cells and pitches are.
   SampleGrid exact = grid;
   exact.spacing.y = 0x1p-8;

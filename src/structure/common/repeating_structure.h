@@ -24,7 +24,7 @@ class RepeatingStructure {
   virtual uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const = 0;
   /// As Structure::keep_rows(), of a period of rows. The samples that are alive are so in all rows
   /// up to `end`. Appends those whose membership differs from that of the row of the block that
-  /// they repeat.
+  /// they repeat, each once.
   virtual void keep_repeated_rows(const RowBlock& block, uint64_t end, std::vector<RowFlip>& flips,
                                   const Job* job) const = 0;
 };

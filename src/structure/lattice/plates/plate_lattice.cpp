@@ -201,14 +201,30 @@ Vec3 PlateLattice::normal(const Ray& ray, double t) const {
                                                                     : ray.direction * -1.0;
 }
 
-void PlateLattice::keep_rows(const RowBlock& block, const Job* job) const {
-  if (row_axes_[0] < 0) return Structure::keep_rows(block, job);
-  const RowPlates& plates = row_plates_.get([&] {
+const RowPlates& PlateLattice::row_plates() const {
+  return row_plates_.get([&] {
     return std::make_unique<RowPlates>(plates_, neighbourhood().cell_size, row_axes_,
                                        thickness_.range().high, error_);
   });
+}
+
+uint64_t PlateLattice::row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const {
+  if (row_axes_[0] < 0 || !thickness_.is_constant()) return 0;
+  return LatticeRows::row_period(neighbourhood(), row_axes_, row_plates(), grid, y0, y1);
+}
+
+void PlateLattice::keep_repeated_rows(const RowBlock& block, uint64_t end,
+                                      std::vector<RowFlip>& flips, const Job* job) const {
   const PlateClusters& clusters = this->clusters();
-  LatticeRows(neighbourhood(), row_axes_, plates, thickness_, block).keep(job, [&](Vec3 p) {
+  LatticeRows(neighbourhood(), row_axes_, row_plates(), thickness_, block,
+              {block.rows(), end, &flips})
+      .keep(job, [&](Vec3 p) { return holds(clusters, p, thickness_.at(p)); });
+}
+
+void PlateLattice::keep_rows(const RowBlock& block, const Job* job) const {
+  if (row_axes_[0] < 0) return Structure::keep_rows(block, job);
+  const PlateClusters& clusters = this->clusters();
+  LatticeRows(neighbourhood(), row_axes_, row_plates(), thickness_, block).keep(job, [&](Vec3 p) {
     return holds(clusters, p, thickness_.at(p));
   });
 }

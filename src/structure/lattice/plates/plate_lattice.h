@@ -9,6 +9,7 @@
 
 #include "base/lazy.h"
 #include "field/field.h"
+#include "structure/common/repeating_structure.h"
 #include "structure/lattice/cell/plate_cell.h"
 #include "structure/lattice/cell/strut_clusters.h"
 #include "structure/lattice/plates/row_plates.h"
@@ -16,7 +17,7 @@
 
 namespace msq {
 
-class PlateLattice final : public Structure {
+class PlateLattice final : public Structure, public RepeatingStructure {
  public:
   PlateLattice(const Neighbourhood& neighbourhood, const PlateCell& cell, Parameter thickness);
 
@@ -25,6 +26,9 @@ class PlateLattice final : public Structure {
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_layers() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
+  uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const override;
+  void keep_repeated_rows(const RowBlock& block, uint64_t end, std::vector<RowFlip>& flips,
+                          const Job* job) const override;
   bool knows_boxes() const override { return true; }
   BoxClass classify(const Box3& box) const override;
   /// Exact outside if the thickness is constant and the cell sizes differ by a factor of at most 8
@@ -56,6 +60,7 @@ class PlateLattice final : public Structure {
     return thickness_.lipschitz() < std::numeric_limits<double>::infinity();
   }
   const PlateClusters& clusters() const;
+  const RowPlates& row_plates() const;
   /// As Structure::march(), with membership by clusters.
   bool find(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const;
   /// As inside(), to the last bit.

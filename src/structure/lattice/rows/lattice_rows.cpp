@@ -244,7 +244,14 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
     if (!kept_rows) draw(*scratch, left);
     const uint64_t* const drawn = kept_rows ? kept_rows->words.data() : scratch->data();
 
-    for (const LeftSample& sample : kept_rows ? kept_rows->left : left) {
+    const std::vector<LeftSample>& all_left = kept_rows ? kept_rows->left : left;
+    // Parts that share a surface leave the same samples, and a flip counts once.
+    if (repeats_.period) {
+      left_once_ = all_left;
+      std::sort(left_once_.begin(), left_once_.end());
+      left_once_.erase(std::unique(left_once_.begin(), left_once_.end()), left_once_.end());
+    }
+    for (const LeftSample& sample : repeats_.period ? left_once_ : all_left) {
       const size_t w = sample.column / bits_per_word;
       const uint64_t bit = uint64_t{1} << (sample.column % bits_per_word);
       if (drawn[sample.row * padded + w] & bit) continue;

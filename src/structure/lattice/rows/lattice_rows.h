@@ -85,6 +85,7 @@ class LatticeRows {
   Vec3 gradient_;
   bool is_linear_ = false;
   std::vector<double> of_row_;
+  std::vector<LeftSample> left_once_;
   size_t asked_ = 0;
 };
 
