@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <unordered_set>
 
 namespace Slic3r {
 namespace {
@@ -42,6 +43,44 @@ std::array<double, 3> cell_size(const msq_structure *structure, double spacing, 
     std::array<double, 3> size;
     check(msq_fill_calibrate(context(), structure, spacing, density, size.data(), nullptr));
     return size;
+}
+
+using Corners = std::unordered_set<Point, PointHash>;
+
+// The points of lines at which they may be rounded: all but their ends.
+Corners corners_of(const Polylines &lines)
+{
+    Corners corners;
+    for (const Polyline &line : lines)
+        for (size_t i = 1; i + 1 < line.points.size(); ++ i)
+            corners.insert(line.points[i]);
+    return corners;
+}
+
+// Cuts corners off, up to this distance from them, along parabolas of four lines: a printer need not slow down as much for them. No line
+// moves by more than half of the distance.
+Polyline rounded(const Polyline &line, const Corners &corners, double distance)
+{
+    Polyline out;
+    for (size_t i = 0; i < line.points.size(); ++ i) {
+        const Point &point = line.points[i];
+        if (i == 0 || i + 1 == line.points.size() || corners.count(point) == 0) {
+            out.points.emplace_back(point);
+            continue;
+        }
+        const Vec2d  at = point.cast<double>(), before = line.points[i - 1].cast<double>() - at, after = line.points[i + 1].cast<double>() - at;
+        const double reach = std::min({ distance, 0.5 * before.norm(), 0.5 * after.norm() });
+        const Vec2d  a = before.normalized() * reach, b = after.normalized() * reach;
+        if ((a + b).norm() < 0.2 * reach) { // nearly straight
+            out.points.emplace_back(point);
+            continue;
+        }
+        for (int step = 0; step <= 4; ++ step) {
+            const double t = 0.25 * step;
+            out.points.emplace_back(Point(Vec2d(at + a * ((1 - t) * (1 - t)) + b * (t * t))));
+        }
+    }
+    return out;
 }
 
 static_assert(sizeof(Point) == 2 * sizeof(int32_t), "msq reads the points of polygons in place");
@@ -104,9 +143,12 @@ double measured_density(double spacing, double density, double seeds)
     for (const Vec2d &corner : { Vec2d(0, 0), Vec2d(side, 0), Vec2d(side, side), Vec2d(0, side) })
         square.contour.points.emplace_back(scaled<coord_t>(corner));
     double length = 0;
-    for (int i = 0; i < 8; ++ i)
-        for (const Polyline &line : wall_lines(foam.get(), FillMsq::Pattern::Foam, square, 0.37 * i * side, spacing, 0.0125))
-            length += unscaled(line.length());
+    for (int i = 0; i < 8; ++ i) {
+        const Polylines lines   = wall_lines(foam.get(), FillMsq::Pattern::Foam, square, 0.37 * i * side, spacing, 0.0125);
+        const Corners   corners = corners_of(lines);
+        for (const Polyline &line : lines)
+            length += unscaled(rounded(line, corners, scaled<double>(spacing)).length());
+    }
     return length * spacing / (8 * side * side);
 }
 
@@ -271,12 +313,16 @@ void FillMsq::_fill_surface_single(
     Polylines lines = m_pattern == Pattern::Struts ?
         strut_loops(made->model.get(), expolygon, z, this->spacing, resolution) :
         wall_lines(made->structure.get(), m_pattern, expolygon, z, this->spacing, resolution);
+    // Joints along the border are not rounded: they would leave the polygon where its border bends inwards.
+    const Corners corners = m_pattern == Pattern::Foam ? corners_of(lines) : Corners();
     if (m_pattern != Pattern::Struts && ! params.dont_connect() && ! lines.empty()) {
         Polylines connected;
         connect_infill(std::move(lines), expolygon, connected, this->spacing, params);
         lines = std::move(connected);
     }
     for (Polyline &line : lines) {
+        if (! corners.empty())
+            line = rounded(line, corners, scaled<double>(this->spacing));
         line.rotate(angle);
         polylines_out.emplace_back(std::move(line));
     }
