@@ -64,8 +64,9 @@ class FunctionLevel final : public LevelFunction {
 
 constexpr double squares_per_cell = 32;
 
-/// The cell size that the grid of squares is for. Around an axis or a point cells have any size, as
-/// far as it counts: half of their radial size, or what they have at the inner radius.
+/// The cell size that the grid of squares is for. Around an axis or a point cells have any size,
+/// and a shear makes them narrower. It counts as far as half of their radial size, or as far as
+/// they are at the inner radius.
 double smallest_in_plane(const Functional& structure) {
   const Neighbourhood& grid = structure.neighbourhood();
   const double smallest = min_component(grid.cell_size);
@@ -73,7 +74,11 @@ double smallest_in_plane(const Functional& structure) {
   if (!warp) return smallest;
   const Warp::Shell& shell = warp->shell();
   const double least = 0.5 * grid.cell_size.x;
-  const double around = std::max(least, two_pi * shell.inner / shell.count);
+  double around = two_pi * shell.inner / shell.count;
+  if (shell.is_sheared() && around > 0)
+    around = 1 / length(Vec3{1 / around, shell.shear_outwards / grid.cell_size.x,
+                             shell.shear_along / grid.cell_size.z});
+  around = std::max(least, around);
   if (warp->kind() == Warp::Kind::cylindrical) return std::min(smallest, around);
   return std::min(
       {smallest, around, std::max(least, 0.5 * two_pi * shell.inner / shell.count_polar)});
