@@ -1424,6 +1424,13 @@ typedef struct msq_foam_def {
    * spheres. Cells then differ more in size, and some seeds have none. Seeds stay where they are.
    * 0: the Voronoi diagram. */
   double weight;
+  /** Cells whose size varies along an axis of the grid, by a factor of at most 16;
+   * grid.cell_size along that axis is ignored. The largest cell sizes along the three axes may
+   * differ by a factor of up to 4. The seeds move with the cells, and the Voronoi diagram is that
+   * of the moved seeds: struts stay straight and keep their radius, walls keep their thickness.
+   * Limits of radius and thickness refer to the smallest cell size. Not with a density above 1, a
+   * stretch, a weight or the methods of the paper. NULL (default): all cells have one size. */
+  const msq_period_def* period;
 } msq_foam_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */
@@ -1440,9 +1447,10 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
  * recursively. Each leaf has one jittered seed, and the mean number of seeds is the density
  * (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius,
  * wall_thickness, vent_radius or weight above the smallest cell size; cell sizes that differ by a
- * factor above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL;
- * walls, a stretch, a weight, or density above 1, with a method other than AUTO and DIRECT; a
- * stretch or a weight with density above 1 or with vent_radius; a weight with a stretch), MEMORY.
+ * factor above 4, or in a period above 16; stretch, see there; density above 32768), UNSUPPORTED
+ * (METHOD_2 without CGAL; walls, a stretch, a weight, a period, or density above 1, with a method
+ * other than AUTO and DIRECT; a stretch, a weight or a period with density above 1; a stretch or a
+ * weight with vent_radius; two of stretch, weight and period), MEMORY.
  * Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016.
  * Weights: Imai, Iri and Murota, "Voronoi diagram in the Laguerre geometry and its applications",
  * 1985; Aurenhammer, "Power diagrams: properties, algorithms and applications", 1987; for foams

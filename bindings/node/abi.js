@@ -429,6 +429,7 @@ export function types(koffi) {
     vent_radius: T.msq_param,
     stretch: koffi.array('double', 3),
     weight: 'double',
+    period: 'void *',
   });
   T.msq_functional_def = koffi.struct('msq_functional_def', {
     struct_size: 'uint32_t',

@@ -362,6 +362,7 @@ void walk(DefinitionWalk& in, msq_foam_def& def) {
   in.param("vent_radius", def.vent_radius);
   in.numbers("stretch", def.stretch);
   in.number("weight", def.weight);
+  in.optional("period", def.period, defaults_of<msq_period_def>(), walk_period);
 }
 
 void walk(DefinitionWalk& in, msq_functional_def& def) {

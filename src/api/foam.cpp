@@ -3,8 +3,10 @@
 #include "api/definitions.h"
 #include "api/guard.h"
 #include "api/neighbourhood.h"
+#include "api/period.h"
 #include "api/strut_radius.h"
 #include "structure/foam/paper/delaunay.h"
+#include "structure/foam/seeds/period_seeds.h"
 #include "structure/foam/walled_foam.h"
 
 using namespace msq;
@@ -168,6 +170,42 @@ void refuse_weighted(const msq_foam_def& def, double weight, FoamMethod method, 
          vent_radius);
 }
 
+std::optional<GradedPeriod> read_foam_period(msq_foam_def& def, msq_period_def& known) {
+  std::optional<GradedPeriod> period = read_period(def.period, known);
+  if (period && period->largest() > PeriodSeeds::max_ratio * period->smallest() * (1 + 1e-12))
+    fail(Status::limit,
+         "period.cell_sizes run from %g to %g; in a foam, the largest may be %g times the smallest",
+         period->smallest(), period->largest(), PeriodSeeds::max_ratio);
+  return period;
+}
+
+Neighbourhood with_cell_size(Neighbourhood grid, int axis, double size) {
+  grid.cell_size[axis] = size;
+  return grid;
+}
+
+/// What a foam with a period cannot be yet.
+void refuse_placed(const msq_foam_def& def, FoamMethod method, Vec3 stretch, double weight,
+                   double density) {
+  if (method != FoamMethod::automatic && method != FoamMethod::direct)
+    fail(Status::unsupported,
+         "a period is given and method %d; with a period, the method of a foam must be "
+         "MSQ_FOAM_AUTO or MSQ_FOAM_DIRECT",
+         static_cast<int>(def.method));
+  if (Stretch::is_any(stretch))
+    fail(Status::unsupported,
+         "a period is given and stretch (%g, %g, %g); with a period, the three numbers of stretch "
+         "must be equal",
+         stretch.x, stretch.y, stretch.z);
+  if (weight > 0)
+    fail(Status::unsupported, "a period is given and weight %g; with a period, weight must be 0",
+         weight);
+  if (density > 1)
+    fail(Status::unsupported,
+         "a period is given and density reaches %g; with a period, density must not exceed 1",
+         density);
+}
+
 }  // namespace
 
 msq_status msq_foam_def_init(msq_foam_def* def, size_t size) {
@@ -179,8 +217,11 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
   return guard([&] {
     Context& owner = object(context, "context");
     require(structure, "structure");
-    const msq_foam_def known = read_def(def, foam_defaults(), "def");
-    const Neighbourhood grid = read_neighbourhood(known.grid);
+    msq_foam_def known = read_def(def, foam_defaults(), "def");
+    Neighbourhood grid = read_neighbourhood(known.grid);
+    msq_period_def known_period;
+    const std::optional<GradedPeriod> period = read_foam_period(known, known_period);
+    if (period) grid = with_cell_size(grid, period->axis(), period->largest());
     const double ratio = max_component(grid.cell_size) / min_component(grid.cell_size);
     if (ratio > 4)
       fail(Status::limit, "cell sizes of a foam differ by %g times; the limit is 4", ratio);
@@ -197,20 +238,28 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            "MSQ_FOAM_DIRECT",
            density.range().high);
     const Vec3 stretch = read_stretch(known, grid);
-    const Parameter thickness = read_wall_thickness(known.wall_thickness, grid);
+    const Neighbourhood smallest =
+        period ? with_cell_size(grid, period->axis(), period->smallest()) : grid;
+    const Parameter thickness = read_wall_thickness(known.wall_thickness, smallest);
     const bool has_walls = !is_none(known.wall_thickness);
     if (has_walls && method != FoamMethod::automatic && method != FoamMethod::direct)
       fail(Status::unsupported,
            "wall_thickness reaches %g; with walls, the method of a foam must be MSQ_FOAM_AUTO or "
            "MSQ_FOAM_DIRECT",
            thickness.range().high);
-    const Parameter vent_radius = read_vent_radius(known, grid);
+    const Parameter vent_radius = read_vent_radius(known, smallest);
     refuse_stretched(known, stretch, method, density.range().high, vent_radius.range().high);
-    const double weight = read_weight(known, grid);
+    const double weight = read_weight(known, smallest);
     refuse_weighted(known, weight, method, stretch, density.range().high, vent_radius.range().high);
+    std::shared_ptr<const PlacedSeeds> placed;
+    if (period) {
+      refuse_placed(known, method, stretch, weight, density.range().high);
+      placed = std::make_shared<const PeriodSeeds>(grid, *period, known.jitter, known.seed);
+      grid = placed->grid();
+    }
     const auto make_walls = [&] {
       return make_ref<FoamWalls>(Ref<Context>(&owner), grid, thickness, known.jitter, known.seed,
-                                 density, vent_radius, stretch, weight);
+                                 density, vent_radius, stretch, weight, placed);
     };
     if (has_walls && is_none(known.radius)) {
       const Ref<Structure> made = make_walls();
@@ -219,8 +268,8 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
       return;
     }
     Ref<Foam> struts =
-        make_ref<Foam>(Ref<Context>(&owner), grid, read_radius(known.radius, grid, 1), known.jitter,
-                       known.seed, method, density, stretch, weight);
+        make_ref<Foam>(Ref<Context>(&owner), grid, read_radius(known.radius, smallest, 1),
+                       known.jitter, known.seed, method, density, stretch, weight, placed);
     const Ref<Structure> made =
         has_walls ? Ref<Structure>(make_ref<WalledFoam>(std::move(struts), make_walls()))
                   : Ref<Structure>(std::move(struts));

@@ -32,6 +32,7 @@ static void defaults_are_those_of_the_header(void** state) {
   assert_true(def.vent_radius.value == 0);
   for (int axis = 0; axis < 3; ++axis) assert_true(def.stretch[axis] == 1);
   assert_true(def.weight == 0);
+  assert_null(def.period);
 }
 
 /* Samples of a foam in the box, as a grid. */
@@ -70,6 +71,44 @@ static void weight_picks_another_foam(void** state) {
     sample_foam(&def, other);
     for (size_t i = 0; i < samples; ++i) more += plain[i] != other[i];
     assert_true(more > differ);
+  }
+}
+
+/* Cells of one size are those of the grid. Where cells are a quarter as long, there are more struts
+ * across the axis. */
+static void period_moves_the_seeds(void** state) {
+  uint8_t plain[samples], other[samples];
+  const double positions[2] = {1.5, 2.5}, even[2] = {1, 1}, sizes[2] = {1, 0.25};
+  msq_period_def period;
+  (void)state;
+  assert_ok(msq_period_def_init(&period, sizeof period));
+  period.positions = positions;
+  period.count = 2;
+  for (int with_walls = 0; with_walls < 2; ++with_walls) {
+    msq_foam_def def = foam_def();
+    if (with_walls) def.wall_thickness.value = 0.1;
+    def.radius.value = with_walls ? 0 : 0.1;
+    sample_foam(&def, plain);
+    def.period = &period;
+    def.grid.cell_size[2] = 3; /* not used */
+    for (period.axis = 0; period.axis < 3; ++period.axis) {
+      size_t differ = 0, low[2] = {0, 0}, high[2] = {0, 0};
+      for (int axis = 0; axis < 3; ++axis) def.grid.cell_size[axis] = axis == period.axis ? 3 : 1;
+      period.cell_sizes = even;
+      sample_foam(&def, other);
+      for (size_t i = 0; i < samples; ++i) differ += plain[i] != other[i];
+      assert_in_range(differ, 0, 2);
+      period.cell_sizes = sizes;
+      sample_foam(&def, other);
+      for (size_t i = 0; i < samples; ++i) {
+        const size_t at[3] = {i % side, i / side % side, i / side / side};
+        size_t* const half = at[period.axis] < side / 2 ? low : high;
+        half[0] += plain[i];
+        half[1] += other[i];
+      }
+      assert_true(low[1] < 1.5 * (double)low[0] && low[0] < 1.5 * (double)low[1]);
+      assert_true((double)high[1] > 1.3 * (double)high[0]);
+    }
   }
 }
 
@@ -356,6 +395,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(weight_picks_another_foam),
+      cmocka_unit_test(period_moves_the_seeds),
       cmocka_unit_test(seed_picks_another_foam_and_the_same_again),
       cmocka_unit_test(foam_without_jitter_is_the_cubic_lattice),
       cmocka_unit_test(methods_give_the_same_solid),

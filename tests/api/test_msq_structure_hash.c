@@ -277,8 +277,11 @@ static msq_foam_def foam_def(double radius, double thickness) {
 }
 
 static void foams_hash_seeds_and_sizes(void** state) {
+  const msq_period_def period = period_def();
+  msq_period_def other_period = period;
+  other_period.axis = 0;
   msq_foam_def def = foam_def(0.15, 0), other;
-  uint8_t hash[hash_bytes];
+  uint8_t hash[hash_bytes], other_hash[hash_bytes];
   (void)state;
   hash_foam(context, &def, hash);
   assert_hash(hash, "b74b1652a7bfc9f4e825ec2c2f81e1b2");
@@ -307,7 +310,16 @@ static void foams_hash_seeds_and_sizes(void** state) {
     KEEPS(def.stretch, def.stretch[0] = def.stretch[1] = def.stretch[2] = 3);
     CHANGES(def.weight, def.weight = 0.25);
     CHANGES(def.weight, def.weight = 0.5);
+    CHANGES(def.period, def.period = &period);
+    CHANGES(def.period, def.period = &other_period);
   }
+  other = def;
+  def.period = other.period = &period;
+  other.grid.cell_size[2] = 3; /* not used */
+  hash_foam(context, &def, hash);
+  hash_foam(context, &other, other_hash);
+  assert_memory_equal(hash, other_hash, hash_bytes);
+  def.period = NULL;
   other = def;
   def.density.field = other.density.field = NULL;
   def.radius.field = ramp;
@@ -318,6 +330,9 @@ static void foams_hash_seeds_and_sizes(void** state) {
 static void walls_hash_seeds_and_sizes(void** state) {
   (void)state;
   for (int with_struts = 0; with_struts < 2; ++with_struts) {
+    const msq_period_def period = period_def();
+    msq_period_def other_period = period;
+    other_period.axis = 0;
     msq_foam_def def = foam_def(with_struts ? 0.0625 : 0, 0.125);
     def.vent_radius.value = 0.25;
     HASHES(context, "msq_foam_def with walls", &def, sizeof def, hash_foam) {
@@ -344,6 +359,8 @@ static void walls_hash_seeds_and_sizes(void** state) {
       KEEPS(def.stretch, def.stretch[0] = def.stretch[1] = def.stretch[2] = 3);
       CHANGES(def.weight, def.weight = 0.25);
       CHANGES(def.weight, def.weight = 0.5);
+      CHANGES(def.period, def.period = &period);
+      CHANGES(def.period, def.period = &other_period);
     }
   }
 }

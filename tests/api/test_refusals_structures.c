@@ -162,6 +162,45 @@ static void foams(void** state) {
     RIGHT(def->weight = 0.25; def->wall_thickness.value = 0.1; def->radius.value = 0);
     if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
   }
+  REFUSALS("msq_structure_foam") { /* a period */
+    const double positions[2] = {0, 4}, sizes[2] = {1, 0.25}, steep[2] = {1, 0.0625},
+                 too_steep[2] = {1, 0.0615}, long_cells[2] = {4, 1}, too_long[2] = {4.5, 1},
+                 descending[2] = {4, 0};
+    msq_period_def* period = (msq_period_def*)definition(1);
+    msq_foam_def* def = foam_of();
+    msq_structure** structure = (msq_structure**)output(0);
+    assert_ok(msq_period_def_init(period, sizeof *period));
+    period->positions = positions;
+    period->cell_sizes = sizes;
+    period->count = 2;
+    def->radius.value = 0.05;
+    def->grid.cell_size[2] = 100; /* not used */
+    def->period = period;
+    WRONG(ARGUMENT, "period.axis is 3", period->axis = 3);
+    WRONG(ARGUMENT, "period.count is 0", period->count = 0);
+    WRONG(ARGUMENT, "period.positions[1] is 0|fold", period->positions = descending);
+    RIGHT(period->cell_sizes = steep);
+    WRONG(LIMIT, "period.cell_sizes run from 0.0615 to 1|16 times", period->cell_sizes = too_steep);
+    RIGHT(period->cell_sizes = long_cells);
+    WRONG(LIMIT, "differ by 4.5 times|the limit is 4", period->cell_sizes = too_long);
+    RIGHT(def->radius.value = 0.25);
+    WRONG(LIMIT, "radius|0.26|the limit is 0.25", def->radius.value = 0.26);
+    WRONG(LIMIT, "wall_thickness reaches 0.26|the limit is 0.25", def->wall_thickness.value = 0.26);
+    WRONG(LIMIT, "vent_radius reaches 0.26|the limit is 0.25", def->wall_thickness.value = 0.1;
+          def->vent_radius.value = 0.26);
+    RIGHT(def->wall_thickness.value = 0.1; def->vent_radius.value = 0.25);
+    for (int method = 0; method < 5; ++method)
+      if (method == MSQ_FOAM_POINT || method == MSQ_FOAM_METHOD_1)
+        WRONG(UNSUPPORTED, "a period|method|MSQ_FOAM_DIRECT", def->method = method);
+    WRONG(UNSUPPORTED, "", def->method = MSQ_FOAM_METHOD_2);
+    RIGHT(def->method = MSQ_FOAM_DIRECT);
+    WRONG(UNSUPPORTED, "a period|stretch (1, 2, 1)", def->stretch[1] = 2);
+    RIGHT(def->stretch[0] = def->stretch[1] = def->stretch[2] = 2);
+    WRONG(UNSUPPORTED, "a period|weight 0.125", def->weight = 0.125);
+    WRONG(UNSUPPORTED, "a period|density reaches 2", def->density.value = 2);
+    RIGHT(def->density.value = 0.5);
+    if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
+  }
   release_fields(fields);
   release_fields(dense);
 }

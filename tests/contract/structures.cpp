@@ -10,6 +10,7 @@
 #include "field/gradient.h"
 #include "field/grid.h"
 #include "field/map.h"
+#include "foam_structures.h"
 #include "host_structures.h"
 #include "images.h"
 #include "lattice_structures.h"
@@ -20,7 +21,6 @@
 #include "structure/combined/smooth_boolean.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/paper/delaunay.h"
-#include "structure/foam/walled_foam.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
 #include "structure/lattice/lattice.h"
@@ -49,79 +49,6 @@ FieldRef sampled_field(const Neighbourhood& grid, FieldRef linear) {
     return linear->at(frame.rotation.apply(u * frame.spacing) + frame.origin);
   });
   return make_ref<GridField>(make_image(values, size, frame));
-}
-
-Factory graded_foam_factory(double jitter) {
-  return [=](const Neighbourhood& grid, Parameter radius) {
-    const Parameter density = rising_density(grid);
-    return Ref<const Structure>(make_ref<Foam>(shared_context(), grid, std::move(radius), jitter,
-                                               uint64_t{7}, FoamMethod::direct, density));
-  };
-}
-
-Factory stretched_factory(double jitter, Vec3 stretch) {
-  return [=](const Neighbourhood& grid, Parameter radius) {
-    return Ref<const Structure>(make_ref<Foam>(shared_context(), grid, std::move(radius), jitter,
-                                               uint64_t{7}, FoamMethod::direct, Parameter(1),
-                                               stretch));
-  };
-}
-
-Factory stretched_walls_factory(double jitter, Vec3 stretch) {
-  return [=](const Neighbourhood& grid, Parameter thickness) {
-    return Ref<const Structure>(make_ref<FoamWalls>(shared_context(), grid, std::move(thickness),
-                                                    jitter, uint64_t{7}, Parameter(1), Parameter(0),
-                                                    stretch));
-  };
-}
-
-/// weight: over the smallest cell size.
-Factory weighted_factory(double jitter, double weight) {
-  return [=](const Neighbourhood& grid, Parameter radius) {
-    return Ref<const Structure>(make_ref<Foam>(
-        shared_context(), grid, std::move(radius), jitter, uint64_t{7}, FoamMethod::direct,
-        Parameter(1), Vec3{1, 1, 1}, weight * min_component(grid.cell_size)));
-  };
-}
-
-Factory weighted_walls_factory(double jitter, double weight) {
-  return [=](const Neighbourhood& grid, Parameter thickness) {
-    return Ref<const Structure>(make_ref<FoamWalls>(
-        shared_context(), grid, std::move(thickness), jitter, uint64_t{7}, Parameter(1),
-        Parameter(0), Vec3{1, 1, 1}, weight * min_component(grid.cell_size)));
-  };
-}
-
-/// The parameter of the suite stands for the thickness of the walls.
-Factory walls_factory(double jitter, bool has_density = false) {
-  return [=](const Neighbourhood& grid, Parameter thickness) {
-    const Parameter density = has_density ? rising_density(grid) : Parameter(1);
-    return Ref<const Structure>(make_ref<FoamWalls>(shared_context(), grid, std::move(thickness),
-                                                    jitter, uint64_t{7}, density));
-  };
-}
-
-/// Walls with holes of 0.2 of a cell, or in places less.
-Factory vented_factory(double jitter, bool is_even = true, bool has_density = false) {
-  return [=](const Neighbourhood& grid, Parameter thickness) {
-    const Parameter density = has_density ? rising_density(grid) : Parameter(1);
-    const double radius = (has_density ? 0.06 : 0.2) * min_component(grid.cell_size);
-    const Vec3 reach = Vec3{2, 2, 2} * max_component(grid.cell_size);
-    const Parameter radii = is_even ? Parameter(radius)
-                                    : Parameter(Ref<const Field>(make_ref<GradientField>(
-                                          grid.origin - reach, 0.0, grid.origin + reach, radius)));
-    return Ref<const Structure>(make_ref<FoamWalls>(shared_context(), grid, std::move(thickness),
-                                                    jitter, uint64_t{7}, density, radii));
-  };
-}
-
-/// It stands for the thickness of the walls and for the radius of the struts.
-Factory walled_factory(double jitter) {
-  return [=](const Neighbourhood& grid, Parameter size) {
-    return Ref<const Structure>(make_ref<WalledFoam>(
-        make_ref<Foam>(shared_context(), grid, size, jitter, uint64_t{7}, FoamMethod::direct),
-        make_ref<FoamWalls>(shared_context(), grid, size, jitter, uint64_t{7})));
-  };
 }
 
 }  // namespace
@@ -156,13 +83,6 @@ Parameter StructureRow::parameter(Vec3 centre, double extra) const {
       make_ref<GradientField>(centre - half, graded_from * radius() + extra, centre + half, most);
   if (kind.vary) field = kind.vary(variant.grid, field);
   return Parameter(field);
-}
-
-Factory foam_factory(FoamMethod method, double jitter) {
-  return [=](const Neighbourhood& grid, Parameter radius) {
-    return Ref<const Structure>(
-        make_ref<Foam>(shared_context(), grid, std::move(radius), jitter, uint64_t{7}, method));
-  };
 }
 
 Factory functional_factory(const char* expression, FunctionalKind kind, int clusters) {
@@ -444,6 +364,17 @@ std::vector<Kind> kinds() {
       {"foam weighted", "sampled radius", 0.1, 1, weighted_factory(1, 0.6), sampled_field});
   kinds.push_back({"foam weighted", "walls", 0.06, 1, weighted_walls_factory(1, 1)});
   kinds.push_back({"foam weighted", "walls, jitter 0", 0.1, 0, weighted_walls_factory(0, 0.5)});
+  kinds.push_back({"foam placed", "period along z", 0.08, 1, placed_factory(1, by_period<2>)});
+  kinds.push_back({"foam placed", "period along x", 0.2, 0.5, placed_factory(0.5, by_period<0>)});
+  kinds.push_back({"foam placed", "period, jitter 0", 0.1, 0, placed_factory(0, by_period<1>)});
+  kinds.push_back({"foam placed", "period, sampled radius", 0.1, 1, placed_factory(1, by_period<1>),
+                   sampled_field});
+  kinds.push_back({"foam placed", "walls", 0.06, 1, placed_walls_factory(1, by_period<2>)});
+  kinds.push_back(
+      {"foam placed", "walls, jitter 0", 0.1, 0, placed_walls_factory(0, by_period<0>)});
+  kinds.push_back(
+      {"foam placed", "walls with holes", 0.08, 1, placed_walls_factory(1, by_period<1>, 0.15)});
+  kinds.push_back({"foam placed", "and struts", 0.09, 1, placed_both_factory(1, by_period<2>)});
   for (double jitter : {1.0, 0.01, 0.0})
     for (double thickness : {0.02, 0.1, 0.45}) {
       if (jitter < 1 && thickness != 0.1) continue;
@@ -585,7 +516,8 @@ std::vector<StructureRow> structures_by_point() {
   std::vector<StructureRow> rows;
   for (const StructureRow& row : structures())
     if (row.is_lattice() || row.kind.family == "foam DIRECT" || row.kind.family == "foam walls" ||
-        row.kind.family == "foam stretched" || row.kind.family == "foam weighted")
+        row.kind.family == "foam stretched" || row.kind.family == "foam weighted" ||
+        row.kind.family == "foam placed")
       rows.push_back(row);
   return rows;
 }

@@ -162,11 +162,14 @@ int main() {
     const bool is_foam = row.kind.family.rfind("foam", 0) == 0;
     const bool has_density = row.kind.name.rfind("density", 0) == 0 && row.kind.radius == 0.06;
     const bool has_other = row.kind.name.find("and struts") != std::string::npos;
-    const bool is_wanted = (row.kind.family == "foam DIRECT" && row.kind.radius == 0.1) ||
-                           (row.kind.family == "foam stretched" &&
-                            (row.kind.name == "along z" || row.kind.name == "jitter 0")) ||
-                           (row.kind.family == "foam weighted" &&
-                            (row.kind.name == "most" || row.kind.name == "jitter 0"));
+    const bool is_wanted =
+        (row.kind.family == "foam DIRECT" && row.kind.radius == 0.1) ||
+        (row.kind.family == "foam stretched" &&
+         (row.kind.name == "along z" || row.kind.name == "jitter 0")) ||
+        (row.kind.family == "foam weighted" &&
+         (row.kind.name == "most" || row.kind.name == "jitter 0")) ||
+        (row.kind.family == "foam placed" &&
+         (row.kind.name == "period along z" || row.kind.name == "period, jitter 0"));
     if (is_foam ? !(is_wanted || has_density || has_other) : row.kind.radius > 0.2) continue;
     // Foams with octrees of seeds take seconds, in slow builds tens of them.
     const bool is_slow = test_scale() < 1;

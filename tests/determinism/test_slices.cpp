@@ -23,6 +23,7 @@
 #include "structure/combined/smooth_boolean.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/paper/delaunay.h"
+#include "structure/foam/seeds/period_seeds.h"
 #include "structure/foam/walled_foam.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
@@ -214,6 +215,22 @@ std::vector<ModelRow> models() {
                                 FoamMethod::direct, Parameter(1), Vec3{1, 2.5, 1}),
                  make_ref<FoamWalls>(c, cells_of(0.4, 0.3), Parameter(0.04), 1.0, uint64_t{2},
                                      Parameter(1), Parameter(0), Vec3{3, 1, 0.8})});
+       }});
+  rows.push_back(
+      {"walls in a foam, both with periods", 8, [](Ref<Context> c) {
+         const auto places = [](int axis, double size, double origin) {
+           return std::make_shared<const PeriodSeeds>(cells_of(size, origin), period_of(axis, size),
+                                                      1.0, uint64_t{6});
+         };
+         const std::shared_ptr<const PlacedSeeds> coarse = places(0, 0.6, 0.2),
+                                                  fine = places(2, 0.4, 0.3);
+         return make_ref<Model>(
+             c, make_ref<BoxShape>(Box3{{-0.5, -0.4, -0.2}, {0.5, 0.4, 0.2}}),
+             Structures{
+                 make_ref<Foam>(c, coarse->grid(), Parameter(0.1), 1.0, uint64_t{6},
+                                FoamMethod::direct, Parameter(1), Vec3{1, 1, 1}, 0.0, coarse),
+                 make_ref<FoamWalls>(c, fine->grid(), Parameter(0.04), 1.0, uint64_t{6},
+                                     Parameter(1), Parameter(0), Vec3{1, 1, 1}, 0.0, fine)});
        }});
   rows.push_back(
       {"weighted walls in a weighted foam", 8, [](Ref<Context> c) {

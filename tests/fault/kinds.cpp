@@ -216,6 +216,16 @@ MakeStructure placed_lattice(World& world, Places places) {
   };
 }
 
+MakeStructure placed_foam(World& world, Places places, double radius, double thickness) {
+  return [=, &world](msq_structure** made) {
+    msq_foam_def def = make_def(msq_foam_def_init);
+    def.period = &*places.period;
+    def.radius.value = radius;
+    def.wall_thickness.value = thickness;
+    return msq_structure_foam(world.context, &def, made);
+  };
+}
+
 MakeStructure placed_gyroid(World& world, Places places) {
   return [&world, places](msq_structure** made) {
     auto def = places.placed(make_def(msq_functional_def_init));
@@ -379,6 +389,14 @@ const std::vector<Kind>& kinds() {
         {"lattice of graded period",
          [](World& w) {
            return placed_lattice(w, {graded_period(), {}});
+         }},
+        {"foam of graded period",
+         [](World& w) {
+           return placed_foam(w, {graded_period(), {}}, 0.15, 0);
+         }},
+        {"walls of graded period",
+         [](World& w) {
+           return placed_foam(w, {graded_period(), {}}, 0, 0.1);
          }},
         {"gyroid of graded period",
          [](World& w) {

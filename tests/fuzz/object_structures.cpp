@@ -153,6 +153,8 @@ Owner<msq_structure> Maker::foam() {
   if (input_.chance(30))
     for (double& factor : def.stretch) factor = input_.number(0.3, 4);
   if (input_.chance(30)) def.weight = input_.number(0, 1.5);
+  Period period;
+  if (input_.chance(40)) def.period = grade(period);
   return make<msq_structure>("msq_structure_foam", [&](msq_structure** s) {
     return msq_structure_foam(context_, &def, s);
   });

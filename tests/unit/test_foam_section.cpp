@@ -12,6 +12,7 @@
 #include "msq_test.h"
 #include "random.h"
 #include "structure/foam/foam.h"
+#include "structure/foam/seeds/period_seeds.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -26,6 +27,7 @@ struct Row {
   bool is_graded = false;
   Vec3 stretch{1, 1, 1};
   double weight = 0;
+  int period_axis = -1;
 };
 
 Rotation turned() {
@@ -60,6 +62,16 @@ const Row rows[] = {
      false,
      {1, 1, 1},
      0.45},
+    {"a period", {}, 1, 1, 0.3, false, {1, 1, 1}, 0, 0},
+    {"a period across, turned",
+     {{0.3, 0.2, -0.7}, {1, 0.75, 1}, turned()},
+     1,
+     1,
+     0.37,
+     false,
+     {1, 1, 1},
+     0,
+     2},
 };
 
 const Box2 window{{-1.5, -2.25}, {2.75, 1.5}};
@@ -70,7 +82,18 @@ Parameter density_of(const Row& row) {
       Ref<const Field>(make_ref<GradientField>(Vec3{-2, 0, 0}, 1.0, Vec3{3, 0.5, 0}, row.density)));
 }
 
+/// Null without a period. Cells from 1.5 to 0.5.
+std::shared_ptr<const PlacedSeeds> placed_of(const Row& row) {
+  if (row.period_axis < 0) return nullptr;
+  const std::vector<GradedPeriod::Knot> knots{{-1, 1.5}, {1, 0.5}};
+  return std::make_shared<const PeriodSeeds>(row.grid, GradedPeriod(row.period_axis, knots),
+                                             row.jitter, uint64_t{7});
+}
+
 Ref<Foam> make(Context& context, const Row& row) {
+  if (const auto placed = placed_of(row))
+    return make_ref<Foam>(Ref<Context>(&context), placed->grid(), Parameter(0.05), row.jitter, 7,
+                          FoamMethod::automatic, Parameter(1), Vec3{1, 1, 1}, 0.0, placed);
   return make_ref<Foam>(Ref<Context>(&context), row.grid, Parameter(0.05), row.jitter, 7,
                         FoamMethod::automatic, density_of(row), row.stretch, row.weight);
 }
@@ -83,16 +106,18 @@ struct Sphere {
 
 /// All seeds of cells near the window, in model coordinates.
 std::vector<Sphere> all_seeds(const Row& row) {
-  const double unit = max_component(row.grid.cell_size);
-  const FoamSeeds cells(7, row.jitter, row.grid.cell_size * (1 / unit), row.weight / unit);
-  const GradedSeeds seeds(cells, row.grid, density_of(row));
-  const Box3 near = row.grid.to_grid(
-      Box3{{window.min.x, window.min.y, row.z}, {window.max.x, window.max.y, row.z}});
+  const auto placed = placed_of(row);
+  const Neighbourhood& grid = placed ? placed->grid() : row.grid;
+  const double unit = max_component(grid.cell_size);
+  const FoamSeeds cells(7, row.jitter, grid.cell_size * (1 / unit), row.weight / unit);
+  const GradedSeeds seeds(cells, grid, density_of(row));
+  const Box3 near =
+      grid.to_grid(Box3{{window.min.x, window.min.y, row.z}, {window.max.x, window.max.y, row.z}});
   int low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const double size = row.grid.cell_size[axis], reach = 2.2 * length(row.grid.cell_size) *
-                                                          max_component(row.stretch) /
-                                                          min_component(row.stretch);
+    const double size = grid.cell_size[axis], reach = 2.2 * length(grid.cell_size) *
+                                                      max_component(row.stretch) /
+                                                      min_component(row.stretch);
     low[axis] = static_cast<int>(std::floor((near.min[axis] - reach) / size));
     high[axis] = static_cast<int>(std::floor((near.max[axis] + reach) / size));
   }
@@ -100,13 +125,21 @@ std::vector<Sphere> all_seeds(const Row& row) {
   for (int z = low[2]; z <= high[2]; ++z)
     for (int y = low[1]; y <= high[1]; ++y)
       for (int x = low[0]; x <= high[0]; ++x) {
+        if (placed) {
+          std::vector<PlacedSeed> found;
+          placed->find({x, y, z}, found);
+          for (const PlacedSeed& seed : found)
+            all.push_back({grid.from_grid(
+                Vec3{x + seed.in_box.x, y + seed.in_box.y, z + seed.in_box.z} * grid.cell_size)});
+          continue;
+        }
         std::vector<GradedSeed> leaves;
         append_leaves(seeds, {{x, y, z}}, leaves);
         for (const GradedSeed& leaf : leaves) {
           // In the box of the cell, exact; then as points of the grid.
           const Vec3 in_cell = seeds.in_leaf(leaf.leaf);
-          const Vec3 place = row.grid.from_grid(Vec3{x + in_cell.x, y + in_cell.y, z + in_cell.z} *
-                                                row.grid.cell_size);
+          const Vec3 place =
+              grid.from_grid(Vec3{x + in_cell.x, y + in_cell.y, z + in_cell.z} * grid.cell_size);
           const double lift = cells.is_weighted() ? cells.lift(cells.bits({x, y, z})) : 0;
           all.push_back({place, row.weight * row.weight - lift * unit * unit});
         }

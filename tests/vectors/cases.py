@@ -53,6 +53,9 @@ CASES = {
                                       stretch=[1, 0.5, 2])),
     "foam_weighted": model(structure("foam", grid={"cell_size": 3}, radius=0.3, wall_thickness=0.1,
                                      weight=2.5, seed=5)),
+    "foam_period": model(structure("foam", grid={"cell_size": 3}, radius=0.25, wall_thickness=0.15,
+                                   period={"axis": 1, "positions": [0, 6], "cell_sizes": [4, 1]},
+                                   seed=6)),
     "foam_walls": model(structure("foam", grid={"cell_size": 3}, radius=0.2, wall_thickness=0.3,
                                   vent_radius=0.4, density={"expression": {
                                       "expression": "1 + a * x", "parameters": {"a": 0.2},

@@ -24,6 +24,8 @@ namespace Msq
         /// <summary>The greatest radius of the seeds' spheres; above 0, cells are those of a Laguerre
         /// tessellation.</summary>
         public double Weight { get; set; }
+        /// <summary>Cells of varying size.</summary>
+        public Period Period { get; set; }
     }
 
     /// <summary>A lattice, beside its unit cell, grid and radius. null: all cells are boxes of one size.</summary>
@@ -177,6 +179,7 @@ namespace Msq
                 if (options.VentRadius.HasValue) def.vent_radius = options.VentRadius.Value.In(call);
                 if (options.Stretch != null)
                     for (int axis = 0; axis < 3; ++axis) def.stretch[axis] = options.Stretch[axis];
+                def.period = Period.In(call, options.Period);
                 return From(context, &def);
             }
         }

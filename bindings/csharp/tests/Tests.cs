@@ -333,6 +333,10 @@ namespace Msq.Tests
                 inside(Structure.Foam(context, 2, 0.3, new FoamOptions { Weight = weight }));
             True(weighted(0).SequenceEqual(foam(null)));
             True(differ(weighted(2), foam(null)) > 100);
+            Func<double[], bool[]> spaced = sizes =>
+                inside(Structure.Foam(context, grid, 0.3, new FoamOptions { Period = period(sizes) }));
+            True(differ(spaced(one25), inside(Structure.Foam(context, 2.5, 0.3))) < 8);
+            True(differ(spaced(one25), spaced(graded)) > 100);
             Throws<MsqException>(() => weighted(2.5));
         }
 

@@ -389,7 +389,8 @@ class msq_foam_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("method", c_int32), ("grid", msq_neighbourhood),
                 ("radius", msq_param), ("jitter", c_double), ("seed", c_uint64),
                 ("density", msq_param), ("wall_thickness", msq_param), ("vent_radius", msq_param),
-                ("stretch", c_double * 3), ("weight", c_double)]
+                ("stretch", c_double * 3), ("weight", c_double),
+                ("period", POINTER(msq_period_def))]
 
 
 class msq_functional_def(Structure):

@@ -348,11 +348,10 @@ class Foam(Structure):
     """Voronoi foam of one jittered seed per cell: the points within radius of the edges of the
     Voronoi diagram (struts), and those within half of wall_thickness of its faces (walls).
 
-    radius may be 0 (no struts) where wall_thickness is not (no walls: open cells). vent_radius: of a
-    hole through the middle of each wall; 0: none. jitter: 0, seeds at cell centres, to 1, anywhere in
-    their cells. density: seeds in a cell's volume. stretch: how much longer the cells of the foam are
-    along each axis of the grid. weight: the greatest radius of the seeds' spheres; above 0: a Laguerre
-    tessellation. method: how sets and slices are answered, `auto` the fastest.
+    radius may be 0 where wall_thickness is not. vent_radius: of a hole through each wall. jitter: 0,
+    seeds at cell centres, to 1, anywhere in their cells. density: seeds in a cell's volume. stretch:
+    of the foam's cells along each axis of the grid. weight: the greatest radius of the seeds'
+    spheres. period: a Period, for cells whose size varies along an axis. method: `auto` is fastest.
     """
 
     radius: parameter[Param] = parameter("Of the struts.")
@@ -367,6 +366,7 @@ class Foam(Structure):
     vent_radius: parameter[Param] = parameter("Of a hole in each wall; 0: none.")
     stretch: parameter[Sequence[float]] = parameter("Of the cells along the grid's axes.")
     weight: parameter[float] = parameter("Of the seeds; 0: a Voronoi diagram.")
+    period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
 
     @remembers
     def __init__(self, *, radius: Param = 0.0, cell_size: Cell = 1.0, jitter: float = 1.0,
@@ -374,20 +374,20 @@ class Foam(Structure):
                  origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
                  wall_thickness: Param = 0.0, vent_radius: Param = 0.0,
                  stretch: Sequence[float] = (1, 1, 1), weight: float = 0.0,
-                 context: Optional[Context] = None) -> None:
+                 period: Optional[Period] = None, context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_foam_def)
         set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.radius, radius)
         set_param(definition.density, density)
         set_param(definition.wall_thickness, wall_thickness)
         set_param(definition.vent_radius, vent_radius)
-        definition.stretch[:] = triple(stretch, "stretch")
-        definition.weight = weight
-        definition.jitter = jitter
-        definition.seed = unsigned(seed, 64, "seed")
+        definition.stretch[:], definition.weight = triple(stretch, "stretch"), weight
+        definition.jitter, definition.seed = jitter, unsigned(seed, 64, "seed")
         definition.method = constant("MSQ_FOAM_", method, "method")
+        kept = set_period(definition, period)  # until the call has copied it
         self._make(context_of(context, radius, density, wall_thickness, vent_radius),
                    lib.msq_structure_foam, definition)
+        del kept
 
 
 class Beams(Structure):

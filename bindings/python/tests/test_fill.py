@@ -26,6 +26,16 @@ class GradedPeriod(unittest.TestCase):
         lengths = [graded.fill_lines(part, 1.3, tolerance=0.01).length for part in (left, right)]
         self.assertGreater(lengths[0], 1.3 * lengths[1])
 
+    def test_walls_of_foams_are_denser_where_cells_are_smaller(self):
+        period = msq.Period(positions=(0, 30), cell_sizes=(2, 8), axis=0)
+        graded = msq.Foam(wall_thickness=0.4, cell_size=4, period=period)
+        left, right = SQUARE // (3, 1), SQUARE // (3, 1) + (20_000_000, 0)
+        lengths = [graded.fill_lines(part, 1.3).length for part in (left, right)]
+        self.assertGreater(lengths[0], 1.15 * lengths[1])
+        points = np.random.default_rng(3).uniform((0, 0, 0), (30, 20, 4), (20000, 3))
+        near = graded.onset(points) < 0.4
+        self.assertGreater(near[points[:, 0] < 10].mean(), 1.1 * near[points[:, 0] > 20].mean())
+
     def test_one_position_is_a_grid(self):
         points = np.random.default_rng(1).uniform(-5, 5, (2000, 3))
         plain = msq.Functional("gyroid", level=0.2, cell_size=(2, 4, 4))

@@ -11,6 +11,8 @@ namespace msq {
 class WalledStruts : public Structure {
  public:
   bool inside(Vec3 p) const final { return walls_->inside(p) || struts_->inside(p); }
+  CellIndex cell_of(Vec3 p) const final { return struts_->cell_of(p); }
+  void for_each_grid(const TakeGrid& take) const final { struts_->for_each_grid(take); }
   bool is_concurrent() const final { return walls_->is_concurrent() && struts_->is_concurrent(); }
   /// Exact outside where those of both are.
   double distance_bound(Vec3 p) const final;
@@ -42,7 +44,9 @@ class WalledStruts : public Structure {
 
  protected:
   WalledStruts(Ref<const Structure> struts, Ref<const Structure> walls)
-      : Structure(struts->neighbourhood()), struts_(std::move(struts)), walls_(std::move(walls)) {}
+      : Structure(struts->neighbourhood(), struts->characteristic_length()),
+        struts_(std::move(struts)),
+        walls_(std::move(walls)) {}
 
   const Structure& strut_part() const { return *struts_; }
   const Structure& wall_part() const { return *walls_; }

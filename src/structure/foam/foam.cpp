@@ -23,9 +23,9 @@ namespace msq {
 
 Foam::Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
            double jitter, uint64_t seed, FoamMethod method, const Parameter& density, Vec3 stretch,
-           double weight)
+           double weight, std::shared_ptr<const PlacedSeeds> placed)
     : FoamData(std::move(context), neighbourhood, std::move(radius), jitter, seed, density, stretch,
-               weight),
+               weight, std::move(placed)),
       method_(method == FoamMethod::automatic ? FoamMethod::direct : method),
       is_concurrent_(this->radius().is_concurrent() && density.is_concurrent()) {}
 
@@ -171,7 +171,7 @@ void Foam::describe(HashInput& input) const {
   seeds().describe(input);
   // A density that is 1 everywhere changes nothing.
   input.integer(graded() ? 1 : 0);
-  if (graded()) graded()->density().describe(input);
+  if (graded()) graded()->describe(input);
   radius().describe(input);
   if (!stretch()) return;
   input.text("stretch");

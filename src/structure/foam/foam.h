@@ -24,11 +24,12 @@ enum class FoamMethod : int32_t {
 
 class Foam final : public FoamData {
  public:
-  /// `density`, `stretch`, `weight`: as in FoamData. If the density exceeds 1 anywhere, or cells
-  /// are stretched, or seeds weighted, the method is `direct`.
+  /// `density`, `stretch`, `weight`, `placed`: as in FoamData. If the density exceeds 1 anywhere,
+  /// or cells are stretched, or seeds weighted or placed by a map, the method is `direct`.
   Foam(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius, double jitter,
        uint64_t seed, FoamMethod method, const Parameter& density = Parameter(1),
-       Vec3 stretch = {1, 1, 1}, double weight = 0);
+       Vec3 stretch = {1, 1, 1}, double weight = 0,
+       std::shared_ptr<const PlacedSeeds> placed = nullptr);
 
   bool inside(Vec3 p) const override;
   bool is_concurrent() const override { return is_concurrent_; }
@@ -49,7 +50,9 @@ class Foam final : public FoamData {
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return radius().at(p); }
-  double onset_limit() const override { return min_component(neighbourhood().cell_size); }
+  double onset_limit() const override {
+    return min_component((placed() ? placed()->smallest() : neighbourhood()).cell_size);
+  }
   double min_ray_step() const override {
     return radius().lipschitz() < std::numeric_limits<double>::infinity()
                ? ray_tolerance()

@@ -11,7 +11,9 @@ namespace msq {
 namespace {
 
 std::shared_ptr<const GradedSeeds> grade(const FoamSeeds& seeds, const Neighbourhood& grid,
-                                         Parameter density) {
+                                         Parameter density,
+                                         std::shared_ptr<const PlacedSeeds> placed) {
+  if (placed) return std::make_shared<const GradedSeeds>(seeds, std::move(placed));
   if (!(density.range().high > 1)) return nullptr;
   return std::make_shared<const GradedSeeds>(seeds, grid, std::move(density));
 }
@@ -28,8 +30,9 @@ std::unique_ptr<const FoamGraph> make_graph(const FoamSeeds& seeds,
 }  // namespace
 
 FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-                   double jitter, uint64_t seed, Parameter density, Vec3 stretch, double weight)
-    : Structure(neighbourhood),
+                   double jitter, uint64_t seed, Parameter density, Vec3 stretch, double weight,
+                   std::shared_ptr<const PlacedSeeds> placed)
+    : Structure(neighbourhood, placed ? placed->largest() : max_component(neighbourhood.cell_size)),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
       ray_bricks_id_(context_->new_structure_id()),
@@ -39,7 +42,8 @@ FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Par
       radius_(std::move(radius)),
       unit_(max_component(neighbourhood.cell_size)),
       seeds_(seed, jitter, neighbourhood.cell_size * (1 / unit_), weight / unit_),
-      graded_(grade(seeds_, neighbourhood, std::move(density))),
+      placed_(std::move(placed)),
+      graded_(grade(seeds_, neighbourhood, std::move(density), placed_)),
       stretch_(Stretch::is_any(stretch)
                    ? std::make_unique<const Stretch>(neighbourhood, jitter, seed, stretch)
                    : nullptr),
@@ -48,6 +52,10 @@ FoamData::FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Par
 FoamData::~FoamData() {
   for (const uint64_t id : {id_, ray_bricks_id_, cell_lists_id_, ray_demand_id_, paper_cells_id_})
     context_->cache.drop(id);
+}
+
+CellIndex FoamData::cell_of(Vec3 p) const {
+  return placed_ ? placed_->cell_of(neighbourhood().to_grid(p)) : Structure::cell_of(p);
 }
 
 double FoamData::owner_distance() const {

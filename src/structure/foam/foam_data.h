@@ -19,8 +19,10 @@ class FoamData : public Structure {
  public:
   /// One seed in each cell; these are the foam's seeds unless it is graded.
   const FoamSeeds& seeds() const { return seeds_; }
-  /// The graded seeds if the density exceeds 1 anywhere, otherwise null.
+  /// The graded seeds if the density exceeds 1 anywhere, or a map places the seeds; otherwise null.
   const std::shared_ptr<const GradedSeeds>& graded() const { return graded_; }
+  /// Null where no map places the seeds.
+  const PlacedSeeds* placed() const { return placed_.get(); }
   /// Of the cells; null where the diagram is that of model space.
   const Stretch* stretch() const { return stretch_.get(); }
   /// The seeds in the space of the diagram (seeds/stretch.h), and points, in foam units, there.
@@ -52,12 +54,20 @@ class FoamData : public Structure {
   /// Whether struts are capsules of one radius, and each cell has exactly one seed.
   bool has_capsules() const { return !graded_ && radius_.is_constant(); }
 
+  CellIndex cell_of(Vec3 p) const override;
+  void for_each_grid(const TakeGrid& take) const override {
+    take(placed_ ? placed_->smallest() : neighbourhood());
+  }
+
  protected:
   /// `density`: as in GradedSeeds. `stretch`: of the cells, along the axes of the grid; only with a
   /// density of at most 1. `weight`: of the seeds (seeds/seeds.h), in model units, at most the
-  /// smallest cell size; above 0 only without a stretch and with a density of at most 1.
+  /// smallest cell size; above 0 only without a stretch and with a density of at most 1. `placed`:
+  /// null, or where a map places the seeds; then the neighbourhood is that of its boxes, and there
+  /// are no density above 1, stretch or weight.
   FoamData(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter radius,
-           double jitter, uint64_t seed, Parameter density, Vec3 stretch, double weight);
+           double jitter, uint64_t seed, Parameter density, Vec3 stretch, double weight,
+           std::shared_ptr<const PlacedSeeds> placed);
   /// Removes the data from the cache.
   ~FoamData() override;
 
@@ -67,6 +77,7 @@ class FoamData : public Structure {
   const Parameter radius_;
   const double unit_;
   const FoamSeeds seeds_;
+  const std::shared_ptr<const PlacedSeeds> placed_;
   const std::shared_ptr<const GradedSeeds> graded_;
   const std::unique_ptr<const Stretch> stretch_;
   const std::unique_ptr<const FoamGraph> graph_;

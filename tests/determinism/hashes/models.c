@@ -261,6 +261,33 @@ static msq_model* graded_lattice(Kit* kit) {
   return filled(kit, box(kit), lattice(kit, &def));
 }
 
+static msq_model* foam_period(Kit* kit) {
+  static const double positions[3] = {-6, 0, 7}, sizes[3] = {6, 2, 4};
+  msq_period_def period;
+  must(msq_period_def_init(&period, sizeof period));
+  period.positions = positions;
+  period.cell_sizes = sizes;
+  period.count = 3;
+  msq_foam_def def = foam_def(4, number(0.4));
+  turn(&def.grid);
+  def.period = &period;
+  return filled(kit, mesh(kit, 0), foam(kit, &def));
+}
+
+static msq_model* walls_period(Kit* kit) {
+  static const double positions[2] = {-5, 5}, sizes[2] = {2, 5};
+  msq_period_def period;
+  must(msq_period_def_init(&period, sizeof period));
+  period.axis = 0;
+  period.positions = positions;
+  period.cell_sizes = sizes;
+  period.count = 2;
+  msq_foam_def def = foam_def(5, number(0));
+  def.wall_thickness = number(0.3);
+  def.period = &period;
+  return filled(kit, sphere(kit, 9.5), foam(kit, &def));
+}
+
 static msq_model* warped_lattice(Kit* kit) {
   msq_warp_def warp;
   must(msq_warp_def_init(&warp, sizeof warp));
@@ -331,9 +358,11 @@ static const struct {
     {"foam-regular", foam_regular},
     {"foam-stretched", foam_stretched},
     {"foam-weighted", foam_weighted},
+    {"foam-period", foam_period},
     {"walls", walls},
     {"walls-stretched", walls_stretched},
     {"walls-weighted", walls_weighted},
+    {"walls-period", walls_period},
     {"walled", walled},
     {"gyroid-open-mesh", gyroid},
     {"p-sheet", sheet},

@@ -1086,6 +1086,8 @@ pub struct msq_foam_def {
     pub stretch: [f64; 3],
     /// The greatest radius of the seeds' spheres, in model units, from 0 (default) to the smallest cell size. Each seed has a radius r from 0 to weight by a hash. The cell of a seed s is where |p - s|^2 - r^2 is least of all seeds: the Laguerre tessellation (power diagram) of the spheres. Cells then differ more in size, and some seeds have none. Seeds stay where they are. 0: the Voronoi diagram.
     pub weight: f64,
+    /// Cells whose size varies along an axis of the grid, by a factor of at most 16; grid.cell_size along that axis is ignored. The largest cell sizes along the three axes may differ by a factor of up to 4. The seeds move with the cells, and the Voronoi diagram is that of the moved seeds: struts stay straight and keep their radius, walls keep their thickness. Limits of radius and thickness refer to the smallest cell size. Not with a density above 1, a stretch, a weight or the methods of the paper. NULL (default): all cells have one size.
+    pub period: *const msq_period_def,
 }
 
 /// A functional structure.
@@ -2302,7 +2304,7 @@ extern "C" {
     pub fn msq_foam_def_init(def: *mut msq_foam_def, size: usize) -> msq_status;
     /// Creates a Voronoi foam of one jittered seed per neighbourhood cell: all points within radius of an edge of the Voronoi diagram, or within half of wall_thickness of a face. def must not be NULL.
     ///
-    /// Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness, vent_radius or weight above the smallest cell size; cell sizes that differ by a factor above 4; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, a weight, or density above 1, with a method other than AUTO and DIRECT; a stretch or a weight with density above 1 or with vent_radius; a weight with a stretch), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. Weights: Imai, Iri and Murota, "Voronoi diagram in the Laguerre geometry and its applications", 1985; Aurenhammer, "Power diagrams: properties, algorithms and applications", 1987; for foams Fan, Wu, Zhao and Lu, "Simulation of polycrystalline structure with Voronoi diagram in Laguerre geometry based on random closed packing of spheres", 2004.
+    /// Struts are capsules, circular in model units. Walls are plane; their thickness is measured across the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls have none, so msq_structure_calibrate refuses them. Seeds are a function of the cell index and the seed number, equal on every machine. Where density exceeds 1, cells are subdivided 2x2x2 recursively. Each leaf has one jittered seed, and the mean number of seeds is the density (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius, wall_thickness, vent_radius or weight above the smallest cell size; cell sizes that differ by a factor above 4, or in a period above 16; stretch, see there; density above 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, a weight, a period, or density above 1, with a method other than AUTO and DIRECT; a stretch, a weight or a period with density above 1; a stretch or a weight with vent_radius; two of stretch, weight and period), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. Weights: Imai, Iri and Murota, "Voronoi diagram in the Laguerre geometry and its applications", 1985; Aurenhammer, "Power diagrams: properties, algorithms and applications", 1987; for foams Fan, Wu, Zhao and Lu, "Simulation of polycrystalline structure with Voronoi diagram in Laguerre geometry based on random closed packing of spheres", 2004.
     pub fn msq_structure_foam(context: *mut msq_context, def: *const msq_foam_def, structure: *mut *mut msq_structure) -> msq_status;
     /// Sets the defaults. Errors: ARGUMENT.
     pub fn msq_functional_def_init(def: *mut msq_functional_def, size: usize) -> msq_status;
@@ -2662,7 +2664,7 @@ fn structs_have_the_sizes_of_c() {
     assert_eq!(std::mem::size_of::<msq_lattice_def>(), 232);
     assert_eq!(std::mem::size_of::<msq_lattice_faces_report>(), 80);
     assert_eq!(std::mem::size_of::<msq_plate_lattice_def>(), 232);
-    assert_eq!(std::mem::size_of::<msq_foam_def>(), 240);
+    assert_eq!(std::mem::size_of::<msq_foam_def>(), 248);
     assert_eq!(std::mem::size_of::<msq_functional_def>(), 208);
     assert_eq!(std::mem::size_of::<msq_waves_def>(), 200);
     assert_eq!(std::mem::size_of::<msq_beams_def>(), 168);

@@ -13,7 +13,9 @@
 // The cell begins with the nearest seeds of all eight octants about the own seed. With one strictly
 // inside each, it is bounded: a direction d has a positive product with the seed of its octant.
 // Each octant has such a seed within two cells along each axis, since there it contains a whole
-// cell that does not touch the planes between octants from the outside.
+// cell that does not touch the planes between octants from the outside. Of placed seeds
+// (seeds/placed_seeds.h) it has one within three boxes, which are no shorter than cells: the cell
+// after the next one is whole, and farther than places are off.
 //
 // Lengths are relative to the own seed and in sizes of its leaf, so that the tolerances of the walk
 // (voronoi_cell.h) and of EdgeLine have the same meaning at all levels. If the walk fails (seeds on
@@ -66,6 +68,7 @@ class CellBuilder {
     trees_.move_to(seeds);
     home_ = home;
     empty_radius_ = seeds->cells().empty_radius();
+    is_placed_ = seeds->placed() != nullptr;
     const Vec3 scale = seeds->scale();
     const double side = std::cbrt(scale.x * scale.y * scale.z);
     first_reach_squared_ = first_reach_squared * (side * side);
@@ -182,7 +185,7 @@ class CellBuilder {
   }
 
   void add_nearest_in_octant(uint32_t wanted) {
-    const double far = 2 * empty_radius_ * (1 + 1e-9);
+    const double far = (is_placed_ ? 3 : 2) * empty_radius_ * (1 + 1e-9);
     double squared = far * far;
     LeafSeed seed{};
     Vec3 low, high;
@@ -375,6 +378,7 @@ class CellBuilder {
 
   SeedTrees trees_;
   CellIndex home_;
+  bool is_placed_ = false;
   double empty_radius_ = 0, first_reach_squared_ = first_reach_squared;
   LeafSeed own_{};
   double unit_ = 1;                // size of the own leaf, in foam units

@@ -152,6 +152,10 @@ class FoamStruts final : public StrutsOfOne {
                           foam_.from_diagram(joint.position) * foam_.unit());
   }
 
+  CellIndex cell_of(const NamedSeed& seed) const {
+    return foam_.placed() ? foam_.placed()->cell_of(seed.cell, seed.leaf >> 3) : seed.cell;
+  }
+
   void add_struts(CellIndex corner, Workspace& work, StrutList& list) const {
     const size_t from = list.struts.size();
     const double max_radius = foam_.radius().range().high;
@@ -171,7 +175,7 @@ class FoamStruts final : public StrutsOfOne {
       strut.id = hash.id();
       strut.nodes[0] = a->id;
       strut.nodes[1] = b->id;
-      strut.cell = work.common[0].cell;
+      strut.cell = cell_of(work.common[0]);
       strut.radii[0] = strut.radii[1] = max_radius;
       list.add(strut, 1);
     }

@@ -92,9 +92,9 @@ void NamedSeeds::find_graded(Vec3 p, double more, std::vector<NamedSeed>& near) 
       [&](const LeafSeed& seed) {
         const Vec3 away = seed.position - q;
         if (dot(away, away) > reach_squared) return;
-        const GradedSeeds::Node node = node_of(home, name_of(seed));
-        near.push_back({node.cell, node.order() << 3 | static_cast<uint32_t>(node.level),
-                        graded_->in_leaf(node)});
+        const GradedSeedName name = name_of(seed);
+        const NamedLeafSeed leaf = seed_of(*graded_, home, name);
+        near.push_back({leaf.cell, uint32_t{name.order} << 3 | name.level, leaf.in_cell});
       });
 }
 

@@ -17,7 +17,7 @@ namespace msq {
 /// A seed of a foam. Its name is its cell and its leaf there, which is 0 in a cell with one seed.
 struct NamedSeed {
   CellIndex cell;
-  uint32_t leaf;    ///< of GradedSeeds::Node, order << 3 | level: ascends in the order of leaves
+  uint32_t leaf;    ///< of GradedSeedName, order << 3 | level: ascends in the order of leaves
   Vec3 in_cell;     ///< position in the cell, whose box has size 1
   double lift = 0;  ///< of seeds with weights (seeds/seeds.h)
 

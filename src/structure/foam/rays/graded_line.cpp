@@ -7,18 +7,17 @@ namespace msq {
 
 StrutLine graded_line(const GradedSeeds& seeds, CellIndex home,
                       const std::array<GradedSeedName, 3>& names) {
-  const GradedSeeds::Node first = node_of(home, names[0]);
-  const auto position = [&](const GradedSeedName& name) {
-    const GradedSeeds::Node node = node_of(home, name);
-    const Vec3 cell{double(node.cell.x - first.cell.x), double(node.cell.y - first.cell.y),
-                    double(node.cell.z - first.cell.z)};
-    return (cell + seeds.in_leaf(node)) * seeds.scale();
+  const NamedLeafSeed first = seed_of(seeds, home, names[0]);
+  const auto position = [&](const NamedLeafSeed& leaf) {
+    const Vec3 cell{double(leaf.cell.x - first.cell.x), double(leaf.cell.y - first.cell.y),
+                    double(leaf.cell.z - first.cell.z)};
+    return (cell + leaf.in_cell) * seeds.scale();
   };
   // In sizes of the leaf, as EdgeLine's tolerances require.
-  const double size = first.size();
-  const Vec3 seed = position(names[0]);
-  const Vec3 u = (position(names[1]) - seed) * (1 / size),
-             v = (position(names[2]) - seed) * (1 / size);
+  const double size = first.size;
+  const Vec3 seed = position(first);
+  const Vec3 u = (position(seed_of(seeds, home, names[1])) - seed) * (1 / size),
+             v = (position(seed_of(seeds, home, names[2])) - seed) * (1 / size);
   StrutLine strut;
   strut.line = EdgeLine({}, u, v);
   strut.has_line = strut.line.exists();

@@ -75,10 +75,9 @@ void Search::visit(CellIndex cell) {
 void Search::visit_tree(CellIndex cell) {
   const Vec3 size = grid_.cell_size, scale = foam_.seeds.scale();
   const Vec3 corner = Vec3{double(cell.x), double(cell.y), double(cell.z)} * size;
-  // A point of the plane whose nearest seed is in the cell is within `reach_` of the cell, and its
-  // own leaf's diagonal is the most that this distance can be.
+  // A point of the plane whose nearest seed is in the cell is within `reach_` of the cell.
   const Box3 about = Box3{corner, corner + size}.grown(reach_);
-  const double near = std::ldexp(reach_, -foam_.graded->min_level(about));
+  const double near = foam_.graded->max_distance(about);
   const auto& m = grid_.rotation.m;
   const auto wanted = [&](const Box3& box) {
     const Vec3 centre = (box.min + box.max) * (0.5 * foam_.unit);

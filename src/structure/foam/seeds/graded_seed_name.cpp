@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/foam/seeds/graded_seed_name.h"
 
+#include <cmath>
+
 namespace msq {
 
 GradedSeedName name_of(const LeafSeed& seed, CellIndex offset) {
@@ -14,11 +16,14 @@ GradedSeedName name_of(const LeafSeed& seed, CellIndex offset) {
       static_cast<uint16_t>(seed.order & 0x7fff)};
 }
 
-GradedSeeds::Node node_of(CellIndex home, const GradedSeedName& name) {
-  GradedSeeds::Node node{{home.x + name.cell[0], home.y + name.cell[1], home.z + name.cell[2]}};
+NamedLeafSeed seed_of(const GradedSeeds& seeds, CellIndex home, const GradedSeedName& name) {
+  const CellIndex cell{home.x + name.cell[0], home.y + name.cell[1], home.z + name.cell[2]};
+  if (const PlacedSeeds* const placed = seeds.placed())
+    return {cell, placed->seed(cell, name.order).in_box, std::ldexp(1.0, -name.level)};
+  GradedSeeds::Node node{cell};
   for (int level = 1; level <= name.level; ++level)
     node = node.child(name.order >> (3 * (GradedSeeds::max_levels - level)) & 7u);
-  return node;
+  return {cell, seeds.in_leaf(node), node.size()};
 }
 
 }  // namespace msq

@@ -51,29 +51,39 @@ int GradedSeeds::min_level(const Box3& box) const {
   return level;
 }
 
+double GradedSeeds::max_distance(const Box3& box) const {
+  if (placed_) return placed_->max_distance(box);
+  return std::ldexp(length(grid_.cell_size) * (1 + 1e-9), -min_level(box));
+}
+
 bool GradedSeeds::may_own_edges(CellIndex corner, const Box3& box) const {
-  // Such an edge has a point v in the box. Its owner is one of the seeds nearest to v, hence within
-  // the diagonal of v's leaf; so v is within that distance of the brick. The diagonal of a cell
-  // bounds which points of the box can be v. The level of their leaves then bounds the distance of
-  // v to the brick.
+  // Such an edge has a point v in the box. Its owner is one of the seeds nearest to v, so it is
+  // within max_distance of v, and v is within that distance of the brick. The diagonal of a cell
+  // bounds which points of the box can be v.
   const Vec3 low = Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid_.cell_size;
   const Box3 brick{low, low + grid_.cell_size * brick_side()};
   const double diagonal = length(grid_.cell_size) * (1 + 1e-9);
   const Box3 about = brick.grown(diagonal);
   if (!about.overlaps(box)) return false;
-  const int level = min_level({max(about.min, box.min), min(about.max, box.max)});
-  return brick.grown(std::ldexp(diagonal, -level)).overlaps(box);
+  return brick.grown(max_distance({max(about.min, box.min), min(about.max, box.max)}))
+      .overlaps(box);
 }
 
 double GradedSeeds::mean_density(const Box3& box) const {
-  const Interval range = density_.range(grid_.from_grid(box));
+  const Interval range = placed_ ? placed_->density(box) : density_.range(grid_.from_grid(box));
   return std::max(1.0, 0.5 * (range.low + range.high));
 }
 
 int GradedSeeds::brick_side() const {
   // At most about 512 seeds, unless a single cell has more.
-  const double most = density_.range().high;
+  const double most = placed_ ? placed_->max_density() : density_.range().high;
   return most <= 8 ? 4 : most <= 64 ? 2 : 1;
+}
+
+void GradedSeeds::describe(HashInput& input) const {
+  if (!placed_) return density_.describe(input);
+  input.text("placed");
+  placed_->describe(input);
 }
 
 }  // namespace msq

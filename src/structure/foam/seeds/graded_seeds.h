@@ -14,13 +14,20 @@
 // diagonal of the point's leaf. Empty balls have at most that radius, and at most the diagonal of a
 // cell.
 //
+// Other foams have more than one seed in a cell, too: those whose seeds a map places
+// (placed_seeds.h). Their cells are the boxes of the map, and have no octrees, but lists of seeds.
+// All that uses graded seeds through SeedTrees (seed_trees.h) and the bounds below serves them.
+//
 // Positions are in foam units and relative to a nearby cell (seeds.h). A seed is at a multiple of
 // 2^-(21 + l) of its cell; with at most five levels and cubic cells, differences stay exact. A cell
 // of one leaf has the seed of FoamSeeds, bit for bit.
 #pragma once
 
+#include <memory>
+
 #include "cell/neighbourhood.h"
 #include "field/field.h"
+#include "structure/foam/seeds/placed_seeds.h"
 #include "structure/foam/seeds/seeds.h"
 
 namespace msq {
@@ -52,16 +59,26 @@ class GradedSeeds {
   GradedSeeds(const FoamSeeds& cells, const Neighbourhood& grid, Parameter density)
       : cells_(cells), grid_(grid), density_(std::move(density)) {}
 
-  const FoamSeeds& cells() const { return cells_; }
-  Vec3 scale() const { return cells_.scale(); }
-  const Parameter& density() const { return density_; }
+  /// `cells` and `grid`: of the boxes.
+  GradedSeeds(const FoamSeeds& cells, std::shared_ptr<const PlacedSeeds> placed)
+      : cells_(cells), grid_(placed->grid()), placed_(std::move(placed)) {}
 
+  const FoamSeeds& cells() const { return cells_; }
+  /// Null where cells have octrees.
+  const PlacedSeeds* placed() const { return placed_.get(); }
+  const Neighbourhood& grid() const { return grid_; }
+  Vec3 scale() const { return cells_.scale(); }
+  void describe(HashInput& input) const;
+
+  // Of octrees:
   bool splits(const Node& node) const;
   /// The seed of a leaf, in its cell, whose box has size 1.
   Vec3 in_leaf(const Node& leaf) const;
 
-  /// The minimum level of all leaves around the points of a box (grid coordinates).
-  int min_level(const Box3& box) const;
+  // Of both:
+  /// Bounds the distance of the points of a box (grid coordinates) to their nearest seeds; model
+  /// units.
+  double max_distance(const Box3& box) const;
   /// Whether the seeds of the brick whose first cell is `corner` may own edges that touch a box
   /// (grid coordinates).
   bool may_own_edges(CellIndex corner, const Box3& box) const;
@@ -71,9 +88,13 @@ class GradedSeeds {
   int brick_side() const;
 
  private:
+  /// The minimum level of all leaves around the points of a box (grid coordinates).
+  int min_level(const Box3& box) const;
+
   FoamSeeds cells_;
   Neighbourhood grid_;
   Parameter density_;
+  std::shared_ptr<const PlacedSeeds> placed_;
 };
 
 }  // namespace msq

@@ -42,19 +42,50 @@ uint32_t SeedTrees::grow(uint32_t index, const GradedSeeds::Node& node) {
   return children;
 }
 
-LeafSeed SeedTrees::leaf_seed(CellIndex home, uint32_t index, const GradedSeeds::Node& node) const {
-  const CellIndex cell = node.cell;
+namespace {
+
+/// `order`: within the cell.
+LeafSeed seed_in_cell(CellIndex home, CellIndex cell, Vec3 in_cell, Vec3 scale, int level,
+                      uint32_t order) {
   const auto biased = [](int32_t from_home) {
     return static_cast<uint64_t>(static_cast<uint16_t>(from_home + 0x8000));
   };
   const int32_t x = cell.x - home.x, y = cell.y - home.y, z = cell.z - home.z;
-  const Vec3 in_cell = nodes_[index].seed;
-  return {Vec3{x + in_cell.x, y + in_cell.y, z + in_cell.z} * seeds_->scale(), node.level,
-          ((biased(z) << 16 | biased(y)) << 16 | biased(x)) << 15 | node.order()};
+  return {Vec3{x + in_cell.x, y + in_cell.y, z + in_cell.z} * scale, level,
+          ((biased(z) << 16 | biased(y)) << 16 | biased(x)) << 15 | order};
+}
+
+}  // namespace
+
+LeafSeed SeedTrees::leaf_seed(CellIndex home, uint32_t index, const GradedSeeds::Node& node) const {
+  return seed_in_cell(home, node.cell, nodes_[index].seed, seeds_->scale(), node.level,
+                      node.order());
+}
+
+LeafSeed SeedTrees::placed_seed(CellIndex home, const PlacedSeed& seed) const {
+  return seed_in_cell(home, seed.box, seed.in_box, seeds_->scale(), seed.level, seed.number);
+}
+
+uint32_t SeedTrees::list_of(CellIndex cell) {
+  const uint32_t list = root_of(cell);
+  if (nodes_[list].children != not_known) return list;
+  check_cancelled();
+  placed_.clear();
+  seeds_->placed()->find(cell, placed_);
+  nodes_.resize(nodes_.size() + placed_.size());
+  for (size_t i = 0; i < placed_.size(); ++i)
+    nodes_[list + 1 + i] = {placed_[i].in_box,
+                            placed_[i].number << 8 | static_cast<uint32_t>(placed_[i].level)};
+  nodes_[list].children = static_cast<uint32_t>(placed_.size()) + 1;
+  return list;
 }
 
 LeafSeed SeedTrees::at(CellIndex home, Vec3 q) {
   const Vec3 scale = seeds_->scale();
+  if (const PlacedSeeds* const placed = seeds_->placed()) {
+    const Vec3 boxes{home.x + q.x / scale.x, home.y + q.y / scale.y, home.z + q.z / scale.z};
+    return placed_seed(home, placed->near(boxes * placed->grid().cell_size));
+  }
   uint32_t index = root_of(home);
   GradedSeeds::Node node{home};
   for (;;) {

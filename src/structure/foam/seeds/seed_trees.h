@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The octrees of the seeds of a graded foam (graded_seeds.h). They grow as far as searches need,
-// and are kept for the next search of the thread.
+// The seeds of a foam with more than one in a cell (graded_seeds.h): octrees, which grow as far as
+// searches need, or the lists of placed seeds. They are kept for the next search of the thread.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,12 @@
 
 namespace msq {
 
-/// The seed of a leaf.
+/// The seed of a leaf, or a placed one.
 struct LeafSeed {
   Vec3 position;   ///< foam units, from the corner of the search's home cell
   int level;       ///< of the leaf
-  uint64_t order;  ///< ascends by cell (z, y, x), then by path; for seeds within 2^15 cells of home
+  uint64_t order;  ///< ascends by cell (z, y, x), then by path or number; for seeds within 2^15
+                   ///< cells of home
 };
 
 class SeedTrees {
@@ -33,7 +34,7 @@ class SeedTrees {
   template <class Found>
   void visit_cell(CellIndex home, CellIndex cell, Found&& found);
 
-  /// The seed of the leaf that contains q, a point of `home`.
+  /// The seed of the leaf that contains q, a point of `home`; or a placed one nearby.
   LeafSeed at(CellIndex home, Vec3 q);
 
   /// Finds the seed nearest to q among those with accept(seed) that are nearer than
@@ -46,7 +47,8 @@ class SeedTrees {
  private:
   struct Node {
     Vec3 seed;              // of a leaf, in its cell
-    uint32_t children = 0;  // first of eight; or
+    uint32_t children = 0;  // first of eight; or; of a list of placed seeds, 1 more than their
+                            // count, and of those, which follow it, numbers and levels
   };
   static constexpr uint32_t not_known = 0, is_leaf = 1;
   /// Trees are found by cell modulo this; cells that share a slot replace each other.
@@ -61,14 +63,20 @@ class SeedTrees {
   /// Makes a node a leaf or gives it children.
   uint32_t grow(uint32_t index, const GradedSeeds::Node& node);
   LeafSeed leaf_seed(CellIndex home, uint32_t index, const GradedSeeds::Node& node) const;
+  LeafSeed placed_seed(CellIndex home, const PlacedSeed& seed) const;
+  /// The node of a cell's list of placed seeds.
+  uint32_t list_of(CellIndex cell);
   template <class Wanted, class Found>
   void descend(CellIndex home, uint32_t index, const GradedSeeds::Node& node, Wanted& wanted,
                Found& found);
+  template <class Wanted, class Found>
+  void visit_list(CellIndex home, CellIndex cell, Wanted& wanted, Found& found);
 
   std::weak_ptr<const GradedSeeds> owner_;  // identifies the foam, but does not keep it alive
   const GradedSeeds* seeds_ = nullptr;
   std::vector<Node> nodes_;
   std::vector<Slot> slots_;
+  std::vector<PlacedSeed> placed_;  // of one cell
 };
 
 /// Squared distances from q to the nearest and the farthest point of a box.
@@ -100,6 +108,20 @@ void SeedTrees::descend(CellIndex home, uint32_t index, const GradedSeeds::Node&
 }
 
 template <class Wanted, class Found>
+void SeedTrees::visit_list(CellIndex home, CellIndex cell, Wanted& wanted, Found& found) {
+  const Vec3 scale = seeds_->scale();
+  const Vec3 low{double(cell.x - home.x), double(cell.y - home.y), double(cell.z - home.z)};
+  if (!wanted(Box3{low * scale, (low + Vec3{1, 1, 1}) * scale})) return;
+  const uint32_t list = list_of(cell), count = nodes_[list].children;
+  for (uint32_t i = 1; i < count; ++i) {
+    const Node& node = nodes_[list + i];
+    const LeafSeed seed = placed_seed(
+        home, {cell, node.seed, node.children >> 8, static_cast<int>(node.children & 0xff)});
+    if (wanted(Box3{seed.position, seed.position})) found(seed);
+  }
+}
+
+template <class Wanted, class Found>
 void SeedTrees::visit(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found) {
   const Vec3 scale = seeds_->scale();
   int first[3], last[3];
@@ -111,13 +133,17 @@ void SeedTrees::visit(CellIndex home, const Box3& box, Wanted&& wanted, Found&& 
     for (int y = first[1]; y <= last[1]; ++y)
       for (int x = first[0]; x <= last[0]; ++x) {
         const CellIndex cell{home.x + x, home.y + y, home.z + z};
-        descend(home, root_of(cell), {cell}, wanted, found);
+        if (seeds_->placed())
+          visit_list(home, cell, wanted, found);
+        else
+          descend(home, root_of(cell), {cell}, wanted, found);
       }
 }
 
 template <class Found>
 void SeedTrees::visit_cell(CellIndex home, CellIndex cell, Found&& found) {
   const auto all = [](const Box3&) { return true; };
+  if (seeds_->placed()) return visit_list(home, cell, all, found);
   descend(home, root_of(cell), {cell}, all, found);
 }
 

@@ -17,9 +17,12 @@ namespace msq {
 namespace {
 
 NearSeeds make_seeds(const Neighbourhood& grid, double unit, double jitter, uint64_t seed,
-                     Parameter density, Vec3 stretch, double weight) {
+                     Parameter density, Vec3 stretch, double weight,
+                     std::shared_ptr<const PlacedSeeds> placed) {
   if (Stretch::is_any(stretch)) return NearSeeds(Stretch(grid, jitter, seed, stretch));
   const FoamSeeds cells(seed, jitter, grid.cell_size * (1 / unit), weight / unit);
+  if (placed)
+    return NearSeeds(cells, std::make_shared<const GradedSeeds>(cells, std::move(placed)));
   if (!(density.range().high > 1)) return NearSeeds(cells, nullptr);
   return NearSeeds(cells, std::make_shared<const GradedSeeds>(cells, grid, std::move(density)));
 }
@@ -28,19 +31,29 @@ NearSeeds make_seeds(const Neighbourhood& grid, double unit, double jitter, uint
 
 FoamWalls::FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
                      double jitter, uint64_t seed, const Parameter& density, Parameter vent_radius,
-                     Vec3 stretch, double weight)
-    : Structure(neighbourhood),
+                     Vec3 stretch, double weight, std::shared_ptr<const PlacedSeeds> placed)
+    : Structure(neighbourhood, placed ? placed->largest() : max_component(neighbourhood.cell_size)),
       context_(std::move(context)),
       id_(context_->new_structure_id()),
       thickness_(std::move(thickness)),
       unit_(max_component(neighbourhood.cell_size)),
-      seeds_(make_seeds(neighbourhood, unit_, jitter, seed, density, stretch, weight)),
+      seeds_(make_seeds(neighbourhood, unit_, jitter, seed, density, stretch, weight,
+                        std::move(placed))),
       vents_(neighbourhood, unit_, std::move(vent_radius)),
       is_concurrent_(thickness_.is_concurrent() && density.is_concurrent() &&
                      vents_.radius().is_concurrent()) {}
 
 FoamWalls::~FoamWalls() {
   context_->cache.drop(id_);
+}
+
+CellIndex FoamWalls::cell_of(Vec3 p) const {
+  const PlacedSeeds* const placed = seeds_.placed();
+  return placed ? placed->cell_of(neighbourhood().to_grid(p)) : Structure::cell_of(p);
+}
+
+void FoamWalls::for_each_grid(const TakeGrid& take) const {
+  take(seeds_.placed() ? seeds_.placed()->smallest() : neighbourhood());
 }
 
 bool FoamWalls::inside(const Neighbourhood::Located& located, Vec3 p) const {
@@ -309,7 +322,7 @@ void FoamWalls::describe(HashInput& input) const {
   seeds_.seeds().describe(input);
   // A density that is 1 everywhere changes nothing.
   input.integer(seeds_.graded() ? 1 : 0);
-  if (seeds_.graded()) seeds_.graded()->density().describe(input);
+  if (seeds_.graded()) seeds_.graded()->describe(input);
   thickness_.describe(input);
   input.integer(vents_.exist() ? 1 : 0);
   if (vents_.exist()) vents_.radius().describe(input);

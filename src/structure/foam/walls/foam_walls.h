@@ -18,13 +18,17 @@ class FoamWalls final : public Structure {
   /// `density`: as in GradedSeeds. `vent_radius`: of the holes. `stretch`: of the cells, along the
   /// axes of the grid; only without holes and with a density of at most 1. `weight`: of the seeds
   /// (seeds/seeds.h), at most the smallest cell size; above 0 only without a stretch, without holes
-  /// and with a density of at most 1.
+  /// and with a density of at most 1. `placed`: null, or where a map places the seeds; then the
+  /// neighbourhood is that of its boxes, and there are no density above 1, stretch or weight.
   FoamWalls(Ref<Context> context, const Neighbourhood& neighbourhood, Parameter thickness,
             double jitter, uint64_t seed, const Parameter& density = Parameter(1),
-            Parameter vent_radius = Parameter(0), Vec3 stretch = {1, 1, 1}, double weight = 0);
+            Parameter vent_radius = Parameter(0), Vec3 stretch = {1, 1, 1}, double weight = 0,
+            std::shared_ptr<const PlacedSeeds> placed = nullptr);
   ~FoamWalls() override;
 
   bool inside(Vec3 p) const override;
+  CellIndex cell_of(Vec3 p) const override;
+  void for_each_grid(const TakeGrid& take) const override;
   bool is_concurrent() const override { return is_concurrent_; }
   /// Exact in the voids where the thickness is constant and there are no holes.
   double distance_bound(Vec3 p) const override;
@@ -34,7 +38,10 @@ class FoamWalls final : public Structure {
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
   double parameter(Vec3 p) const override { return thickness_.at(p); }
-  double onset_limit() const override { return min_component(neighbourhood().cell_size); }
+  double onset_limit() const override {
+    const PlacedSeeds* const placed = seeds_.placed();
+    return min_component((placed ? placed->smallest() : neighbourhood()).cell_size);
+  }
   void keep_points(const Vec3* points, uint8_t* alive, size_t count) const override;
   bool gains_by_groups() const override { return true; }
   bool gains_by_layers() const override { return true; }

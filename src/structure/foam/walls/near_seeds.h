@@ -24,6 +24,8 @@ class NearSeeds {
 
   const FoamSeeds& seeds() const { return seeds_; }
   const std::shared_ptr<const GradedSeeds>& graded() const { return graded_; }
+  /// Null where no map places the seeds.
+  const PlacedSeeds* placed() const { return graded_ ? graded_->placed() : nullptr; }
   /// Null where the diagram is that of model space.
   const Stretch* stretch() const { return stretch_ ? &*stretch_ : nullptr; }
   /// The normal of a plane of the diagram moved back to model space, in foam units.
