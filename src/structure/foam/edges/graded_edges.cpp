@@ -1,96 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each seed's Voronoi cell is computed from few seeds and then verified against all.
-//
-// A convex cell computed from some of the seeds is the true one if no other seed is nearer to a
-// vertex than its own seed: a half-space that cuts a convex polytope cuts off a vertex. That is,
-// the ball about each vertex v through the own seed must be empty. The seeds within some distance D
-// of the own seed are in memory. They include those in the balls with 2 |v| <= D, since a ball lies
-// within 2 |v| of the own seed. If a fine leaf has coarse neighbours, vertices are farther away.
-// Then the octrees find the seed nearest to v: an empty ball contains no whole leaf, so this
-// examines few nodes. Seeds found in a ball are added, and the cell is computed again, until none
-// is found.
-//
-// The cell begins with the nearest seeds of all eight octants about the own seed. With one strictly
-// inside each, it is bounded: a direction d has a positive product with the seed of its octant.
-// Each octant has such a seed within two cells along each axis, since there it contains a whole
-// cell that does not touch the planes between octants from the outside. Of placed seeds
-// (seeds/placed_seeds.h) it has one within three boxes, which are no shorter than cells: the cell
-// after the next one is whole, and farther than places are off.
-//
-// Lengths are relative to the own seed and in sizes of its leaf, so that the tolerances of the walk
-// (voronoi_cell.h) and of EdgeLine have the same meaning at all levels. If the walk fails (seeds on
-// one sphere) or has no room (a coarse leaf among fine ones), the cell is cut plane by plane
-// (clipped_cell.h). If rounding defeats that too, every pair of seeds is tried by the definition
-// itself (edge_line.h), which needs no graph.
 #include "structure/foam/edges/graded_edges.h"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
+#include <utility>
 
 #include "base/borrowed.h"
-#include "base/job.h"
-#include "structure/foam/edges/clipped_cell.h"
-#include "structure/foam/edges/voronoi_cell.h"
-#include "structure/foam/point/edge_line.h"
-#include "structure/foam/seeds/seed_trees.h"
+#include "structure/foam/edges/graded_cells.h"
 
 namespace msq {
 
 namespace {
 
-/// D^2, in sizes of the own leaf if that is a cube, or else in the side of a cube of its volume.
-/// Among leaves of one level it covers about 43 seeds, enough for most cells. With fewer than
-/// `enough` seeds, D grows. With more than `crowd`, as near a coarse leaf among fine ones, it
-/// shrinks. Any D is correct, and all vertices are compared with all seeds in memory.
-constexpr double first_reach_squared = 4.75;
-constexpr size_t enough = 32, crowd = 2048;
-/// If more than `max_at_first` seeds are in memory, this number of each octant is used.
-constexpr size_t max_at_first = 64, octant_share = 6;
-/// Maximum distance of a vertex v beyond a plane, relative to |v|^2 or to 1. Larger than that of
-/// ClippedCell.
-constexpr double tolerance = 2 * ClippedCell::tolerance;
-
 /// Consecutive owners whose edges share a box: usually leaves of one parent.
 constexpr size_t owners_in_run = 8;
 
-struct Neighbour {
-  Vec3 at;
-  double half_squared;  // of its length
-  uint64_t order;
-  int level;
-};
-
-/// Works for one brick after another and reuses its memory.
-class CellBuilder {
- public:
-  void move_to(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex home) {
-    trees_.move_to(seeds);
-    home_ = home;
-    empty_radius_ = seeds->cells().empty_radius();
-    is_placed_ = seeds->placed() != nullptr;
-    const Vec3 scale = seeds->scale();
-    const double side = std::cbrt(scale.x * scale.y * scale.z);
-    first_reach_squared_ = first_reach_squared * (side * side);
-  }
-
-  size_t bytes() const { return sizeof *this + trees_.bytes(); }
-
-  /// Appends the seeds of a cell, in order.
-  void append_owners(CellIndex cell, std::vector<LeafSeed>& owners) {
-    trees_.visit_cell(home_, cell, [&](const LeafSeed& seed) { owners.push_back(seed); });
-  }
-
-  /// Calls take(edge) for the edges that a seed owns.
-  template <class Take>
-  void find_owned_edges(const LeafSeed& own, Take&& take) {
-    own_ = own;
-    unit_ = 1.0 / (1 << own.level);
-    gather();
-    choose_first();
-    if (!walk() && !clip()) try_pairs();
-    for (const Edge& edge : edges_) {
-      const Vec3 a = own.position + edge.from * unit_, b = own.position + edge.to * unit_;
+/// Calls begin() and then take(edge) for the edges of each run of owners.
+template <class Begin, class Take>
+void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner, Begin&& begin,
+                Take&& take) {
+  // The density field may be the host's.
+  const Borrowed<GradedCells> borrowed;
+  GradedCells& cells = *borrowed;
+  std::vector<LeafSeed> owners;
+  cells.move_to(seeds, corner);
+  const int side = seeds->brick_side();
+  for (int z = 0; z < side; ++z)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        cells.append_seeds({corner.x + x, corner.y + y, corner.z + z}, owners);
+  for (size_t i = 0; i < owners.size(); ++i) {
+    if (i % owners_in_run == 0) begin();
+    const LeafSeed& own = owners[i];
+    cells.find(own);
+    for (const GradedCells::Edge& edge : cells.owned_edges()) {
+      const Vec3 a = own.position + edge.from * cells.unit(),
+                 b = own.position + edge.to * cells.unit();
       GradedEdge taken;
       for (int axis = 0; axis < 3; ++axis) {
         taken.a[static_cast<size_t>(axis)] = static_cast<float>(a[axis]);
@@ -98,319 +42,11 @@ class CellBuilder {
       }
       taken.seeds[0] = name_of(own);
       taken.knows_seeds = edge.is_sure;
-      for (size_t i = 0; i < 2; ++i)
-        taken.seeds[i + 1] = name_of({{}, edge.others[i].level, edge.others[i].order});
+      for (size_t n = 0; n < 2; ++n)
+        taken.seeds[n + 1] = name_of({{}, edge.others[n].level, edge.others[n].order});
       if (edge.others[0].order > edge.others[1].order) std::swap(taken.seeds[1], taken.seeds[2]);
       take(taken);
     }
-  }
-
- private:
-  struct Seed {
-    uint64_t order;
-    int level;
-  };
-  struct Edge {
-    Vec3 from, to;
-    std::array<Seed, 2> others;
-    bool is_sure;  // that these are its seeds, and that no other is equally near
-  };
-
-  Neighbour neighbour(const LeafSeed& seed) const {
-    const Vec3 at = (seed.position - own_.position) * (1 / unit_);
-    return {at, 0.5 * dot(at, at), seed.order, seed.level};
-  }
-  static std::array<Seed, 2> others(const Neighbour& a, const Neighbour& b) {
-    return {{{a.order, a.level}, {b.order, b.level}}};
-  }
-  static uint32_t octant(Vec3 v) { return (v.x > 0) | (v.y > 0) << 1 | (v.z > 0) << 2; }
-
-  /// Gathers the seeds within D, which grows until they suffice for a cell, or shrinks until they
-  /// are not too many.
-  void gather() {
-    reach_squared_ = first_reach_squared_;
-    for (bool is_crowded = false;;) {
-      near_.clear();
-      const double squared = reach_squared_ * (unit_ * unit_);
-      trees_.visit(
-          home_, Box3{own_.position, own_.position}.grown(std::sqrt(squared) + 1e-9),
-          [&](const Box3& box) {
-            return near_.size() <= crowd && min_squared(box, own_.position) <= squared + 1e-9;
-          },
-          [&](const LeafSeed& seed) {
-            if (seed.order == own_.order) return;
-            const Neighbour n = neighbour(seed);
-            if (2 * n.half_squared <= reach_squared_) near_.push_back(n);
-          });
-      if (near_.size() > crowd) {
-        is_crowded = true;
-        reach_squared_ *= 0.5;
-        continue;
-      }
-      if (is_crowded || near_.size() >= enough) return;
-      reach_squared_ *= 2;
-    }
-  }
-
-  void choose_first() {
-    planes_.clear();
-    has_all_near_ = near_.size() <= max_at_first;
-    if (has_all_near_) {
-      planes_ = near_;
-    } else {
-      // The nearest of each octant, by insertion.
-      Neighbour share[8][octant_share];
-      size_t held[8] = {};
-      for (const Neighbour& n : near_) {
-        const uint32_t o = octant(n.at);
-        size_t i = held[o];
-        if (i == octant_share) {
-          if (share[o][i - 1].half_squared <= n.half_squared) continue;
-          --i;
-        } else {
-          ++held[o];
-        }
-        for (; i > 0 && share[o][i - 1].half_squared > n.half_squared; --i)
-          share[o][i] = share[o][i - 1];
-        share[o][i] = n;
-      }
-      for (int o = 0; o < 8; ++o) planes_.insert(planes_.end(), share[o], share[o] + held[o]);
-    }
-    bool has[8] = {};
-    for (const Neighbour& n : planes_)
-      if (n.at.x != 0 && n.at.y != 0 && n.at.z != 0) has[octant(n.at)] = true;
-    for (uint32_t o = 0; o < 8; ++o)
-      if (!has[o]) add_nearest_in_octant(o);
-    sort_planes();
-  }
-
-  void add_nearest_in_octant(uint32_t wanted) {
-    const double far = (is_placed_ ? 3 : 2) * empty_radius_ * (1 + 1e-9);
-    double squared = far * far;
-    LeafSeed seed{};
-    Vec3 low, high;
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool up = wanted >> axis & 1;
-      low[axis] = own_.position[axis] - (up ? 0 : far);
-      high[axis] = own_.position[axis] + (up ? far : 0);
-    }
-    const Box3 box{low, high};
-    trees_.visit(
-        home_, box,
-        [&](const Box3& node) {
-          return node.overlaps(box) && min_squared(node, own_.position) < squared;
-        },
-        [&](const LeafSeed& found) {
-          const Vec3 d = found.position - own_.position;
-          if (d.x == 0 || d.y == 0 || d.z == 0 || octant(d) != wanted || dot(d, d) >= squared)
-            return;
-          squared = dot(d, d);
-          seed = found;
-        });
-    planes_.push_back(neighbour(seed));
-  }
-
-  void sort_planes() {
-    std::sort(planes_.begin(), planes_.end(),
-              [](const Neighbour& a, const Neighbour& b) { return a.order < b.order; });
-  }
-  bool is_plane(uint64_t order) const {
-    const auto at =
-        std::lower_bound(planes_.begin(), planes_.end(), order,
-                         [](const Neighbour& n, uint64_t value) { return n.order < value; });
-    return at != planes_.end() && at->order == order;
-  }
-
-  // Three ways to fill edges_, each more robust and slower than the one before; the first two
-  // return whether they succeeded.
-
-  bool walk() {
-    do {
-      if (!walk_once()) return false;
-    } while (add_violators());
-    return true;
-  }
-  bool walk_once() {
-    vertices_.clear();
-    edges_.clear();
-    if (planes_.size() > VoronoiCell::max_planes) return false;
-    cell_.clear();
-    uint32_t after = 0;  // planes of seeds after the own one come last
-    for (const Neighbour& n : planes_) {
-      cell_.add(n.at);
-      after += n.order < own_.order;
-    }
-    if (!cell_.walk()) return false;
-    for (size_t i = 0; i < cell_.vertex_count(); ++i) vertices_.push_back(cell_.vertex(i));
-    cell_.for_each_edge(after, [&](size_t from, size_t to, uint32_t a, uint32_t b) {
-      edges_.push_back({vertices_[from], vertices_[to], others(planes_[a], planes_[b]), true});
-    });
-    return true;
-  }
-
-  bool clip() {
-    // All points of the cell are within the empty radius of the seed: the cube cuts off nothing.
-    clipped_.start(1.001 * empty_radius_ / unit_);
-    sort_by_distance();
-    for (const Neighbour& n : by_distance_) {
-      check_cancelled();
-      if (!clipped_.cut(n.at)) return false;
-    }
-    unproven_.clear();
-    const auto add_unproven = [&](size_t from) {
-      for (size_t i = from; i < clipped_.vertices().size(); ++i)
-        unproven_.push_back(static_cast<uint32_t>(i));
-    };
-    add_unproven(0);
-    while (!unproven_.empty()) {
-      check_cancelled();
-      const ClippedCell::Vertex& vertex = clipped_.vertices()[unproven_.back()];
-      unproven_.pop_back();
-      if (!vertex.is_there) continue;
-      found_.clear();
-      check_far(vertex.position, dot(vertex.position, vertex.position));
-      if (found_.empty()) continue;
-      by_distance_.push_back(found_[0]);
-      planes_.push_back(found_[0]);
-      sort_planes();
-      if (!clipped_.cut(found_[0].at)) return false;
-      add_unproven(clipped_.made());
-    }
-    edges_.clear();
-    const auto is_after = [&](uint32_t plane) {
-      return plane >= ClippedCell::first_neighbour &&
-             by_distance_[plane - ClippedCell::first_neighbour].order > own_.order;
-    };
-    clipped_.for_each_edge(is_after, [&](Vec3 from, Vec3 to) {
-      edges_.push_back({from, to, {}, false});
-    });
-    return true;
-  }
-
-  /// Every pair of neighbours, cut by all others.
-  void try_pairs() {
-    do try_pairs_once();
-    while (add_violators());
-  }
-  void try_pairs_once() {
-    vertices_.clear();
-    edges_.clear();
-    sort_by_distance();
-    const size_t count = by_distance_.size();
-    for (size_t i = 0; i < count; ++i)
-      for (size_t j = i + 1; j < count; ++j) {
-        check_cancelled();
-        const EdgeLine line(Vec3{}, by_distance_[i].at, by_distance_[j].at);
-        if (!line.exists()) continue;
-        LineInterval part{-1e300, 1e300};
-        for (size_t k = 0; k < count && line.holds(part); ++k)
-          if (k != i && k != j) line.cut(by_distance_[k].at, part);
-        if (!line.holds(part) || part.low == -1e300 || part.high == 1e300) continue;
-        const Edge edge{line.at(part.low), line.at(part.high), {}, false};
-        vertices_.push_back(edge.from);
-        vertices_.push_back(edge.to);
-        if (by_distance_[i].order > own_.order && by_distance_[j].order > own_.order)
-          edges_.push_back(edge);
-      }
-  }
-
-  void sort_by_distance() {
-    by_distance_ = planes_;
-    std::sort(by_distance_.begin(), by_distance_.end(), [](const Neighbour& a, const Neighbour& b) {
-      return a.half_squared < b.half_squared ||
-             (a.half_squared == b.half_squared && a.order < b.order);
-    });
-  }
-
-  /// Adds the seeds nearest to the vertices, if they are nearer than the own seed.
-  bool add_violators() {
-    const size_t before = planes_.size();
-    found_.clear();
-    for (const Vec3& v : vertices_) {
-      check_cancelled();
-      const double squared = dot(v, v);
-      if (!has_all_near_) check_near(v);
-      if (4 * squared * (1 + 1e-9) > reach_squared_) check_far(v, squared);
-    }
-    for (const Neighbour& n : found_) {
-      if (is_plane(n.order)) continue;
-      planes_.push_back(n);
-      sort_planes();
-    }
-    return planes_.size() != before;
-  }
-
-  /// Finds the deepest of the seeds in memory in a vertex's ball.
-  void check_near(Vec3 v) {
-    double deepest = tolerance;
-    const Neighbour* found = nullptr;
-    for (const Neighbour& n : near_) {
-      const double depth = dot(n.at, v) - n.half_squared;
-      if (depth <= deepest || is_plane(n.order)) continue;
-      deepest = depth;
-      found = &n;
-    }
-    if (found) found_.push_back(*found);
-  }
-
-  /// The same for all seeds. All points of the true cell are within the empty radius of the own
-  /// seed. Let a vertex be farther away. Move it towards the own seed, to that distance: the ball
-  /// about the new point lies in the vertex's ball, and already contains a seed. So searches stay
-  /// close.
-  void check_far(Vec3 v, double squared) {
-    const double most = 1.001 * empty_radius_ / unit_;
-    if (squared > most * most) {
-      v = v * (most / std::sqrt(squared));
-      squared = dot(v, v);
-    }
-    // |s - v|^2 = |v|^2 - 2 (s v - |s|^2 / 2)
-    const double slack = tolerance * std::max(1.0, squared);
-    double nearest_squared = (squared - 2 * slack) * (unit_ * unit_);
-    LeafSeed seed{};
-    bool found = false;
-    trees_.nearest(home_, own_.position + v * unit_, nearest_squared, seed,
-                   [&](const LeafSeed& candidate) {
-                     if (candidate.order == own_.order || is_plane(candidate.order)) return false;
-                     return found = true;
-                   });
-    if (found) found_.push_back(neighbour(seed));
-  }
-
-  SeedTrees trees_;
-  CellIndex home_;
-  bool is_placed_ = false;
-  double empty_radius_ = 0, first_reach_squared_ = first_reach_squared;
-  LeafSeed own_{};
-  double unit_ = 1;                // size of the own leaf, in foam units
-  double reach_squared_ = 0;       // D^2
-  std::vector<Neighbour> near_;    // within D, in the order of seeds
-  bool has_all_near_ = true;       // whether the planes include all of near_
-  std::vector<Neighbour> planes_;  // of the cell, in the order of seeds
-  std::vector<Neighbour> by_distance_, found_;
-  VoronoiCell cell_;
-  ClippedCell clipped_;
-  std::vector<uint32_t> unproven_;  // vertices of clipped_ whose ball may contain a seed
-  std::vector<Vec3> vertices_;
-  std::vector<Edge> edges_;  // owned ones
-};
-
-/// Calls begin() and then take(edge) for the edges of each run of owners.
-template <class Begin, class Take>
-void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner, Begin&& begin,
-                Take&& take) {
-  // The density field may be the host's.
-  const Borrowed<CellBuilder> borrowed_builder;
-  CellBuilder& builder = *borrowed_builder;
-  std::vector<LeafSeed> owners;
-  builder.move_to(seeds, corner);
-  const int side = seeds->brick_side();
-  for (int z = 0; z < side; ++z)
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x)
-        builder.append_owners({corner.x + x, corner.y + y, corner.z + z}, owners);
-  for (size_t i = 0; i < owners.size(); ++i) {
-    if (i % owners_in_run == 0) begin();
-    builder.find_owned_edges(owners[i], take);
   }
 }
 

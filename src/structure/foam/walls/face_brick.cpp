@@ -10,11 +10,28 @@
 #include "base/borrowed.h"
 #include "base/job.h"
 #include "structure/foam/edges/brick_cells.h"
+#include "structure/foam/edges/graded_cells.h"
 #include "structure/foam/edges/weighted_cells.h"
 
 namespace msq {
 
 namespace {
+
+/// `box`: of the vertices.
+void set_box(FaceBrick::Cell& cell, const Box3& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    cell.low[axis] = static_cast<float>(box.min[axis] - 2 * FaceBrick::box_slack);
+    cell.high[axis] = static_cast<float>(box.max[axis] + 2 * FaceBrick::box_slack);
+  }
+}
+
+/// Half-way to a neighbour.
+void add_face(Vec3 apart, std::vector<FaceBrick::Face>& faces) {
+  const double distance = length(apart);
+  const Vec3 n = apart * (1 / distance);
+  faces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
+                   static_cast<float>(0.5 * distance)});
+}
 
 class FaceBuilder {
  public:
@@ -93,20 +110,9 @@ class FaceBuilder {
       high_ = high_ * factor_;
     }
     FaceBrick::Cell cell{seed, {}, {}, static_cast<uint32_t>(faces.size()), 0};
-    for (int axis = 0; axis < 3; ++axis) {
-      cell.low[axis] = static_cast<float>(low_[axis] - 2 * FaceBrick::box_slack);
-      cell.high[axis] = static_cast<float>(high_[axis] + 2 * FaceBrick::box_slack);
-    }
-    for (const Vec3& apart : planes_) {
-      if (is_stretched_) {
-        add_stretched(apart, faces);
-        continue;
-      }
-      const double distance = length(apart);
-      const Vec3 n = apart * (1 / distance);
-      faces.push_back({{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
-                       static_cast<float>(0.5 * distance)});
-    }
+    set_box(cell, {low_, high_});
+    for (const Vec3& apart : planes_)
+      is_stretched_ ? add_stretched(apart, faces) : msq::add_face(apart, faces);
     cell.count = static_cast<uint32_t>(faces.size()) - cell.first;
     cells.push_back(cell);
   }
@@ -193,10 +199,7 @@ class WeightedFaceBuilder {
              const std::vector<FaceBrick::Face>& faces) const {
     FaceBrick::Cell cell{
         cells_.block().position(own), {}, {}, static_cast<uint32_t>(faces.size()), 0};
-    for (int axis = 0; axis < 3; ++axis) {
-      cell.low[axis] = static_cast<float>(low[axis] - 2 * FaceBrick::box_slack);
-      cell.high[axis] = static_cast<float>(high[axis] + 2 * FaceBrick::box_slack);
-    }
+    set_box(cell, {low, high});
     cells.push_back(cell);
   }
 
@@ -249,6 +252,33 @@ FaceBrick::FaceBrick(Weighted, const FoamSeeds& seeds, CellIndex corner) {
   cells_.reserve(size_t{side} * side * side);
   faces_.reserve(size_t{side} * side * side * 17);
   builder->build(seeds, corner, cells_, faces_);
+}
+
+FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner) {
+  // The density field may be the host's.
+  const Borrowed<GradedCells> borrowed;
+  GradedCells& graded = *borrowed;
+  graded.move_to(seeds, corner);
+  const int brick_side = seeds->brick_side();
+  std::vector<LeafSeed> owners;
+  for (int z = 0; z < brick_side; ++z)
+    for (int y = 0; y < brick_side; ++y)
+      for (int x = 0; x < brick_side; ++x)
+        graded.append_seeds({corner.x + x, corner.y + y, corner.z + z}, owners);
+  cells_.reserve(owners.size());
+  faces_.reserve(owners.size() * 17);
+  std::vector<Vec3> neighbours;
+  for (const LeafSeed& own : owners) {
+    check_cancelled();
+    graded.find(own);
+    Box3 box;
+    graded.find_faces(neighbours, box);
+    Cell cell{own.position, {}, {}, static_cast<uint32_t>(faces_.size()), 0};
+    set_box(cell, box);
+    for (const Vec3& apart : neighbours) add_face(apart, faces_);
+    cell.count = static_cast<uint32_t>(faces_.size()) - cell.first;
+    cells_.push_back(cell);
+  }
 }
 
 FaceBrick::FaceBrick(const Stretch& stretch, CellIndex corner) {

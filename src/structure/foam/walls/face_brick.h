@@ -2,9 +2,11 @@
 // The Voronoi cells of the seeds of a brick of neighbourhood cells, by their faces.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cell/cache.h"
+#include "structure/foam/seeds/graded_seeds.h"
 #include "structure/foam/seeds/seeds.h"
 #include "structure/foam/seeds/stretch.h"
 #include "structure/foam/walls/wall_face.h"
@@ -15,8 +17,8 @@ namespace msq {
 /// longer than in the space of the diagram.
 class FaceBrick final : public CellData {
  public:
-  /// Cells along each axis; bricks begin `lead` before multiples of that, as those of edges do
-  /// (edges/edge_brick.h).
+  /// Cells along each axis, unless seeds are graded; bricks begin `lead` before multiples of that,
+  /// as those of edges do (edges/edge_brick.h).
   static constexpr int side = 8, lead = 2;
 
   struct Face {
@@ -36,6 +38,8 @@ class FaceBrick final : public CellData {
   /// Of weighted seeds (seeds/seeds.h); without areas. Seeds without a cell are left out.
   struct Weighted {};
   FaceBrick(Weighted, const FoamSeeds& seeds, CellIndex corner);
+  /// Of graded seeds (seeds/graded_seeds.h), in the cells of their brick; without areas.
+  FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner);
   /// Of stretched cells; without areas.
   FaceBrick(const Stretch& stretch, CellIndex corner);
 

@@ -47,8 +47,11 @@ class BlockVoids {
   /// Of the samples that are alive.
   const Box3& box() const { return box_; }
   bool pays() const {
-    return samples_ > critical_samples * mean_cells_met(grid_, box_) && margin_ < 1e-4 &&
-           unit_ < max_per_unit * block_.grid->spacing.x && block_.grid->spacing.x < unit_;
+    const GradedSeeds* const graded = walls_.seeds().graded().get();
+    const double seeds_of_cell = graded ? graded->mean_density(grid_.to_grid(box_)) : 1;
+    return samples_ > critical_samples * seeds_of_cell * mean_cells_met(grid_, box_) &&
+           margin_ < 1e-4 && unit_ < max_per_unit * block_.grid->spacing.x &&
+           block_.grid->spacing.x < unit_;
   }
 
   void take(const FaceBrick& brick, CellIndex corner) {
@@ -275,7 +278,8 @@ class BlockVoids {
 }  // namespace
 
 bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* job) {
-  if (walls.seeds().graded()) return false;
+  const std::shared_ptr<const GradedSeeds>& graded = walls.seeds().graded();
+  if (graded && walls.vents().exist()) return false;
   const Borrowed<VoidRowsWorkspace> workspace;
   BlockVoids voids(walls, block, *workspace);
   if (voids.is_empty()) return true;
@@ -287,15 +291,19 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
   const double around = stretch ? 0 : seeds.empty_radius() * walls.unit() * (1 + 1e-9);
   const Vec3 beyond = stretch ? stretch->reach() * walls.unit() : Vec3{};
   // Without jitter, one brick serves for all.
-  const bool are_equal = seeds.jitter() == 0 && !seeds.is_weighted();
+  const bool are_equal = seeds.jitter() == 0 && !seeds.is_weighted() && !graded;
+  const int side = graded ? graded->brick_side() : FaceBrick::side,
+            lead = graded ? 0 : FaceBrick::lead;
   CellCache::Data brick;
   for_each_brick_near(
-      grid, voids.box(), around, beyond, FaceBrick::side, FaceBrick::lead,
-      [&](CellIndex corner, const Box3&) {
+      grid, voids.box(), around, beyond, side, lead, [&](CellIndex corner, const Box3& near) {
         check_cancelled(job);
+        // Seeds of cells that touch a box are as far from it as owners of edges.
+        if (graded && !graded->may_own_edges(corner, near)) return;
         if (!are_equal) brick.reset();
         if (!brick)
           brick = walls.context().cache.fetch(walls.id(), are_equal ? CellIndex{} : corner, [&] {
+            if (graded) return std::make_shared<const FaceBrick>(graded, corner);
             if (stretch) return std::make_shared<const FaceBrick>(*stretch, corner);
             if (seeds.is_weighted())
               return std::make_shared<const FaceBrick>(FaceBrick::Weighted{}, seeds, corner);

@@ -7,7 +7,7 @@
 namespace msq {
 
 /// Structure::keep_rows for walls. False, and nothing is done, where so few samples lie in each
-/// cell that evaluating them costs less than the faces, or where the foam is graded.
+/// cell that evaluating them costs less than the faces, or where a graded foam has holes.
 bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* job);
 
 }  // namespace msq
