@@ -46,6 +46,7 @@ struct ModelRow {
   std::string name;
   uint32_t cell_layers;  ///< layers in a cell of the finest scale
   std::function<Ref<Model>(Ref<Context>)> make;
+  double unit = 1;  ///< pitch and layers are multiples of it
 };
 
 Ref<const Shape> mesh(const TriangleSoup& soup) {
@@ -168,8 +169,26 @@ void add_pairs(std::vector<ModelRow>& rows) {
                   }});
 }
 
+/// A foam in a sheet of a function, `cells` cells away from the origin of their grids.
+ModelRow placed(const std::string& name, double unit, double cells) {
+  return {name, 8,
+          [unit, cells](Ref<Context> c) {
+            const double size = 0.4 * unit, away = cells * size;
+            const Vec3 middle{away, -0.5 * away, 0.25 * away}, half = Vec3{0.5, 0.4, 0.2} * unit;
+            const Neighbourhood grid{{0.1 * unit, 0.2 * unit, 0}, {size, size, size}, {}};
+            return make_ref<Model>(c, make_ref<BoxShape>(Box3{middle - half, middle + half}),
+                                   Structures{gyroid(grid, FunctionalKind::sheet, 0.6),
+                                              make_ref<Foam>(c, grid, Parameter(0.12 * unit), 1.0,
+                                                             uint64_t{6}, FoamMethod::direct)});
+          },
+          unit};
+}
+
 std::vector<ModelRow> models() {
   std::vector<ModelRow> rows;
+  rows.push_back(placed("1e7 cells away", 1, 1e7));
+  rows.push_back(placed("a millionth as large", 1e-6, 3));
+  rows.push_back(placed("a million times as large, 1e6 cells away", 1e6, 1e6));
   rows.push_back({"mesh and foam", 8, [](Ref<Context> c) {
                     return make_ref<Model>(c, mesh(torus_mesh(1.2, 0.5, 30, 20)),
                                            Structures{foam(c, 0.4, 0.05, FoamMethod::direct)});
@@ -279,11 +298,11 @@ std::vector<ModelRow> models() {
   return rows;
 }
 
-SlicePlan plan_of(uint32_t slab_layers) {
+SlicePlan plan_of(const ModelRow& row, uint32_t slab_layers) {
   SlicePlan plan;
-  plan.pitch[0] = 0.02;
-  plan.pitch[1] = 0.025;
-  plan.layer_height = layer_height;
+  plan.pitch[0] = 0.02 * row.unit;
+  plan.pitch[1] = 0.025 * row.unit;
+  plan.layer_height = layer_height * row.unit;
   plan.slab_layers = slab_layers;
   return plan;
 }
@@ -312,7 +331,7 @@ uint64_t hash_of(const ModelRow& row, unsigned threads, uint32_t slab_layers, ui
   const Ref<Context> context = make_ref<Context>(threads, cache, uint64_t{0}, beyond_cores);
   assert_int_equal(context->executor.threads(), threads);
   const Ref<Model> model = row.make(context);
-  const Slicer slicer(Ref<const Model>(model.get()), plan_of(slab_layers));
+  const Slicer slicer(Ref<const Model>(model.get()), plan_of(row, slab_layers));
   Hash hash;
   slicer.run(
       0, slicer.grid().nz, [&](const Layer& layer) { hash.add(layer, slicer.layer_bytes()); },
@@ -344,12 +363,12 @@ uint64_t hash_of_outputs(const ModelRow& row, unsigned threads, uint32_t slab_la
                          uint64_t cache) {
   const Ref<Context> context = make_ref<Context>(threads, cache, uint64_t{0}, true);
   const Ref<Model> model = row.make(context);
-  SlicePlan plan = plan_of(slab_layers);
+  SlicePlan plan = plan_of(row, slab_layers);
   plan.layer_height *= 3;
   plan.outputs.resize(3);
   plan.outputs[0].format = LayerFormat::grey;
   plan.outputs[1].format = LayerFormat::contours;
-  plan.outputs[1].contours.tolerance = 0.02;
+  plan.outputs[1].contours.tolerance = 0.02 * row.unit;
   const Slicer slicer(Ref<const Model>(model.get()), plan);
   Hash hash;
   slicer.run(
@@ -380,7 +399,7 @@ void test_outputs(void** state) {
 void test_split(void** state) {
   const ModelRow& row = *static_cast<const ModelRow*>(*state);
   const Ref<Model> model = row.make(make_ref<Context>(2u, uint64_t{1} << 30, uint64_t{0}));
-  const Slicer slicer(Ref<const Model>(model.get()), plan_of(0));
+  const Slicer slicer(Ref<const Model>(model.get()), plan_of(row, 0));
   const uint64_t layers = slicer.grid().nz, bytes = slicer.layer_bytes();
   std::vector<uint8_t> whole(layers * bytes), split(layers * bytes), single(bytes);
   const auto into = [&](std::vector<uint8_t>& out) {
@@ -404,7 +423,7 @@ void test_split(void** state) {
 /// Layers, and a grid of points, in windows cut at random.
 void test_windows(void** state) {
   const ModelRow& row = *static_cast<const ModelRow*>(*state);
-  SlicePlan plan = plan_of(0);
+  SlicePlan plan = plan_of(row, 0);
   plan.outputs[0].format = LayerFormat::bytes;
   const Ref<const Model> whole_model(row.make(make_ref<Context>(1u, uint64_t{1} << 30, 0u)).get());
   const Slicer whole(whole_model, plan);
@@ -474,7 +493,7 @@ void test_windows(void** state) {
 void test_queries(void** state) {
   const ModelRow& row = *static_cast<const ModelRow*>(*state);
   const Ref<Model> model = row.make(make_ref<Context>(2u, uint64_t{1} << 30, uint64_t{0}));
-  const Slicer slicer(Ref<const Model>(model.get()), plan_of(3));
+  const Slicer slicer(Ref<const Model>(model.get()), plan_of(row, 3));
   const SampleGrid& grid = slicer.grid();
   const auto resolved = model->resolved(0);
   const uint64_t layer = grid.nx * grid.ny;
