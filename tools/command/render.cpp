@@ -122,6 +122,8 @@ void run_render(const Arguments& arguments) {
   std::vector<uint8_t> rgba(4 * pixels);
   auto frame = defaults(msq_frame_init);
   frame.rgba = rgba.data();
+  std::vector<float> depth(is_plain ? 0 : pixels);
+  if (!is_plain) frame.depth = depth.data();
   {
     Work work("drawing");
     check(msq_render(scene.model.get(), &camera, &def, nullptr, &frame, nullptr, nullptr,
@@ -140,6 +142,7 @@ void run_render(const Arguments& arguments) {
   around.height = def.height;
   std::copy(def.light, def.light + 3, around.light);
   around.glass = has_glass;
+  around.depth = depth.data();
   around.ground = min[2];
   around.has_ground = camera.eye[2] > camera.target[2];
   std::vector<uint8_t> rgb(3 * pixels);

@@ -8,6 +8,7 @@
 #include "orbit.h"
 
 enum { LIGHTS = 12, BLUR = 2, HULL = 2 }; /* shadow rays a pixel; pixels; hull's sub-samples */
+#define HAZE 0.3 /* share of the background at the farthest point of the part */
 
 #define TRY(call)                          \
   do {                                     \
@@ -111,6 +112,31 @@ static double rim(const stage* s, const frame_of_view* f, const float* normals, 
   return sum / (HULL * HULL);
 }
 
+/* Least and greatest depth of the picture. */
+static void depth_range(const stage* s, float range[2]) {
+  const size_t count = (size_t)s->width * s->height;
+  range[0] = INFINITY;
+  range[1] = -INFINITY;
+  for (size_t i = 0; i < count; ++i) {
+    if (!isfinite(s->depth[i])) continue;
+    range[0] = fminf(range[0], s->depth[i]);
+    range[1] = fmaxf(range[1], s->depth[i]);
+  }
+}
+
+/* How much haze is before a pixel: depth is that of its centre, or of the nearest of its neighbours
+ * where the ray through the centre misses the part. */
+static double haze(const stage* s, const float range[2], int x, int y) {
+  float depth = s->depth[(size_t)y * s->width + (size_t)x];
+  for (int v = y - 1; v <= y + 1 && !isfinite(depth); ++v)
+    for (int u = x - 1; u <= x + 1; ++u) {
+      if (u < 0 || v < 0 || u >= (int)s->width || v >= (int)s->height) continue;
+      depth = fminf(depth, s->depth[(size_t)v * s->width + (size_t)u]);
+    }
+  if (!isfinite(depth) || !(range[1] > range[0])) return 0;
+  return HAZE * (depth - range[0]) / (range[1] - range[0]);
+}
+
 static msq_status render_hull(const stage* s, float* normals) {
   msq_render_def def;
   msq_query_def query;
@@ -139,6 +165,8 @@ msq_status stage_compose(const stage* s, const uint8_t* rgba, uint8_t* rgb) {
   msq_status status = share && (normals || !s->glass) ? MSQ_OK : MSQ_E_MEMORY;
   if (status == MSQ_OK && s->has_ground) status = cast_ground(s, &f, rgba, share);
   if (status == MSQ_OK && s->glass) status = render_hull(s, normals);
+  float range[2];
+  depth_range(s, range);
   for (uint32_t y = 0; status == MSQ_OK && y < s->height; ++y)
     for (uint32_t x = 0; x < s->width; ++x) {
       const size_t at = (size_t)y * s->width + x;
@@ -146,7 +174,7 @@ msq_status stage_compose(const stage* s, const uint8_t* rgba, uint8_t* rgb) {
       const double down = (double)y / s->height;
       double out[3] = {252 - 12 * down, 253 - 10 * down, 254 - 7 * down};
       if (s->has_ground) mix(out, 96, 106, 122, 0.75 * soft_shadow(s, rgba, share, (int)x, (int)y));
-      mix(out, in[0], in[1], in[2], in[3] / 255.0);
+      mix(out, in[0], in[1], in[2], in[3] / 255.0 * (1 - haze(s, range, (int)x, (int)y)));
       if (s->glass) mix(out, 120, 138, 160, rim(s, &f, normals, x, y));
       for (int a = 0; a < 3; ++a) rgb[3 * at + (size_t)a] = (uint8_t)(out[a] + 0.5);
     }

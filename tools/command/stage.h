@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Draws what surrounds a part in a picture: a light ground with its shadow, and the outline of the
+ * Draws what surrounds a part in a picture: a light ground with its shadow, haze that grows with the
+ * distance, and the outline of the
  * coarse part as glass. */
 #ifndef MSQ_COMMAND_STAGE_H
 #define MSQ_COMMAND_STAGE_H
@@ -15,6 +16,7 @@ typedef struct stage {
   int glass;              /* 1: show the coarse part */
   double ground;          /* z of the ground where has_ground is 1 */
   int has_ground;
+  const float* depth; /* one per pixel, infinity where nothing is hit, as in msq_frame */
 } stage;
 
 /* Lays the picture of the model, straight alpha, over the stage: rgb becomes width * height
