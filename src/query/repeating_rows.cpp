@@ -35,6 +35,9 @@ RowRepeats find_row_repeats(const Model& model, const Scales& resolved, const Sa
   const Rows rows = alike_rows(model.shape(), grid);
   if (resolved.empty())
     return rows.begin + 1 < rows.end ? RowRepeats{rows.begin, rows.end, 1} : RowRepeats{};
+  // Their positions are computed for each slicer, whichever layers are asked for.
+  constexpr uint64_t max_rows = uint64_t{1} << 17;
+  if (rows.end - rows.begin > max_rows) return {};
   const auto* structure = dynamic_cast<const RepeatingStructure*>(resolved[0]->structure.get());
   if (!structure || !resolved[0]->skin.is_none() || rows.begin >= rows.end) return {};
   const uint64_t period = structure->row_period(grid, rows.begin, rows.end);
@@ -68,19 +71,14 @@ class RepeatingLayer {
           .keep_repeated_rows(period, repeats_.end, flips, job_);
   }
 
-  void copy_rows() {
-    // Periods together, as many as a core's nearest cache holds.
+  /// Rows that are copied at once: periods together, as many as a core's nearest cache holds.
+  uint64_t copied_at_once() const {
     constexpr uint64_t near_rows = 64;
-    const RowRepeats& r = repeats_;
-    const uint64_t most = r.period * std::max<uint64_t>(1, near_rows / r.period);
-    for (uint64_t done = r.period; r.first + done < r.end;) {
-      const uint64_t count = std::min({done, most, r.end - r.first - done});
-      std::memcpy(row(r.first + done), row(r.first), count * row_words_ * sizeof(uint64_t));
-      done += count;
-    }
+    return repeats_.period * std::max<uint64_t>(1, near_rows / repeats_.period);
   }
 
-  /// Copies rows that are finished, or finishes rows that are copied where some are unlike.
+  /// Finishes the rows of a period, and copies them to the first rows that are copied at once.
+  /// Where some rows are unlike, copies and finishes all.
   void finish_rows(const FinishRows& finish, const std::vector<RowFlip>& flips) {
     const RowRepeats& r = repeats_;
     const uint64_t whole = (r.end - r.first) / r.period, rest = (r.end - r.first) % r.period;
@@ -88,14 +86,29 @@ class RepeatingLayer {
       if (rest) finish(rows(r.first, r.first + rest), whole + 1);
       finish(rows(r.first + rest, r.first + r.period), whole);
     }
-    copy_rows();
+    for (uint64_t done = r.period; done < copied_at_once() && r.first + done < r.end; done *= 2)
+      copy_to(r.first + done, std::min({done, copied_at_once() - done, r.end - r.first - done}));
     if (flips.empty()) return;
+    copy_rows(0, UINT64_MAX);
     for (const RowFlip& flip : flips)
       row(flip.j)[flip.i / bits_per_word] ^= uint64_t{1} << (flip.i % bits_per_word);
     if (finish) finish(rows(r.first, r.end), 1);
   }
 
+  /// Copies [begin, end) of the times that rows are copied at once.
+  void copy_rows(uint64_t begin, uint64_t end) {
+    for (uint64_t n = begin; n < end; ++n) {
+      const uint64_t to = repeats_.first + (n + 1) * copied_at_once();
+      if (to >= repeats_.end) return;
+      check_cancelled(job_);
+      copy_to(to, std::min(copied_at_once(), repeats_.end - to));
+    }
+  }
+
  private:
+  void copy_to(uint64_t to, uint64_t count) {
+    std::memcpy(row(to), row(repeats_.first), count * row_words_ * sizeof(uint64_t));
+  }
   uint64_t* row(uint64_t j) const { return words_ + j * row_words_; }
   RowBlock rows(uint64_t begin, uint64_t end) const {
     RowBlock block;
@@ -137,15 +150,33 @@ void fill_repeating_slab(const Model& model, const Scales& resolved, const Sampl
                          const RowRepeats& repeats, uint64_t z0, uint64_t z1, uint64_t* words,
                          const Job* job, const FinishRows& finish,
                          std::vector<std::vector<RowFlip>>* flips) {
-  const size_t layer_words = words_for(grid.nx) * grid.ny;
-  model.executor().for_each(z1 - z0, [&](uint64_t n) {
+  const uint64_t layers = z1 - z0, layer_words = words_for(grid.nx) * grid.ny;
+  const auto layer_at = [&](uint64_t n) {
+    return RepeatingLayer(model, resolved, grid, repeats, z0 + n, words + n * layer_words, job);
+  };
+  std::vector<uint8_t> is_copied(layers);
+  model.executor().for_each(layers, [&](uint64_t n) {
     check_cancelled(job);
-    RepeatingLayer layer(model, resolved, grid, repeats, z0 + n, words + n * layer_words, job);
+    RepeatingLayer layer = layer_at(n);
     std::vector<RowFlip> own;
     std::vector<RowFlip>& found = flips ? (*flips)[n] : own;
     found.clear();
     layer.compute(finish, found);
+    std::sort(found.begin(), found.end(),
+              [](const RowFlip& a, const RowFlip& b) { return a.j < b.j; });
     if (!flips) layer.finish_rows(finish, found);
+    is_copied[n] = flips || !found.empty();
+  });
+  if (flips) return;
+  // In parts of layers: a layer may be large.
+  constexpr uint64_t part_words = uint64_t{1} << 15;
+  const uint64_t at_once = layer_at(0).copied_at_once();
+  const uint64_t times = (repeats.end - repeats.first) / at_once + 1;
+  const uint64_t part = std::max<uint64_t>(1, part_words / (at_once * words_for(grid.nx)));
+  const uint64_t parts = (times + part - 1) / part;
+  model.executor().for_each(layers * parts, [&](uint64_t n) {
+    if (is_copied[n / parts]) return;
+    layer_at(n / parts).copy_rows(n % parts * part, (n % parts + 1) * part);
   });
 }
 

@@ -27,8 +27,8 @@ struct RowRepeats {
 /// Those of all layers.
 RowRepeats find_row_repeats(const Model& model, const Scales& resolved, const SampleGrid& grid);
 
-/// As fill_slab(). `flips`: null, or one list for each layer; then rows that repeat others are not
-/// written.
+/// As fill_slab(). `flips`: null, or one list for each layer, by rows; then rows that repeat others
+/// are not written.
 void fill_repeating_slab(const Model& model, const Scales& resolved, const SampleGrid& grid,
                          const RowRepeats& repeats, uint64_t z0, uint64_t z1, uint64_t* words,
                          const Job* job, const FinishRows& finish,

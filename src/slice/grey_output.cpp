@@ -250,10 +250,12 @@ class GreyOutput final : public LayerOutput {
     for (uint64_t row = 0; row < samples_; ++row)
       std::copy_n(source.words + source.repeats->source(first + row) * row_words, row_words,
                   rows + row * row_words);
-    for (const RowFlip& flip : *source.flips)
-      if (flip.j >= first && flip.j < first + samples_)
-        rows[(flip.j - first) * row_words + flip.i / bits_per_word] ^= uint64_t{1}
-                                                                       << (flip.i % bits_per_word);
+    const std::vector<RowFlip>& flips = *source.flips;
+    auto flip = std::lower_bound(flips.begin(), flips.end(), first,
+                                 [](const RowFlip& f, uint64_t row) { return f.j < row; });
+    for (; flip != flips.end() && flip->j < first + samples_; ++flip)
+      rows[(flip->j - first) * row_words + flip->i / bits_per_word] ^= uint64_t{1}
+                                                                       << (flip->i % bits_per_word);
   }
 
   const unsigned samples_;

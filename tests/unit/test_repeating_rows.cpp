@@ -102,6 +102,13 @@ void rows_that_do_not_repeat_have_no_period(void**) {
   SampleGrid other = grid;
   other.spacing.y *= 1.01;
   assert_int_equal(lattice(bcc_unit_cell(), 0.03)->row_period(other, 0, grid.ny), 0);
+  // Nor are there positions of more rows than memory holds.
+  SampleGrid huge = grid;
+  huge.ny = INT32_MAX;
+  const Model model(make_ref<Context>(1u, uint64_t{0}, uint64_t{0}), make_ref<AllSpace>(),
+                    std::vector<Ref<const Structure>>{lattice(bcc_unit_cell(), 0.03)});
+  assert_true(find_row_repeats(model, model.resolved(0), grid).any());
+  assert_false(find_row_repeats(model, model.resolved(0), huge).any());
   const Ref<Lattice> turned = make_ref<Lattice>(
       Neighbourhood{{}, {cell, cell, cell}, Rotation{{0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1}}},
       bcc_unit_cell(), Parameter(0.03));

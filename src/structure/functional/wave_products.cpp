@@ -118,14 +118,14 @@ std::optional<WaveProducts> WaveProducts::of(const Tape& tape, const std::vector
 }
 
 double WaveProducts::slack(double angle_error) const {
-  constexpr double u = 0x1p-24, v = 0x1p-53;
+  constexpr double in_single = 0x1p-24, in_double = 0x1p-53;
   size_t most_summed = 0;
   for (const Function& function : functions_)
     most_summed = std::max(most_summed, function.coefficient.size());
   const double roundings =
       static_cast<double>(functions_.size() + 3 + 2 * max_parts + 1 + most_summed);
-  return 1.25 * most_ * (roundings * u + operations_ * v + 0x1p-45) + 1.25 * steep_ * angle_error +
-         0x1p-100;
+  return 1.25 * most_ * (roundings * in_single + operations_ * in_double + 0x1p-45) +
+         1.25 * steep_ * angle_error + 0x1p-100;
 }
 
 }  // namespace msq
