@@ -66,6 +66,25 @@ msq_model* make_gyroid(msq_context* context, int cells, bool is_turned) {
   return bench::make_model(context, bench::make_cube(context), gyroid);
 }
 
+/// Around the cube's middle and twisted, or by a map of samples.
+msq_model* make_warped_gyroid(msq_context* context, int32_t kind) {
+  constexpr int cells = 9;
+  bench::SampledCells map(context, cells);
+  msq_warp_def warp = bench::warp_of(kind, cells);
+  if (kind == MSQ_WARP_SAMPLED) map.set(warp);
+  if (kind == MSQ_WARP_CYLINDRICAL) warp.shear_along = 0.5;
+  msq_functional_def def;
+  check(msq_functional_def_init(&def, sizeof def));
+  def.kind = MSQ_FUNCTIONAL_SHEET;
+  def.level.value = 0.3;
+  for (double& size : def.grid.cell_size) size = 1.0 / cells;
+  bench::put_in_middle(def.grid);
+  def.warp = &warp;
+  msq_structure* gyroid;
+  check(msq_structure_functional(context, &def, &gyroid));
+  return bench::make_model(context, bench::make_cube(context), gyroid);
+}
+
 msq_model* make_part(msq_context* context) {
   return bench::make_model(context, bench::make_shape(context, bench::rippled_torus(100, 50)),
                            nullptr);
@@ -205,6 +224,9 @@ std::vector<Kernel> kernels() {
   const auto lattice = [](int cells, bool is_turned) {
     return [=](msq_context* c) { return make_lattice(c, cells, is_turned); };
   };
+  const auto warped = [](int32_t kind) {
+    return [=](msq_context* c) { return make_warped_gyroid(c, kind); };
+  };
   const auto gyroid = [](int cells, bool is_turned) {
     return [=](msq_context* c) { return make_gyroid(c, cells, is_turned); };
   };
@@ -227,6 +249,8 @@ std::vector<Kernel> kernels() {
         {"lattice: contours", with(lattice(9, false), outline)},
         {"functional: rows along the grid", with(gyroid(9, false), slices(64))},
         {"functional: rows of a turned grid", with(gyroid(9, true), slices(16))},
+        {"functional: rows by a map of samples", with(warped(MSQ_WARP_SAMPLED), slices(32))},
+        {"functional: rows of twisted cells", with(warped(MSQ_WARP_CYLINDRICAL), slices(32))},
         {"functional: rays", with(gyroid(9, false), picture(48))},
         {"functional: contours", with(gyroid(9, false), outline)},
         {"mesh: reading the arrays", read_part}, {"mesh: rows", with(make_part, slices(64))},

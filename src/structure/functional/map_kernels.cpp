@@ -43,19 +43,26 @@ void waves_of_words(const MapRow& row, const uint32_t* words, size_t count, cons
   const hn::RebindToSigned<decltype(d)> i32;
   const size_t lanes = hn::Lanes(d);
   const auto set = [&](float v) HWY_ATTR { return hn::Set(d, v); };
-  for (size_t n = 0; n < count; ++n)
-    for (size_t i = 0; i < 64; i += lanes) {
-      const size_t at = size_t{words[n]} * 64 + i, to = n * 64 + i;
-      const uint32_t first = std::min(row.voxels[at], row.voxels[at + lanes - 1]);
-      const auto voxels = hn::LoadU(i32, reinterpret_cast<const int32_t*>(row.voxels + at));
-      const auto lane =
-          hn::IndicesFromVec(d, hn::Sub(voxels, hn::Set(i32, static_cast<int32_t>(first))));
-      const auto f = hn::LoadU(d, row.fractions + at);
-      for (size_t w = 0; w < wave_count; ++w) {
-        const MapWave& wave = waves[w];
-        const auto start = hn::TableLookupLanes(hn::LoadU(d, row.starts[wave.axis] + first), lane);
-        const auto rise = hn::TableLookupLanes(hn::LoadU(d, row.rises[wave.axis] + first), lane);
-        const auto turns = hn::Mul(hn::MulAdd(f, rise, start), set(wave.frequency));
+  // Wave by wave, so that the numbers of a wave stay in registers.
+  for (size_t w = 0; w < wave_count; ++w) {
+    const MapWave wave = waves[w];
+    const float *const starts = row.starts[wave.axis], *const rises = row.rises[wave.axis];
+    const auto frequency = set(wave.frequency);
+    for (size_t n = 0; n < count; ++n)
+      for (size_t i = 0; i < 64; i += lanes) {
+        const size_t at = size_t{words[n]} * 64 + i, to = n * 64 + i;
+        const uint32_t low = row.voxels[at], high = row.voxels[at + lanes - 1];
+        const uint32_t first = std::min(low, high);
+        auto start = set(starts[first]), rise = set(rises[first]);
+        if (low != high) {
+          const auto voxels = hn::LoadU(i32, reinterpret_cast<const int32_t*>(row.voxels + at));
+          const auto lane =
+              hn::IndicesFromVec(d, hn::Sub(voxels, hn::Set(i32, static_cast<int32_t>(first))));
+          start = hn::TableLookupLanes(hn::LoadU(d, starts + first), lane);
+          rise = hn::TableLookupLanes(hn::LoadU(d, rises + first), lane);
+        }
+        const auto f = hn::LoadU(d, row.fractions + at);
+        const auto turns = hn::Mul(hn::MulAdd(f, rise, start), frequency);
         const auto t = hn::Sub(turns, hn::Round(turns));
         const auto z = hn::Mul(t, t);
         auto s = hn::MulAdd(z, set(-0.7843740325540814f), set(3.5947880790f));
@@ -68,7 +75,7 @@ void waves_of_words(const MapRow& row, const uint32_t* words, size_t count, cons
         hn::StoreU(hn::Mul(s, c), d, wave.sines + to);
         hn::StoreU(hn::NegMulAdd(s, s, set(1)), d, wave.cosines + to);
       }
-    }
+  }
 }
 
 }  // namespace
