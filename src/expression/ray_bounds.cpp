@@ -379,6 +379,83 @@ class Kernel {
   double* const waves_;
 };
 
+/// Values and slopes by the operations of Kernel<true>, for the three coordinates at once.
+class SlopeKernel {
+  using D = hn::ScalableTag<double>;
+  using V = hn::Vec<D>;
+
+ public:
+  SlopeKernel(double* registers, double* waves) : registers_(registers), waves_(waves) {}
+
+  void HWY_INLINE run(const RayProgram::Instruction& instruction, size_t count) {
+    const double* const a = registers_ + instruction.a * stride;
+    const double* const b = registers_ + instruction.b * stride;
+    double* const to = registers_ + instruction.to * stride;
+    double* const waves = waves_ + instruction.waves * 2 * RayBatch::lanes;
+    const bool is_first = instruction.is_first;
+    with_op(instruction.op, [&](auto which) HWY_ATTR {
+      constexpr Op op = decltype(which)::value;
+      if constexpr (RayProgram::has_slope(op)) run_op<op>(a, b, waves, is_first, count, to);
+    });
+  }
+
+ private:
+  static constexpr D d{};
+  static constexpr Lanes<D> lanes{};
+  struct Part {
+    V v, along[3];
+  };
+
+  static HWY_INLINE Part load(const double* from) {
+    Part p;
+    p.v = hn::Load(d, from);
+    for (size_t i = 0; i < 3; ++i) p.along[i] = hn::Load(d, from + (i + 1) * RayBatch::lanes);
+    return p;
+  }
+
+  template <Op op>
+  static HWY_INLINE void run_op(const double* a, const double* b, double* waves, bool is_first,
+                                size_t count, double* to) {
+    for (size_t n = 0; n < count; n += hn::Lanes(d)) {
+      const Part p = load(a + n);
+      Part out;
+      if constexpr (op == Op::sine || op == Op::cosine) {
+        if (is_first) {
+          hn::Store(sine(lanes, p.v, 0), d, waves + n);
+          hn::Store(sine(lanes, p.v, 1), d, waves + RayBatch::lanes + n);
+        }
+        const V s = hn::Load(d, waves + n), c = hn::Load(d, waves + RayBatch::lanes + n);
+        out.v = op == Op::sine ? s : c;
+        const V slope = op == Op::sine ? c : hn::Neg(s);
+        for (size_t i = 0; i < 3; ++i) out.along[i] = hn::Mul(slope, p.along[i]);
+      } else if constexpr (op == Op::negate) {
+        out.v = hn::Neg(p.v);
+        for (size_t i = 0; i < 3; ++i) out.along[i] = hn::Neg(p.along[i]);
+      } else {
+        const Part q = load(b + n);
+        out.v = result<op>(lanes, p.v, q.v);
+        for (size_t i = 0; i < 3; ++i) {
+          const V r = p.along[i], s = q.along[i];
+          if constexpr (op == Op::add) out.along[i] = hn::Add(r, s);
+          if constexpr (op == Op::subtract) out.along[i] = hn::Sub(r, s);
+          if constexpr (op == Op::multiply)
+            out.along[i] = hn::Add(hn::Mul(p.v, s), hn::Mul(q.v, r));
+        }
+      }
+      hn::Store(out.v, d, to + n);
+      for (size_t i = 0; i < 3; ++i) hn::Store(out.along[i], d, to + (i + 1) * RayBatch::lanes + n);
+    }
+  }
+
+  double* const registers_;
+  double* const waves_;
+};
+
+void run_slopes(const RayProgram& program, double* registers, double* waves, size_t count) {
+  SlopeKernel kernel(registers, waves);
+  for (const RayProgram::Instruction& i : program.code()) kernel.run(i, count);
+}
+
 void run_ray_program(const RayProgram& program, const double* span, double* registers,
                      double* waves, size_t count) {
   if (program.is_smooth()) {
@@ -406,6 +483,7 @@ HWY_AFTER_NAMESPACE();
 namespace msq {
 
 HWY_EXPORT(run_ray_program);
+HWY_EXPORT(run_slopes);
 
 namespace {
 
@@ -437,6 +515,7 @@ RayProgram::RayProgram(const Tape& tape) : program_(compile(tape)) {
     }
     is_smooth_ = is_smooth_ && node.op != Op::minimum && node.op != Op::maximum &&
                  node.op != Op::absolute && node.op != Op::hypotenuse;
+    has_slopes_ = has_slopes_ && has_slope(node.op);
     code_.push_back(instruction);
   }
   waves_ = waves.size();
@@ -464,6 +543,18 @@ RayBatch::Bounds RayBatch::run(const Pieces& pieces, size_t count) {
   (program_, pieces.span, registers_[0].arrays[0], waves_[0].arrays[0], count);
   const auto& root = registers_[program_.program().outputs[0]].arrays;
   return {root[0], root[1], program_.is_smooth() ? root[1] : root[2], root[3], root[4]};
+}
+
+RayBatch::Slopes RayBatch::slopes(const double (&coordinates)[3][lanes], size_t count) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    auto& arrays = registers_[axis].arrays;
+    std::copy_n(coordinates[axis], count, arrays[0]);
+    for (size_t along = 0; along < 3; ++along) fill(arrays[1 + along], along == axis ? 1 : 0);
+  }
+  HWY_DYNAMIC_DISPATCH(run_slopes)
+  (program_, registers_[0].arrays[0], waves_[0].arrays[0], count);
+  const auto& root = registers_[program_.program().outputs[0]].arrays;
+  return {{root[1], root[2], root[3]}};
 }
 
 }  // namespace msq

@@ -36,12 +36,18 @@ class RayProgram {
   size_t waves() const { return waves_; }
   /// True if there are no minima, maxima, magnitudes or hypotenuses: then slopes are numbers.
   bool is_smooth() const { return is_smooth_; }
+  static constexpr bool has_slope(Op op) {
+    return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::negate ||
+           op == Op::sine || op == Op::cosine;
+  }
+  /// True if there are no other operations: then RayBatch::slopes() works.
+  bool has_slopes() const { return has_slopes_; }
 
  private:
   Program program_;
   std::vector<Instruction> code_;
   size_t waves_ = 0;
-  bool is_smooth_ = true;
+  bool is_smooth_ = true, has_slopes_ = true;
 };
 
 /// Bounds of pieces of rays. Not for several threads at once.
@@ -66,10 +72,17 @@ class RayBatch {
   };
   /// Valid until the next run.
   Bounds run(const Pieces& pieces, size_t count);
+  /// The slopes along the three coordinates, which run() gives as low and high for a rate of 1
+  /// along one coordinate and of 0 along the others, to the last bit. Only if the program has
+  /// slopes. Valid until the next run.
+  struct Slopes {
+    const double* along[3];
+  };
+  Slopes slopes(const double (&coordinates)[3][lanes], size_t count);
 
  private:
   struct alignas(64) Register {
-    double arrays[5][lanes] = {};  // value, low, high, bend, error
+    double arrays[5][lanes] = {};  // value, low, high, bend, error; or value and three slopes
   };
   struct alignas(64) Wave {
     double arrays[2][lanes] = {};  // sine, cosine

@@ -2,6 +2,7 @@
 // Bounds along pieces of rays hold at points all along them, long pieces and short ones, also in
 // the cells that pieces run on into; they are as near as their order promises; and values are the
 // evaluator's.
+#include <algorithm>
 #include <cmath>
 
 #include "expression/parser.h"
@@ -26,6 +27,25 @@ struct Row {
 double wrapped(double angle) {
   const double fraction = angle / two_pi - std::floor(angle / two_pi);
   return fraction * two_pi;
+}
+
+/// The slopes are those of the bounds along each coordinate, also after a run along all of them.
+void check_slopes(RayBatch& batch, const RayBatch::Pieces& pieces) {
+  batch.run(pieces, RayBatch::lanes);
+  double slopes[3][RayBatch::lanes];
+  const RayBatch::Slopes found = batch.slopes(pieces.coordinates, RayBatch::lanes);
+  for (size_t along = 0; along < 3; ++along)
+    std::copy_n(found.along[along], RayBatch::lanes, slopes[along]);
+  RayBatch::Pieces unit = pieces;
+  for (size_t along = 0; along < 3; ++along) {
+    for (size_t axis = 0; axis < 3; ++axis)
+      std::fill_n(unit.rates[axis], RayBatch::lanes, axis == along ? 1 : 0);
+    const RayBatch::Bounds bounds = batch.run(unit, RayBatch::lanes);
+    for (size_t i = 0; i < RayBatch::lanes; ++i) {
+      assert_true(slopes[along][i] == bounds.low[i]);
+      assert_true(slopes[along][i] == bounds.high[i]);
+    }
+  }
 }
 
 void test_row(void** state) {
@@ -53,6 +73,7 @@ void test_row(void** state) {
       pieces.error[i] = coordinate_error;
       pieces.span[i] = span;
     }
+    if (program.has_slopes()) check_slopes(batch, pieces);
     const RayBatch::Bounds bounds = batch.run(pieces, RayBatch::lanes);
     for (size_t i = 0; i < RayBatch::lanes; ++i) {
       const auto at = [&](double s) {

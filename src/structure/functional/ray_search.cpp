@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "base/simd.h"
 #include "base/unit.h"
 #include "structure/functional/row_kernels.h"
 
@@ -24,27 +25,6 @@ constexpr uint32_t rounds_at_once = 4096;
 /// In smallest cell sizes: a ray that advances less in these rounds creeps.
 constexpr double slow = 0x1p-12;
 
-/// The s, at most `most`, up to which gap + slope s - bend s^2 stays positive. Slope and bend are
-/// finite; bend is not negative.
-double positive_until(double gap, double slope, double bend, double most) {
-  if (!(gap > 0)) return 0;
-  if ((slope >= 0 && bend == 0) || gap == infinity) return most;
-  double square = slope * slope + 4 * bend * gap;
-  // If squares are out of range, scaling by a power of two, which does not change the root, brings
-  // the largest number to 1. Numbers that then vanish are negligible, or the root is far beyond
-  // `most`.
-  if (!(square > 0x1p-900 && square < infinity)) {
-    const int exponent = std::ilogb(std::max(std::max(gap, bend), std::abs(slope)));
-    gap = std::scalbn(gap, -exponent);
-    slope = std::scalbn(slope, -exponent);
-    bend = std::scalbn(bend, -exponent);
-    square = slope * slope + 4 * bend * gap;
-  }
-  const double divisor = std::sqrt(square) - slope;
-  const double root = (1 - 0x1p-40) * 2 * gap / divisor;
-  return divisor > 0 && root < most ? root : most;
-}
-
 }  // namespace
 
 FunctionalRays::FunctionalRays(const Functional& solid, const Job* job)
@@ -55,8 +35,12 @@ FunctionalRays::FunctionalRays(const Functional& solid, const Job* job)
       tolerance_(solid.ray_tolerance()),
       cell_(min_component(grid_.cell_size)),
       cells_{cell_ / grid_.cell_size.x, cell_ / grid_.cell_size.y, cell_ / grid_.cell_size.z},
+      is_plain_(solid.angles().is_uniform() &&
+                solid.repeats() == std::array<bool, 3>{true, true, true}),
       batch_(solid.ray_program()) {
   std::fill(std::begin(pieces_.span), std::end(pieces_.span), 1);
+  if (level_.is_constant()) std::fill_n(levels_.value, lanes, level_.at({}));
+  set_no_borders();
 }
 
 // Points of the ray, their positions in the grid and their angles are rounded, and so is two_pi.
@@ -90,24 +74,35 @@ void FunctionalRays::start(uint32_t number, const RaySearch& search, Live& live)
 }
 
 void FunctionalRays::locate(const RaySearch* searches, size_t count) {
-  double x[lanes] = {}, y[lanes] = {}, z[lanes] = {};
-  alignas(64) double angles[3][lanes + batch_padding];
   for (size_t i = 0; i < count; ++i) {
-    points_[i] = searches[live_[i].search].ray.at(live_[i].t);
-    x[i] = points_[i].x;
-    y[i] = points_[i].y;
-    z[i] = points_[i].z;
+    const Vec3 p = searches[live_[i].search].ray.at(live_[i].t);
+    points_[i] = p;
+    places_[0][i] = p.x;
+    places_[1][i] = p.y;
+    places_[2][i] = p.z;
   }
-  solid_.angles().find({x, false}, {y, false}, {z, false}, count,
-                       {angles[0], angles[1], angles[2]});
-  for (size_t axis = 0; axis < 3; ++axis)
-    std::copy_n(angles[axis], count, pieces_.coordinates[axis]);
-  level_.values(points_, count, levels_);
+  const Values x{places_[0], false}, y{places_[1], false}, z{places_[2], false};
+  auto& to = pieces_.coordinates;
+  if (solid_.angles().is_uniform()) {
+    static_assert(lanes % max_simd_doubles == 0);  // whole vectors are written
+    solid_.angles().find(x, y, z, count, {to[0], to[1], to[2]});
+  } else {
+    double angles[3][lanes + batch_padding];
+    solid_.angles().find(x, y, z, count, {angles[0], angles[1], angles[2]});
+    for (size_t axis = 0; axis < 3; ++axis) std::copy_n(angles[axis], count, to[axis]);
+  }
+  if (!level_.is_constant()) level_.values(points_, count, levels_.value);
 }
 
-FunctionalRays::Level FunctionalRays::level_over(const Ray& ray, double t, double span,
-                                                 double value) const {
-  if (level_.is_constant()) return {value};
+void FunctionalRays::set_level(const Ray& ray, double t, double span, size_t lane) {
+  const double value = levels_.value[lane];
+  const auto set = [&](double low, double high, double above, double below, bool is_vague) {
+    levels_.low[lane] = low;
+    levels_.high[lane] = high;
+    levels_.above[lane] = above;
+    levels_.below[lane] = below;
+    is_level_vague_[lane] = is_vague;
+  };
   const Vec3 p = ray.at(t), q = ray.at(t + span);
   const Box3 piece = Box3{min(p, q), max(p, q)}.grown(0x1p-49 * (max_magnitude(p) + span));
   Vec3 gradient;
@@ -116,7 +111,7 @@ FunctionalRays::Level FunctionalRays::level_over(const Ray& ray, double t, doubl
     const double slope = dot(gradient, ray.direction);
     const double off =
         0x1p-38 * (all.high - all.low) + 0x1p-49 * length(gradient) * (max_magnitude(p) + span);
-    return {value, slope, slope, off, off};
+    return set(slope, slope, off, off, false);
   }
   const double steepest = level_.lipschitz();
   if (steepest < infinity) {
@@ -124,10 +119,10 @@ FunctionalRays::Level FunctionalRays::level_over(const Ray& ray, double t, doubl
     const double off =
         2 * (range.high - range.low) + 0x1p-49 * steepest * (max_magnitude(p) + span);
     const bool is_vague = range.high - range.low > 0x1p-36 * (std::abs(value) + 1);
-    return {value, -steepest, steepest, off, off, is_vague};
+    return set(-steepest, steepest, off, off, is_vague);
   }
   const Interval range = level_.range(piece);
-  return {value, 0, 0, range.high - value, value - range.low, true};
+  set(0, 0, range.high - value, value - range.low, true);
 }
 
 /// If bounds do not advance the ray, as along a surface that it touches up to rounding, the minimum
@@ -158,13 +153,18 @@ double FunctionalRays::step_unproven(Live& live, bool is_known, bool is_apart, b
                   std::max(tolerance, max_blind_step * cell_));
 }
 
+/// Whether no step is needed.
+bool FunctionalRays::is_settled(bool wanted, const RaySearch& search, size_t lane,
+                                const RayBatch::Bounds& bounds) const {
+  return (bounds.value[lane] <= levels_.value[lane]) == wanted || live_[lane].t >= search.to;
+}
+
 bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t lane,
                              const RayBatch::Bounds& bounds) {
-  const double value = bounds.value[lane];
   const double tolerance = live.tolerance;
   count_round(live);
   const double least = std::max(tolerance, live.least);
-  if ((value <= levels_[lane]) == wanted) {
+  if ((bounds.value[lane] <= levels_.value[lane]) == wanted) {
     search.found = true;
     search.t = live.t;
     if (live.t - live.before > tolerance)
@@ -181,21 +181,8 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
   }
   if (live.t >= search.to) return false;
   const double span = pieces_.span[lane] * cell_;
-  const Level level = level_over(search.ray, live.t, span, levels_[lane]);
-  const double bend = bounds.bend[lane];
-  double gap = value - levels_[lane], slope;
-  if (wanted) {
-    gap = gap - bounds.error[lane] - level.above;
-    slope = bounds.low[lane] - level.high * cell_;
-  } else {
-    gap = -gap - bounds.error[lane] - level.below;
-    slope = level.low * cell_ - bounds.high[lane];
-  }
   const bool is_clear = is_clear_[lane];
-  const bool is_bounded = std::abs(slope) < infinity && bend < infinity && !std::isnan(gap);
-  const double most = std::min(span, border_[lane]);
-  const double proven =
-      is_bounded && is_clear ? cell_ * positive_until(gap, slope, bend, most / cell_) : 0;
+  const double proven = is_clear ? steps_.step[lane] : 0;
   live.border = -1;
   if (proven > least) {
     live.before = live.t += proven;
@@ -205,13 +192,17 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
     live.blind_steps = live.near_steps = 0;
     return live.t < search.to;
   }
+  const double gap = steps_.gap[lane];
+  const bool is_bounded =
+      std::abs(steps_.slope[lane]) < infinity && bounds.bend[lane] < infinity && !std::isnan(gap);
+  const bool is_level_vague = is_level_vague_[lane];
   if (is_clear && span > 2 * least &&
-      (!is_bounded || (gap <= 0 && (level.is_vague || is_vague_[lane])))) {
+      (!is_bounded || (gap <= 0 && (is_level_vague || is_vague_[lane])))) {
     live.span = 0.25 * span;
     return true;
   }
   const double step = std::max(
-      least, step_unproven(live, is_bounded && is_clear, gap > 0, level.is_vague, tolerance));
+      least, step_unproven(live, is_bounded && is_clear, gap > 0, is_level_vague, tolerance));
   live.span = 8 * step;
   if (border_[lane] <= step) {
     live.border = border_axis_[lane];
@@ -222,36 +213,73 @@ bool FunctionalRays::advance(bool wanted, RaySearch& search, Live& live, size_t 
   return live.t > live.before;  // otherwise steps vanish in rounding
 }
 
+void FunctionalRays::set_ray(size_t lane) {
+  const Live& live = live_[lane];
+  pieces_.error[lane] = live.error;
+  for (size_t axis = 0; axis < 3; ++axis)
+    pieces_.rates[axis][lane] = live.rates[static_cast<int>(axis)];
+}
+
 // A lane whose ray ends takes the next one. So as long as there are more rays, all lanes are busy,
 // and the state of the rays stays in the fastest cache.
 void FunctionalRays::find(bool wanted, RaySearch* searches, size_t count) {
-  size_t next = 0;
-  const auto take_next = [&](Live& live) {
+  size_t next = 0, size = 0;
+  const auto take_next = [&](size_t lane) {
     for (; next < count; ++next) {
       RaySearch& search = searches[next];
       search.found = false;
       search.normal = {};
       if (!(search.from <= search.to)) continue;
-      start(static_cast<uint32_t>(next++), search, live);
+      start(static_cast<uint32_t>(next++), search, live_[lane]);
+      set_ray(lane);
       return true;
     }
     return false;
   };
-  size_t size = 0;
-  while (size < lanes && take_next(live_[size])) ++size;
+  if (is_plain_) set_no_borders();
+  while (size < lanes && take_next(size)) ++size;
   while (size > 0) {
     check_cancelled(job_);
     locate(searches, size);
-    for (size_t i = 0; i < size; ++i) set_piece(searches[live_[i].search], live_[i], i);
+    set_pieces(searches, size);
     const RayBatch::Bounds bounds = batch_.run(pieces_, size);
+    for (size_t i = 0; i < size; ++i) {
+      const double span = pieces_.span[i] * cell_;
+      steps_.most[i] = std::min(span, border_[i]);
+      const RaySearch& search = searches[live_[i].search];
+      if (!level_.is_constant() && !is_settled(wanted, search, i, bounds))
+        set_level(search.ray, live_[i].t, span, i);
+    }
+    steps_.find(wanted, bounds, levels_, cell_, size);
     bool continues[lanes];
     for (size_t i = 0; i < size; ++i)
       continues[i] = advance(wanted, searches[live_[i].search], live_[i], i, bounds);
     for (size_t i = size; i-- > 0;) {
-      if (continues[i] || take_next(live_[i])) continue;
-      if (i < --size) live_[i] = live_[size];
+      if (continues[i] || take_next(i)) continue;
+      if (i == --size) continue;
+      live_[i] = live_[size];
+      set_ray(i);
     }
   }
+}
+
+void FunctionalRays::set_no_borders() {
+  std::fill_n(border_, lanes, infinity);
+  std::fill_n(border_axis_, lanes, -1);
+  std::fill_n(is_clear_, lanes, true);
+  std::fill_n(is_vague_, lanes, false);
+}
+
+void FunctionalRays::set_pieces(const RaySearch* searches, size_t count) {
+  if (!is_plain_) {
+    for (size_t i = 0; i < count; ++i) set_piece(searches[live_[i].search], live_[i], i);
+    return;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const Live& live = live_[i];
+    pieces_.span[i] = std::max(std::min(live.span, searches[live.search].to - live.t), tolerance_);
+  }
+  for (size_t i = 0; i < count; ++i) pieces_.span[i] /= cell_;
 }
 
 /// Where cells vary in size, the angle along the period's axis bends within a piece, and its rate
@@ -384,6 +412,7 @@ void FunctionalRays::set_piece(const RaySearch& search, Live& live, size_t lane)
 }
 
 void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
+  const bool has_slopes = solid_.ray_program().has_slopes();
   for (size_t next = 0; next < count;) {
     size_t size = 0;
     for (; next < count && size < lanes; ++next) {
@@ -391,20 +420,17 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
       if (!search.found || dot(search.normal, search.normal) > 0) continue;
       live_[size].search = static_cast<uint32_t>(next);
       live_[size].t = search.t;
-      pieces_.span[size] = tolerance_ / cell_;
-      pieces_.error[size] = angle_error(search, position_error(search));
       ++size;
     }
     if (size == 0) return;
     locate(searches, size);
     Vec3 gradients[lanes];
-    for (auto& bends : pieces_.bends) std::fill_n(bends, size, 0);
-    for (int along = 0; along < 3; ++along) {
-      for (int axis = 0; axis < 3; ++axis)
-        std::fill_n(pieces_.rates[axis], size, axis == along ? 1 : 0);
-      const RayBatch::Bounds bounds = batch_.run(pieces_, size);
+    if (has_slopes) {
+      const RayBatch::Slopes slopes = batch_.slopes(pieces_.coordinates, size);
       for (size_t i = 0; i < size; ++i)
-        gradients[i][along] = 0.5 * (bounds.low[i] + bounds.high[i]);
+        gradients[i] = {slopes.along[0][i], slopes.along[1][i], slopes.along[2][i]};
+    } else {
+      bound_gradients(searches, size, gradients);
     }
     for (size_t i = 0; i < size; ++i) {
       const Vec3 away = solid_.angles().gradient(points_[i], gradients[i]) -
@@ -413,6 +439,21 @@ void FunctionalRays::find_normals(RaySearch* searches, size_t count) {
       searches[live_[i].search].normal =
           steepness > 0 && steepness < infinity ? away * (1 / steepness) : Vec3{};
     }
+  }
+}
+
+void FunctionalRays::bound_gradients(const RaySearch* searches, size_t count, Vec3* gradients) {
+  for (size_t i = 0; i < count; ++i) {
+    const RaySearch& search = searches[live_[i].search];
+    pieces_.span[i] = tolerance_ / cell_;
+    pieces_.error[i] = angle_error(search, position_error(search));
+  }
+  for (auto& bends : pieces_.bends) std::fill_n(bends, count, 0);
+  for (int along = 0; along < 3; ++along) {
+    for (int axis = 0; axis < 3; ++axis)
+      std::fill_n(pieces_.rates[axis], count, axis == along ? 1 : 0);
+    const RayBatch::Bounds bounds = batch_.run(pieces_, count);
+    for (size_t i = 0; i < count; ++i) gradients[i][along] = 0.5 * (bounds.low[i] + bounds.high[i]);
   }
 }
 

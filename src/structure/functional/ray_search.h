@@ -16,6 +16,7 @@
 
 #include "expression/ray_bounds.h"
 #include "structure/functional/functional.h"
+#include "structure/functional/piece_steps.h"
 
 namespace msq {
 
@@ -52,12 +53,6 @@ class FunctionalRays {
     Vec3 along;                       // the direction in the grid
     Vec3 rates;                       // of angles at t, per smallest cell size
   };
-  /// The level over a piece: value + [low, high] s, + above or - below.
-  struct Level {
-    double value = 0, low = 0, high = 0, above = 0, below = 0;
-    bool is_vague = false;  // known by ranges; shorter pieces may have narrower ones
-  };
-
   /// Bound on the error of the positions of points of a ray.
   double position_error(const RaySearch& search) const;
   double angle_error(const RaySearch& search, double position_error) const;
@@ -65,34 +60,47 @@ class FunctionalRays {
   void count_round(Live& live) const;
   double step_unproven(Live& live, bool is_known, bool is_apart, bool is_vague,
                        double tolerance) const;
+  /// Puts what all pieces of a ray share into its lane.
+  void set_ray(size_t lane);
+  void set_no_borders();
+  void set_pieces(const RaySearch* searches, size_t count);
   /// Returns whether the search continues.
   bool advance(bool wanted, RaySearch& search, Live& live, size_t lane,
                const RayBatch::Bounds& bounds);
+  bool is_settled(bool wanted, const RaySearch& search, size_t lane,
+                  const RayBatch::Bounds& bounds) const;
   void set_piece(const RaySearch& search, Live& live, size_t lane);
   void grade(const RaySearch& search, Live& live, size_t lane);
   void bend(const RaySearch& search, Live& live, size_t lane);
   void follow(const RaySearch& search, Live& live, size_t lane);
+  /// The gradients by angles, from bounds; the middle where a kink leaves an interval.
+  void bound_gradients(const RaySearch* searches, size_t count, Vec3* gradients);
   /// Sets points_, levels_ and the coordinates of pieces_ for the lanes below `count`.
   void locate(const RaySearch* searches, size_t count);
-  Level level_over(const Ray& ray, double t, double span, double value) const;
+  /// Sets levels_ over the lane's piece.
+  void set_level(const Ray& ray, double t, double span, size_t lane);
 
   const Functional& solid_;
   const Job* const job_;
   const Neighbourhood& grid_;
   const Parameter& level_;
   const double tolerance_;
-  const double cell_;  // the smallest size
-  const Vec3 cells_;   // that over the size along each axis
+  const double cell_;    // the smallest size
+  const Vec3 cells_;     // that over the size along each axis
+  const bool is_plain_;  // the function repeats along straight axes: pieces have no borders
   RayBatch batch_;
   RayBatch::Pieces pieces_;
   // By lane:
   Live live_[lanes];
   Vec3 points_[lanes];
+  double places_[3][lanes + batch_padding] = {};  // the same by axis
   double border_[lanes];    // distance to the next border across which the function is not periodic
   int border_axis_[lanes];  // its axis
   bool is_clear_[lanes];    // of borders, rounding included
   bool is_vague_[lanes];    // shorter pieces have smaller errors
-  double levels_[lanes];
+  PieceLevels levels_;
+  bool is_level_vague_[lanes] = {};  // known by ranges; shorter pieces may have narrower ones
+  PieceSteps steps_;
   double max_rates_[3][lanes];  // of angles, where they differ along a piece
 };
 
