@@ -19,6 +19,15 @@ class CapsuleList {
   void finish();
 
   size_t size() const { return count_; }
+  /// a, ab, 1 / |ab|^2 and the factor of each, with room for a vector past the last.
+  struct Arrays {
+    const double* of[8];
+  };
+  Arrays arrays() const {
+    Arrays arrays;
+    for (size_t i = 0; i < 8; ++i) arrays.of[i] = arrays_[i].data();
+    return arrays;
+  }
   double factor(size_t i) const { return arrays_[factors][i]; }
   /// The axis as it was added, to the last bit.
   Segment axis(size_t i) const {

@@ -5,6 +5,7 @@
 #include "structure/common/strut_distance_bound.h"
 #include "structure/common/strut_rows.h"
 #include "structure/lattice/cell/may_reach.h"
+#include "structure/lattice/rays/constant_struts.h"
 #include "structure/lattice/rows/lattice_rows.h"
 
 namespace msq {
@@ -145,6 +146,8 @@ const CellParts& Lattice::parts() const {
 }
 
 void Lattice::enter(RaySearch* searches, size_t count, const Job* job) const {
+  if (radius_.is_constant())
+    return enter_constant_struts(*this, parts(), radius_.at({}), searches, count, job);
   PartLists lists(parts());
   StrutRays(*this, lists, radius_, job).enter(searches, count);
 }

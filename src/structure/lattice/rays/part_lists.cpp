@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "structure/lattice/rays/part_lists.h"
 
+#include <algorithm>
+
 #include "base/job.h"
 #include "structure/lattice/cell/may_reach.h"
 
@@ -43,6 +45,7 @@ CellParts::CellParts(const std::vector<LatticeStrut>& near, Vec3 cell_size, doub
     const auto begin = static_cast<uint32_t>(struts_.size());
     for (const uint32_t i : list) struts_.add(near[i].axis, near[i].factor);
     runs_.push_back({begin, static_cast<uint32_t>(struts_.size())});
+    max_struts_ = std::max(max_struts_, list.size());
   }
   struts_.finish();
 }
