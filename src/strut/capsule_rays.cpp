@@ -61,16 +61,17 @@ HWY_INLINE uint64_t new_ones(const uint32_t* ids, uint64_t bits, SeenIds* seen) 
 }
 
 /// Whether axes from w on come within the square root of `most` of the line through 0 along u,
-/// between the planes across it at `low` and `high`.
+/// between the planes across it at `low` and `high`. `begin`: where axes begin along it.
 HWY_INLINE hn::Mask<D> come_near(const Vector& w, const Vector& ab, const Vector& u, V most, V low,
-                                 V high) {
+                                 V high, V& begin) {
   const V z0 = fast_dot(w, u), dz = fast_dot(ab, u);
   const Vector p = fast_add_scaled(w, u, hn::Neg(z0)), q = fast_add_scaled(ab, u, hn::Neg(dz));
   const V s =
       clamp01(D(), hn::Div(hn::Neg(fast_dot(p, q)), hn::Max(fast_dot(q, q), hn::Set(D(), 1e-30f))));
   const Vector v = fast_add_scaled(p, q, s);
   const V z1 = hn::Add(z0, dz);
-  const auto is_there = hn::And(hn::Ge(hn::Max(z0, z1), low), hn::Le(hn::Min(z0, z1), high));
+  begin = hn::Min(z0, z1);
+  const auto is_there = hn::And(hn::Ge(hn::Max(z0, z1), low), hn::Le(begin, high));
   return hn::And(is_there, hn::Le(fast_dot(v, v), most));
 }
 
@@ -89,7 +90,8 @@ HWY_INLINE size_t near_line(const CapsuleView& capsules, size_t begin, size_t en
   size_t count = 0;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const Vector w = subtract(load(capsules.a, i), centre);
-    uint64_t bits = bits_of(d, come_near(w, load(capsules.ab, i), u, most, low, high));
+    V axis_begin;
+    uint64_t bits = bits_of(d, come_near(w, load(capsules.ab, i), u, most, low, high, axis_begin));
     if (end - i < hn::Lanes(d)) bits &= (uint64_t{1} << (end - i)) - 1;
     bits = new_ones(capsules.ids + i, bits, seen);
     for (; bits; bits &= bits - 1)
@@ -196,7 +198,9 @@ HWY_INLINE void meet(const CapsuleView& capsules, const uint32_t* chosen, size_t
   }
 }
 
-size_t on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray, uint32_t* found) {
+// No point of the ray before an axis begins, less the radius, is within the radius of it.
+size_t on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray, uint32_t* found,
+              float* from) {
   const D d;
   const hn::RebindToUnsigned<D> du;
   const float wide = radius + capsule_ray_slack;
@@ -207,10 +211,12 @@ size_t on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray, 
   size_t count = 0;
   for (size_t i = 0; i < capsules.count; i += hn::Lanes(d)) {
     const Vector w = subtract(load(capsules.a, i), o);
-    const auto is_near = hn::And(come_near(w, load(capsules.ab, i), u, most, low, high),
+    V begin;
+    const auto is_near = hn::And(come_near(w, load(capsules.ab, i), u, most, low, high, begin),
                                  hn::FirstN(d, capsules.count - i));
     const auto order = Compression<D>(is_near);
     hn::StoreU(order(hn::LoadU(du, capsules.ids + i)), du, found + count);
+    hn::StoreU(order(hn::Add(begin, low)), d, from + count);
     count += hn::CountTrue(d, is_near);
   }
   return count;
@@ -367,8 +373,8 @@ void meet_capsules(const CapsuleView& capsules, float radius, const float (&corn
 }
 
 size_t capsules_on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray,
-                       uint32_t* ids) {
-  return HWY_DYNAMIC_DISPATCH(on_ray)(capsules, radius, ray, ids);
+                       uint32_t* ids, float* from) {
+  return HWY_DYNAMIC_DISPATCH(on_ray)(capsules, radius, ray, ids, from);
 }
 
 }  // namespace msq

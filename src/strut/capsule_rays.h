@@ -93,10 +93,10 @@ struct CapsuleRay {
   float origin[3], direction[3];
   float to;
 };
-/// Writes the ids of the capsules that the ray meets there and returns their number. It may add
-/// capsules that the ray misses by less than twice the slack, or that lie next to its ends. The
-/// array has room for capsules.count + capsule_padding.
+/// Writes the ids of the capsules that the ray meets there, and for each a lower bound on where it
+/// does; returns their number. It may add capsules that the ray misses by less than twice the
+/// slack, or that lie next to its ends. The arrays have room for capsules.count + capsule_padding.
 size_t capsules_on_ray(const CapsuleView& capsules, float radius, const CapsuleRay& ray,
-                       uint32_t* ids);
+                       uint32_t* ids, float* from);
 
 }  // namespace msq

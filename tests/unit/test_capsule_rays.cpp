@@ -154,6 +154,7 @@ void finds_all_that_one_ray_meets(void**) {
   const size_t rounds = test_count(3000);
   size_t met = 0, found = 0;
   std::vector<uint32_t> ids;
+  std::vector<float> from;
   for (size_t round = 0; round < rounds; ++round) {
     const Vec3 u = direction_of(random), o = random.in_box({{}, {1, 1, 1}});
     const List list(random, 1 + random.below(round % 10 == 0 ? 600 : 60), {}, u);
@@ -165,15 +166,22 @@ void finds_all_that_one_ray_meets(void**) {
     }
     ray.to = static_cast<float>(reach);
     ids.assign(list.segments.size() + capsule_padding, UINT32_MAX);
-    const size_t count = capsules_on_ray(list.view, static_cast<float>(radius), ray, ids.data());
+    from.resize(ids.size());
+    const size_t count =
+        capsules_on_ray(list.view, static_cast<float>(radius), ray, ids.data(), from.data());
     assert_in_range(count, 0, list.segments.size());
     ids.resize(count);
     for (size_t i = 0; i < list.segments.size(); ++i) {
-      const bool is_found = std::find(ids.begin(), ids.end(), list.ids[i]) != ids.end();
+      const auto place = std::find(ids.begin(), ids.end(), list.ids[i]);
+      const bool is_found = place != ids.end();
       const Segment& s = list.segments[i];
-      if (first_within(origin, direction, s, radius, 0, reach) < none) {
+      const double first = first_within(origin, direction, s, radius, 0, reach);
+      if (first < none) {
         ++met;
         if (!is_found) fail_msg("capsule %zu of round %zu is left out", i, round);
+        const double bound = from[static_cast<size_t>(place - ids.begin())];
+        if (bound > first) fail_msg("capsule %zu: %g is above %g", i, bound, first);
+        assert_true(bound > first - 2 * radius - length(s.ab) - 1e-3);
       }
       found += is_found;
     }
@@ -208,7 +216,8 @@ void finds_thin_capsules_that_one_ray_meets(void**) {
         ray.origin[k] = static_cast<float>(o[k]);
         ray.direction[k] = static_cast<float>(u[k]);
       }
-      if (capsules_on_ray(view, static_cast<float>(radius), ray, found) != 1 || found[0] != 7)
+      float from[capsule_padding + 1];
+      if (capsules_on_ray(view, static_cast<float>(radius), ray, found, from) != 1 || found[0] != 7)
         fail_msg("a capsule of radius %g and length %g is left out", radius, length(ab));
     }
 }

@@ -435,7 +435,7 @@ class Walker {
         alone.origin[axis] =
             packet_.origin[axis][n] + alone.direction[axis] * from - slot.corner[axis];
       }
-      struts_.ask(own, slot.list, slot.radius, alone, first_);
+      struts_.ask(own, slot.list, slot.radius, alone, enter_[n] + double(from), first_);
     }
     if (!first_.entry.is_met || first_.entry.t > last) return false;
     struts_.take(first_.entry, searches_[ray_[n]]);

@@ -87,17 +87,28 @@ class RayStruts {
   /// The entry into a strut of a list.
   StrutEntry entry(const FoamRay& ray, uint32_t id) { return entries_.find(ray, line(id)); }
 
-  /// Tests the struts that a ray may meet by a list of a cell, each strut once. Updates the first
-  /// of their entries and of those tested before.
+  /// Tests the struts that a ray may meet by a list of a cell, each strut once, as far as they may
+  /// come first. `near` begins at `in`. Updates the first of their entries and of those tested
+  /// before.
   void ask(const FoamRay& ray, const CapsuleView& list, float radius, const CapsuleRay& near,
-           FirstEntry& first) {
-    if (ids_.size() < list.count + capsule_padding) ids_.resize(list.count + capsule_padding);
-    const size_t count = capsules_on_ray(list, radius + room(ray), near, ids_.data());
-    for (size_t n = 0; n < count; ++n) {
+           double in, FirstEntry& first) {
+    if (ids_.size() < list.count + capsule_padding) {
+      ids_.resize(list.count + capsule_padding);
+      from_.resize(list.count + capsule_padding);
+    }
+    size_t count = capsules_on_ray(list, radius + room(ray), near, ids_.data(), from_.data());
+    for (; count > 0; --count) {
+      size_t next = 0;
+      for (size_t n = 1; n < count; ++n)
+        if (from_[n] < from_[next]) next = n;
+      if (first.entry.is_met && in + from_[next] > first.entry.t) return;
+      const uint32_t id = ids_[next];
+      ids_[next] = ids_[count - 1];
+      from_[next] = from_[count - 1];
       // Cells share struts.
-      if (std::find(first.asked.begin(), first.asked.end(), ids_[n]) != first.asked.end()) continue;
-      first.asked.push_back(ids_[n]);
-      const StrutEntry found = entry(ray, ids_[n]);
+      if (std::find(first.asked.begin(), first.asked.end(), id) != first.asked.end()) continue;
+      first.asked.push_back(id);
+      const StrutEntry found = entry(ray, id);
       if (comes_before(found, first.entry)) first.entry = found;
     }
   }
@@ -118,6 +129,7 @@ class RayStruts {
   KnownLines& lines_;
   std::unordered_map<CellIndex, float, CellHash> radii_;  // if they vary
   std::vector<uint32_t> ids_;
+  std::vector<float> from_;  // lower bounds of their entries
 };
 
 }  // namespace msq

@@ -50,7 +50,7 @@ class SingleRay {
       near.direction[axis] = static_cast<float>(ray.direction[axis]);
     }
     near.to = static_cast<float>(last - in) + along_rounding;
-    struts_.ask(ray, list, radius, near, first_);
+    struts_.ask(ray, list, radius, near, in, first_);
     if (!first_.entry.is_met || first_.entry.t > last) return false;
     struts_.take(first_.entry, search);
     return true;
