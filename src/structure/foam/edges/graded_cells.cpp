@@ -53,8 +53,8 @@ void GradedCells::move_to(const std::shared_ptr<const GradedSeeds>& seeds, CellI
   home_ = home;
   empty_radius_ = seeds->cells().empty_radius();
   is_placed_ = seeds->placed() != nullptr;
-  const Vec3 scale = seeds->scale();
-  const double side = std::cbrt(scale.x * scale.y * scale.z);
+  scale_ = seeds->scale();
+  const double side = std::cbrt(scale_.x * scale_.y * scale_.z);
   first_reach_squared_ = first_reach_squared * (side * side);
 }
 
@@ -122,16 +122,12 @@ void GradedCells::gather() {
   for (bool is_crowded = false;;) {
     near_.clear();
     const double squared = reach_squared_ * (unit_ * unit_);
-    trees_.visit(
+    trees_.visit_twigs(
         home_, Box3{own_.position, own_.position}.grown(std::sqrt(squared) + 1e-9),
         [&](const Box3& box) {
           return near_.size() <= crowd && min_squared(box, own_.position) <= squared + 1e-9;
         },
-        [&](const LeafSeed& seed) {
-          if (seed.order == own_.order) return;
-          const Neighbour n = neighbour(seed);
-          if (2 * n.half_squared <= reach_squared_) near_.push_back(n);
-        });
+        [&](const SeedTrees::Twig& twig) { add_near(twig); });
     if (near_.size() > crowd) {
       is_crowded = true;
       reach_squared_ *= 0.5;
@@ -139,6 +135,33 @@ void GradedCells::gather() {
     }
     if (is_crowded || near_.size() >= enough) return;
     reach_squared_ *= 2;
+  }
+}
+
+void GradedCells::add_near(const SeedTrees::Twig& twig) {
+  const CellIndex cell = twig.cell;
+  const Vec3 corner{double(cell.x - home_.x), double(cell.y - home_.y), double(cell.z - home_.z)};
+  const auto neighbour_at = [&](Vec3 in_cell) {
+    return ((corner + in_cell) * scale_ - own_.position) * (1 / unit_);
+  };
+  // Which seeds are within D is unpredictable: listed without a branch.
+  constexpr size_t most = 64;
+  for (size_t first = 0; first < twig.count; first += most) {
+    const SeedTrees::Leaf* const leaves = twig.leaves + first;
+    const size_t count = std::min(most, twig.count - first);
+    uint8_t within[most];
+    size_t found = 0;
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3 at = neighbour_at(leaves[i].in_cell);
+      within[found] = static_cast<uint8_t>(i);
+      found += 2 * (0.5 * dot(at, at)) <= reach_squared_;
+    }
+    for (size_t i = 0; i < found; ++i) {
+      const SeedTrees::Leaf& leaf = leaves[within[i]];
+      const Vec3 at = neighbour_at(leaf.in_cell);
+      const uint64_t order = SeedTrees::order_of(home_, cell, leaf.order);
+      if (order != own_.order) near_.push_back({at, 0.5 * dot(at, at), order, leaf.level});
+    }
   }
 }
 

@@ -57,6 +57,8 @@ class GradedCells {
   /// Gathers the seeds within D, which grows until they suffice for a cell, or shrinks until they
   /// are not too many.
   void gather();
+  /// Adds the seeds of a twig that are within D.
+  void add_near(const SeedTrees::Twig& twig);
   void choose_first();
   void add_nearest_in_octant(uint32_t wanted);
   void sort_planes();
@@ -83,6 +85,7 @@ class GradedCells {
 
   SeedTrees trees_;
   CellIndex home_;
+  Vec3 scale_;
   bool is_placed_ = false;
   double empty_radius_ = 0, first_reach_squared_ = 0;
   LeafSeed own_{};

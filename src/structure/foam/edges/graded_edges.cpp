@@ -14,8 +14,9 @@ namespace {
 /// Consecutive owners whose edges share a box: usually leaves of one parent.
 constexpr size_t owners_in_run = 8;
 
-/// Calls begin() and then take(edge) for the edges of each run of owners.
-template <class Begin, class Take>
+/// Calls begin() and then take(edge) for the edges of each run of owners. edge.seeds is set if
+/// wanted.
+template <bool wants_seeds, class Begin, class Take>
 void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner, Begin&& begin,
                 Take&& take) {
   // The density field may be the host's.
@@ -40,11 +41,13 @@ void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corne
         taken.a[static_cast<size_t>(axis)] = static_cast<float>(a[axis]);
         taken.b[static_cast<size_t>(axis)] = static_cast<float>(b[axis]);
       }
-      taken.seeds[0] = name_of(own);
       taken.knows_seeds = edge.is_sure;
-      for (size_t n = 0; n < 2; ++n)
-        taken.seeds[n + 1] = name_of({{}, edge.others[n].level, edge.others[n].order});
-      if (edge.others[0].order > edge.others[1].order) std::swap(taken.seeds[1], taken.seeds[2]);
+      if constexpr (wants_seeds) {
+        taken.seeds[0] = name_of(own);
+        for (size_t n = 0; n < 2; ++n)
+          taken.seeds[n + 1] = name_of({{}, edge.others[n].level, edge.others[n].order});
+        if (edge.others[0].order > edge.others[1].order) std::swap(taken.seeds[1], taken.seeds[2]);
+      }
       take(taken);
     }
   }
@@ -56,7 +59,7 @@ std::shared_ptr<const EdgeBrick> graded_edge_brick(const std::shared_ptr<const G
                                                    CellIndex corner) {
   std::vector<FloatSegment> edges;
   std::vector<uint32_t> starts;
-  find_edges(
+  find_edges<false>(
       seeds, corner, [&] { starts.push_back(static_cast<uint32_t>(edges.size())); },
       [&](const GradedEdge& edge) {
         FloatSegment& added = edges.emplace_back();
@@ -69,7 +72,7 @@ std::shared_ptr<const EdgeBrick> graded_edge_brick(const std::shared_ptr<const G
 std::shared_ptr<const GradedEdges> graded_edges(const std::shared_ptr<const GradedSeeds>& seeds,
                                                 CellIndex corner) {
   std::vector<GradedEdge> edges;
-  find_edges(
+  find_edges<true>(
       seeds, corner, [] {}, [&](const GradedEdge& edge) { edges.push_back(edge); });
   edges.shrink_to_fit();
   return std::make_shared<const GradedEdges>(std::move(edges));

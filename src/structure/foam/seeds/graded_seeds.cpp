@@ -34,6 +34,13 @@ Vec3 GradedSeeds::in_leaf(const Node& leaf) const {
   return leaf.low + cells_.fractions(bits) * leaf.size();
 }
 
+int GradedSeeds::twig_level() const {
+  const double most = density_.range().high;
+  int level = 0;
+  while (level < max_levels && std::ldexp(most, -3 * level) > 8) ++level;
+  return level;
+}
+
 int GradedSeeds::min_level(const Box3& box) const {
   // Nodes around the points of the box lie in the cells that the box meets, and so do their
   // centres. If the density is at least 8^n everywhere there, a node of level l < n expects 8^(n -

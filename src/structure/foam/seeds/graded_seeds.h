@@ -74,6 +74,9 @@ class GradedSeeds {
   bool splits(const Node& node) const;
   /// The seed of a leaf, in its cell, whose box has size 1.
   Vec3 in_leaf(const Node& leaf) const;
+  /// The least level at which no node is expected to contain more than eight seeds. So the children
+  /// of its nodes are leaves.
+  int twig_level() const;
 
   // Of both:
   /// Bounds the distance of the points of a box (grid coordinates) to their nearest seeds; model

@@ -13,6 +13,9 @@ void SeedTrees::move_to(const std::shared_ptr<const GradedSeeds>& seeds) {
   // Nodes 0 and 1 are not used: they would look like the marks of Node::children.
   nodes_.assign(2, {});
   slots_.assign(slots_per_axis * slots_per_axis * slots_per_axis, {});
+  leaves_.clear();
+  twigs_.clear();
+  twig_level_ = seeds->placed() ? 0 : seeds->twig_level();
   owner_ = seeds;
   seeds_ = seeds.get();
 }
@@ -42,17 +45,36 @@ uint32_t SeedTrees::grow(uint32_t index, const GradedSeeds::Node& node) {
   return children;
 }
 
+void SeedTrees::append_leaves(uint32_t index, const GradedSeeds::Node& node) {
+  uint32_t children = nodes_[index].children;
+  if (children == not_known) children = grow(index, node);
+  if (children == is_leaf) return leaves_.push_back({nodes_[index].seed, node.order(), node.level});
+  for (uint32_t octant = 0; octant < 8; ++octant)
+    append_leaves(children + octant, node.child(octant));
+}
+
+void SeedTrees::append_placed(uint32_t list) {
+  const size_t first = leaves_.size();
+  for (uint32_t i = 1; i < nodes_[list].children; ++i) {
+    const Node& node = nodes_[list + i];
+    leaves_.push_back({node.seed, node.children >> 8, static_cast<int>(node.children & 0xff)});
+  }
+  add_twig(list, first);
+}
+
+void SeedTrees::add_twig(uint32_t index, size_t first) {
+  twigs_.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(leaves_.size() - first)});
+  nodes_[index].twig = static_cast<uint32_t>(twigs_.size());
+}
+
 namespace {
 
 /// `order`: within the cell.
 LeafSeed seed_in_cell(CellIndex home, CellIndex cell, Vec3 in_cell, Vec3 scale, int level,
                       uint32_t order) {
-  const auto biased = [](int32_t from_home) {
-    return static_cast<uint64_t>(static_cast<uint16_t>(from_home + 0x8000));
-  };
   const int32_t x = cell.x - home.x, y = cell.y - home.y, z = cell.z - home.z;
   return {Vec3{x + in_cell.x, y + in_cell.y, z + in_cell.z} * scale, level,
-          ((biased(z) << 16 | biased(y)) << 16 | biased(x)) << 15 | order};
+          SeedTrees::order_of(home, cell, order)};
 }
 
 }  // namespace
@@ -75,7 +97,7 @@ uint32_t SeedTrees::list_of(CellIndex cell) {
   nodes_.resize(nodes_.size() + placed_.size());
   for (size_t i = 0; i < placed_.size(); ++i)
     nodes_[list + 1 + i] = {placed_[i].in_box,
-                            placed_[i].number << 8 | static_cast<uint32_t>(placed_[i].level)};
+                            placed_[i].number << 8 | static_cast<uint32_t>(placed_[i].level), 0};
   nodes_[list].children = static_cast<uint32_t>(placed_.size()) + 1;
   return list;
 }

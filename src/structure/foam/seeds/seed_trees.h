@@ -21,6 +21,19 @@ struct LeafSeed {
 
 class SeedTrees {
  public:
+  /// Seeds of one cell that lie side by side, in order: about eight leaves or fewer, or the placed
+  /// ones of the cell.
+  struct Leaf {
+    Vec3 in_cell;
+    uint32_t order;  ///< in the cell
+    int level;
+  };
+  struct Twig {
+    CellIndex cell;
+    const Leaf* leaves;
+    size_t count;
+  };
+
   /// Moves to the seeds of a foam. Free if these are the current ones, except that too large a
   /// store is emptied.
   void move_to(const std::shared_ptr<const GradedSeeds>& seeds);
@@ -30,7 +43,22 @@ class SeedTrees {
   template <class Wanted, class Found>
   void visit(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found);
 
-  /// The same for all leaves of one cell.
+  /// The same for twigs: found(twig). wanted(box) is not asked of the nodes in a twig. Faster if
+  /// most seeds in the box are wanted. A twig is valid until the next search.
+  template <class Wanted, class Found>
+  void visit_twigs(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found);
+  /// LeafSeed::order of a leaf.
+  static uint64_t order_of(CellIndex home, CellIndex cell, uint32_t order) {
+    const auto biased = [](int32_t from_home) {
+      return static_cast<uint64_t>(static_cast<uint16_t>(from_home + 0x8000));
+    };
+    return ((biased(cell.z - home.z) << 16 | biased(cell.y - home.y)) << 16 |
+            biased(cell.x - home.x))
+               << 15 |
+           order;
+  }
+
+  /// visit() for all leaves of one cell.
   template <class Found>
   void visit_cell(CellIndex home, CellIndex cell, Found&& found);
 
@@ -42,13 +70,20 @@ class SeedTrees {
   template <class Accept>
   void nearest(CellIndex home, Vec3 q, double& distance_squared, LeafSeed& seed, Accept&& accept);
 
-  size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
+  size_t bytes() const {
+    return nodes_.capacity() * sizeof(Node) + leaves_.capacity() * sizeof(Leaf) +
+           twigs_.capacity() * sizeof(Range);
+  }
 
  private:
   struct Node {
     Vec3 seed;              // of a leaf, in its cell
     uint32_t children = 0;  // first of eight; or; of a list of placed seeds, 1 more than their
                             // count, and of those, which follow it, numbers and levels
+    uint32_t twig = 0;      // number from 1 on; 0: not a twig, or not yet
+  };
+  struct Range {
+    uint32_t first, count;  // of leaves_
   };
   static constexpr uint32_t not_known = 0, is_leaf = 1;
   /// Trees are found by cell modulo this; cells that share a slot replace each other.
@@ -71,12 +106,39 @@ class SeedTrees {
                Found& found);
   template <class Wanted, class Found>
   void visit_list(CellIndex home, CellIndex cell, Wanted& wanted, Found& found);
+  template <class Wanted, class Found>
+  void descend_to_twigs(CellIndex home, uint32_t index, const GradedSeeds::Node& node,
+                        Wanted& wanted, Found& found);
+  /// Appends the leaves below a node.
+  void append_leaves(uint32_t index, const GradedSeeds::Node& node);
+  /// Appends the placed seeds of a list.
+  void append_placed(uint32_t list);
+  /// Makes a node a twig of the leaves from number `first` on.
+  void add_twig(uint32_t index, size_t first);
+  Twig twig_of(uint32_t index, CellIndex cell) const {
+    const Range& range = twigs_[nodes_[index].twig - 1];
+    return {cell, leaves_.data() + range.first, range.count};
+  }
+  /// The box of a node, rounded as the seeds are, so the seeds are inside.
+  Box3 box_of(CellIndex home, const GradedSeeds::Node& node) const {
+    const Vec3 scale = seeds_->scale();
+    const Vec3 cell{double(node.cell.x - home.x), double(node.cell.y - home.y),
+                    double(node.cell.z - home.z)};
+    const double size = node.size();
+    return {(cell + node.low) * scale, (cell + (node.low + Vec3{size, size, size})) * scale};
+  }
+  /// Calls visit(cell) for the cells that a box meets.
+  template <class Visit>
+  void for_each_cell(CellIndex home, const Box3& box, Visit&& visit) const;
 
   std::weak_ptr<const GradedSeeds> owner_;  // identifies the foam, but does not keep it alive
   const GradedSeeds* seeds_ = nullptr;
   std::vector<Node> nodes_;
   std::vector<Slot> slots_;
   std::vector<PlacedSeed> placed_;  // of one cell
+  int twig_level_ = 0;              // nodes of this level are twigs, and leaves above it
+  std::vector<Leaf> leaves_;
+  std::vector<Range> twigs_;
 };
 
 /// Squared distances from q to the nearest and the farthest point of a box.
@@ -92,14 +154,7 @@ inline double max_squared(const Box3& box, Vec3 q) {
 template <class Wanted, class Found>
 void SeedTrees::descend(CellIndex home, uint32_t index, const GradedSeeds::Node& node,
                         Wanted& wanted, Found& found) {
-  const Vec3 scale = seeds_->scale();
-  const Vec3 cell{double(node.cell.x - home.x), double(node.cell.y - home.y),
-                  double(node.cell.z - home.z)};
-  const double size = node.size();
-  // Rounded as the seeds are, so the seeds are inside.
-  if (!wanted(
-          Box3{(cell + node.low) * scale, (cell + (node.low + Vec3{size, size, size})) * scale}))
-    return;
+  if (!wanted(box_of(home, node))) return;
   uint32_t children = nodes_[index].children;
   if (children == not_known) children = grow(index, node);
   if (children == is_leaf) return found(leaf_seed(home, index, node));
@@ -122,7 +177,26 @@ void SeedTrees::visit_list(CellIndex home, CellIndex cell, Wanted& wanted, Found
 }
 
 template <class Wanted, class Found>
-void SeedTrees::visit(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found) {
+void SeedTrees::descend_to_twigs(CellIndex home, uint32_t index, const GradedSeeds::Node& node,
+                                 Wanted& wanted, Found& found) {
+  if (!wanted(box_of(home, node))) return;
+  if (nodes_[index].twig == 0) {
+    uint32_t children = nodes_[index].children;
+    if (children == not_known) children = grow(index, node);
+    if (children != is_leaf && node.level < twig_level_) {
+      for (uint32_t octant = 0; octant < 8; ++octant)
+        descend_to_twigs(home, children + octant, node.child(octant), wanted, found);
+      return;
+    }
+    const size_t first = leaves_.size();
+    append_leaves(index, node);
+    add_twig(index, first);
+  }
+  found(twig_of(index, node.cell));
+}
+
+template <class Visit>
+void SeedTrees::for_each_cell(CellIndex home, const Box3& box, Visit&& visit) const {
   const Vec3 scale = seeds_->scale();
   int first[3], last[3];
   for (int axis = 0; axis < 3; ++axis) {
@@ -131,13 +205,29 @@ void SeedTrees::visit(CellIndex home, const Box3& box, Wanted&& wanted, Found&& 
   }
   for (int z = first[2]; z <= last[2]; ++z)
     for (int y = first[1]; y <= last[1]; ++y)
-      for (int x = first[0]; x <= last[0]; ++x) {
-        const CellIndex cell{home.x + x, home.y + y, home.z + z};
-        if (seeds_->placed())
-          visit_list(home, cell, wanted, found);
-        else
-          descend(home, root_of(cell), {cell}, wanted, found);
-      }
+      for (int x = first[0]; x <= last[0]; ++x)
+        visit(CellIndex{home.x + x, home.y + y, home.z + z});
+}
+
+template <class Wanted, class Found>
+void SeedTrees::visit(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found) {
+  for_each_cell(home, box, [&](CellIndex cell) {
+    if (seeds_->placed())
+      visit_list(home, cell, wanted, found);
+    else
+      descend(home, root_of(cell), {cell}, wanted, found);
+  });
+}
+
+template <class Wanted, class Found>
+void SeedTrees::visit_twigs(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found) {
+  for_each_cell(home, box, [&](CellIndex cell) {
+    if (!seeds_->placed()) return descend_to_twigs(home, root_of(cell), {cell}, wanted, found);
+    if (!wanted(box_of(home, {cell}))) return;
+    const uint32_t list = list_of(cell);
+    if (nodes_[list].twig == 0) append_placed(list);
+    found(twig_of(list, cell));
+  });
 }
 
 template <class Found>
