@@ -17,15 +17,84 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
+using D = hn::ScalableTag<float>;
+using DI = hn::RebindToSigned<D>;
+
+/// Selects segments by the numbers of their nodes.
+class Selection {
+ public:
+  Selection(const SegmentSet& set, const float* low, const float* high, float* const* out)
+      : set_(set), low_(low), high_(high), out_(out) {}
+
+  size_t count() const { return count_; }
+
+  /// Whether segments of these nodes, where `in`, meet the box along an axis.
+  template <class VI>
+  HWY_INLINE hn::Mask<D> meets(int axis, VI at_a, VI at_b, hn::Mask<D> in) const {
+    const D d;
+    const auto a = hn::GatherIndex(d, set_.nodes(axis), at_a),
+               b = hn::GatherIndex(d, set_.nodes(axis), at_b);
+    return hn::And(in, hn::And(hn::Le(hn::Min(a, b), hn::Set(d, high_[axis])),
+                               hn::Ge(hn::Max(a, b), hn::Set(d, low_[axis]))));
+  }
+
+  /// Writes the components of those that meet the box.
+  template <class VI>
+  HWY_INLINE void add(VI at_a, VI at_b, hn::Mask<D> in) {
+    const D d;
+    hn::Vec<D> c[6];
+    for (int axis = 0; axis < 3; ++axis) {
+      c[axis] = hn::GatherIndex(d, set_.nodes(axis), at_a);
+      c[axis + 3] = hn::GatherIndex(d, set_.nodes(axis), at_b);
+      in = hn::And(in, hn::And(hn::Le(hn::Min(c[axis], c[axis + 3]), hn::Set(d, high_[axis])),
+                               hn::Ge(hn::Max(c[axis], c[axis + 3]), hn::Set(d, low_[axis]))));
+    }
+    const size_t found = hn::CountTrue(d, in);
+    if (!found) return;
+    const Compression<D> compress(in);
+    for (int k = 0; k < 6; ++k) hn::StoreU(compress(c[k]), d, out_[k] + count_);
+    count_ += found;
+  }
+
+  /// The same, for an axis along which few meet it: those that do so wait until they fill vectors.
+  template <class VI>
+  HWY_INLINE void add_few(int axis, VI at_a, VI at_b, hn::Mask<D> in) {
+    const DI di;
+    in = meets(axis, at_a, at_b, in);
+    const Compression<DI> compress(hn::RebindMask(di, in));
+    hn::StoreU(compress(at_a), di, waiting_[0] + waiting_count_);
+    hn::StoreU(compress(at_b), di, waiting_[1] + waiting_count_);
+    waiting_count_ += hn::CountTrue(D(), in);
+    if (waiting_count_ < hn::Lanes(di)) return;
+    add(hn::Load(di, waiting_[0]), hn::Load(di, waiting_[1]), hn::FirstN(D(), hn::Lanes(di)));
+    waiting_count_ -= hn::Lanes(di);
+    for (int32_t* numbers : {waiting_[0], waiting_[1]})
+      hn::Store(hn::Load(di, numbers + hn::Lanes(di)), di, numbers);
+  }
+  HWY_INLINE void finish() {
+    const DI di;
+    if (waiting_count_ == 0) return;
+    add(hn::Load(di, waiting_[0]), hn::Load(di, waiting_[1]), hn::FirstN(D(), waiting_count_));
+    waiting_count_ = 0;
+  }
+
+ private:
+  const SegmentSet& set_;
+  const float* const low_;
+  const float* const high_;
+  float* const* const out_;
+  size_t count_ = 0, waiting_count_ = 0;
+  // Lanes without a segment are gathered too, so they are numbers of nodes.
+  HWY_ALIGN int32_t waiting_[2][4 * max_simd_doubles] = {};
+};
+
 /// Writes the components of the segments that meet the box [low, high] to `out`; returns their
 /// number. The segments' ends are numbers of nodes.
 template <class Number>
 size_t select(const SegmentSet& set, const Number* a, const Number* b, const float* low,
               const float* high, float* const* out) {
-  using D = hn::ScalableTag<float>;
-  using V = hn::Vec<D>;
   const D d;
-  const hn::RebindToSigned<D> di;
+  const DI di;
   const hn::Rebind<Number, D> dn;
   const size_t lanes = hn::Lanes(d);
   const auto numbers = [&](const Number* ends) HWY_ATTR {
@@ -34,34 +103,30 @@ size_t select(const SegmentSet& set, const Number* a, const Number* b, const flo
     else
       return hn::BitCast(di, hn::LoadU(dn, ends));
   };
-  const V lx = hn::Set(d, low[0]), ly = hn::Set(d, low[1]), lz = hn::Set(d, low[2]);
-  const V hx = hn::Set(d, high[0]), hy = hn::Set(d, high[1]), hz = hn::Set(d, high[2]);
-  size_t count = 0;
+  // Where the box is thin, as that of a single layer, most segments miss it along one axis.
+  int thin = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (high[axis] - low[axis] < high[thin] - low[thin]) thin = axis;
+  Selection selection(set, low, high, out);
   for (size_t run = 0; run < set.runs(); ++run) {
     bool meets = true;
     for (int axis = 0; axis < 3; ++axis)
       meets &= set.bound(axis)[run] <= high[axis] && set.bound(axis + 3)[run] >= low[axis];
     if (!meets) continue;
+    const bool has_few =
+        2 * (high[thin] - low[thin]) < set.bound(thin + 3)[run] - set.bound(thin)[run];
     const size_t end = set.run_end(run);
     for (size_t i = set.run_start(run); i < end; i += lanes) {
       const auto at_a = numbers(a + i), at_b = numbers(b + i);
-      V c[6];
-      for (int axis = 0; axis < 3; ++axis) {
-        c[axis] = hn::GatherIndex(d, set.nodes(axis), at_a);
-        c[axis + 3] = hn::GatherIndex(d, set.nodes(axis), at_b);
-      }
-      auto in = hn::RebindMask(d, hn::FirstN(di, end - i));
-      in = hn::And(in, hn::And(hn::Le(hn::Min(c[0], c[3]), hx), hn::Ge(hn::Max(c[0], c[3]), lx)));
-      in = hn::And(in, hn::And(hn::Le(hn::Min(c[1], c[4]), hy), hn::Ge(hn::Max(c[1], c[4]), ly)));
-      in = hn::And(in, hn::And(hn::Le(hn::Min(c[2], c[5]), hz), hn::Ge(hn::Max(c[2], c[5]), lz)));
-      const size_t found = hn::CountTrue(d, in);
-      if (!found) continue;
-      const Compression<D> compress(in);
-      for (int k = 0; k < 6; ++k) hn::StoreU(compress(c[k]), d, out[k] + count);
-      count += found;
+      const auto in = hn::RebindMask(d, hn::FirstN(di, end - i));
+      if (has_few)
+        selection.add_few(thin, at_a, at_b, in);
+      else
+        selection.add(at_a, at_b, in);
     }
   }
-  return count;
+  selection.finish();
+  return selection.count();
 }
 
 size_t select_segments(const SegmentSet& set, const float* low, const float* high,
@@ -73,10 +138,9 @@ size_t select_segments(const SegmentSet& set, const float* low, const float* hig
 /// Computes a and b of `count` segments from their components.
 void place_segments(const SegmentFrame& frame, const float* const* components, size_t count,
                     StrutBatch& batch) {
-  using D = hn::ScalableTag<double>;
-  using V = hn::Vec<D>;
-  const D d;
-  const hn::Rebind<float, D> df;
+  const hn::ScalableTag<double> d;
+  using V = hn::Vec<decltype(d)>;
+  const hn::Rebind<float, decltype(d)> df;
   const auto& m = frame.matrix;
   for (int end = 0; end < 2; ++end)
     for (int axis = 0; axis < 3; ++axis) {
