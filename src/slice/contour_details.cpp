@@ -90,7 +90,7 @@ void ContourDetails::hold_memory() {
   constexpr uint64_t points_of_piece = 6;
   constexpr uint64_t of_piece = 3 * sizeof(Piece) + sizeof(Search) + sizeof(Search*) +
                                 points_of_piece * ContourPoints::bytes_of_point;
-  constexpr uint64_t of_point = sizeof(DetailPoint) + sizeof(LinePoint) + 2 * sizeof(Vec2);
+  constexpr uint64_t of_point = sizeof(DetailPoint) + sizeof(LineRun) + 2 * sizeof(Vec2);
   held_.grow_to(memory_->bends.size() * sizeof(uint64_t) +
                     memory_->closed.size() * sizeof(RingPoints) +
                     memory_->pieces.size() * of_piece + memory_->details.size() * of_point,
@@ -281,7 +281,6 @@ void ContourDetails::take_arcs(ContourPoints& points) {
 /// at heights of which the largest is at least 0.75 h (least for f = 1/3). So three quarters of the
 /// tolerance leave no such corner out.
 void ContourDetails::keep_bent(ContourPoints& points) {
-  constexpr double places[] = {0.5, 0.25, 0.75};
   std::vector<Piece>& pieces = memory_->pieces;
   points.clear();
   for (const Piece& piece : pieces)
@@ -297,21 +296,29 @@ void ContourDetails::keep_bent(ContourPoints& points) {
   const auto beside = [](const Piece& piece, Vec2 aside, double place) {
     return piece.a + (piece.b - piece.a) * place + aside;
   };
-  points.clear();
-  for (const Piece& piece : pieces) {
-    const Vec2 aside = aside_of(piece);
-    for (const double place : places) points.add(beside(piece, aside, place));
-  }
-  const std::vector<uint8_t>& inside = points.find_inside();
-  n = 0;
+  const auto look_beside = [&](std::span<const double> places) {
+    points.clear();
+    for (const Piece& piece : pieces) {
+      if (piece.is_bent) continue;
+      const Vec2 aside = aside_of(piece);
+      for (const double place : places) points.add(beside(piece, aside, place));
+    }
+    const std::vector<uint8_t>& inside = points.find_inside();
+    size_t next = 0;
+    for (Piece& piece : pieces) {
+      if (piece.is_bent) continue;
+      // Along the edges of a window, what is beyond does not count.
+      for (const double place : places)
+        if ((inside[next++] != 0) == piece.is_inside && !piece.is_bent)
+          piece.is_bent = is_in_window(beside(piece, aside_of(piece), place));
+    }
+  };
+  constexpr double middle[] = {0.5}, quarters[] = {0.25, 0.75};
+  look_beside(middle);  // it tells for most
+  look_beside(quarters);
   size_t kept = 0;
   for (const Piece& piece : pieces) {
-    bool is_bent = false;
-    // Along the edges of a window, what is beyond does not count.
-    for (const double place : places)
-      if ((inside[n++] != 0) == piece.is_inside && !is_bent)
-        is_bent = is_in_window(beside(piece, aside_of(piece), place));
-    if (!is_bent) continue;
+    if (!piece.is_bent) continue;
     if (piece.depth < max_depth)
       pieces[kept++] = piece;
     else

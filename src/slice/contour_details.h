@@ -58,7 +58,7 @@ class ContourDetails {
     uint32_t id, next;  // crossings
     int depth = 0;
     int turn = 0;  // where known: 1: the boundary turns left between its ends, -1: right
-    bool has_arc = false, has_corner = false, is_inside = false;
+    bool has_arc = false, has_corner = false, is_inside = false, is_bent = false;
     Vec2 a, b;
     Vec2 arc = {}, corner = {};
     double begin = 0, end = 1;  // orders of a and b

@@ -12,6 +12,13 @@
 
 namespace msq {
 
+namespace {
+
+/// Who looks at two nodes loads two bytes.
+constexpr uint64_t columns_beyond = 16;
+
+}  // namespace
+
 ContourAxis::ContourAxis(double low, double high, double pitch, const char* name)
     : low_(low), high_(high), pitch_(pitch), inverse_pitch_(1 / pitch) {
   constexpr double max_nodes = 0x1p31 - 256, max_index = 0x1p40, shift = 0.3125;
@@ -41,7 +48,7 @@ ContourGrid::ContourGrid(LayerPlane plane, const double window_min[2], const dou
       u_(window_min[0], window_max[0], pitch, plane.u_axis() == 0 ? "x" : "y"),
       v_(window_min[1], window_max[1], pitch, plane.v_axis() == 1 ? "y" : "z"),
       pitch_(pitch),
-      row_words_(words_for(uint64_t{right_edge()} + 2)) {}
+      row_words_(words_for(uint64_t{right_edge()} + 2 + columns_beyond)) {}
 
 uint64_t ContourGrid::bytes(const Model& model, const Scales& resolved) const {
   SampleGrid grid;

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -81,6 +82,17 @@ class ContourAxis {
  private:
   double low_, high_, pitch_, inverse_pitch_, first_ = 0;
   uint64_t inner_ = 0;
+};
+
+/// Edges of the grid that begin at the nodes of a word, all horizontal or all vertical ones.
+struct EdgeWord {
+  uint64_t bits;   ///< whether they lead from a node inside to one outside, or back
+  uint32_t first;  ///< the number of the first crossing on them, or on later ones
+
+  /// The number of the crossing on an edge, by its place in the word.
+  uint32_t crossing(uint32_t bit) const {
+    return first + static_cast<uint32_t>(std::popcount(bits & ((uint64_t{1} << bit) - 1)));
+  }
 };
 
 class ContourPoints;

@@ -17,19 +17,22 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+#include <cstdint>
 
-#include "slice/contour_points.h"
+#include "slice/contour_ring_kernels.h"
 
 namespace msq {
 
-struct LinePoint {
-  Vec2 at;
-  bool is_fixed;             ///< it stays
-  double left[2], right[2];  ///< ends of its gate, of points that are not fixed
+/// A part of a ring: from a point that stays, by crossings, to the point where the next part
+/// begins.
+struct LineRun {
+  Vec2 from;
+  uint32_t first, end;  ///< of the crossings between
 };
 
-/// The points of a closed ring that remain.
-void simplify_ring(const std::vector<LinePoint>& ring, std::vector<Vec2>& out);
+/// Writes the points of a closed ring that remain, multiplied by `units`: no more than there are.
+/// Returns their number. The last run leads to the first one. `at`, `gates`: of the crossings.
+size_t simplify_ring(const LineRun* runs, size_t count, const Vec2* at, const LineGate* gates,
+                     double units, Vec2* out);
 
 }  // namespace msq

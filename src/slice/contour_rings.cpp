@@ -4,36 +4,67 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/simd.h"
+#include "slice/cell_sides.h"
+
 namespace msq {
 
 namespace {
 
 /// Rings lead through rows above their lowest one.
-constexpr uint32_t rows_ahead = 16;
+constexpr uint32_t rows_ahead = 24;
 /// What is known of so many crossings stays in the core's cache while they are looked into.
-constexpr uint32_t crossings_at_once = 1 << 14;
+constexpr uint32_t crossings_at_once = 1 << 12;
+/// Where membership costs less for many points at once.
+constexpr uint32_t many_crossings_at_once = 1 << 14;
+/// Room at first; then for all.
+constexpr uint32_t first_room = many_crossings_at_once;
+
+constexpr uint64_t cell_at(uint32_t column, uint32_t row) {
+  return column | uint64_t{row} << 32;
+}
+constexpr uint32_t column_of(uint64_t cell) {
+  return static_cast<uint32_t>(cell);
+}
+constexpr uint32_t row_of(uint64_t cell) {
+  return static_cast<uint32_t>(cell >> 32);
+}
+
+InnerCells inner_cells(const ContourGrid& grid) {
+  return {cell_at(ContourGrid::first_inner, ContourGrid::first_inner_row),
+          cell_at(grid.right_edge() - 2, grid.top_edge() - 2)};
+}
 
 }  // namespace
 
-ContourRings::ContourRings(const ContourSection& section)
+ContourRings::ContourRings(const ContourSection& section, bool has_struts)
     : grid_(section.grid()),
+      at_once_(has_struts ? crossings_at_once : many_crossings_at_once),
       axes_{{grid_.u_nodes().first(), grid_.pitch(), grid_.u_nodes().low(), grid_.u_nodes().high(),
              ContourGrid::first_inner, ContourGrid::left_beyond, ContourGrid::left_edge,
              grid_.right_edge()},
             {grid_.v_nodes().first(), grid_.pitch(), grid_.v_nodes().low(), grid_.v_nodes().high(),
              ContourGrid::first_inner_row, 0, ContourGrid::bottom_row, grid_.top_edge()}},
-      margin_(section.margin()) {
-  if (memory_->x.size() < section.count()) {
-    memory_->x.resize(section.count());
-    memory_->y.resize(section.count());
-    memory_->edges.resize(section.count());
-    memory_->kinds.resize(section.count());
-  }
+      margin_(section.margin()),
+      nodes_{grid_.u_nodes().first(),  grid_.v_nodes().first(),      grid_.pitch(),
+             ContourGrid::first_inner, ContourGrid::first_inner_row, margin_},
+      steps_(grid_.row_words()),
+      room_(std::min(section.count(), first_room)) {
+  if (memory_->x.size() < room_ + max_simd_doubles) memory_->resize(room_ + max_simd_doubles);
+  room_ = static_cast<uint32_t>(
+      std::min<size_t>(section.count(), memory_->x.size() - max_simd_doubles));
+}
+
+uint64_t ContourRings::bytes(uint64_t crossings) {
+  constexpr uint64_t bytes_of_crossing = 3 * sizeof(double) + sizeof(uint64_t) + sizeof(uint8_t);
+  // Where there is no room for a ring, it is copied to where there is.
+  return (crossings + std::min<uint64_t>(crossings, first_room) + 2 * max_simd_doubles) *
+         bytes_of_crossing;
 }
 
 void ContourRings::follow_all(ContourSection& section, const Job* job,
                               const std::function<void()>& visit) {
-  const EdgeCrossing* const crossings = section.crossings();
+  const uint32_t* const rings = section.rings();
   uint32_t id = 0;
   for (uint32_t r = 0; r < grid_.rows(); ++r) {
     check_cancelled(job);
@@ -41,102 +72,108 @@ void ContourRings::follow_all(ContourSection& section, const Job* job,
     const uint32_t row_start = id;
     for (size_t w = 0; w < grid_.row_words(); ++w)
       for (uint64_t rest = section.horizontal(r, w); rest; rest &= rest - 1, ++id) {
-        if (crossings[id].way == ContourSection::visited) continue;
+        if (rings[id] != ContourSection::no_ring) continue;
         const uint32_t column =
             static_cast<uint32_t>(w * 64) + static_cast<uint32_t>(std::countr_zero(rest));
         // It is the leftmost crossing on the ring's lowest row, so what is to its left is around
         // the ring. The crossing before it on the row, if any, is of a ring that borders on the
         // same.
-        const uint32_t beside = id > row_start ? crossings[id - 1].next : none;
+        const uint32_t beside = id > row_start ? rings[id - 1] : none;
         const uint32_t first = count();
-        const bool is_closed = follow(section, id, column, r, job);
-        rings_.push_back({first, count(), beside, grid_.inside(column, r), is_closed});
-        if (count() < crossings_at_once) continue;
+        const bool is_inner = follow(section, id, column, r, job);
+        rings_.push_back({first, count(), beside, grid_.inside(column, r), true, is_inner});
+        if (count() < at_once_) continue;
+        place();
         visit();
         rings_before_ += static_cast<uint32_t>(rings_.size());
         rings_.clear();
         count_ = 0;
       }
   }
+  place();
   visit();
 }
 
 bool ContourRings::follow(ContourSection& section, uint32_t id, uint32_t column, uint32_t row,
                           const Job* job) {
-  // By the side of the cell that the boundary leaves: the edge relative to the cell, its kind, and
-  // the way to the next cell. The inside is on the left, so it goes up and to the left where the
-  // edge's first node is inside.
-  struct Step {
-    uint8_t kind, right, up;
-    int8_t next_right, next_up;
-  };
-  constexpr Step steps[4] = {{horizontal, 0, 0, 0, -1},
-                             {0, 1, 0, 1, 0},
-                             {horizontal | first_inside, 0, 1, 0, 1},
-                             {first_inside, 0, 0, -1, 0}};
   const uint32_t number = rings_before_ + static_cast<uint32_t>(rings_.size());
-  EdgeCrossing* const crossings = section.crossings();
-  const double* const ends = section.ends();
-  double* const x = memory_->x.data();
-  double* const y = memory_->y.data();
-  RingEdge* const edges = memory_->edges.data();
-  uint8_t* const out_kinds = memory_->kinds.data();
   const bool goes_up = grid_.inside(column, row);
-  uint8_t kind = goes_up ? horizontal | first_inside : horizontal;
-  uint8_t kinds = 0;
-  uint32_t cell_column = column, cell_row = goes_up ? row : row - 1;
-  uint32_t n = count_;
-  CancelPoll poll(job);
-  for (;; ++n) {
-    poll();
-    EdgeCrossing& c = crossings[id];
-    const uint32_t way = c.way;
-    if (way == ContourSection::visited) break;
-    // Horizontal and vertical edges alternate in no order: indices instead of branches.
-    const uint32_t place[2] = {column, row};
-    const uint32_t along = ~kind & horizontal, across = along ^ 1;
-    const Axis &a = axes_[along], &b = axes_[across];
-    const uint32_t at_along = place[along], at_across = place[across];
-    double low, high, line;
-    if (a.are_inner(at_along) && b.are_inner(at_across)) {
-      low = a.inner_at(at_along);
-      high = a.inner_at(at_along + 1);
-      line = b.inner_at(at_across);
-    } else {
-      low = a.at(at_along);
-      high = a.at(at_along + 1);
-      line = b.at(at_across);
-      if (b.is_edge(at_across)) kind |= seam;
-      if (a.is_beyond(at_along)) kind |= beyond;
+  RingPlace place{cell_at(column, goes_up ? row : row - 1), id,
+                  goes_up ? cell_sides::top : cell_sides::bottom};
+  uint64_t inner_bits = 0;
+  constexpr uint32_t poll_interval = 1024;
+  do {
+    if (count_ == room_) {
+      room_ = section.count();
+      memory_->resize(room_ + max_simd_doubles);
     }
-    const uint64_t sign = static_cast<uint64_t>(kind & first_inside) << (63 - first_inside_bit);
-    const double end = std::bit_cast<double>(std::bit_cast<uint64_t>(ends[id]) ^ sign);
-    double at[2];
-    at[across] = line;
-    at[along] = kind & beyond ? low : std::min(std::max(end, low + margin_), high - margin_);
-    if (ContourSection::enters_saddle(way)) kind |= saddle;
-    kinds |= kind;
-    x[n] = at[0];
-    y[n] = at[1];
-    edges[n] = {column, row};
-    out_kinds[n] = kind;
-    const Step& step = steps[static_cast<size_t>(ContourSection::side_of(way))];
-    id = c.next;
-    c = {number, ContourSection::visited};
-    kind = step.kind;
-    column = cell_column + step.right;
-    row = cell_row + step.up;
-    cell_column += static_cast<uint32_t>(static_cast<int32_t>(step.next_right));
-    cell_row += static_cast<uint32_t>(static_cast<int32_t>(step.next_up));
+    count_ =
+        follow_ring({section, steps_, inner_cells(grid_), section.rings(), memory_->ends.data(),
+                     memory_->cells.data(), memory_->kinds.data()},
+                    number, id, count_, std::min(room_, count_ + poll_interval), place, inner_bits);
+    check_cancelled(job);
+  } while (place.crossing != id);
+  return InnerCells::are_inner(inner_bits);
+}
+
+/// Finds where the crossings of the rings lie.
+void ContourRings::place() {
+  place_crossings({memory_->cells.data(), memory_->kinds.data(), count_}, nodes_,
+                  memory_->ends.data(), memory_->x.data(), memory_->y.data());
+  for (Ring& ring : rings_)
+    if (!ring.is_inner) place_at_edges(ring);
+}
+
+ContourRings::Edge ContourRings::edge_of(uint32_t i) const {
+  uint32_t column = column_of(memory_->cells[i]), row = row_of(memory_->cells[i]);
+  if (is_horizontal(i)) {
+    if (!starts_inside(i)) ++row;  // it comes down
+    return {column, row, 0};
   }
-  count_ = n;
-  return !(kinds & beyond);
+  if (starts_inside(i)) ++column;  // it comes from the right
+  return {row, column, 1};
+}
+
+void ContourRings::place_at_edges(Ring& ring) {
+  const InnerCells inner = inner_cells(grid_);
+  for (uint32_t i = ring.first; i < ring.end; ++i) {
+    if (InnerCells::are_inner(inner.bits(memory_->cells[i]))) continue;
+    const Edge edge = edge_of(i);
+    const Axis &along = axes_[edge.axis], &across = axes_[edge.axis ^ 1];
+    const double low = along.at(edge.along), high = along.at(edge.along + 1);
+    if (across.is_edge(edge.across)) memory_->kinds[i] |= ring_kind::seam;
+    if (along.is_beyond(edge.along)) memory_->kinds[i] |= ring_kind::beyond;
+    const double end = starts_inside(i) ? -memory_->ends[i] : memory_->ends[i];
+    const double place =
+        is_beyond(i) ? low : std::min(std::max(end, low + margin_), high - margin_);
+    const double line = across.at(edge.across);
+    memory_->x[i] = edge.axis == 0 ? place : line;
+    memory_->y[i] = edge.axis == 0 ? line : place;
+    ring.is_closed = ring.is_closed && !is_beyond(i);
+  }
+}
+
+void ContourRings::find_gates(const Ring& ring, double tolerance, Vec2* at, LineGate* gates) const {
+  const size_t first = ring.first, count = ring.end - ring.first;
+  msq::find_gates({memory_->cells.data() + first, memory_->kinds.data() + first, count}, nodes_,
+                  memory_->x.data() + first, memory_->y.data() + first, tolerance, at, gates);
+  if (ring.is_inner) return;
+  const InnerCells inner = inner_cells(grid_);
+  for (uint32_t i = ring.first; i < ring.end; ++i) {
+    if (InnerCells::are_inner(inner.bits(memory_->cells[i]))) continue;
+    const Edge edge = edge_of(i);
+    const Axis& along = axes_[edge.axis];
+    const double middle = edge.axis == 0 ? memory_->x[i] : memory_->y[i];
+    const double low = std::max(middle - tolerance, along.at(edge.along) + margin_);
+    const double high = std::min(middle + tolerance, along.at(edge.along + 1) - margin_);
+    const double left = starts_inside(i) ? low : high, right = starts_inside(i) ? high : low;
+    gates[i - ring.first] = edge.axis == 0 ? LineGate{left, right, memory_->y[i], memory_->y[i]}
+                                           : LineGate{memory_->x[i], memory_->x[i], left, right};
+  }
 }
 
 ContourRings::Cell ContourRings::cell_of(uint32_t i) const {
-  uint32_t column = memory_->edges[i].column, row = memory_->edges[i].row;
-  if (is_horizontal(i) && !starts_inside(i)) --row;     // it comes down
-  if (!is_horizontal(i) && starts_inside(i)) --column;  // it comes from the right
+  const uint32_t column = column_of(memory_->cells[i]), row = row_of(memory_->cells[i]);
   return {{grid_.u(column), grid_.v(row)}, {grid_.u(column + 1), grid_.v(row + 1)}};
 }
 

@@ -10,18 +10,15 @@
 #include "base/borrowed.h"
 #include "base/job.h"
 #include "base/vec2.h"
+#include "slice/contour_ring_kernels.h"
 #include "slice/contour_section.h"
 
 namespace msq {
 
-/// The edge of a crossing.
-struct RingEdge {
-  uint32_t column, row;
-};
-
 class ContourRings {
  public:
-  explicit ContourRings(const ContourSection& section);
+  /// `has_struts`: they tell of membership.
+  ContourRings(const ContourSection& section, bool has_struts);
 
   /// Follows all rings of the section; its crossings then know the numbers of their rings. Calls
   /// visit() whenever there are some: then rings() and all else here tell of these alone.
@@ -33,6 +30,7 @@ class ContourRings {
                           ///< nothing is around both
     bool is_hole;
     bool is_closed;  ///< none of its crossings lies beyond the window
+    bool is_inner;   ///< none of its cells touches an edge of the window
   };
   static constexpr uint32_t none = UINT32_MAX;
   /// In the order of their lowest rows.
@@ -46,38 +44,28 @@ class ContourRings {
   const double* x() const { return memory_->x.data(); }
   const double* y() const { return memory_->y.data(); }
 
-  bool is_horizontal(uint32_t i) const { return memory_->kinds[i] & horizontal; }
+  bool is_horizontal(uint32_t i) const { return memory_->kinds[i] & ring_kind::horizontal; }
   /// Whether the first node of its edge is inside.
-  bool starts_inside(uint32_t i) const { return memory_->kinds[i] & first_inside; }
-  bool is_beyond(uint32_t i) const { return memory_->kinds[i] & beyond; }
+  bool starts_inside(uint32_t i) const { return memory_->kinds[i] & ring_kind::first_inside; }
+  bool is_beyond(uint32_t i) const { return memory_->kinds[i] & ring_kind::beyond; }
   /// Whether it lies on an edge of the window.
-  bool is_on_seam(uint32_t i) const { return memory_->kinds[i] & seam; }
-  bool is_before_saddle(uint32_t i) const { return memory_->kinds[i] & saddle; }
+  bool is_on_seam(uint32_t i) const { return memory_->kinds[i] & ring_kind::seam; }
+  bool is_before_saddle(uint32_t i) const { return memory_->kinds[i] & ring_kind::saddle; }
 
   /// The cell that follows a crossing.
   struct Cell {
     Vec2 low, high;
   };
   Cell cell_of(uint32_t i) const;
-  struct Ends {
-    double low, high;
-  };
-  /// Of the edge.
-  Ends ends(uint32_t i) const {
-    const Axis& axis = axes_[axis_along(i)];
-    const uint32_t n = place_along(i);
-    if (axis.are_inner(n)) return {axis.inner_at(n), axis.inner_at(n + 1)};
-    return {axis.at(n), axis.at(n + 1)};
-  }
-  /// Of the edge: 0 if it is horizontal, else 1.
-  uint32_t axis_along(uint32_t i) const { return ~uint32_t{memory_->kinds[i]} & horizontal; }
 
-  static constexpr uint64_t bytes_of_crossing = 2 * sizeof(double) + sizeof(RingEdge) + 1;
+  /// Of the crossings of a ring, finds the places and the gates. Both have room for them and for
+  /// max_simd_doubles more. What lies beyond the window has no gate.
+  void find_gates(const Ring& ring, double tolerance, Vec2* at, LineGate* gates) const;
+
+  /// Of a section with so many crossings.
+  static uint64_t bytes(uint64_t crossings);
 
  private:
-  enum : uint8_t { horizontal = 1, first_inside = 2, beyond = 4, seam = 8, saddle = 16 };
-  static constexpr int first_inside_bit = 1;
-
   /// Nodes along an axis, by their columns or rows; what the grid says of them, but without calls.
   struct Axis {
     double first, pitch, low, high;
@@ -95,30 +83,44 @@ class ContourRings {
     bool is_beyond(uint32_t n) const { return n == beyond || n == end; }
   };
 
-  /// Whether the ring is closed.
+  struct Edge {
+    uint32_t along, across;  // places of its first node along its direction and across it
+    uint32_t axis;           // of its direction
+  };
+  Edge edge_of(uint32_t i) const;
+  /// Whether the ring is inner.
   bool follow(ContourSection& section, uint32_t id, uint32_t column, uint32_t row, const Job* job);
-  uint32_t place_along(uint32_t i) const {
-    const RingEdge& e = memory_->edges[i];
-    return is_horizontal(i) ? e.column : e.row;
-  }
+  void place();
+  void place_at_edges(Ring& ring);
 
   const ContourGrid& grid_;
+  const uint32_t at_once_;
   const Axis axes_[2];
   const double margin_;
   std::vector<Ring> rings_;
   uint32_t rings_before_ = 0;  // rings of earlier visits
-  // Kept between calls: fresh memory of this size takes a while to get. May hold more than count_.
+  const RingNodes nodes_;
+  const RingSteps steps_;
+  // Kept between calls: fresh memory of this size takes a while to get. May hold more than count_,
+  // and what vectors read and write beyond it.
   struct Memory {
-    std::vector<double> x, y;
-    std::vector<RingEdge> edges;
-    std::vector<uint8_t> kinds;
+    std::vector<double> x, y, ends;  // ends: as the section has them
+    std::vector<uint64_t> cells;     // that follow crossings: see RingCrossings
+    std::vector<uint8_t> kinds;      // see ring_kind
+    void resize(size_t size) {
+      x.resize(size);
+      y.resize(size);
+      ends.resize(size);
+      cells.resize(size);
+      kinds.resize(size);
+    }
     size_t bytes() const {
-      return (x.capacity() + y.capacity()) * sizeof(double) + edges.capacity() * sizeof(RingEdge) +
-             kinds.capacity();
+      return (x.capacity() + y.capacity() + ends.capacity()) * sizeof(double) +
+             cells.capacity() * sizeof(uint64_t) + kinds.capacity();
     }
   };
   const Borrowed<Memory> memory_;
-  uint32_t count_ = 0;
+  uint32_t room_, count_ = 0;
 };
 
 }  // namespace msq

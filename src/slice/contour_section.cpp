@@ -8,27 +8,10 @@
 #include "base/memory.h"
 #include "base/simd.h"
 #include "base/status.h"
-#include "slice/cell_sides.h"
 
 namespace msq {
 
-using namespace cell_sides;
-
 namespace {
-
-constexpr uint32_t into_saddle = 4;
-
-/// Where a piece of the boundary comes into a cell and leaves it, by which of its nodes are inside:
-/// bits 0 to 3 are the nodes from the lowest on, counter-clockwise. Saddles have two pieces.
-struct Piece {
-  uint8_t in, out;
-};
-constexpr Piece piece_of[16] = {
-    {0, 0},        {bottom, left},  {right, bottom}, {right, left}, {top, right}, {0, 0},
-    {top, bottom}, {top, left},     {left, top},     {bottom, top}, {0, 0},       {right, top},
-    {left, right}, {bottom, right}, {left, bottom},  {0, 0},
-};
-constexpr unsigned rising = 0b0101, falling = 0b1010;
 
 /// The end of crossings that no strut has been found for.
 constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -39,20 +22,22 @@ uint64_t ContourSection::count_crossings(const Job* job) {
   const uint32_t rows = grid_.rows();
   const size_t words = grid_.row_words();
   uint64_t sum = 0;
-  const auto count = [&](auto&& edges, std::vector<uint32_t>& starts, uint32_t end) {
-    starts.resize(size_t{end} * words);
-    for (uint32_t r = 0; r < end; ++r) {
+  memory_->edges.resize(2 * edge_words());
+  EdgeWord* out = memory_->edges.data();
+  const auto count = [&](auto&& edges, uint32_t end) {
+    for (uint32_t r = 0; r <= rows; ++r) {
       if (r % 64 == 0) check_cancelled(job);
       for (size_t w = 0; w < words; ++w) {
-        starts[r * words + w] = static_cast<uint32_t>(sum);
+        const uint64_t found = r < end ? edges(r, w) : 0;
+        *out++ = {found, static_cast<uint32_t>(sum)};
         // Most words have none, and counting is a call where the instruction is not known to exist.
-        if (const uint64_t found = edges(r, w)) sum += static_cast<uint64_t>(std::popcount(found));
+        if (found) sum += static_cast<uint64_t>(std::popcount(found));
       }
     }
   };
-  count([&](uint32_t r, size_t w) { return horizontal(r, w); }, memory_->horizontal, rows);
+  count([&](uint32_t r, size_t w) { return horizontal(r, w); }, rows);
   const uint64_t across = sum;
-  count([&](uint32_t r, size_t w) { return vertical(r, w); }, memory_->vertical, rows - 1);
+  count([&](uint32_t r, size_t w) { return vertical(r, w); }, rows - 1);
   if (sum >= UINT32_MAX)
     fail(Status::limit, "the layer has %llu crossings of the grid; the limit is %u",
          static_cast<unsigned long long>(sum), UINT32_MAX - 1);
@@ -63,64 +48,59 @@ uint64_t ContourSection::count_crossings(const Job* job) {
 
 void ContourSection::trace(ContourPoints& points, double accuracy, const PlaneStruts* struts,
                            const ContourGrid* shape) {
-  if (memory_->crossings.size() < crossing_count_) memory_->crossings.resize(crossing_count_);
+  if (memory_->rings.size() <= horizontal_count_)
+    memory_->rings.resize(size_t{horizontal_count_} + 1);
+  std::fill_n(memory_->rings.begin(), horizontal_count_, no_ring);
   if (memory_->ends.size() <= crossing_count_) memory_->ends.resize(size_t{crossing_count_} + 1);
-  link(points.job());
+  find_saddles(points.job());
   locate(points, accuracy, struts, shape);
 }
 
-void ContourSection::link(const Job* job) {
-  EdgeCrossing* const crossings = this->crossings();
+void ContourSection::find_saddles(const Job* job) {
   const uint32_t rows = grid_.rows();
   const size_t words = grid_.row_words();
+  saddle_rows_.clear();
   for (uint32_t r = 0; r + 1 < rows; ++r) {
     if (r % 64 == 0) check_cancelled(job);
-    // Crossings of each kind come in the order of columns.
-    uint32_t low = memory_->horizontal[r * words], high = memory_->horizontal[(r + 1) * words];
-    uint32_t up = memory_->vertical[r * words];
+    saddle_rows_.push_back(static_cast<uint32_t>(saddles_.size()));
+    const uint64_t *const low = grid_.row(r), *const high = grid_.row(r + 1);
     for (size_t w = 0; w < words; ++w) {
-      const uint64_t below = horizontal(r, w), above = horizontal(r + 1, w);
-      const uint64_t before = vertical(r, w);
-      const uint64_t behind = before >> 1 | (w + 1 < words ? vertical(r, w + 1) << 63 : 0);
-      const uint64_t nodes = grid_.row(r)[w];
-      for (uint64_t rest = below | above | before | behind; rest; rest &= rest - 1) {
+      const auto next = [&](const uint64_t* row) {
+        return row[w] >> 1 | (w + 1 < words ? row[w + 1] << 63 : 0);
+      };
+      const uint64_t low_left = low[w], high_left = high[w];
+      const uint64_t low_right = next(low), high_right = next(high);
+      const uint64_t rising = low_left & high_right & ~(low_right | high_left);
+      const uint64_t falling = low_right & high_left & ~(low_left | high_right);
+      for (uint64_t rest = rising | falling; rest; rest &= rest - 1) {
         const unsigned bit = static_cast<unsigned>(std::countr_zero(rest));
-        const auto at = [bit](uint64_t edges) { return static_cast<uint32_t>(edges >> bit & 1); };
-        const uint32_t b = at(below), t = at(above), l = at(before);
-        const uint32_t ids[4] = {low, up + l, high, up};
-        const uint32_t node = at(nodes), second = node ^ b, fourth = node ^ l, third = fourth ^ t;
-        const uint32_t code = node | second << 1 | third << 2 | fourth << 3;
-        if (code == rising || code == falling) {
-          saddles_.push_back({static_cast<uint32_t>(w * 64 + bit),
-                              r,
-                              {ids[0], ids[1], ids[2], ids[3]},
-                              code == rising,
-                              false});
-        } else {
-          const Piece piece = piece_of[code];
-          crossings[ids[piece.in]] = {ids[piece.out], piece.out};
-        }
-        low += b;
-        high += t;
-        up += l;
+        saddles_.push_back(
+            {static_cast<uint32_t>(w * 64 + bit), r, (rising >> bit & 1) != 0, false});
       }
     }
   }
+  saddle_rows_.push_back(static_cast<uint32_t>(saddles_.size()));
+}
+
+const ContourSection::Saddle& ContourSection::saddle_at(uint32_t column, uint32_t row) const {
+  return *std::lower_bound(saddles_.begin() + saddle_rows_[row],
+                           saddles_.begin() + saddle_rows_[row + 1], column,
+                           [](const Saddle& s, uint32_t c) { return s.column < c; });
 }
 
 void ContourSection::prefetch(uint32_t row) const {
-  if (row + 1 >= grid_.rows()) return;
-  constexpr uint32_t in_line = 64 / sizeof(double);
-  const size_t words = grid_.row_words(), next = (size_t{row} + 1) * words;
-  const auto fetch = [&](uint32_t id, uint32_t end) {
-    for (; id < end; id += in_line) {
-      hwy::Prefetch(memory_->crossings.data() + id);
-      hwy::Prefetch(memory_->ends.data() + id);
-    }
+  if (row >= grid_.rows()) return;
+  const size_t words = grid_.row_words(), first = size_t{row} * words;
+  const auto fetch = [](const auto* begin, const auto* end) {
+    for (; begin < end; begin += 64 / sizeof *begin) hwy::Prefetch(begin);
   };
-  fetch(memory_->horizontal[row * words], memory_->horizontal[next]);
-  fetch(memory_->vertical[row * words],
-        next < memory_->vertical.size() ? memory_->vertical[next] : crossing_count_);
+  fetch(grid_.row(row), grid_.row(row) + words);
+  for (const EdgeWord* edges : {horizontal_edges(), vertical_edges()}) {
+    fetch(edges + first, edges + first + words);
+    fetch(ends() + edges[first].first, ends() + edges[first + words].first);
+  }
+  const uint32_t* const rings = memory_->rings.data();
+  fetch(rings + horizontal_edges()[first].first, rings + horizontal_edges()[first + words].first);
 }
 
 void ContourSection::settle_saddles(ContourPoints& points) {
@@ -129,24 +109,9 @@ void ContourSection::settle_saddles(ContourPoints& points) {
     points.add({0.5 * (grid_.u(s.column) + grid_.u(s.column + 1)),
                 0.5 * (grid_.v(s.row) + grid_.v(s.row + 1))});
   const std::vector<uint8_t>& inside = points.find_inside();
-  for (size_t i = 0; i < saddles_.size(); ++i) {
-    const uint32_t* ids = saddles_[i].ids;
-    const auto connect = [&](uint32_t in, uint32_t out) {
-      EdgeCrossing& c = crossings()[ids[in]];
-      c.next = ids[out];
-      c.way = out | into_saddle;
-    };
-    // Rising: in by bottom and top; around the nodes outside where the centre is inside.
-    const bool turns_right = saddles_[i].is_rising == (inside[i] != 0);
-    saddles_[i].turns_right = turns_right;
-    if (saddles_[i].is_rising) {
-      connect(bottom, turns_right ? right : left);
-      connect(top, turns_right ? left : right);
-    } else {
-      connect(left, turns_right ? top : bottom);
-      connect(right, turns_right ? bottom : top);
-    }
-  }
+  // Around the nodes outside where the centre is inside.
+  for (size_t i = 0; i < saddles_.size(); ++i)
+    saddles_[i].turns_right = saddles_[i].is_rising == (inside[i] != 0);
 }
 
 void ContourSection::count_unseen(const PlaneStruts& struts, ContourPoints& points) {
@@ -169,18 +134,16 @@ template <class Take>
 void ContourSection::for_open_edges(const ContourGrid& shape, const Job* job, Take&& take) const {
   const double* const ends = this->ends();
   const size_t words = grid_.row_words();
-  const auto look_at = [&](auto&& edges, auto&& holds, const std::vector<uint32_t>& starts,
-                           uint32_t rows, uint32_t end_id, bool is_horizontal) {
-    for (uint32_t r = 0; r < rows; ++r) {
+  const auto look_at = [&](const EdgeWord* edges, auto&& holds, uint32_t rows, bool is_horizontal) {
+    for (uint32_t r = 0; r < rows; ++r, edges += words) {
       if (r % 64 == 0) check_cancelled(job);
-      const uint32_t* const first = starts.data() + r * words;
       uint32_t missed = 0;
-      for (uint32_t id = first[0], end = r + 1 < rows ? first[words] : end_id; id < end; ++id)
+      for (uint32_t id = edges[0].first; id < edges[words].first; ++id)
         missed += ends[id] == unknown;
       for (size_t w = 0; w < words; ++w) {
-        const uint64_t crossings = edges(r, w), beside = crossings & ~holds(r, w);
+        const uint64_t crossings = edges[w].bits, beside = crossings & ~holds(r, w);
         if (missed == 0 && beside == 0) continue;
-        uint32_t id = first[w];
+        uint32_t id = edges[w].first;
         for (uint64_t rest = crossings; rest; rest &= rest - 1, ++id) {
           const unsigned bit = static_cast<unsigned>(std::countr_zero(rest));
           if (ends[id] == unknown || (beside >> bit & 1))
@@ -194,18 +157,20 @@ void ContourSection::for_open_edges(const ContourGrid& shape, const Job* job, Ta
   const auto choose = [&](uint64_t nodes, uint64_t first, uint64_t second) {
     return (nodes & second) | (~nodes & first);
   };
-  look_at([&](uint32_t r, size_t w) { return horizontal(r, w); },
-          [&](uint32_t r, size_t w) {
-            const uint64_t* const bits = shape.row(r);
-            const uint64_t beyond = w + 1 < words ? bits[w + 1] << 63 : 0;
-            return choose(grid_.row(r)[w], bits[w], bits[w] >> 1 | beyond);
-          },
-          memory_->horizontal, grid_.rows(), horizontal_count_, true);
-  look_at([&](uint32_t r, size_t w) { return vertical(r, w); },
-          [&](uint32_t r, size_t w) {
-            return choose(grid_.row(r)[w], shape.row(r)[w], shape.row(r + 1)[w]);
-          },
-          memory_->vertical, grid_.rows() - 1, crossing_count_, false);
+  look_at(
+      horizontal_edges(),
+      [&](uint32_t r, size_t w) {
+        const uint64_t* const bits = shape.row(r);
+        const uint64_t beyond = w + 1 < words ? bits[w + 1] << 63 : 0;
+        return choose(grid_.row(r)[w], bits[w], bits[w] >> 1 | beyond);
+      },
+      grid_.rows(), true);
+  look_at(
+      vertical_edges(),
+      [&](uint32_t r, size_t w) {
+        return choose(grid_.row(r)[w], shape.row(r)[w], shape.row(r + 1)[w]);
+      },
+      grid_.rows() - 1, false);
 }
 
 void ContourSection::locate(ContourPoints& points, double accuracy, const PlaneStruts* struts,
@@ -223,8 +188,8 @@ void ContourSection::locate(ContourPoints& points, double accuracy, const PlaneS
   // Struts give their ends. On edges that the shape ends on, membership tells.
   if (struts) {
     struts->propose(grid_,
-                    {grid_.row(0), grid_.row_words(), memory_->horizontal.data(),
-                     memory_->vertical.data(), grid_.rows(), memory_->ends.data(), crossing_count_},
+                    {grid_.row(0), grid_.row_words(), horizontal_edges(), vertical_edges(),
+                     grid_.rows(), memory_->ends.data(), crossing_count_},
                     points.job());
     count_unseen(*struts, points);
     settle_saddles(points);

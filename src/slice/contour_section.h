@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The boundary of a layer as the grid of its nodes sees it: a crossing on each edge between a node
-// inside and one outside, and for each crossing the next one along the boundary, with the inside on
-// the left.
+// inside and one outside, and what cells with four crossings connect.
 // Source: marching squares, the plane case of Lorensen and Cline, "Marching cubes", 1987. Where
 // four crossings meet in a cell, membership of its centre tells which two belong together (Nielson
 // and Hamann, "The asymptotic decider", 1991, ask a bilinear function).
 //
-// Crossings are numbered as the grid is scanned, horizontal edges first, so that struts find them
-// by edge, and so that they are linked without a search. ContourRings then brings them into the
-// order of rings.
+// Crossings are numbered as the grid is scanned, horizontal edges first, so that struts and
+// ContourRings find them by edge.
 #pragma once
 
 #include <bit>
@@ -21,16 +19,6 @@
 #include "slice/contour_struts.h"
 
 namespace msq {
-
-/// On an edge of the grid between a node inside and one outside.
-struct EdgeCrossing {
-  uint32_t
-      next;      ///< the next one along the boundary; after rings were made: the number of its ring
-  uint32_t way;  ///< see contour_section.cpp
-};
-
-/// Of a cell.
-enum class CellSide : uint8_t { bottom, right, top, left };
 
 class ContourSection {
  public:
@@ -60,43 +48,49 @@ class ContourSection {
     return grid_.row(row)[w] ^ grid_.row(row + 1)[w];
   }
 
-  /// As many as count().
-  EdgeCrossing* crossings() { return memory_->crossings.data(); }
+  /// Row by row, and one row more without crossings.
+  const EdgeWord* horizontal_edges() const { return memory_->edges.data(); }
+  const EdgeWord* vertical_edges() const { return memory_->edges.data() + edge_words(); }
+  /// By crossing on a horizontal edge: the number of its ring, which ContourRings sets; until then
+  /// no_ring. One more number has no meaning.
+  uint32_t* rings() { return memory_->rings.data(); }
+  static constexpr uint32_t no_ring = UINT32_MAX;
   /// u or v of each crossing, and its negative where the first node of the edge is inside. Struts
   /// give some that are nearer to a node than the margin, or beyond it. Those beyond the window
   /// have no meaning.
   const double* ends() const { return memory_->ends.data(); }
-  /// Brings the crossings of a row of cells, and those below it, near the core.
+  /// Brings what is known of the crossings of a row of cells near the core.
   void prefetch(uint32_t row) const;
-  /// By which side the boundary leaves the cell that it enters at a crossing.
-  static CellSide side_of(uint32_t way) { return static_cast<CellSide>(way & 3); }
-  /// Whether that cell is a saddle.
-  static bool enters_saddle(uint32_t way) { return way >> 2 & 1; }
-  static constexpr uint32_t visited = UINT32_MAX;  ///< as a way: set by ContourRings
 
   /// A cell with four crossings.
   struct Saddle {
     uint32_t column, row;
-    uint32_t ids[4];   ///< bottom, right, top, left
     bool is_rising;    ///< the nodes at the lower left and the upper right are inside
     bool turns_right;  ///< bottom and right belong together, and top and left; else the others do
   };
   /// In the order of rows and columns.
   const std::vector<Saddle>& saddles() const { return saddles_; }
+  const Saddle& saddle_at(uint32_t column, uint32_t row) const;
 
   /// Cells where one sample decided what belongs together, and those that a strut passes through
   /// without a node in it.
   uint64_t unresolved() const { return saddles_.size() + unseen_; }
 
   /// Bytes of a crossing.
-  static constexpr uint64_t bytes_of_crossing = sizeof(EdgeCrossing) + sizeof(double);
+  static constexpr uint64_t bytes_of_crossing = sizeof(uint32_t) + sizeof(double);
+  /// Bytes of the edges of a grid.
+  static uint64_t bytes_of_edges(const ContourGrid& grid) {
+    return 2 * (grid.words() + grid.row_words()) * sizeof(EdgeWord);
+  }
 
  private:
   struct Edge {
     uint32_t id, column, row;
     bool is_horizontal;
   };
-  void link(const Job* job);
+  /// Of the horizontal edges, or of the vertical ones.
+  size_t edge_words() const { return grid_.words() + grid_.row_words(); }
+  void find_saddles(const Job* job);
   void settle_saddles(ContourPoints& points);
   void count_unseen(const PlaneStruts& struts, ContourPoints& points);
   void locate(ContourPoints& points, double accuracy, const PlaneStruts* struts,
@@ -110,16 +104,17 @@ class ContourSection {
   uint32_t horizontal_count_ = 0, crossing_count_ = 0;
   // Kept between calls: fresh memory of this size takes a while to get. May hold more than count().
   struct Memory {
-    std::vector<EdgeCrossing> crossings;
     std::vector<double> ends;
-    std::vector<uint32_t> horizontal, vertical;  // the first crossing of each word of edges
+    std::vector<uint32_t> rings;
+    std::vector<EdgeWord> edges;
     size_t bytes() const {
-      return crossings.capacity() * sizeof(EdgeCrossing) + ends.capacity() * sizeof(double) +
-             (horizontal.capacity() + vertical.capacity()) * sizeof(uint32_t);
+      return ends.capacity() * sizeof(double) + rings.capacity() * sizeof(uint32_t) +
+             edges.capacity() * sizeof(EdgeWord);
     }
   };
   const Borrowed<Memory> memory_;
   std::vector<Saddle> saddles_;
+  std::vector<uint32_t> saddle_rows_;  // the first saddle of each row
   uint64_t unseen_ = 0;
 };
 

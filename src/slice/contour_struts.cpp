@@ -15,7 +15,23 @@ namespace {
 constexpr double max_cells_of_tile = 64;
 /// A bound on the error of struts, relative to the cell: twice the edge_error of foams.
 constexpr double strut_error = 1e-6;
-constexpr size_t bytes_of_strut = sizeof(PlaneStrut) + sizeof(AxisPart);
+/// Of a list, though it may be shorter.
+constexpr size_t prefetched = 4;
+constexpr size_t bytes_of_strut = sizeof(PlaneStrut) + sizeof(AxisPart) + sizeof(uint32_t);
+
+/// Of the disc of a strut's section about a point of its axis: the squared radius.
+double disc_at(const PlaneStrut& s, double t) {
+  const double off = s.w - t * s.d_w;
+  return s.radius * s.radius - off * off;
+}
+/// Of the widest disc.
+double widest_of(const PlaneStrut& s, const AxisPart& part) {
+  return s.d_w != 0 ? std::clamp(s.w / s.d_w, part.from, part.to) : part.from;
+}
+/// Discs that are about as wide as the widest have at least this squared radius.
+double wide_disc(const PlaneStrut& s, const AxisPart& part) {
+  return 0.25 * disc_at(s, widest_of(s, part));
+}
 
 }  // namespace
 
@@ -30,6 +46,8 @@ PlaneStruts::PlaneStruts(const Structure& structure, const ContourGrid& grid, do
             0x1p-40 * (max_magnitude(plane.at(u_.low, v_.low)) +
                        max_magnitude(plane.at(u_.high, v_.high)) +
                        max_magnitude(structure.neighbourhood().origin));
+  // A disc whose diameter is the diagonal of a cell holds a node.
+  holds_node_ = 0.5 * grid.pitch() * grid.pitch();
   memory_->struts.clear();
   memory_->parts.clear();
   collect(structure, plane, job);
@@ -160,13 +178,15 @@ void PlaneStruts::list_by_square(const Job* job) {
   std::vector<uint32_t>& ends = memory_->starts;
   ends.assign(squares + 1, 0);
   memory_->squares.resize(count);
+  memory_->thin.clear();
   CancelPoll poll(job);
   uint64_t total = 0;
   for (size_t n = 0; n < count; ++n) {
     poll();
     const PlaneStrut& s = struts[n];
     const AxisPart& part = memory_->parts[n];
-    const double reach = s.radius + 2 * margin_;
+    const double wide = wide_disc(s, part), reach = s.radius + 2 * margin_;
+    if (wide > 0 && wide < holds_node_) memory_->thin.push_back(static_cast<uint32_t>(n));
     SquareRange& at = memory_->squares[n];
     if (!range(u_, s.a_u, s.d_u, part, reach, at.first_u, at.last_u) ||
         !range(v_, s.a_v, s.d_v, part, reach, at.first_v, at.last_v))
@@ -178,12 +198,12 @@ void PlaneStruts::list_by_square(const Job* job) {
   if (total > UINT32_MAX || count > UINT32_MAX)
     fail(Status::limit, "%llu entries of struts in squares of the layer; the limit is %u",
          static_cast<unsigned long long>(total), UINT32_MAX);
-  held_lists_ =
-      Reservation(budget_, (squares + 1 + total) * sizeof(uint32_t) + count * sizeof(SquareRange),
-                  "the struts of a layer");
+  held_lists_ = Reservation(
+      budget_, (squares + 1 + total + prefetched) * sizeof(uint32_t) + count * sizeof(SquareRange),
+      "the struts of a layer");
   uint32_t sum = 0;
   for (uint32_t& end : ends) sum = end += sum;
-  memory_->lists.resize(sum);
+  memory_->lists.resize(sum + prefetched, 0);
   for (size_t n = count; n-- > 0;) {
     poll();
     const SquareRange& at = memory_->squares[n];
@@ -203,14 +223,12 @@ void PlaneStruts::propose(const ContourGrid& grid, const CrossingTable& table,
   uint32_t row = 0;
   const auto set_rows = [&](uint32_t end) {
     if (end <= row) return;
-    const auto set = [&](const uint32_t* starts, uint32_t rows, uint32_t last) {
-      const auto start = [&](uint32_t r) {
-        return table.ends + (r < rows ? starts[r * table.row_words] : last);
-      };
+    const auto set = [&](const EdgeWord* edges) {
+      const auto start = [&](uint32_t r) { return table.ends + edges[r * table.row_words].first; };
       std::fill(start(row), start(end), std::numeric_limits<double>::infinity());
     };
-    set(table.horizontal, table.rows, table.vertical[0]);
-    set(table.vertical, table.rows - 1, table.none);
+    set(table.horizontal);
+    set(table.vertical);
     row = end;
   };
   const std::vector<PlaneStrut>& struts = memory_->struts;
@@ -242,28 +260,20 @@ void PlaneStruts::draw(const ContourGrid& grid, const NodeDrawing& out, const Jo
   }
 }
 
-// The section of a strut is a union of discs about the axis as seen along the normal. A disc whose
-// diameter is the diagonal of a cell holds a node.
+// The section of a strut is a union of discs about the axis as seen along the normal.
 std::vector<PlaneStruts::Unseen> PlaneStruts::find_unseen(const ContourGrid& grid,
                                                           const Job* job) const {
   std::vector<Unseen> unseen;
   const ContourAxis &u = grid.u_nodes(), &v = grid.v_nodes();
-  const double holds_node = 0.5 * grid.pitch() * grid.pitch();
   CancelPoll poll(job);
-  for (size_t n = 0; n < memory_->struts.size(); ++n) {
+  for (const uint32_t n : memory_->thin) {
     poll();
     const PlaneStrut& s = memory_->struts[n];
     const AxisPart& part = memory_->parts[n];
-    const auto disc = [&](double t) {  // its squared radius
-      const double off = s.w - t * s.d_w;
-      return s.radius * s.radius - off * off;
-    };
-    const double widest = s.d_w != 0 ? std::clamp(s.w / s.d_w, part.from, part.to) : part.from;
-    const double wide = 0.25 * disc(widest);
-    if (!(wide > 0 && wide < holds_node)) continue;
+    const double wide = wide_disc(s, part);
     const auto look = [&](double t) {
-      const double squared = disc(t);
-      if (!(squared >= wide && squared < holds_node)) return;
+      const double squared = disc_at(s, t);
+      if (!(squared >= wide && squared < holds_node_)) return;
       const Vec2 p{s.a_u + t * s.d_u, s.a_v + t * s.d_v};
       if (!(p.x >= u.low() && p.x < u.high() && p.y >= v.low() && p.y < v.high())) return;
       const uint32_t column = ContourGrid::left_edge + u.edge_of(p.x);
@@ -275,7 +285,7 @@ std::vector<PlaneStruts::Unseen> PlaneStruts::find_unseen(const ContourGrid& gri
     };
     const double size = (part.to - part.from) * std::hypot(s.d_u, s.d_v);
     const double steps = 1 + std::floor(size / grid.pitch());
-    look(widest);
+    look(widest_of(s, part));
     for (double i = 0; i < steps; ++i) look(part.from + (i + 0.5) / steps * (part.to - part.from));
   }
   std::sort(unseen.begin(), unseen.end(), [](const Unseen& a, const Unseen& b) {

@@ -79,6 +79,7 @@ class PlaneStruts {
   struct Memory {
     std::vector<PlaneStrut> struts;  // by the square of their section's middle
     std::vector<AxisPart> parts;
+    std::vector<uint32_t> thin;           // see find_unseen()
     std::vector<SquareRange> squares;     // that a strut is listed in
     std::vector<uint32_t> starts, lists;  // by square: numbers of struts
     size_t bytes() const;
@@ -96,6 +97,7 @@ class PlaneStruts {
   };
   Squares u_, v_;
   double margin_;
+  double holds_node_;  // the squared radius of discs that hold a node
 };
 
 }  // namespace msq

@@ -19,17 +19,16 @@ namespace {
 
 /// Points that are looked up at a time.
 constexpr size_t points_at_once = 64;
-constexpr size_t no_square = SIZE_MAX;
+constexpr double no_square = -1;
 
-/// A few points, each with its square.
-struct PointsInSquares {
-  double x[points_at_once + max_simd_doubles], y[points_at_once + max_simd_doubles];
-  size_t squares[points_at_once];
-  size_t count;
+/// Squares along an axis.
+struct SquareAxis {
+  double low, high, inverse_side, last;
 };
 struct SquareLists {
   const PlaneStrut* struts;
   const uint32_t *starts, *lists;  // by square
+  SquareAxis u, v;
   double margin;
 };
 
@@ -45,7 +44,7 @@ namespace {
 
 /// Points come along the boundary, so several in a row share a square: its struts are looked at
 /// once for a vector of them. All struts, since branches on each one would cost more.
-void find_in_squares(const PointsInSquares& points, const SquareLists& of,
+void find_in_squares(const Vec2* points, size_t count, const SquareLists& of,
                      PlaneStruts::Found* found) {
   using Found = PlaneStruts::Found;
   static_assert(static_cast<int>(Found::outside) == 0 && static_cast<int>(Found::inside) == 1 &&
@@ -55,16 +54,50 @@ void find_in_squares(const PointsInSquares& points, const SquareLists& of,
   const size_t lanes = hn::Lanes(d);
   const auto set = [&](double x) HWY_ATTR { return hn::Set(d, x); };
   const V zero = hn::Zero(d), one = set(1);
-  for (size_t n = 0; n < points.count;) {
-    const size_t square = points.squares[n];
-    if (square == no_square) {
+  double at_x[points_at_once + max_simd_doubles], at_y[points_at_once + max_simd_doubles];
+  double squares[points_at_once + max_simd_doubles];
+  const auto place_in = [&](V at, const SquareAxis& axis) HWY_ATTR {
+    const V i = hn::Mul(hn::Sub(at, set(axis.low)), set(axis.inverse_side));
+    return hn::Floor(hn::Min(hn::Max(i, zero), set(axis.last)));
+  };
+  const auto are_in = [&](V at, const SquareAxis& axis) HWY_ATTR {
+    return hn::And(hn::Ge(at, set(axis.low)), hn::Le(at, set(axis.high)));
+  };
+  for (size_t i = 0; i < count; i += lanes) {
+    V x, y;
+    if (i + lanes <= count) {
+      hn::LoadInterleaved2(d, &points[i].x, x, y);
+    } else {
+      for (size_t n = i; n < i + lanes; ++n) {
+        at_x[n] = points[std::min(n, count - 1)].x;
+        at_y[n] = points[std::min(n, count - 1)].y;
+      }
+      x = hn::LoadU(d, at_x + i);
+      y = hn::LoadU(d, at_y + i);
+    }
+    hn::StoreU(x, d, at_x + i);
+    hn::StoreU(y, d, at_y + i);
+    const V square = hn::Add(hn::Mul(place_in(y, of.v), set(of.u.last + 1)), place_in(x, of.u));
+    hn::StoreU(hn::IfThenElse(hn::And(are_in(x, of.u), are_in(y, of.v)), square, set(no_square)), d,
+               squares + i);
+  }
+  // Most of the time would go by waiting for struts, one after the other.
+  for (size_t n = 0; n < count; n += 4) {
+    const size_t square =
+        static_cast<size_t>(std::max(int64_t{0}, static_cast<int64_t>(squares[n])));
+    const uint32_t* const list = of.lists + of.starts[square];
+    for (int i = 0; i < 4; ++i) hwy::Prefetch(of.struts + list[i]);
+  }
+  for (size_t n = 0; n < count;) {
+    if (squares[n] == no_square) {
       found[n++] = Found::doubtful;
       continue;
     }
     size_t end = n + 1;
-    const size_t most = std::min(points.count, n + lanes);
-    while (end < most && points.squares[end] == square) ++end;
-    const V p_x = hn::LoadU(d, points.x + n), p_y = hn::LoadU(d, points.y + n);
+    const size_t most = std::min(count, n + lanes);
+    while (end < most && squares[end] == squares[n]) ++end;
+    const size_t square = static_cast<size_t>(static_cast<int64_t>(squares[n]));
+    const V p_x = hn::LoadU(d, at_x + n), p_y = hn::LoadU(d, at_y + n);
     // The least distance from the surfaces of what is inside, and of what is near; squared.
     V inside = set(std::numeric_limits<double>::infinity()), near = inside;
     const uint32_t* const list_end = of.lists + of.starts[square + 1];
@@ -111,36 +144,22 @@ PlaneStruts::Found PlaneStruts::find(Vec2 p) const {
 }
 
 void PlaneStruts::find(const Vec2* points, size_t count, Found* found) const {
-  const SquareLists lists{memory_->struts.data(), memory_->starts.data(), memory_->lists.data(),
+  const auto axis = [](const Squares& s) {
+    return SquareAxis{s.low, s.high, s.inverse_side, static_cast<double>(s.count - 1)};
+  };
+  const SquareLists lists{memory_->struts.data(),
+                          memory_->starts.data(),
+                          memory_->lists.data(),
+                          axis(u_),
+                          axis(v_),
                           margin_};
-  PointsInSquares some;
-  std::fill(std::begin(some.x), std::end(some.x), 0.0);
-  std::fill(std::begin(some.y), std::end(some.y), 0.0);
-  for (size_t done = 0; done < count; done += points_at_once) {
-    some.count = std::min(count - done, points_at_once);
-    for (size_t n = 0; n < some.count; ++n) {
-      const Vec2 p = points[done + n];
-      const bool is_known = p.x >= u_.low && p.x <= u_.high && p.y >= v_.low && p.y <= v_.high;
-      some.x[n] = p.x;
-      some.y[n] = p.y;
-      some.squares[n] = is_known ? size_t{v_.at(p.y)} * u_.count + u_.at(p.x) : no_square;
-    }
-    // Most of the time would go by waiting for struts, one after the other.
-    size_t last = no_square;
-    for (size_t n = 0; n < some.count; ++n) {
-      const size_t square = some.squares[n];
-      if (square == last || square == no_square) continue;
-      last = square;
-      for (uint32_t i = lists.starts[square]; i < lists.starts[square + 1]; ++i)
-        hwy::Prefetch(lists.struts + lists.lists[i]);
-    }
-    HWY_DYNAMIC_DISPATCH(find_in_squares)(some, lists, found + done);
-  }
+  for (size_t done = 0; done < count; done += points_at_once) HWY_DYNAMIC_DISPATCH(find_in_squares)
+  (points + done, std::min(count - done, points_at_once), lists, found + done);
 }
 
 size_t PlaneStruts::Memory::bytes() const {
   return struts.capacity() * sizeof(PlaneStrut) + parts.capacity() * sizeof(AxisPart) +
-         squares.capacity() * sizeof(SquareRange) +
+         thin.capacity() * sizeof(uint32_t) + squares.capacity() * sizeof(SquareRange) +
          (starts.capacity() + lists.capacity()) * sizeof(uint32_t);
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/borrowed.h"
 #include "base/memory.h"
+#include "base/simd.h"
 #include "base/status.h"
 #include "slice/contour_details.h"
 #include "slice/contour_line.h"
@@ -64,58 +65,78 @@ class RingBuilder {
       const Written& beside = written_[from.beside];
       ring.parent = beside.is_hole != ring.is_hole ? beside.index : beside.parent;
     }
-    line_.clear();
-    bool is_next_fixed = false;
-    for (uint32_t id = from.first; id < from.end; ++id) {
-      add_crossing(id, is_next_fixed);
-      is_next_fixed = detail_ != end_ && detail_->id == id && add_details();
-    }
-    if (is_next_fixed) line_.front().is_fixed = true;
-    simplify_ring(line_, points_);
-    for (Vec2& p : points_) p = p * units_;
+    const size_t most = find_runs(from);
+    if (points_.size() < most) points_.resize(most);
+    const size_t count = simplify_ring(runs_.data(), runs_.size(), at_.data(), gates_.data(),
+                                       units_, points_.data());
     const int64_t index = static_cast<int64_t>(out_.ring_count());
     // What cannot be drawn stands for what is around it.
-    const bool is_drawn = out_.add_ring(points_, ring.parent, ring.is_hole);
+    const bool is_drawn = out_.add_ring({points_.data(), count}, ring.parent, ring.is_hole);
     dropped_ += !is_drawn;
     ring.index = is_drawn ? index : ring.parent;
     written_.push_back(ring);
   }
 
-  void add_crossing(uint32_t id, bool is_fixed) {
-    const Vec2 at = rings_.at(id);
-    if (rings_.is_beyond(id)) {
-      // Of these only the corners of the window count: once, though two crossings lie there.
-      if (rings_.is_horizontal(id) && rings_.is_on_seam(id)) line_.push_back({at, true, {}, {}});
-      return;
+  /// Finds what lies between the points that stay. `at_` and `gates_` then tell of crossings.
+  /// Returns how many points there are.
+  size_t find_runs(const ContourRings::Ring& ring) {
+    // Room for the crossings before the first point that stays once more.
+    const uint64_t room = 2 * uint64_t{ring.end - ring.first} + max_simd_doubles;
+    if (at_.size() < room) {
+      at_.resize(room);
+      gates_.resize(room);
     }
-    if (is_fixed || rings_.is_on_seam(id)) {
-      line_.push_back({at, true, {}, {}});
-      return;
+    rings_.find_gates(ring, tolerance_, at_.data(), gates_.data());
+    const DetailPoint *detail = detail_, *const end = details_until(ring.end);
+    // Both crossings of a piece with several points of its own stay.
+    const auto has_several = [&](const DetailPoint* d, uint32_t id) {
+      return end - d >= 2 && d[0].id == id && d[1].id == id;
+    };
+    bool stays = end - detail >= 2 && has_several(end - 2, ring.end - 1);
+    uint32_t kept = 0, before = 0;
+    runs_.clear();
+    const auto end_run = [&] { (runs_.empty() ? before : runs_.back().end) = kept; };
+    for (uint32_t id = ring.first; id < ring.end; ++id) {
+      if (ring.is_inner && !stays) {
+        const uint32_t next = detail != end ? detail->id : ring.end;
+        kept += next - id;
+        if (next == ring.end) break;
+        id = next;
+      }
+      const bool are_several = has_several(detail, id);
+      if (!rings_.is_beyond(id)) {
+        at_[kept] = at_[id - ring.first];
+        gates_[kept] = gates_[id - ring.first];
+        if (stays || are_several || rings_.is_on_seam(id)) {
+          end_run();
+          runs_.push_back({at_[kept], kept + 1, 0});
+        }
+        ++kept;
+      } else if (rings_.is_horizontal(id) && rings_.is_on_seam(id)) {
+        // Of these only the corners of the window count: once, though two crossings lie there.
+        end_run();
+        runs_.push_back({rings_.at(id), kept, 0});
+      }
+      for (; detail != end && detail->id == id; ++detail) {
+        end_run();
+        runs_.push_back({detail->at, kept, 0});
+      }
+      stays = are_several;
     }
-    // Horizontal and vertical edges alternate in no order: indices instead of branches.
-    const uint32_t along = rings_.axis_along(id);
-    const double both[2] = {at.x, at.y};
-    const double middle = both[along];
-    const auto [edge_low, edge_high] = rings_.ends(id);
-    const double low = std::max(middle - tolerance_, edge_low + rings_.margin());
-    const double high = std::min(middle + tolerance_, edge_high - rings_.margin());
-    const bool starts_inside = rings_.starts_inside(id);
-    const double ends[2] = {low, high};
-    // Only stores: to load what was just stored in other pieces takes long.
-    LinePoint& p = line_.emplace_back(LinePoint{at, false, {at.x, at.y}, {at.x, at.y}});
-    p.left[along] = ends[!starts_inside];
-    p.right[along] = ends[starts_inside];
+    if (runs_.empty()) {
+      if (kept > 0) runs_.push_back({at_[0], 1, kept});
+      return kept;
+    }
+    std::copy_n(at_.begin(), before, at_.begin() + kept);
+    std::copy_n(gates_.begin(), before, gates_.begin() + kept);
+    runs_.back().end = kept + before;
+    return kept + before + runs_.size();
   }
 
-  /// The points that follow the last crossing. Whether the next crossing must stay.
-  bool add_details() {
-    const DetailPoint* const first = detail_;
-    const size_t before = line_.size() - 1;
-    for (; detail_ != end_ && detail_->id == first->id; ++detail_)
-      line_.push_back({detail_->at, true, {}, {}});
-    if (detail_ - first < 2) return false;
-    line_[before].is_fixed = true;
-    return true;
+  /// Those that are left of crossings before one; the others are left.
+  const DetailPoint* details_until(uint32_t id) {
+    while (detail_ != end_ && detail_->id < id) ++detail_;
+    return detail_;
   }
 
   const ContourRings& rings_;
@@ -124,7 +145,10 @@ class RingBuilder {
   Contours& out_;
   uint64_t dropped_ = 0;
   std::vector<Written> written_;
-  std::vector<LinePoint> line_;
+  // Of the current ring.
+  std::vector<Vec2> at_;
+  std::vector<LineGate> gates_;
+  std::vector<LineRun> runs_;
   std::vector<Vec2> points_;
 };
 
@@ -213,7 +237,7 @@ const void* Contours::points() const {
   }
 }
 
-bool Contours::add_ring(const std::vector<Vec2>& ring, int64_t parent, bool is_hole) {
+bool Contours::add_ring(std::span<const Vec2> ring, int64_t parent, bool is_hole) {
   const auto add = [&]<class T>(std::vector<T>& out) {
     const size_t first = out.size();
     const auto put = [&](T u, T v) {
@@ -297,15 +321,18 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   // out.
   const double part = 0.5 * plan.tolerance;
   ContourSection section(grid, margin);
-  constexpr uint64_t bytes = ContourSection::bytes_of_crossing + ContourRings::bytes_of_crossing +
-                             sizeof(LinePoint) + 2 * sizeof(Vec2);
-  const Reservation crossings(
-      budget, section.count_crossings(job) * bytes + 2 * sizeof(uint32_t) * grid.words(),
-      "the crossings of a layer");
+  // Of a ring, gates may be there twice, and three times the points.
+  constexpr uint64_t bytes = ContourSection::bytes_of_crossing + 2 * sizeof(LineGate) +
+                             2 * sizeof(Vec2) + 3 * sizeof(Vec2);
+  const uint64_t crossing_count = section.count_crossings(job);
+  const Reservation crossings(budget,
+                              crossing_count * bytes + ContourRings::bytes(crossing_count) +
+                                  ContourSection::bytes_of_edges(grid),
+                              "the crossings of a layer");
   section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch),
                 struts ? &struts->all : nullptr, struts ? &struts->shape : nullptr);
   if (job) job->set_progress(0.75);
-  ContourRings rings(section);
+  ContourRings rings(section, struts.has_value());
   const Borrowed<ContourNumbers> room;
   out->begin(*room);
   RingBuilder builder(rings, part, plan.units, *out);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/job.h"
@@ -61,7 +62,7 @@ class Contours final : public RefCounted {
   void set_pitch(double pitch) { pitch_ = pitch; }
 
   /// Adds a ring of points in units; false if fewer than three remain when they are rounded.
-  bool add_ring(const std::vector<Vec2>& ring, int64_t parent, bool is_hole);
+  bool add_ring(std::span<const Vec2> ring, int64_t parent, bool is_hole);
   /// From now on, points are written into `room`, whose memory is warm.
   void begin(ContourNumbers& room);
   /// Copies the points into memory of their own and gives `room` back.

@@ -100,60 +100,82 @@ class Lines {
   Sink& sink_;
 };
 
+/// Where struts are entered, or left, on edges of the grid; some at a time. Loops over the few ends
+/// of each strut would often be predicted wrongly.
+struct ProposedEnds {
+  static constexpr size_t room = 128;
+  double places[room + max_simd_doubles];
+  double edges[room + max_simd_doubles];  // by their first nodes: bits of the table
+  size_t count = 0;
+};
+
 /// Moves the crossings of a table to where struts are entered and left.
 template <bool horizontal>
 class Proposals {
  public:
-  Proposals(const ContourAxis& along, const CrossingTable& table) : along_(along), table_(table) {}
+  Proposals(const ContourAxis& along, const CrossingTable& table)
+      : along_(along), table_(table), row_bits_(static_cast<double>(table.row_words * 64)) {}
+  ~Proposals() {
+    put_all<true>(entered_);
+    put_all<false>(left_);
+  }
 
   HWY_INLINE void begin(const CapsuleLines&) const {}
   HWY_INLINE void put_line(const CapsuleLines&, uint32_t line, double, double low,
                            double high) const {
-    if (low >= along_.low() && low < along_.high()) put(line, along_.edge_of(low), true, low);
-    if (high >= along_.low() && high < along_.high()) put(line, along_.edge_of(high), false, high);
+    const auto bit = [&](double place) {
+      const uint32_t edge = along_.edge_of(place);
+      const uint64_t column = ContourGrid::left_edge + uint64_t{horizontal ? edge : line};
+      const uint64_t row = ContourGrid::bottom_row + uint64_t{horizontal ? line : edge};
+      return row * table_.row_words * 64 + column;
+    };
+    if (low >= along_.low() && low < along_.high()) put<true>(bit(low), low);
+    if (high >= along_.low() && high < along_.high()) put<false>(bit(high), high);
   }
-  HWY_INLINE void put_lines(V low, V high, V number, M met) const {
-    put_ends(low, number, met, true);
-    put_ends(high, number, met, false);
+  HWY_INLINE void put_lines(V low, V high, V number, M met) {
+    add_ends(low, number, met, entered_);
+    if (entered_.count > ProposedEnds::room) put_all<true>(entered_);
+    add_ends(high, number, met, left_);
+    if (left_.count > ProposedEnds::room) put_all<false>(left_);
   }
 
  private:
-  /// put() for inner lines. Vectors that gather the words of bits took longer.
-  HWY_INLINE void put_ends(V ends, V number, M met, bool enters) const {
+  /// Of inner lines. Bits are whole numbers below 2^53: so many have no room in memory.
+  HWY_INLINE void add_ends(V ends, V number, M met, ProposedEnds& to) const {
     const D d;
-    const hn::Rebind<int32_t, D> di;
     const auto set = [&](double x) HWY_ATTR { return hn::Set(d, x); };
     const M in =
         hn::And(met, hn::And(hn::Ge(ends, set(along_.low())), hn::Lt(ends, set(along_.high()))));
-    uint64_t rest = bits_of(d, in);
-    if (!rest) return;
     const V steps =
         hn::Add(hn::Mul(hn::Sub(ends, set(along_.first())), set(along_.inverse_pitch())), set(1));
-    const V edge = hn::Min(hn::Max(steps, hn::Zero(d)), set(static_cast<double>(along_.inner())));
-    HWY_ALIGN double places[max_simd_doubles];
-    HWY_ALIGN int32_t edges[max_simd_doubles];
-    hn::Store(ends, d, places);
-    hn::Store(hn::DemoteTo(di, edge), di, edges);
-    const uint32_t line = static_cast<uint32_t>(hn::GetLane(number)) + 1;
-    for (; rest; rest &= rest - 1) {
-      const unsigned lane = static_cast<unsigned>(std::countr_zero(rest));
-      put(line + lane, static_cast<uint32_t>(edges[lane]), enters, places[lane]);
-    }
+    const V edge =
+        hn::Floor(hn::Min(hn::Max(steps, hn::Zero(d)), set(static_cast<double>(along_.inner()))));
+    const V line = hn::Add(number, set(1));
+    const V column = hn::Add(horizontal ? edge : line, set(ContourGrid::left_edge));
+    const V row = hn::Add(horizontal ? line : edge, set(ContourGrid::bottom_row));
+    const V bit = hn::Add(hn::Mul(row, set(row_bits_)), column);
+    // The first edge of the grid has no crossing.
+    hn::StoreU(ends, d, to.places + to.count);
+    hn::StoreU(hn::IfThenElseZero(in, bit), d, to.edges + to.count);
+    to.count += static_cast<size_t>(std::bit_width(bits_of(d, in)));
+  }
+
+  template <bool enters>
+  HWY_INLINE void put_all(ProposedEnds& ends) const {
+    for (size_t i = 0; i < ends.count; ++i)
+      put<enters>(static_cast<uint64_t>(static_cast<int64_t>(ends.edges[i])), ends.places[i]);
+    ends.count = 0;
   }
 
   /// Moves the crossing of an edge, if that has one which enters or leaves as the strut does.
-  HWY_INLINE void put(uint32_t line, uint32_t edge, bool enters, double at) const {
-    const uint32_t column = ContourGrid::left_edge + (horizontal ? edge : line);
-    const uint32_t row = ContourGrid::bottom_row + (horizontal ? line : edge);
-    const size_t word = row * table_.row_words + column / 64;
-    const unsigned bit = column % 64;
+  template <bool enters>
+  HWY_INLINE void put(uint64_t edge, double at) const {
+    const size_t word = edge / 64;
+    const uint32_t bit = static_cast<uint32_t>(edge % 64);
     const uint64_t first = table_.bits[word];
-    uint64_t second = horizontal ? first >> 1 : table_.bits[word + table_.row_words];
-    if (horizontal && bit == 63) second |= table_.bits[word + 1] << 63;
-    const uint64_t alike = enters ? second & ~first : first & ~second;
-    const uint64_t before = (first ^ second) & ((uint64_t{1} << bit) - 1);
-    const uint32_t id = (horizontal ? table_.horizontal : table_.vertical)[word] +
-                        static_cast<uint32_t>(std::popcount(before));
+    const EdgeWord& edges = (horizontal ? table_.horizontal : table_.vertical)[word];
+    const uint64_t alike = edges.bits & (enters ? ~first : first);
+    const uint32_t id = edges.crossing(bit);
     // A branch would often be predicted wrongly: many ends lie within other struts.
     const uint32_t is_alike = static_cast<uint32_t>(alike >> bit & 1);
     double& known = table_.ends[table_.none ^ ((table_.none ^ id) & (0 - is_alike))];
@@ -162,6 +184,8 @@ class Proposals {
 
   const ContourAxis& along_;
   const CrossingTable& table_;
+  const double row_bits_;
+  ProposedEnds entered_, left_;
 };
 
 void propose_struts(const PlaneStrut* struts, const AxisPart* parts, size_t count,

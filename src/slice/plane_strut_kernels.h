@@ -27,7 +27,7 @@ struct AxisPart {
 struct CrossingTable {
   const uint64_t* bits;  ///< nodes inside
   size_t row_words;
-  const uint32_t *horizontal, *vertical;  ///< the first crossing of each word of edges
+  const EdgeWord *horizontal, *vertical;  ///< row by row
   uint32_t rows;
   /// u or v of each crossing, and its negative where the first node of the edge is inside. So both
   /// kinds are lowered by what struts propose.
