@@ -24,6 +24,9 @@ void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corne
   GradedCells& cells = *borrowed;
   std::vector<LeafSeed> owners;
   cells.move_to(seeds, corner);
+  // Without jitter, four seeds are equally far from an edge, up to the rounding of their places:
+  // the walk takes any three of them.
+  const bool has_ties = seeds->placed() && seeds->cells().jitter() == 0;
   const int side = seeds->brick_side();
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
@@ -41,7 +44,7 @@ void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corne
         taken.a[static_cast<size_t>(axis)] = static_cast<float>(a[axis]);
         taken.b[static_cast<size_t>(axis)] = static_cast<float>(b[axis]);
       }
-      taken.knows_seeds = edge.is_sure;
+      taken.knows_seeds = edge.is_sure && !has_ties;
       if constexpr (wants_seeds) {
         taken.seeds[0] = name_of(own);
         for (size_t n = 0; n < 2; ++n)
