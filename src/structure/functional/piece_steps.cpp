@@ -38,9 +38,13 @@ uint32_t find_steps(bool wanted, const RayBatch::Bounds& bounds, const PieceLeve
     const auto square = hn::Add(hn::Mul(slope, slope), hn::Mul(hn::Mul(hn::Set(d, 4), bend), gap));
     const auto is_in_range =
         hn::And(hn::Gt(square, hn::Set(d, 0x1p-900)), hn::Lt(square, infinity));
-    const auto divisor = hn::Sub(hn::Sqrt(square), slope);
-    const auto root = hn::Div(hn::Mul(hn::Set(d, (1 - 0x1p-40) * 2), gap), divisor);
-    const auto is_root = hn::AndNot(is_all, hn::And(hn::Gt(divisor, zero), hn::Lt(root, most)));
+    const auto span = hn::Sqrt(square);
+    const auto divisor = hn::Sub(span, slope);
+    const auto plain = hn::Div(hn::Mul(hn::Set(d, (1 - 0x1p-40) * 2), gap), divisor);
+    const auto last = hn::Div(hn::Mul(hn::Set(d, (1 - 0x1p-41) / 2), hn::Add(span, slope)), bend);
+    const auto root = hn::Min(hn::IfThenElse(hn::Gt(divisor, zero), plain, infinity),
+                              hn::IfThenElse(hn::Gt(slope, zero), last, infinity));
+    const auto is_root = hn::AndNot(is_all, hn::Lt(root, most));
     const auto until = hn::Mul(cell, hn::IfThenElse(is_root, root, most));
     hn::StoreU(gap, d, steps.gap + i);
     hn::StoreU(slope, d, steps.slope + i);
@@ -70,7 +74,9 @@ HWY_EXPORT(find_steps);
 namespace {
 
 /// The s, at most `most`, up to which gap + slope s - bend s^2 stays positive. Slope and bend are
-/// finite; bend is not negative.
+/// finite; bend is not negative. The root has two forms. With a positive slope the first one
+/// loses digits in the difference sqrt(square) - slope, all of them if 4 bend gap is below the
+/// rounding of slope^2. The second one is exact then, and a bound of the first.
 double positive_until(double gap, double slope, double bend, double most) {
   if (!(gap > 0)) return 0;
   if ((slope >= 0 && bend == 0) || gap == infinity) return most;
@@ -85,9 +91,11 @@ double positive_until(double gap, double slope, double bend, double most) {
     bend = std::scalbn(bend, -exponent);
     square = slope * slope + 4 * bend * gap;
   }
-  const double divisor = std::sqrt(square) - slope;
-  const double root = (1 - 0x1p-40) * 2 * gap / divisor;
-  return divisor > 0 && root < most ? root : most;
+  const double span = std::sqrt(square), divisor = span - slope;
+  const double plain = divisor > 0 ? (1 - 0x1p-40) * 2 * gap / divisor : infinity;
+  const double last = slope > 0 ? (1 - 0x1p-41) / 2 * (span + slope) / bend : infinity;
+  const double root = std::min(plain, last);
+  return root < most ? root : most;
 }
 
 }  // namespace

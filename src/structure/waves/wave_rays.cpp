@@ -37,8 +37,10 @@ double WaveRay::positive_until(double gap, double first, double second, double t
     const double slope = first + s * (second + s * (third / 2 - s * 4 * fourth_));
     const double bend =
         std::abs(second + s * third) + std::abs(third) * q + 12 * fourth_ * most * most;
-    const double divisor = std::sqrt(slope * slope + 2 * bend * value) - slope;
-    const double step = divisor > 0 ? std::min(q, 2 * value / divisor) : q;
+    const double root = std::sqrt(slope * slope + 2 * bend * value), divisor = root - slope;
+    double step = divisor > 0 ? std::min(q, 2 * value / divisor) : q;
+    // With a positive slope the difference loses digits; the other form of the root does not.
+    if (slope > 0) step = std::min(step, (1 + 0x1p-31) * (root + slope) / bend);
     s += (1 - 0x1p-30) * step;
     if (step < 0x1p-12 * s || step == q) break;
   }
