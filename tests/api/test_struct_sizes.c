@@ -23,7 +23,7 @@
   DO(foam_def, offsetof(msq_foam_def, density))                      \
   DO(functional_def, offsetof(msq_functional_def, period))           \
   DO(period_def, sizeof(msq_period_def))                             \
-  DO(warp_def, sizeof(msq_warp_def))                                 \
+  DO(warp_def, offsetof(msq_warp_def, u))                            \
   DO(waves_def, sizeof(msq_waves_def))                               \
   DO(beams_def, sizeof(msq_beams_def))                               \
   DO(struts_def, sizeof(msq_struts_def))                             \
