@@ -14,7 +14,7 @@ namespace msq {
 
 namespace {
 
-/// Who looks at two nodes loads two bytes.
+/// follow_ring() loads two bytes for two nodes.
 constexpr uint64_t columns_beyond = 16;
 
 }  // namespace

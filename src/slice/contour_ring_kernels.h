@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where crossings of rings lie, and the gates about them (contour_line.h), as vectors.
+// Kernels of rings: following them from cell to cell, and, in vectors, where their crossings lie
+// and the gates about these (contour_line.h).
 #pragma once
 
 #include <cstddef>
@@ -38,8 +39,8 @@ struct InnerCells {
   static bool are_inner(uint64_t bits) { return (bits & 0x8000000080000000) == 0; }
 };
 
-/// From a cell on, by the side through which the ring leaves it. Bits number the nodes of a grid:
-/// columns of a row, then the next row.
+/// The step from a cell to the next one of a ring. Bits number the nodes of a grid: columns of a
+/// row, then the next row.
 struct RingStep {
   uint64_t to_cell;
   uint64_t bits_to_cell, bits_to_edge;  ///< from the cell's first node
@@ -54,7 +55,7 @@ struct RingSteps {
   RingStep of[4][16];
 };
 
-/// Where a ring is followed to: a crossing, and the cell behind it.
+/// How far a ring is followed: a crossing, and the cell behind it.
 struct RingPlace {
   uint64_t cell;
   uint32_t crossing;

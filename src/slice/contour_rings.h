@@ -17,7 +17,7 @@ namespace msq {
 
 class ContourRings {
  public:
-  /// `has_struts`: they tell of membership.
+  /// `has_struts`: whether struts decide membership.
   ContourRings(const ContourSection& section, bool has_struts);
 
   /// Follows all rings of the section; its crossings then know the numbers of their rings. Calls

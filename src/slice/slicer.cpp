@@ -287,7 +287,7 @@ Slicer::Portions Slicer::portions(uint64_t layers, uint64_t beside) const {
     made.depth = slab_depth((made.depth.others + 1) / 2);
   if (made.depth.others == 1) {
     uint64_t most = std::min(automatic_slab_bytes, slab_share(context.budget->limit()));
-    // Rows that repeat are filled once for all bands.
+    // Each band computes a period of repeated rows anew, so such bands stay large.
     bool repeats = true;
     for (size_t i = 0; i < samples_.size(); ++i) repeats = repeats && takes_repeats(i);
     if (is_shallow() && !repeats && model_->executor().threads() == 1)

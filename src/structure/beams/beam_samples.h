@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples among so many beams that drawing them does not pay. Each sample asks the tree until a
 // beam holds it. Where many beams' boxes overlap and few beams hold a sample, that looks at many
-// beams for each sample. After some of it, boxes of samples are halved instead, each with the beams
-// that may reach it: a box within one beam is done, and so is a box without beams.
+// beams for each sample. After a number of looks, boxes of samples are halved instead. Each has the
+// beams that may reach it. A box within one beam is done, and so is a box without beams.
 #pragma once
 
 #include <vector>

@@ -4,9 +4,9 @@
 //
 // Source: marching squares, the plane form of Lorensen and Cline, "Marching cubes", 1987. The
 // squares are those of a grid in model coordinates: lines closer than a square may be joined, and
-// closed lines smaller than one lost. Crossings with the grid are
-// found by the Illinois method (Dowell and Jarratt, "A modified regula falsi method", 1971); lines
-// that bend more than the tolerance are halved.
+// closed lines smaller than one lost. Crossings with the grid are found by the Illinois method
+// (Dowell and Jarratt, "A modified regula falsi method", 1971); lines that bend more than the
+// tolerance are halved.
 #pragma once
 
 #include <vector>

@@ -94,8 +94,9 @@ class Functional final : public Structure, public RepeatingStructure {
   /// One for each of the clusters' tapes; empty if the grid is turned.
   const std::vector<RowPlan>& row_plans() const { return prepared().row_plans; }
 
-  /// The form of the onset; none for tapes of another form. In cells of one size only if the grid
-  /// is turned, by a sampled map, or sheared, only if the grid is not.
+  /// The form of the onset; none for tapes of another form. In cells of one size there is none
+  /// unless the grid is turned, in sheared cells and in those of a sampled map none if it is
+  /// turned.
   const std::optional<TrigonometricForm>& form() const { return form_; }
 
  private:

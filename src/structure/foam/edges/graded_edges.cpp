@@ -19,7 +19,7 @@ constexpr size_t owners_in_run = 8;
 template <bool wants_seeds, class Begin, class Take>
 void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner, Begin&& begin,
                 Take&& take) {
-  // The density field may be the host's.
+  // The density field may be the host's, which may call msq again.
   const Borrowed<GradedCells> borrowed;
   GradedCells& cells = *borrowed;
   std::vector<LeafSeed> owners;

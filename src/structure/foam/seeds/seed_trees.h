@@ -77,10 +77,11 @@ class SeedTrees {
 
  private:
   struct Node {
-    Vec3 seed;              // of a leaf, in its cell
-    uint32_t children = 0;  // first of eight; or; of a list of placed seeds, 1 more than their
-                            // count, and of those, which follow it, numbers and levels
-    uint32_t twig = 0;      // number from 1 on; 0: not a twig, or not yet
+    Vec3 seed;  // of a leaf, in its cell
+    // The first of eight; or a mark. A list of placed seeds has 1 more than their count. The seeds
+    // follow it, and have their number and level.
+    uint32_t children = 0;
+    uint32_t twig = 0;  // number from 1 on; 0: not a twig, or not yet
   };
   struct Range {
     uint32_t first, count;  // of leaves_

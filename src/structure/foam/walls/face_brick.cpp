@@ -255,7 +255,7 @@ FaceBrick::FaceBrick(Weighted, const FoamSeeds& seeds, CellIndex corner) {
 }
 
 FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corner) {
-  // The density field may be the host's.
+  // The density field may be the host's, which may call msq again.
   const Borrowed<GradedCells> borrowed;
   GradedCells& graded = *borrowed;
   graded.move_to(seeds, corner);

@@ -22,7 +22,6 @@ class CellParts {
   size_t max_struts() const { return max_struts_; }
 
  private:
-
   int parts_ = 1;
   CapsuleList struts_;                 // part by part
   std::vector<StrutLists::Run> runs_;  // of each
