@@ -324,10 +324,9 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   // Of a ring, gates may be there twice, and three times the points.
   constexpr uint64_t bytes = ContourSection::bytes_of_crossing + 2 * sizeof(LineGate) +
                              2 * sizeof(Vec2) + 3 * sizeof(Vec2);
+  const Reservation edges(budget, ContourSection::bytes_of_edges(grid), "the edges of a layer");
   const uint64_t crossing_count = section.count_crossings(job);
-  const Reservation crossings(budget,
-                              crossing_count * bytes + ContourRings::bytes(crossing_count) +
-                                  ContourSection::bytes_of_edges(grid),
+  const Reservation crossings(budget, crossing_count * bytes + ContourRings::bytes(crossing_count),
                               "the crossings of a layer");
   section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch),
                 struts ? &struts->all : nullptr, struts ? &struts->shape : nullptr);

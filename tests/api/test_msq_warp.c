@@ -48,7 +48,7 @@ static void create_honours_every_struct_size(void** state) {
   (void)state;
   assert_ok(create(context, &def));
   for (uint32_t i = 0; i < 3; ++i) {
-    const uint32_t refused[3] = {0, (uint32_t)sizeof warp - 1, 4097};
+    const uint32_t refused[3] = {0, offsetof(msq_warp_def, u) - 1, 4097};
     warp.struct_size = refused[i];
     assert_refused(create(context, &def), MSQ_E_ARGUMENT, "struct_size of warp");
   }

@@ -43,7 +43,7 @@ void BeamSamples::keep_alive(const Box& box, Holds&& holds) {
 bool BeamSamples::is_in_a_beam(Vec3 p) {
   return !structure_.tree().find_overlapping({p, p}, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      ++looks_;
+      if (++looks_ % 65536 == 0) check_cancelled(job_);
       if (structure_.beams().at(i).holds(p)) return false;
     }
     return true;

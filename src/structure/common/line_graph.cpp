@@ -7,6 +7,7 @@
 
 #include "base/job.h"
 #include "base/polled_sort.h"
+#include "base/status.h"
 
 namespace msq {
 
@@ -44,9 +45,19 @@ struct Place {
 
 }  // namespace
 
+void LineGraph::require_squares(double side) const {
+  constexpr double max_number = 0x1p50;
+  for (const Vec2 p : points)
+    if (!(std::abs(p.x) <= max_number * side && std::abs(p.y) <= max_number * side))
+      fail(Status::limit,
+           "a wall is at (%g, %g); with such small cells the limit is %g from the origin", p.x, p.y,
+           max_number * side);
+}
+
 void LineGraph::weld(double distance) {
   // Points lie in squares many times as wide as the distance, and most look into their own alone.
   const double side = 64 * distance;
+  require_squares(side);
   const auto square = [side](double x) { return std::floor(x / side); };
   std::vector<Place> places(points.size());
   for (uint32_t i = 0; i < points.size(); ++i)

@@ -29,6 +29,9 @@ struct LineGraph {
   /// Makes one point of those that are no farther apart than `distance` along either axis; drops
   /// lines that thereby have no length, or that occur twice.
   void weld(double distance);
+  /// Fails with Status::limit if squares with this side cannot be numbered at the points: next
+  /// numbers would be equal, from 2^53 on.
+  void require_squares(double side) const;
 };
 
 }  // namespace msq

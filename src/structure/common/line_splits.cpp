@@ -32,6 +32,7 @@ void split_at_points(LineGraph& graph, double distance) {
   double sum = 0;
   for (const auto& [a, b] : graph.lines) sum += length(graph.points[b] - graph.points[a]);
   const double side = std::max(sum / static_cast<double>(graph.lines.size()), 64 * distance);
+  graph.require_squares(side);
   const auto square = [side](double x) { return std::floor(x / side); };
   std::vector<PointInSquare> places;
   places.reserve(graph.points.size());

@@ -17,8 +17,10 @@ namespace {
 /// Of the smallest cell size: corners that are closer to the plane are on it, and those closer to
 /// each other are one.
 constexpr double on_plane = 1e-9, weld_distance = 1e-7;
-/// Cells that the plane and the window meet.
-constexpr double max_plate_cells = 0x1p26;
+/// Cells that the plane and the window meet, and rows of cells that are looked at. Lines have
+/// 32-bit numbers of points.
+constexpr double max_plate_cells = 0x1p26, max_plate_rows = 0x1p26;
+constexpr size_t max_points = size_t{1} << 31;
 
 /// A corner of a plate and its height above the plane.
 struct PlateCorner {
@@ -76,6 +78,9 @@ void PlateCut::add(Vec2 a, Vec2 b) {
   if (std::min(a.x, b.x) > w.max.x || std::max(a.x, b.x) < w.min.x ||
       std::min(a.y, b.y) > w.max.y || std::max(a.y, b.y) < w.min.y)
     return;
+  if (graph_.points.size() >= max_points)
+    fail(Status::limit, "the window meets more than %g plates",
+         0.5 * static_cast<double>(max_points));
   const auto number = static_cast<uint32_t>(graph_.points.size());
   graph_.points.push_back(a);
   graph_.points.push_back(b);
@@ -113,10 +118,16 @@ LineGraph PlateCut::find() {
   if (!(extent.x * extent.y * extent.z / (size.x * size.y * size.z) < max_plate_cells))
     fail(Status::limit, "the window meets about %g cells of the plates; the limit is %g",
          extent.x * extent.y * extent.z / (size.x * size.y * size.z), max_plate_cells);
+  const Vec3 asked_extent = asked.extent();
+  const double rows = (asked_extent.y / size.y + 2) * (asked_extent.z / size.z + 2);
+  if (!(rows < max_plate_rows))
+    fail(Status::limit, "about %g rows of cells are about the window; the limit is %g", rows,
+         max_plate_rows);
   const GridMap map = model_map(grid_);
   JobPoll poll(current_job());
   for (double z = std::floor(asked.min.z / size.z); z <= asked.max.z / size.z; ++z)
     for (double y = std::floor(asked.min.y / size.y); y <= asked.max.y / size.y; ++y) {
+      poll();
       const CellRow row = cells_in_row(map, size, box, 1e-6 * around, y, z);
       for (double x = row.first; x <= row.last; ++x) {
         poll();

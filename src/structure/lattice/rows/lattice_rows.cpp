@@ -39,7 +39,7 @@ LatticeRows::LatticeRows(const Neighbourhood& grid, const std::array<int, 3>& ax
       repeats_(repeats),
       grid_(*block.grid),
       same_(same_position(parts)),
-      margin_(4 * same_),
+      margin_(8 * same_),
       level_margin_(0x1p-24 * parts.extent + parts.error) {
   SampleBounds alive;
   if (!find_bounds(block, alive)) return;
@@ -75,8 +75,9 @@ std::vector<double> LatticeRows::positions(int axis, uint64_t first, uint64_t en
 }
 
 // Rows of a period are drawn for positions within `same` of their own, or within twice that if they
-// are found drawn. So those that repeat them are drawn for positions within three times that; the
-// margin is more.
+// are found drawn, along y and along z. Rows that repeat them, and bands that begin with such a
+// row, are within `same` more each, along y. So all are drawn for positions within four times that
+// along y and twice along z, together less than five times; the margin is eight.
 uint64_t LatticeRows::row_period(const Neighbourhood& grid, const std::array<int, 3>& axis,
                                  const RowParts& parts, const SampleGrid& samples, uint64_t y0,
                                  uint64_t y1) {
@@ -264,8 +265,11 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
           const bool holds = inside(grid_.at(i, j, k));
           if (holds) restored.push_back({&word, bit});
           if (!repeats_.period) continue;
-          for (uint64_t other = j + repeats_.period; other < repeats_.end; other += repeats_.period)
+          for (uint64_t other = j + repeats_.period; other < repeats_.end;
+               other += repeats_.period) {
+            if (++asked_ % 256 == 0) check_cancelled(job);
             if (inside(grid_.at(i, other, k)) != holds) repeats_.flips->push_back({i, other, k});
+          }
         }
       if (++asked_ % 256 == 0) check_cancelled(job);
     }
