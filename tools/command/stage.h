@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Draws what surrounds a part in a picture: a light ground with its shadow, haze that grows with the
- * distance, and the outline of the
- * coarse part as glass. */
+ * Draws what surrounds a part in a picture: a light ground with its shadow, haze that grows with
+ * the distance, and the outline of the coarse part as glass. */
 #ifndef MSQ_COMMAND_STAGE_H
 #define MSQ_COMMAND_STAGE_H
 
