@@ -271,6 +271,48 @@ static void references_may_go_in_callbacks(void** state) {
   }
 }
 
+static int32_t four_or_six(void* user, const double* points, uint64_t count, double* values) {
+  (void)user;
+  for (uint64_t i = 0; i < count; ++i) values[i] = points[3 * i] > 0 ? 6 : 4;
+  return 0;
+}
+
+static void count_release(void* user) {
+  ++*(int*)user;
+}
+
+/* Also while the threads' memory lives on, with another context. */
+static void densities_end_with_their_handles(void** state) {
+  int released = 0;
+  msq_context* other = make_context_of(1, 1 << 20, 0);
+  msq_context* context = make_context_of(1, 1 << 20, 0);
+  msq_host_field_def density;
+  msq_foam_def def;
+  msq_field* field;
+  msq_structure* foam;
+  taken all = {0};
+  const msq_struts_def box = struts_def(0, 2);
+  (void)state;
+  assert_ok(msq_host_field_def_init(&density, sizeof density));
+  density.evaluate = four_or_six;
+  density.release = count_release;
+  density.user = &released;
+  density.low = 1;
+  density.high = 6;
+  assert_ok(msq_field_host(context, &density, &field));
+  assert_ok(msq_foam_def_init(&def, sizeof def));
+  def.radius.value = 0.05;
+  def.density.field = field;
+  assert_ok(msq_structure_foam(context, &def, &foam));
+  assert_ok(msq_structure_struts(context, foam, &box, take, &all, NULL));
+  assert_true(all.count > 0);
+  msq_structure_release(foam);
+  msq_field_release(field);
+  msq_context_release(context);
+  assert_int_equal(released, 1);
+  msq_context_release(other);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lattices_have_struts),
@@ -280,6 +322,7 @@ int main(void) {
       cmocka_unit_test(callbacks_stop_the_call),
       cmocka_unit_test(references_may_go_in_callbacks),
       cmocka_unit_test(unions_have_the_struts_of_all),
+      cmocka_unit_test(densities_end_with_their_handles),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

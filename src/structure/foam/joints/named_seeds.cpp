@@ -10,10 +10,10 @@ namespace msq {
 
 void NamedSeeds::move_to(const FoamSeeds& seeds, const std::shared_ptr<const GradedSeeds>& graded,
                          CellIndex corner, int side) {
-  graded_ = graded;
+  graded_ = graded.get();
   corner_ = corner;
   scale_ = seeds.scale();
-  if (graded_) return trees_.move_to(graded_);
+  if (graded_) return trees_.move_to(graded);
   // Points are within the empty radius of a seed of the brick, and so are their nearest seeds from
   // them.
   for (int axis = 0; axis < 3; ++axis) {

@@ -77,7 +77,8 @@ class NamedSeeds {
   const Vec3& in_cell(int x, int y, int z) const { return in_cell_[index(x, y, z)]; }
   double lift(int x, int y, int z) const { return lifts_.empty() ? 0 : lifts_[index(x, y, z)]; }
 
-  std::shared_ptr<const GradedSeeds> graded_;
+  // Of the foam of the last move_to(). Threads keep this object, and must not keep the foam's.
+  const GradedSeeds* graded_ = nullptr;
   CellIndex corner_;
   Vec3 scale_;
   int halo_[3] = {0, 0, 0};
