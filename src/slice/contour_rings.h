@@ -76,8 +76,6 @@ class ContourRings {
     double inner_at(uint32_t n) const {
       return first + static_cast<double>(static_cast<int32_t>(n - first_inner)) * pitch;
     }
-    /// Whether a node and the next one lie between the edges. Nearly all do.
-    bool are_inner(uint32_t n) const { return n >= first_inner && n + 1 < end; }
     bool is_edge(uint32_t n) const { return n == edge || n == end; }
     /// Of an edge of the grid, by its first node.
     bool is_beyond(uint32_t n) const { return n == beyond || n == end; }
