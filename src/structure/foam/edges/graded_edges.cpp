@@ -24,9 +24,7 @@ void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corne
   GradedCells& cells = *borrowed;
   std::vector<LeafSeed> owners;
   cells.move_to(seeds, corner);
-  // Without jitter, four seeds are equally far from an edge, up to the rounding of their places:
-  // the walk takes any three of them.
-  const bool has_ties = seeds->placed() && seeds->cells().jitter() == 0;
+  const bool names_seeds = names_edge_seeds(*seeds);
   const int side = seeds->brick_side();
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
@@ -44,7 +42,7 @@ void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corne
         taken.a[static_cast<size_t>(axis)] = static_cast<float>(a[axis]);
         taken.b[static_cast<size_t>(axis)] = static_cast<float>(b[axis]);
       }
-      taken.knows_seeds = edge.is_sure && !has_ties;
+      taken.knows_seeds = edge.is_sure && names_seeds;
       if constexpr (wants_seeds) {
         taken.seeds[0] = name_of(own);
         for (size_t n = 0; n < 2; ++n)
@@ -57,6 +55,10 @@ void find_edges(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex corne
 }
 
 }  // namespace
+
+bool names_edge_seeds(const GradedSeeds& seeds) {
+  return !seeds.placed() || seeds.cells().jitter() > 0;
+}
 
 std::shared_ptr<const EdgeBrick> graded_edge_brick(const std::shared_ptr<const GradedSeeds>& seeds,
                                                    CellIndex corner) {

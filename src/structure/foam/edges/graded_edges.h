@@ -16,6 +16,10 @@ namespace msq {
 std::shared_ptr<const EdgeBrick> graded_edge_brick(const std::shared_ptr<const GradedSeeds>& seeds,
                                                    CellIndex corner);
 
+/// Whether edges know their seeds at all. Without jitter four seeds are equally far from an edge,
+/// of placed ones up to the rounding of their places: the walk would take any three of them.
+bool names_edge_seeds(const GradedSeeds& seeds);
+
 /// An edge with its three seeds, for rays.
 struct GradedEdge {
   std::array<float, 3> a, b;            ///< foam units, from the corner of the brick's first cell

@@ -81,6 +81,14 @@ struct EdgeLine {
       part = no_part;
   }
 
+  /// Half of how much another seed's squared distance from a point exceeds that of the line's own
+  /// three seeds. The point is that of the line nearest to `to`.
+  double lead(Vec3 other, Vec3 to) const {
+    const Vec3 e = other - seed;
+    const double foot = dot(to - seed - offset, direction) * inverse_squared;
+    return 0.5 * dot(e, e) - dot(offset + direction * foot, e);
+  }
+
   /// Whether a part is not empty. Seeds on one sphere (low jitter) make edges of length zero that
   /// rounding may invert. A part that is inverted by at most 1e-12 counts: it lies that close to
   /// edges that do exist.

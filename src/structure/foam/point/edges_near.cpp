@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/borrowed.h"
 #include "structure/foam/seeds/cell_seeds.h"
@@ -47,8 +48,12 @@ void find_edges_near(const FoamSeeds& seeds, CellIndex cell, Vec3 q, double radi
           if (i != a && i != b && i != c) line.cut(block.position(near[i]), part);
         if (!line.holds(part)) continue;
         const Vec3 d = line.way_from(part, q);
+        double lead = std::numeric_limits<double>::infinity();
+        for (size_t i = 0; i < count; ++i)
+          if (i != a && i != b && i != c)
+            lead = std::min(lead, line.lead(block.position(near[i]), q));
         struts.push_back(
-            {line, part, {cell_of(near[a]), cell_of(near[b]), cell_of(near[c])}, dot(d, d)});
+            {line, part, {cell_of(near[a]), cell_of(near[b]), cell_of(near[c])}, dot(d, d), lead});
       }
 }
 

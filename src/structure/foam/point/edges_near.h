@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "structure/foam/point/edge_line.h"
@@ -16,6 +17,9 @@ struct NearEdge {
                                    ///< of the point
   std::array<CellIndex, 3> seeds;  ///< in the order of seeds
   double distance_squared;         ///< of the point from the part
+  /// The least EdgeLine::lead() of all other seeds, of the line's point nearest to the point; below
+  /// 0 if that is not on the edge. Infinite in foams that are stretched or have weights.
+  double lead = std::numeric_limits<double>::infinity();
 };
 
 /// Fills `struts` with the edges that come within `radius` of a point, q from the corner of `cell`

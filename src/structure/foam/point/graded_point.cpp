@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "base/borrowed.h"
@@ -145,8 +146,11 @@ void find_graded_edges_near(const std::shared_ptr<const GradedSeeds>& seeds, Cel
         }
         if (!line.holds(part)) continue;
         const Vec3 d = line.way_from(part, p);
+        double lead = std::numeric_limits<double>::infinity();
+        for (size_t i = 0; i < count; ++i)
+          if (i != a && i != b && i != c) lead = std::min(lead, line.lead(near.positions[i], p));
         struts.push_back(
-            {{near.names[a], near.names[b], near.names[c]}, dot(d, d) / (unit * unit)});
+            {{near.names[a], near.names[b], near.names[c]}, dot(d, d) / (unit * unit), lead});
       }
     }
 }

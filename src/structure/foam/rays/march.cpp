@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/borrowed.h"
+#include "structure/foam/edges/graded_edges.h"
 #include "structure/foam/point/edges_near.h"
 #include "structure/foam/point/graded_point.h"
 #include "structure/foam/point/stretched_point.h"
@@ -40,10 +41,10 @@ class NearStruts {
   const Borrowed<std::vector<NearEdge>> struts_;
 };
 
-/// The same for foams with graded seeds: lines, and the squared distances of their edges.
+/// The same for foams with graded seeds: lines, and NearEdge's numbers of their edges.
 struct NearLine {
   StrutLine line;
-  double distance_squared;
+  double distance_squared, lead;
 };
 void find_graded_lines(const FoamData& foam, Vec3 p, double radius, std::vector<NearLine>& lines) {
   const Borrowed<std::vector<NearGradedEdge>> struts;
@@ -51,8 +52,8 @@ void find_graded_lines(const FoamData& foam, Vec3 p, double radius, std::vector<
   find_graded_edges_near(foam.graded(), located.cell, located.fraction * foam.seeds().scale(),
                          radius, *struts);
   for (const NearGradedEdge& strut : *struts)
-    lines.push_back(
-        {graded_line(*foam.graded(), located.cell, strut.seeds), strut.distance_squared});
+    lines.push_back({graded_line(*foam.graded(), located.cell, strut.seeds), strut.distance_squared,
+                     strut.lead});
 }
 
 /// The lines of the edges within a radius of a point, in the frame of StrutEntries.
@@ -64,8 +65,20 @@ std::vector<NearLine> lines_near(const FoamData& foam, const StrutEntries& entri
     return lines;
   }
   for (const NearEdge& strut : NearStruts(foam, p, radius))
-    lines.push_back({entries.line(strut.seeds), strut.distance_squared});
+    lines.push_back({entries.line(strut.seeds), strut.distance_squared, strut.lead});
   return lines;
+}
+
+/// If a fourth seed is about as near to an edge as its three, the lines of several triples almost
+/// coincide, and each is an edge up to rounding. Which of them a search by cells tests depends on
+/// roundings there. They decide by less than 1e-10 of NearEdge::lead (max_beyond of
+/// voronoi_cell.cpp, and walk_tie).
+constexpr double min_lead = 1e-9;
+
+/// Whether a search by cells tests lines of named seeds; otherwise it takes all entries from
+/// sharpen_entry(), and ties are decided there. EdgeBuilder names none without jitter.
+bool names_edge_seeds(const FoamData& foam) {
+  return foam.graded() ? names_edge_seeds(*foam.graded()) : foam.seeds().jitter() > 0;
 }
 
 /// Maximum distance, in foam units, of points of the surface from it.
@@ -151,6 +164,7 @@ bool sharpen_entry(const FoamData& foam, RaySearch& search) {
   // Rounding may split an entry into many; the one found may be any of them.
   const double at = search.t / unit, near = 4 * ray.tolerance + 256 * ray.error;
   StrutEntry best;
+  bool has_ties = false;
   for (NearLine& near_line : lines_near(foam, entries, search.ray.at(search.t),
                                         radius + std::max(surface_error(foam), near))) {
     StrutLine& line = near_line.line;
@@ -164,12 +178,13 @@ bool sharpen_entry(const FoamData& foam, RaySearch& search) {
     const StrutEntry entry = foam.has_capsules() ? entries.find(ray, line)
                                                  : entries.find_tapered_near(ray, line, at, near);
     if (!entry.is_met || entry.at_from || std::abs(entry.t - at) > near) continue;
+    has_ties |= near_line.lead < min_lead;
     if (comes_before(entry, best)) best = entry;
   }
   if (!best.is_met) best = entries.settle(ray, std::max(ray.from, at - ray.tolerance), at);
   search.t = std::clamp(best.t * unit, search.from, search.to);
   search.normal = best.normal;
-  return best.is_sure;
+  return best.is_sure && !(has_ties && names_edge_seeds(foam));
 }
 
 }  // namespace msq
