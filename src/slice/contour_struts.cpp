@@ -15,8 +15,6 @@ namespace {
 constexpr double max_cells_of_tile = 64;
 /// A bound on the error of struts, relative to the cell: twice the edge_error of foams.
 constexpr double strut_error = 1e-6;
-/// Of a list, though it may be shorter.
-constexpr size_t prefetched = 4;
 constexpr size_t bytes_of_strut = sizeof(PlaneStrut) + sizeof(AxisPart) + sizeof(uint32_t);
 
 /// Of the disc of a strut's section about a point of its axis: the squared radius.
@@ -198,12 +196,12 @@ void PlaneStruts::list_by_square(const Job* job) {
   if (total > UINT32_MAX || count > UINT32_MAX)
     fail(Status::limit, "%llu entries of struts in squares of the layer; the limit is %u",
          static_cast<unsigned long long>(total), UINT32_MAX);
-  held_lists_ = Reservation(
-      budget_, (squares + 1 + total + prefetched) * sizeof(uint32_t) + count * sizeof(SquareRange),
-      "the struts of a layer");
+  held_lists_ =
+      Reservation(budget_, (squares + 1 + total) * sizeof(uint32_t) + count * sizeof(SquareRange),
+                  "the struts of a layer");
   uint32_t sum = 0;
   for (uint32_t& end : ends) sum = end += sum;
-  memory_->lists.resize(sum + prefetched, 0);
+  memory_->lists.resize(sum);
   for (size_t n = count; n-- > 0;) {
     poll();
     const SquareRange& at = memory_->squares[n];

@@ -85,8 +85,9 @@ void find_in_squares(const Vec2* points, size_t count, const SquareLists& of,
   for (size_t n = 0; n < count; n += 4) {
     const size_t square =
         static_cast<size_t>(std::max(int64_t{0}, static_cast<int64_t>(squares[n])));
-    const uint32_t* const list = of.lists + of.starts[square];
-    for (int i = 0; i < 4; ++i) hwy::Prefetch(of.struts + list[i]);
+    const uint32_t first = of.starts[square], count_of = of.starts[square + 1] - first;
+    for (uint32_t i = 0; i < std::min(count_of, uint32_t{4}); ++i)
+      hwy::Prefetch(of.struts + of.lists[first + i]);
   }
   for (size_t n = 0; n < count;) {
     if (squares[n] == no_square) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Selects the segments of a set that may touch a box, and moves them into model space batch by
-// batch.
+// batch. Their order is unspecified: it depends on the width of vectors.
 #pragma once
 
 #include <array>

@@ -201,6 +201,7 @@ void GradedCells::add_nearest_in_octant(uint32_t wanted) {
   const double far = (is_placed_ ? 3 : 2) * empty_radius_ * (1 + 1e-9);
   double squared = far * far;
   LeafSeed seed{};
+  bool has_seed = false;
   Vec3 low, high;
   for (int axis = 0; axis < 3; ++axis) {
     const bool up = wanted >> axis & 1;
@@ -218,8 +219,11 @@ void GradedCells::add_nearest_in_octant(uint32_t wanted) {
         if (d.x == 0 || d.y == 0 || d.z == 0 || octant(d) != wanted || dot(d, d) >= squared) return;
         squared = dot(d, d);
         seed = found;
+        has_seed = true;
       });
-  planes_.push_back(neighbour(seed));
+  // There is one, as the head of this file proves. Without it the cell would only be unbounded, and
+  // the walk would fail.
+  if (has_seed) planes_.push_back(neighbour(seed));
 }
 
 void GradedCells::sort_planes() {
