@@ -44,7 +44,7 @@ namespace Msq
     {
         /// <summary>A mesh is not closed. MSQ_WINDING_AUTO decides membership by its generalised winding number. Once per shape, by the function that creates it.</summary>
         OpenMesh = 1,
-        /// <summary>The smallest cells of a structure have fewer than 4 pixels or layers across. Once per slicer, by msq_slicer_create.</summary>
+        /// <summary>The smallest cells of a structure are less than 4 pixels wide or 4 layers high. Once per slicer, by msq_slicer_create.</summary>
         CoarsePitch = 2,
         /// <summary>Cells were built for one use, because the cache had no room for them. Once per context, by a set query, msq_slicer_run, msq_slice_layer, msq_printability, msq_ray_cast or msq_render. Not given with cache_bytes = 0.</summary>
         SmallCache = 3,
@@ -99,7 +99,7 @@ namespace Msq
         Cylindrical = 1,
         /// <summary>Cells around the origin of the grid.</summary>
         Spherical = 2,
-        /// <summary>Cells by a map that the host samples.</summary>
+        /// <summary>Cells placed by a map that the host samples.</summary>
         Sampled = 3,
     }
 
@@ -498,7 +498,7 @@ namespace Msq.Interop
 
     /// <summary>Receives a warning: something legal but doubtful. code: an msq_warning_code; later versions may add some. message: in UTF-8, with the values, valid until the callback returns.</summary>
     /// <remarks>
-    /// <para>It is called on the thread that called msq, after the function that warns has done its work and before it returns. No lock is held, so it may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it.</para>
+    /// <para>It is called on the thread that called msq, after the function that warns has done its work and before it returns. No lock is held, so the callback may call msq. A constructor has not written its handle yet. Exceptions of the host's language must not leave it.</para>
     /// </remarks>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void msq_warning_fn(void* user, int code, byte* message);
@@ -532,7 +532,7 @@ namespace Msq.Interop
         public ulong memory_limit;
         /// <summary>An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results.</summary>
         public int cache_policy;
-        /// <summary>1: threads may exceed the cores, up to 1024. For tests with more threads than cores. 0 (default): clamped. Ignored with parallel_for. Does not change results.</summary>
+        /// <summary>1: there may be more threads than cores, up to 1024. This is for tests. 0 (default): at most one thread per core. Ignored with parallel_for. Does not change results.</summary>
         public uint beyond_cores;
         /// <summary>Receives warnings about objects of this context. NULL (default): none. Must be valid as long as the context. Models keep the context alive.</summary>
         public IntPtr warning;
@@ -647,9 +647,9 @@ namespace Msq.Interop
         public fixed double rotation[9];
     }
 
-    /// <summary>A graded period: cells whose size varies along one axis of a structure's grid, for example to vary the spacing of walls that are printed with lines of constant width.</summary>
+    /// <summary>A graded period: cells whose size varies along one axis of a structure's grid. For example, it varies the spacing of walls that are printed with lines of constant width.</summary>
     /// <remarks>
-    /// <para>The number of cells per unit length, 1 / size, is linear between positions and constant before the first and beyond the last. So the map from the coordinate to the number of cells from the grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not fold. The size of the grid along this axis is ignored; its origin is a corner of cells. The largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit for bit. The arrays are copied.</para>
+    /// <para>The number of cells per unit length, 1 / size, is linear between positions and constant before the first and beyond the last. So the map from the coordinate to the number of cells from the grid's origin is monotone and has a continuous slope: surfaces have no kinks, and cells do not fold. grid.cell_size along this axis is ignored. The grid's origin is a corner of cells. The largest cell size is the structure's characteristic length. docs/concepts.md defines the map bit for bit. The arrays are copied.</para>
     /// </remarks>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe struct msq_period_def
@@ -657,9 +657,9 @@ namespace Msq.Interop
         public uint struct_size;
         /// <summary>Axis of the grid, 0 to 2. Default 2.</summary>
         public int axis;
-        /// <summary>count coordinates along that axis, in model units from the grid's origin. Ascending, neighbours at least 1e-6 of the smaller of their two cell sizes apart. No default.</summary>
+        /// <summary>count coordinates along that axis, in model units from the grid's origin, ascending. Two neighbours are at least 1e-6 times the smaller of their two cell sizes apart. No default.</summary>
         public double* positions;
-        /// <summary>Size of the cells at each position, in model units, 1e-75 to 1e75; the largest is at most 1024 times the smallest. No default.</summary>
+        /// <summary>Size of the cells at each position, in model units, 1e-75 to 1e75. The largest is at most 1024 times the smallest. No default.</summary>
         public double* cell_sizes;
         /// <summary>1 to 4096.</summary>
         public ulong count;
@@ -673,11 +673,13 @@ namespace Msq.Interop
         }
     }
 
-    /// <summary>Warped cells: cells around an axis, around a point or by a map that the host samples, in place of boxes.</summary>
+    /// <summary>Warped cells: cells around an axis, around a point, or placed by a map that the host samples. They take the place of boxes.</summary>
     /// <remarks>
-    /// <para>CYLINDRICAL and SPHERICAL: the structure's grid is the frame: its origin is on the axis, or is the centre, and its z axis is the axis, or points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis: count cells in a whole turn. So the pattern closes. cell_size[1] is not used. - z goes along the axis: z / cell_size[2]. Around a centre it goes from the south pole to the north pole: count_polar cells in half a turn, and cell_size[2] is not used. Around an axis the cells may be sheared: shear_outwards times x and shear_along times z are added to y, and whole turns are removed. The pattern closes around the axis for any shear. A positive shear turns it from the y axis towards the x axis. On the positive x axis of the grid the cells lie as those of the grid do, without a shear. Cells that are farther out are wider. They shrink to nothing at the axis and at the poles: there a structure has no least size. Choose inner_radius so that 2 pi inner_radius / count is a size that makes sense, and cut the poles off by the shape.</para>
-    /// <para>Cells fill the space from inner_radius to outer_radius. Points nearer or farther are outside of a functional structure; lattices have whole cells there (msq_lattice_def.warp).</para>
-    /// <para>SAMPLED: u, v and w are fields of samples (msq_field_grid) on one grid of at least 2 samples along each axis. Their values, which are interpolated, are the coordinates at a point, counted in cells, at most 2^22 in magnitude. Cells are those of whole numbers. The structure's grid is not used. The cells fill the box of the samples: points beyond it are outside of a functional structure, and a lattice has the struts whose two nodes are in it. So sample one cell more than the part needs. The map must not fold: the determinant of its derivatives has one sign in all voxels, is nowhere 0, and is above 2^-40 times the product of the gradients' lengths. An angle that jumps by a whole turn is a fold: a ring takes CYLINDRICAL, or a part of a turn. If two points have the same coordinates, nodes of lattices are placed at one of them. Cost: SAMPLED makes two passes over the samples, about 0.1 us per voxel, and for lattices places all nodes in the box, about 1 us each.</para>
+    /// <para>CYLINDRICAL: the cells lie around the z axis of the structure's grid. SPHERICAL: they lie around the origin of the grid, the centre, and the z axis points to the north pole. Cells have three coordinates, each counted in cells: - x goes outwards: (r - inner_radius) / cell_size[0], with r the distance from the axis or the centre. - y goes around the z axis, from the x axis towards the y axis. A whole turn has count cells, so the pattern closes. cell_size[1] is not used. - z of CYLINDRICAL goes along the axis: z / cell_size[2]. z of SPHERICAL goes from the south pole to the north pole, with count_polar cells between them; cell_size[2] is not used. CYLINDRICAL cells may be sheared: msq adds shear_outwards times x and shear_along times z to y, and removes whole turns. The pattern closes around the axis for any shear. A positive shear turns the pattern from the y axis towards the x axis. Without a shear, the edges of cells on the positive x axis of the grid are parallel to the axes of the grid.</para>
+    /// <para>Cells become wider with their distance from the axis. At the axis and at the poles their width is 0, so features there are arbitrarily small. The narrowest cells away from the poles are 2 pi inner_radius / count wide: choose inner_radius so that a printer can print cells of this width. Choose the shape so that it leaves out the poles.</para>
+    /// <para>Cells fill the space from inner_radius to outer_radius. A functional structure is empty outside of this space. A lattice has the whole cells that fit in it (msq_lattice_def.warp).</para>
+    /// <para>SAMPLED: u, v and w are fields of samples (msq_field_grid) on one grid of at least 2 samples along each axis. msq interpolates the samples. The three values at a point are its coordinates, counted in cells, at most 2^22 in magnitude. Cells begin and end at whole numbers. The structure's grid is not used. The cells fill the box of the samples. A functional structure is empty outside of this box. A lattice has the struts whose two nodes are in the box. So sample one cell more than the part needs.</para>
+    /// <para>The map must not fold: the determinant of its derivatives has one sign in all voxels, is nowhere 0, and its magnitude is above 2^-40 times the product of the gradients' lengths. An angle that jumps by a whole turn is a fold. For a whole ring use CYLINDRICAL; a part of a ring may be sampled. If two points have the same coordinates, msq places the nodes of lattices at one of them. Cost: SAMPLED makes two passes over the samples, about 0.1 us per voxel. For lattices msq places all nodes in the box, about 1 us each.</para>
     /// <para>docs/concepts.md defines the map bit for bit.</para>
     /// </remarks>
     [StructLayout(LayoutKind.Sequential)]
@@ -688,21 +690,21 @@ namespace Msq.Interop
         public int kind;
         /// <summary>CYLINDRICAL, SPHERICAL: cells around the z axis, 1 to 65536; no default. SAMPLED: 0.</summary>
         public uint count;
-        /// <summary>SPHERICAL: cells from pole to pole, 1 to 65536; no default. Otherwise 0.</summary>
+        /// <summary>SPHERICAL: cells from pole to pole, 1 to 65536; no default. Other kinds: 0.</summary>
         public uint count_polar;
         /// <summary>In model units, 0 to 1e75. Default 0. SAMPLED: 0.</summary>
         public double inner_radius;
         /// <summary>In model units, above inner_radius, at most 1e75. 0 (default): no limit. SAMPLED: 0.</summary>
         public double outer_radius;
-        /// <summary>SAMPLED: the coordinate x at each point, counted in cells: a field of msq_field_grid, whose grid v and w share; no default. Otherwise NULL.</summary>
+        /// <summary>SAMPLED: the coordinate x at each point, counted in cells. It is a field of msq_field_grid; those of v and w have the same grid. No default. Other kinds: NULL.</summary>
         public msq_field* u;
-        /// <summary>SAMPLED: the coordinate y, likewise.</summary>
+        /// <summary>SAMPLED: the coordinate y, as u.</summary>
         public msq_field* v;
-        /// <summary>SAMPLED: the coordinate z, likewise.</summary>
+        /// <summary>SAMPLED: the coordinate z, as u.</summary>
         public msq_field* w;
-        /// <summary>CYLINDRICAL: by how many cells the pattern turns around the axis from cell to cell outwards: at most 65536 in magnitude. Default 0. Otherwise 0.</summary>
+        /// <summary>CYLINDRICAL: number of cells by which the pattern turns around the axis per cell outwards, at most 65536 in magnitude. Default 0. Other kinds: 0.</summary>
         public double shear_outwards;
-        /// <summary>CYLINDRICAL: the same from cell to cell along the axis, as in a twisted rope. count over shear_along cells make a whole turn.</summary>
+        /// <summary>CYLINDRICAL: the same per cell along the axis, as in a twisted rope. The pattern makes a whole turn in count / shear_along cells. Default 0. Other kinds: 0.</summary>
         public double shear_along;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -854,9 +856,9 @@ namespace Msq.Interop
         /// <summary>Bounding box.</summary>
         public fixed double min[3];
         public fixed double max[3];
-        /// <summary>Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: with capped holes, except pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of the solid values. Host shapes, booleans and offsets: NaN.</summary>
+        /// <summary>Cubic model units. Meshes: signed sum over the triangles, exact for closed meshes up to rounding, negative if inside out. Open meshes with MSQ_WINDING_AUTO: that of the mesh with capped holes, without pieces whose caps exceed 3/4 of their area. Voxels: sum of the boxes of the solid values. Host shapes, booleans and offsets: NaN.</summary>
         public double volume;
-        /// <summary>Square model units. NaN for shapes without a formula: voxels, host shapes, booleans, offsets, stretched shapes. Meshes: infinite or 0 if triangles are beyond 1e75 or below 1e-75.</summary>
+        /// <summary>Square model units. NaN for shapes without a formula: voxels, host shapes, booleans, offsets, stretched shapes. Meshes: infinite or 0 if sides of triangles are above 1e75 or below 1e-75.</summary>
         public double area;
         /// <summary>Vertices after welding.</summary>
         public ulong vertices;
@@ -1099,7 +1101,7 @@ namespace Msq.Interop
         public msq_param cell_choice;
         /// <summary>Cells whose size varies along an axis of the grid; grid.cell_size along that axis is ignored. The nodes move with the cells; struts stay straight and keep their radius. Not with a library of several unit cells. NULL (default): all cells have one size.</summary>
         public msq_period_def* period;
-        /// <summary>Cells around an axis or a point, or by a sampled map. Nodes are placed in them; the struts between nodes are straight and keep their radius. They cut across the arc of a cell, so few cells around make coarse rings: a cell may span at most 150 degrees, count and count_polar together. The cells are whole: as many as fit between the radii. Struts of the first and the last ones reach beyond by their radius. Not with a period, nor with a library of several unit cells. NULL (default): cells are boxes.</summary>
+        /// <summary>Warped cells. The nodes move with the cells. The struts between nodes stay straight and keep their radius, so few cells around an axis make coarse rings. A cell may span at most 150 degrees: (1 + |shear_outwards| + |shear_along|) * 360 / count, and 180 / count_polar more if SPHERICAL. There are as many whole cells as fit between the radii. Struts of the first and the last cells reach beyond the radii by their own radius. Not with a period, nor with a library of several unit cells. NULL (default): cells are boxes.</summary>
         public msq_warp_def* warp;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1194,11 +1196,11 @@ namespace Msq.Interop
         public msq_param wall_thickness;
         /// <summary>Radius of the hole through the middle of each wall, in model units, &gt;= 0. A field is evaluated at the middle of the wall. Walls with less area than their hole stay whole. Radii below 1/512 of the largest cell size count as 0. The constant 0 (default): no holes. Otherwise wall_thickness must not be the constant 0.</summary>
         public msq_param vent_radius;
-        /// <summary>How much longer the cells of the foam are along each axis of the grid: 1/16 to 16, default 1. The Voronoi diagram is that of the seeds where lengths along axis i are divided by stretch[i]. Struts stay circular, and walls keep their thickness. Only the proportions of the three numbers count; cell_size[i] / stretch[i] may differ by a factor of up to 16. Turn the grid for other directions.</summary>
+        /// <summary>How much longer the cells of the foam are along each axis of the grid: 1/16 to 16, default 1. The Voronoi diagram measures lengths along axis i divided by stretch[i]. Struts stay circular, and walls keep their thickness. Only the proportions of the three numbers count; cell_size[i] / stretch[i] may differ by a factor of up to 16. Turn the grid for other directions.</summary>
         public fixed double stretch[3];
-        /// <summary>The greatest radius of the seeds' spheres, in model units, from 0 (default) to the smallest cell size. Each seed has a radius r from 0 to weight by a hash. The cell of a seed s is where |p - s|^2 - r^2 is least of all seeds: the Laguerre tessellation (power diagram) of the spheres. Cells then differ more in size, and some seeds have none. Seeds stay where they are. 0: the Voronoi diagram.</summary>
+        /// <summary>The greatest radius of the seeds' spheres, in model units, from 0 (default) to the smallest cell size. Each seed has a radius r from 0 to weight by a hash. A point p is in the cell of the seed s for which |p - s|^2 - r^2 is least: this is the Laguerre tessellation (power diagram) of the spheres. Cells then differ more in size, and some seeds have none. Seeds stay where they are. 0: the Voronoi diagram.</summary>
         public double weight;
-        /// <summary>Cells whose size varies along an axis of the grid, by a factor of at most 16; grid.cell_size along that axis is ignored. The largest cell sizes along the three axes may differ by a factor of up to 4. The seeds move with the cells, and the Voronoi diagram is that of the moved seeds: struts stay straight and keep their radius, walls keep their thickness. Limits of radius and thickness refer to the smallest cell size. Not with a density above 1, a stretch, a weight or the methods of the paper. NULL (default): all cells have one size.</summary>
+        /// <summary>Cells whose size varies along an axis of the grid, by a factor of at most 16; grid.cell_size along that axis is ignored. The largest cell sizes along the three axes may differ by a factor of up to 4. The seeds move with the cells, and the Voronoi diagram is that of the moved seeds. Struts stay straight and keep their radius; walls keep their thickness. The limits of radius, wall_thickness and vent_radius refer to the smallest cell size. With a period, method must be AUTO or DIRECT, density must not exceed 1, the three numbers of stretch must be equal, and weight must be 0. NULL (default): all cells have one size.</summary>
         public msq_period_def* period;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1235,7 +1237,7 @@ namespace Msq.Interop
         public msq_param thickness;
         /// <summary>Cells of varying size. NULL (default): all cells have the size of the grid.</summary>
         public msq_period_def* period;
-        /// <summary>Cells around an axis or a point, or by a sampled map. NULL (default): boxes. Not together with a period or a thickness.</summary>
+        /// <summary>Warped cells. NULL (default): cells are boxes. Not together with a period or a thickness.</summary>
         public msq_warp_def* warp;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -1314,7 +1316,7 @@ namespace Msq.Interop
         public double radius;
         /// <summary>Radius of all balls if ball_radii is NULL. No default.</summary>
         public double ball_radius;
-        /// <summary>Shorter beams are dropped. Default 0.</summary>
+        /// <summary>In model units. Shorter beams are dropped. Default 0.</summary>
         public double min_length;
         /// <summary>Characteristic length of the scale. 0 (default): the longest beam, or the largest diameter if that is more.</summary>
         public double length_scale;
@@ -1548,7 +1550,7 @@ namespace Msq.Interop
     public unsafe struct msq_material_def
     {
         public uint struct_size;
-        /// <summary>Positive. Its meaning is the host's. No default.</summary>
+        /// <summary>Positive. The host chooses its meaning. No default.</summary>
         public uint id;
         /// <summary>channel_count channels with distinct names.</summary>
         public msq_channel* channels;
@@ -1614,7 +1616,7 @@ namespace Msq.Interop
         public double length_scale;
         /// <summary>AUTO: minimum number of points in a group that is evaluated as a set. 0 (default): measured for each kind of structure.</summary>
         public ulong critical_count;
-        /// <summary>Arrays of points are grouped by this many parts of a cell along each axis, where parts hold hundreds of points. 1 (by cell) to 64, rounded down to a power of 2. 0 (default): measured. Does not change results.</summary>
+        /// <summary>msq groups the points of an array by parts of a cell, this many along each axis, if the parts hold hundreds of points. 1 (by cell) to 64, rounded down to a power of 2. 0 (default): measured. Does not change results.</summary>
         public uint group_parts;
         /// <summary>Must be 0.</summary>
         public uint reserved;
@@ -1808,7 +1810,7 @@ namespace Msq.Interop
         public ulong layer_count;
         /// <summary>0 (default): the region is the bounding box of the model, centred in the pixels; region_min and region_max must be 0. 1: the region below. A model of all space needs 1.</summary>
         public int has_region;
-        /// <summary>Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at least one. A slab takes at most 32 MiB and a quarter of the context's memory_limit, and 2 MiB per thread for structures that do not gain by more. A run computes fewer layers at once where the limit leaves less. The first slab of a run has a 32nd of the layers, except for structures of 2 MiB, so that the host receives its first layer soon. Where even one layer is too large, bands of its rows are computed one after the other. Does not change results.</summary>
+        /// <summary>Layers computed at once. 0 (default): about 64 layers in whole cells of the finest scale, at least one. A slab takes at most 32 MiB and a quarter of the context's memory_limit. Some structures do not become faster with more layers; their slabs take at most 2 MiB per thread. A run computes fewer layers at once if the memory limit leaves less. The first slab of a run has a 32nd of the layers, so that the host receives its first layer soon; slabs of at most 2 MiB per thread are not divided in this way. If even one layer is too large, bands of its rows are computed one after the other. Does not change results.</summary>
         public uint slab_layers;
         /// <summary>Corner of pixel (0, 0) and bottom of layer 0.</summary>
         public fixed double region_min[3];
@@ -1834,7 +1836,7 @@ namespace Msq.Interop
         public uint output_count;
         /// <summary>What each layer holds, in place of `output` and the values for GREY above. Copied. All elements have the same struct_size, which is the distance between them. Outputs that sample the same points share their samples: BITS and BYTES, and GREY of equal grey_samples. NULL (default): one output, as above.</summary>
         public msq_output_def* outputs;
-        /// <summary>Where layers lie: coordinates u, v, w are those of the point frame_origin + u * axis 0 + v * axis 1 + w * axis 2. Rows of pixels lie along u, one row follows the other along v, and layers lie along w. x, y and z in the text above and of layers then mean u, v and w, also in the region, in heights, in contours and in findings. Default 0.</summary>
+        /// <summary>Where layers lie. The point with the coordinates u, v, w is frame_origin + u * axis 0 + v * axis 1 + w * axis 2. Rows of pixels lie along u, one row follows the other along v, and layers lie along w. x, y and z in the text above and of layers then mean u, v and w, also in the region, in heights, in contours and in findings. Default 0.</summary>
         public fixed double frame_origin[3];
         /// <summary>Three rows, the axes, orthonormal within 1e-9; msq takes the nearest axes that are orthonormal. Left-handed axes mirror. All zeros (default): the axes of the model. For layers normal to x whose pixels lie along y and z: {0, 1, 0, 0, 0, 1, 1, 0, 0}. Cost: bits of layers normal to y with pixels along x and z cost what they do without a frame. Along other axes they take 10 to 15 ns per sample and thread in a box; more in meshes and host shapes, which evaluate points.</summary>
         public fixed double frame_axes[9];
@@ -2059,9 +2061,9 @@ namespace Msq.Interop
         public double z;
         /// <summary>Maximum distance between the lines and the middle of the walls, in model units, before rounding to the coordinates. At least half a unit of the coordinates. 0 (default): 1/200 of the smallest cell size.</summary>
         public double tolerance;
-        /// <summary>In model units. Shorter paths are dropped. A shorter line between two points where an odd number of lines meet is dropped too, which saves a path. If min_length is at most the width of a line, the lines that continue at its two ends still touch. Default 0.</summary>
+        /// <summary>In model units. Shorter paths are dropped. Shorter lines between two points where an odd number of lines meet are dropped too: each saves a path. If min_length is at most the width of a printed line, the lines that continue at the two ends still touch. Default 0.</summary>
         public double min_length;
-        /// <summary>In model units, about the width of a line. If positive, walls between points where an odd number of lines meet are printed as two lines, side by side at this distance, where that joins paths: a printer then stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate does not count them twice. Shorter walls are chosen first. A wall is not chosen if one of its two lines would leave the polygon. The two lines may cross. Default 0: no wall is printed twice.</summary>
+        /// <summary>Distance between two lines side by side, in model units, about the width of a line. 0 (default): no wall is printed twice. If it is positive, some walls between points where an odd number of lines meet become two lines side by side. This joins paths, so a printer stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate counts each wall once. Shorter walls are chosen first. A wall is not chosen if one of its two lines would leave the polygon. The two lines may cross.</summary>
         public double pair_distance;
 
         /// <summary>One with the defaults of msq.</summary>
@@ -2378,9 +2380,9 @@ namespace Msq.Interop
         public uint struct_size;
         /// <summary>Version of the format that the document names; now 1.</summary>
         public uint version;
-        /// <summary>1 if it has settings for slices, for pictures.</summary>
+        /// <summary>1 if it has settings for slices; 1 if it has settings for pictures.</summary>
         public int has_slicing;
-        /// <summary>1 if it has settings for slices, for pictures.</summary>
+        /// <summary>1 if it has settings for slices; 1 if it has settings for pictures.</summary>
         public int has_view;
         /// <summary>Number of files that it names.</summary>
         public uint files;
@@ -3304,9 +3306,9 @@ namespace Msq.Interop
         /// <para>A NaN operand makes the result NaN, also for min and max, in either order (minimum and maximum of IEEE 754-2019). The operand that select does not choose is ignored. Points where the value is NaN are outside. Limits: 65536 bytes; 100 nested parentheses, signs and exponents; 8192 distinct operations, numbers and variables in total.</para>
         /// <para>Where floor, a comparison, select or atan2 may jump within the cell, the slope has no bound. Distances to such a structure are 0. Rays cross jumps, poles and NaN in steps of up to 1/1024 of a cell.</para>
         /// <para>Thickness is the volume of the walls divided by the area of their middle surface, where the function is 0, in one cell. msq finds the level from a curve of 512 pieces through 65^3 values of the function, accurate to about 0.3 % for the named functions (docs/concepts.md). Walls are thicker where the function is flatter. A field of thickness selects at each point the level of that thickness.</para>
-        /// <para>With a period, the function is that of the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness is kept: at each position along the axis, msq uses the level that gives walls of this thickness in cells of the size there. Only the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost as much as those of a structure without a period whose cell size is no multiple of the pitch.</para>
-        /// <para>With warped cells, the function is that of the position in the cell, so walls are thicker where cells are wider; a level that is a field of the radius counters that. Distances are lower bounds that hold for the cells around; they are 0 near the axis and the poles. Rays cross what they cannot bound there in steps of up to 1/1024 of a cell. Layers across or along the axis of cylindrical cells take rows along which the function is tabulated; other layers decide boxes, then points, which takes 30 to 40 times as long. Fill lines end at the shell.</para>
-        /// <para>Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: thickness for a network, together with a level, above what fills the cell, or of a function without a zero or nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; what msq_warp_def limits; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period; a thickness or a period with a warp), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).</para>
+        /// <para>With a period, the function is evaluated at the position in a cell of varying size. A level applies to cells of all sizes, so walls grow with the cells. A thickness is kept: at each position along the axis, msq uses the level that gives walls of this thickness in cells of the size there. Then only the spacing varies. Fill lines follow the middle of the walls in both cases. msq_fill_calibrate takes only structures without a period. Slices along the axes of the grid cost as much as those of a structure without a period whose cell size is no multiple of the pitch.</para>
+        /// <para>With warped cells, the function is evaluated at the position in the cell, so walls are thicker where cells are wider. A level that is a field of the radius can keep their thickness. Distances are lower bounds, and 0 near the axis and the poles. Where rays have no bound of the function there, they advance in steps of up to 1/1024 of a cell. Layers across or along the axis of cylindrical cells are computed by rows, from tables of the function. Other layers are computed by boxes, then by points, which takes 30 to 40 times as long. Fill lines end where the cells end.</para>
+        /// <para>Functions use IEEE operations only, not the C library, so their bits are equal on every machine. Cost: the first slice or grid makes clusters^3 interval evaluations (tens of milliseconds by default, seconds for the longest expressions); a thickness takes tens of milliseconds at construction, with a period up to a second. Errors: ARGUMENT (also: a thickness for a network, a thickness together with a level, a thickness that fills the cell, a thickness for a function that has no zero or is nowhere above 1e-300; a period whose positions do not ascend, or whose cell sizes leave their limits, with the index; a warp that leaves its limits; for expressions the message gives the position, from 1, and the reason), LIMIT (limits of expressions; more than 2^24 cells between the grid's origin and a position of the period), UNSUPPORTED (a field of thickness with a period; a thickness or a period with a warp), MEMORY. Source: paper, section "Preprocessing for Repeating Structures"; Schoen 1970; Fischer and Koch 1987; Karcher 1989; von Schnering and Nesper 1991; Wohlgemuth et al. 2001; Fisher et al. 2023 (docs/prior_art.md).</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3688,7 +3690,7 @@ namespace Msq.Interop
 
         /// <summary>Creates a model: the intersection of the shape with every structure. Where a scale leaves a skin, the union of structure and skin takes the place of the structure. def must not be NULL.</summary>
         /// <remarks>
-        /// <para>The skin is the set of points of the shape whose depth is at most the thickness at the point, where the thickness is above 0. Depth is the distance to the boundary of the shape, as in msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the origin of a structure's grid), UNSUPPORTED (a skin in a voxel image, a host shape or all space), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the skin is ours.</para>
+        /// <para>The skin is the set of points of the shape whose depth is at most the thickness at the point, where the thickness is above 0. Depth is the distance to the boundary of the shape, as in msq_point_distance. Primitives and meshes have depth; voxel images and host shapes only bound the distance. Cost: constant; with a skin on a mesh, the first call that needs it builds a tree of the triangles. Errors: ARGUMENT, LIMIT (the shape has bounds and reaches 2^24 cells from the origin of a structure's grid), UNSUPPORTED (a skin in a voxel image, a host shape or all space), MEMORY. Source: paper, section "Multiscale Shape-Material Modeling API"; the paper has no skin.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -3965,7 +3967,7 @@ namespace Msq.Interop
 
         /// <summary>Finds the constant parameter (radius of struts, level of a function) at which a structure has a target volume fraction, and the curve between the two. The parameter of the structure itself is ignored.</summary>
         /// <remarks>
-        /// <para>target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20). At parameters[i] the fraction is fractions[i] = i / (pair_count - 1) * max_fraction. Radii and thicknesses are in model units. The fractions ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2 points in each of 64^3 parts of one cell (lattices, functional structures), or of 16^3 cells (foams, waves; with a period, of the smallest size; unions: of the grid with the largest cells), from the origin of the grid; an error in warped cells. job NULL: no job. Cost: the onset of each point (lattices 0.1 us, in warped cells 10 to 100 us; foams 1.5 us; in parallel) and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, lattices of plates and struts, foams of struts and walls, host structures and functions, beams, and structures made of others, except unions of lattices and foams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.</para>
+        /// <para>target: 0 to 1. parameters, fractions: receive pair_count pairs (2 to 2^20). At parameters[i] the fraction is fractions[i] = i / (pair_count - 1) * max_fraction. Radii and thicknesses are in model units. The fractions ascend strictly; neighbouring parameters may be equal. They convert a field of density to one of radius (msq_field_map). Both NULL if pair_count is 0. report NULL: not wanted. sample NULL: 2 points in each of 64^3 parts of a box that begins at the origin of the grid. The box is one cell for lattices and functional structures, and 16^3 cells for foams and waves. With a period these are cells of the smallest size; in unions they are those of the grid with the largest cells. Structures in warped cells need a sample. job NULL: no job. Cost: the onset of each point (lattices 0.1 us, in warped cells 10 to 100 us; foams 1.5 us; in parallel) and a sort; 16 bytes per point, accounted to the context. Errors: ARGUMENT, UNSUPPORTED (kinds without onset: lattices with two or more unit cells, lattices of plates and struts, foams of struts and walls, host structures and functions, beams, and structures made of others, except unions of lattices and foams), CANCELLED, LIMIT (target above max_fraction; memory), MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4166,9 +4168,9 @@ namespace Msq.Interop
 
         /// <summary>Computes the middle lines of a structure's thin walls at a height, within a polygon.</summary>
         /// <remarks>
-        /// <para>Foams: the faces of the diagram, interrupted by holes. Plate lattices: the plates. Sheets: where the function, or the sum of waves, is 0; networks: where it is the level. Unions: the lines of all; intersections and differences: those of the first within, or outside of, all others. Radius, level of sheets and thickness are ignored. Other kinds have no such lines; use contours for them.</para>
-        /// <para>Each line is in one path. No line is printed twice unless pair_distance is set. The number of paths is the minimum: half the number of points where a path has to end. These are the points at the border and the junctions of three, five, ... lines. At a junction, the lines that are most nearly straight are joined, unless this adds paths. Paths come in printing order: each begins near the end of the one before. The travel between connected lines is a few percent above the minimum.</para>
-        /// <para>Ends at the polygon's border are rounded to whole coordinates. All other decisions are exact. Lines on the border itself count as inside on one side of the polygon. The lines do not depend on the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are followed on a grid of 1/32 of the smallest cell size (waves: 1/16; docs/concepts.md tells of warped cells): lines closer together than that may be joined, and smaller closed lines lost.</para>
+        /// <para>The lines are the section of the plane at z with these surfaces: the faces of a foam's diagram, without the holes of vent_radius; the plates of a plate lattice; for a sheet, the surface where the function, or the sum of waves, is 0; for a network, the surface where it equals the level. A union has the lines of all members. An intersection has the lines of its first member that are inside all others. A difference has the lines of its first member that are outside of all others. Radius, level of sheets and thickness are ignored. Other kinds have no such lines; use contours for them.</para>
+        /// <para>Each line is in one path. No line is printed twice unless pair_distance is set. The number of paths is the minimum: half the number of points where a path must end. These are the points at the border and the junctions of three, five, ... lines. At a junction, the lines that are most nearly straight are joined, unless this adds paths. Paths come in printing order: each begins near the end of the one before. The travel between connected lines is a few percent above the minimum.</para>
+        /// <para>Ends of lines at the polygon's border are rounded to whole coordinates. All other decisions are exact. Lines on the border itself count as inside on one side of the polygon. The lines do not depend on the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are sampled on a grid of 1/32 of the smallest cell size, waves on one of 1/16 (docs/concepts.md has the grid of warped cells). Lines closer together than that may be joined, and smaller closed lines lost.</para>
         /// <para>def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box. Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam or of plates; 1 us per square that a function's line crosses; 20 ns, or 3 ns per wave, per other square. Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are on one line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson, "Matching, Euler tours and the Chinese postman", 1973.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -4210,9 +4212,11 @@ namespace Msq.Interop
 #endif
         int msq_fill_info(msq_fill* fill, msq_fill_report* report);
 
-        /// <summary>Finds the cell sizes at which a structure's fill lines cover a share of the area.</summary>
+        /// <summary>Finds the cell sizes at which a structure's fill lines cover a given share of the area.</summary>
         /// <remarks>
-        /// <para>The density of lines is their length per area times their width, on average over all heights. It is inversely proportional to the cell size. cell_size receives the cell sizes of the structure's grid, all multiplied by the same factor. Create the structure anew with these and the same rotation. density: more than 0, at most 1. job NULL: no job. Single layers differ from the average, those of a gyroid by a tenth. The length is measured on the structure as it is: one cell at 64 heights; 8 x 8 cells if rotated; 32 x 32 of a foam or of waves at 32 heights, accurate to about 0.5 %. Multiply weight and vent_radius by the factor, too. Calibrate a foam without its field of density: d seeds per cell volume multiply the density of lines by about the cube root of d. Cost: up to 0.5 s for a foam, 0.03 s per wave. Errors: ARGUMENT, UNSUPPORTED (no thin walls; walls not uniform; made of structures), LIMIT (no lines), CANCELLED, HOST, MEMORY.</para>
+        /// <para>line_width: in model units, positive. density: this share, above 0 and at most 1. It is the length of the lines per area, times line_width, on average over all heights. It is inversely proportional to the cell size. cell_size receives the cell sizes of the structure's grid, all multiplied by the same factor. Create the structure anew with these and the same rotation. Multiply weight and vent_radius of a foam by the same factor. job NULL: no job.</para>
+        /// <para>Single layers differ from the average, those of a gyroid by a tenth. msq measures the lines of the structure as it is defined: in one cell at 64 heights, or in 8 x 8 cells if the grid is rotated; for foams and waves in 32 x 32 cells at 32 heights, accurate to about 0.5 %. Calibrate a foam without its field of density: d seeds per cell volume multiply the density of lines by about the cube root of d.</para>
+        /// <para>Cost: up to 0.5 s for a foam, 0.03 s per wave. Errors: ARGUMENT, UNSUPPORTED (a structure without thin walls; a structure whose lines are denser in some places, by a period, a warp, or a field of density, vent_radius or the level of a network; a structure made of other structures), LIMIT (a structure without lines), CANCELLED, HOST, MEMORY.</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
@@ -4271,9 +4275,9 @@ namespace Msq.Interop
 #endif
         int msq_rays_def_init(msq_rays_def* def, UIntPtr size);
 
-        /// <summary>Finds where each ray first meets the solid at t_min &lt;= t &lt;= t_max. hits[i] belongs to ray i. hit_count must be the number of rays. query NULL: defaults. job NULL: no job. What begins at t_max is hit if the rounded point there is inside.</summary>
+        /// <summary>Finds where each ray first meets the solid at t_min &lt;= t &lt;= t_max. hits[i] belongs to ray i. hit_count must be the number of rays. query NULL: defaults. job NULL: no job. A solid that begins at t_max is hit if the rounded point there is inside.</summary>
         /// <remarks>
-        /// <para>Membership (msq_point_membership) changes within a tolerance of t. The tolerance is 2^-36 of the characteristic length of the scale that was hit, or 2^-50 of the largest coordinate of the ray in the shape's box, relative to the origin and to that of the grid, if that is more. Before t membership does not change, except over parts of the ray shorter than the tolerance. Exceptions: shapes and structures that are known by callbacks, images or rough fields; docs/accuracy.md lists the tolerance of position and normal for each kind. Points of a ray are accurate to 2^-53 of the distance from its origin. The search ends for every ray. t is finite in each hit. Results do not depend on the order of the rays.</para>
+        /// <para>Membership (msq_point_membership) changes within a tolerance of t. The tolerance is 2^-36 of the characteristic length of the scale that was hit, or 2^-50 of the largest coordinate of the ray in the shape's box, relative to the origin and to that of the grid, if that is more. Before t membership does not change, except over parts of the ray shorter than the tolerance. Exceptions: shapes and structures that are defined by callbacks, by images, or by fields without a Lipschitz constant. docs/accuracy.md lists the tolerance of position and normal for each kind. Points of a ray are accurate to 2^-53 of the distance from its origin. The search ends for every ray. t is finite in each hit. Results do not depend on the order of the rays.</para>
         /// <para>Finer scales are evaluated only where the ray is inside the coarser ones. ARGUMENT and LIMIT write nothing; CANCELLED and MEMORY may leave hits partly written. Cost: parallel. Rays that are close together share work; rays in random order are sorted first, up to 2^20 at once, with 16 bytes each and at most 1/16 of the memory limit. A mesh builds its tree first, as for msq_point_distance. Errors: ARGUMENT (also rays that are not finite and directions of length 0, with their index), CANCELLED, LIMIT, MEMORY. Source: paper, section "Set Queries for Ray-Casting".</para>
         /// </remarks>
 #if NET7_0_OR_GREATER
@@ -4305,7 +4309,7 @@ namespace Msq.Interop
 #endif
         int msq_camera_fit(msq_model* model, double* direction, double* up, uint width, uint height, msq_camera* camera);
 
-        /// <summary>Returns the ray of a position in a picture of width x height pixels. position: pixels to the right of and below the upper left corner; the centre of pixel (i, j) is (i + 0.5, j + 0.5). With the returned direction the t of msq_ray_cast is the depth, and a ray from t_min = clip_near to t_max = clip_far hits exactly what msq_render draws. For picking and for pictures of the host's own. Errors: ARGUMENT.</summary>
+        /// <summary>Returns the ray of a position in a picture of width x height pixels. position: pixels to the right of and below the upper left corner; the centre of pixel (i, j) is (i + 0.5, j + 0.5). With the returned direction the t of msq_ray_cast is the depth, and a ray from t_min = clip_near to t_max = clip_far hits exactly what msq_render draws. Use it for picking, and for pictures that the host renders itself. Errors: ARGUMENT.</summary>
 #if NET7_0_OR_GREATER
         [LibraryImport(Library), UnmanagedCallConv(CallConvs = new[] { typeof(CallConvCdecl) })]
         public static partial
