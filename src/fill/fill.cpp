@@ -53,8 +53,14 @@ Fill::Fill(Context& context, const Structure& structure, const FillPlan& plan)
   // A coordinate is rounded by half a unit.
   const Box2 window = Box2{place(polygon.min()), place(polygon.max())}.grown(plan.scale);
   std::vector<Polyline> lines;
+  Reservation held_lines;
   {
     const LineGraph graph = structure.wall_lines({plan.z, window, (1 - dropped) * plan.tolerance});
+    // Chained, each point is there a second time.
+    held_lines = Reservation(context.budget,
+                             2 * graph.points.size() * sizeof graph.points[0] +
+                                 graph.lines.size() * sizeof graph.lines[0],
+                             "the lines of walls in a plane");
     lines = chain(graph);
   }
   const Rounding rounding(plan);

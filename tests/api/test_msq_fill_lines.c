@@ -354,6 +354,17 @@ static void stops_and_keeps_to_its_memory(void** state) {
                        "memory_limit");
   msq_structure_release(foam);
   msq_context_release(context);
+
+  /* Also lines of walls of which none is kept. */
+  context = make_context_of(1, 0, 5000);
+  msq_structure* gyroid = make_sheet(context, MSQ_FUNCTION_GYROID, 2);
+  msq_fill_def none = def;
+  none.min_length = 1e9;
+  assert_makes_nothing(msq_fill, msq_fill_lines(context, gyroid, &none, &made, NULL), MSQ_E_LIMIT,
+                       "the lines of walls in a plane of");
+  assert_true(memory_of(context).bytes == 0);
+  msq_structure_release(gyroid);
+  msq_context_release(context);
 }
 
 int main(void) {
