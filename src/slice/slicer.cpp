@@ -444,7 +444,17 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
   for (uint64_t begin = 0; begin < grid_.ny; begin += band) {
     check_cancelled(job);
     const uint64_t end = std::min(grid_.ny, begin + band);
-    if (samples && !(is_ahead && ahead_->take(index, words, job)))
+    RowRepeats repeats;
+    if (samples) {
+      const uint64_t across = samples->ny / grid_.ny;
+      repeats = repeats_[output.samples].of_rows(across * begin, across * end);
+    }
+    // One thread computes the period of a layer.
+    if (repeats.any() &&
+        repeats.period * model_->executor().threads() <= repeats.end - repeats.first)
+      fill_repeating_slab(*framed_, framed_resolved_, sample_rows(begin, end), repeats, index,
+                          index + 1, words, job, {}, nullptr);
+    else if (samples && !(is_ahead && ahead_->take(index, words, job)))
       fill_slab(*framed_, framed_resolved_, sample_rows(begin, end), index, index + 1, words, job);
     write(output, index, begin, end, {words}, plain.data(), bytes, job);
   }
