@@ -3139,6 +3139,14 @@ typedef struct msq_fill_def {
    * by as much; msq_fill_calibrate counts each wall once. Shorter walls are chosen first. A wall is
    * not chosen if one of its two lines would leave the polygon. The two lines may cross. */
   double pair_distance;
+  /** In model units, about the width of a line. If positive, corners of paths are rounded, so that
+   * a printer need not slow down as much for them: a parabola of four lines replaces each corner.
+   * It begins and ends at most at this distance from the corner, and at most half way to the next
+   * point. So no line moves by more than half of this distance, beyond the tolerance. Bends of up
+   * to 11 degrees stay, and so do corners whose curve would leave the polygon. The lines of a foam
+   * become a few percent shorter, which msq_fill_calibrate does not count. Default 0: no corner is
+   * rounded. */
+  double corner_distance;
 } msq_fill_def;
 
 /** Sets the defaults. Errors: ARGUMENT. */

@@ -792,6 +792,7 @@ export function types(koffi) {
     tolerance: 'double',
     min_length: 'double',
     pair_distance: 'double',
+    corner_distance: 'double',
   });
   T.msq_fill_report = koffi.struct('msq_fill_report', {
     struct_size: 'uint32_t',

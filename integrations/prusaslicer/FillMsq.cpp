@@ -9,7 +9,6 @@
 #include <map>
 #include <mutex>
 #include <string>
-#include <unordered_set>
 
 namespace Slic3r {
 namespace {
@@ -45,47 +44,10 @@ std::array<double, 3> cell_size(const msq_structure *structure, double spacing, 
     return size;
 }
 
-using Corners = std::unordered_set<Point, PointHash>;
-
-// The points of lines at which they may be rounded: all but their ends.
-Corners corners_of(const Polylines &lines)
-{
-    Corners corners;
-    for (const Polyline &line : lines)
-        for (size_t i = 1; i + 1 < line.points.size(); ++ i)
-            corners.insert(line.points[i]);
-    return corners;
-}
-
-// Cuts corners off, up to this distance from them, along parabolas of four lines: a printer need not slow down as much for them. No line
-// moves by more than half of the distance.
-Polyline rounded(const Polyline &line, const Corners &corners, double distance)
-{
-    Polyline out;
-    for (size_t i = 0; i < line.points.size(); ++ i) {
-        const Point &point = line.points[i];
-        if (i == 0 || i + 1 == line.points.size() || corners.count(point) == 0) {
-            out.points.emplace_back(point);
-            continue;
-        }
-        const Vec2d  at = point.cast<double>(), before = line.points[i - 1].cast<double>() - at, after = line.points[i + 1].cast<double>() - at;
-        const double reach = std::min({ distance, 0.5 * before.norm(), 0.5 * after.norm() });
-        const Vec2d  a = before.normalized() * reach, b = after.normalized() * reach;
-        if ((a + b).norm() < 0.2 * reach) { // nearly straight
-            out.points.emplace_back(point);
-            continue;
-        }
-        for (int step = 0; step <= 4; ++ step) {
-            const double t = 0.25 * step;
-            out.points.emplace_back(Point(Vec2d(at + a * ((1 - t) * (1 - t)) + b * (t * t))));
-        }
-    }
-    return out;
-}
-
 static_assert(sizeof(Point) == 2 * sizeof(int32_t), "msq reads the points of polygons in place");
 
-// Walls as lines. Some of a foam's are two lines side by side: else the nozzle stops at every other junction.
+// Walls as lines. Some of a foam's are two lines side by side: else the nozzle stops at every other junction. A foam's corners are round: else
+// the nozzle brakes at each.
 Polylines wall_lines(
     const msq_structure *structure, FillMsq::Pattern pattern, const ExPolygon &expolygon, double z, double spacing, double resolution)
 {
@@ -102,6 +64,7 @@ Polylines wall_lines(
     def.tolerance       = resolution;
     def.min_length      = 0.8 * spacing;
     def.pair_distance   = pattern == FillMsq::Pattern::Foam ? spacing : 0;
+    def.corner_distance = def.pair_distance;
     const Lines lines = make<Lines>([](auto... a) { return msq_fill_lines(a..., nullptr); }, context(), structure, &def);
     msq_fill_report report{};
     report.struct_size = sizeof report;
@@ -144,10 +107,8 @@ double measured_density(double spacing, double density, double seeds)
         square.contour.points.emplace_back(scaled<coord_t>(corner));
     double length = 0;
     for (int i = 0; i < 8; ++ i) {
-        const Polylines lines   = wall_lines(foam.get(), FillMsq::Pattern::Foam, square, 0.37 * i * side, spacing, 0.0125);
-        const Corners   corners = corners_of(lines);
-        for (const Polyline &line : lines)
-            length += unscaled(rounded(line, corners, scaled<double>(spacing)).length());
+        for (const Polyline &line : wall_lines(foam.get(), FillMsq::Pattern::Foam, square, 0.37 * i * side, spacing, 0.0125))
+            length += unscaled(line.length());
     }
     return length * spacing / (8 * side * side);
 }
@@ -313,16 +274,12 @@ void FillMsq::_fill_surface_single(
     Polylines lines = m_pattern == Pattern::Struts ?
         strut_loops(made->model.get(), expolygon, z, this->spacing, resolution) :
         wall_lines(made->structure.get(), m_pattern, expolygon, z, this->spacing, resolution);
-    // Joints along the border are not rounded: they would leave the polygon where its border bends inwards.
-    const Corners corners = m_pattern == Pattern::Foam ? corners_of(lines) : Corners();
     if (m_pattern != Pattern::Struts && ! params.dont_connect() && ! lines.empty()) {
         Polylines connected;
         connect_infill(std::move(lines), expolygon, connected, this->spacing, params);
         lines = std::move(connected);
     }
     for (Polyline &line : lines) {
-        if (! corners.empty())
-            line = rounded(line, corners, scaled<double>(this->spacing));
         line.rotate(angle);
         polylines_out.emplace_back(std::move(line));
     }

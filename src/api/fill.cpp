@@ -105,6 +105,7 @@ FillPlan read_plan(const msq_fill_def& def, const Structure& structure) {
   plan.tolerance = std::max(plan.tolerance, 0.5 * plan.scale);
   plan.min_length = require_not_negative(def.min_length, "min_length");
   plan.pair_distance = require_not_negative(def.pair_distance, "pair_distance");
+  plan.corner_distance = require_not_negative(def.corner_distance, "corner_distance");
   return plan;
 }
 

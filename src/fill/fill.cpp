@@ -7,6 +7,7 @@
 #include "base/job.h"
 #include "fill/chain.h"
 #include "fill/order.h"
+#include "fill/round_corners.h"
 
 namespace msq {
 
@@ -74,9 +75,13 @@ Fill::Fill(Context& context, const Structure& structure, const FillPlan& plan)
   std::vector<Tour> tours = find_trails(std::move(parts), plan.min_length / plan.scale,
                                         {plan.pair_distance / plan.scale, &polygon});
   size_t points = 0, count = 0;
-  for (const Tour& tour : tours) {
+  for (Tour& tour : tours) {
     count += tour.size();
-    for (const IntPath& path : tour) points += path.points.size();
+    for (IntPath& path : tour) {
+      poll();
+      if (plan.corner_distance > 0) round_corners(path, plan.corner_distance / plan.scale, polygon);
+      points += path.points.size();
+    }
   }
   memory_ =
       Reservation(context.budget, points * (is_int32_ ? 8 : 16) + count * 9, "the lines of a fill");

@@ -20,10 +20,11 @@ struct FillPlan {
   Vec2 origin;
   double scale = 1;
   double z = 0;
-  double tolerance = 0;      ///< model units, > 0
-  double min_length = 0;     ///< model units
-  double pair_distance = 0;  ///< model units
-  bool is_int32 = false;     ///< of the points that result
+  double tolerance = 0;        ///< model units, > 0
+  double min_length = 0;       ///< model units
+  double pair_distance = 0;    ///< model units
+  double corner_distance = 0;  ///< model units
+  bool is_int32 = false;       ///< of the points that result
 };
 
 /// The paths, in arrays.

@@ -8,10 +8,6 @@ namespace msq {
 
 namespace {
 
-Vec2 between(IntPoint from, IntPoint to) {
-  return {static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y)};
-}
-
 Vec2 left_of(Vec2 way) {
   return Vec2{-way.y, way.x} * (1 / length(way));
 }
@@ -20,6 +16,10 @@ Vec2 left_of(Vec2 way) {
 constexpr double pointed_gap = 0.05;
 
 }  // namespace
+
+Vec2 between(IntPoint from, IntPoint to) {
+  return {static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y)};
+}
 
 IntPoint moved(IntPoint p, Vec2 by) {
   return {p.x + std::llround(by.x), p.y + std::llround(by.y)};

@@ -7,6 +7,8 @@
 
 namespace msq {
 
+Vec2 between(IntPoint from, IntPoint to);
+
 /// The point p, moved by a vector and rounded.
 IntPoint moved(IntPoint p, Vec2 by);
 

@@ -290,6 +290,77 @@ static void prints_walls_as_pairs(void** state) {
   msq_context_release(context);
 }
 
+/* The longest distance from a point of the second paths to the lines of the first. */
+static double departure(const msq_fill_report* lines, const msq_fill_report* points) {
+  double most = 0;
+  for (uint64_t k = 0; k < points->point_count; ++k) {
+    const double x = coordinate_of(points, 2 * k), y = coordinate_of(points, 2 * k + 1);
+    double least = HUGE_VAL;
+    for (uint64_t p = 0; p < lines->path_count; ++p) {
+      const uint64_t begin = lines->path_starts[p], end = lines->path_starts[p + 1];
+      for (uint64_t i = begin; i + !lines->closed[p] < end; ++i) {
+        const uint64_t j = i + 1 < end ? i + 1 : begin;
+        const double ax = coordinate_of(lines, 2 * i), ay = coordinate_of(lines, 2 * i + 1);
+        const double vx = coordinate_of(lines, 2 * j) - ax,
+                     vy = coordinate_of(lines, 2 * j + 1) - ay;
+        const double square = vx * vx + vy * vy;
+        double t = square > 0 ? ((x - ax) * vx + (y - ay) * vy) / square : 0;
+        t = t < 0 ? 0 : t > 1 ? 1 : t;
+        const double distance = hypot(ax + t * vx - x, ay + t * vy - y);
+        if (distance < least) least = distance;
+      }
+    }
+    if (least > most) most = least;
+  }
+  return most;
+}
+
+/* The sharpest bend of all paths, in radians. Bends at lines shorter than `shortest` do not count:
+ * there coordinates are too coarse to tell. */
+static double sharpest_bend(const msq_fill_report* paths, double shortest) {
+  double most = 0;
+  for (uint64_t p = 0; p < paths->path_count; ++p)
+    for (uint64_t i = paths->path_starts[p] + 1; i + 1 < paths->path_starts[p + 1]; ++i) {
+      const double ux = coordinate_of(paths, 2 * i) - coordinate_of(paths, 2 * i - 2);
+      const double uy = coordinate_of(paths, 2 * i + 1) - coordinate_of(paths, 2 * i - 1);
+      const double vx = coordinate_of(paths, 2 * i + 2) - coordinate_of(paths, 2 * i);
+      const double vy = coordinate_of(paths, 2 * i + 3) - coordinate_of(paths, 2 * i + 1);
+      if (hypot(ux, uy) < shortest || hypot(vx, vy) < shortest) continue;
+      const double bend = fabs(atan2(ux * vy - uy * vx, ux * vx + uy * vy));
+      if (bend > most) most = bend;
+    }
+  return most;
+}
+
+/* Corners are cut off, the paths' ends stay, and nothing leaves the polygon. */
+static void rounds_corners(void** state) {
+  msq_context* context = make_context();
+  msq_structure* foam = make_foam_of(context, 3);
+  (void)state;
+  msq_fill_def def = square_def(1.1);
+  def.min_length = 0.3;
+  msq_fill* sharp = make_fill(context, foam, &def);
+  def.corner_distance = 0.4;
+  msq_fill* rounded = make_fill(context, foam, &def);
+  const msq_fill_report a = paths_of(sharp), b = paths_of(rounded);
+  assert_int_equal(b.path_count, a.path_count);
+  assert_true(b.length < 0.995 * a.length && b.length > 0.9 * a.length);
+  assert_true(sharpest_bend(&a, 1e5) > 1);
+  /* A corner of 120 degrees has five bends; those of sharp corners are larger. */
+  assert_true(sharpest_bend(&b, 2e4) < 0.8 * sharpest_bend(&a, 1e5));
+  const double moved = departure(&a, &b);
+  assert_true(moved > 0.02e6 && moved <= 0.2e6 + 2);
+  for (uint64_t i = 0; i < b.point_count; ++i) {
+    const double x = coordinate_of(&b, 2 * i), y = coordinate_of(&b, 2 * i + 1);
+    assert_true(x >= 0 && y >= 0 && x <= 40e6 && y <= 40e6);
+    assert_false(x > 15e6 && y > 15e6 && x < 25e6 && y < 25e6);
+  }
+  msq_fill_release(rounded);
+  msq_fill_release(sharp);
+  msq_structure_release(foam);
+  msq_context_release(context);
+}
+
 /* Two halves of the square have the lines of the whole. */
 static void goes_on_in_the_next_polygon(void** state) {
   msq_context* context = make_context();
@@ -375,6 +446,7 @@ int main(void) {
       cmocka_unit_test(takes_the_coordinates_of_the_host),
       cmocka_unit_test(drops_what_is_short),
       cmocka_unit_test(prints_walls_as_pairs),
+      cmocka_unit_test(rounds_corners),
       cmocka_unit_test(goes_on_in_the_next_polygon),
       cmocka_unit_test(stops_and_keeps_to_its_memory),
   };

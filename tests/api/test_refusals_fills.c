@@ -60,11 +60,13 @@ static void fill_lines(void** state) {
     wrong_number(table, &def->tolerance, "tolerance");
     wrong_number(table, &def->min_length, "min_length");
     wrong_number(table, &def->pair_distance, "pair_distance");
+    wrong_number(table, &def->corner_distance, "corner_distance");
     WRONG(ARGUMENT, "scale is 0", def->scale = 0);
     WRONG(ARGUMENT, "scale is 2e+75", def->scale = 2e75);
     WRONG(ARGUMENT, "tolerance is -1", def->tolerance = -1);
     WRONG(ARGUMENT, "min_length is -2", def->min_length = -2);
     WRONG(ARGUMENT, "pair_distance is -3", def->pair_distance = -3);
+    WRONG(ARGUMENT, "corner_distance is -4", def->corner_distance = -4);
     /* a cell is 8e60 units wide, and a line runs through the corner */
     WRONG(LIMIT, "the limit is 2^60", structure = gyroid; def->z = 0; def->scale = 1e-60);
     WRONG(LIMIT, "memory_limit", in = small; structure = of_small);

@@ -17,6 +17,7 @@ void fill(Stage& stage, World& world, const msq_structure* structure) {
   def.scale = 1e-3;
   def.z = 0.7;
   def.pair_distance = 0.05;
+  def.corner_distance = 0.05;
   msq_fill* made;
   std::vector<int64_t> first(4);
   stage.watch_handle(made);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fill/polygon.h"
+#include "fill/round_corners.h"
 #include "msq_test.h"
 #include "random.h"
 
@@ -195,6 +196,32 @@ void test_sides_of_the_border(void**) {
   assert_true((parts[0].points == std::vector<IntPoint>{{10, 7}, {5, 7}, {5, 5}, {10, 5}}));
 }
 
+/// Corners are rounded where the curve is within the polygon.
+void test_corners(void**) {
+  // An L; its corner that points inwards is at (1000, 1000).
+  const FillPolygon polygon(
+      {{{0, 0}, {3000, 0}, {3000, 1000}, {1000, 1000}, {1000, 3000}, {0, 3000}}});
+  IntPath path{{{2900, 990}, {990, 990}, {990, 2000}, {100, 2000}, {100, 100}, {2900, 100}}, false};
+  const std::vector<IntPoint> given = path.points;
+  round_corners(path, 300, polygon);
+  assert_true(path.points.front() == given.front() && path.points.back() == given.back());
+  const auto has = [&](IntPoint p) {
+    return std::find(path.points.begin(), path.points.end(), p) != path.points.end();
+  };
+  assert_true(has({990, 990}));  // its curve would leave the polygon
+  assert_false(has({100, 100}));
+  assert_true(has({100, 400}) && has({400, 100}) && has({175, 175}));
+  IntPath same = path;  // a curve smaller than the unit of coordinates
+  round_corners(same, 0.3, polygon);
+  assert_int_equal(same.points.size(), path.points.size());
+
+  IntPath closed{{{100, 100}, {900, 100}, {900, 900}, {100, 900}}, true};
+  round_corners(closed, 1e9, polygon);
+  assert_int_equal(closed.points.size(), 16);  // four curves, each ends where the next begins
+  for (const IntPoint p : closed.points)
+    assert_true(distance(p, {500, 500}) > 399 && distance(p, {500, 500}) < 430);
+}
+
 }  // namespace
 
 int main() {
@@ -202,6 +229,7 @@ int main() {
       cmocka_unit_test(test_parts_are_what_is_inside),
       cmocka_unit_test(test_ties_are_consistent),
       cmocka_unit_test(test_sides_of_the_border),
+      cmocka_unit_test(test_corners),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -2065,6 +2065,8 @@ namespace Msq.Interop
         public double min_length;
         /// <summary>Distance between two lines side by side, in model units, about the width of a line. 0 (default): no wall is printed twice. If it is positive, some walls between points where an odd number of lines meet become two lines side by side. This joins paths, so a printer stops less often and travels less. Such walls are 15 to 25 % of the length of a foam's lines, which grows by as much; msq_fill_calibrate counts each wall once. Shorter walls are chosen first. A wall is not chosen if one of its two lines would leave the polygon. The two lines may cross.</summary>
         public double pair_distance;
+        /// <summary>In model units, about the width of a line. If positive, corners of paths are rounded, so that a printer need not slow down as much for them: a parabola of four lines replaces each corner. It begins and ends at most at this distance from the corner, and at most half way to the next point. So no line moves by more than half of this distance, beyond the tolerance. Bends of up to 11 degrees stay, and so do corners whose curve would leave the polygon. The lines of a foam become a few percent shorter, which msq_fill_calibrate does not count. Default 0: no corner is rounded.</summary>
+        public double corner_distance;
 
         /// <summary>One with the defaults of msq.</summary>
         public static msq_fill_def Defaults()

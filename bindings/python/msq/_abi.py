@@ -626,7 +626,8 @@ class msq_fill_def(Structure):
     _fields_ = [("struct_size", c_uint32), ("coordinate_type", c_int32),
                 ("rings", POINTER(msq_ring)), ("ring_count", c_uint64), ("point_stride", c_uint64),
                 ("scale", c_double), ("origin", c_double * 2), ("z", c_double),
-                ("tolerance", c_double), ("min_length", c_double), ("pair_distance", c_double)]
+                ("tolerance", c_double), ("min_length", c_double), ("pair_distance", c_double),
+                ("corner_distance", c_double)]
 
 
 class msq_fill_report(Structure):

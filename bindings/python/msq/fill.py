@@ -41,7 +41,7 @@ class Fill(Handle):
     @classmethod
     def _of(cls, context: Any, structure: Any, polygon: Any, z: float, scale: float,
             origin: Sequence[float], tolerance: float, min_length: float,
-            pair_distance: float, job: Optional[Job]) -> Fill:
+            pair_distance: float, corner_distance: float, job: Optional[Job]) -> Fill:
         rings = _rings_of(polygon)
         given = (_abi.msq_ring * max(len(rings), 1))()
         for ring, known in zip(rings, given):
@@ -58,6 +58,7 @@ class Fill(Handle):
         definition.tolerance = tolerance
         definition.min_length = min_length
         definition.pair_distance = pair_distance
+        definition.corner_distance = corner_distance
         fill = cls._wrap(build(
             lambda create: cls._create(create, context, structure, ctypes.byref(definition)),
             lib.msq_fill_lines, job))

@@ -177,7 +177,7 @@ class Structure(Handle):
     def fill_lines(self, polygon: Any, z: float, *, scale: float = 1e-6,
                    origin: Sequence[float] = (0, 0), tolerance: float = 0.0,
                    min_length: float = 0.0, pair_distance: float = 0.0,
-                   job: Optional[Job] = None) -> Fill:
+                   corner_distance: float = 0.0, job: Optional[Job] = None) -> Fill:
         """The middle lines of thin walls at height z, within a polygon: paths for a nozzle. A union has
         those of all its structures, an intersection or a difference those of the first, bounded.
 
@@ -186,9 +186,10 @@ class Structure(Handle):
         of these coordinates; origin: where 0, 0 is in the model. tolerance: greatest distance from
         curved walls; 0: 1/200 of a cell. Paths shorter than min_length are dropped. pair_distance:
         some walls are printed as two lines at this distance, where that joins paths; 0: none.
+        corner_distance: corners are rounded, up to this distance from them; 0: none.
         """
         return Fill._of(self.context._ref, self._ref, polygon, z, scale, origin, tolerance,
-                        min_length, pair_distance, job)
+                        min_length, pair_distance, corner_distance, job)
 
     def fill_cell_size(self, line_width: float, density: float, *,
                        job: Optional[Job] = None) -> Tuple[float, float, float]:
