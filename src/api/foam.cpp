@@ -179,11 +179,6 @@ std::optional<GradedPeriod> read_foam_period(msq_foam_def& def, msq_period_def& 
   return period;
 }
 
-Neighbourhood with_cell_size(Neighbourhood grid, int axis, double size) {
-  grid.cell_size[axis] = size;
-  return grid;
-}
-
 /// What a foam with a period cannot be yet.
 void refuse_placed(const msq_foam_def& def, FoamMethod method, Vec3 stretch, double weight,
                    double density) {
@@ -221,7 +216,7 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     Neighbourhood grid = read_neighbourhood(known.grid);
     msq_period_def known_period;
     const std::optional<GradedPeriod> period = read_foam_period(known, known_period);
-    if (period) grid = with_cell_size(grid, period->axis(), period->largest());
+    if (period) grid = period->resized(grid, period->largest());
     const double ratio = max_component(grid.cell_size) / min_component(grid.cell_size);
     if (ratio > 4)
       fail(Status::limit, "cell sizes of a foam differ by %g times; the limit is 4", ratio);
@@ -238,8 +233,7 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            "MSQ_FOAM_DIRECT",
            density.range().high);
     const Vec3 stretch = read_stretch(known, grid);
-    const Neighbourhood smallest =
-        period ? with_cell_size(grid, period->axis(), period->smallest()) : grid;
+    const Neighbourhood smallest = period ? period->resized(grid, period->smallest()) : grid;
     const Parameter thickness = read_wall_thickness(known.wall_thickness, smallest);
     const bool has_walls = !is_none(known.wall_thickness);
     if (has_walls && method != FoamMethod::automatic && method != FoamMethod::direct)

@@ -28,6 +28,7 @@
 
 #include "base/hash_input.h"
 #include "base/interval.h"
+#include "cell/neighbourhood.h"
 
 namespace msq {
 
@@ -47,6 +48,11 @@ class GradedPeriod {
 
   /// Of the grid.
   int axis() const { return axis_; }
+  /// The grid with this cell size along the axis.
+  Neighbourhood resized(Neighbourhood grid, double size) const {
+    grid.cell_size[axis_] = size;
+    return grid;
+  }
   void describe(HashInput& input) const;
   double smallest() const { return 1 / most_; }
   double largest() const { return 1 / least_; }

@@ -103,6 +103,12 @@ Warp::Warp(Kind kind, const Neighbourhood& grid, const Shell& shell)
   numbers_.is_sheared = shell.is_sheared();
 }
 
+Warp Warp::straight() const {
+  Shell shell = shell_;
+  shell.shear_outwards = shell.shear_along = 0;
+  return {kind_, grid_, shell};
+}
+
 Warp::Place Warp::place(Vec3 p) const {
   return place_of(numbers_, p);
 }

@@ -51,6 +51,8 @@ class Warp {
   const Shell& shell() const { return shell_; }
   /// The outer radius, or infinity.
   double outer() const { return numbers_.outer; }
+  /// The same cells without a shear.
+  Warp straight() const;
   void describe(HashInput& input) const;
 
   /// (u, v, w), and the distance r from the axis or the point, without the inner radius.

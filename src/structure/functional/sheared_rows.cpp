@@ -19,12 +19,6 @@ namespace {
 constexpr uint32_t sheared_batch_words = single_points / bits_per_word;
 constexpr size_t sheared_stride = single_points + batch_padding;
 
-Warp straightened(const Warp& warp) {
-  Warp::Shell shell = warp.shell();
-  shell.shear_outwards = shell.shear_along = 0;
-  return {warp.kind(), warp.grid(), shell};
-}
-
 double angle_of_cells(double cells) {
   return angle_of(cells - std::floor(cells));
 }
@@ -34,7 +28,7 @@ double angle_of_cells(double cells) {
 ShearedRows::ShearedRows(const Functional& structure, const RowBlock& block)
     : structure_(structure),
       warp_(*structure.angles().warp()),
-      straight_(straightened(warp_)),
+      straight_(warp_.straight()),
       form_(*structure.form()),
       block_(block),
       grid_(*block.grid),

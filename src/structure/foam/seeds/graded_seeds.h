@@ -66,7 +66,6 @@ class GradedSeeds {
   const FoamSeeds& cells() const { return cells_; }
   /// Null where cells have octrees.
   const PlacedSeeds* placed() const { return placed_.get(); }
-  const Neighbourhood& grid() const { return grid_; }
   Vec3 scale() const { return cells_.scale(); }
   void describe(HashInput& input) const;
 

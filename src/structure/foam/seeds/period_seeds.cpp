@@ -12,19 +12,14 @@ int32_t& component(CellIndex& cell, int axis) {
   return axis == 0 ? cell.x : axis == 1 ? cell.y : cell.z;
 }
 
-Neighbourhood with_size(Neighbourhood grid, int axis, double size) {
-  grid.cell_size[axis] = size;
-  return grid;
-}
-
 }  // namespace
 
 PeriodSeeds::PeriodSeeds(const Neighbourhood& grid, GradedPeriod period, double jitter,
                          uint64_t seed)
-    : grid_(with_size(grid, period.axis(), period.largest() * (1 + room))),
-      smallest_(with_size(grid, period.axis(), period.smallest())),
+    : grid_(period.resized(grid, period.largest() * (1 + room))),
+      smallest_(period.resized(grid, period.smallest())),
       period_(std::move(period)),
-      largest_(max_component(with_size(grid, period_.axis(), period_.largest()).cell_size)),
+      largest_(max_component(period_.resized(grid, period_.largest()).cell_size)),
       cells_(seed, jitter, {1, 1, 1}) {}
 
 // A seed that is rounded into the box lies within it, up to the errors of its place. In cells they

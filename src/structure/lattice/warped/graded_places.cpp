@@ -7,14 +7,10 @@
 namespace msq {
 
 GradedPlaces::GradedPlaces(const Neighbourhood& grid, GradedPeriod period)
-    : smallest_(grid), period_(std::move(period)) {
-  smallest_.cell_size[period_.axis()] = period_.smallest();
-}
+    : smallest_(period.resized(grid, period.smallest())), period_(std::move(period)) {}
 
 double GradedPlaces::largest() const {
-  Vec3 size = smallest_.cell_size;
-  size[period_.axis()] = period_.largest();
-  return max_component(size);
+  return max_component(period_.resized(smallest_, period_.largest()).cell_size);
 }
 
 CellIndex GradedPlaces::cell_of(Vec3 g) const {

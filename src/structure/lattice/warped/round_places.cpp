@@ -30,12 +30,6 @@ Interval cosine(Interval angle) {
   return range;
 }
 
-Warp without_shear(const Warp& warp, const Neighbourhood& grid) {
-  Warp::Shell shell = warp.shell();
-  shell.shear_outwards = shell.shear_along = 0;
-  return {warp.kind(), grid, shell};
-}
-
 Interval product(Interval a, Interval b) {
   const auto [low, high] =
       std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
@@ -46,7 +40,7 @@ Interval product(Interval a, Interval b) {
 
 RoundPlaces::RoundPlaces(const Warp& warp)
     : warp_(warp.kind(), in_grid(warp.grid()), warp.shell()),
-      straight_(without_shear(warp, in_grid(warp.grid()))),
+      straight_(warp_.straight()),
       smallest_(warp.grid()) {
   const Warp::Shell& shell = warp.shell();
   const double size = smallest_.cell_size.x, middle = shell.inner + 0.5 * size;
