@@ -16,6 +16,7 @@
 #include "structure/functional/row_kernels.h"
 #include "structure/functional/sheared_rows.h"
 #include "structure/functional/shell_rays.h"
+#include "structure/functional/tape_rows.h"
 #include "structure/functional/turned_rows.h"
 #include "structure/functional/warped_places.h"
 #include "structure/functional/warped_rows.h"
@@ -325,7 +326,7 @@ void Functional::keep_rows(const RowBlock& block, const Job* job) const {
   else if (form_)
     TurnedRows(*this, block).keep(job);
   else
-    keep_turned_rows(*this, block, job);
+    keep_tape_rows(*this, block, job);
 }
 
 uint64_t Functional::row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const {

@@ -8,8 +8,9 @@
 #include "structure/functional/map_rows.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+
+#include "structure/functional/doubtful_samples.h"
 
 namespace msq {
 
@@ -178,13 +179,9 @@ void MapRows::decide(const RowGroup& group, size_t row, size_t first, size_t cou
   for (size_t n = 0; n < count; ++n) {
     uint64_t& word = words[words_[first + n]];
     uint64_t in = at_most_low[n];
-    for (uint64_t doubt = at_most_high[n] & ~in & word; doubt; doubt &= doubt - 1) {
-      const size_t i = static_cast<size_t>(std::countr_zero(doubt));
-      const Vec3 p = grid_.at(words_[first + n] * bits_per_word + i, group.y(row), group.z(row));
-      const double value = values[n * bits_per_word + i], level = structure_.level().at(p);
-      if (value <= level - slack_ || (value <= level + slack_ && structure_.inside(p)))
-        in |= doubt & -doubt;
-    }
+    in |= decide_doubtful(structure_, slack_, grid_, words_[first + n] * bits_per_word,
+                          group.y(row), group.z(row), at_most_high[n] & ~in & word,
+                          [&](size_t i) { return values[n * bits_per_word + i]; });
     word &= in;
   }
 }

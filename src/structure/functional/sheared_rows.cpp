@@ -7,9 +7,9 @@
 #include "structure/functional/sheared_rows.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include "structure/functional/doubtful_samples.h"
 #include "structure/functional/warped_places.h"
 
 namespace msq {
@@ -240,13 +240,10 @@ void ShearedRows::decide(const RowGroup& group, size_t row, const RowWaves& wave
   uint64_t* const words = block_.row(group.y(row), group.z(row)) + first;
   for (size_t n = 0; n < count; ++n) {
     uint64_t in = at_most_low[n];
-    for (uint64_t doubt = at_most_high[n] & ~in & words[n]; doubt; doubt &= doubt - 1) {
-      const size_t i = n * bits_per_word + static_cast<size_t>(std::countr_zero(doubt));
-      const Vec3 p = grid_.at(begin + i, group.y(row), group.z(row));
-      const double value = values[i], level = structure_.level().at(p);
-      if (value <= level - slack_ || (value <= level + slack_ && structure_.inside(p)))
-        in |= doubt & -doubt;
-    }
+    const size_t from = n * bits_per_word;
+    in |= decide_doubtful(structure_, slack_, grid_, begin + from, group.y(row), group.z(row),
+                          at_most_high[n] & ~in & words[n],
+                          [&](size_t i) { return values[from + i]; });
     words[n] &= in;
   }
 }
