@@ -8,6 +8,7 @@
 #include "base/job.h"
 #include "base/polled_sort.h"
 #include "base/status.h"
+#include "structure/common/point_in_square.h"
 
 namespace msq {
 
@@ -32,17 +33,6 @@ class Sets {
   std::vector<uint32_t> parent_;
 };
 
-struct Place {
-  double column, row;
-  uint32_t point;
-
-  friend bool operator<(const Place& a, const Place& b) {
-    if (a.column != b.column) return a.column < b.column;
-    if (a.row != b.row) return a.row < b.row;
-    return a.point < b.point;
-  }
-};
-
 }  // namespace
 
 void LineGraph::require_squares(double side) const {
@@ -59,19 +49,19 @@ void LineGraph::weld(double distance) {
   const double side = 64 * distance;
   require_squares(side);
   const auto square = [side](double x) { return std::floor(x / side); };
-  std::vector<Place> places(points.size());
+  std::vector<PointInSquare> places(points.size());
   for (uint32_t i = 0; i < points.size(); ++i)
     places[i] = {square(points[i].x), square(points[i].y), i};
   CancelPoll poll(current_job());
   polled_sort(places.begin(), places.end(), std::less<>(), poll);
   Sets sets(points.size());
-  for (const Place& place : places) {
+  for (const PointInSquare& place : places) {
     poll();
     const Vec2 p = points[place.point];
     for (double column = square(p.x - distance); column <= square(p.x + distance); ++column)
       for (double row = square(p.y - distance); row <= square(p.y + distance); ++row)
-        for (auto other =
-                 std::lower_bound(places.begin(), places.end(), Place{column, row, place.point});
+        for (auto other = std::lower_bound(places.begin(), places.end(),
+                                           PointInSquare{column, row, place.point});
              other != places.end() && other->column == column && other->row == row; ++other) {
           const Vec2 d = points[other->point] - p;
           if (std::abs(d.x) <= distance && std::abs(d.y) <= distance)

@@ -8,24 +8,9 @@
 
 #include "base/job.h"
 #include "base/polled_sort.h"
+#include "structure/common/point_in_square.h"
 
 namespace msq {
-
-namespace {
-
-/// A point, in the square that holds it.
-struct PointInSquare {
-  double column, row;
-  uint32_t point;
-
-  friend bool operator<(const PointInSquare& a, const PointInSquare& b) {
-    if (a.column != b.column) return a.column < b.column;
-    if (a.row != b.row) return a.row < b.row;
-    return a.point < b.point;
-  }
-};
-
-}  // namespace
 
 void split_at_points(LineGraph& graph, double distance) {
   if (graph.lines.empty()) return;
