@@ -11,6 +11,7 @@
 #include "graded_cells.h"
 #include "msq_test.h"
 #include "random.h"
+#include "refused_sections.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/seeds/period_seeds.h"
 
@@ -357,20 +358,8 @@ void test_windows_have_the_same_lines(void**) {
 void test_what_is_too_far_or_too_much_is_refused(void**) {
   Context context(1, 0, 1 << 20);
   const Ref<Foam> foam = make(context, rows[0]);
-  const auto refused = [&](const WallSection& section, const char* text) {
-    try {
-      foam->wall_lines(section);
-    } catch (const Error& error) {
-      assert_int_equal(error.status, Status::limit);
-      if (!strstr(error.what(), text)) fail_msg("%s", error.what());
-      return;
-    }
-    fail_msg("not refused: %s", text);
-  };
-  refused({0, {{0, 0}, {3e7, 1}}, 1}, "the limit is 1.67772e+07 cells");
-  refused({2e7, {{0, 0}, {1, 1}}, 1}, "axis 2");
-  refused({0, {{0, 0}, {1e5, 1e5}}, 1}, "seeds of the foam");
-  refused({0, {{0, 0}, {1e3, 1e3}}, 1}, "memory_limit");
+  check_limits_of_sections(*foam, "seeds of the foam");
+  check_section_is_refused(*foam, {0, {{0, 0}, {1e3, 1e3}}, 1}, "memory_limit");
   assert_int_equal(context.budget->held(), 0);
 }
 

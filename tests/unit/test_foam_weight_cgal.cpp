@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weighted foams against a global regular triangulation (CGAL) of the seeds and the squares of
 // their radii: edges and faces are its dual.
+#include "foam_diagram_check.h"
 #include "power_diagram.h"
-#include "structure/foam/foam.h"
-#include "structure/foam/walls/foam_walls.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -23,12 +22,6 @@ const Row rows[] = {
     {2, {2.5, 2, 2.5}, 0.5, 35, true},  {1, {1, 1, 1}, 0, 36, false},
     {0.7, {1, 1, 0.75}, 0.1, 37, true},
 };
-
-Neighbourhood grid_of(const Row& row) {
-  if (!row.is_turned) return {{}, row.cell_size, {}};
-  const double c = std::cos(0.7), s = std::sin(0.7);
-  return {{0.25, -0.5, 0.125}, row.cell_size, {{c, -s, 0, s, c, 0, 0, 0, 1}}};
-}
 
 /// Half the cells of the box that is asked, along each axis.
 constexpr double asked_half = 1.5;
@@ -56,46 +49,21 @@ Diagram diagram_of(const Row& row) {
   Diagram all = power_diagram(points, weights, hidden), diagram;
   print_message("weight %g: %zu of %zu seeds have no cell\n", row.weight, hidden, points.size());
   const Vec3 most = row.cell_size * (asked_half + 1);
-  const auto is_near = [&](const auto& part) {
-    return box_of(part).overlaps(Box3{most * -1.0, most});
-  };
   for (const Segment& edge : all.edges)
-    if (is_near(edge)) diagram.edges.push_back(edge);
+    if (reaches_box(edge, most)) diagram.edges.push_back(edge);
   for (const std::vector<Vec3>& face : all.faces)
-    if (is_near(face)) diagram.faces.push_back(face);
+    if (reaches_box(face, most)) diagram.faces.push_back(face);
   return diagram;
 }
 
 void test_diagram(void**) {
-  const Ref<Context> context = make_ref<Context>(1u, uint64_t{64} << 20, uint64_t{0});
-  size_t points = 0;
   for (const Row& row : rows) {
-    const Diagram diagram = diagram_of(row);
-    const Neighbourhood grid = grid_of(row);
-    const double size = min_component(row.cell_size);
-    const double near = 3e-8 * max_component(row.cell_size);
-    const Vec3 half = row.cell_size * asked_half;
-    const size_t count = test_count(5500);
     char name[64];
     snprintf(name, sizeof name, "weight %g", row.weight);
-    for (const double part : {0.05, 0.2}) {
-      const double radius = part * size;
-      const Ref<const Structure> foam =
-          make_ref<Foam>(context, grid, Parameter(radius), row.jitter, row.seed, FoamMethod::direct,
-                         Parameter(1), Vec3{1, 1, 1}, row.weight);
-      check_diagram(name, "edges", *foam, ask(diagram.edges, grid, half, radius, count, row.seed),
-                    radius, 1, near);
-    }
-    const double thickness = 0.1 * size;
-    const Ref<const Structure> walls =
-        make_ref<FoamWalls>(context, grid, Parameter(thickness), row.jitter, row.seed, Parameter(1),
-                            Parameter(0), Vec3{1, 1, 1}, row.weight);
-    check_diagram(name, "faces", *walls,
-                  ask(diagram.faces, grid, half, 0.5 * thickness, count, row.seed), 0.5 * thickness,
-                  2, near);
-    points += 3 * count;
+    const Neighbourhood grid = diagram_grid(row.cell_size, row.is_turned);
+    check_foam_diagram({name, grid, row.jitter, row.seed, {1, 1, 1}, row.weight}, diagram_of(row),
+                       asked_half, {0.05, 0.2}, 0.1);
   }
-  print_message("%zu points\n", points);
 }
 
 }  // namespace

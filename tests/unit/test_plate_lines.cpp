@@ -12,6 +12,7 @@
 #include "images.h"
 #include "msq_test.h"
 #include "random.h"
+#include "refused_sections.h"
 #include "structure/lattice/plates/plate_lattice.h"
 
 using namespace msq;
@@ -227,19 +228,7 @@ void test_plates_in_the_plane_have_no_lines(void**) {
 
 void test_what_is_too_far_or_too_much_is_refused(void**) {
   const Ref<PlateLattice> plates = make({"cubic", cubic_plate_cell(), cubes});
-  const auto refused = [&](const WallSection& section, const char* text) {
-    try {
-      plates->wall_lines(section);
-    } catch (const Error& error) {
-      assert_int_equal(error.status, Status::limit);
-      if (!strstr(error.what(), text)) fail_msg("%s", error.what());
-      return;
-    }
-    fail_msg("not refused: %s", text);
-  };
-  refused({0, {{0, 0}, {3e7, 1}}, 1}, "the limit is 1.67772e+07 cells");
-  refused({2e7, {{0, 0}, {1, 1}}, 1}, "axis 2");
-  refused({0, {{0, 0}, {1e5, 1e5}}, 1}, "cells of the plates");
+  check_limits_of_sections(*plates, "cells of the plates");
 }
 
 }  // namespace
