@@ -19,7 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "slice/contour_ring_kernels.h"
+#include "slice/contour_gates.h"
 
 namespace msq {
 

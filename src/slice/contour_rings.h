@@ -10,7 +10,9 @@
 #include "base/borrowed.h"
 #include "base/job.h"
 #include "base/vec2.h"
-#include "slice/contour_ring_kernels.h"
+#include "slice/contour_gates.h"
+#include "slice/contour_ring_kind.h"
+#include "slice/contour_ring_walk.h"
 #include "slice/contour_section.h"
 
 namespace msq {
