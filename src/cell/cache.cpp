@@ -85,6 +85,13 @@ CellCache::Data CellCache::find(const Key& key) {
   return entry.data;
 }
 
+bool CellCache::keeps(uint64_t structure, CellIndex cell) const {
+  const Key key(structure, cell);
+  const Part& part = part_of(key);
+  std::shared_lock lock(part.mutex);
+  return part.table.contains(key);
+}
+
 CellCache::Data CellCache::add(const Key& key, uint64_t expected_bytes,
                                const std::function<Data()>& build) {
   Room room(*this, key, expected_bytes);

@@ -78,6 +78,10 @@ class CellCache {
     return add(key, expected_bytes, std::ref(build));
   }
 
+  /// Whether the data of a cell is kept now. This is no fetch: it changes neither the counters nor
+  /// which cells are evicted.
+  bool keeps(uint64_t structure, CellIndex cell) const;
+
   void clear();
   /// Drops the cells of a structure. Searches the cells of other structures until all are found.
   void drop(uint64_t structure);
@@ -120,6 +124,7 @@ class CellCache {
   class Room;
 
   Part& part_of(const Key& key) { return parts_[key.hash >> 58]; }
+  const Part& part_of(const Key& key) const { return parts_[key.hash >> 58]; }
   Data find(const Key& key);
   Data add(const Key& key, uint64_t expected_bytes, const std::function<Data()>& build);
   Data keep(const Key& key, Data data, uint64_t bytes, Room& room);

@@ -98,6 +98,29 @@ void test_keys(void**) {
     for (CellIndex cell : cells) assert_false(fetch(cache, structure, cell, 10));
 }
 
+/// A look at a cell is no fetch.
+void test_keeps(void**) {
+  const uint64_t entry = entry_bytes(100);
+  for (const CachePolicy policy : {CachePolicy::fifo, CachePolicy::segmented}) {
+    CellCache cache(4 * entry, budget(), policy);
+    assert_false(cache.keeps(1, {0, 0, 0}));
+    for (int i = 0; i < 4; ++i) fetch(cache, 1, {i, 0, 0}, 100);
+    const CellCache::Counters before = cache.counters();
+    for (int i = 0; i < 4; ++i) assert_true(cache.keeps(1, {i, 0, 0}));
+    assert_false(cache.keeps(1, {4, 0, 0}));
+    assert_false(cache.keeps(2, {0, 0, 0}));
+    const CellCache::Counters after = cache.counters();
+    assert_int_equal(after.hits, before.hits);
+    assert_int_equal(after.misses, before.misses);
+    // It spares none: the oldest goes first.
+    fetch(cache, 1, {4, 0, 0}, 100);
+    assert_false(cache.keeps(1, {0, 0, 0}));
+    for (int i = 1; i < 5; ++i) assert_true(cache.keeps(1, {i, 0, 0}));
+    cache.clear();
+    assert_false(cache.keeps(1, {1, 0, 0}));
+  }
+}
+
 void test_too_large(void**) {
   const uint64_t entry = entry_bytes(100);
   CellCache cache(entry, budget());
@@ -427,18 +450,13 @@ void test_threads(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_order),
-                              cmocka_unit_test(test_segmented),
-                              cmocka_unit_test(test_drop),
-                              cmocka_unit_test(test_keys),
-                              cmocka_unit_test(test_too_large),
-                              cmocka_unit_test(test_budget),
-                              cmocka_unit_test(test_failing_build),
-                              cmocka_unit_test(test_in_use),
-                              cmocka_unit_test(test_room_while_building),
-                              cmocka_unit_test(test_room_shrinks),
-                              cmocka_unit_test(test_builders_bar_nobody),
-                              cmocka_unit_test(test_all_within),
-                              cmocka_unit_test(test_threads)};
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(test_order),        cmocka_unit_test(test_segmented),
+      cmocka_unit_test(test_drop),         cmocka_unit_test(test_keys),
+      cmocka_unit_test(test_keeps),        cmocka_unit_test(test_too_large),
+      cmocka_unit_test(test_budget),       cmocka_unit_test(test_failing_build),
+      cmocka_unit_test(test_in_use),       cmocka_unit_test(test_room_while_building),
+      cmocka_unit_test(test_room_shrinks), cmocka_unit_test(test_builders_bar_nobody),
+      cmocka_unit_test(test_all_within),   cmocka_unit_test(test_threads)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

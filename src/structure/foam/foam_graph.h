@@ -41,6 +41,8 @@ class FoamGraph {
   /// Samples per cell of a box (grid coordinates, model units) above which building and drawing the
   /// cells' edges costs less than evaluating every sample.
   virtual double critical_samples(const Box3& box, double max_radius) const;
+  /// Of that number, the part that remains if the edges are there and only drawn.
+  virtual double drawing_share() const;
 };
 
 }  // namespace msq

@@ -28,4 +28,9 @@ double GradedGraph::critical_samples(const Box3& box, double) const {
   return samples_per_leaf * seeds_->mean_density(box);
 }
 
+// Drawing the edges of a leaf takes 0.2 us.
+double GradedGraph::drawing_share() const {
+  return 0.05;
+}
+
 }  // namespace msq

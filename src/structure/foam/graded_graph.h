@@ -20,6 +20,7 @@ class GradedGraph final : public FoamGraph {
     return seeds_->may_own_edges(corner, box);
   }
   double critical_samples(const Box3& box, double max_radius) const override;
+  double drawing_share() const override;
 
  private:
   const std::shared_ptr<const GradedSeeds> seeds_;

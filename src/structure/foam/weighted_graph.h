@@ -15,6 +15,7 @@ class WeightedGraph final : public FoamGraph {
   double onset(CellIndex cell, Vec3 q) const override;
   std::shared_ptr<const EdgeBrick> make_brick(CellIndex corner) const override;
   double brick_error() const override;
+  double drawing_share() const override;
 
  private:
   const FoamSeeds seeds_;

@@ -14,7 +14,13 @@ bool keep_brick_rows(const FoamData& foam, const RowBlock& block, const Job* job
   if (rows.empty()) return true;
   const double critical = foam.graph().critical_samples(
       grid.to_grid(rows.reach()).grown(foam.owner_distance()), foam.max_radius());
-  if (!rows.pays(grid, critical)) return false;
+  if (!rows.pays(grid, critical)) {
+    // A look at each brick, only where that may matter.
+    const double share = foam.graph().drawing_share();
+    if (!rows.pays(grid, share * critical)) return false;
+    const double built = (1 - share) * (1 - kept_share_of_bricks(foam, rows.reach()));
+    if (!rows.pays(grid, (share + built) * critical)) return false;
+  }
   for_each_brick(foam, rows.reach(), job, [&](const BrickPart& part) {
     rows.add(part.brick.segments(), part.frame, part.wanted);
   });

@@ -7,7 +7,8 @@
 namespace msq {
 
 /// Structure::keep_rows for foams. Returns false and does nothing if each cell has so few samples
-/// that evaluating them costs less than the edges.
+/// that evaluating them costs less than the edges: building those that the cell cache does not
+/// keep, and drawing all.
 bool keep_brick_rows(const FoamData& foam, const RowBlock& block, const Job* job);
 
 }  // namespace msq

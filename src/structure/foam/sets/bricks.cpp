@@ -6,34 +6,65 @@
 
 namespace msq {
 
+namespace {
+
+/// Calls visit(corner, part) for each brick that may have edges that touch a box. part: the part of
+/// the box that they may touch, in grid coordinates.
+template <class Visit>
+void for_each_corner(const FoamData& foam, const Box3& box, Visit&& visit) {
+  const FoamGraph& graph = foam.graph();
+  const FoamGraph::BrickLayout layout = graph.brick_layout();
+  for_each_brick_near(foam.neighbourhood(), box, foam.owner_distance(), foam.owner_reach(),
+                      layout.side, layout.lead, [&](CellIndex corner, const Box3& part) {
+                        if (graph.may_own_edges(corner, part)) visit(corner, part);
+                      });
+}
+
+/// Without jitter, all seeds are at the centres of their cells, so one brick serves for all. It
+/// takes many times as long to build as others, since its seeds are on common spheres.
+bool has_equal_bricks(const FoamData& foam) {
+  return !foam.graded() && !foam.is_weighted() && foam.seeds().jitter() == 0;
+}
+
+/// The cell of the cache that holds a brick.
+CellIndex cell_of_brick(const FoamData& foam, CellIndex corner) {
+  return has_equal_bricks(foam) ? CellIndex{} : corner;
+}
+
+}  // namespace
+
 void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
                     const std::function<void(const BrickPart&)>& visit) {
   const Neighbourhood& grid = foam.neighbourhood();
   const FoamGraph& graph = foam.graph();
   const double unit = foam.unit();
-  const FoamGraph::BrickLayout layout = graph.brick_layout();
-  // Without jitter, all seeds are at the centres of their cells, so one brick serves for all. It
-  // takes many times as long to build as others, since its seeds are on common spheres.
-  const bool are_equal = !foam.graded() && !foam.is_weighted() && foam.seeds().jitter() == 0;
+  const bool are_equal = has_equal_bricks(foam);
   CellCache::Data data;
-  for_each_brick_near(
-      grid, box, foam.owner_distance(), foam.owner_reach(), layout.side, layout.lead,
-      [&](CellIndex corner, const Box3& near) {
-        check_cancelled(job);
-        if (!graph.may_own_edges(corner, near)) return;
-        if (!are_equal) data.reset();
-        if (!data)
-          data = foam.context().cache.fetch(foam.id(), are_equal ? CellIndex{} : corner,
-                                            [&] { return graph.make_brick(corner); });
-        const auto& brick = static_cast<const EdgeBrick&>(*data);
-        const Vec3 origin =
-            Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
-            brick.origin() * unit;
-        const Box3 from_brick{(near.min - origin) * (1 / unit), (near.max - origin) * (1 / unit)};
-        SegmentFrame frame{grid.from_grid(origin), grid.rotation.m};
-        for (double& m : frame.matrix) m *= unit;
-        visit(BrickPart{brick, frame, from_brick.grown(graph.brick_error())});
-      });
+  for_each_corner(foam, box, [&](CellIndex corner, const Box3& near) {
+    check_cancelled(job);
+    if (!are_equal) data.reset();
+    if (!data)
+      data = foam.context().cache.fetch(foam.id(), cell_of_brick(foam, corner),
+                                        [&] { return graph.make_brick(corner); });
+    const auto& brick = static_cast<const EdgeBrick&>(*data);
+    const Vec3 origin =
+        Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid.cell_size +
+        brick.origin() * unit;
+    const Box3 from_brick{(near.min - origin) * (1 / unit), (near.max - origin) * (1 / unit)};
+    SegmentFrame frame{grid.from_grid(origin), grid.rotation.m};
+    for (double& m : frame.matrix) m *= unit;
+    visit(BrickPart{brick, frame, from_brick.grown(graph.brick_error())});
+  });
+}
+
+double kept_share_of_bricks(const FoamData& foam, const Box3& box) {
+  const CellCache& cache = foam.context().cache;
+  uint64_t bricks = 0, kept = 0;
+  for_each_corner(foam, box, [&](CellIndex corner, const Box3&) {
+    ++bricks;
+    kept += cache.keeps(foam.id(), cell_of_brick(foam, corner));
+  });
+  return bricks == 0 ? 1 : static_cast<double>(kept) / static_cast<double>(bricks);
 }
 
 void for_each_foam_strut(const FoamData& foam, const Box3& box, const Structure::TakeStrut& take,

@@ -21,6 +21,9 @@ struct BrickPart {
 void for_each_brick(const FoamData& foam, const Box3& box, const Job* job,
                     const std::function<void(const BrickPart&)>& visit);
 
+/// The share of these bricks that the cell cache keeps: 0 to 1. Does not change the cache.
+double kept_share_of_bricks(const FoamData& foam, const Box3& box);
+
 /// Structure::for_each_strut for foams of constant radius.
 void for_each_foam_strut(const FoamData& foam, const Box3& box, const Structure::TakeStrut& take,
                          const Job* job);
