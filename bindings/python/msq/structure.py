@@ -184,9 +184,8 @@ class Structure(Handle):
         polygon: a ring, (n, 2) of whole numbers, or a list of rings, outlines and holes in any order
         and direction. int32 stays int32 in the result; all else is int64. scale: model units per unit
         of these coordinates; origin: where 0, 0 is in the model. tolerance: greatest distance from
-        curved walls; 0: 1/200 of a cell. Paths shorter than min_length are dropped. pair_distance:
-        some walls are printed as two lines at this distance, where that joins paths; 0: none.
-        corner_distance: corners are rounded, up to this distance from them; 0: none.
+        curved walls; 0: 1/200 of a cell. Paths shorter than min_length are dropped. pair_distance: some
+        walls become two lines so far apart, if that joins paths. corner_distance: where rounded corners begin.
         """
         return Fill._of(self.context._ref, self._ref, polygon, z, scale, origin, tolerance,
                         min_length, pair_distance, corner_distance, job)
