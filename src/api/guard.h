@@ -177,6 +177,8 @@ template <>
 inline constexpr size_t first_size<msq_slicer_report> = offsetof(msq_slicer_report, window);
 template <>
 inline constexpr size_t first_size<msq_warp_def> = offsetof(msq_warp_def, u);
+template <>
+inline constexpr size_t first_size<msq_fill_def> = offsetof(msq_fill_def, corner_distance);
 /// More is a struct_size that was never set.
 constexpr size_t max_size = 4096;
 
