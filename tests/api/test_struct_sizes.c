@@ -38,7 +38,7 @@
   DO(output_def, offsetof(msq_output_def, channel))                  \
   DO(contours_def, offsetof(msq_contours_def, topology_samples))     \
   DO(printability_def, offsetof(msq_printability_def, overhang))     \
-  DO(fill_def, sizeof(msq_fill_def))                                 \
+  DO(fill_def, offsetof(msq_fill_def, corner_distance))              \
   DO(surface_def, sizeof(msq_surface_def))                           \
   DO(rays_def, sizeof(msq_rays_def))                                 \
   DO(camera, sizeof(msq_camera))                                     \
