@@ -33,7 +33,7 @@ static void fill_lines(void** state) {
     *def = square;
     def->rings = rings;
     rings[1].points = hole;
-    wrong_sizes(table, def, sizeof *def, sizeof *def);
+    wrong_sizes(table, def, offsetof(msq_fill_def, corner_distance), sizeof *def);
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "structure is NULL", structure = NULL);
     WRONG(ARGUMENT, "fill is NULL", fill = NULL);
