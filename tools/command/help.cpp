@@ -16,13 +16,14 @@ constexpr char ABOUT[] =
     "fills parts with lattices, foams and periodic surfaces without meshing them";
 constexpr char DESCRIPTION[] =
     "msq fills a coarse part with one or more fine structures and slices, draws, measures and "
-    "samples the result. Nothing is meshed, and memory does not grow with the part. Lengths are in "
+    "samples the result, without a mesh. Memory does not grow with the part. Lengths are in "
     "millimetres unless a model file says otherwise.";
 constexpr char CONDUCT[] =
     "Results go to files or to standard output, everything else to standard error. A file gets its "
-    "name when it is complete. A failure leaves none, and an existing one as it was. On a "
-    "terminal, work that takes long shows its progress, its rate and the time left. Ctrl-C ends "
-    "the work in good order; a second one ends it at once. Numbers have a point in all locales.";
+    "name when it is complete. After a failure there is no new file, and an existing one is "
+    "unchanged. On a terminal, long work shows its progress, its rate and the time left. "
+    "Ctrl-C ends the work in good order; a second one ends it at once. Numbers have a decimal "
+    "point in all locales.";
 
 // Words with at most `width` characters a line. The first line begins at column `at`.
 std::string wrapped(std::string_view text, size_t indent, size_t at, size_t width = WIDTH) {

@@ -20,15 +20,15 @@ constexpr Option MAIN[] = {
 constexpr Option RUNNING[] = {
     {"threads", 't', "N", Value::TEXT, "", "threads; 0: one for each core (default 0)"},
     {"memory", 0, "SIZE", Value::TEXT, "",
-     "most memory for meshes, images, cells and layers, such as 512M or 4G (default: no limit)"},
+     "maximum memory of meshes, images, cells and layers, such as 512M or 4G (default: no limit)"},
     {"quiet", 'q', "", Value::NONE, "", "print neither warnings nor progress"},
     {"help", 'h', "", Value::NONE, "", "print this text and exit"},
 };
 
 constexpr Option PART[] = {
     {"unit", 0, "UNIT", Value::TEXT, "",
-     "unit of a mesh file that names none: um, mm, cm, m, in, ft, or its length in mm (default "
-     "mm)"},
+     "unit of a mesh file that does not name one: um, mm, cm, m, in, ft, or its length in mm "
+     "(default mm)"},
     {"up", 0, "AXIS", Value::WORDS, "x -x y -y z -z",
      "axis of a mesh file that points upwards; the part is turned so that it becomes z (default "
      "z)"},
@@ -60,23 +60,24 @@ constexpr Option STRUCTURE[] = {
     {"volume-fraction", 0, "F", Value::TEXT, "", "of waves, in place of --level"},
     {"count", 0, "N", Value::TEXT, "", "number of waves (default 256)"},
     {"cones", 0, "A,B,C", Value::TEXT, "",
-     "half-angles, in degrees, of the cones about the axes in which the waves' directions are; 0: "
-     "none (default 90,0,0: all directions)"},
+     "half-angles, in degrees, of the cones about the three axes; wave vectors lie in these cones; "
+     "0: no cone (default 90,0,0: all directions)"},
     {"density", 0, "N", Value::TEXT, "", "seeds in a cell of a foam (default 1)"},
     {"jitter", 0, "J", Value::TEXT, "",
-     "of the seeds of a foam: 0, at the middle of cells, to 1 (default 1)"},
+     "displacement of the seeds of a foam, from 0 (centres of cells) to 1 (default 1)"},
     {"seed", 0, "N", Value::TEXT, "", "selects the foam or the waves (default 0)"},
     {"vent", 0, "MM", Value::TEXT, "", "radius of a hole in each wall of a foam (default: none)"},
     {"stretch", 0, "X,Y,Z", Value::TEXT, "",
      "how much longer the cells of a foam are along each axis (default 1,1,1)"},
     {"weight", 0, "MM", Value::TEXT, "",
-     "greatest radius of the spheres of a foam's seeds: unlike cells (default 0)"},
+     "maximum weight of a foam's seeds, as the radius of a sphere: cells differ more in size "
+     "(default 0)"},
     {"skin", 0, "MM", Value::TEXT, "", "solid skin under the surface of the part (default 0)"},
 };
 
 constexpr Option CHOICE[] = {
     {"scale", 0, "N", Value::TEXT, "",
-     "scale of a model file whose structure is taken, from 1 (default: the only one)"},
+     "scale of a model file that has the structure, from 1 (default: the only one)"},
     {"region", 0, "N", Value::TEXT, "", "region of the scale, from 0 (default 0 with --scale)"},
 };
 
@@ -87,42 +88,43 @@ constexpr Option MODEL_FILES[] = {
 
 constexpr Option RESOLVED[] = {
     {"length-scale", 0, "MM", Value::TEXT, "",
-     "leave structures with smaller cells out: they are solid (default 0)"},
+     "treat structures with smaller cells as solid (default 0)"},
 };
 
 constexpr Option BOX[] = {
     {"box", 0, "X,Y,Z,X,Y,Z", Value::TEXT, "",
-     "lowest and highest corner of what is taken (default: the part's bounding box)"},
+     "lowest and highest corner of the region (default: the part's bounding box)"},
 };
 
 constexpr Option JSON[] = {
-    {"json", 0, "", Value::NONE, "", "print JSON in place of lines for people"},
+    {"json", 0, "", Value::NONE, "", "print JSON in place of text"},
     {"output", 'o', "FILE", Value::FILE, "", "write there (default: standard output)"},
 };
 
 constexpr Option INFO[] = {
     {"self-intersections", 0, "", Value::NONE, "",
-     "count the pairs of triangles that intersect, which takes a while"},
+     "count the pairs of triangles that intersect (slow)"},
 };
 
 constexpr Option SLICE[] = {
     {"output", 'o', "PATH", Value::FILE, "",
-     "a folder, for one file a layer, or a file that ends in .sl1, .sl1s, .svg or .3mf; required"},
-    {"format", 0, "NAME", Value::WORDS, "png svg", "of the files in a folder (default png)"},
+     "a folder, for one file per layer, or a file that ends in .sl1, .sl1s, .svg or .3mf; "
+     "required"},
+    {"format", 0, "NAME", Value::WORDS, "png svg", "format of the files in a folder (default png)"},
     {"pitch", 'p', "MM", Value::TEXT, "",
-     "size of a pixel, or of the mesh that contours start from; P or X,Y; required, except for "
-     ".sl1"},
-    {"layer-height", 'l', "MM", Value::TEXT, "", "required"},
+     "size of a pixel, or of a square of the grid that contours start from; P or X,Y; required, "
+     "except for .sl1"},
+    {"layer-height", 'l', "MM", Value::TEXT, "", "height of a layer; required"},
     {"layers", 0, "FIRST:END", Value::TEXT, "",
-     "compute layers FIRST to END - 1 alone, or to the last, of those that there are without it; "
-     "their files have the same names and bytes"},
+     "compute layers FIRST to END - 1 only; without END, to the last one; the files have the names "
+     "and bytes that they have in a whole run"},
     {"grey", 'g', "N", Value::TEXT, "",
-     "grey pixels by their coverage, from N x N samples, N = 2, 4, 8 or 16 (default: black and "
-     "white; .sl1: 4)"},
+     "grey pixels: coverage by N x N samples, N = 2, 4, 8 or 16 (default: black and white; .sl1: "
+     "4)"},
     {"mirror", 0, "AXES", Value::WORDS, "none x y xy",
      "mirror pixels (default none, with y upwards; .sl1: x)"},
     {"tolerance", 0, "MM", Value::TEXT, "",
-     "of contours in SVG and 3MF (default: a tenth of the pitch)"},
+     "tolerance of contours in SVG and 3MF (default: a tenth of the pitch)"},
 };
 
 constexpr Option PRINTER[] = {
@@ -133,7 +135,8 @@ constexpr Option PRINTER[] = {
     {"exposure", 0, "S", Value::TEXT, "", "exposure time in seconds (default 8)"},
     {"first-exposure", 0, "S", Value::TEXT, "", "exposure time of the first layer (default 35)"},
     {"fade", 0, "N", Value::TEXT, "",
-     "layers over which the time falls from the first to the others (default 10)"},
+     "number of layers over which the exposure time falls from that of the first layer (default "
+     "10)"},
     {"material", 0, "NAME", Value::TEXT, "", "name of the resin's settings"},
     {"no-thumbnails", 0, "", Value::NONE, "", "leave out the thumbnails"},
 };
@@ -147,17 +150,17 @@ constexpr Option MODEL_FILE[] = {
 constexpr Option MESH[] = {
     {"output", 'o', "FILE", Value::FILE, "", "a file that ends in .stl or .ply; required"},
     {"pitch", 'p', "MM", Value::TEXT, "",
-     "distance of the nodes at which the model is sampled; required"},
+     "distance between the nodes at which the model is sampled; required"},
 };
 
 constexpr Option QUERY[] = {
     {"output", 'o', "FILE", Value::FILE, "",
      "a file that ends in .csv or .npy (default: CSV to standard output)"},
     {"what", 'w', "LIST", Value::TEXT, "",
-     "values to write, with commas between them: membership, distance, material, region (default "
+     "values to write, separated by commas: membership, distance, material, region (default "
      "membership)"},
     {"channels", 0, "LIST", Value::TEXT, "",
-     "channels of materials to write, with commas between their names"},
+     "names of the material channels to write, separated by commas"},
 };
 
 constexpr Option RENDER[] = {
@@ -167,7 +170,7 @@ constexpr Option RENDER[] = {
      "direction of the eye in degrees: 0,0 is in front, 90,0 to the right, 0,90 above (default "
      "32,30)"},
     {"zoom", 0, "F", Value::TEXT, "", "enlarge by this factor (default 1)"},
-    {"at", 0, "X,Y,Z", Value::TEXT, "", "middle of the picture (default: that of the part)"},
+    {"at", 0, "X,Y,Z", Value::TEXT, "", "centre of the picture (default: the part's centre)"},
     {"perspective", 0, "DEGREES", Value::TEXT, "",
      "vertical angle of view (default: parallel rays)"},
     {"samples", 0, "N", Value::TEXT, "", "rays along each side of a pixel (default 2)"},
@@ -182,10 +185,12 @@ constexpr Option STATS[] = {
     {"phase", 0, "NAME", Value::WORDS, "solid void", "what is measured (default solid)"},
     {"two-point", 0, "LENGTHS", Value::TEXT, "",
      "two-point correlation at lengths in mm: A,B,... or FIRST:LAST:COUNT"},
-    {"lineal-path", 0, "LENGTHS", Value::TEXT, "", "lineal-path function at such lengths"},
+    {"lineal-path", 0, "LENGTHS", Value::TEXT, "",
+     "lineal-path function at lengths in mm, written in the same way"},
     {"direction", 0, "X,Y,Z", Value::TEXT, "",
-     "of the segments of both functions (default: all directions)"},
-    {"surface", 0, "MM", Value::TEXT, "", "area and volume of a mesh with nodes at this distance"},
+     "direction of the segments of both functions (default: all directions)"},
+    {"surface", 0, "MM", Value::TEXT, "",
+     "also compute area and volume, from a mesh with this pitch"},
 };
 
 constexpr Option STRUTS[] = {
@@ -195,7 +200,7 @@ constexpr Option STRUTS[] = {
 };
 
 constexpr Option CALIBRATE[] = {
-    {"fraction", 'f', "F", Value::TEXT, "", "volume fraction that is wanted, 0 to 1; required"},
+    {"fraction", 'f', "F", Value::TEXT, "", "target volume fraction, 0 to 1; required"},
     {"curve", 0, "N", Value::TEXT, "",
      "print N pairs of parameter and volume fraction too (default 0)"},
 };
@@ -216,8 +221,8 @@ const std::vector<Command>& table() {
        "write layers as PNG, SVG, SL1 or 3MF",
        "Computes layers from the bottom to the top and writes each while the next ones are "
        "computed. A folder receives layer00000.png, or .svg, and so on. An .svg file holds all "
-       "layers, a .3mf file all as slices. An .sl1 archive is for resin printers. What a model "
-       "file says of slices is used; options take its place.",
+       "layers. A .3mf file holds all layers as slices. An .sl1 archive is for resin printers. "
+       "Options override the slice settings of a model file.",
        {MODEL},
        {{"Layers", SLICE},
         {"Printer (.sl1)", PRINTER},
@@ -227,12 +232,12 @@ const std::vector<Command>& table() {
         RESOLVED_GROUP,
         RUNNING_GROUP},
        {"msq slice bracket.stl --foam 4 --radius 0.4 --pitch 0.5 --layer-height 0.5 -o layers/",
-        "msq slice bracket.stl --lattice octet --cell 8 --radius 0.8 --layer-height 2 "
-        "--panel 640,360 --no-thumbnails -o bracket.sl1"},
+        "msq slice bracket.stl --lattice octet --cell 8 --radius 0.8 --layer-height 2 --panel "
+        "640,360 --no-thumbnails -o bracket.sl1"},
        run_slice},
       {"mesh",
        "write a preview mesh as STL or PLY",
-       "Computes triangles of the model's boundary, for programs that take nothing else. The mesh "
+       "Computes a triangle mesh of the model's boundary, for programs that need a mesh. The mesh "
        "is closed and a manifold. Walls and struts narrower than 1.7 times the pitch may break.",
        {MODEL},
        {{"Mesh", MESH}, PART_GROUP, STRUCTURE_GROUP, BOX_GROUP, RESOLVED_GROUP, RUNNING_GROUP},
@@ -240,17 +245,16 @@ const std::vector<Command>& table() {
        run_mesh},
       {"render",
        "draw a picture by casting rays",
-       "Draws the model itself; nothing is meshed. What a model file says of pictures is used; "
-       "options take its place.",
+       "Draws the model without a mesh. Options override the view settings of a model file.",
        {MODEL},
        {{"Picture", RENDER}, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
        {"msq render bracket.stl --foam 4 --radius 0.4 --samples 1 --size 160,120 -o bracket.png"},
        run_render},
       {"model",
        "write a model file",
-       "Writes what the options describe as a model file in JSON, to change it by hand and to use "
-       "it in place of the options. A mesh file below the folder of the model file is named from "
-       "there, any other by its whole path.",
+       "Writes the model that the options describe as a model file in JSON. The file can be "
+       "edited, and used in place of the options. The path of a mesh file is relative if the mesh "
+       "is in the folder of the model file or below it, and absolute otherwise.",
        {{"MODEL", true, "a mesh file or a box, as for other commands"}},
        {{"Model file", MODEL_FILE}, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
        {"msq model bracket.stl --foam 4 --radius 0.4 -o bracket.json"},
@@ -258,7 +262,7 @@ const std::vector<Command>& table() {
       {"info",
        "describe a part, a model or this program",
        "Prints bounds, volume, the diagnosis of a mesh, the scales, hashes and the build of msq. "
-       "Without MODEL: the build alone.",
+       "Without MODEL, it prints only the build.",
        {{"MODEL", false, MODEL_HELP}},
        {{"Diagnosis", INFO}, REPORT_GROUP, PART_GROUP, STRUCTURE_GROUP, RUNNING_GROUP},
        {"msq info bracket.stl --foam 4 --radius 0.4 --self-intersections --json", "msq info"},
@@ -281,11 +285,11 @@ const std::vector<Command>& table() {
        run_stats},
       {"query",
        "evaluate the model at points",
-       "Reads points x, y, z and writes values at each of them, in the same order. Points are rows "
-       "of CSV, whose first row may be a heading, or a NumPy array of shape (n, 3) with float32 or "
-       "float64. CSV has the points and a column for each value. NPY has one array, of records if "
-       "there are several values. membership is 0 or 1, distance is signed and negative inside, "
-       "material is an id and 0 outside, region is an index and -1 outside.",
+       "Reads points x, y, z and writes values at each point, in the same order. The points are "
+       "rows of a CSV file, whose first row may be a heading, or a NumPy array of shape (n, 3) "
+       "with float32 or float64. CSV output has the points and a column for each value. NPY output "
+       "is one array, of records if there are several values. membership is 0 or 1. distance is "
+       "signed and negative inside. material is an id, 0 outside. region is an index, -1 outside.",
        {MODEL,
         {"POINTS", true, "a file that ends in .csv or .npy, or - for CSV from standard input"}},
        {{"Values", QUERY}, PART_GROUP, STRUCTURE_GROUP, RESOLVED_GROUP, RUNNING_GROUP},
@@ -293,11 +297,11 @@ const std::vector<Command>& table() {
        run_query},
       {"struts",
        "write struts as a graph",
-       "Writes the struts of a lattice or a foam as nodes and struts between them, for programs of "
-       "finite elements. CSV has a row for each strut: the numbers of its nodes, their places, the "
-       "radii there, 1 for an end where the strut leaves the part, and the cell. JSON lines have "
-       "the nodes first, then the struts. Struts of a model file are those of one structure; finer "
-       "and coarser ones do not cut them.",
+       "Writes the struts of a lattice or a foam as nodes and struts between them, for "
+       "finite-element programs. CSV has a row for each strut: the numbers of its nodes, their "
+       "positions, the radii there, 1 for an end where the strut leaves the part, and the cell. "
+       "JSON lines have the nodes first, then the struts. With a model file, the struts are those "
+       "of one structure; finer and coarser structures do not cut them.",
        {MODEL},
        {{"Graph", STRUTS}, PART_GROUP, STRUCTURE_GROUP, CHOICE_GROUP, BOX_GROUP, RUNNING_GROUP},
        {"msq struts bracket.stl --foam 4 --radius 0.4 -o struts.csv"},
@@ -306,10 +310,9 @@ const std::vector<Command>& table() {
        "find the radius, thickness or level of a volume fraction",
        "Finds the constant parameter at which a structure has a volume fraction: the radius of "
        "struts, the thickness of the walls of a foam without struts, the level of a surface. It "
-       "measures the structure by itself, in whole cells. The structure of a model file may have a "
-       "field for its parameter, which plays no part. Of options, radius, thickness and level need "
-       "not be given, except to say what is wanted: --thickness for the walls of a foam, --sheet "
-       "for a surface.",
+       "measures the structure alone, in whole cells. A field in a model file for this parameter "
+       "is ignored. --radius, --thickness and --level may be left out. Their values are ignored, "
+       "but --thickness selects the walls of a foam, and --sheet the sheet of a surface.",
        {{"MODEL", false, "a model file (.json), in place of options"}},
        {{"Calibration", CALIBRATE},
         REPORT_GROUP,
@@ -325,9 +328,9 @@ const std::vector<Command>& table() {
 }
 
 constexpr ExitCode EXIT_CODES[] = {
-    {"0", "the work is done"},
+    {"0", "the work is complete"},
     {"1", "the work failed; one line on standard error says why"},
-    {"2", "the command line makes no sense; one line on standard error says why"},
+    {"2", "the command line is wrong; one line on standard error says why"},
     {"129, 130, 143", "a signal (hang-up, Ctrl-C, termination) ended the work"},
 };
 
