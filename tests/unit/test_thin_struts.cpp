@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Struts so thin that the single-precision ends of foam edges matter: around short edges, at a
-// pitch of a thousandth of the radius, spans give the point query's bits.
+// pitch of a thousandth of the radius, spans give the point query's bits. And struts that are thin
+// beside the cell of their owner, which rays meet by coordinates from its middle.
+#include <algorithm>
+
 #include "bit_rows.h"
+#include "random.h"
 #include "structure/foam/edges/edge_brick.h"
 #include "structure/foam/foam.h"
 #include "suite.h"
@@ -48,9 +52,43 @@ void spans_of_thin_struts_are_the_predicates(void**) {
   assert_int_equal(wrong, 0);
 }
 
+/// Towards the middles of struts, with a radius that counts as a field: seeds are graded.
+void rays_meet_thin_struts(void**) {
+  Random random(11);
+  size_t asked = 0, missed = 0;
+  for (double radius : {0.01, 0.003, 0.001}) {
+    const Ref<const Structure> foam =
+        make_ref<Foam>(make_ref<Context>(1u, uint64_t{1} << 24, uint64_t{0}), Neighbourhood{},
+                       Parameter(radius), 1.0, uint64_t{7}, FoamMethod::direct, Parameter(1.001));
+    std::vector<RaySearch> rays;
+    foam->for_each_strut(
+        Box3{{0, 0, 0}, {3, 3, 3}},
+        [&](Vec3 a, Vec3 b, double) {
+          if (length(b - a) < 0.1) return;
+          for (int n = 0; n < 4; ++n) {
+            const Vec3 middle = a + (b - a) * random.between(0.2, 0.8);
+            const Vec3 way = random.in_box(Box3{{-1, -1, -1}, {1, 1, 1}});
+            const double far = random.between(0.1, 0.5);
+            const Vec3 direction = way * (1 / length(way));
+            if (foam->inside(middle))
+              rays.push_back({{middle - direction * far, direction}, 0, far});
+          }
+        },
+        nullptr);
+    foam->enter(rays.data(), rays.size(), nullptr);
+    asked += rays.size();
+    missed += static_cast<size_t>(
+        std::count_if(rays.begin(), rays.end(), [](const RaySearch& ray) { return !ray.found; }));
+  }
+  print_message("%zu rays, %zu miss a strut\n", asked, missed);
+  assert_true(asked > 1000);
+  assert_int_equal(missed, 0);
+}
+
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(spans_of_thin_struts_are_the_predicates)};
+  const CMUnitTest tests[] = {cmocka_unit_test(spans_of_thin_struts_are_the_predicates),
+                              cmocka_unit_test(rays_meet_thin_struts)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

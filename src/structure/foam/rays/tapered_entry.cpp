@@ -234,9 +234,9 @@ StrutEntry StrutEntries::find_tapered(const FoamRay& ray, const StrutLine& strut
   const double error = tapered.error(), tolerance = ray.tolerance, end_room = end_error + error;
   StrutEntry entry;
   double from = ray.from, to = ray.to;
-  if (!tapered.clip_to_ends(end_room, from, to) ||
-      !tapered.clip_to_radius(radius_ + error, from, to))
-    return entry;
+  if (!tapered.clip_to_ends(end_room, from, to)) return entry;
+  const double between_ends = from;
+  if (!tapered.clip_to_radius(radius_ + error, from, to)) return entry;
   const double gap = tapered.gap(from);
   if (from == ray.from) {
     if (gap <= error) {
@@ -249,8 +249,10 @@ StrutEntry StrutEntries::find_tapered(const FoamRay& ray, const StrutLine& strut
       if (from + tolerance < to && inside(ray, from + tolerance))
         return settle(ray, from, from + tolerance);
     }
-  } else if (gap < -error) {
-    // Another strut contains a ray that comes in past an end, and has an earlier entry.
+  } else if (from == between_ends && gap < -error) {
+    // Another strut contains a ray that comes in past an end, and has an earlier entry. Where it
+    // comes in from the side, the gap is `error`, up to the rounding of clip_to_radius(): that may
+    // exceed it if the strut is thin and far from the middle of its owner's cell.
     return entry;
   }
   bool is_there = gap <= 0;
