@@ -70,6 +70,8 @@ void struts_are_those_of_a_global_diagram(void**) {
   check(6, 1, {1, 0.5, 0.75}, 1e-10);
   check(7, 0.7, {0.25, 1, 1}, 1e-9);
   check(8, 0.01, {1, 1, 1}, 1e-8);
+  check(9, 1e-4, {0.9, 0.7, 1}, 1e-6);
+  check(10, 1e-5, {0.9, 0.7, 1}, 1e-5);
 }
 
 /// Four struts meet in each joint, in the foam's interior.
@@ -113,11 +115,11 @@ void seeds_at_centres_make_a_cubic_lattice(void**) {
 
 void circumcentres_are_equally_far(void**) {
   Vec3 centre;
-  assert_true(
-      find_circumcentre({{{0, 0, 0}, 0}, {{2, 0, 0}, 0}, {{0, 4, 0}, 0}, {{0, 0, 6}, 0}}, centre));
+  assert_true(find_circumcentre({{{0, 0, 0}, 0}, {{2, 0, 0}, 0}, {{0, 4, 0}, 0}, {{0, 0, 6}, 0}},
+                                centre) == 1);
   assert_true(max_magnitude(centre - Vec3{1, 2, 3}) < 1e-15);
-  assert_false(
-      find_circumcentre({{{0, 0, 0}, 0}, {{1, 0, 0}, 0}, {{0, 1, 0}, 0}, {{1, 1, 0}, 0}}, centre));
+  assert_true(find_circumcentre({{{0, 0, 0}, 0}, {{1, 0, 0}, 0}, {{0, 1, 0}, 0}, {{1, 1, 0}, 0}},
+                                centre) == 0);
 }
 
 }  // namespace

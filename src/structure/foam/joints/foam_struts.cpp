@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
-#include <iterator>
+#include <utility>
 
 #include "base/borrowed.h"
 #include "base/id_table.h"
 #include "base/job.h"
 #include "structure/foam/edges/edge_brick.h"
-#include "structure/foam/joints/joint.h"
+#include "structure/foam/joints/joint_graph.h"
 
 namespace msq {
 
@@ -18,16 +18,10 @@ namespace {
 
 struct Workspace {
   NamedSeeds seeds;
-  JointFinder finder;
-  std::vector<Joint> joints;
-  std::vector<NamedSeed> common;
-  std::vector<std::array<uint32_t, 2>> pairs;  // of joints
-  IdTable vertices, by_id, by_seeds;
+  JointGraph graph;
+  IdTable vertices;
 
-  size_t bytes() const {
-    return seeds.bytes() + joints.capacity() * (sizeof(Joint) + 4 * sizeof(NamedSeed)) +
-           vertices.bytes() + by_id.bytes() + by_seeds.bytes();
-  }
+  size_t bytes() const { return seeds.bytes() + graph.bytes() + vertices.bytes(); }
 };
 
 class FoamStruts final : public StrutsOfOne {
@@ -71,8 +65,8 @@ class FoamStruts final : public StrutsOfOne {
         foam_.context().cache.fetch(foam_.id(), corner, [&] { return graph.make_brick(corner); });
     const Borrowed<Workspace> workspace;
     find_joints(static_cast<const EdgeBrick&>(*data), corner, *workspace);
-    find_pairs(corner, *workspace);
-    add_struts(corner, *workspace, list);
+    workspace->graph.find_edges();
+    add_struts(workspace->graph, list);
   }
 
   double radius_at(const Strut&, double, double, Vec3 p) const override {
@@ -84,10 +78,9 @@ class FoamStruts final : public StrutsOfOne {
     work.seeds.move_to(foam_.diagram_seeds(), foam_.graded(), corner, side_);
     // The positions of a stretched brick are rounded twice.
     const double error = foam_.stretch() ? 2 * edge_error : edge_error;
-    work.joints.clear();
     const SegmentSet& segments = brick.segments();
+    work.graph.start(work.seeds, corner, side_, 4 * segments.count());
     work.vertices.reset(2 * segments.count());
-    work.by_id.reset(4 * segments.count());
     uint32_t vertices = 0;
     for (size_t i = 0; i < segments.count(); ++i) {
       if (i % 64 == 0) check_cancelled();
@@ -101,48 +94,9 @@ class FoamStruts final : public StrutsOfOne {
         if (work.vertices.find_or_add(hash.id(), vertices) != vertices) continue;
         ++vertices;
         const Vec3 p = foam_.to_diagram(brick.origin() + Vec3{end[0], end[1], end[2]});
-        work.finder.find(work.seeds, p, error, [&](Joint& joint) {
-          const auto number = static_cast<uint32_t>(work.joints.size());
-          if (work.by_id.find_or_add(joint.id, number) == number)
-            work.joints.push_back(std::move(joint));
-        });
+        work.graph.add_at(p, error);
       }
     }
-  }
-
-  bool owns(CellIndex corner, CellIndex cell) const {
-    const auto is_in = [&](int32_t low, int32_t at) { return at >= low && at - low < side_; };
-    return is_in(corner.x, cell.x) && is_in(corner.y, cell.y) && is_in(corner.z, cell.z);
-  }
-
-  /// Pairs of joints with three seeds in common, the first of which is in the brick. Pairs with
-  /// more in common come several times.
-  void find_pairs(CellIndex corner, Workspace& work) const {
-    work.pairs.clear();
-    size_t triples = 0;
-    for (const Joint& joint : work.joints) {
-      const size_t n = joint.seeds.size();
-      triples += n * (n - 1) * (n - 2) / 6;
-    }
-    work.by_seeds.reset(triples);
-    const Vec3 scale = foam_.diagram_seeds().scale();
-    for (uint32_t j = 0; j < work.joints.size(); ++j) {
-      const std::vector<NamedSeed>& seeds = work.joints[j].seeds;
-      const size_t n = seeds.size();
-      for (size_t a = 0; a + 2 < n; ++a) {
-        if (!owns(corner, seeds[a].cell)) continue;
-        for (size_t b = a + 1; b + 1 < n; ++b)
-          for (size_t c = b + 1; c < n; ++c) {
-            if (n > 4 && are_collinear(seeds[a], seeds[b], seeds[c], scale)) continue;
-            IdHash hash(3);
-            for (const size_t i : {a, b, c}) seeds[i].add_name(hash);
-            const uint32_t other = work.by_seeds.find_or_add(hash.id(), j);
-            if (other != j) work.pairs.push_back({other, j});
-          }
-      }
-    }
-    std::sort(work.pairs.begin(), work.pairs.end());
-    work.pairs.erase(std::unique(work.pairs.begin(), work.pairs.end()), work.pairs.end());
   }
 
   Vec3 place(const Joint& joint) const {
@@ -156,26 +110,21 @@ class FoamStruts final : public StrutsOfOne {
     return foam_.placed() ? foam_.placed()->cell_of(seed.cell, seed.leaf >> 3) : seed.cell;
   }
 
-  void add_struts(CellIndex corner, Workspace& work, StrutList& list) const {
+  void add_struts(const JointGraph& graph, StrutList& list) const {
     const size_t from = list.struts.size();
     const double max_radius = foam_.radius().range().high;
-    for (const auto& [i, j] : work.pairs) {
-      const Joint *a = &work.joints[i], *b = &work.joints[j];
+    for (const JointGraph::Edge& edge : graph.edges()) {
+      if (edge.ends[0] == edge.ends[1] || !graph.is_owned(edge)) continue;
+      const Joint *a = &graph.joints()[edge.ends[0]], *b = &graph.joints()[edge.ends[1]];
       if (b->id < a->id) std::swap(a, b);
-      work.common.clear();
-      std::set_intersection(a->seeds.begin(), a->seeds.end(), b->seeds.begin(), b->seeds.end(),
-                            std::back_inserter(work.common));
-      if (!owns(corner, work.common[0].cell)) continue;
       Strut strut;
       strut.a = place(*a);
       strut.b = place(*b);
       if (!selection_.selects(strut.a, strut.b, max_radius)) continue;
-      IdHash hash(4);
-      for (const NamedSeed& seed : work.common) seed.add_name(hash);
-      strut.id = hash.id();
+      strut.id = edge.id;
       strut.nodes[0] = a->id;
       strut.nodes[1] = b->id;
-      strut.cell = cell_of(work.common[0]);
+      strut.cell = cell_of(graph.owner(edge));
       strut.radii[0] = strut.radii[1] = max_radius;
       list.add(strut, 1);
     }

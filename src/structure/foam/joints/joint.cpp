@@ -2,21 +2,21 @@
 #include "structure/foam/joints/joint.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/job.h"
-#include "structure/foam/edges/edge_brick.h"
 
 namespace msq {
 
 namespace {
 
-/// More seeds than this about a vertex are left out, the last first: no arrangement of seeds on a
-/// grid has as many.
-constexpr size_t max_near = 24;
-/// The volume of the tetrahedron of seeds, times 6, and the area of a triangle, times 2, below
-/// which they count as flat: differences of seeds have about 2^-40 of rounding at most.
-constexpr double flat = 1e-13;
+/// The relative volume of four seeds below which they count as flat, and below which their
+/// circumcentre is computed exactly.
+constexpr double flat = 1e-13, narrow = 1e-6;
+/// Vertices that are closer together than this, in foam units, and those of four seeds of a lower
+/// relative volume may escape a brick's tolerances.
+constexpr double close = 1e-9;
 
 Id id_of(const std::vector<NamedSeed>& seeds) {
   IdHash hash(2);
@@ -24,29 +24,29 @@ Id id_of(const std::vector<NamedSeed>& seeds) {
   return hash.id();
 }
 
-/// The position from the first four seeds that are not in a plane, from the corner of the first
-/// seed's cell.
-bool place(const std::vector<NamedSeed>& seeds, Vec3 scale, Vec3& position) {
-  const CellIndex home = seeds[0].cell;
-  LiftedSeed at[max_near];
-  const size_t count = std::min(seeds.size(), max_near);
-  for (size_t i = 0; i < count; ++i) at[i] = {seeds[i].from(home, scale), seeds[i].lift};
+constexpr JointFace bit(size_t i) {
+  return JointFace{1} << i;
+}
+
+/// Calls visit(a, b, c, d) for the fours of `count` numbers, a < b < c < d, until it returns true.
+template <class Visit>
+bool any_four(size_t count, Visit&& visit) {
   for (size_t d = 3; d < count; ++d)
     for (size_t c = 2; c < d; ++c)
       for (size_t b = 1; b < c; ++b)
         for (size_t a = 0; a < b; ++a)
-          if (find_circumcentre({at[a], at[b], at[c], at[d]}, position)) return true;
+          if (visit(a, b, c, d)) return true;
   return false;
 }
 
 }  // namespace
 
-bool find_circumcentre(const LiftedSeed (&seeds)[4], Vec3& centre) {
+double find_circumcentre(const LiftedSeed (&seeds)[4], Vec3& centre) {
   const Vec3 u = seeds[1].place - seeds[0].place, v = seeds[2].place - seeds[0].place,
              w = seeds[3].place - seeds[0].place;
   const Vec3 vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
-  const double volume = dot(u, vw);
-  if (!(std::abs(volume) > flat * length(u) * length(v) * length(w))) return false;
+  const double volume = dot(u, vw), edges = length(u) * length(v) * length(w);
+  if (!(std::abs(volume) > flat * edges)) return 0;
   const double scale = 0.5 / volume;
   const auto solve = [&](double a, double b, double c) {
     return (vw * a + wu * b + uv * c) * scale;
@@ -61,63 +61,223 @@ bool find_circumcentre(const LiftedSeed (&seeds)[4], Vec3& centre) {
   const auto rest = [&](double offset, Vec3 n) { return offset - 2 * dot(n, x); };
   x = x + solve(rest(to_u, u), rest(to_v, v), rest(to_w, w));
   centre = seeds[0].place + x;
-  return true;
+  return std::abs(volume) / edges;
 }
 
-bool are_collinear(const NamedSeed& a, const NamedSeed& b, const NamedSeed& c, Vec3 scale) {
-  const Vec3 u = b.from(a.cell, scale) - a.from(a.cell, scale);
-  const Vec3 v = c.from(a.cell, scale) - a.from(a.cell, scale);
-  return !(length(cross(u, v)) > flat * length(u) * length(v));
+Vec3 JointFinder::from_corner(CellIndex cell, Vec3 p) const {
+  const CellIndex corner = seeds_->corner();
+  return p + Vec3{double(cell.x - corner.x), double(cell.y - corner.y), double(cell.z - corner.z)} *
+                 seeds_->scale();
 }
 
-void JointFinder::gather(NamedSeeds& seeds, Vec3 p, double error) {
+/// From the first four seeds that are not in a plane, if double precision is good for them; else
+/// exactly, where any four lead to the same point.
+bool JointFinder::place(Joint& joint) const {
+  const std::vector<NamedSeed>& seeds = joint.seeds;
+  const CellIndex home = seeds[0].cell;
+  const Vec3 scale = seeds_->scale();
+  LiftedSeed at[max_near];
+  for (size_t i = 0; i < seeds.size(); ++i) at[i] = {seeds[i].from(home, scale), seeds[i].lift};
+  double volume = 0;
+  any_four(seeds.size(), [&](size_t a, size_t b, size_t c, size_t d) {
+    volume = find_circumcentre({at[a], at[b], at[c], at[d]}, joint.position);
+    return volume > 0;
+  });
+  if (volume > narrow) return true;
+  ExactSeeds::Seed exact[max_near];
+  for (size_t i = 0; i < seeds.size(); ++i) exact[i] = ExactSeeds::from(home, seeds[i]);
+  return any_four(seeds.size(), [&](size_t a, size_t b, size_t c, size_t d) {
+    if (exact_.side(exact[a], exact[b], exact[c], exact[d]) == 0) return false;
+    joint.position = at[a].place + exact_.centre(exact[a], exact[b], exact[c], exact[d]);
+    return true;
+  });
+}
+
+bool JointFinder::gather(Vec3 p, double error) {
   // Twice the spread that the error causes. If more than four seeds are so nearly as far, rounded
   // positions may be less exact: the seeds may be almost in a plane.
   const double within = 4 * error, in_doubt = 64 * error;
   joints_.clear();
-  seeds.find(p, within, near_);
-  if (near_.size() == 4) try_all(seeds, p, within);
-  if (!joints_.empty()) return;
-  seeds.find(p, in_doubt, near_);
-  if (near_.size() > max_near) near_.resize(max_near);
-  if (near_.size() >= 4) try_all(seeds, p, in_doubt);
+  seeds_->find(p, within, near_);
+  if (near_.size() == 4 && take_four(p, within)) return true;
+  seeds_->find(p, in_doubt, near_);
+  return near_.size() >= 4 && near_.size() <= max_near && try_all(p, in_doubt);
 }
 
 // Let s be the seed nearest to p, and c a vertex within `within` / 2 of p. A seed that is not in
 // near_ is farther from p than s by more than `within`, so it is farther from c than s is. So the
 // seeds in near_ decide whether the ball about c is empty.
-void JointFinder::try_all(const NamedSeeds& seeds, Vec3 p, double within) {
-  const Vec3 scale = seeds.scale();
-  const CellIndex home = near_[0].cell, corner = seeds.corner();
+bool JointFinder::take_four(Vec3 p, double within) {
+  Joint joint;
+  joint.seeds = near_;
+  if (!place(joint)) return false;
+  if (length(from_corner(near_[0].cell, joint.position) - p) > 0.5 * within) return false;
+  joint.id = id_of(joint.seeds);
+  joints_.push_back(std::move(joint));
+  return true;
+}
+
+bool JointFinder::try_all(Vec3 p, double within) {
+  const Vec3 scale = seeds_->scale();
+  const CellIndex home = near_[0].cell;
   const size_t count = near_.size();
   LiftedSeed at[max_near];
-  for (size_t i = 0; i < count; ++i) at[i] = {near_[i].from(home, scale), near_[i].lift};
-  const Vec3 place_of_p =
-      p -
-      Vec3{double(home.x - corner.x), double(home.y - corner.y), double(home.z - corner.z)} * scale;
-  const auto try_four = [&](size_t a, size_t b, size_t c, size_t d) {
-    Vec3 centre;
-    if (!find_circumcentre({at[a], at[b], at[c], at[d]}, centre)) return;
-    const auto distance = [&](size_t i) { return std::sqrt(squared_from(at[i], centre)); };
-    const double radius = distance(a);
-    for (size_t i = 0; i < count; ++i)
-      if (distance(i) < radius - equally_far) return;
-    if (length(centre - place_of_p) > 0.5 * within) return;
-    Joint joint;
-    joint.seeds.reserve(count);
-    for (size_t i = 0; i < count; ++i)
-      if (distance(i) <= radius + equally_far) joint.seeds.push_back(near_[i]);
-    joint.id = id_of(joint.seeds);
-    const auto is_known = [&](const Joint& other) { return other.id == joint.id; };
-    if (joint.seeds.size() < 4 || std::any_of(joints_.begin(), joints_.end(), is_known)) return;
-    if (place(joint.seeds, scale, joint.position)) joints_.push_back(std::move(joint));
-  };
-  for (size_t d = 3; d < count; ++d) {
-    check_cancelled();
-    for (size_t c = 2; c < d; ++c)
-      for (size_t b = 1; b < c; ++b)
-        for (size_t a = 0; a < b; ++a) try_four(a, b, c, d);
+  ExactSeeds::Seed exact[max_near];
+  for (size_t i = 0; i < count; ++i) {
+    at[i] = {near_[i].from(home, scale), near_[i].lift};
+    exact[i] = ExactSeeds::from(home, near_[i]);
   }
+  const Vec3 place_of_p = p - from_corner(home, {});
+  std::vector<JointFace> known;  // of joints_
+  bool is_certain = true;
+  any_four(count, [&](size_t a, size_t b, size_t c, size_t d) {
+    const JointFace four = bit(a) | bit(b) | bit(c) | bit(d);
+    for (const JointFace seeds : known)
+      if ((four & ~seeds) == 0) return false;
+    check_cancelled();
+    Vec3 centre;
+    const double volume = find_circumcentre({at[a], at[b], at[c], at[d]}, centre);
+    if (!(volume > narrow)) {
+      if (exact_.side(exact[a], exact[b], exact[c], exact[d]) == 0) return false;
+      centre = at[a].place + exact_.centre(exact[a], exact[b], exact[c], exact[d]);
+    }
+    if (!(length(centre - place_of_p) <= 0.5 * within)) return false;
+    JointFace seeds = four;
+    for (size_t i = 0; i < count; ++i) {
+      if (four & bit(i)) continue;
+      const int nearer = exact_.nearer(exact[a], exact[b], exact[c], exact[d], exact[i]);
+      if (nearer > 0) return false;
+      if (nearer == 0) seeds |= bit(i);
+    }
+    known.push_back(seeds);
+    const double radius = std::sqrt(squared_from(at[a], centre));
+    Joint joint;
+    for (size_t i = 0; i < count; ++i) {
+      if (seeds & bit(i))
+        joint.seeds.push_back(near_[i]);
+      else if (std::sqrt(squared_from(at[i], centre)) < radius + close)
+        is_certain = false;
+    }
+    is_certain = is_certain && (volume > close || std::popcount(seeds) > 4);
+    joint.id = id_of(joint.seeds);
+    if (place(joint)) joints_.push_back(std::move(joint));
+    return false;
+  });
+  return is_certain && !joints_.empty();
+}
+
+void JointFinder::find_faces(const Joint& joint) {
+  const CellIndex home = joint.seeds[0].cell;
+  const size_t count = joint.seeds.size();
+  ExactSeeds::Seed at[max_near];
+  for (size_t i = 0; i < count; ++i) at[i] = ExactSeeds::from(home, joint.seeds[i]);
+  faces_.clear();
+  planes_.clear();
+  for (size_t c = 2; c < count; ++c)
+    for (size_t b = 1; b < c; ++b)
+      for (size_t a = 0; a < b; ++a) {
+        const JointFace three = bit(a) | bit(b) | bit(c);
+        const auto has_all = [&](JointFace plane) { return (three & ~plane) == 0; };
+        if (std::any_of(planes_.begin(), planes_.end(), has_all)) continue;
+        JointFace plane = three;
+        bool is_on[3] = {false, false, false};  // below, in, above
+        for (size_t i = 0; i < count && !(is_on[0] && is_on[2] && plane == three); ++i) {
+          if (three & bit(i)) continue;
+          const int side = exact_.side(at[a], at[b], at[c], at[i]);
+          is_on[side + 1] = true;
+          if (side == 0) plane |= bit(i);
+        }
+        if (is_on[0] && is_on[2]) {
+          if (plane != three) planes_.push_back(plane);
+          continue;
+        }
+        // Seeds on a sphere are not three on a line, unless weights lift them.
+        if (!is_on[0] && !is_on[2]) continue;
+        planes_.push_back(plane);
+        faces_.push_back(plane);
+      }
+}
+
+bool JointFinder::choose(const Joint& joint, JointFace face, Three& three) const {
+  const CellIndex home = joint.seeds[0].cell;
+  size_t count = 0, numbers[max_near];
+  ExactSeeds::Seed on_face[max_near], other{};
+  for (size_t i = 0; i < joint.seeds.size(); ++i) {
+    const ExactSeeds::Seed seed = ExactSeeds::from(home, joint.seeds[i]);
+    if (face & bit(i)) {
+      on_face[count] = seed;
+      numbers[count++] = i;
+    } else {
+      other = seed;
+    }
+  }
+  double most = 0;
+  for (size_t k = 2; k < count; ++k)
+    for (size_t j = 1; j < k; ++j)
+      for (size_t i = 0; i < j; ++i) {
+        const Vec3 n =
+            cross(exact_.apart(on_face[i], on_face[j]), exact_.apart(on_face[i], on_face[k]));
+        if (!(dot(n, n) > most)) continue;
+        most = dot(n, n);
+        three.normal = n;
+        const size_t chosen[3] = {i, j, k};
+        for (int m = 0; m < 3; ++m) {
+          three.at[m] = on_face[chosen[m]];
+          three.seed[m] = &joint.seeds[numbers[chosen[m]]];
+        }
+      }
+  if (!(most > 0)) return false;
+  three.outward = -exact_.side(three.at[0], three.at[1], three.at[2], other);
+  three.normal = three.normal * (three.outward / std::sqrt(most));
+  return three.outward != 0;
+}
+
+// The other end is where a ball meets the next seed as it moves away from the joint's other seeds,
+// with the face's seeds on its sphere. Each step has a ball that is too large and takes a seed in
+// it: the ball of that seed is smaller.
+bool JointFinder::follow(const Joint& joint, JointFace face, Joint& other) {
+  // Of distances: what rounding of a ball's centre is far below, and what is beyond all empty
+  // balls.
+  constexpr double margin = 1e-6, room = 1e-3;
+  Three three;
+  if (!choose(joint, face, three)) return false;
+  const auto& [a, b, c] = three.at;
+  const CellIndex home = joint.seeds[0].cell;
+  const Vec3 place_of_a = three.seed[0]->from(home, seeds_->scale());
+  const Vec3 from_a = joint.position - place_of_a;
+  const double along = dot(from_a, three.normal), squared = dot(from_a, from_a) + a.lift,
+               radius = seeds_->empty_radius() * (1 + room);
+  const double way = std::sqrt(std::max(0.0, along * along + radius * radius - squared)) - along;
+  Vec3 centre = joint.position + three.normal * way;
+  NamedSeed met{};  // the last seed taken
+  ExactSeeds::Seed d{};
+  const auto is_on_ball = [&](const NamedSeed& seed) {
+    return seed == *three.seed[0] || seed == *three.seed[1] || seed == *three.seed[2] ||
+           seed == met;
+  };
+  for (bool has_met = false, is_new = true; is_new;) {
+    check_cancelled();
+    seeds_->find(from_corner(home, centre), margin, near_);
+    is_new = false;
+    for (const NamedSeed& seed : near_) {
+      if (has_met && is_on_ball(seed)) continue;
+      const ExactSeeds::Seed e = ExactSeeds::from(home, seed);
+      if (exact_.side(a, b, c, e) != three.outward) continue;
+      if (has_met && exact_.nearer(a, b, c, d, e) <= 0) continue;
+      d = e;
+      met = seed;
+      has_met = is_new = true;
+    }
+    if (!has_met) return false;
+    centre = place_of_a + exact_.centre(a, b, c, d);
+  }
+  other.seeds.clear();
+  for (const NamedSeed& seed : near_)
+    if (is_on_ball(seed) || exact_.nearer(a, b, c, d, ExactSeeds::from(home, seed)) == 0)
+      other.seeds.push_back(seed);
+  if (other.seeds.size() < 4 || other.seeds.size() > max_near) return false;
+  other.id = id_of(other.seeds);
+  return place(other);
 }
 
 }  // namespace msq

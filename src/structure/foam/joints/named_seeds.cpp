@@ -13,6 +13,7 @@ void NamedSeeds::move_to(const FoamSeeds& seeds, const std::shared_ptr<const Gra
   graded_ = graded.get();
   corner_ = corner;
   scale_ = seeds.scale();
+  empty_radius_ = seeds.empty_radius();
   if (graded_) return trees_.move_to(graded);
   // Points are within the empty radius of a seed of the brick, and so are their nearest seeds from
   // them.

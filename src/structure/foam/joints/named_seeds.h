@@ -56,6 +56,8 @@ class NamedSeeds {
   void find(Vec3 p, double more, std::vector<NamedSeed>& near);
 
   Vec3 scale() const { return scale_; }
+  /// Of the foam (seeds/seeds.h).
+  double empty_radius() const { return empty_radius_; }
   CellIndex corner() const { return corner_; }
   size_t bytes() const {
     return in_cell_.capacity() * sizeof(Vec3) + lifts_.capacity() * sizeof(double) +
@@ -81,6 +83,7 @@ class NamedSeeds {
   const GradedSeeds* graded_ = nullptr;
   CellIndex corner_;
   Vec3 scale_;
+  double empty_radius_ = 0;
   int halo_[3] = {0, 0, 0};
   size_t size_[3] = {0, 0, 0};
   std::vector<Vec3> in_cell_;
