@@ -6,6 +6,7 @@
 
 #include "api/guard.h"
 #include "base/int128.h"
+#include "base/working_memory.h"
 #include "fill/line_density.h"
 
 using namespace msq;
@@ -14,6 +15,8 @@ using namespace msq::api;
 namespace {
 
 constexpr uint64_t max_points = uint64_t{1} << 31;  // of a polygon
+/// What an error of the memory limit names.
+constexpr char what_of_rings[] = "a polygon", what_of_lines[] = "the lines of walls in a plane";
 
 msq_fill_def fill_defaults() {
   msq_fill_def def{};
@@ -37,7 +40,7 @@ void require_coordinate(int64_t value, uint64_t ring, uint64_t point) {
 }
 
 /// Whether all points are on one line. Coordinates are at most 2^53, so products have 109 bits.
-bool is_flat(const std::vector<IntPoint>& ring) {
+bool is_flat(const CountedVector<IntPoint>& ring) {
   const IntPoint a = ring[0];
   IntPoint b = a;
   for (const IntPoint p : ring) {
@@ -52,14 +55,14 @@ bool is_flat(const std::vector<IntPoint>& ring) {
   return true;
 }
 
-std::vector<std::vector<IntPoint>> read_rings(const msq_fill_def& def, bool is_int32) {
+FillPolygon::Rings read_rings(const msq_fill_def& def, bool is_int32) {
   if (def.ring_count == 0) fail(Status::argument, "ring_count is 0; it must be at least 1");
   require(def.rings, "rings");
   const uint64_t packed = is_int32 ? 8 : 16, stride = def.point_stride ? def.point_stride : packed;
   if (stride < packed)
     fail(Status::argument, "point_stride is %llu bytes; a point has %llu",
          static_cast<unsigned long long>(stride), static_cast<unsigned long long>(packed));
-  std::vector<std::vector<IntPoint>> rings;
+  FillPolygon::Rings rings;
   uint64_t total = 0;
   for (uint64_t r = 0; r < def.ring_count; ++r) {
     const msq_ring& given = def.rings[r];
@@ -73,7 +76,7 @@ std::vector<std::vector<IntPoint>> read_rings(const msq_fill_def& def, bool is_i
            static_cast<unsigned long long>(max_points));
     total += given.count;
     checked_product(given.count, stride, "the points of a ring");
-    std::vector<IntPoint> ring;
+    CountedVector<IntPoint> ring;
     ring.reserve(given.count);
     const auto* data = static_cast<const unsigned char*>(given.points);
     for (uint64_t i = 0; i < given.count; ++i, data += stride) {
@@ -123,7 +126,9 @@ msq_status msq_fill_lines(msq_context* context, const msq_structure* structure,
     const Ref<const Structure> keep(&known);
     const Ref<Context> keep_owner(&owner);
     require(fill, "fill");
+    WorkingMemory working(*owner.budget, what_of_rings);
     const FillPlan plan = read_plan(read_def(def, fill_defaults(), "def"), known);
+    working.call_it(what_of_lines);
     JobScope scope(job ? &object(job, "job") : nullptr);
     Ref<Fill> made = make_ref<Fill>(owner, known, plan);
     scope.done();
@@ -158,14 +163,16 @@ msq_status msq_fill_calibrate(msq_context* context, const msq_structure* structu
                               double line_width, double density, double cell_size[3],
                               msq_job* job) {
   return guard([&] {
-    object(context, "context");
+    Context& owner = object(context, "context");
     const Structure& known = object(structure, "structure");
     const Ref<const Structure> keep(&known);
+    const Ref<Context> keep_owner(&owner);
     require_positive(line_width, "line_width");
     if (!(density > 0 && density <= 1))
       fail(Status::argument, "density is %g; it must be above 0 and at most 1", density);
     require(cell_size, "cell_size");
     JobScope scope(job ? &object(job, "job") : nullptr);
+    const WorkingMemory working(*owner.budget, what_of_lines);
     const double factor = mean_line_density(known) * line_width / density;
     scope.done();
     for (int axis = 0; axis < 3; ++axis)

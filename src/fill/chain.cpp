@@ -21,8 +21,8 @@ class Chains {
     pair_ends();
   }
 
-  std::vector<Polyline> find() {
-    std::vector<Polyline> paths;
+  CountedVector<Polyline> find() {
+    CountedVector<Polyline> paths;
     for (End end = 0; end < partner_.size(); ++end)
       if (partner_[end] == nothing && !is_used_[end / 2]) paths.push_back(follow(end));
     for (uint32_t line = 0; line < is_used_.size(); ++line)
@@ -37,14 +37,14 @@ class Chains {
   Polyline follow(End end);
 
   const LineGraph& graph_;
-  std::vector<End> partner_;  // the other of the only two ends at a point
-  std::vector<bool> is_used_;
+  CountedVector<End> partner_;  // the other of the only two ends at a point
+  CountedVector<bool> is_used_;
 };
 
 void Chains::pair_ends() {
   // The only end at a point, or one of two; then how many there are.
-  std::vector<End> first(graph_.points.size(), nothing);
-  std::vector<uint32_t> counts(graph_.points.size(), 0);
+  CountedVector<End> first(graph_.points.size(), nothing);
+  CountedVector<uint32_t> counts(graph_.points.size(), 0);
   CancelPoll poll(current_job());
   for (End end = 0; end < partner_.size(); ++end) {
     poll();
@@ -79,17 +79,17 @@ Polyline Chains::follow(End end) {
 
 }  // namespace
 
-std::vector<Polyline> chain(const LineGraph& graph) {
+CountedVector<Polyline> chain(const LineGraph& graph) {
   return Chains(graph).find();
 }
 
 void simplify(Polyline& path, double distance) {
-  std::vector<Vec2>& points = path.points;
+  CountedVector<Vec2>& points = path.points;
   if (path.is_closed) points.push_back(points[0]);
   const size_t count = points.size();
-  std::vector<bool> stays(count, false);
+  CountedVector<bool> stays(count, false);
   stays[0] = stays[count - 1] = true;
-  std::vector<std::array<size_t, 2>> open = {{0, count - 1}};
+  CountedVector<std::array<size_t, 2>> open = {{0, count - 1}};
   CancelPoll poll(current_job());
   while (!open.empty()) {
     const auto [from, to] = open.back();

@@ -2,19 +2,18 @@
 // Polylines between the points where lines of a graph meet.
 #pragma once
 
-#include <vector>
-
+#include "base/working_memory.h"
 #include "structure/common/line_graph.h"
 
 namespace msq {
 
 struct Polyline {
-  std::vector<Vec2> points;
+  CountedVector<Vec2> points;
   bool is_closed = false;  ///< the last point is joined to the first, and is not equal to it
 };
 
 /// The lines of a graph, joined where just two meet. Where three or more meet, all end.
-std::vector<Polyline> chain(const LineGraph& graph);
+CountedVector<Polyline> chain(const LineGraph& graph);
 
 /// Drops points of a path that are no farther than `distance` from what remains. Source: Douglas
 /// and Peucker, "Algorithms for the reduction of the number of points required to represent a

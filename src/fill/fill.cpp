@@ -53,27 +53,20 @@ Fill::Fill(Context& context, const Structure& structure, const FillPlan& plan)
   };
   // A coordinate is rounded by half a unit.
   const Box2 window = Box2{place(polygon.min()), place(polygon.max())}.grown(plan.scale);
-  std::vector<Polyline> lines;
-  Reservation held_lines;
-  {
-    const LineGraph graph = structure.wall_lines({plan.z, window, (1 - dropped) * plan.tolerance});
-    // Chained, each point is there a second time.
-    held_lines = Reservation(context.budget,
-                             2 * graph.points.size() * sizeof graph.points[0] +
-                                 graph.lines.size() * sizeof graph.lines[0],
-                             "the lines of walls in a plane");
-    lines = chain(graph);
-  }
+  CountedVector<Polyline> lines =
+      chain(structure.wall_lines({plan.z, window, (1 - dropped) * plan.tolerance}));
   const Rounding rounding(plan);
-  std::vector<IntPath> parts;
+  CountedVector<IntPath> parts;
   JobPoll poll(current_job());
   for (Polyline& line : lines) {
     poll();
     simplify(line, dropped * plan.tolerance);
     polygon.cut(rounding.round(line), parts);
+    line = Polyline();
   }
-  std::vector<Tour> tours = find_trails(std::move(parts), plan.min_length / plan.scale,
-                                        {plan.pair_distance / plan.scale, &polygon});
+  lines = CountedVector<Polyline>();
+  CountedVector<Tour> tours = find_trails(std::move(parts), plan.min_length / plan.scale,
+                                          {plan.pair_distance / plan.scale, &polygon});
   size_t points = 0, count = 0;
   for (Tour& tour : tours) {
     count += tour.size();
@@ -83,12 +76,15 @@ Fill::Fill(Context& context, const Structure& structure, const FillPlan& plan)
       points += path.points.size();
     }
   }
-  memory_ =
-      Reservation(context.budget, points * (is_int32_ ? 8 : 16) + count * 9, "the lines of a fill");
+  memory_ = Reservation(context.budget, points * (is_int32_ ? 8 : 16) + (count + 1) * 9,
+                        "the lines of a fill");
+  is_int32_ ? points32_.reserve(2 * points) : points64_.reserve(2 * points);
+  starts_.reserve(count + 1);
+  closed_.reserve(count);
   store(order_paths(std::move(tours), polygon.min()), plan.scale);
 }
 
-void Fill::store(const std::vector<IntPath>& paths, double scale) {
+void Fill::store(const CountedVector<IntPath>& paths, double scale) {
   double length = 0, travel = 0;
   IntPoint last;
   for (const IntPath& path : paths) {

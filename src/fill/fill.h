@@ -15,7 +15,7 @@
 namespace msq {
 
 struct FillPlan {
-  std::vector<std::vector<IntPoint>> rings;
+  FillPolygon::Rings rings;
   /// Coordinate c is at origin + c * scale in the model.
   Vec2 origin;
   double scale = 1;
@@ -30,7 +30,8 @@ struct FillPlan {
 /// The paths, in arrays.
 class Fill final : public RefCounted {
  public:
-  /// Throws Error(unsupported) where the structure has no thin walls.
+  /// Throws Error(unsupported) where the structure has no thin walls. The calling thread has an
+  /// account of working memory.
   Fill(Context& context, const Structure& structure, const FillPlan& plan);
 
   bool is_int32() const { return is_int32_; }
@@ -46,7 +47,7 @@ class Fill final : public RefCounted {
   double travel() const { return travel_; }
 
  private:
-  void store(const std::vector<IntPath>& paths, double scale);
+  void store(const CountedVector<IntPath>& paths, double scale);
 
   bool is_int32_;
   std::vector<int32_t> points32_;

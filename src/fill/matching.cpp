@@ -22,10 +22,10 @@ constexpr uint64_t max_chains = 32;
 
 class Matching {
  public:
-  explicit Matching(const std::vector<Vec2>& points)
+  explicit Matching(const CountedVector<Vec2>& points)
       : points_(points), mates_(points.size(), nobody) {}
 
-  std::vector<uint32_t> find() {
+  CountedVector<uint32_t> find() {
     pair_nearest();
     exchange();
     return std::move(mates_);
@@ -44,7 +44,7 @@ class Matching {
 
   double distance(uint32_t a, uint32_t b) const { return length(points_[a] - points_[b]); }
   void pair_nearest();
-  void pair_some(const std::vector<uint32_t>& free);
+  void pair_some(const CountedVector<uint32_t>& free);
   void exchange();
   /// Looks for a shorter matching without the pair of the chain's first point.
   bool extend(double gain, size_t step);
@@ -52,16 +52,16 @@ class Matching {
     return std::find(chain_.begin(), chain_.end(), point) != chain_.end();
   }
 
-  const std::vector<Vec2>& points_;
-  std::vector<uint32_t> mates_;
-  std::vector<uint32_t> near_;  // near_count of each point, or nobody
+  const CountedVector<Vec2>& points_;
+  CountedVector<uint32_t> mates_;
+  CountedVector<uint32_t> near_;  // near_count of each point, or nobody
   // Partners are pairs 0 and 1, 2 and 3 ..; of the new matching 1 and 2, 3 and 4 .., last and 0.
-  std::vector<uint32_t> chain_;
+  CountedVector<uint32_t> chain_;
 };
 
 void Matching::pair_nearest() {
   near_.assign(points_.size() * near_count, nobody);
-  std::vector<uint32_t> free(points_.size());
+  CountedVector<uint32_t> free(points_.size());
   for (uint32_t i = 0; i < free.size(); ++i) free[i] = i;
   // The two that are nearest of all become a pair each time, and most others do.
   while (!free.empty()) {
@@ -70,13 +70,13 @@ void Matching::pair_nearest() {
   }
 }
 
-void Matching::pair_some(const std::vector<uint32_t>& free) {
-  std::vector<Vec2> places;
+void Matching::pair_some(const CountedVector<uint32_t>& free) {
+  CountedVector<Vec2> places;
   places.reserve(free.size());
   for (const uint32_t i : free) places.push_back(points_[i]);
   NearPoints grid(places);
-  std::vector<Pair> pairs;
-  std::vector<uint32_t> found;
+  CountedVector<Pair> pairs;
+  CountedVector<uint32_t> found;
   CancelPoll poll(current_job());
   const bool is_first = free.size() == points_.size();
   for (uint32_t i = 0; i < free.size(); ++i) {
@@ -100,8 +100,8 @@ void Matching::pair_some(const std::vector<uint32_t>& free) {
 }
 
 void Matching::exchange() {
-  std::vector<uint32_t> waiting(points_.size());
-  std::vector<bool> waits(points_.size(), true);
+  CountedVector<uint32_t> waiting(points_.size());
+  CountedVector<bool> waits(points_.size(), true);
   for (uint32_t i = 0; i < waiting.size(); ++i) waiting[i] = i;
   CancelPoll poll(current_job());
   const uint64_t most = max_chains * points_.size();
@@ -148,7 +148,7 @@ bool Matching::extend(double gain, size_t step) {
 
 }  // namespace
 
-std::vector<uint32_t> match(const std::vector<Vec2>& points) {
+CountedVector<uint32_t> match(const CountedVector<Vec2>& points) {
   return Matching(points).find();
 }
 

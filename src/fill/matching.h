@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "base/vec2.h"
+#include "base/working_memory.h"
 
 namespace msq {
 
@@ -14,6 +14,6 @@ namespace msq {
 /// shortens the total (Lin and Kernighan, "An effective heuristic algorithm for the
 /// traveling-salesman problem", 1973). Of random points the total is about 2 % above the least one.
 /// Time grows about as the number of points.
-std::vector<uint32_t> match(const std::vector<Vec2>& points);
+CountedVector<uint32_t> match(const CountedVector<Vec2>& points);
 
 }  // namespace msq

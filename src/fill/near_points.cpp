@@ -9,7 +9,7 @@
 
 namespace msq {
 
-NearPoints::NearPoints(const std::vector<Vec2>& points) : points_(points) {
+NearPoints::NearPoints(const CountedVector<Vec2>& points) : points_(points) {
   if (points.empty()) {
     starts_.assign(2, 0);
     counts_.assign(1, 0);
@@ -67,7 +67,7 @@ void NearPoints::look(long column, long row, Vec2 p, size_t count) {
   }
 }
 
-void NearPoints::find(Vec2 p, size_t count, std::vector<uint32_t>& found) {
+void NearPoints::find(Vec2 p, size_t count, CountedVector<uint32_t>& found) {
   found_.clear();
   const long i = column(p.x), j = row(p.y);
   for (long ring = 0; ring < std::max(columns_, rows_); ++ring) {

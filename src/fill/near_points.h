@@ -4,20 +4,20 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "base/vec2.h"
+#include "base/working_memory.h"
 
 namespace msq {
 
 class NearPoints {
  public:
   /// Memory is proportional to the number of points, at any distances between them.
-  explicit NearPoints(const std::vector<Vec2>& points);
+  explicit NearPoints(const CountedVector<Vec2>& points);
 
   /// The numbers of up to `count` of the points that are nearest to p, nearest first; of equally
   /// near ones the least number first. Without removed ones.
-  void find(Vec2 p, size_t count, std::vector<uint32_t>& found);
+  void find(Vec2 p, size_t count, CountedVector<uint32_t>& found);
   void remove(uint32_t point);
 
  private:
@@ -34,12 +34,12 @@ class NearPoints {
   long row(double y) const;
   void look(long column, long row, Vec2 p, size_t count);
 
-  const std::vector<Vec2>& points_;
+  const CountedVector<Vec2>& points_;
   Vec2 low_;
   double side_ = 1;
   long columns_ = 1, rows_ = 1;
-  std::vector<uint32_t> starts_, counts_, members_;  // by square
-  std::vector<Found> found_;
+  CountedVector<uint32_t> starts_, counts_, members_;  // by square
+  CountedVector<Found> found_;
 };
 
 }  // namespace msq

@@ -36,13 +36,13 @@ Vec2 relative(IntPoint p, IntPoint origin) {
 /// Tours, each followed by the nearest one that is left.
 class NearestTours {
  public:
-  NearestTours(const std::vector<Tour>& tours, IntPoint start) : is_taken_(tours.size(), false) {
+  NearestTours(const CountedVector<Tour>& tours, IntPoint start) : is_taken_(tours.size(), false) {
     for (uint32_t t = 0; t < tours.size(); ++t) {
       const auto add = [&](IntPoint p, uint32_t index) {
         places_.push_back(relative(p, start));
         begins_.push_back({t, index});
       };
-      const std::vector<IntPoint>& first = tours[t].front().points;
+      const CountedVector<IntPoint>& first = tours[t].front().points;
       if (is_ring(tours[t])) {
         for (uint32_t i = 0; i < first.size(); ++i) add(first[i], i);
       } else {
@@ -87,23 +87,23 @@ class NearestTours {
     grid_.emplace(places_);
   }
 
-  std::vector<bool> is_taken_;
-  std::vector<Vec2> places_;
-  std::vector<Begin> begins_;
+  CountedVector<bool> is_taken_;
+  CountedVector<Vec2> places_;
+  CountedVector<Begin> begins_;
   size_t left_ = 0;
   std::optional<NearPoints> grid_;
-  std::vector<uint32_t> found_;
+  CountedVector<uint32_t> found_;
 };
 
 /// An order of legs, made shorter. Ends of paths have numbers 2 * path and 2 * path + 1.
 class Legs {
  public:
-  Legs(std::vector<Leg> order, std::vector<Vec2> ends)
+  Legs(CountedVector<Leg> order, CountedVector<Vec2> ends)
       : order_(std::move(order)), ends_(std::move(ends)), places_(order_.size()) {
     for (uint32_t i = 0; i < order_.size(); ++i) places_[order_[i].path] = i;
   }
 
-  std::vector<Leg> shorten();
+  CountedVector<Leg> shorten();
 
  private:
   /// The order, or the order from its end to its begin: what holds for last ends holds for first.
@@ -141,19 +141,19 @@ class Legs {
   void apply(const View& view, const Move& move);
   void reverse(const View& view, size_t begin, size_t end);
 
-  std::vector<Leg> order_;
-  std::vector<Vec2> ends_;
-  std::vector<uint32_t> places_;  // of each path in the order
-  std::vector<uint32_t> near_;    // near_ends ends of other paths for each end, or itself
-  std::vector<uint32_t> changed_;
+  CountedVector<Leg> order_;
+  CountedVector<Vec2> ends_;
+  CountedVector<uint32_t> places_;  // of each path in the order
+  CountedVector<uint32_t> near_;    // near_ends ends of other paths for each end, or itself
+  CountedVector<uint32_t> changed_;
   uint64_t moved_ = 0;
 };
 
-std::vector<Leg> Legs::shorten() {
+CountedVector<Leg> Legs::shorten() {
   const size_t count = order_.size();
   near_.resize(2 * count * near_ends);
   NearPoints grid(ends_);
-  std::vector<uint32_t> found;
+  CountedVector<uint32_t> found;
   CancelPoll poll(current_job());
   for (uint32_t end = 0; end < 2 * count; ++end) {
     poll();
@@ -163,8 +163,8 @@ std::vector<Leg> Legs::shorten() {
       if (other / 2 != end / 2 && n < near_ends) near_[end * near_ends + n++] = other;
     for (; n < near_ends; ++n) near_[end * near_ends + n] = end;
   }
-  std::vector<uint32_t> waiting(count);
-  std::vector<bool> waits(count, true);
+  CountedVector<uint32_t> waiting(count);
+  CountedVector<bool> waits(count, true);
   for (uint32_t i = 0; i < count; ++i) waiting[i] = order_[i].path;
   JobPoll poll_tries(current_job());
   for (size_t next = 0;
@@ -271,11 +271,11 @@ IntPoint last_of(const IntPath& path) {
 }
 
 /// Closed paths begin where the way to them and from them is shortest.
-void turn_rings(std::vector<IntPath>& paths) {
+void turn_rings(CountedVector<IntPath>& paths) {
   CancelPoll poll(current_job());
   for (size_t i = 0; i < paths.size(); ++i) {
     if (!paths[i].is_closed) continue;
-    const std::vector<IntPoint>& points = paths[i].points;
+    const CountedVector<IntPoint>& points = paths[i].points;
     const auto ways = [&](IntPoint p) {
       poll();
       return (i > 0 ? length(relative(p, last_of(paths[i - 1]))) : 0) +
@@ -294,9 +294,9 @@ void turn_rings(std::vector<IntPath>& paths) {
 
 }  // namespace
 
-std::vector<IntPath> order_paths(std::vector<Tour> tours, IntPoint start) {
-  std::vector<IntPath> paths;
-  std::vector<Leg> order;
+CountedVector<IntPath> order_paths(CountedVector<Tour> tours, IntPoint start) {
+  CountedVector<IntPath> paths;
+  CountedVector<Leg> order;
   NearestTours nearest(tours, start);
   IntPoint at = start;
   CancelPoll poll(current_job());
@@ -314,13 +314,13 @@ std::vector<IntPath> order_paths(std::vector<Tour> tours, IntPoint start) {
       paths.push_back(std::move(path));
     }
   }
-  std::vector<Vec2> ends;
+  CountedVector<Vec2> ends;
   ends.reserve(2 * paths.size());
   for (const IntPath& path : paths) {
     ends.push_back(relative(path.points.front(), start));
     ends.push_back(relative(last_of(path), start));
   }
-  std::vector<IntPath> ordered;
+  CountedVector<IntPath> ordered;
   ordered.reserve(paths.size());
   for (const auto& [path, is_reversed] : Legs(std::move(order), std::move(ends)).shorten()) {
     // A ring stays as it is: it ends where it begins.

@@ -2,8 +2,6 @@
 // An order of paths with little travel between them.
 #pragma once
 
-#include <vector>
-
 #include "fill/trails.h"
 
 namespace msq {
@@ -14,6 +12,6 @@ namespace msq {
 /// reversed or moved as long as that shortens the travel (Or, "Traveling salesman-type
 /// combinatorial problems", 1976; Croes, "A method for solving traveling-salesman problems", 1958).
 /// Moves are bounded, so that the time grows about as the number of paths.
-std::vector<IntPath> order_paths(std::vector<Tour> tours, IntPoint start);
+CountedVector<IntPath> order_paths(CountedVector<Tour> tours, IntPoint start);
 
 }  // namespace msq

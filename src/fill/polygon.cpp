@@ -36,7 +36,7 @@ IntPoint between(IntPoint a, IntPoint b, double t) {
           a.y + std::llround(t * static_cast<double>(b.y - a.y))};
 }
 
-void push(std::vector<IntPoint>& points, IntPoint p) {
+void push(CountedVector<IntPoint>& points, IntPoint p) {
   if (points.empty() || !(points.back() == p)) points.push_back(p);
 }
 
@@ -54,10 +54,9 @@ double length_of(const IntPath& path) {
   return sum;
 }
 
-FillPolygon::FillPolygon(const std::vector<std::vector<IntPoint>>& rings)
-    : min_(rings[0][0]), max_(rings[0][0]) {
+FillPolygon::FillPolygon(const Rings& rings) : min_(rings[0][0]), max_(rings[0][0]) {
   double heights = 0;
-  for (const std::vector<IntPoint>& ring : rings)
+  for (const CountedVector<IntPoint>& ring : rings)
     for (size_t i = 0; i < ring.size(); ++i) {
       const IntPoint p = ring[i], q = ring[i + 1 < ring.size() ? i + 1 : 0];
       min_ = {std::min(min_.x, p.x), std::min(min_.y, p.y)};
@@ -78,7 +77,7 @@ FillPolygon::FillPolygon(const std::vector<std::vector<IntPoint>>& rings)
   for (const Side& side : sides_) for_bands(side, [&](size_t b) { ++starts_[b + 1]; });
   for (size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   members_.resize(starts_.back());
-  std::vector<uint32_t> next(starts_.begin(), starts_.end() - 1);
+  CountedVector<uint32_t> next(starts_.begin(), starts_.end() - 1);
   for (uint32_t i = 0; i < sides_.size(); ++i)
     for_bands(sides_[i], [&](size_t b) { members_[next[b]++] = i; });
 }
@@ -104,7 +103,7 @@ bool FillPolygon::inside(IntPoint p) const {
   return is_inside;
 }
 
-void FillPolygon::find_crossings(IntPoint a, IntPoint b, std::vector<double>& found) const {
+void FillPolygon::find_crossings(IntPoint a, IntPoint b, CountedVector<double>& found) const {
   found.clear();
   const auto [low_x, high_x] = std::minmax(a.x, b.x);
   const auto [low_y, high_y] = std::minmax(a.y, b.y);
@@ -128,14 +127,14 @@ void FillPolygon::find_crossings(IntPoint a, IntPoint b, std::vector<double>& fo
   std::sort(found.begin(), found.end());
 }
 
-void FillPolygon::cut(const IntPath& path, std::vector<IntPath>& parts) const {
+void FillPolygon::cut(const IntPath& path, CountedVector<IntPath>& parts) const {
   const size_t count = path.points.size();
   if (count < 2) return;
   const size_t first_part = parts.size();
   const bool begins_inside = inside(path.points[0]);
   bool is_inside = begins_inside;
   IntPath part;
-  std::vector<double> crossings;
+  CountedVector<double> crossings;
   CancelPoll poll(current_job());
   if (is_inside) part.points.push_back(path.points[0]);
   const auto end_part = [&] {

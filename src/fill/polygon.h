@@ -10,7 +10,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "base/working_memory.h"
 
 namespace msq {
 
@@ -21,7 +22,7 @@ struct IntPoint {
 };
 
 struct IntPath {
-  std::vector<IntPoint> points;
+  CountedVector<IntPoint> points;
   bool is_closed = false;  ///< the last point is joined to the first, and differs from it
 };
 
@@ -33,29 +34,31 @@ class FillPolygon {
   /// In magnitude: doubles hold what is smaller, and products fit.
   static constexpr int64_t max_coordinate = int64_t{1} << 53;
 
+  using Rings = CountedVector<CountedVector<IntPoint>>;
+
   /// Rings whose coordinates are at most max_coordinate in magnitude, at least one, each with at
   /// least 3 points. Even-odd: holes may run either way.
-  explicit FillPolygon(const std::vector<std::vector<IntPoint>>& rings);
+  explicit FillPolygon(const Rings& rings);
 
   IntPoint min() const { return min_; }
   IntPoint max() const { return max_; }
   bool inside(IntPoint p) const;
   /// Appends the parts of a path within the polygon, in order. Ends at the border are rounded.
   /// Coordinates of the path are at most 2^60 in magnitude.
-  void cut(const IntPath& path, std::vector<IntPath>& parts) const;
+  void cut(const IntPath& path, CountedVector<IntPath>& parts) const;
 
  private:
   struct Side {
     IntPoint from, to;
   };
   /// Ascending positions, 0 to 1, along the line from a to b.
-  void find_crossings(IntPoint a, IntPoint b, std::vector<double>& found) const;
+  void find_crossings(IntPoint a, IntPoint b, CountedVector<double>& found) const;
   size_t band(int64_t y) const;
 
   IntPoint min_, max_;
-  std::vector<Side> sides_;
+  CountedVector<Side> sides_;
   double band_height_ = 1;
-  std::vector<uint32_t> starts_, members_;  // sides by horizontal band
+  CountedVector<uint32_t> starts_, members_;  // sides by horizontal band
 };
 
 }  // namespace msq

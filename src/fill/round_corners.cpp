@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "base/vec2.h"
 #include "fill/side_by_side.h"
@@ -16,13 +15,13 @@ constexpr int lines_per_corner = 4;
 /// Of the sum of unit vectors to both neighbours. A bend below this, 11 degrees, stays.
 constexpr double straight = 0.2;
 
-void add(std::vector<IntPoint>& points, IntPoint p) {
+void add(CountedVector<IntPoint>& points, IntPoint p) {
   if (points.empty() || !(points.back() == p)) points.push_back(p);
 }
 
 /// The points of the curve, or the corner alone.
 void find_curve(IntPoint before, IntPoint corner, IntPoint after, double distance,
-                const FillPolygon& polygon, IntPath& curve, std::vector<IntPath>& parts) {
+                const FillPolygon& polygon, IntPath& curve, CountedVector<IntPath>& parts) {
   curve.points.clear();
   const Vec2 to_before = between(corner, before), to_after = between(corner, after);
   const double length_before = length(to_before), length_after = length(to_after);
@@ -43,12 +42,12 @@ void find_curve(IntPoint before, IntPoint corner, IntPoint after, double distanc
 }  // namespace
 
 void round_corners(IntPath& path, double distance, const FillPolygon& polygon) {
-  const std::vector<IntPoint>& given = path.points;
+  const CountedVector<IntPoint>& given = path.points;
   const size_t count = given.size();
   if (count < 3) return;
-  std::vector<IntPoint> points;
+  CountedVector<IntPoint> points;
   IntPath curve;
-  std::vector<IntPath> parts;
+  CountedVector<IntPath> parts;
   for (size_t i = 0; i < count; ++i) {
     if (!path.is_closed && (i == 0 || i + 1 == count)) {
       add(points, given[i]);

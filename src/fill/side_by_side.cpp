@@ -2,7 +2,6 @@
 #include "fill/side_by_side.h"
 
 #include <cmath>
-#include <vector>
 
 namespace msq {
 
@@ -33,7 +32,7 @@ Vec2 corner_beside(Vec2 along, double aside, Vec2 other, double limit) {
 }
 
 IntPath beside(const IntPath& line, double aside_from, double aside_to) {
-  const std::vector<IntPoint>& points = line.points;
+  const CountedVector<IntPoint>& points = line.points;
   const size_t last = points.size() - 1;
   IntPath result = line;
   result.points[0] = moved(points[0], left_of(between(points[0], points[1])) * aside_from);
@@ -53,7 +52,7 @@ bool fit_beside(const IntPath& line, double aside, bool is_from_pointed, bool is
                 const FillPolygon& polygon) {
   for (const double side : {aside, -aside}) {
     IntPath path = beside(line, side, side);
-    std::vector<IntPoint>& points = path.points;
+    CountedVector<IntPoint>& points = path.points;
     const size_t last = points.size() - 1;
     const auto stop_short = [&](size_t end, size_t before) {
       points[end] = line.points[end];
@@ -61,7 +60,7 @@ bool fit_beside(const IntPath& line, double aside, bool is_from_pointed, bool is
     };
     if (is_from_pointed) stop_short(0, 1);
     if (is_to_pointed) stop_short(last, last - 1);
-    std::vector<IntPath> parts;
+    CountedVector<IntPath> parts;
     polygon.cut(path, parts);
     if (parts.size() != 1 || !(parts[0].points == points)) return false;
   }

@@ -25,10 +25,10 @@ constexpr size_t max_compared = 16;
 
 class Trails {
  public:
-  Trails(std::vector<IntPath> lines, double min_length, const LinePairs& pairs)
+  Trails(CountedVector<IntPath> lines, double min_length, const LinePairs& pairs)
       : lines_(std::move(lines)), min_length_(min_length), pairs_(pairs) {}
 
-  std::vector<Tour> find();
+  CountedVector<Tour> find();
 
  private:
   struct Place {
@@ -53,7 +53,7 @@ class Trails {
   };
 
   IntPoint point_of(End end) const {
-    const std::vector<IntPoint>& points = lines_[end / 2].points;
+    const CountedVector<IntPoint>& points = lines_[end / 2].points;
     return end % 2 == 0 ? points.front() : points.back();
   }
   Vec2 direction(End end) const;
@@ -80,27 +80,27 @@ class Trails {
   IntPoint joint(End end) const;
   IntPath in_place(End from) const;
   void connect();
-  void connect_pairs(size_t i, size_t j, std::vector<Exchange>& exchanges) const;
+  void connect_pairs(size_t i, size_t j, CountedVector<Exchange>& exchanges) const;
   void exchange(const Exchange& exchange);
   uint32_t tour_of(uint32_t line);
   Tour follow(End end);
 
-  std::vector<IntPath> lines_;  // and from number printed_ on the ways
+  CountedVector<IntPath> lines_;  // and from number printed_ on the ways
   double min_length_;
   LinePairs pairs_;
   size_t printed_ = 0;
-  std::vector<uint32_t>
+  CountedVector<uint32_t>
       twins_;  // of each line that is printed: the other one of its pair, or no_end
-  std::vector<Vec2> directions_;  // at each end
-  std::vector<uint32_t> starts_;  // of each point in ends_
-  std::vector<End> ends_;         // by point; then pairs follow each other
-  std::vector<End> partners_;     // the end that a tour goes on with at the same point
-  std::vector<uint32_t> parents_;
-  std::vector<bool> is_used_;
+  CountedVector<Vec2> directions_;  // at each end
+  CountedVector<uint32_t> starts_;  // of each point in ends_
+  CountedVector<End> ends_;         // by point; then pairs follow each other
+  CountedVector<End> partners_;     // the end that a tour goes on with at the same point
+  CountedVector<uint32_t> parents_;
+  CountedVector<bool> is_used_;
 };
 
 Vec2 Trails::direction(End end) const {
-  const std::vector<IntPoint>& points = lines_[end / 2].points;
+  const CountedVector<IntPoint>& points = lines_[end / 2].points;
   const size_t last = points.size() - 1;
   const IntPoint from = points[end % 2 ? last : 0], to = points[end % 2 ? last - 1 : 1];
   const Vec2 way{static_cast<double>(to.x - from.x), static_cast<double>(to.y - from.y)};
@@ -108,7 +108,7 @@ Vec2 Trails::direction(End end) const {
 }
 
 void Trails::find_points() {
-  std::vector<Place> places(2 * lines_.size());
+  CountedVector<Place> places(2 * lines_.size());
   for (End end = 0; end < places.size(); ++end) places[end] = {point_of(end), end};
   CancelPoll poll(current_job());
   polled_sort(places.begin(), places.end(), std::less<>(), poll);
@@ -123,12 +123,12 @@ void Trails::find_points() {
 }
 
 void Trails::leave_out_short_lines() {
-  std::vector<uint32_t> point_of_end(2 * lines_.size()), counts(starts_.size() - 1);
+  CountedVector<uint32_t> point_of_end(2 * lines_.size()), counts(starts_.size() - 1);
   for (uint32_t n = 0; n < counts.size(); ++n) {
     counts[n] = starts_[n + 1] - starts_[n];
     for (uint32_t i = starts_[n]; i < starts_[n + 1]; ++i) point_of_end[ends_[i]] = n;
   }
-  std::vector<std::pair<double, uint32_t>> found;
+  CountedVector<std::pair<double, uint32_t>> found;
   for (uint32_t line = 0; line < lines_.size(); ++line)
     if (const double length = length_of(lines_[line]); length < min_length_)
       found.emplace_back(length, line);
@@ -149,7 +149,7 @@ void Trails::leave_out_short_lines() {
 /// Shortest lines first: as much is printed in addition as the travel that it saves is long.
 void Trails::add_pairs() {
   const size_t count = lines_.size();
-  std::vector<uint32_t> point_of_end(2 * count), counts(starts_.size() - 1);
+  CountedVector<uint32_t> point_of_end(2 * count), counts(starts_.size() - 1);
   for (uint32_t n = 0; n < counts.size(); ++n) {
     counts[n] = starts_[n + 1] - starts_[n];
     for (uint32_t i = starts_[n]; i < starts_[n + 1]; ++i) point_of_end[ends_[i]] = n;
@@ -158,7 +158,7 @@ void Trails::add_pairs() {
     const uint32_t a = point_of_end[2 * line], b = point_of_end[2 * line + 1];
     return a != b && counts[a] % 2 == 1 && counts[b] % 2 == 1 && counts[a] + counts[b] > 2;
   };
-  std::vector<std::pair<double, uint32_t>> found;
+  CountedVector<std::pair<double, uint32_t>> found;
   for (uint32_t line = 0; line < count; ++line)
     if (is_candidate(line)) found.emplace_back(length_of(lines_[line]), line);
   CancelPoll poll(current_job());
@@ -181,8 +181,8 @@ void Trails::add_pairs() {
 void Trails::add_ways() {
   printed_ = lines_.size();
   if (lines_.empty()) return;
-  std::vector<Vec2> places;
-  std::vector<IntPoint> points;
+  CountedVector<Vec2> places;
+  CountedVector<IntPoint> points;
   const IntPoint origin = point_of(0);
   for (size_t n = 0; n + 1 < starts_.size(); ++n)
     if ((starts_[n + 1] - starts_[n]) % 2) {
@@ -190,7 +190,7 @@ void Trails::add_ways() {
       points.push_back(p);
       places.push_back({static_cast<double>(p.x - origin.x), static_cast<double>(p.y - origin.y)});
     }
-  const std::vector<uint32_t> partners = match(places);
+  const CountedVector<uint32_t> partners = match(places);
   for (uint32_t i = 0; i < partners.size(); ++i)
     if (i < partners[i]) lines_.push_back({{points[i], points[partners[i]]}, false});
 }
@@ -275,7 +275,7 @@ void Trails::pair_at(size_t begin, size_t end) {
   }
 }
 
-void Trails::connect_pairs(size_t i, size_t j, std::vector<Exchange>& exchanges) const {
+void Trails::connect_pairs(size_t i, size_t j, CountedVector<Exchange>& exchanges) const {
   const End a = ends_[i], b = partners_[a], c = ends_[j], d = partners_[c];
   const double now = turn(a, b) + turn(c, d);
   exchanges.push_back({turn(a, c) + turn(b, d) - now, a, b, c, d});
@@ -292,7 +292,7 @@ void Trails::exchange(const Exchange& exchange) {
 
 /// Exchanges that cost least first, as in Kruskal's minimum spanning tree of the tours.
 void Trails::connect() {
-  std::vector<Exchange> exchanges;
+  CountedVector<Exchange> exchanges;
   CancelPoll poll(current_job());
   for (size_t n = 0; n + 1 < starts_.size(); ++n) {
     const size_t begin = starts_[n], end = starts_[n + 1];
@@ -351,7 +351,7 @@ IntPath Trails::in_place(End from) const {
 
 Tour Trails::follow(End end) {
   // The lines of the tour, each from an end.
-  std::vector<End> order;
+  CountedVector<End> order;
   size_t first = 0;
   double longest = -1;
   for (const End begin = end;;) {
@@ -378,7 +378,7 @@ Tour Trails::follow(End end) {
       path = {};
       continue;
     }
-    const std::vector<IntPoint> points = in_place(from).points;
+    const CountedVector<IntPoint> points = in_place(from).points;
     const bool goes_on = !path.points.empty();
     path.points.insert(path.points.end(), points.begin() + goes_on, points.end());
   }
@@ -390,15 +390,14 @@ Tour Trails::follow(End end) {
   return tour;
 }
 
-std::vector<Tour> Trails::find() {
-  std::vector<Tour> tours;
-  const auto open = std::stable_partition(lines_.begin(), lines_.end(),
-                                          [](const IntPath& line) { return !line.is_closed; });
-  for (auto line = open; line != lines_.end(); ++line) {
-    tours.emplace_back();
-    tours.back().push_back(std::move(*line));
-  }
-  lines_.erase(open, lines_.end());
+CountedVector<Tour> Trails::find() {
+  CountedVector<Tour> tours;
+  for (IntPath& line : lines_)
+    if (line.is_closed) {
+      tours.emplace_back();
+      tours.back().push_back(std::move(line));
+    }
+  std::erase_if(lines_, [](const IntPath& line) { return line.is_closed; });
   find_points();
   leave_out_short_lines();
   find_points();
@@ -426,8 +425,8 @@ std::vector<Tour> Trails::find() {
 
 }  // namespace
 
-std::vector<Tour> find_trails(std::vector<IntPath> lines, double min_length,
-                              const LinePairs& pairs) {
+CountedVector<Tour> find_trails(CountedVector<IntPath> lines, double min_length,
+                                const LinePairs& pairs) {
   return Trails(std::move(lines), min_length, pairs).find();
 }
 

@@ -2,14 +2,12 @@
 // The fewest paths that hold each of some lines once, with little travel between them.
 #pragma once
 
-#include <vector>
-
 #include "fill/polygon.h"
 
 namespace msq {
 
 /// Paths in the order in which they are printed.
-using Tour = std::vector<IntPath>;
+using Tour = CountedVector<IntPath>;
 
 /// Which lines are printed twice.
 struct LinePairs {
@@ -34,7 +32,7 @@ struct LinePairs {
 /// Paths shorter than `min_length` are left out. So is a shorter line between two points with odd
 /// numbers of lines, at least 3: these points then are no longer ends of paths. Shortest lines are
 /// left out first.
-std::vector<Tour> find_trails(std::vector<IntPath> lines, double min_length,
-                              const LinePairs& pairs = {});
+CountedVector<Tour> find_trails(CountedVector<IntPath> lines, double min_length,
+                                const LinePairs& pairs = {});
 
 }  // namespace msq

@@ -60,8 +60,9 @@ class RepeatingLayer {
         row_words_(words_for(grid.nx)),
         job_(job) {}
 
-  /// All rows that do not repeat others.
-  void compute(const FinishRows& finish, std::vector<RowFlip>& flips) {
+  /// All rows that do not repeat others; all rows, finished, if there are too many flips.
+  void compute(const FinishRows& finish, RowFlips& flips) {
+    flips.begin(RowFlips::max_bytes(row_words_ * grid_.ny * sizeof(uint64_t)));
     compute_alone(0, repeats_.first, finish);
     compute_alone(repeats_.end, grid_.ny, finish);
     const RowBlock period = rows(repeats_.first, repeats_.first + repeats_.period);
@@ -69,6 +70,8 @@ class RepeatingLayer {
     if (structure_)
       dynamic_cast<const RepeatingStructure&>(*structure_)
           .keep_repeated_rows(period, repeats_.end, flips, job_);
+    if (flips.is_full()) compute_alone(repeats_.first, repeats_.end, finish);
+    flips.sort_by_rows();
   }
 
   /// Rows that are copied at once: periods together, as many as a core's nearest cache holds.
@@ -148,8 +151,7 @@ class RepeatingLayer {
 
 void fill_repeating_slab(const Model& model, const Scales& resolved, const SampleGrid& grid,
                          const RowRepeats& repeats, uint64_t z0, uint64_t z1, uint64_t* words,
-                         const Job* job, const FinishRows& finish,
-                         std::vector<std::vector<RowFlip>>* flips) {
+                         const Job* job, const FinishRows& finish, std::vector<RowFlips>* flips) {
   const uint64_t layers = z1 - z0, layer_words = words_for(grid.nx) * grid.ny;
   const auto layer_at = [&](uint64_t n) {
     return RepeatingLayer(model, resolved, grid, repeats, z0 + n, words + n * layer_words, job);
@@ -158,14 +160,11 @@ void fill_repeating_slab(const Model& model, const Scales& resolved, const Sampl
   model.executor().for_each(layers, [&](uint64_t n) {
     check_cancelled(job);
     RepeatingLayer layer = layer_at(n);
-    std::vector<RowFlip> own;
-    std::vector<RowFlip>& found = flips ? (*flips)[n] : own;
-    found.clear();
+    RowFlips own;
+    RowFlips& found = flips ? (*flips)[n] : own;
     layer.compute(finish, found);
-    std::sort(found.begin(), found.end(),
-              [](const RowFlip& a, const RowFlip& b) { return a.j < b.j; });
-    if (!flips) layer.finish_rows(finish, found);
-    is_copied[n] = flips || !found.empty();
+    if (!flips && !found.is_full()) layer.finish_rows(finish, found.all());
+    is_copied[n] = flips || found.is_full() || !found.all().empty();
   });
   if (flips) return;
   // In parts of layers: a layer may be large.

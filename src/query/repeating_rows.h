@@ -28,10 +28,9 @@ struct RowRepeats {
 RowRepeats find_row_repeats(const Model& model, const Scales& resolved, const SampleGrid& grid);
 
 /// As fill_slab(). `flips`: null, or one list for each layer, by rows; then rows that repeat others
-/// are not written.
+/// are not written, except in layers whose list is full: these have all rows.
 void fill_repeating_slab(const Model& model, const Scales& resolved, const SampleGrid& grid,
                          const RowRepeats& repeats, uint64_t z0, uint64_t z1, uint64_t* words,
-                         const Job* job, const FinishRows& finish,
-                         std::vector<std::vector<RowFlip>>* flips);
+                         const Job* job, const FinishRows& finish, std::vector<RowFlips>* flips);
 
 }  // namespace msq

@@ -197,7 +197,7 @@ class GreyOutput final : public LayerOutput {
     const RowRepeats& rows = *source.repeats;
     const uint64_t period = std::lcm(rows.period, uint64_t{samples_}) / samples_;
     const uint64_t first = (rows.first + samples_ - 1) / samples_, end = rows.end / samples_;
-    if (!source.flips->empty() || end < first + 2 * period)
+    if (!source.flips->all().empty() || end < first + 2 * period)
       return write_strips(source, 0, height, out);
     const uint64_t whole = (end - first) / period, rest = (end - first) % period;
     const uint64_t sum = write_strips(source, 0, first, out) +
@@ -250,7 +250,7 @@ class GreyOutput final : public LayerOutput {
     for (uint64_t row = 0; row < samples_; ++row)
       std::copy_n(source.words + source.repeats->source(first + row) * row_words, row_words,
                   rows + row * row_words);
-    const std::vector<RowFlip>& flips = *source.flips;
+    const std::vector<RowFlip>& flips = source.flips->all();
     auto flip = std::lower_bound(flips.begin(), flips.end(), first,
                                  [](const RowFlip& f, uint64_t row) { return f.j < row; });
     for (; flip != flips.end() && flip->j < first + samples_; ++flip)

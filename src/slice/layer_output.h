@@ -58,7 +58,7 @@ struct LayerSource {
   Job* job;
   /// Of `words`: null if all rows are there. Otherwise those that repeat others are not.
   const RowRepeats* repeats = nullptr;
-  const std::vector<RowFlip>* flips = nullptr;  ///< of the layer, by rows
+  const RowFlips* flips = nullptr;  ///< of the layer, by rows
 };
 
 class LayerOutput {

@@ -61,18 +61,21 @@ SlabsAhead::~SlabsAhead() {
 }
 
 uint64_t SlabsAhead::bytes(const Model& model, const Scales& resolved,
-                           const std::vector<SampleGrid>& grids, Depth depth, Bands bands,
+                           const std::vector<SampleGrid>& grids,
+                           const std::vector<RowRepeats>& repeats, Depth depth, Bands bands,
                            uint64_t layers) {
   const bool is_one_slab = depth.others == layers && bands.count() == 1;
-  uint64_t words = 0, scratch = 0;
-  for (const SampleGrid& grid : grids) {
+  const uint64_t held = (is_one_slab || !fills_ahead(model) ? 1 : 2) * depth.others;
+  uint64_t bytes = 0, scratch = 0;
+  for (size_t g = 0; g < grids.size(); ++g) {
+    const SampleGrid& grid = grids[g];
     const SampleGrid band = rows_of(grid, 0, rows_of_pixel(grid, bands) * bands.band_rows);
-    words +=
-        (is_one_slab || !fills_ahead(model) ? 1 : 2) * depth.others * words_for(band.nx) * band.ny;
+    const uint64_t layer_bytes = words_for(band.nx) * band.ny * sizeof(uint64_t);
+    bytes += held * (layer_bytes + (repeats[g].any() ? RowFlips::max_bytes(layer_bytes) : 0));
     for (const uint64_t filled : {depth.first, depth.others})
       scratch = std::max(scratch, fill_slab_scratch_words(model, resolved, band, filled));
   }
-  return (words + scratch) * sizeof(uint64_t);
+  return bytes + scratch * sizeof(uint64_t);
 }
 
 void SlabsAhead::fill(const Piece& piece, Slab& slab, const Job* job) const {

@@ -39,7 +39,8 @@ class SlabsAhead {
   /// Memory for a run of so many layers: two slabs or bands, of a single thread one, and what
   /// filling them takes. The caller reserves it.
   static uint64_t bytes(const Model& model, const Scales& resolved,
-                        const std::vector<SampleGrid>& grids, Depth depth, Bands bands,
+                        const std::vector<SampleGrid>& grids,
+                        const std::vector<RowRepeats>& repeats, Depth depth, Bands bands,
                         uint64_t layers);
 
   /// What becomes of the rows of a grid.
@@ -64,10 +65,11 @@ class SlabsAhead {
     return current_[grid].words.get() + (layer_ - piece_.begin) * layer_words_[grid];
   }
   /// Of the current band of a grid: rows that are not there.
-  const RowRepeats& repeats(size_t grid) const { return current_[grid].repeats; }
-  const std::vector<RowFlip>& flips(size_t grid) const {
-    return current_[grid].flips[layer_ - piece_.begin];
+  RowRepeats repeats(size_t grid) const {
+    const RowRepeats& repeats = current_[grid].repeats;
+    return repeats.any() && flips(grid).is_full() ? RowRepeats{} : repeats;
   }
+  const RowFlips& flips(size_t grid) const { return current_[grid].flips[layer_ - piece_.begin]; }
   /// Samples inside of the current band of a grid of `is_as_bit_output`.
   uint64_t inside_count(size_t grid) const {
     return current_[grid].inside[layer_ - piece_.begin].load(std::memory_order_relaxed);
@@ -79,7 +81,7 @@ class SlabsAhead {
     std::unique_ptr<uint64_t[]> words;
     std::unique_ptr<std::atomic<uint64_t>[]> inside;  ///< of each layer
     RowRepeats repeats;                               ///< rows that are not there
-    std::vector<std::vector<RowFlip>> flips;          ///< of each layer
+    std::vector<RowFlips> flips;                      ///< of each layer
   };
   using Slab = std::vector<GridSlab>;  ///< of each grid
   /// Layers that are filled at once, or a band of one.

@@ -279,8 +279,8 @@ Slicer::Portions Slicer::portions(uint64_t layers, uint64_t beside) const {
     uint64_t plain = 0;
     for (const Output& output : outputs_) plain = std::max(plain, plain_bytes(output, rows));
     return beside + plain +
-           SlabsAhead::bytes(*framed_, framed_resolved_, samples_, made.depth, {grid_.ny, rows},
-                             layers);
+           SlabsAhead::bytes(*framed_, framed_resolved_, samples_, repeats_, made.depth,
+                             {grid_.ny, rows}, layers);
   };
   const Context& context = model_->context();
   while (plan_.slab_layers == 0 && made.depth.others > 1 && bytes_of(grid_.ny) > room_in(context))
@@ -339,14 +339,16 @@ void Slicer::run(uint64_t first, uint64_t last, const std::function<void(const L
       const Output& output = outputs_[i];
       if (!output.pixels) continue;
       SampleRows rows;
+      RowRepeats repeats;
       if (output.samples != no_samples) rows.words = slabs.words(output.samples);
       if (rows.words && uses[output.samples].is_as_bit_output) {
         parts[i].data = reinterpret_cast<const uint8_t*>(rows.words);
         parts[i].inside_count = slabs.inside_count(output.samples);
         continue;
       }
-      if (rows.words && slabs.repeats(output.samples).any()) {
-        rows.repeats = &slabs.repeats(output.samples);
+      if (rows.words) repeats = slabs.repeats(output.samples);
+      if (repeats.any()) {
+        rows.repeats = &repeats;
         rows.flips = &slabs.flips(output.samples);
       } else if (bands.count() == 1) {
         parts[i].words = rows.words;
@@ -417,14 +419,14 @@ void Slicer::slice_layer(uint64_t index, uint8_t* out, Job* job) const {
     return !samples || rows < grid_.ny || model_->executor().is_of_host();
   };
   const auto bytes_of = [&](uint64_t rows) {
-    uint64_t words = 0;
+    uint64_t of_samples = 0;
     if (samples) {
       const SampleGrid band = sample_rows(0, rows);
-      words = words_for(band.nx) * band.ny +
-              fill_slab_scratch_words(*framed_, framed_resolved_, band, 1);
+      of_samples = words_for(band.nx) * band.ny * sizeof(uint64_t);
+      if (repeats_[output.samples].any()) of_samples += RowFlips::max_bytes(of_samples);
+      of_samples += fill_slab_scratch_words(*framed_, framed_resolved_, band, 1) * sizeof(uint64_t);
     }
-    return words * sizeof(uint64_t) + plain_bytes(output, rows) +
-           (is_beside(rows) ? layer_bytes(0) : 0);
+    return of_samples + plain_bytes(output, rows) + (is_beside(rows) ? layer_bytes(0) : 0);
   };
   const std::shared_ptr<MemoryBudget>& budget = model_->context().budget;
   uint64_t most =

@@ -131,7 +131,7 @@ class Slicer final : public RefCounted {
   struct SampleRows {
     const uint64_t* words = nullptr;
     const RowRepeats* repeats = nullptr;  ///< as in LayerSource
-    const std::vector<RowFlip>* flips = nullptr;
+    const RowFlips* flips = nullptr;
   };
   /// Writes rows [begin, end) of a layer from their bits, where the output has samples. The bands
   /// of a layer come in order. `plain`: plain_bytes(). `out`: of the whole layer.

@@ -135,10 +135,14 @@ std::vector<Line> lines_within(const LineGraph& graph, const Box2& box) {
 void check_found(const std::vector<Line>& lines, const std::vector<Line>& others, double rounding) {
   for (const Line& line : lines) {
     auto other = std::lower_bound(others.begin(), others.end(), Line{line[0] - rounding, 0, 0, 0});
-    const auto is_same = [&](const Line& known) {
+    const auto has_ends = [&](const Line& known, size_t first) {
       for (size_t i = 0; i < 4; ++i)
-        if (std::abs(known[i] - line[i]) > rounding) return false;
+        if (std::abs(known[(first + i) % 4] - line[i]) > rounding) return false;
       return true;
+    };
+    // Rounding may exchange the ends of a line along y.
+    const auto is_same = [&](const Line& known) {
+      return has_ends(known, 0) || has_ends(known, 2);
     };
     while (other != others.end() && (*other)[0] <= line[0] + rounding && !is_same(*other)) ++other;
     if (other == others.end() || !is_same(*other))

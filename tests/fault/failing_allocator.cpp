@@ -16,7 +16,7 @@ using msq::test::Failing;
 constinit std::atomic<bool> is_armed{false};
 constinit std::atomic<uint64_t> count{0}, fails_at{0};
 constinit std::atomic<bool> goes_on{false};
-constinit std::atomic<int64_t> live{0};
+constinit std::atomic<int64_t> live{0}, bytes_now{0}, bytes_peak{0};
 
 bool fails() {
   if (!is_armed.load(std::memory_order_relaxed)) return false;
@@ -24,14 +24,30 @@ bool fails() {
   return k > 0 && (n == k || (n > k && goes_on));
 }
 
+void add_bytes(int64_t bytes) {
+  const int64_t now = bytes_now.fetch_add(bytes, std::memory_order_relaxed) + bytes;
+  int64_t peak = bytes_peak.load(std::memory_order_relaxed);
+  while (now > peak && !bytes_peak.compare_exchange_weak(peak, now)) {
+  }
+}
+
+int64_t room_of(void* block) {
+  return static_cast<int64_t>(malloc_usable_size(block));
+}
+
 void* counted(void* block) {
-  if (block) live.fetch_add(1, std::memory_order_relaxed);
+  if (!block) return nullptr;
+  live.fetch_add(1, std::memory_order_relaxed);
+  add_bytes(room_of(block));
   return block;
 }
 
+/// Before the block is freed.
 bool released(void* block) {
-  if (block) live.fetch_sub(1, std::memory_order_relaxed);
-  return block != nullptr;
+  if (!block) return false;
+  live.fetch_sub(1, std::memory_order_relaxed);
+  add_bytes(-room_of(block));
+  return true;
 }
 
 }  // namespace
@@ -52,6 +68,18 @@ uint64_t disarm() {
 
 int64_t live_blocks() {
   return live;
+}
+
+int64_t live_bytes() {
+  return bytes_now;
+}
+
+int64_t peak_bytes() {
+  return bytes_peak;
+}
+
+void forget_peak() {
+  bytes_peak = bytes_now.load();
 }
 
 }  // namespace msq::test
@@ -159,8 +187,14 @@ void* realloc(void* block, size_t bytes) {
     errno = ENOMEM;
     return nullptr;
   }
+  const int64_t room = room_of(block);
   void* moved = __libc_realloc(block, bytes);
-  if (bytes == 0 && !moved) released(block);
+  if (moved)
+    add_bytes(room_of(moved) - room);
+  else if (bytes == 0) {
+    live.fetch_sub(1, std::memory_order_relaxed);
+    add_bytes(-room);
+  }
   return moved;
 }
 

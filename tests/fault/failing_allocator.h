@@ -17,8 +17,12 @@ void arm(uint64_t k, Failing failing);
 /// No allocation fails any more. Returns how many there were.
 uint64_t disarm();
 
-/// Blocks that are held.
+/// Blocks that are held, and the bytes that they have room for.
 int64_t live_blocks();
+int64_t live_bytes();
+/// The most bytes that were held at once since forget_peak().
+int64_t peak_bytes();
+void forget_peak();
 
 /// Whether all allocations can fail.
 extern const bool replaces_malloc;

@@ -27,13 +27,13 @@ Key key(IntPoint p) {
   return {p.x, p.y};
 }
 
-std::vector<Vec2> random_points(Random& random, size_t count) {
-  std::vector<Vec2> points(count);
+CountedVector<Vec2> random_points(Random& random, size_t count) {
+  CountedVector<Vec2> points(count);
   for (Vec2& p : points) p = {random.unit(), random.unit()};
   return points;
 }
 
-double total(const std::vector<Vec2>& points, const std::vector<uint32_t>& partners) {
+double total(const CountedVector<Vec2>& points, const CountedVector<uint32_t>& partners) {
   double sum = 0;
   for (uint32_t i = 0; i < partners.size(); ++i) {
     assert_true(partners[i] < partners.size() && partners[i] != i && partners[partners[i]] == i);
@@ -43,7 +43,7 @@ double total(const std::vector<Vec2>& points, const std::vector<uint32_t>& partn
 }
 
 /// Of all matchings, by the sets of points that are matched.
-double least_total(const std::vector<Vec2>& points) {
+double least_total(const CountedVector<Vec2>& points) {
   std::vector<double> least(size_t{1} << points.size(), 1e300);
   least[0] = 0;
   for (size_t set = 0; set + 1 < least.size(); ++set) {
@@ -61,7 +61,7 @@ double least_total(const std::vector<Vec2>& points) {
 void test_near_points(void**) {
   Random random(5);
   for (size_t round = 0; round < 40; ++round) {
-    std::vector<Vec2> points = random_points(random, 1 + random.below(200));
+    CountedVector<Vec2> points = random_points(random, 1 + random.below(200));
     // Also on a line, far apart, and several at one place.
     if (round % 4 == 1)
       for (Vec2& p : points) p.y = 0.5;
@@ -81,7 +81,7 @@ void test_near_points(void**) {
       for (uint32_t i = 0; i < points.size(); ++i)
         if (is_left[i]) wanted.emplace_back(dot(points[i] - p, points[i] - p), i);
       std::sort(wanted.begin(), wanted.end());
-      std::vector<uint32_t> found;
+      CountedVector<uint32_t> found;
       const size_t count = 1 + random.below(9);
       grid.find(p, count, found);
       assert_int_equal(found.size(), std::min(count, wanted.size()));
@@ -94,7 +94,7 @@ void test_matchings_are_near_the_least(void**) {
   Random random(7);
   double sum = 0, least = 0;
   for (size_t round = 0; round < 20 + test_count(80); ++round) {
-    const std::vector<Vec2> points = random_points(random, 2 * random.below(7));
+    const CountedVector<Vec2> points = random_points(random, 2 * random.below(7));
     const double found = total(points, match(points)), best = least_total(points);
     assert_true(found >= best - 1e-12 && found <= 1.5 * best + 1e-12);
     sum += found;
@@ -103,15 +103,15 @@ void test_matchings_are_near_the_least(void**) {
   print_message("%g times the least\n", sum / least);
   assert_true(sum <= 1.02 * least);
   // The least one of many random points is about 0.31 sqrt(n) on the unit square.
-  const std::vector<Vec2> many = random_points(random, 4000);
+  const CountedVector<Vec2> many = random_points(random, 4000);
   const double found = total(many, match(many));
   print_message("%g sqrt(n)\n", found / std::sqrt(4000));
   assert_true(found < 0.335 * std::sqrt(4000));
 }
 
 /// Points of a square grid with gaps, joined to their neighbours; some lines bend.
-std::vector<IntPath> random_lines(Random& random, int64_t side, double share) {
-  std::vector<IntPath> lines;
+CountedVector<IntPath> random_lines(Random& random, int64_t side, double share) {
+  CountedVector<IntPath> lines;
   const auto place = [](int64_t i, int64_t j) { return IntPoint{1000 * i + 37 * j, 1000 * j}; };
   for (int64_t j = 0; j < side; ++j)
     for (int64_t i = 0; i < side; ++i)
@@ -142,7 +142,7 @@ void visit_segments(const IntPath& path, Visit visit) {
 void test_paths_are_the_fewest(void**) {
   Random random(11);
   for (size_t round = 0; round < 60; ++round) {
-    const std::vector<IntPath> lines =
+    const CountedVector<IntPath> lines =
         random_lines(random, 2 + static_cast<int64_t>(random.below(12)), random.between(0.1, 1));
     std::multiset<Segment> segments;
     std::map<Key, int> degrees;
@@ -153,7 +153,7 @@ void test_paths_are_the_fewest(void**) {
     }
     const auto odd = std::count_if(degrees.begin(), degrees.end(),
                                    [](const auto& degree) { return degree.second % 2 == 1; });
-    const std::vector<Tour> tours = find_trails(lines, 0);
+    const CountedVector<Tour> tours = find_trails(lines, 0);
     std::ptrdiff_t open = 0;
     std::map<Key, size_t> tour_at;
     for (size_t t = 0; t < tours.size(); ++t) {
@@ -190,7 +190,7 @@ IntPath line(std::initializer_list<IntPoint> points) {
 
 void test_paths_go_straight_on(void**) {
   // A T with a bend in its bar, and a triangle.
-  std::vector<Tour> tours =
+  CountedVector<Tour> tours =
       find_trails({line({{1000, 100}, {1000, 1000}}), line({{0, 0}, {1000, 100}}),
                    line({{1000, 100}, {2000, 0}}), line({{5000, 5000}, {6000, 5000}}),
                    line({{6000, 5000}, {5000, 6000}, {5000, 5000}})},
@@ -224,7 +224,7 @@ void test_paths_go_straight_on(void**) {
   assert_int_equal(tours[0][0].points.size(), 3);
 
   // Many lines at a point, and none.
-  std::vector<IntPath> star;
+  CountedVector<IntPath> star;
   for (int64_t i = 0; i < 41; ++i) star.push_back(line({{0, 0}, {100 + i, 2000 - 97 * i}}));
   tours = find_trails(star, 0);
   assert_int_equal(tours.size(), 1);
@@ -234,17 +234,17 @@ void test_paths_go_straight_on(void**) {
 
 void test_short_lines_between_junctions_are_left_out(void**) {
   // An H with a short bar: without it there are two paths in place of three.
-  const std::vector<IntPath> h = {line({{0, 0}, {0, 1000}}), line({{0, 1000}, {0, 2000}}),
-                                  line({{90, 0}, {90, 1000}}), line({{90, 1000}, {90, 2000}}),
-                                  line({{0, 1000}, {90, 1000}})};
-  const auto count = [](const std::vector<Tour>& tours) {
+  const CountedVector<IntPath> h = {line({{0, 0}, {0, 1000}}), line({{0, 1000}, {0, 2000}}),
+                                    line({{90, 0}, {90, 1000}}), line({{90, 1000}, {90, 2000}}),
+                                    line({{0, 1000}, {90, 1000}})};
+  const auto count = [](const CountedVector<Tour>& tours) {
     size_t sum = 0;
     for (const Tour& tour : tours) sum += tour.size();
     return sum;
   };
   assert_int_equal(count(find_trails(h, 0)), 3);
   assert_int_equal(count(find_trails(h, 89)), 3);
-  const std::vector<Tour> two = find_trails(h, 91);
+  const CountedVector<Tour> two = find_trails(h, 91);
   assert_int_equal(count(two), 2);
   for (const Tour& tour : two)
     for (const IntPath& path : tour) assert_true(length_of(path) == 2000);
@@ -256,17 +256,17 @@ void test_short_lines_between_junctions_are_left_out(void**) {
 
 void test_pairs_join_paths(void**) {
   // Two junctions of three lines: one path through each side of the pair, or one path that crosses.
-  const std::vector<IntPath> y = {line({{0, 0}, {1000, 0}}), line({{0, 0}, {-500, 900}}),
-                                  line({{0, 0}, {-500, -900}}), line({{1000, 0}, {1500, 900}}),
-                                  line({{1000, 0}, {1500, -900}})};
+  const CountedVector<IntPath> y = {line({{0, 0}, {1000, 0}}), line({{0, 0}, {-500, 900}}),
+                                    line({{0, 0}, {-500, -900}}), line({{1000, 0}, {1500, 900}}),
+                                    line({{1000, 0}, {1500, -900}})};
   const FillPolygon wide({{{-5000, -5000}, {5000, -5000}, {5000, 5000}, {-5000, 5000}}});
-  const auto paths_of = [](const std::vector<Tour>& tours) {
-    std::vector<IntPath> paths;
+  const auto paths_of = [](const CountedVector<Tour>& tours) {
+    CountedVector<IntPath> paths;
     for (const Tour& tour : tours) paths.insert(paths.end(), tour.begin(), tour.end());
     return paths;
   };
   assert_int_equal(paths_of(find_trails(y, 0)).size(), 3);
-  const std::vector<IntPath> two = paths_of(find_trails(y, 0, {200, &wide}));
+  const CountedVector<IntPath> two = paths_of(find_trails(y, 0, {200, &wide}));
   assert_int_equal(two.size(), 2);
   // Both lines of the pair are 100 from its middle, and its corners are on the lines that go on.
   std::set<Key> corners;
@@ -283,7 +283,7 @@ void test_pairs_join_paths(void**) {
   assert_int_equal(paths_of(find_trails({y[0], y[1]}, 0, {200, &wide}))[0].points.size(), 3);
   assert_int_equal(paths_of(find_trails({y[0]}, 0, {200, &wide}))[0].points.size(), 2);
   // A line with a loose end is printed to it and back; there its two lines meet.
-  const std::vector<IntPath> back = paths_of(
+  const CountedVector<IntPath> back = paths_of(
       find_trails({line({{0, 0}, {0, 300}}), line({{-900, 0}, {0, 0}}), line({{0, 0}, {900, 0}})},
                   0, {200, &wide}));
   assert_int_equal(back.size(), 1);
@@ -297,9 +297,9 @@ void test_pairs_of_random_lines(void**) {
   Random random(12);
   const FillPolygon wide({{{-1000000, -1000000}, {1000000, -1000000}, {0, 1000000}}});
   for (size_t round = 0; round < 40; ++round) {
-    const std::vector<IntPath> lines =
+    const CountedVector<IntPath> lines =
         random_lines(random, 3 + static_cast<int64_t>(random.below(8)), random.between(0.3, 1));
-    const auto measure = [](const std::vector<Tour>& tours) {
+    const auto measure = [](const CountedVector<Tour>& tours) {
       std::pair<size_t, double> sum{0, 0};
       for (const Tour& tour : tours)
         for (const IntPath& path : tour) {
@@ -319,7 +319,7 @@ void test_pairs_of_random_lines(void**) {
   }
 }
 
-double travel(const std::vector<IntPath>& paths) {
+double travel(const CountedVector<IntPath>& paths) {
   double sum = 0;
   for (size_t i = 1; i < paths.size(); ++i) {
     const IntPath& before = paths[i - 1];
@@ -331,8 +331,8 @@ double travel(const std::vector<IntPath>& paths) {
 
 void test_order_shortens_travel(void**) {
   Random random(3);
-  std::vector<Tour> tours;
-  std::vector<IntPath> given;
+  CountedVector<Tour> tours;
+  CountedVector<IntPath> given;
   for (size_t i = 0; i < 1500; ++i) {
     const auto place = [&](int64_t about) {
       return about + static_cast<int64_t>(random.below(2000));
@@ -346,9 +346,9 @@ void test_order_shortens_travel(void**) {
     given.insert(given.end(), tour.begin(), tour.end());
     tours.push_back(tour);
   }
-  const std::vector<IntPath> ordered = order_paths(tours, {0, 0});
+  const CountedVector<IntPath> ordered = order_paths(tours, {0, 0});
   // The same paths: by their points, from the least one on.
-  const auto names = [](const std::vector<IntPath>& paths) {
+  const auto names = [](const CountedVector<IntPath>& paths) {
     std::vector<std::vector<Key>> all;
     for (const IntPath& path : paths) {
       std::vector<Key> keys;
@@ -365,7 +365,7 @@ void test_order_shortens_travel(void**) {
   };
   assert_true(names(ordered) == names(given));
   // The nearest path each time, of all that are left.
-  std::vector<IntPath> nearest = given;
+  CountedVector<IntPath> nearest = given;
   IntPoint at{0, 0};
   for (size_t n = 0; n < nearest.size(); ++n) {
     double least = 1e300;
@@ -377,7 +377,7 @@ void test_order_shortens_travel(void**) {
           best = {i, k};
         }
     std::swap(nearest[n], nearest[best.first]);
-    std::vector<IntPoint>& points = nearest[n].points;
+    CountedVector<IntPoint>& points = nearest[n].points;
     if (nearest[n].is_closed)
       std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(best.second),
                   points.end());
@@ -390,7 +390,8 @@ void test_order_shortens_travel(void**) {
   assert_true(travel(ordered) < 0.9 * travel(nearest));
   // Few, where there is nothing to be gained or no neighbour.
   for (size_t count = 0; count < 4; ++count) {
-    const std::vector<Tour> few(tours.begin(), tours.begin() + static_cast<std::ptrdiff_t>(count));
+    const CountedVector<Tour> few(tours.begin(),
+                                  tours.begin() + static_cast<std::ptrdiff_t>(count));
     size_t paths = 0;
     for (const Tour& tour : few) paths += tour.size();
     assert_int_equal(order_paths(few, {7, 7}).size(), paths);

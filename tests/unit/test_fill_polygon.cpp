@@ -14,7 +14,7 @@ using namespace msq::test;
 
 namespace {
 
-using Rings = std::vector<std::vector<IntPoint>>;
+using Rings = FillPolygon::Rings;
 
 /// Crossing number in long double, for points away from the sides.
 bool is_inside(const Rings& rings, long double x, long double y) {
@@ -71,7 +71,7 @@ void test_parts_are_what_is_inside(void**) {
     for (size_t i = 0; i < 12; ++i)
       path.points.push_back({shift.x + std::llround(random.between(-1.2, 1.2) * size),
                              shift.y + std::llround(random.between(-1.2, 1.2) * size)});
-    std::vector<IntPath> parts;
+    CountedVector<IntPath> parts;
     polygon.cut(path, parts);
     // Dense points along the path: those that are inside are as long as the parts.
     double inside = 0;
@@ -141,7 +141,7 @@ void test_ties_are_consistent(void**) {
       if (path.points.empty() || !(path.points.back() == p)) path.points.push_back(p);
     }
     if (path.points.size() < 3 || path.points.front() == path.points.back()) continue;
-    std::vector<IntPath> parts;
+    CountedVector<IntPath> parts;
     polygon.cut(path, parts);
     double inside = 0, total = 0;
     const size_t steps = 240;
@@ -169,7 +169,7 @@ void test_ties_are_consistent(void**) {
 void test_sides_of_the_border(void**) {
   const FillPolygon square({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}});
   const auto parts_of = [&](IntPath path) {
-    std::vector<IntPath> parts;
+    CountedVector<IntPath> parts;
     square.cut(path, parts);
     return parts;
   };
@@ -182,7 +182,7 @@ void test_sides_of_the_border(void**) {
   // Through two corners.
   auto parts = parts_of({{{-5, -5}, {15, 15}}, false});
   assert_int_equal(parts.size(), 1);
-  assert_true((parts[0].points == std::vector<IntPoint>{{0, 0}, {10, 10}}));
+  assert_true((parts[0].points == CountedVector<IntPoint>{{0, 0}, {10, 10}}));
   // Touching a corner from outside leaves nothing.
   assert_int_equal(parts_of({{{-5, 5}, {5, -5}}, false}).size(), 0);
   // Closed lines: within, and over the border from a first point inside.
@@ -193,7 +193,7 @@ void test_sides_of_the_border(void**) {
   parts = parts_of({{{5, 5}, {15, 5}, {15, 7}, {5, 7}}, true});
   assert_int_equal(parts.size(), 1);
   assert_false(parts[0].is_closed);
-  assert_true((parts[0].points == std::vector<IntPoint>{{10, 7}, {5, 7}, {5, 5}, {10, 5}}));
+  assert_true((parts[0].points == CountedVector<IntPoint>{{10, 7}, {5, 7}, {5, 5}, {10, 5}}));
 }
 
 /// Corners are rounded where the curve is within the polygon.
@@ -202,7 +202,7 @@ void test_corners(void**) {
   const FillPolygon polygon(
       {{{0, 0}, {3000, 0}, {3000, 1000}, {1000, 1000}, {1000, 3000}, {0, 3000}}});
   IntPath path{{{2900, 990}, {990, 990}, {990, 2000}, {100, 2000}, {100, 100}, {2900, 100}}, false};
-  const std::vector<IntPoint> given = path.points;
+  const CountedVector<IntPoint> given = path.points;
   round_corners(path, 300, polygon);
   assert_true(path.points.front() == given.front() && path.points.back() == given.back());
   const auto has = [&](IntPoint p) {

@@ -359,7 +359,10 @@ void test_what_is_too_far_or_too_much_is_refused(void**) {
   Context context(1, 0, 1 << 20);
   const Ref<Foam> foam = make(context, rows[0]);
   check_limits_of_sections(*foam, "seeds of the foam");
-  check_section_is_refused(*foam, {0, {{0, 0}, {1e3, 1e3}}, 1}, "memory_limit");
+  {
+    const WorkingMemory working(*context.budget, "a section");
+    check_section_is_refused(*foam, {0, {{0, 0}, {1e3, 1e3}}, 1}, "a section of");
+  }
   assert_int_equal(context.budget->held(), 0);
 }
 

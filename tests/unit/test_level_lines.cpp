@@ -80,7 +80,7 @@ void check(const char* name, const Functional& f, double z, const Box2& window) 
     if (most > tolerance) fail_msg("%s: a line is %g off, tolerance %g", name, most, tolerance);
     // What a path loses of its points stays within the tolerance that is given.
     for (Polyline path : chain(graph)) {
-      const std::vector<Vec2> all = path.points;
+      const CountedVector<Vec2> all = path.points;
       simplify(path, tolerance);
       assert_true(path.points.size() <= all.size());
       for (const Vec2 p : all) {
@@ -152,7 +152,7 @@ void test_a_circle(void**) {
   const Neighbourhood grid{{0, 0, 0}, {2 * pi, 2 * pi, 2 * pi}, {}};
   const auto f = make("(x-pi)^2+(y-pi)^2-4", FunctionalKind::sheet, grid);
   const LineGraph graph = f->wall_lines({1, {{0, 0}, {4 * pi, 2 * pi}}, 1e-5});
-  std::vector<Polyline> paths = chain(graph);
+  CountedVector<Polyline> paths = chain(graph);
   assert_int_equal(paths.size(), 2);
   for (Polyline& path : paths) {
     assert_true(path.is_closed);
@@ -171,8 +171,8 @@ void test_a_jump_is_no_wall(void**) {
   const auto sheet = make("x-pi-1", FunctionalKind::sheet);
   const auto network = make("x-pi-1", FunctionalKind::network, {}, Parameter(0.0));
   const WallSection section{0.5, {{0.1, 0.1}, {2.9, 0.9}}, 1e-3};
-  const std::vector<Polyline> walls = chain(sheet->wall_lines(section)),
-                              borders = chain(network->wall_lines(section));
+  const CountedVector<Polyline> walls = chain(sheet->wall_lines(section)),
+                                borders = chain(network->wall_lines(section));
   assert_int_equal(walls.size(), 3);
   assert_int_equal(borders.size(), 5);
   for (const Polyline& wall : walls) {
@@ -186,7 +186,7 @@ void test_paths_end_where_lines_meet(void**) {
   LineGraph graph;
   graph.points = {{0, 0}, {1, 0.1}, {2, 0}, {1, 1}, {5, 5}, {6, 5}, {5, 6}, {1.2, 2}};
   graph.lines = {{1, 3}, {0, 1}, {1, 2}, {4, 5}, {5, 6}, {6, 4}, {3, 7}};
-  const std::vector<Polyline> paths = chain(graph);
+  const CountedVector<Polyline> paths = chain(graph);
   assert_int_equal(paths.size(), 4);
   assert_int_equal(paths[0].points.size(), 3);
   assert_int_equal(paths[1].points.size(), 2);
@@ -202,7 +202,7 @@ void test_points_within_a_distance_are_one(void**) {
   graph.weld(1e-8);
   assert_int_equal(graph.points.size(), 3);
   assert_int_equal(graph.lines.size(), 2);
-  const std::vector<Polyline> paths = chain(graph);
+  const CountedVector<Polyline> paths = chain(graph);
   assert_int_equal(paths.size(), 1);
   assert_int_equal(paths[0].points.size(), 3);
 }

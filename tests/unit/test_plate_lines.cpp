@@ -192,7 +192,7 @@ void test_plates_that_lie_on_each_other_give_one_line(void**) {
   for (const double z : {0.1, 0.5, 0.77}) {
     const Ref<PlateLattice> plates = make({"doubled", cell, cubes});
     const LineGraph graph = plates->wall_lines({z, {{-0.5, -0.5}, {3.5, 2.5}}, 1e-3});
-    const std::vector<Polyline> paths = chain(graph);
+    const CountedVector<Polyline> paths = chain(graph);
     assert_int_equal(paths.size(), 3);
     for (const Polyline& path : paths) {
       double sum = 0;

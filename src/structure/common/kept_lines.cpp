@@ -16,13 +16,13 @@ class KeptParts {
 
   void find() {
     JobPoll poll(current_job());
-    std::vector<KeptPoint> known;
+    CountedVector<KeptPoint> known;
     known.reserve(graph_.points.size());
     for (const Vec2 p : graph_.points) {
       poll();
       known.push_back(keep_(p));
     }
-    std::vector<std::array<uint32_t, 2>> lines;
+    CountedVector<std::array<uint32_t, 2>> lines;
     std::swap(lines, graph_.lines);
     for (const auto& [a, b] : lines) {
       // The same way in every window.

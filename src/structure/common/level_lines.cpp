@@ -178,9 +178,9 @@ LineGraph LevelLines::find() {
 // A line that bends by an angle at each end, as the lines before and after it do, is about length *
 // angle / 8 off in its middle.
 void LevelLines::refine() {
-  std::vector<std::array<uint32_t, 2>> lines = std::move(graph_.lines);
+  CountedVector<std::array<uint32_t, 2>> lines = std::move(graph_.lines);
   graph_.lines.clear();
-  std::vector<std::array<uint32_t, 2>> next(graph_.points.size(), {nothing, nothing});
+  CountedVector<std::array<uint32_t, 2>> next(graph_.points.size(), {nothing, nothing});
   for (const auto& [a, b] : lines) {
     next[a][next[a][0] != nothing] = b;
     next[b][next[b][0] != nothing] = a;

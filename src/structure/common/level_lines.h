@@ -9,8 +9,6 @@
 // tolerance are halved.
 #pragma once
 
-#include <vector>
-
 #include "base/vec.h"
 #include "structure/common/line_graph.h"
 
@@ -40,8 +38,8 @@ class LevelLines {
   static constexpr uint32_t nothing = UINT32_MAX;
   /// A row of nodes of the grid, and the crossings on the sides that begin there.
   struct Row {
-    std::vector<double> values;
-    std::vector<uint32_t> right, up;
+    CountedVector<double> values;
+    CountedVector<uint32_t> right, up;
   };
 
   Vec2 node(int64_t i, int64_t j) const {
@@ -65,7 +63,7 @@ class LevelLines {
   double pitch_;
   bool follows_jumps_;
   int64_t first_x_, first_y_, columns_, rows_;  // nodes
-  std::vector<double> x_;
+  CountedVector<double> x_;
   LineGraph graph_;
 };
 

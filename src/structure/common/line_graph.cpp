@@ -30,7 +30,7 @@ class Sets {
   }
 
  private:
-  std::vector<uint32_t> parent_;
+  CountedVector<uint32_t> parent_;
 };
 
 }  // namespace
@@ -49,7 +49,7 @@ void LineGraph::weld(double distance) {
   const double side = 64 * distance;
   require_squares(side);
   const auto square = [side](double x) { return std::floor(x / side); };
-  std::vector<PointInSquare> places(points.size());
+  CountedVector<PointInSquare> places(points.size());
   for (uint32_t i = 0; i < points.size(); ++i)
     places[i] = {square(points[i].x), square(points[i].y), i};
   CancelPoll poll(current_job());
@@ -68,7 +68,7 @@ void LineGraph::weld(double distance) {
             sets.join(place.point, other->point);
         }
   }
-  std::vector<uint32_t> number(points.size());
+  CountedVector<uint32_t> number(points.size());
   uint32_t count = 0;
   for (uint32_t i = 0; i < points.size(); ++i)
     if (sets.find(i) == i) {

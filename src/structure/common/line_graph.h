@@ -5,9 +5,9 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "base/vec2.h"
+#include "base/working_memory.h"
 
 namespace msq {
 
@@ -23,8 +23,8 @@ struct WallSection {
 enum class ThinWalls { none, uniform, varying };
 
 struct LineGraph {
-  std::vector<Vec2> points;
-  std::vector<std::array<uint32_t, 2>> lines;
+  CountedVector<Vec2> points;
+  CountedVector<std::array<uint32_t, 2>> lines;
 
   /// Makes one point of those that are no farther apart than `distance` along either axis; drops
   /// lines that thereby have no length, or that occur twice.

@@ -19,15 +19,15 @@ void split_at_points(LineGraph& graph, double distance) {
   const double side = std::max(sum / static_cast<double>(graph.lines.size()), 64 * distance);
   graph.require_squares(side);
   const auto square = [side](double x) { return std::floor(x / side); };
-  std::vector<PointInSquare> places;
+  CountedVector<PointInSquare> places;
   places.reserve(graph.points.size());
   for (uint32_t i = 0; i < graph.points.size(); ++i)
     places.push_back({square(graph.points[i].x), square(graph.points[i].y), i});
   CancelPoll poll(current_job());
   polled_sort(places.begin(), places.end(), std::less<>(), poll);
 
-  std::vector<std::array<uint32_t, 2>> parts;
-  std::vector<std::pair<double, uint32_t>> on;
+  CountedVector<std::array<uint32_t, 2>> parts;
+  CountedVector<std::pair<double, uint32_t>> on;
   for (const auto& [a, b] : graph.lines) {
     const Vec2 p = graph.points[a], q = graph.points[b], way = q - p;
     const double squared = dot(way, way), span = std::sqrt(squared);

@@ -3,17 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "base/job.h"
 #include "base/sample_grid.h"
+#include "structure/common/row_flips.h"
 
 namespace msq {
-
-/// A sample of a row that repeats another, but for the membership of this sample.
-struct RowFlip {
-  uint64_t i, j, k;
-};
 
 class RepeatingStructure {
  public:
@@ -23,9 +18,9 @@ class RepeatingStructure {
   /// in any layer, but for flips. At most half of the rows; 0: none is known.
   virtual uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const = 0;
   /// As Structure::keep_rows(), of a period of rows. The samples that are alive are so in all rows
-  /// up to `end`. Appends those whose membership differs from that of the row of the block that
-  /// they repeat, each once.
-  virtual void keep_repeated_rows(const RowBlock& block, uint64_t end, std::vector<RowFlip>& flips,
+  /// up to `end`. Adds those whose membership differs from that of the row of the block that they
+  /// repeat, each once. The block has one layer.
+  virtual void keep_repeated_rows(const RowBlock& block, uint64_t end, RowFlips& flips,
                                   const Job* job) const = 0;
 };
 

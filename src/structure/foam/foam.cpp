@@ -161,8 +161,7 @@ Vec3 Foam::normal(const Ray& ray, double t) const {
 }
 
 LineGraph Foam::wall_lines(const WallSection& section) const {
-  return foam_section({context(), neighbourhood(), diagram_seeds(), graded(), unit(), stretch()},
-                      section);
+  return foam_section({neighbourhood(), diagram_seeds(), graded(), unit(), stretch()}, section);
 }
 
 void Foam::describe(HashInput& input) const {

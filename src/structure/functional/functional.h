@@ -53,7 +53,7 @@ class Functional final : public Structure, public RepeatingStructure {
   void keep_rows(const RowBlock& block, const Job* job) const override;
   /// Of rows with the same angles, bit for bit: there are no flips.
   uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const override;
-  void keep_repeated_rows(const RowBlock& block, uint64_t, std::vector<RowFlip>&,
+  void keep_repeated_rows(const RowBlock& block, uint64_t, RowFlips&,
                           const Job* job) const override {
     keep_rows(block, job);
   }

@@ -188,7 +188,7 @@ uint64_t Lattice::row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) c
   return LatticeRows::row_period(neighbourhood(), row_axes_, row_struts(), grid, y0, y1);
 }
 
-void Lattice::keep_repeated_rows(const RowBlock& block, uint64_t end, std::vector<RowFlip>& flips,
+void Lattice::keep_repeated_rows(const RowBlock& block, uint64_t end, RowFlips& flips,
                                  const Job* job) const {
   LatticeRows(neighbourhood(), row_axes_, row_struts(), radius_, block, {block.rows(), end, &flips})
       .keep(job, [this](Vec3 p) { return inside(p); });

@@ -32,7 +32,7 @@ class Lattice final : public Structure, public RepeatingStructure {
   bool gains_by_layers() const override { return row_axes_[0] < 0 || !radius_.is_constant(); }
   void keep_rows(const RowBlock& block, const Job* job) const override;
   uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const override;
-  void keep_repeated_rows(const RowBlock& block, uint64_t end, std::vector<RowFlip>& flips,
+  void keep_repeated_rows(const RowBlock& block, uint64_t end, RowFlips& flips,
                           const Job* job) const override;
   /// For grids along the axes only: a box about a turned grid's layer holds far more cells than the
   /// layer.

@@ -533,7 +533,7 @@ pub struct msq_context_def {
     pub threads: u32,
     /// Maximum size of the cell cache in bytes. Default 1 GiB. 0: no cache. Does not change results.
     pub cache_bytes: u64,
-    /// Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells and file reading (8 times the size of the file). Cached cells are evicted to make room. 0 (default): no limit. Not counted: what a thread works on (about 5 MB per thread for foams, 1 to 36 MB in all for two threads and layers of 16384^2 or sets of 1e9 points), working memory that is kept between calls (at most 16 MiB for most kinds), and arrays of the host. docs/howto/memory.md has a table.
+    /// Maximum number of bytes in use at one time for meshes, images, beams, slabs, cached cells, fill lines and file reading (8 times the size of the file). Cached cells are evicted to make room. 0 (default): no limit. Not counted: what a thread works on (about 5 MB per thread for foams, 1 to 36 MB in all for two threads and layers of 16384^2 or sets of 1e9 points, less than 1 MB for fill lines), working memory that is kept between calls (at most 16 MiB for most kinds), and arrays of the host. docs/howto/memory.md has a table.
     pub memory_limit: u64,
     /// An msq_cache_policy. Default MSQ_CACHE_FIFO. Does not change results.
     pub cache_policy: i32,

@@ -30,7 +30,7 @@ SectionCells::SectionCells(const SectionSeeds& seeds, const Box2& window) : seed
   }
   for (size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   members_.resize(seeds.seeds.size());
-  std::vector<uint32_t> next(starts_.begin(), starts_.end() - 1);
+  CountedVector<uint32_t> next(starts_.begin(), starts_.end() - 1);
   for (uint32_t i = 0; i < members_.size(); ++i) {
     poll();
     members_[next[square(seed(i))]++] = i;
@@ -45,7 +45,7 @@ int SectionCells::row(double y) const {
   return std::clamp(static_cast<int>((y - low_.y) / side_), 0, rows_ - 1);
 }
 
-const std::vector<SectionCells::Corner>& SectionCells::cell(uint32_t own) {
+const CountedVector<SectionCells::Corner>& SectionCells::cell(uint32_t own) {
   const Vec2 p = seed(own).position;
   const double r = 1.01 * seeds_.reach;  // no cell extends beyond the reach
   corners_ = {{{p.x - r, p.y - r}, nobody},

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "structure/foam/section/section_seeds.h"
 
@@ -28,7 +27,7 @@ class SectionCells {
   static constexpr uint32_t nobody = UINT32_MAX;
   /// The cell of a seed whose cell meets the window; empty if it has none. Valid until the next
   /// call.
-  const std::vector<Corner>& cell(uint32_t seed);
+  const CountedVector<Corner>& cell(uint32_t seed);
 
  private:
   const SectionSeed& seed(uint32_t i) const { return seeds_.seeds[i]; }
@@ -44,10 +43,10 @@ class SectionCells {
   Vec2 low_;
   double side_;  // of squares, each with its seeds
   int columns_, rows_;
-  std::vector<uint32_t> starts_, members_;
+  CountedVector<uint32_t> starts_, members_;
   // Of the cell that is being cut.
-  std::vector<Corner> corners_, next_;
-  std::vector<double> gaps_;
+  CountedVector<Corner> corners_, next_;
+  CountedVector<double> gaps_;
   double bound_ = 0;  // seeds farther away, in the plane, do not cut it
 };
 

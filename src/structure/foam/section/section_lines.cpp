@@ -32,7 +32,7 @@ LineGraph foam_section(const SectionFoam& foam, const WallSection& section) {
   for (uint32_t i = 0; i < seeds.seeds.size(); ++i) {
     if (!owners.contains(seeds.seeds[i].position)) continue;
     poll();
-    const std::vector<SectionCells::Corner>& cell = cells.cell(i);
+    const CountedVector<SectionCells::Corner>& cell = cells.cell(i);
     for (size_t c = 0; c < cell.size(); ++c) {
       const SectionCells::Corner &from = cell[c], &to = cell[c + 1 < cell.size() ? c + 1 : 0];
       // The first of the two seeds owns the line between them.

@@ -49,10 +49,7 @@ void Search::reserve(double expected) {
   if (!(expected < max_seeds))
     fail(Status::limit, "the window meets about %g seeds of the foam; the limit is %g", expected,
          max_seeds);
-  const size_t count = static_cast<size_t>(1.1 * expected) + 1000;
-  found_.memory = Reservation(foam_.context.budget, count * (sizeof(SectionSeed) + 8),
-                              "the seeds about a section");
-  found_.seeds.reserve(count);
+  found_.seeds.reserve(static_cast<size_t>(1.1 * expected) + 1000);
 }
 
 void Search::add(CellIndex cell, Vec3 in_cell, double lift) {

@@ -4,10 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
-#include "base/memory.h"
-#include "cell/context.h"
 #include "structure/common/line_graph.h"
 #include "structure/common/plane_cells.h"
 #include "structure/foam/seeds/graded_seeds.h"
@@ -27,13 +24,11 @@ struct SectionSeed {
 /// two seeds have the same order in every window.
 struct SectionSeeds {
   double reach = 0;  ///< no point of the plane is farther from its nearest seed
-  std::vector<SectionSeed> seeds;
-  Reservation memory;
+  CountedVector<SectionSeed> seeds;
 };
 
 /// The foam whose seeds are sought, with struts or walls.
 struct SectionFoam {
-  Context& context;
   const Neighbourhood& grid;
   const FoamSeeds& seeds;
   const std::shared_ptr<const GradedSeeds>& graded;  ///< null where there is one seed in each cell

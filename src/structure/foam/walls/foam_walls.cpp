@@ -310,8 +310,7 @@ Vec3 FoamWalls::normal(const Ray& ray, double t) const {
 
 LineGraph FoamWalls::wall_lines(const WallSection& section) const {
   LineGraph graph = foam_section(
-      {*context_, neighbourhood(), seeds_.seeds(), seeds_.graded(), unit_, seeds_.stretch()},
-      section);
+      {neighbourhood(), seeds_.seeds(), seeds_.graded(), unit_, seeds_.stretch()}, section);
   if (vents_.exist()) cut_vents(*this, section.z, graph);
   return graph;
 }

@@ -28,7 +28,7 @@ VentedWall wall_at(const FoamWalls& walls, const Neighbourhood::Located& located
 
 void cut_vents(const FoamWalls& walls, double z, LineGraph& graph) {
   const Neighbourhood& grid = walls.neighbourhood();
-  std::vector<std::array<uint32_t, 2>> lines;
+  CountedVector<std::array<uint32_t, 2>> lines;
   std::swap(lines, graph.lines);
   std::vector<Vec3> near;
   JobPoll poll(current_job());

@@ -213,8 +213,8 @@ uint64_t PlateLattice::row_period(const SampleGrid& grid, uint64_t y0, uint64_t 
   return LatticeRows::row_period(neighbourhood(), row_axes_, row_plates(), grid, y0, y1);
 }
 
-void PlateLattice::keep_repeated_rows(const RowBlock& block, uint64_t end,
-                                      std::vector<RowFlip>& flips, const Job* job) const {
+void PlateLattice::keep_repeated_rows(const RowBlock& block, uint64_t end, RowFlips& flips,
+                                      const Job* job) const {
   const PlateClusters& clusters = this->clusters();
   LatticeRows(neighbourhood(), row_axes_, row_plates(), thickness_, block,
               {block.rows(), end, &flips})

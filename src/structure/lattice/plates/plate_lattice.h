@@ -27,7 +27,7 @@ class PlateLattice final : public Structure, public RepeatingStructure {
   bool gains_by_layers() const override { return true; }
   void keep_rows(const RowBlock& block, const Job* job) const override;
   uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const override;
-  void keep_repeated_rows(const RowBlock& block, uint64_t end, std::vector<RowFlip>& flips,
+  void keep_repeated_rows(const RowBlock& block, uint64_t end, RowFlips& flips,
                           const Job* job) const override;
   bool knows_boxes() const override { return true; }
   BoxClass classify(const Box3& box) const override;

@@ -264,11 +264,11 @@ void LatticeRows::keep_rows(const Window& window, uint64_t begin, uint64_t end, 
           const uint64_t i = window.base + sample.column;
           const bool holds = inside(grid_.at(i, j, k));
           if (holds) restored.push_back({&word, bit});
-          if (!repeats_.period) continue;
+          if (!repeats_.period || repeats_.flips->is_full()) continue;
           for (uint64_t other = j + repeats_.period; other < repeats_.end;
                other += repeats_.period) {
             if (++asked_ % 256 == 0) check_cancelled(job);
-            if (inside(grid_.at(i, other, k)) != holds) repeats_.flips->push_back({i, other, k});
+            if (inside(grid_.at(i, other, k)) != holds) repeats_.flips->add(i, other);
           }
         }
       if (++asked_ % 256 == 0) check_cancelled(job);

@@ -21,7 +21,7 @@ class LatticeRows {
   /// (RepeatingStructure::row_period()).
   struct Repeats {
     uint64_t period = 0, end = 0;
-    std::vector<RowFlip>* flips = nullptr;
+    RowFlips* flips = nullptr;
   };
 
   /// axis[i]: the axis of the grid parallel to axis i of the samples.
