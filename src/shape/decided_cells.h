@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells of a closed mesh's bounding box that no triangle comes near: membership is the same all
-// over such a cell. Most short rays within a part lie in them.
+// over such a cell. Each knows how many cells around it are on its side, so rays step through empty
+// and full parts by many cells at a time.
 //
 // Membership is that of the winding number of the +x ray of a point. It changes only where the
 // point is within rounding of a crossing, and crossings are within rounding of their triangles. The
@@ -13,6 +14,7 @@
 
 #include "base/job.h"
 #include "base/memory.h"
+#include "base/ray.h"
 #include "base/triangle_soup.h"
 
 namespace msq {
@@ -28,12 +30,23 @@ class DecidedCells {
                const std::function<bool(Vec3)>& inside, const std::shared_ptr<MemoryBudget>& budget,
                const Job* job);
 
-  /// Of all points of a segment in the bounding box. Unknown for segments of more than two cells
-  /// along an axis.
-  Side side(Vec3 a, Vec3 b) const;
+  /// Of a point in the bounding box.
+  Side side(Vec3 p) const;
+
+  /// The greatest t found such that a ray is on one side from `from` to t; at most `to`, and `from`
+  /// itself if the side is unknown there. Both points are in the bounding box.
+  double same_side_until(const Ray& ray, double from, double to) const;
 
  private:
+  /// 0: unknown. Otherwise all cells whose indices differ by less than the magnitude along each
+  /// axis are on one side: inside (positive) or outside (negative).
+  using Room = int8_t;
+
   void mark(const TriangleSoup& soup, const Triangle& triangle, uint64_t& work);
+  void decide(const std::function<bool(Vec3)>& inside, JobPoll& poll);
+  void find_rooms(JobPoll& poll);
+  /// Whether all cells that the box of two points meets are on that side.
+  bool is_box_on(Room side, Vec3 a, Vec3 b) const;
   uint32_t cell(double v, int axis) const {
     const double c = (v - origin_[axis]) * scale_[axis];
     return c <= 0 ? 0 : c >= count_[axis] ? count_[axis] - 1 : static_cast<uint32_t>(c);
@@ -45,7 +58,8 @@ class DecidedCells {
   Vec3 origin_, scale_, size_;
   double margin_ = 0;
   uint32_t count_[3] = {1, 1, 1};
-  std::vector<Side> sides_;
+  double max_origin_ = 0;  ///< magnitude of rays' origins up to which rounding is within the margin
+  std::vector<Room> rooms_;
   Reservation reservation_;
 };
 

@@ -11,24 +11,26 @@ namespace msq {
 bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, double& t,
                       const Job* job) const {
   if (open_) return find_along_open(ray, from, to, wanted, t, job);
-  if (facts_.closed) {
-    const DecidedCells::Side side = cells(job).side(ray.at(from), ray.at(to));
-    if (side != DecidedCells::Side::unknown) {
-      t = from;
-      return (side == DecidedCells::Side::inside) == wanted;
-    }
-  }
-  const auto is_wanted = [&](double at) { return inside(ray.at(at)) == wanted; };
+  const DecidedCells* decided = facts_.closed ? &cells(job) : nullptr;
+  const auto is_wanted = [&](double at) {
+    const Vec3 p = ray.at(at);
+    const DecidedCells::Side side = decided ? decided->side(p) : DecidedCells::Side::unknown;
+    return (side == DecidedCells::Side::unknown ? inside(p) : side == DecidedCells::Side::inside) ==
+           wanted;
+  };
   if (is_wanted(from)) {
     t = from;
     return true;
   }
+  const double same_until = decided ? decided->same_side_until(ray, from, to) : from;
+  if (same_until >= to) return false;
   const double tolerance = ray_tolerance();
   double known = from;  // not wanted here
   double crossing;
   Vec3 normal;
-  // What is crossed at `from` may be found a little before it.
-  bool crosses = boundary().first_crossing(ray, from - tolerance, to, tolerance, crossing, normal);
+  // What is crossed there may be found a little before it.
+  bool crosses =
+      boundary().first_crossing(ray, same_until - tolerance, to, tolerance, crossing, normal);
   if (crosses) crossing = std::max(crossing, from);
   // A triangle is crossed at one t, and each search begins behind the last crossing: there are no
   // more rounds than triangles.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances of triangles have the bits of TreeTriangle::distance_squared(). Bounds may use fused
-// operations: the slack of the tree covers their rounding.
+// Crossings have the same bits for all targets, and distances of triangles those of
+// TreeTriangle::distance_squared(). Bounds may use fused operations: the slack of the tree covers
+// their rounding.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shape/triangle_search.cpp"
 #include <hwy/foreach_target.h>
@@ -191,6 +192,35 @@ uint32_t clip_boxes(const BoundNode& node, const Ray& ray, double from, double t
   return bits & ((uint32_t{1} << node.count) - 1);
 }
 
+uint32_t cross_triangles(const TriangleBlock& block, const Ray& ray, double from, double to,
+                         double margin, double* at) {
+  const D d;
+  uint32_t bits = 0;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1);
+  const Vector origin = set_lanes(d, ray.origin), direction = set_lanes(d, ray.direction);
+  for (size_t i = 0; i < tree_width; i += hn::Lanes(d)) {
+    const Vector a = load3(d, block.a, i), u = load3(d, block.u, i), v = load3(d, block.v, i);
+    const Vector away = cross<D>(direction, v), normal = cross<D>(u, v);
+    const V across = dot<D>(away, u), size = hn::Sqrt(dot<D>(normal, normal));
+    // Nearly along the plane, the error of t is margin over the slope.
+    M meets = hn::Gt(hn::Abs(across), hn::Mul(hn::Set(d, 0x1p-40), size));
+    const V inverse = hn::Div(one, across);
+    const Vector w = subtract<D>(origin, a), q = cross<D>(w, u);
+    const V of_u = hn::Mul(dot<D>(w, away), inverse), of_v = hn::Mul(dot<D>(direction, q), inverse);
+    const Vector third = subtract<D>(v, u);
+    const V longest = hn::Max(hn::Max(dot<D>(u, u), dot<D>(v, v)), dot<D>(third, third));
+    // The margin over the triangle's height.
+    const V room = hn::Mul(hn::Mul(hn::Set(d, margin), hn::Sqrt(longest)), hn::Abs(inverse));
+    const V t = hn::Mul(dot<D>(v, q), inverse);
+    meets = hn::And(meets, hn::And(hn::Ge(of_u, hn::Neg(room)), hn::Ge(of_v, hn::Neg(room))));
+    meets = hn::And(meets, hn::Le(hn::Add(of_u, of_v), hn::Add(one, room)));
+    meets = hn::And(meets, hn::And(hn::Ge(t, hn::Set(d, from)), hn::Le(t, hn::Set(d, to))));
+    hn::Store(hn::IfThenElse(meets, t, zero), d, at + i);
+    bits |= static_cast<uint32_t>(bits_of(d, meets)) << i;
+  }
+  return bits;
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace msq
@@ -202,6 +232,7 @@ namespace msq {
 HWY_EXPORT(search_nearest);
 HWY_EXPORT(search_below);
 HWY_EXPORT(clip_boxes);
+HWY_EXPORT(cross_triangles);
 
 void find_nearest(const TriangleTreeView& tree, Vec3 p, NearestTriangle& nearest) {
   HWY_DYNAMIC_DISPATCH(search_nearest)(tree, p, nearest);
@@ -214,6 +245,11 @@ void find_below(const TriangleTreeView& tree, Vec3 p, TriangleBelow& found) {
 uint32_t meet_boxes(const BoundNode& node, const Ray& ray, double from, double to, double margin,
                     double (&entry)[tree_width]) {
   return HWY_DYNAMIC_DISPATCH(clip_boxes)(node, ray, from, to, margin, entry);
+}
+
+uint32_t meet_triangles(const TriangleBlock& block, const Ray& ray, double from, double to,
+                        double margin, double (&at)[tree_width]) {
+  return HWY_DYNAMIC_DISPATCH(cross_triangles)(block, ray, from, to, margin, at);
 }
 
 void TriangleBlock::set(uint32_t i, const TreeTriangle& t) {

@@ -91,4 +91,11 @@ void find_below(const TriangleTreeView& tree, Vec3 p, TriangleBelow& found);
 uint32_t meet_boxes(const BoundNode& node, const Ray& ray, double from, double to, double margin,
                     double (&entry)[tree_width]);
 
+/// The bits of the triangles of a block that a ray crosses in [from, to], or passes at less than
+/// `margin`; at[i] becomes the t of triangle i. The same for all targets of SIMD. Leaves out
+/// triangles in whose plane the ray runs. `at` is aligned to 64 bytes.
+/// Source: Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+uint32_t meet_triangles(const TriangleBlock& block, const Ray& ray, double from, double to,
+                        double margin, double (&at)[tree_width]);
+
 }  // namespace msq

@@ -2,6 +2,7 @@
 #include "shape/triangle_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "base/job.h"
@@ -225,24 +226,17 @@ bool TriangleTree::first_crossing(const Ray& ray, double from, double to, double
                                   Crossing& crossing) const {
   bool found = false;
   uint32_t crossed = 0;
-  const auto cross_triangle = [&](uint32_t i) {
-    const TreeTriangle t = triangle(i);
-    const Vec3 normal = cross(t.u, t.v), away = cross(ray.direction, t.v);
-    const double across = dot(away, t.u), size = length(normal);
-    // Nearly along the plane, the error of t is margin over the slope.
-    if (!(std::abs(across) > 0x1p-40 * size)) return;
-    const double inverse = 1 / across;
-    const Vec3 w = ray.origin - t.a, q = cross(w, t.u);
-    const double of_u = dot(w, away) * inverse, of_v = dot(ray.direction, q) * inverse;
-    const double edge = std::sqrt(t.longest_squared());
-    const double room = margin * edge * std::abs(inverse);  // margin over the triangle's height
-    if (of_u < -room || of_v < -room || of_u + of_v > 1 + room) return;
-    const double at = dot(t.v, q) * inverse;
-    if (at < from || at > to || (found && at == to && i > crossed)) return;
-    found = true;
-    to = at;
-    crossed = i;
-    crossing = {at, normal};
+  const auto cross_block = [&](uint32_t block) {
+    alignas(64) double t[tree_width];
+    for (uint32_t bits = meet_triangles(blocks_[block], ray, from, to, margin, t); bits;
+         bits &= bits - 1) {
+      const auto n = static_cast<uint32_t>(std::countr_zero(bits));
+      const uint32_t i = block * tree_width + n;
+      if (t[n] > to || (found && t[n] == to && i > crossed)) continue;
+      found = true;
+      to = t[n];
+      crossed = i;
+    }
   };
   Waiting waiting[max_waiting];
   size_t count = 0;
@@ -251,8 +245,7 @@ bool TriangleTree::first_crossing(const Ray& ray, double from, double to, double
     const Waiting next = waiting[--count];
     if (next.bound > to) continue;
     if (next.child & BoundNode::block_bit) {
-      const uint32_t first = (next.child & ~BoundNode::block_bit) * tree_width;
-      for (uint32_t i = first; i < first + tree_width; ++i) cross_triangle(i);
+      cross_block(next.child & ~BoundNode::block_bit);
       continue;
     }
     const BoundNode& node = nodes_[next.child];
@@ -260,7 +253,10 @@ bool TriangleTree::first_crossing(const Ray& ray, double from, double to, double
     const uint32_t bits = meet_boxes(node, ray, from, to, margin, entry);
     count = add_waiting(waiting, count, node, bits, entry);
   }
-  return found;
+  if (!found) return false;
+  const TreeTriangle met = triangle(crossed);
+  crossing = {to, cross(met.u, met.v)};
+  return true;
 }
 
 }  // namespace msq

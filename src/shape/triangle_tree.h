@@ -61,7 +61,6 @@ class TriangleTree {
   /// Finds the first t in [from, to] at which a ray crosses a triangle, or passes it at less than
   /// `margin`. Returns false if there is none. Skips triangles in whose plane the ray runs.
   /// Of triangles crossed at the same t, takes the one of the lowest number.
-  /// Source: Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
   bool first_crossing(const Ray& ray, double from, double to, double margin,
                       Crossing& crossing) const;
 

@@ -75,15 +75,23 @@ void test_segments(void**) {
         return p;
       };
       const Vec3 a = any();
-      const double size = scale * std::pow(10, random.between(-4, -1));
+      const double size = scale * std::pow(10, random.between(-4, 0.3));
       Vec3 b = a + Vec3{random.between(-size, size), random.between(-size, size),
                         random.between(-size, size)};
       b = max(box.min, min(box.max, b));
-      const DecidedCells::Side side = cells.side(a, b);
-      if (side == DecidedCells::Side::unknown) continue;
-      ++decided;
-      for (int i = 0; i <= 8; ++i) {
-        const Vec3 p = a + (b - a) * (i / 8.0);
+      // A ray's origin may be far behind.
+      const double behind = at % 3 == 0 ? random.between(0, 50) : 0;
+      const Ray ray{a - (b - a) * behind, b - a};
+      const double until = cells.same_side_until(ray, behind, behind + 1);
+      const DecidedCells::Side side = cells.side(ray.at(behind));
+      assert_true(until >= behind && until <= behind + 1);
+      if (side == DecidedCells::Side::unknown) {
+        assert_true(until == behind);
+        continue;
+      }
+      decided += until == behind + 1;
+      for (int i = 0; i <= 24; ++i) {
+        const Vec3 p = ray.at(behind + (until - behind) * (i / 24.0));
         if (mesh.inside(p) != (side == DecidedCells::Side::inside))
           fail_msg("mesh %zu: %g %g %g is decided wrongly", n, p.x, p.y, p.z);
       }
@@ -110,7 +118,7 @@ void test_segments(void**) {
   if (decided < count * 500) fail_msg("%zu segments of %zu are decided", decided, count * 3000);
 }
 
-/// Without room in the budget, and where triangles reach through too many cells.
+/// Without room in the budget, and from one side to the other.
 void test_unknown(void**) {
   Random random(2);
   TriangleSoup soup;
@@ -119,11 +127,16 @@ void test_unknown(void**) {
   const auto inside = [&](Vec3 p) { return mesh.inside(p); };
   const Vec3 middle{0.01, 0.02, 0.03};
   const DecidedCells cells(soup, mesh.bounds(), inside, budget_of(0), nullptr);
-  assert_true(cells.side(middle, middle) == DecidedCells::Side::inside);
-  assert_true(cells.side(mesh.bounds().min, mesh.bounds().max) == DecidedCells::Side::unknown);
+  const Vec3 corner = mesh.bounds().min;
+  const Ray diagonal{corner, mesh.bounds().extent()};
+  assert_true(cells.side(middle) == DecidedCells::Side::inside);
+  assert_true(cells.side(corner) == DecidedCells::Side::outside);
+  const double until = cells.same_side_until(diagonal, 0, 1);
+  assert_true(until > 0.1 && until < 0.3);  // the ball begins at 0.5 (1 - 1 / sqrt(3)) = 0.21
   const std::shared_ptr<MemoryBudget> none = budget_of(100);
   const DecidedCells without(soup, mesh.bounds(), inside, none, nullptr);
-  assert_true(without.side(middle, middle) == DecidedCells::Side::unknown);
+  assert_true(without.side(middle) == DecidedCells::Side::unknown);
+  assert_true(without.same_side_until(diagonal, 0, 1) == 0);
   assert_int_equal(none->held(), 0);
 }
 
