@@ -2237,7 +2237,7 @@ export interface Functions {
    *
    * Ends of lines at the polygon's border are rounded to whole coordinates. All other decisions are exact. Lines on the border itself count as inside on one side of the polygon. The lines do not depend on the polygon: where polygons of a layer touch, lines go on from one to the other. Functions are sampled on a grid of 1/32 of the smallest cell size, waves on one of 1/16 (docs/concepts.md has the grid of warped cells). Lines closer together than that may be joined, and smaller closed lines lost.
    *
-   * def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box. Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam or of plates; 1 us per square that a function's line crosses; 20 ns, or 3 ns per wave, per other square. Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are on one line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson, "Matching, Euler tours and the Chinese postman", 1973.
+   * def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box. Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam or of plates; 1 us per square that a function's line crosses, 20 ns per other square; of waves 15 ns per wave and square that a line crosses. Errors: ARGUMENT (also, with its index: a ring of fewer than 3 points or whose points are on one line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED, HOST, MEMORY. Source: Aurenhammer, "Power diagrams", 1987; Lorensen and Cline, "Marching cubes", 1987; Edmonds and Johnson, "Matching, Euler tours and the Chinese postman", 1973.
    */
   msq_fill_lines(context: Memory, structure: Memory, def: msq_fill_def | null, fill: [Pointer], job: Memory): number;
   /** Adds a reference. */
@@ -2253,7 +2253,7 @@ export interface Functions {
    *
    * Single layers differ from the average, those of a gyroid by a tenth. msq measures the lines of the structure as it is defined: in one cell at 64 heights, or in 8 x 8 cells if the grid is rotated; for foams and waves in 32 x 32 cells at 32 heights, accurate to about 0.5 %. Calibrate a foam without its field of density: d seeds per cell volume multiply the density of lines by about the cube root of d.
    *
-   * Cost: up to 0.5 s for a foam, 0.03 s per wave. Errors: ARGUMENT, UNSUPPORTED (a structure without thin walls; a structure whose lines are denser in some places, by a period, a warp, or a field of density, vent_radius or the level of a network; a structure made of other structures), LIMIT (a structure without lines), CANCELLED, HOST, MEMORY.
+   * Cost: up to 0.5 s for a foam, 0.8 s and 0.023 s per wave for waves. Errors: ARGUMENT, UNSUPPORTED (a structure without thin walls; a structure whose lines are denser in some places, by a period, a warp, or a field of density, vent_radius or the level of a network; a structure made of other structures), LIMIT (a structure without lines), CANCELLED, HOST, MEMORY.
    */
   msq_fill_calibrate(context: Memory, structure: Memory, line_width: number, density: number, cell_size: Memory, job: Memory): number;
   /** Sets the defaults. Errors: ARGUMENT. */

@@ -19,10 +19,9 @@ Calibration::Calibration(const Structure& structure, const StratifiedPoints& sam
   executor.for_each(parts, [&](uint64_t index) {
     PointSet::Part part;
     sample.read_part(index, part);
-    for (size_t i = 0; i < part.numbers.size(); ++i) {
-      if (i % 16 == 0) check_cancelled(job);
-      onsets_[part.numbers[i]] = structure.onset(part.positions[i]);
-    }
+    std::vector<double> found(part.numbers.size());
+    structure.onsets(part.positions.data(), found.size(), found.data());
+    for (size_t i = 0; i < found.size(); ++i) onsets_[part.numbers[i]] = found[i];
     const uint64_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
     if (!job) return;
     job->counts().points += part.numbers.size();

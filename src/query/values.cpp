@@ -31,26 +31,43 @@ double gradient_step(const Structure& structure) {
 void set_onset(const Structure& structure, const PointSet& points, const OnsetPlan& plan,
                const Executor& executor, Job* job) {
   const double step = gradient_step(structure);
-  const auto value = [&](Vec3 p) {
-    const double onset = structure.onset(p);
-    return plan.is_signed ? onset - structure.parameter(p) : onset;
-  };
+  // Points one after the other, each with those before and beyond it along each axis.
+  const size_t per_point = plan.gradients ? 7 : 1;
+  constexpr size_t at_once = 256;
   run_parts(executor, points.parts(), job, {0, 1}, [&](uint64_t index) {
     PointSet::Part part;
     points.read_part(index, part);
-    for (size_t i = 0; i < part.numbers.size(); ++i) {
-      if (i % 16 == 0) check_cancelled(job);
-      const Vec3 p = part.positions[i];
-      plan.onsets[part.numbers[i]] = value(p);
-      for (int axis = 0; plan.gradients && axis < 3; ++axis) {
-        Vec3 before = p, beyond = p;
-        before[axis] -= step;
-        beyond[axis] += step;
-        const double rise = value(beyond) - value(before);
-        // No number where one of them is infinite or rounding leaves no step.
-        const double slope = rise / (beyond[axis] - before[axis]);
-        plan.gradients[3 * part.numbers[i] + static_cast<uint64_t>(axis)] =
-            std::isfinite(slope) ? slope : 0;
+    std::vector<Vec3> asked;
+    std::vector<double> found;
+    for (size_t begin = 0; begin < part.numbers.size(); begin += at_once) {
+      const size_t end = std::min(begin + at_once, part.numbers.size());
+      asked.clear();
+      for (size_t i = begin; i < end; ++i) {
+        const Vec3 p = part.positions[i];
+        asked.push_back(p);
+        for (int axis = 0; plan.gradients && axis < 3; ++axis) {
+          asked.insert(asked.end(), 2, p);
+          asked.end()[-2][axis] -= step;
+          asked.end()[-1][axis] += step;
+        }
+      }
+      found.resize(asked.size());
+      structure.onsets(asked.data(), asked.size(), found.data());
+      for (size_t i = 0; plan.is_signed && i < asked.size(); ++i) {
+        if (i % 16 == 0) check_cancelled(job);
+        found[i] -= structure.parameter(asked[i]);
+      }
+      for (size_t i = begin; i < end; ++i) {
+        const size_t first = (i - begin) * per_point;
+        plan.onsets[part.numbers[i]] = found[first];
+        for (size_t axis = 0; plan.gradients && axis < 3; ++axis) {
+          const size_t before = first + 1 + 2 * axis, beyond = before + 1;
+          const double rise = found[beyond] - found[before];
+          const int along = static_cast<int>(axis);
+          // No number where one of them is infinite or rounding leaves no step.
+          const double slope = rise / (asked[beyond][along] - asked[before][along]);
+          plan.gradients[3 * part.numbers[i] + axis] = std::isfinite(slope) ? slope : 0;
+        }
       }
     }
     count_points(job, part.numbers.size());

@@ -48,6 +48,13 @@ std::unique_ptr<StrutParts> Structure::struts(const StrutSelection&) const {
   return nullptr;
 }
 
+void Structure::onsets(const Vec3* points, size_t count, double* to) const {
+  for (size_t i = 0; i < count; ++i) {
+    if (i % 16 == 0) check_cancelled();
+    to[i] = onset(points[i]);
+  }
+}
+
 LineGraph Structure::wall_lines(const WallSection&) const {
   fail(Status::unsupported,
        "the structure has no thin walls whose middle lines are known; use its contours");

@@ -87,6 +87,9 @@ class Structure : public Described {
   /// that is constant in space. Infinity if there is none, or if it is above onset_limit(). The
   /// comparison with the parameter equals inside(p), except for rounding of at most 1e-9 of a cell.
   virtual double onset(Vec3) const { return std::numeric_limits<double>::infinity(); }
+  /// onset() of many points, to the last bit. Stops early, by Error(cancelled), with the thread's
+  /// job. Default: one after the other.
+  virtual void onsets(const Vec3* points, size_t count, double* to) const;
   /// The parameter at p, for kinds that have an onset.
   virtual double parameter(Vec3) const { return 0; }
   /// The maximum value that the parameter may have.

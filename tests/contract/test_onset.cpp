@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A point is inside where its onset is at most the parameter, but for 1e-9 of a cell about it; and
 // cells of periodic structures have the same onsets.
+#include <cstring>
+
 #include "random.h"
 #include "structures.h"
 #include "suite.h"
@@ -49,11 +51,34 @@ void test_row(void** state) {
   if (count > 100) assert_in_range(held, 1, 3 * count);
 }
 
+/// Onsets of many points have the bits of onsets of single points.
+void test_many(void** state) {
+  const StructureRow& row = *static_cast<const StructureRow*>(*state);
+  const Ref<const Structure> structure = row.make({});
+  if (!structure->has_onset()) return;
+  const Neighbourhood& n = row.variant.grid;
+  Random random(row.index + 77);
+  std::vector<Vec3> points(test_count(row.is_lattice() ? 1500 : 300));
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double far = i % 7 == 0 ? 40 : 2;
+    points[i] = n.from_grid(random.in_box({{-far, -far, -far}, {far, far, far}}) * n.cell_size);
+  }
+  std::vector<double> all(points.size());
+  structure->onsets(points.data(), points.size(), all.data());
+  for (size_t i = 0; i < points.size(); ++i) {
+    const double one = structure->onset(points[i]);
+    if (std::memcmp(&one, &all[i], sizeof one) != 0)
+      fail_msg("point %zu at (%.17g, %.17g, %.17g): %.17g alone, %.17g with others", i, points[i].x,
+               points[i].y, points[i].z, one, all[i]);
+  }
+}
+
 }  // namespace
 
 int main() {
   std::vector<StructureRow> rows;
   for (const StructureRow& row : structures_by_point())
     if (!row.is_graded) rows.push_back(row);
-  return run_for_each("onset", rows, test_row);
+  std::vector<StructureRow> all = structures_by_point();
+  return run_for_each("onset", rows, test_row) + run_for_each("onsets", all, test_many);
 }

@@ -38,6 +38,11 @@ LevelLines::LevelLines(LevelFunction& function, double pitch, bool follows_jumps
   columns_ = static_cast<int64_t>(columns);
   rows_ = static_cast<int64_t>(rows);
   x_.resize(LevelFunction::row_points + batch_padding);
+  nodes_.origin = {node(0, 0).x, node(0, 0).y, section.z};
+  nodes_.spacing = {pitch_, pitch_, pitch_};
+  nodes_.nx = static_cast<uint64_t>(columns_);
+  nodes_.ny = static_cast<uint64_t>(rows_);
+  nodes_.nz = 1;
 }
 
 double LevelLines::value(Vec2 p) const {
@@ -45,6 +50,7 @@ double LevelLines::value(Vec2 p) const {
 }
 
 void LevelLines::evaluate(int64_t j, Row& row) {
+  if (function_.has_signs()) return evaluate_signs(j, row);
   constexpr auto most = static_cast<int64_t>(LevelFunction::row_points);
   const double y = node(0, j).y;
   row.values.resize(static_cast<size_t>(columns_));
@@ -55,6 +61,43 @@ void LevelLines::evaluate(int64_t j, Row& row) {
     double* const values = row.values.data() + begin;
     function_.row(x_.data(), y, section_.z, count, values);
     for (size_t i = 0; i < count; ++i) values[i] = number_or_infinity(values[i]);
+  }
+}
+
+void LevelLines::find_strip(int64_t j) {
+  strip_begin_ = j;
+  strip_end_ = std::min(j + strip_rows, rows_);
+  const auto block_in = [&](CountedVector<uint64_t>& words) {
+    RowBlock block;
+    block.grid = &nodes_;
+    block.y0 = static_cast<uint64_t>(strip_begin_);
+    block.y1 = static_cast<uint64_t>(strip_end_);
+    block.z1 = 1;
+    block.row_stride = block.row_words();
+    block.layer_stride = block.row_stride * block.rows();
+    words.assign(block.layer_stride, 0);
+    block.words = words.data();
+    for (uint64_t row = block.y0; row < block.y1; ++row)
+      set_bits(block.row(row, 0), 0, nodes_.nx - 1);
+    return block;
+  };
+  function_.find_signs(block_in(inside_), block_in(not_outside_));
+}
+
+void LevelLines::evaluate_signs(int64_t j, Row& row) {
+  if (j >= strip_end_) find_strip(j);
+  const size_t words = words_for(nodes_.nx), first = static_cast<size_t>(j - strip_begin_) * words;
+  row.values.resize(static_cast<size_t>(columns_));
+  for (int64_t i = 0; i < columns_; ++i) {
+    const size_t word = first + static_cast<size_t>(i) / bits_per_word;
+    const uint64_t bit = uint64_t{1} << (static_cast<size_t>(i) % bits_per_word);
+    double& at = row.values[static_cast<size_t>(i)];
+    if (inside_[word] & bit)
+      at = -not_known;
+    else if (!(not_outside_[word] & bit))
+      at = not_known;
+    else
+      at = value(node(i, j));
   }
 }
 
@@ -155,7 +198,8 @@ LineGraph LevelLines::find() {
       const double at = row.values[static_cast<size_t>(i)],
                    next = row.values[static_cast<size_t>(i + 1)];
       if ((at <= 0) != (next <= 0))
-        row.right[static_cast<size_t>(i)] = crossing(node(i, j), at, node(i + 1, j), next);
+        row.right[static_cast<size_t>(i)] =
+            crossing(node(i, j), exact(row, i, j), node(i + 1, j), exact(row, i + 1, j));
     }
   };
   begin_row(0, low);
@@ -166,7 +210,8 @@ LineGraph LevelLines::find() {
       const double at = low.values[static_cast<size_t>(i)],
                    next = high.values[static_cast<size_t>(i)];
       if ((at <= 0) != (next <= 0))
-        low.up[static_cast<size_t>(i)] = crossing(node(i, j), at, node(i, j + 1), next);
+        low.up[static_cast<size_t>(i)] =
+            crossing(node(i, j), exact(low, i, j), node(i, j + 1), exact(high, i, j + 1));
     }
     connect(j, low, high);
     std::swap(low, high);

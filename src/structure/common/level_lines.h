@@ -9,6 +9,10 @@
 // tolerance are halved.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
+#include "base/sample_grid.h"
 #include "base/vec.h"
 #include "structure/common/line_graph.h"
 
@@ -24,6 +28,12 @@ class LevelFunction {
   virtual double at(Vec3 p) const = 0;
   /// The same, to the last bit, at points of a row. x is readable up to batch_padding beyond.
   virtual void row(const double* x, double y, double z, size_t count, double* to) = 0;
+
+  /// Whether find_signs() is there: signs of rows cost less than values.
+  virtual bool has_signs() const { return false; }
+  /// In rows of nodes clears the bits of those that may be outside, and in `not_outside` of those
+  /// that are. The grid's positions are those of the nodes, but for rounding (SampleGrid).
+  virtual void find_signs(const RowBlock& /*inside*/, const RowBlock& /*not_outside*/) {}
 };
 
 class LevelLines {
@@ -48,6 +58,16 @@ class LevelLines {
   /// The function, infinite where it is no number.
   double value(Vec2 p) const;
   void evaluate(int64_t j, Row& row);
+  /// As evaluate(), but a node whose value is not needed yet has one of this sign.
+  void evaluate_signs(int64_t j, Row& row);
+  static constexpr double not_known = std::numeric_limits<double>::max();
+  void find_strip(int64_t j);
+  /// The value of a node.
+  double exact(Row& row, int64_t i, int64_t j) {
+    double& at = row.values[static_cast<size_t>(i)];
+    if (std::abs(at) == not_known) at = value(node(i, j));
+    return at;
+  }
   /// The point where the function passes the level between two points, one inside and one outside;
   /// `nothing` where it jumps.
   uint32_t crossing(Vec2 a, double at_a, Vec2 b, double at_b);
@@ -64,6 +84,11 @@ class LevelLines {
   bool follows_jumps_;
   int64_t first_x_, first_y_, columns_, rows_;  // nodes
   CountedVector<double> x_;
+  // Signs of a strip of rows.
+  static constexpr int64_t strip_rows = 64;
+  SampleGrid nodes_;
+  int64_t strip_begin_ = 0, strip_end_ = 0;
+  CountedVector<uint64_t> inside_, not_outside_;
   LineGraph graph_;
 };
 

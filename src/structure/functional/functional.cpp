@@ -50,6 +50,20 @@ struct Points {
   double angles[3][room], levels[room] = {}, radii[room];
   Vec3 asked[batch_points];
   size_t index[batch_points];
+  uint64_t in_place[batch_points / 64 + 1];
+
+  /// Sets angles of the first points from their coordinates, and bits of those whose place the
+  /// cells fill.
+  void find_angles(const CellAngles& cells, size_t count) {
+    const Values x{coordinates[0], false}, y{coordinates[1], false}, z{coordinates[2], false};
+    double* const all[3] = {angles[0], angles[1], angles[2]};
+    if (cells.sampled()) return find_map_places(*cells.sampled(), x, y, z, count, all, in_place);
+    std::fill(std::begin(in_place), std::end(in_place), ~uint64_t{0});
+    if (!cells.warp()) return cells.find(x, y, z, count, all);
+    find_warped_places(*cells.warp(), x, y, z, count, all, radii);
+    for (size_t i = 0; i < count; ++i)
+      if (!cells.warp()->is_in_shell(radii[i])) in_place[i / 64] &= ~(uint64_t{1} << i % 64);
+  }
 };
 
 std::vector<RowPlan> row_plans(const Clusters& clusters, const std::array<int, 3>& sample_axis) {
@@ -109,6 +123,25 @@ double Functional::value(Vec3 p) const {
 double Functional::onset(Vec3 p) const {
   const double onset = value(p);
   return std::isnan(onset) || !angles_.holds(p) ? std::numeric_limits<double>::infinity() : onset;
+}
+
+void Functional::onsets(const Vec3* points, size_t count, double* to) const {
+  Batch batch(program_);
+  const Borrowed<Points> borrowed;
+  for (size_t axis = 0; axis < 3; ++axis) batch.set_input(axis, {borrowed->angles[axis], false});
+  for (size_t begin = 0; begin < count; begin += batch_points) {
+    const size_t size = std::min(count - begin, batch_points);
+    check_cancelled();
+    for (size_t i = 0; i < size; ++i)
+      for (int axis = 0; axis < 3; ++axis) borrowed->coordinates[axis][i] = points[begin + i][axis];
+    borrowed->find_angles(angles_, size);
+    batch.run(size);
+    const Values values = batch.output(0);
+    for (size_t i = 0; i < size; ++i) {
+      const bool is_there = borrowed->in_place[i / 64] >> (i % 64) & 1;
+      to[begin + i] = std::isnan(values[i]) || !is_there ? infinity : values[i];
+    }
+  }
 }
 
 bool Functional::inside(Vec3 p) const {
@@ -276,9 +309,7 @@ double Functional::distance_bound(Vec3 p) const {
 void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   Batch batch(program_);
   const Borrowed<Points> borrowed;
-  auto& [coordinates, angles, levels, radii, asked, index] = *borrowed;
-  const std::optional<Warp>& warp = angles_.warp();
-  const SampledMap* const map = angles_.sampled();
+  auto& [coordinates, angles, levels, radii, asked, index, in_place] = *borrowed;
   for (size_t axis = 0; axis < 3; ++axis) batch.set_input(axis, {angles[axis], false});
   for (size_t next = 0; next < count;) {
     size_t size = 0;
@@ -289,22 +320,12 @@ void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) c
       index[size++] = next;
     }
     level_.values(asked, size, levels);
-    const Values x{coordinates[0], false}, y{coordinates[1], false}, z{coordinates[2], false};
-    double* const all[3] = {angles[0], angles[1], angles[2]};
-    uint64_t bits[batch_points / 64 + 1], in_box[batch_points / 64 + 1];
-    if (warp)
-      find_warped_places(*warp, x, y, z, size, all, radii);
-    else if (map)
-      find_map_places(*map, x, y, z, size, all, in_box);
-    else
-      angles_.find(x, y, z, size, all);
+    borrowed->find_angles(angles_, size);
     batch.run(size);
+    uint64_t bits[batch_points / 64 + 1];
     compare_values(batch.output(0), {levels, false}, size, bits);
-    if (warp)
-      for (size_t i = 0; i < size; ++i)
-        if (!warp->is_in_shell(radii[i])) bits[i / 64] &= ~(uint64_t{1} << i % 64);
-    for (size_t i = 0; map && i < size; i += 64) bits[i / 64] &= in_box[i / 64];
-    for (size_t i = 0; i < size; ++i) alive[index[i]] = bits[i / 64] >> (i % 64) & 1;
+    for (size_t i = 0; i < size; ++i)
+      alive[index[i]] = (bits[i / 64] & in_place[i / 64]) >> (i % 64) & 1;
   }
 }
 

@@ -63,6 +63,7 @@ class Functional final : public Structure, public RepeatingStructure {
   uint64_t critical_count() const override { return 3; }
   bool has_onset() const override { return true; }
   double onset(Vec3 p) const override;
+  void onsets(const Vec3* points, size_t count, double* to) const override;
   double parameter(Vec3 p) const override { return level_.at(p); }
   bool is_periodic() const override { return angles_.is_uniform(); }
   bool is_alike_from_origin() const override { return !angles_.is_mapped(); }

@@ -43,6 +43,7 @@ class Waves final : public Structure {
   LineGraph wall_lines(const WallSection& section) const override;
 
   const WaveSet& waves() const { return waves_; }
+  const WaveDirections& directions() const { return directions_; }
   const Parameter& level() const { return level_; }
   bool is_sheet() const { return kind_ == WavesKind::sheet; }
   /// A position in cells, as the definition computes it.
@@ -55,6 +56,8 @@ class Waves final : public Structure {
   /// with coordinates up to that magnitude; and on the error of other sums of the same waves that
   /// are computed in as many operations.
   double error(double magnitude) const;
+  /// Bound on the change of the sum per unit length.
+  double steepest() const { return steepest_; }
 
  private:
   void describe(HashInput& input) const override;
