@@ -3161,8 +3161,8 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  * the function, or the sum of waves, is 0; for a network, the surface where it equals the level. A
  * union has the lines of all members. An intersection has the lines of its first member that are
  * inside all others. A difference has the lines of its first member that are outside of all others.
- * Radius, level of sheets and thickness are ignored. Other kinds have no such lines; use contours
- * for them.
+ * Radius, level of sheets and thickness are ignored. Lattices of struts, beams, blends and
+ * structures of msq_structure_host have no such lines; use contours for them.
  *
  * Each line is in one path. No line is printed twice unless pair_distance is set. The number of
  * paths is the minimum: half the number of points where a path must end. These are the points at

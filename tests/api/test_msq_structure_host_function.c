@@ -2,6 +2,8 @@
  * msq_host_function_def_init, msq_structure_host_function. */
 #include "hosts.h"
 
+#include "fills.h"
+
 static double schwarz_p(const double* a) {
   return cos(a[0]) + cos(a[1]) + cos(a[2]);
 }
@@ -201,6 +203,42 @@ static void distances_are_0_within_the_shape(void** state) {
   msq_context_release(context);
 }
 
+/* Lines of walls: calls from the calling thread alone, and failures that come through. */
+static void it_has_fill_lines(void** state) {
+  msq_context* context = make_context_of(2, 0, 0);
+  host_log log = make_log();
+  msq_host_function_def def = function_def(&log, 0.3);
+  const msq_fill_def square = square_def(1);
+  msq_structure* structure;
+  msq_fill* made = NULL;
+  (void)state;
+  def.kind = MSQ_FUNCTIONAL_SHEET;
+  set_cell(&def.grid, 5);
+  assert_ok(msq_structure_host_function(context, &def, &structure));
+  msq_structure* known = make_sheet(context, MSQ_FUNCTION_SCHWARZ_P, 5);
+  msq_fill *fill = make_fill(context, structure, &square),
+           *other = make_fill(context, known, &square);
+  const msq_fill_report paths = paths_of(fill), expected = paths_of(other);
+  assert_near(paths.length, expected.length, 1e-6 * expected.length);
+  assert_int_equal(paths.path_count, expected.path_count);
+  for (int bad = 0; bad < 2; ++bad) {
+    log.calls = 0;
+    log.fail_at = 7;
+    log.code = -12;
+    log.bad = bad;
+    assert_refused(msq_fill_lines(context, structure, &square, &made, NULL), MSQ_E_HOST,
+                   bad ? "no number" : "-12");
+    assert_int_equal(msq_error_host_code(), bad ? 0 : -12);
+    assert_null(made);
+  }
+  assert_right(&log);
+  msq_fill_release(fill);
+  msq_fill_release(other);
+  msq_structure_release(known);
+  msq_structure_release(structure);
+  msq_context_release(context);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(defaults_are_those_of_the_header),
@@ -208,6 +246,7 @@ int main(void) {
       cmocka_unit_test(clusters_spare_points),
       cmocka_unit_test(callbacks_that_fail_stop_the_call),
       cmocka_unit_test(distances_are_0_within_the_shape),
+      cmocka_unit_test(it_has_fill_lines),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 
 #include "base/pi.h"
 #include "random.h"
+#include "structure/host/host_function.h"
 #include "structure/waves/wave_kernels.h"
 #include "structure/waves/waves.h"
 #include "structures.h"
@@ -23,6 +24,11 @@ double level_at(const Structure& structure, Vec3 p) {
     if (f->angles().is_mapped() && !f->angles().holds(p)) return NAN;
     return evaluate(f->function(), f->angles().at(p)) - (f->is_sheet() ? 0 : f->level().at(p));
   }
+  if (const auto* host = dynamic_cast<const HostFunction*>(&structure)) {
+    double value;
+    host->differences(&p, 1, &value);
+    return value;
+  }
   const auto& waves = dynamic_cast<const Waves&>(structure);
   return wave_sum(waves.waves(), waves.position(p)) - (waves.is_sheet() ? 0 : waves.level().at(p));
 }
@@ -36,13 +42,15 @@ bool is_narrow(const Structure& structure, Vec3 p) {
 }
 
 bool has_level(const Structure& structure) {
-  return dynamic_cast<const Functional*>(&structure) || dynamic_cast<const Waves*>(&structure);
+  return dynamic_cast<const Functional*>(&structure) || dynamic_cast<const Waves*>(&structure) ||
+         dynamic_cast<const HostFunction*>(&structure);
 }
 
 /// Lines of a network are its boundary; those of an open foam are the faces of its cells.
 bool holds_lines(const StructureRow& row, const Structure& structure) {
   if (const auto* f = dynamic_cast<const Functional*>(&structure)) return f->is_sheet();
   if (const auto* waves = dynamic_cast<const Waves*>(&structure)) return waves->is_sheet();
+  if (const auto* host = dynamic_cast<const HostFunction*>(&structure)) return host->is_sheet();
   // Fillets take a part of the walls.
   return row.kind.family != "combined" && row.kind.family != "smooth" &&
          !dynamic_cast<const Foam*>(&structure);

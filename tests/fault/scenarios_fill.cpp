@@ -44,7 +44,8 @@ std::vector<Scenario> fill_scenarios() {
     const std::string& name = kind.name;
     if (name.find("foam") == std::string::npos && name != "gyroid" &&
         name != "turned sheet of a thickness" && name != "waves" && name != "plate lattice" &&
-        name != "plates and struts" && name != "stretched walls" && name != "warped gyroid")
+        name != "plates and struts" && name != "host function" && name != "stretched walls" &&
+        name != "warped gyroid")
       continue;
     scenarios.push_back({"msq_fill_lines: " + kind.name, [&kind](Stage& stage) {
                            World world(stage);

@@ -10,6 +10,7 @@
 
 #include "base/march_together.h"
 #include "base/pi.h"
+#include "structure/host/host_function_lines.h"
 
 namespace msq {
 
@@ -38,15 +39,30 @@ HostFunction::HostFunction(const Neighbourhood& neighbourhood, HostFunctionCalls
   if (side_ > 1 && (calls_.range || std::isfinite(lipschitz))) build_clusters(lipschitz);
 }
 
-void HostFunction::evaluate(const Vec3* angles, size_t count, double* onsets) const {
+void HostFunction::call(const Vec3* angles, size_t count, double* values) const {
   for (size_t first = 0; first < count; first += host_batch)
-    calls_.evaluate(angles + first, std::min(host_batch, count - first), onsets + first);
-  for (size_t i = 0; i < count; ++i) {
-    if (std::isnan(onsets[i]))
+    calls_.evaluate(angles + first, std::min(host_batch, count - first), values + first);
+  for (size_t i = 0; i < count; ++i)
+    if (std::isnan(values[i]))
       fail(Status::host, "the host's function is no number at the angles (%g, %g, %g)", angles[i].x,
            angles[i].y, angles[i].z);
-    if (is_sheet_) onsets[i] = std::abs(onsets[i]);
-  }
+}
+
+void HostFunction::evaluate(const Vec3* angles, size_t count, double* onsets) const {
+  call(angles, count, onsets);
+  for (size_t i = 0; is_sheet_ && i < count; ++i) onsets[i] = std::abs(onsets[i]);
+}
+
+void HostFunction::differences(const Vec3* points, size_t count, double* values) const {
+  std::vector<Vec3> angles(count);
+  for (size_t i = 0; i < count; ++i)
+    angles[i] = angles_of(neighbourhood().locate(points[i]).fraction);
+  call(angles.data(), count, values);
+  for (size_t i = 0; !is_sheet_ && i < count; ++i) values[i] -= level_.at(points[i]);
+}
+
+LineGraph HostFunction::wall_lines(const WallSection& section) const {
+  return find_host_function_lines(*this, section);
 }
 
 Interval HostFunction::onset_of(Interval function) const {

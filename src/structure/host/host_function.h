@@ -43,11 +43,21 @@ class HostFunction final : public Structure {
   double leave(const Ray& ray, double from, double to, const Job* job) const override;
   Vec3 normal(const Ray& ray, double t) const override;
   double min_ray_step() const override;
+  bool is_periodic() const override { return true; }
+  ThinWalls thin_walls() const override {
+    return is_sheet_ || level_.is_constant() ? ThinWalls::uniform : ThinWalls::varying;
+  }
+  LineGraph wall_lines(const WallSection& section) const override;
 
   HostUser& user() { return user_; }
+  bool is_sheet() const { return is_sheet_; }
+  /// At points: of a sheet the function, of a network the function less the level.
+  void differences(const Vec3* points, size_t count, double* values) const;
 
  private:
   void describe(HashInput& input) const override;
+  /// The function at angles.
+  void call(const Vec3* angles, size_t count, double* values) const;
   /// The onsets at angles.
   void evaluate(const Vec3* angles, size_t count, double* onsets) const;
   void build_clusters(double lipschitz);
