@@ -91,6 +91,13 @@ FillPolygon::Rings read_rings(const msq_fill_def& def, bool is_int32) {
   return rings;
 }
 
+double smallest_cell_size(const Structure& structure) {
+  double size = min_component(structure.neighbourhood().cell_size);
+  structure.for_each_grid(
+      [&](const Neighbourhood& grid) { size = std::min(size, min_component(grid.cell_size)); });
+  return size;
+}
+
 FillPlan read_plan(const msq_fill_def& def, const Structure& structure) {
   FillPlan plan;
   const int32_t type = require_range(def.coordinate_type, MSQ_INT32, MSQ_INT64, "coordinate_type");
@@ -102,8 +109,7 @@ FillPlan read_plan(const msq_fill_def& def, const Structure& structure) {
   plan.origin = {require_finite(def.origin[0], "origin"), require_finite(def.origin[1], "origin")};
   plan.z = require_finite(def.z, "z");
   plan.tolerance = require_not_negative(def.tolerance, "tolerance");
-  if (plan.tolerance == 0)
-    plan.tolerance = min_component(structure.neighbourhood().cell_size) / 200;
+  if (plan.tolerance == 0) plan.tolerance = smallest_cell_size(structure) / 200;
   // Lines are rounded to the coordinates.
   plan.tolerance = std::max(plan.tolerance, 0.5 * plan.scale);
   plan.min_length = require_not_negative(def.min_length, "min_length");
