@@ -17,6 +17,9 @@ constexpr double flat = 1e-13, narrow = 1e-6;
 /// Vertices that are closer together than this, in foam units, and those of four seeds of a lower
 /// relative volume may escape a brick's tolerances.
 constexpr double close = 1e-9;
+/// Fours that are tried about a place. Around an axis, dozens of seeds may be almost on one sphere;
+/// joints lead to the vertices that are left out (JointFinder::follow()).
+constexpr size_t max_tried = 1024;
 
 Id id_of(const std::vector<NamedSeed>& seeds) {
   IdHash hash(2);
@@ -130,10 +133,15 @@ bool JointFinder::try_all(Vec3 p, double within) {
   const Vec3 place_of_p = p - from_corner(home, {});
   std::vector<JointFace> known;  // of joints_
   bool is_certain = true;
+  size_t tried = 0;
   any_four(count, [&](size_t a, size_t b, size_t c, size_t d) {
     const JointFace four = bit(a) | bit(b) | bit(c) | bit(d);
     for (const JointFace seeds : known)
       if ((four & ~seeds) == 0) return false;
+    if (++tried > max_tried) {
+      is_certain = false;
+      return true;
+    }
     check_cancelled();
     Vec3 centre;
     const double volume = find_circumcentre({at[a], at[b], at[c], at[d]}, centre);
