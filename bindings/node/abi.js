@@ -430,6 +430,7 @@ export function types(koffi) {
     stretch: koffi.array('double', 3),
     weight: 'double',
     period: 'void *',
+    warp: 'void *',
   });
   T.msq_functional_def = koffi.struct('msq_functional_def', {
     struct_size: 'uint32_t',

@@ -363,6 +363,7 @@ void walk(DefinitionWalk& in, msq_foam_def& def) {
   in.numbers("stretch", def.stretch);
   in.number("weight", def.weight);
   in.optional("period", def.period, defaults_of<msq_period_def>(), walk_period);
+  in.optional("warp", def.warp, defaults_of<msq_warp_def>(), walk_warp);
 }
 
 void walk(DefinitionWalk& in, msq_functional_def& def) {

@@ -5,8 +5,11 @@
 #include "api/neighbourhood.h"
 #include "api/period.h"
 #include "api/strut_radius.h"
+#include "api/warp.h"
 #include "structure/foam/paper/delaunay.h"
 #include "structure/foam/seeds/period_seeds.h"
+#include "structure/foam/seeds/warp_seeds.h"
+#include "structure/foam/shell/shelled_foam.h"
 #include "structure/foam/walled_foam.h"
 
 using namespace msq;
@@ -179,26 +182,38 @@ std::optional<GradedPeriod> read_foam_period(msq_foam_def& def, msq_period_def& 
   return period;
 }
 
-/// What a foam with a period cannot be yet.
-void refuse_placed(const msq_foam_def& def, FoamMethod method, Vec3 stretch, double weight,
-                   double density) {
+std::optional<Warp> read_foam_warp(msq_foam_def& def, msq_warp_def& known,
+                                   const Neighbourhood& grid) {
+  const CellMap map = read_warp(def.warp, known, grid);
+  if (map.sampled)
+    fail(Status::unsupported,
+         "warp.kind is MSQ_WARP_SAMPLED; the cells of a foam may be around an axis, "
+         "MSQ_WARP_CYLINDRICAL, only");
+  if (map && def.period)
+    fail(Status::unsupported, "a period and a warp are given; a foam takes one of them");
+  return map.round;
+}
+
+/// What a foam with a period or a warp cannot be yet. `given`: the name of that.
+void refuse_placed(const char* given, const msq_foam_def& def, FoamMethod method, Vec3 stretch,
+                   double weight, double density) {
   if (method != FoamMethod::automatic && method != FoamMethod::direct)
     fail(Status::unsupported,
-         "a period is given and method %d; with a period, the method of a foam must be "
-         "MSQ_FOAM_AUTO or MSQ_FOAM_DIRECT",
-         static_cast<int>(def.method));
+         "a %s is given and method %d; with a %s, the method of a foam must be MSQ_FOAM_AUTO or "
+         "MSQ_FOAM_DIRECT",
+         given, static_cast<int>(def.method), given);
   if (Stretch::is_any(stretch))
     fail(Status::unsupported,
-         "a period is given and stretch (%g, %g, %g); with a period, the three numbers of stretch "
-         "must be equal",
-         stretch.x, stretch.y, stretch.z);
+         "a %s is given and stretch (%g, %g, %g); with a %s, the three numbers of stretch must be "
+         "equal",
+         given, stretch.x, stretch.y, stretch.z, given);
   if (weight > 0)
-    fail(Status::unsupported, "a period is given and weight %g; with a period, weight must be 0",
-         weight);
+    fail(Status::unsupported, "a %s is given and weight %g; with a %s, weight must be 0", given,
+         weight, given);
   if (density > 1)
     fail(Status::unsupported,
-         "a period is given and density reaches %g; with a period, density must not exceed 1",
-         density);
+         "a %s is given and density reaches %g; with a %s, density must not exceed 1", given,
+         density, given);
 }
 
 }  // namespace
@@ -215,7 +230,16 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     msq_foam_def known = read_def(def, foam_defaults(), "def");
     Neighbourhood grid = read_neighbourhood(known.grid);
     msq_period_def known_period;
+    msq_warp_def known_warp;
+    const std::optional<Warp> warp = read_foam_warp(known, known_warp, grid);
     const std::optional<GradedPeriod> period = read_foam_period(known, known_period);
+    if (!(known.jitter >= 0 && known.jitter <= 1))
+      fail(Status::argument, "jitter is %g; it must be from 0 to 1", known.jitter);
+    std::shared_ptr<const PlacedSeeds> placed;
+    if (warp) {
+      placed = std::make_shared<WarpSeeds>(*warp, known.jitter, known.seed);
+      grid = placed->grid();
+    }
     if (period) grid = period->resized(grid, period->largest());
     const double ratio = max_component(grid.cell_size) / min_component(grid.cell_size);
     if (ratio > 4)
@@ -224,8 +248,6 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
         require_range(known.method, MSQ_FOAM_AUTO, MSQ_FOAM_METHOD_1, "method"));
     if (method == FoamMethod::method_2 && !can_triangulate())
       fail(Status::unsupported, "MSQ_FOAM_METHOD_2 is not in this build (MSQ_WITH_CGAL is off)");
-    if (!(known.jitter >= 0 && known.jitter <= 1))
-      fail(Status::argument, "jitter is %g; it must be from 0 to 1", known.jitter);
     const Parameter density = read_density(known.density);
     if (density.range().high > 1 && method != FoamMethod::automatic && method != FoamMethod::direct)
       fail(Status::unsupported,
@@ -233,7 +255,9 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            "MSQ_FOAM_DIRECT",
            density.range().high);
     const Vec3 stretch = read_stretch(known, grid);
-    const Neighbourhood smallest = period ? period->resized(grid, period->smallest()) : grid;
+    const Neighbourhood smallest = warp     ? placed->smallest()
+                                   : period ? period->resized(grid, period->smallest())
+                                            : grid;
     const Parameter thickness = read_wall_thickness(known.wall_thickness, smallest);
     const bool has_walls = !is_none(known.wall_thickness);
     if (has_walls && method != FoamMethod::automatic && method != FoamMethod::direct)
@@ -245,9 +269,9 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     refuse_stretched(known, stretch, method, density.range().high, vent_radius.range().high);
     const double weight = read_weight(known, smallest);
     refuse_weighted(known, weight, method, stretch, density.range().high, vent_radius.range().high);
-    std::shared_ptr<const PlacedSeeds> placed;
+    if (warp) refuse_placed("warp", known, method, stretch, weight, density.range().high);
     if (period) {
-      refuse_placed(known, method, stretch, weight, density.range().high);
+      refuse_placed("period", known, method, stretch, weight, density.range().high);
       placed = std::make_shared<const PeriodSeeds>(grid, *period, known.jitter, known.seed);
       grid = placed->grid();
     }
@@ -255,20 +279,18 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
       return make_ref<FoamWalls>(Ref<Context>(&owner), grid, thickness, known.jitter, known.seed,
                                  density, vent_radius, stretch, weight, placed);
     };
-    if (has_walls && is_none(known.radius)) {
-      const Ref<Structure> made = make_walls();
+    const auto finish = [&](Ref<Structure> foam) {
+      const Ref<Structure> made =
+          warp ? Ref<Structure>(make_ref<ShelledFoam>(foam, *warp)) : std::move(foam);
       keep(*made, known);
       *structure = new_handle<msq_structure>(made);
-      return;
-    }
+    };
+    if (has_walls && is_none(known.radius)) return finish(make_walls());
     Ref<Foam> struts =
         make_ref<Foam>(Ref<Context>(&owner), grid, read_radius(known.radius, smallest, 1),
                        known.jitter, known.seed, method, density, stretch, weight, placed);
-    const Ref<Structure> made =
-        has_walls ? Ref<Structure>(make_ref<WalledFoam>(std::move(struts), make_walls()))
-                  : Ref<Structure>(std::move(struts));
-    keep(*made, known);
-    *structure = new_handle<msq_structure>(made);
+    finish(has_walls ? Ref<Structure>(make_ref<WalledFoam>(std::move(struts), make_walls()))
+                     : Ref<Structure>(std::move(struts)));
   });
 }
 

@@ -49,6 +49,14 @@ HWY_INLINE typename A::V cells_outwards(const A& a, const Warp::Numbers& n, type
   return a.divide(a.subtract(radius, a.set(n.inner)), a.set(n.radial));
 }
 
+/// The radius of a position in the grid's frame, as warped_place() computes it.
+template <class A>
+HWY_INLINE typename A::V warped_radius(const A& a, const Warp::Numbers& n, typename A::V x,
+                                       typename A::V y, typename A::V z) {
+  const auto across = a.add(a.multiply(x, x), a.multiply(y, y));
+  return a.root(n.is_spherical ? a.add(across, a.multiply(z, z)) : across);
+}
+
 /// Of a position in the grid's frame.
 template <class A>
 HWY_INLINE WarpedPlace<A> warped_place(const A& a, const Warp::Numbers& n, typename A::V x,

@@ -22,6 +22,12 @@ Warp::Place place_of(const Warp::Numbers& n, Vec3 p) {
   return {{place.u, place.v, place.w}, place.radius};
 }
 
+double radius_of(const Warp::Numbers& n, Vec3 p) {
+  const HWY_NAMESPACE::Single a;
+  HWY_NAMESPACE::to_warp_frame(a, n, p.x, p.y, p.z);
+  return HWY_NAMESPACE::warped_radius(a, n, p.x, p.y, p.z);
+}
+
 double fraction_of(const Warp::Numbers& n, double w) {
   return HWY_NAMESPACE::fraction_along(HWY_NAMESPACE::Single(), n, w);
 }
@@ -111,6 +117,10 @@ Warp Warp::straight() const {
 
 Warp::Place Warp::place(Vec3 p) const {
   return place_of(numbers_, p);
+}
+
+double Warp::radius(Vec3 p) const {
+  return radius_of(numbers_, p);
 }
 
 Neighbourhood::Located Warp::locate(Vec3 cells) const {

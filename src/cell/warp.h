@@ -89,7 +89,7 @@ class Warp {
   /// Computed distances of a point from the axis, and from the axis or the point that the cells are
   /// around. Their errors are below slack().
   double axis_distance(Vec3 p) const;
-  double radius(Vec3 p) const { return place(p).radius; }
+  double radius(Vec3 p) const;
   /// Upper bounds on the lengths of the gradients of u, v and w at all points that are at least
   /// that far from the axis, and from the point if spherical. Infinite at a distance of 0. For any
   /// numbers a, b and c the length of a grad u + b grad v + c grad w is at most that of (a, b, c)

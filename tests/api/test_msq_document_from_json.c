@@ -85,6 +85,8 @@ static const char* const documents[] = {
     IN_BOX("{\"foam\": {\"radius\": 0.1, \"wall_thickness\": 0.05, \"weight\": 0.75}}"),
     IN_BOX("{\"foam\": {\"radius\": 0.1, \"period\": {\"axis\": 0, \"positions\": [0, 2], "
            "\"cell_sizes\": [1, 0.5]}}}"),
+    IN_BOX("{\"foam\": {\"radius\": 0.1, \"warp\": {\"count\": 12, \"inner_radius\": 1, "
+           "\"outer_radius\": 2}}}"),
     IN_BOX("{\"foam\": {\"radius\": 0, \"wall_thickness\": {\"radial\": {\"from_value\": 0.1, "
            "\"to_value\": 0.2}}}}"),
     IN_BOX("{\"functional\": {\"function\": \"split_p\", \"kind\": \"sheet\", \"clusters\": 4, "

@@ -33,6 +33,7 @@ static void defaults_are_those_of_the_header(void** state) {
   for (int axis = 0; axis < 3; ++axis) assert_true(def.stretch[axis] == 1);
   assert_true(def.weight == 0);
   assert_null(def.period);
+  assert_null(def.warp);
 }
 
 /* Samples of a foam in the box, as a grid. */
@@ -109,6 +110,40 @@ static void period_moves_the_seeds(void** state) {
       assert_true(2 * low[1] < 3 * low[0] && 2 * low[0] < 3 * low[1]);
       assert_true((double)high[1] > 1.3 * (double)high[0]);
     }
+  }
+}
+
+/* Nothing is beyond the shell. A foam of cells as large as those in it fills as much. */
+static void warp_bends_the_cells(void** state) {
+  uint8_t plain[samples], warped[samples];
+  msq_warp_def warp;
+  (void)state;
+  assert_ok(msq_warp_def_init(&warp, sizeof warp));
+  warp.count = 24;
+  warp.inner_radius = 3;
+  warp.outer_radius = 4.5;
+  for (int with_walls = 0; with_walls < 2; ++with_walls) {
+    msq_foam_def def = foam_def();
+    size_t in_plain = 0, in_shell = 0;
+    if (with_walls) def.wall_thickness.value = 0.1;
+    def.radius.value = with_walls ? 0 : 0.1;
+    sample_foam(&def, plain);
+    def.warp = &warp;
+    def.grid.cell_size[1] = 300; /* not used */
+    sample_foam(&def, warped);
+    for (size_t i = 0; i < samples; ++i) {
+      const double step = 3.9 / (side - 1), x = 0.05 + step * (double)(i % side),
+                   y = 0.05 + step * (double)(i / side % side), r = sqrt(x * x + y * y);
+      if (r < warp.inner_radius || r > warp.outer_radius) {
+        assert_int_equal(warped[i], 0);
+        continue;
+      }
+      in_plain += plain[i];
+      in_shell += warped[i];
+    }
+    assert_true(in_shell > 50);
+    assert_true((double)in_shell < 1.4 * (double)in_plain &&
+                (double)in_plain < 1.4 * (double)in_shell);
   }
 }
 
@@ -396,6 +431,7 @@ int main(void) {
       cmocka_unit_test(defaults_are_those_of_the_header),
       cmocka_unit_test(weight_picks_another_foam),
       cmocka_unit_test(period_moves_the_seeds),
+      cmocka_unit_test(warp_bends_the_cells),
       cmocka_unit_test(seed_picks_another_foam_and_the_same_again),
       cmocka_unit_test(foam_without_jitter_is_the_cubic_lattice),
       cmocka_unit_test(methods_give_the_same_solid),

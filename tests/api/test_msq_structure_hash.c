@@ -276,10 +276,21 @@ static msq_foam_def foam_def(double radius, double thickness) {
   return def;
 }
 
+static msq_warp_def foam_warp_def(double outer_radius) {
+  msq_warp_def def;
+  assert_ok(msq_warp_def_init(&def, sizeof def));
+  def.count = 16;
+  def.inner_radius = 2;
+  def.outer_radius = outer_radius;
+  return def;
+}
+
 static void foams_hash_seeds_and_sizes(void** state) {
   const msq_period_def period = period_def();
   msq_period_def other_period = period;
   other_period.axis = 0;
+  const msq_warp_def warp = foam_warp_def(3);
+  const msq_warp_def other_warp = foam_warp_def(3.5);
   msq_foam_def def = foam_def(0.15, 0), other;
   uint8_t hash[hash_bytes], other_hash[hash_bytes];
   (void)state;
@@ -312,6 +323,8 @@ static void foams_hash_seeds_and_sizes(void** state) {
     CHANGES(def.weight, def.weight = 0.5);
     CHANGES(def.period, def.period = &period);
     CHANGES(def.period, def.period = &other_period);
+    CHANGES(def.warp, def.warp = &warp);
+    CHANGES(def.warp, def.warp = &other_warp);
   }
   other = def;
   def.period = other.period = &period;
@@ -333,6 +346,7 @@ static void walls_hash_seeds_and_sizes(void** state) {
     const msq_period_def period = period_def();
     msq_period_def other_period = period;
     other_period.axis = 0;
+    const msq_warp_def warp = foam_warp_def(3), other_warp = foam_warp_def(3.5);
     msq_foam_def def = foam_def(with_struts ? 0.0625 : 0, 0.125);
     def.vent_radius.value = 0.25;
     HASHES(context, "msq_foam_def with walls", &def, sizeof def, hash_foam) {
@@ -361,6 +375,8 @@ static void walls_hash_seeds_and_sizes(void** state) {
       CHANGES(def.weight, def.weight = 0.5);
       CHANGES(def.period, def.period = &period);
       CHANGES(def.period, def.period = &other_period);
+      CHANGES(def.warp, def.warp = &warp);
+      CHANGES(def.warp, def.warp = &other_warp);
     }
   }
 }

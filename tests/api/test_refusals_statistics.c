@@ -125,9 +125,19 @@ static void segments(void** state) {
 static void calibrations(void** state) {
   const double targets[] = {-0.1, 1.1, NAN, INFINITY};
   msq_context* small = make_context_of(2, 0, 1 << 20);
-  msq_structure *lattice = make_lattice(context), *of_small = make_lattice(small), *host;
+  msq_structure *lattice = make_lattice(context), *of_small = make_lattice(small), *host, *around;
   msq_host_structure_def def;
+  msq_warp_def warp;
+  msq_foam_def foam_def;
   (void)state;
+  assert_ok(msq_warp_def_init(&warp, sizeof warp));
+  warp.count = 12;
+  warp.inner_radius = 2;
+  warp.outer_radius = 3;
+  assert_ok(msq_foam_def_init(&foam_def, sizeof foam_def));
+  foam_def.radius.value = 0.25;
+  foam_def.warp = &warp;
+  assert_ok(msq_structure_foam(context, &foam_def, &around));
   assert_ok(msq_host_structure_def_init(&def, sizeof def));
   def.inside = no_points_inside;
   assert_ok(msq_structure_host(context, &def, &host));
@@ -144,6 +154,7 @@ static void calibrations(void** state) {
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "structure is NULL", structure = NULL);
     WRONG(UNSUPPORTED, "no onset", structure = host);
+    WRONG(ARGUMENT, "sample is NULL|around an axis", structure = around; sample = NULL);
     for (int i = 0; i < 4; ++i) WRONG(ARGUMENT, "target is ", target = targets[i]);
     WRONG(ARGUMENT, "pair_count is 1", count = 1);
     WRONG(ARGUMENT, "pair_count is 0; parameters must be NULL", count = 0; fractions = NULL);
@@ -163,6 +174,7 @@ static void calibrations(void** state) {
   }
   assert_int_equal(memory_of(small).bytes, 0);
   msq_structure_release(host);
+  msq_structure_release(around);
   msq_structure_release(lattice);
   msq_structure_release(of_small);
   msq_context_release(small);

@@ -201,6 +201,56 @@ static void foams(void** state) {
     RIGHT(def->density.value = 0.5);
     if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
   }
+  REFUSALS("msq_structure_foam") { /* a warp */
+    const double positions[1] = {0}, sizes[1] = {1};
+    msq_period_def* period = (msq_period_def*)definition(2);
+    msq_warp_def* warp = (msq_warp_def*)definition(1);
+    msq_foam_def* def = foam_of();
+    msq_structure** structure = (msq_structure**)output(0);
+    assert_ok(msq_period_def_init(period, sizeof *period));
+    period->positions = positions;
+    period->cell_sizes = sizes;
+    period->count = 1;
+    assert_ok(msq_warp_def_init(warp, sizeof *warp));
+    warp->count = 25;
+    warp->inner_radius = 2; /* 0.5 wide */
+    warp->outer_radius = 6;
+    def->radius.value = 0.05;
+    def->grid.cell_size[1] = 100; /* not used */
+    def->warp = warp;
+    WRONG(ARGUMENT, "warp.count is 0", warp->count = 0);
+    WRONG(ARGUMENT, "warp.outer_radius is 0|in a foam", warp->outer_radius = 0);
+    WRONG(UNSUPPORTED, "warp.kind is 2|MSQ_WARP_CYLINDRICAL", warp->kind = MSQ_WARP_SPHERICAL;
+          warp->count_polar = 8);
+    WRONG(UNSUPPORTED, "warp.shear_outwards is 0.5|must be 0", warp->shear_outwards = 0.5);
+    WRONG(UNSUPPORTED, "warp.shear_along -1|must be 0", warp->shear_along = -1);
+    WRONG(UNSUPPORTED, "a period and a warp", def->period = period);
+    WRONG(LIMIT, "0 wide at inner_radius|16 times", warp->inner_radius = 0);
+    RIGHT(warp->inner_radius = 0.376);
+    WRONG(LIMIT, "their sizes run from 0.0929911 to 1.50796|16 times", warp->inner_radius = 0.37);
+    WRONG(LIMIT, "their sizes run from 0.502655 to 8.1|16 times", def->grid.cell_size[2] = 8.1);
+    WRONG(LIMIT, "their sizes run from 0.0625 to 1.50796", def->grid.cell_size[0] = 0.0625);
+    WRONG(LIMIT, "seeds would be in one box of the search|the limit is 32766", warp->count = 1;
+          warp->inner_radius = 0.25; warp->outer_radius = 2.5);
+    RIGHT(warp->count = 2; warp->inner_radius = 0.5; warp->outer_radius = 2.5);
+    WRONG(LIMIT, "radius|0.51|the limit is 0.502", def->radius.value = 0.51);
+    WRONG(LIMIT, "wall_thickness reaches 0.51|the limit is 0.502",
+          def->wall_thickness.value = 0.51);
+    WRONG(LIMIT, "vent_radius reaches 0.51|the limit is 0.502", def->wall_thickness.value = 0.1;
+          def->vent_radius.value = 0.51);
+    RIGHT(def->wall_thickness.value = 0.1; def->vent_radius.value = 0.5);
+    for (int method = 0; method < 5; ++method)
+      if (method == MSQ_FOAM_POINT || method == MSQ_FOAM_METHOD_1)
+        WRONG(UNSUPPORTED, "a warp|method|MSQ_FOAM_DIRECT", def->method = method);
+    WRONG(UNSUPPORTED, "", def->method = MSQ_FOAM_METHOD_2);
+    RIGHT(def->method = MSQ_FOAM_DIRECT);
+    WRONG(UNSUPPORTED, "a warp|stretch (1, 2, 1)", def->stretch[1] = 2);
+    RIGHT(def->stretch[0] = def->stretch[1] = def->stretch[2] = 2);
+    WRONG(UNSUPPORTED, "a warp|weight 0.125", def->weight = 0.125);
+    WRONG(UNSUPPORTED, "a warp|density reaches 2", def->density.value = 2);
+    RIGHT(def->density.value = 0.5);
+    if (TRY(msq_structure_foam(context, def, structure))) msq_structure_release(*structure);
+  }
   release_fields(fields);
   release_fields(dense);
 }

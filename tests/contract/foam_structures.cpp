@@ -5,6 +5,8 @@
 
 #include "field/gradient.h"
 #include "structure/foam/foam.h"
+#include "structure/foam/seeds/warp_seeds.h"
+#include "structure/foam/shell/shelled_foam.h"
 #include "structure/foam/walled_foam.h"
 
 namespace msq::test {
@@ -81,6 +83,22 @@ Factory placed_both_factory(double jitter, Placed place) {
     return Ref<const Structure>(
         make_ref<WalledFoam>(Ref<const Foam>(static_cast<const Foam*>(struts.get())),
                              Ref<const FoamWalls>(static_cast<const FoamWalls*>(walls.get()))));
+  };
+}
+
+Warp warp_of_foams(const Neighbourhood& grid) {
+  const double size = grid.cell_size.x;
+  return {Warp::Kind::cylindrical, grid, {12, 0, 0.8 * size, 2.6 * size}};
+}
+
+std::shared_ptr<const PlacedSeeds> by_warp(const Neighbourhood& grid, double jitter) {
+  return std::make_shared<const WarpSeeds>(warp_of_foams(grid), jitter, uint64_t{7});
+}
+
+Factory shelled_factory(Factory foam) {
+  return [foam = std::move(foam)](const Neighbourhood& grid, Parameter size) {
+    return Ref<const Structure>(
+        make_ref<ShelledFoam>(foam(grid, std::move(size)), warp_of_foams(grid)));
   };
 }
 

@@ -31,6 +31,12 @@ Factory placed_walls_factory(double jitter, Placed place, double vent_radius = 0
 /// Struts and walls.
 Factory placed_both_factory(double jitter, Placed place);
 
+/// Twelve cells around the grid's z axis, some of the shell's ends within reach.
+Warp warp_of_foams(const Neighbourhood& grid);
+std::shared_ptr<const PlacedSeeds> by_warp(const Neighbourhood& grid, double jitter);
+/// In that shell.
+Factory shelled_factory(Factory foam);
+
 Factory walls_factory(double jitter, bool has_density = false);
 /// Walls with holes of 0.2 of a cell, or in places less.
 Factory vented_factory(double jitter, bool is_even = true, bool has_density = false);

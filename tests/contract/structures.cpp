@@ -375,6 +375,17 @@ std::vector<Kind> kinds() {
   kinds.push_back(
       {"foam placed", "walls with holes", 0.08, 1, placed_walls_factory(1, by_period<1>, 0.15)});
   kinds.push_back({"foam placed", "and struts", 0.09, 1, placed_both_factory(1, by_period<2>)});
+  kinds.push_back({"warped foam", "struts", 0.08, 1, shelled_factory(placed_factory(1, by_warp))});
+  kinds.push_back(
+      {"warped foam", "struts, jitter 0", 0.1, 0, shelled_factory(placed_factory(0, by_warp))});
+  kinds.push_back({"warped foam", "struts, sampled radius", 0.1, 1,
+                   shelled_factory(placed_factory(1, by_warp)), sampled_field});
+  kinds.push_back(
+      {"warped foam", "walls", 0.06, 0.5, shelled_factory(placed_walls_factory(0.5, by_warp))});
+  kinds.push_back({"warped foam", "walls with holes", 0.08, 1,
+                   shelled_factory(placed_walls_factory(1, by_warp, 0.15))});
+  kinds.push_back({"warped foam", "walls and struts", 0.09, 1,
+                   shelled_factory(placed_both_factory(1, by_warp))});
   for (double jitter : {1.0, 0.01, 0.0})
     for (double thickness : {0.02, 0.1, 0.45}) {
       if (jitter < 1 && thickness != 0.1) continue;
@@ -517,7 +528,7 @@ std::vector<StructureRow> structures_by_point() {
   for (const StructureRow& row : structures())
     if (row.is_lattice() || row.kind.family == "foam DIRECT" || row.kind.family == "foam walls" ||
         row.kind.family == "foam stretched" || row.kind.family == "foam weighted" ||
-        row.kind.family == "foam placed")
+        row.kind.family == "foam placed" || row.kind.family == "warped foam")
       rows.push_back(row);
   return rows;
 }

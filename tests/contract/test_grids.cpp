@@ -139,7 +139,8 @@ void test_row(void** state) {
   // sampled maps end.
   const bool fills_little = row.is_made_of_others() || row.kind.family.starts_with("warped") ||
                             row.kind.family.starts_with("sampled");
-  if (samples > (fills_little ? 4000 : 1000) && !row.is_graded)
+  // Foams have samples in few cells, which may all be beyond the shell.
+  if (samples > (fills_little ? 4000 : 1000) && !row.is_graded && row.kind.family != "warped foam")
     assert_in_range(total.held, 1, total.asked);
 }
 

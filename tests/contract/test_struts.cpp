@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
+#include <optional>
 
+#include "foam_structures.h"
 #include "random.h"
 #include "structure/common/struts.h"
+#include "structure/common/warp_shell.h"
 #include "structures.h"
 #include "suite.h"
 
@@ -132,6 +135,9 @@ void test_row(void** state) {
   const Parameter radius = row.parameter(centre);
   const double slack = 3e-9 * row.unit();
   const bool has_more = row.kind.name.find("and struts") != std::string::npos;  // walls
+  // Struts are whole, the foam ends at its shell.
+  std::optional<WarpShell> shell;
+  if (row.kind.family == "warped foam") shell.emplace(warp_of_foams(grid));
   for (size_t i = 0; i < test_count(300); ++i) {
     const Vec3 p = random.in_box(box);
     bool may = false, must = false;
@@ -142,7 +148,8 @@ void test_row(void** state) {
     const bool is_inside = structure->inside(p);
     if (is_inside && !may && !has_more)
       fail_msg("(%.17g, %.17g, %.17g) is in no strut", p.x, p.y, p.z);
-    if (!is_inside && must) fail_msg("(%.17g, %.17g, %.17g) is outside", p.x, p.y, p.z);
+    if (!is_inside && must && !(shell && !shell->holds(p)))
+      fail_msg("(%.17g, %.17g, %.17g) is outside", p.x, p.y, p.z);
   }
   // Radii are those of the field, of beams their own.
   if (!row.is_beams())
@@ -171,6 +178,11 @@ int main() {
         (row.kind.family == "foam placed" &&
          (row.kind.name == "period along z" || row.kind.name == "period, jitter 0"));
     if (is_foam ? !(is_wanted || has_density || has_other) : row.kind.radius > 0.2) continue;
+    // Around an axis, seeds without jitter are on one sphere by dozens, which takes long.
+    if (row.kind.family == "warped foam" &&
+        (row.kind.jitter == 0 ? row.is_graded || !row.variant.name.empty()
+                              : row.kind.name != "struts" && !has_other))
+      continue;
     // Foams with octrees of seeds take seconds, in slow builds tens of them.
     const bool is_slow = test_scale() < 1;
     if ((has_density || is_slow) && row.index % 4 != 1) continue;

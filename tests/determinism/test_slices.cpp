@@ -24,6 +24,8 @@
 #include "structure/foam/foam.h"
 #include "structure/foam/paper/delaunay.h"
 #include "structure/foam/seeds/period_seeds.h"
+#include "structure/foam/seeds/warp_seeds.h"
+#include "structure/foam/shell/shelled_foam.h"
 #include "structure/foam/walled_foam.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
@@ -250,6 +252,28 @@ std::vector<ModelRow> models() {
                                 FoamMethod::direct, Parameter(1), Vec3{1, 1, 1}, 0.0, coarse),
                  make_ref<FoamWalls>(c, fine->grid(), Parameter(0.04), 1.0, uint64_t{6},
                                      Parameter(1), Parameter(0), Vec3{1, 1, 1}, 0.0, fine)});
+       }});
+  rows.push_back(
+      {"walls in a foam, both around an axis", 8, [](Ref<Context> c) {
+         const auto warp = [](double size, double origin, double outer) {
+           return Warp(Warp::Kind::cylindrical, cells_of(size, origin), {12, 0, 0.25, outer});
+         };
+         const auto places = [](const Warp& shell) {
+           return std::make_shared<const WarpSeeds>(shell, 1.0, uint64_t{6});
+         };
+         const Warp wide = warp(0.4, 0.2, 0.7), narrow = warp(0.3, 0.15, 0.6);
+         const std::shared_ptr<const PlacedSeeds> coarse = places(wide), fine = places(narrow);
+         return make_ref<Model>(
+             c, make_ref<BoxShape>(Box3{{-0.5, -0.4, -0.2}, {0.5, 0.4, 0.2}}),
+             Structures{
+                 make_ref<ShelledFoam>(
+                     make_ref<Foam>(c, coarse->grid(), Parameter(0.08), 1.0, uint64_t{6},
+                                    FoamMethod::direct, Parameter(1), Vec3{1, 1, 1}, 0.0, coarse),
+                     wide),
+                 make_ref<ShelledFoam>(
+                     make_ref<FoamWalls>(c, fine->grid(), Parameter(0.04), 1.0, uint64_t{6},
+                                         Parameter(1), Parameter(0), Vec3{1, 1, 1}, 0.0, fine),
+                     narrow)});
        }});
   rows.push_back(
       {"weighted walls in a weighted foam", 8, [](Ref<Context> c) {

@@ -195,6 +195,13 @@ msq_warp_def cylinder() {
   return def;
 }
 
+msq_warp_def foam_shell() {
+  msq_warp_def def = cylinder();
+  def.outer_radius = def.inner_radius + 1;
+  def.shear_along = 0;
+  return def;
+}
+
 /// A period, a warp, or none of them.
 struct Places {
   std::optional<msq_period_def> period;
@@ -218,8 +225,7 @@ MakeStructure placed_lattice(World& world, Places places) {
 
 MakeStructure placed_foam(World& world, Places places, double radius, double thickness) {
   return [=, &world](msq_structure** made) {
-    msq_foam_def def = make_def(msq_foam_def_init);
-    def.period = &*places.period;
+    auto def = places.placed(make_def(msq_foam_def_init));
     def.radius.value = radius;
     def.wall_thickness.value = thickness;
     return msq_structure_foam(world.context, &def, made);
@@ -401,6 +407,14 @@ const std::vector<Kind>& kinds() {
         {"gyroid of graded period",
          [](World& w) {
            return placed_gyroid(w, {graded_period(), {}});
+         }},
+        {"warped foam",
+         [](World& w) {
+           return placed_foam(w, {{}, foam_shell()}, 0.15, 0);
+         }},
+        {"warped walls",
+         [](World& w) {
+           return placed_foam(w, {{}, foam_shell()}, 0, 0.1);
          }},
         {"warped lattice",
          [](World& w) {

@@ -155,6 +155,13 @@ Owner<msq_structure> Maker::foam() {
   if (input_.chance(30)) def.weight = input_.number(0, 1.5);
   Period period;
   if (input_.chance(40)) def.period = grade(period);
+  msq_warp_def warp = make_def(msq_warp_def_init);
+  if (input_.chance(50)) {
+    warp.count = 2 + input_.below(40);
+    warp.inner_radius = input_.number(0.3, 4) * sight_.unit;
+    warp.outer_radius = warp.inner_radius + input_.number(0, 4) * sight_.unit;
+    def.warp = &warp;
+  }
   return make<msq_structure>("msq_structure_foam", [&](msq_structure** s) {
     return msq_structure_foam(context_, &def, s);
   });

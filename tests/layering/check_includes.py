@@ -19,7 +19,8 @@ ROOMS = ["document", "api", "printability", "slice", "fill", "surface", "ray", "
 # below; the files of the kind itself, at its top, include any. A room may include of them only what
 # is named here.
 KIND_ROOMS = {
-    "foam": ["paper", "rays", "walls", "sets", "joints", "edges", "point", "section", "seeds"],
+    "foam": ["shell", "paper", "rays", "walls", "sets", "joints", "edges", "point", "section",
+             "seeds"],
     "lattice": ["warped", "mixed", "plates", "rows", "rays", "graph", "cell"],
 }
 KIND_BASE = {"foam": {"foam_data.h", "foam_graph.h"}, "lattice": set()}

@@ -56,6 +56,9 @@ CASES = {
     "foam_period": model(structure("foam", grid={"cell_size": 3}, radius=0.25, wall_thickness=0.15,
                                    period={"axis": 1, "positions": [0, 6], "cell_sizes": [4, 1]},
                                    seed=6)),
+    "foam_warp": model(structure("foam", grid={"cell_size": 2, "origin": [5, 4, 0]}, radius=0.2,
+                                 wall_thickness=0.1, seed=8,
+                                 warp={"count": 12, "inner_radius": 2, "outer_radius": 5})),
     "foam_walls": model(structure("foam", grid={"cell_size": 3}, radius=0.2, wall_thickness=0.3,
                                   vent_radius=0.4, density={"expression": {
                                       "expression": "1 + a * x", "parameters": {"a": 0.2},

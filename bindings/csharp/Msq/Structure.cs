@@ -26,6 +26,8 @@ namespace Msq
         public double Weight { get; set; }
         /// <summary>Cells of varying size.</summary>
         public Period Period { get; set; }
+        /// <summary>Cells around an axis.</summary>
+        public Warp Warp { get; set; }
     }
 
     /// <summary>A lattice, beside its unit cell, grid and radius. null: all cells are boxes of one size.</summary>
@@ -180,6 +182,7 @@ namespace Msq
                 if (options.Stretch != null)
                     for (int axis = 0; axis < 3; ++axis) def.stretch[axis] = options.Stretch[axis];
                 def.period = Period.In(call, options.Period);
+                def.warp = Warp.In(call, options.Warp);
                 return From(context, &def);
             }
         }

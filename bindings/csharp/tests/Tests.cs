@@ -338,6 +338,10 @@ namespace Msq.Tests
             True(differ(spaced(one25), inside(Structure.Foam(context, 2.5, 0.3))) < 8);
             True(differ(spaced(one25), spaced(graded)) > 100);
             Throws<MsqException>(() => weighted(2.5));
+            Func<double, bool[]> around = outer =>
+                inside(Structure.Foam(context, 2.5, 0.3, new FoamOptions { Warp = new Warp(12, 3, outer) }));
+            True(differ(around(6), foam(null)) > 100);
+            Throws<MsqException>(() => around(0));
         }
 
         static void TestPlates()

@@ -162,6 +162,10 @@ test('periods and stretches change the cells', () => {
     context, { grid: { cell_size: [2, 2, 2] }, radius: 0.3, weight }));
   assert.deepEqual(weighted(0), foam([1, 1, 1]));
   assert.ok(differing(weighted(2), foam([1, 1, 1])) > 50);
+  const around = (outer_radius) => insideBox(msq.Structure.foam(
+    context, { grid: { cell_size: [2, 2, 2] }, radius: 0.3, warp: { count: 12, inner_radius: 3, outer_radius } }));
+  assert.ok(differing(around(6), foam([1, 1, 1])) > 50);
+  assert.throws(() => around(0), /warp.outer_radius is 0/);
 });
 
 test('plates, booleans with fillets, and blends', () => {

@@ -390,7 +390,7 @@ class msq_foam_def(Structure):
                 ("radius", msq_param), ("jitter", c_double), ("seed", c_uint64),
                 ("density", msq_param), ("wall_thickness", msq_param), ("vent_radius", msq_param),
                 ("stretch", c_double * 3), ("weight", c_double),
-                ("period", POINTER(msq_period_def))]
+                ("period", POINTER(msq_period_def)), ("warp", POINTER(msq_warp_def))]
 
 
 class msq_functional_def(Structure):

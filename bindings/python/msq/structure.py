@@ -349,9 +349,8 @@ class Foam(Structure):
     Voronoi diagram (struts), and those within half of wall_thickness of its faces (walls).
 
     radius may be 0 where wall_thickness is not. vent_radius: of a hole through each wall. jitter: 0,
-    seeds at cell centres, to 1, anywhere in their cells. density: seeds in a cell's volume. stretch:
-    of the foam's cells along each axis of the grid. weight: the greatest radius of the seeds'
-    spheres. period: a Period, for cells whose size varies along an axis. method: `auto` is fastest.
+    seeds at cell centres, to 1, anywhere. weight: the greatest radius of the seeds' spheres. period,
+    warp: cells that vary in size or lie around an axis. method: `auto` is fastest.
     """
 
     radius: parameter[Param] = parameter("Of the struts.")
@@ -367,14 +366,15 @@ class Foam(Structure):
     stretch: parameter[Sequence[float]] = parameter("Of the cells along the grid's axes.")
     weight: parameter[float] = parameter("Of the seeds; 0: a Voronoi diagram.")
     period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
+    warp: parameter[Optional[AnyWarp]] = parameter("Cells around an axis; None: boxes.")
 
     @remembers
     def __init__(self, *, radius: Param = 0.0, cell_size: Cell = 1.0, jitter: float = 1.0,
                  seed: int = 0, density: Param = 1.0, method: str = "auto",
                  origin: Sequence[float] = (0, 0, 0), rotation: Any = None,
-                 wall_thickness: Param = 0.0, vent_radius: Param = 0.0,
-                 stretch: Sequence[float] = (1, 1, 1), weight: float = 0.0,
-                 period: Optional[Period] = None, context: Optional[Context] = None) -> None:
+                 wall_thickness: Param = 0.0, vent_radius: Param = 0.0, weight: float = 0.0,
+                 stretch: Sequence[float] = (1, 1, 1), period: Optional[Period] = None,
+                 warp: Optional[AnyWarp] = None, context: Optional[Context] = None) -> None:
         definition = defaults(_abi.msq_foam_def)
         set_grid(definition.grid, cell_size, origin, rotation)
         set_param(definition.radius, radius)
@@ -384,7 +384,7 @@ class Foam(Structure):
         definition.stretch[:], definition.weight = triple(stretch, "stretch"), weight
         definition.jitter, definition.seed = jitter, unsigned(seed, 64, "seed")
         definition.method = constant("MSQ_FOAM_", method, "method")
-        kept = set_period(definition, period)  # until the call has copied it
+        kept = set_period(definition, period), set_warp(definition, warp)  # until the call is over
         self._make(context_of(context, radius, density, wall_thickness, vent_radius),
                    lib.msq_structure_foam, definition)
         del kept

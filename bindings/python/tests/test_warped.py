@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Lattices in cells that vary in size or are bent."""
+"""Lattices and foams in cells that vary in size or are bent."""
 import unittest
 
 import numpy as np
@@ -54,6 +54,22 @@ class WarpedLattices(unittest.TestCase):
             msq.Lattice("bcc", radius=0.1, warp=msq.Warp(2))
         with self.assertRaisesRegex(msq.UnsupportedError, "a period and a warp"):
             msq.Lattice("bcc", radius=0.1, warp=msq.Warp(8), period=msq.Period([0], [1]))
+
+
+class WarpedFoams(unittest.TestCase):
+    def test_nothing_is_beyond_the_shell(self):
+        points = np.random.default_rng(5).uniform(-5, 5, (4000, 3))
+        radius = np.hypot(points[:, 0], points[:, 1])
+        warp = msq.Warp(20, inner_radius=2, outer_radius=4.5)
+        for sizes in ({"radius": 0.2}, {"wall_thickness": 0.2}):
+            onsets = msq.Foam(cell_size=1, warp=warp, **sizes).onset(points)
+            np.testing.assert_array_equal(np.isfinite(onsets), (radius >= 2) & (radius <= 4.5))
+
+    def test_refusals(self):
+        with self.assertRaisesRegex(msq.UnsupportedError, "warp.kind is 2"):
+            msq.Foam(radius=0.1, warp=msq.Warp(8, inner_radius=1, outer_radius=2, count_polar=4))
+        with self.assertRaisesRegex(msq.ArgumentError, "warp.outer_radius is 0"):
+            msq.Foam(radius=0.1, warp=msq.Warp(8, inner_radius=1))
 
 
 if __name__ == "__main__":

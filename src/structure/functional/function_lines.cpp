@@ -8,6 +8,7 @@
 #include "structure/common/kept_lines.h"
 #include "structure/common/level_lines.h"
 #include "structure/common/plane_cells.h"
+#include "structure/common/warp_shell.h"
 #include "structure/functional/functional.h"
 
 namespace msq {
@@ -90,10 +91,7 @@ KeptPoint filled(const CellAngles& angles, Vec3 p) {
     const double within = angles.sampled()->distance_within(p);
     return {angles.holds(p), std::abs(within)};
   }
-  const Warp& warp = *angles.warp();
-  const double r = warp.radius(p);
-  return {warp.is_in_shell(r),
-          std::min(std::abs(r - warp.shell().inner), std::abs(warp.outer() - r))};
+  return WarpShell(*angles.warp()).kept(p);
 }
 
 }  // namespace

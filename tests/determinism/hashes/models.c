@@ -288,6 +288,31 @@ static msq_model* walls_period(Kit* kit) {
   return filled(kit, sphere(kit, 9.5), foam(kit, &def));
 }
 
+static msq_warp_def shell(uint32_t count, double inner, double outer) {
+  msq_warp_def warp;
+  must(msq_warp_def_init(&warp, sizeof warp));
+  warp.count = count;
+  warp.inner_radius = inner;
+  warp.outer_radius = outer;
+  return warp;
+}
+
+static msq_model* foam_warp(Kit* kit) {
+  const msq_warp_def warp = shell(15, 3, 9);
+  msq_foam_def def = foam_def(2.5, number(0.3));
+  turn(&def.grid);
+  def.warp = &warp;
+  return filled(kit, mesh(kit, 0), foam(kit, &def));
+}
+
+static msq_model* walls_warp(Kit* kit) {
+  const msq_warp_def warp = shell(12, 4, 8.5);
+  msq_foam_def def = foam_def(3, number(0));
+  def.wall_thickness = number(0.3);
+  def.warp = &warp;
+  return filled(kit, sphere(kit, 9.5), foam(kit, &def));
+}
+
 static msq_model* warped_lattice(Kit* kit) {
   msq_warp_def warp;
   must(msq_warp_def_init(&warp, sizeof warp));
@@ -359,10 +384,12 @@ static const struct {
     {"foam-stretched", foam_stretched},
     {"foam-weighted", foam_weighted},
     {"foam-period", foam_period},
+    {"foam-warp", foam_warp},
     {"walls", walls},
     {"walls-stretched", walls_stretched},
     {"walls-weighted", walls_weighted},
     {"walls-period", walls_period},
+    {"walls-warp", walls_warp},
     {"walled", walled},
     {"gyroid-open-mesh", gyroid},
     {"p-sheet", sheet},

@@ -5,7 +5,7 @@
 
 #include <msq.h>
 
-enum { model_count = 39 };
+enum { model_count = 41 };
 
 /** One word. */
 const char* model_name(int i);

@@ -190,6 +190,8 @@ pub struct Foam {
     pub stretch: [f64; 3],
     /// The greatest radius of the seeds' spheres; above 0, cells are those of a Laguerre tessellation.
     pub weight: f64,
+    pub period: Option<Period>,
+    pub warp: Option<Warp>,
 }
 
 impl Foam {
@@ -206,6 +208,8 @@ impl Foam {
             vent_radius: Param::default(),
             stretch: [1.0; 3],
             weight: 0.0,
+            period: None,
+            warp: None,
         }
     }
 }
@@ -213,6 +217,8 @@ impl Foam {
 impl Structure {
     pub fn foam(context: &Context, foam: &Foam) -> Result<Structure> {
         let mut def = definition!(msq_foam_def_init, msq_foam_def);
+        let period = foam.period.as_ref().map(Period::raw).transpose()?;
+        let warp = foam.warp.as_ref().map(Warp::raw).transpose()?;
         def.grid.origin = foam.origin;
         def.grid.cell_size = foam.cell_size;
         def.radius = foam.radius.raw();
@@ -227,6 +233,8 @@ impl Structure {
         def.vent_radius = foam.vent_radius.raw();
         def.stretch = foam.stretch;
         def.weight = foam.weight;
+        def.period = pointer(&period);
+        def.warp = pointer(&warp);
         Structure::make(|raw| unsafe { sys::msq_structure_foam(context.as_ptr(), &def, raw) })
     }
 

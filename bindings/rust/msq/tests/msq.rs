@@ -179,6 +179,16 @@ fn periods_and_stretches_change_cells() {
     };
     assert_eq!(weighted(0.0), foam([1.0; 3]));
     assert_ne!(weighted(2.0), foam([1.0; 3]));
+    let spaced = |period| {
+        inside(Structure::foam(&context, &Foam { period, ..Foam::new(2.0, 0.3) }).unwrap())
+    };
+    assert_ne!(spaced(period(&[2.0, 1.0])), foam([1.0; 3]));
+    let around = |outer_radius| {
+        let warp = Some(Warp { count: 12, inner_radius: 3.0, outer_radius, ..Warp::default() });
+        Structure::foam(&context, &Foam { warp, ..Foam::new(2.0, 0.3) })
+    };
+    assert!(inside(around(Some(6.0)).unwrap()).contains(&1));
+    assert!(around(None).unwrap_err().to_string().contains("warp.outer_radius is 0"));
 }
 
 #[test]

@@ -14,8 +14,9 @@
 // inside each, it is bounded: a direction d has a positive product with the seed of its octant.
 // Each octant has such a seed within two cells along each axis, since there it contains a whole
 // cell that does not touch the planes between octants from the outside. Of placed seeds
-// (seeds/placed_seeds.h) it has one within three boxes, which are no shorter than cells: the cell
-// after the next one is whole, and farther than places are off.
+// (seeds/placed_seeds.h) it has one within three diagonals of a box: the ball of one diagonal about
+// a point 1.001 of them farther along each axis is inside the octant, ends 1 + 1.001 sqrt 3 of them
+// away, and has a seed, as the nearest one of any point is less than a diagonal from it.
 //
 // Lengths are relative to the own seed and in sizes of its leaf, so that the tolerances of the walk
 // (voronoi_cell.h) and of EdgeLine have the same meaning at all levels. If the walk fails (seeds on

@@ -63,12 +63,20 @@ double GradedSeeds::max_distance(const Box3& box) const {
   return std::ldexp(length(grid_.cell_size) * (1 + 1e-9), -min_level(box));
 }
 
+Box3 GradedSeeds::box_of(CellIndex corner) const {
+  const Vec3 low = Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid_.cell_size;
+  return {low, low + grid_.cell_size * brick_side()};
+}
+
+bool GradedSeeds::is_needed(CellIndex corner) const {
+  return !placed_ || placed_->is_needed(box_of(corner));
+}
+
 bool GradedSeeds::may_own_edges(CellIndex corner, const Box3& box) const {
   // Such an edge has a point v in the box. Its owner is one of the seeds nearest to v, so it is
   // within max_distance of v, and v is within that distance of the brick. The diagonal of a cell
   // bounds which points of the box can be v.
-  const Vec3 low = Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid_.cell_size;
-  const Box3 brick{low, low + grid_.cell_size * brick_side()};
+  const Box3 brick = box_of(corner);
   const double diagonal = length(grid_.cell_size) * (1 + 1e-9);
   const Box3 about = brick.grown(diagonal);
   if (!about.overlaps(box)) return false;

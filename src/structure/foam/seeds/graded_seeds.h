@@ -84,12 +84,17 @@ class GradedSeeds {
   /// Whether the seeds of the brick whose first cell is `corner` may own edges that touch a box
   /// (grid coordinates).
   bool may_own_edges(CellIndex corner, const Box3& box) const;
+  /// Whether cells of the diagram whose seeds are in the brick may reach where the foam is needed
+  /// (placed_seeds.h).
+  bool is_needed(CellIndex corner) const;
   /// Approximate mean number of seeds in a cell of a box (grid coordinates).
   double mean_density(const Box3& box) const;
   /// Cells along each side of a brick whose edges are built and kept together.
   int brick_side() const;
 
  private:
+  /// That of a brick.
+  Box3 box_of(CellIndex corner) const;
   /// The minimum level of all leaves around the points of a box (grid coordinates).
   int min_level(const Box3& box) const;
 

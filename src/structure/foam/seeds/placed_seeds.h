@@ -53,6 +53,9 @@ class PlacedSeeds {
   /// Encloses the number of seeds per volume of a box of the grid, there.
   virtual Interval density(const Box3& box) const = 0;
   virtual double max_density() const = 0;
+  /// Whether a cell of the diagram whose seed is in a box (grid coordinates) may reach where the
+  /// foam is needed. Elsewhere rows need not be right.
+  virtual bool is_needed(const Box3&) const { return true; }
 
   virtual void describe(HashInput& input) const = 0;
 };

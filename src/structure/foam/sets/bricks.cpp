@@ -8,14 +8,15 @@ namespace msq {
 
 namespace {
 
-/// Calls visit(corner, part) for each brick that may have edges that touch a box. part: the part of
-/// the box that they may touch, in grid coordinates.
+/// Calls visit(corner, part) for each brick that may have edges that touch a box where the foam is
+/// needed. part: the part of the box that they may touch, in grid coordinates.
 template <class Visit>
 void for_each_corner(const FoamData& foam, const Box3& box, Visit&& visit) {
   const FoamGraph& graph = foam.graph();
   const FoamGraph::BrickLayout layout = graph.brick_layout();
   for_each_brick_near(foam.neighbourhood(), box, foam.owner_distance(), foam.owner_reach(),
                       layout.side, layout.lead, [&](CellIndex corner, const Box3& part) {
+                        if (foam.graded() && !foam.graded()->is_needed(corner)) return;
                         if (graph.may_own_edges(corner, part)) visit(corner, part);
                       });
 }

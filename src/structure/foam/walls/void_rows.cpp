@@ -299,7 +299,7 @@ bool keep_void_rows(const FoamWalls& walls, const RowBlock& block, const Job* jo
       grid, voids.box(), around, beyond, side, lead, [&](CellIndex corner, const Box3& near) {
         check_cancelled(job);
         // Seeds of cells that touch a box are as far from it as owners of edges.
-        if (graded && !graded->may_own_edges(corner, near)) return;
+        if (graded && !(graded->may_own_edges(corner, near) && graded->is_needed(corner))) return;
         if (!are_equal) brick.reset();
         if (!brick)
           brick = walls.context().cache.fetch(walls.id(), are_equal ? CellIndex{} : corner, [&] {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/borrowed.h"
+#include "base/job.h"
 #include "structure/foam/walls/wall_point.h"
 
 namespace msq {
@@ -85,6 +86,7 @@ WallRay::Way WallRay::find_among(const Ray& ray, double from, double to, double 
   };
   found = cut(from, q, own);
   for (int step = 0; step < max_steps; ++step) {
+    check_cancelled();  // a box may have 2^15 seeds
     const Neighbourhood::Located located = grid.locate(ray.at(found));
     const Vec3 there = place(located);
     const Seed own_there = moved(

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/shell/shelled_foam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/hash_input.h"
+#include "base/infinity.h"
+#include "structure/foam/shell/shelled_struts.h"
+
+namespace msq {
+
+ShelledFoam::ShelledFoam(Ref<const Structure> foam, const Warp& warp)
+    : Structure(foam->neighbourhood(), foam->characteristic_length()),
+      foam_(std::move(foam)),
+      shell_(warp) {}
+
+// Of two solids, the greater of the signed distances bounds that of what they have in common.
+double ShelledFoam::distance_bound(Vec3 p) const {
+  const double bound = std::abs(std::max(foam_->distance(p), -shell_.distance_within(p)));
+  return std::max(0.0, bound - 2 * shell_.warp().slack(p, bound));
+}
+
+double ShelledFoam::onset(Vec3 p) const {
+  return shell_.holds(p) ? foam_->onset(p) : infinity;
+}
+
+void ShelledFoam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
+  for (size_t i = 0; i < count; ++i) {
+    if (i % 1024 == 0) check_cancelled();
+    if (alive[i] && !shell_.holds(points[i])) alive[i] = 0;
+  }
+  foam_->keep_points(points, alive, count);
+}
+
+BoxClass ShelledFoam::classify(const Box3& box) const {
+  const Warp& warp = shell_.warp();
+  const Interval radius = warp.image(box).radius;
+  if (radius.high < warp.shell().inner || radius.low > warp.outer()) return BoxClass::outside;
+  const BoxClass of_foam = foam_->classify(box);
+  const bool is_within = warp.is_in_shell(radius.low) && warp.is_in_shell(radius.high);
+  return is_within || of_foam == BoxClass::outside ? of_foam : BoxClass::mixed;
+}
+
+void ShelledFoam::keep_rows(const RowBlock& block, const Job* job) const {
+  if (shell_.keep_rows(block)) foam_->keep_rows(block, job);
+}
+
+void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const {
+  std::vector<RaySearch> asked;
+  std::vector<RayPart> parts;
+  std::vector<size_t> index;
+  for (size_t i = 0; i < count; ++i) searches[i].found = false;
+  for (size_t n = 0; n < 2; ++n) {
+    asked.clear();
+    parts.clear();
+    index.clear();
+    for (size_t i = 0; i < count; ++i) {
+      const RaySearch& s = searches[i];
+      if (s.found) continue;
+      const RayParts of_ray = shell_.parts_of(s.ray, s.from, s.to, ray_tolerance(s.ray, s.to));
+      if (n >= of_ray.count) continue;
+      asked.push_back({s.ray, of_ray.part[n].from, of_ray.part[n].to});
+      parts.push_back(of_ray.part[n]);
+      index.push_back(i);
+    }
+    if (asked.empty()) return;
+    foam_->enter(asked.data(), asked.size(), job);
+    for (size_t k = 0; k < asked.size(); ++k) {
+      if (!asked[k].found) continue;
+      RaySearch& search = searches[index[k]];
+      search.found = true;
+      search.t = asked[k].t;
+      search.normal = parts[k].is_entry && asked[k].t == parts[k].from
+                          ? shell_.normal(search.ray.at(search.t))
+                          : asked[k].normal;
+    }
+  }
+}
+
+double ShelledFoam::leave(const Ray& ray, double from, double to, const Job* job) const {
+  const double tolerance = ray_tolerance(ray, to);
+  const RayParts parts = shell_.parts_of(ray, from, to, tolerance);
+  // Rounding may leave nothing of the shell.
+  if (parts.count == 0 || parts.part[0].from > from) return from;
+  const double end = parts.part[0].to, t = foam_->leave(ray, from, end, job);
+  return t < end ? t : shell_.follow(ray, end, to, tolerance);
+}
+
+Vec3 ShelledFoam::normal(const Ray& ray, double t) const {
+  const double room = 2 * ray_tolerance(ray, t);
+  const bool meets_shell = !shell_.holds(ray.at(t - room)) && shell_.holds(ray.at(t + room));
+  // Where the ray enters both at once, either is a normal.
+  return meets_shell ? shell_.normal(ray.at(t)) : foam_->normal(ray, t);
+}
+
+std::unique_ptr<StrutParts> ShelledFoam::struts(const StrutSelection& selection) const {
+  return shelled_struts(foam_->struts(selection), shell_.warp());
+}
+
+ThinWalls ShelledFoam::thin_walls() const {
+  return foam_->thin_walls() == ThinWalls::none ? ThinWalls::none : ThinWalls::varying;
+}
+
+LineGraph ShelledFoam::wall_lines(const WallSection& section) const {
+  LineGraph graph = foam_->wall_lines(section);
+  decltype(graph.lines) lines;
+  lines.swap(graph.lines);
+  const double tolerance = ray_tolerance();
+  JobPoll poll(current_job());
+  for (const std::array<uint32_t, 2>& line : lines) {
+    poll();
+    const Vec2 begin = graph.points[line[0]], way = graph.points[line[1]] - begin;
+    const double span = length(way);
+    if (!(span > 0)) continue;
+    const Ray ray{{begin.x, begin.y, section.z}, {way.x / span, way.y / span, 0}};
+    const RayParts parts = shell_.parts_of(ray, 0, span, tolerance);
+    const auto point_at = [&](double t) {
+      if (t <= 0) return line[0];
+      if (t >= span) return line[1];
+      graph.points.push_back(begin + way * (t / span));
+      return static_cast<uint32_t>(graph.points.size() - 1);
+    };
+    for (size_t i = 0; i < parts.count; ++i)
+      if (parts.part[i].from < parts.part[i].to) {
+        const uint32_t from = point_at(parts.part[i].from);
+        graph.lines.push_back({from, point_at(parts.part[i].to)});
+      }
+  }
+  return graph;
+}
+
+void ShelledFoam::describe(HashInput& input) const {
+  input.kind("structure: foam in a shell");
+  shell_.warp().describe(input);
+  input.object(*foam_);
+}
+
+}  // namespace msq

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The struts of a foam that have a point in the shell of warped cells.
+#pragma once
+
+#include <memory>
+
+#include "cell/warp.h"
+#include "structure/common/struts.h"
+
+namespace msq {
+
+/// Refers to the warp, whose cells are around an axis. Null without struts.
+std::unique_ptr<StrutParts> shelled_struts(std::unique_ptr<StrutParts> struts, const Warp& warp);
+
+}  // namespace msq
