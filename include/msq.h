@@ -3194,7 +3194,7 @@ MSQ_API msq_status msq_fill_def_init(msq_fill_def* def, size_t size);
  * def must not be NULL. job NULL: no job. Limits: coordinates up to 2^53 in magnitude; 2^24 cells
  * from the origin of the grid; about 2^26 seeds or 2^26 squares along a side of the polygon's box.
  * Cost: on the calling thread; many threads may call at once. About 20 us per cell of a foam or of
- * plates; 1 us per square that a function's line crosses, 20 ns per other square; of waves 15 ns
+ * plates; 1 us per square that a function's line crosses, 20 ns per other square; of waves 11 ns
  * per wave and square that a line crosses. Errors: ARGUMENT (also, with its index: a ring of fewer
  * than 3 points or whose points are on one line), UNSUPPORTED (no thin walls), LIMIT, CANCELLED,
  * HOST, MEMORY. Source: Aurenhammer, "Power diagrams", 1987; Lorensen and Cline, "Marching cubes",
@@ -3242,7 +3242,7 @@ MSQ_API msq_status msq_fill_info(const msq_fill* fill, msq_fill_report* report);
  * foam without its field of density: d seeds per cell volume multiply the density of lines by about
  * the cube root of d.
  *
- * Cost: up to 0.5 s for a foam, 0.8 s and 0.023 s per wave for waves. Errors: ARGUMENT, UNSUPPORTED
+ * Cost: up to 0.5 s for a foam, 0.8 s and 0.017 s per wave for waves. Errors: ARGUMENT, UNSUPPORTED
  * (a structure without thin walls; a structure whose lines are denser in some places, by a period,
  * a warp, or a field of density, vent_radius or the level of a network; a structure made of other
  * structures), LIMIT (a structure without lines), CANCELLED, HOST, MEMORY. */

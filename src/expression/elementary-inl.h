@@ -121,34 +121,36 @@ HWY_INLINE typename A::V polynomial(const A& a, typename A::V z, const double (&
   return sum;
 }
 
+/// Of x up to 0.8 in magnitude: sin x = x S(x^2) and cos x = C(x^2).
+inline constexpr double sine_terms[] = {
+    1.0,          -1.0 / 6,        1.0 / 120,        -1.0 / 5040,
+    1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000};
+inline constexpr double cosine_terms[] = {1.0,
+                                          -0.5,
+                                          1.0 / 24,
+                                          -1.0 / 720,
+                                          1.0 / 40320,
+                                          -1.0 / 3628800,
+                                          1.0 / 479001600,
+                                          -1.0 / 87178291200,
+                                          1.0 / 20922789888000};
+/// pi / 2 in three parts, the first two of 33 bits: their products with q < 2^19 are exact.
+inline constexpr double quarter_turn[] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69};
+constexpr double quarters_per_radian = 0x1.45f306dc9c883p-1;
+
 /// The sine of x + quarters pi / 2. Its magnitude is at most 1 + 2^-50, also for huge arguments,
 /// whose reduction has no accuracy left.
 template <class A>
 HWY_INLINE typename A::V sine(const A& a, typename A::V x, double quarters) {
-  // pi / 2 in three parts, the first two of 33 bits: their products with q < 2^19 are exact.
-  constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34,
-                   third = 0x1.3198a2e037073p-69;
-  static constexpr double sines[] = {
-      1.0,          -1.0 / 6,        1.0 / 120,        -1.0 / 5040,
-      1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000};
-  static constexpr double cosines[] = {1.0,
-                                       -0.5,
-                                       1.0 / 24,
-                                       -1.0 / 720,
-                                       1.0 / 40320,
-                                       -1.0 / 3628800,
-                                       1.0 / 479001600,
-                                       -1.0 / 87178291200,
-                                       1.0 / 20922789888000};
-  const auto q = a.floor(a.add(a.multiply(x, a.set(0x1.45f306dc9c883p-1)), a.set(0.5)));
-  auto r = a.subtract(x, a.multiply(q, a.set(first)));
-  r = a.subtract(r, a.multiply(q, a.set(second)));
-  r = a.subtract(r, a.multiply(q, a.set(third)));
+  const auto q = a.floor(a.add(a.multiply(x, a.set(quarters_per_radian)), a.set(0.5)));
+  auto r = a.subtract(x, a.multiply(q, a.set(quarter_turn[0])));
+  r = a.subtract(r, a.multiply(q, a.set(quarter_turn[1])));
+  r = a.subtract(r, a.multiply(q, a.set(quarter_turn[2])));
   r = a.choose(a.less(r, a.set(-0.8)), a.set(-0.8), r);
   r = a.choose(a.less(a.set(0.8), r), a.set(0.8), r);
   const auto z = a.multiply(r, r);
-  const auto s = a.multiply(r, polynomial(a, z, sines));
-  const auto c = polynomial(a, z, cosines);
+  const auto s = a.multiply(r, polynomial(a, z, sine_terms));
+  const auto c = polynomial(a, z, cosine_terms);
   const auto turned = a.add(q, a.set(quarters));
   const auto quarter =
       a.subtract(turned, a.multiply(a.set(4), a.floor(a.multiply(turned, a.set(0.25)))));

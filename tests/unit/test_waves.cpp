@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "base/pi.h"
 #include "bit_rows.h"
@@ -42,6 +43,36 @@ double written_out(const WaveSet& waves, Vec3 u) {
   for (size_t half = WaveSet::sums / 2; half > 0; half /= 2)
     for (size_t i = 0; i < half; ++i) sums[i] += sums[i + half];
   return sums[0];
+}
+
+/// Within a turn angles are reduced in a way of their own; at its ends and where quarters change,
+/// too, the bits are those of all other sines and cosines.
+void sines_of_turns_are_those_of_angles(void**) {
+  std::vector<double> turns;
+  for (int eighth = -9; eighth <= 9; ++eighth) {
+    double below = eighth / 8.0, above = below;
+    for (int i = 0; i < 8; ++i) {
+      turns.insert(turns.end(), {below, above});
+      below = std::nextafter(below, -2);
+      above = std::nextafter(above, 2);
+    }
+    turns.insert(turns.end(), {eighth / 8.0 - 1e-17, eighth / 8.0 + 1e-9});
+  }
+  Random random(8);
+  while (turns.size() < 4000 || turns.size() % 16) turns.push_back(random.between(-3, 3));
+  std::vector<double> sines(turns.size()), cosines(turns.size());
+  for (int64_t all = hwy::SupportedTargets() & HWY_TARGETS; all; all &= all - 1) {
+    hwy::SetSupportedTargetsForTest(all & -all);
+    sines_of_turns(turns.data(), turns.size(), sines.data(), cosines.data());
+    for (size_t i = 0; i < turns.size(); ++i) {
+      const double angle = (turns[i] - std::floor(turns[i])) * two_pi;
+      const double sine = apply(Op::sine, angle, 0), cosine = apply(Op::cosine, angle, 0);
+      if (std::memcmp(&sine, &sines[i], 8) != 0 || std::memcmp(&cosine, &cosines[i], 8) != 0)
+        fail_msg("turn %.17g: %.17g, %.17g; expected %.17g, %.17g", turns[i], sines[i], cosines[i],
+                 sine, cosine);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 void all_instruction_sets_give_the_written_sum(void**) {
@@ -273,6 +304,7 @@ void rays_find_the_first_change(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
+      cmocka_unit_test(sines_of_turns_are_those_of_angles),
       cmocka_unit_test(all_instruction_sets_give_the_written_sum),
       cmocka_unit_test(derivatives_are_those_of_the_sum),
       cmocka_unit_test(levels_are_quantiles),

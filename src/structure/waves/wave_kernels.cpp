@@ -3,6 +3,7 @@
 #define HWY_TARGET_INCLUDE "structure/waves/wave_kernels.cpp"
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -21,6 +22,63 @@ namespace {
 // At most 8 lanes, so that each of the 16 partial sums has a lane of its own.
 using D = hn::CappedTag<double, 8>;
 using V = hn::Vec<D>;
+
+/// An angle from 0 to 2 pi, reduced by q = 0 to 4 quarters to r, at most 0.8 in magnitude. Sines
+/// and cosines have the bits of sine().
+class InTurn {
+ public:
+  HWY_INLINE explicit InTurn(V angle) {
+    const D d;
+    const V q =
+        hn::Floor(hn::Add(hn::Mul(angle, hn::Set(d, quarters_per_radian)), hn::Set(d, 0.5)));
+    V r = hn::Sub(angle, hn::Mul(q, hn::Set(d, quarter_turn[0])));
+    r = hn::Sub(r, hn::Mul(q, hn::Set(d, quarter_turn[1])));
+    r_ = hn::Sub(r, hn::Mul(q, hn::Set(d, quarter_turn[2])));
+    z_ = hn::Mul(r_, r_);
+    // The low bits of 2^52 + q are q.
+    q_ = hn::BitCast(U(), hn::Add(q, hn::Set(d, 0x1p52)));
+  }
+
+  /// Even q leave a cosine, odd ones a sine. The first term of the sine's shorter polynomial is 0,
+  /// which leaves the others as they are.
+  HWY_INLINE V cosine() const {
+    const D d;
+    constexpr size_t last = std::size(cosine_terms) - 1;
+    static_assert(std::size(sine_terms) == last);
+    const auto is_odd = odd();
+    V sum = hn::IfThenZeroElse(is_odd, hn::Set(d, cosine_terms[last]));
+    for (size_t i = last; i-- > 0;)
+      sum = hn::Add(hn::Mul(sum, z_),
+                    hn::IfThenElse(is_odd, hn::Set(d, sine_terms[i]), hn::Set(d, cosine_terms[i])));
+    return signed_by(next(), hn::Mul(sum, hn::IfThenElse(is_odd, r_, hn::Set(d, 1))));
+  }
+  HWY_INLINE void both(V& sine, V& cosine) const {
+    const Lanes<D> lanes;
+    const V s = hn::Mul(r_, polynomial(lanes, z_, sine_terms));
+    const V c = polynomial(lanes, z_, cosine_terms);
+    const auto is_odd = odd();
+    sine = signed_by(q_, hn::IfThenElse(is_odd, c, s));
+    cosine = signed_by(next(), hn::IfThenElse(is_odd, s, c));
+  }
+
+ private:
+  using U = hn::RebindToUnsigned<D>;
+
+  HWY_INLINE hn::Mask<D> odd() const {
+    const auto bit = hn::And(q_, hn::Set(U(), uint64_t{1}));
+    return hn::MaskFromVec(hn::BitCast(D(), hn::Sub(hn::Zero(U()), bit)));
+  }
+  /// The cosine is the sine a quarter later.
+  HWY_INLINE hn::Vec<U> next() const { return hn::Add(q_, hn::Set(U(), uint64_t{1})); }
+  /// Negative from two quarters on.
+  HWY_INLINE static V signed_by(hn::Vec<U> quarters, V v) {
+    const auto sign = hn::And(hn::ShiftLeft<62>(quarters), hn::Set(U(), uint64_t{1} << 63));
+    return hn::Xor(v, hn::BitCast(D(), sign));
+  }
+
+  V r_, z_;
+  hn::Vec<U> q_;
+};
 
 /// Adds the partial sums in the order of wave_set.h.
 HWY_INLINE double total(const double* partial) {
@@ -56,10 +114,9 @@ HWY_INLINE void add_to(double* partial, V term) {
 
 double sum(const WaveSet& waves, Vec3 u) {
   const D d;
-  const Lanes<D> lanes;
   double partial[WaveSet::sums] = {};
   for_each_vector(waves, u, [&](size_t i, size_t slot, V turn) HWY_ATTR {
-    const V cosine = sine(lanes, hn::Mul(turn, hn::Set(d, two_pi)), 1);
+    const V cosine = InTurn(hn::Mul(turn, hn::Set(d, two_pi))).cosine();
     add_to(partial + slot, hn::Mul(hn::LoadU(d, waves.amplitudes() + i), cosine));
   });
   return total(partial);
@@ -67,15 +124,15 @@ double sum(const WaveSet& waves, Vec3 u) {
 
 WaveExpansion expand(const WaveSet& waves, Vec3 u, Vec3 du) {
   const D d;
-  const Lanes<D> lanes;
   double partial[4][WaveSet::sums] = {};
   const V x = hn::Set(d, two_pi * du.x), y = hn::Set(d, two_pi * du.y),
           z = hn::Set(d, two_pi * du.z);
   for_each_vector(waves, u, [&](size_t i, size_t slot, V turn) HWY_ATTR {
-    const V angle = hn::Mul(turn, hn::Set(d, two_pi));
+    V sine, cosine;
+    InTurn(hn::Mul(turn, hn::Set(d, two_pi))).both(sine, cosine);
     const V amplitude = hn::LoadU(d, waves.amplitudes() + i);
-    const V c = hn::Mul(amplitude, sine(lanes, angle, 1));
-    const V s = hn::Mul(amplitude, sine(lanes, angle, 0));
+    const V c = hn::Mul(amplitude, cosine);
+    const V s = hn::Mul(amplitude, sine);
     const V rate = hn::Add(
         hn::Add(hn::Mul(hn::LoadU(d, waves.x() + i), x), hn::Mul(hn::LoadU(d, waves.y() + i), y)),
         hn::Mul(hn::LoadU(d, waves.z() + i), z));
@@ -90,13 +147,13 @@ WaveExpansion expand(const WaveSet& waves, Vec3 u, Vec3 du) {
 
 double gradient_of(const WaveSet& waves, Vec3 u, Vec3& gradient) {
   const D d;
-  const Lanes<D> lanes;
   double partial[4][WaveSet::sums] = {};
   for_each_vector(waves, u, [&](size_t i, size_t slot, V turn) HWY_ATTR {
-    const V angle = hn::Mul(turn, hn::Set(d, two_pi));
+    V sine, cosine;
+    InTurn(hn::Mul(turn, hn::Set(d, two_pi))).both(sine, cosine);
     const V amplitude = hn::LoadU(d, waves.amplitudes() + i);
-    const V s = hn::Mul(amplitude, sine(lanes, angle, 0));
-    add_to(partial[0] + slot, hn::Mul(amplitude, sine(lanes, angle, 1)));
+    const V s = hn::Mul(amplitude, sine);
+    add_to(partial[0] + slot, hn::Mul(amplitude, cosine));
     add_to(partial[1] + slot, hn::Mul(hn::LoadU(d, waves.x() + i), s));
     add_to(partial[2] + slot, hn::Mul(hn::LoadU(d, waves.y() + i), s));
     add_to(partial[3] + slot, hn::Mul(hn::LoadU(d, waves.z() + i), s));
@@ -107,12 +164,12 @@ double gradient_of(const WaveSet& waves, Vec3 u, Vec3& gradient) {
 
 void sines(const double* turns, size_t count, double* to_sines, double* to_cosines) {
   const D d;
-  const Lanes<D> lanes;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const V t = hn::LoadU(d, turns + i);
-    const V angle = hn::Mul(hn::Sub(t, hn::Floor(t)), hn::Set(d, two_pi));
-    hn::StoreU(sine(lanes, angle, 0), d, to_sines + i);
-    hn::StoreU(sine(lanes, angle, 1), d, to_cosines + i);
+    V sine, cosine;
+    InTurn(hn::Mul(hn::Sub(t, hn::Floor(t)), hn::Set(d, two_pi))).both(sine, cosine);
+    hn::StoreU(sine, d, to_sines + i);
+    hn::StoreU(cosine, d, to_cosines + i);
   }
 }
 
