@@ -178,7 +178,7 @@ msq_status msq_fill_calibrate(msq_context* context, const msq_structure* structu
       fail(Status::argument, "density is %g; it must be above 0 and at most 1", density);
     require(cell_size, "cell_size");
     JobScope scope(job ? &object(job, "job") : nullptr);
-    const WorkingMemory working(*owner.budget, what_of_lines);
+    WorkingMemory working(*owner.budget, what_of_lines);
     const double factor = mean_line_density(known) * line_width / density;
     scope.done();
     for (int axis = 0; axis < 3; ++axis)

@@ -12,7 +12,7 @@ namespace {
 constexpr double max_cells = uint64_t{1} << 18;
 /// Along an axis.
 constexpr double max_count = 512;
-constexpr int8_t max_room = 127;
+constexpr int8_t max_distance = 127;
 /// Cells of triangles' boxes that are examined, at most: a number, and so many per triangle.
 constexpr uint64_t work_of_mesh = uint64_t{1} << 24, work_of_triangle = 64;
 
@@ -28,7 +28,7 @@ DecidedCells::DecidedCells(const TriangleSoup& soup, const Box3& bounds,
   for (int axis = 0; axis < 3; ++axis)
     magnitude = std::max({magnitude, std::abs(bounds.min[axis]), std::abs(bounds.max[axis])});
   margin_ = 0x1p-30 * magnitude;
-  max_origin_ = 0x1p18 * magnitude;
+  max_origin_ = 0x1p12 * magnitude;
   // Cubes, about as many as there may be.
   double volume = 1;
   for (int axis = 0; axis < 3; ++axis) volume *= std::max(extent[axis], longest / max_count);
@@ -48,7 +48,7 @@ DecidedCells::DecidedCells(const TriangleSoup& soup, const Box3& bounds,
     return;
   }
   reservation_ = Reservation::adopt(budget, cells);
-  rooms_.assign(cells, 1);
+  distances_.assign(cells, 1);
   uint64_t work = work_of_mesh + work_of_triangle * soup.triangles.size();
   JobPoll poll(job);
   for (const Triangle& triangle : soup.triangles) {
@@ -56,12 +56,12 @@ DecidedCells::DecidedCells(const TriangleSoup& soup, const Box3& bounds,
     mark(soup, triangle, work);
     if (work > 0) continue;
     count_[0] = 0;
-    rooms_ = {};
+    distances_ = std::vector<Distance>();
     reservation_ = {};
     return;
   }
   decide(inside, poll);
-  find_rooms(poll);
+  find_distances(poll);
 }
 
 /// Sets the sides of all cells that no triangle comes near.
@@ -70,9 +70,9 @@ void DecidedCells::decide(const std::function<bool(Vec3)>& inside, JobPoll& poll
   for (uint32_t k = 0; k < count_[2]; ++k)
     for (uint32_t j = 0; j < count_[1]; ++j) {
       poll();
-      Room known = 0;
+      Distance known = 0;
       for (uint32_t i = 0; i < count_[0]; ++i) {
-        Room& here = rooms_[at(i, j, k)];
+        Distance& here = distances_[at(i, j, k)];
         if (here == 0) {
           known = 0;
           continue;
@@ -80,8 +80,8 @@ void DecidedCells::decide(const std::function<bool(Vec3)>& inside, JobPoll& poll
         if (known == 0)
           known = inside({origin_.x + (i + 0.5) * size_.x, origin_.y + (j + 0.5) * size_.y,
                           origin_.z + (k + 0.5) * size_.z})
-                      ? max_room
-                      : -max_room;
+                      ? max_distance
+                      : -max_distance;
         here = known;
       }
     }
@@ -90,7 +90,7 @@ void DecidedCells::decide(const std::function<bool(Vec3)>& inside, JobPoll& poll
 /// The distance to the nearest cell of another side, in cells along the axis where they are
 /// farthest apart: one pass from the first cell and one from the last, each over the neighbours
 /// that it has passed (Rosenfeld and Pfaltz, "Distance functions on digital pictures", 1968).
-void DecidedCells::find_rooms(JobPoll& poll) {
+void DecidedCells::find_distances(JobPoll& poll) {
   const auto pass = [&](int64_t step) {
     const auto place = [&](uint32_t n, uint32_t count) { return step > 0 ? n : count - 1 - n; };
     const auto exists = [&](int64_t n, uint32_t count) { return n >= 0 && n < count; };
@@ -100,18 +100,18 @@ void DecidedCells::find_rooms(JobPoll& poll) {
         const int64_t k = place(z, count_[2]), j = place(y, count_[1]);
         for (uint32_t x = 0; x < count_[0]; ++x) {
           const int64_t i = place(x, count_[0]);
-          Room& here = rooms_[at(i, j, k)];
+          Distance& here = distances_[at(i, j, k)];
           if (here == 0) continue;
-          const Room side = here > 0 ? 1 : -1;
-          int room = std::abs(here);
+          const Distance side = here > 0 ? 1 : -1;
+          int distance = std::abs(here);
           // The 13 neighbours before this one in the order of the pass.
-          for (int n = 0; n < 13 && room > 1; ++n) {
+          for (int n = 0; n < 13 && distance > 1; ++n) {
             const int64_t u = i + step * (n % 3 - 1), v = j + step * (n / 3 % 3 - 1),
                           w = k + step * (n / 9 - 1);
             if (!exists(u, count_[0]) || !exists(v, count_[1]) || !exists(w, count_[2])) continue;
-            room = std::min(room, std::max(0, side * rooms_[at(u, v, w)]) + 1);
+            distance = std::min(distance, std::max(0, side * distances_[at(u, v, w)]) + 1);
           }
-          here = static_cast<Room>(side * room);
+          here = static_cast<Distance>(side * distance);
         }
       }
   };
@@ -146,17 +146,17 @@ void DecidedCells::mark(const TriangleSoup& soup, const Triangle& triangle, uint
       for (uint32_t i = first[0]; i <= last[0]; ++i) {
         const Vec3 center{origin_.x + (i + 0.5) * size_.x, origin_.y + (j + 0.5) * size_.y,
                           origin_.z + (k + 0.5) * size_.z};
-        if (!(std::abs(dot(normal, center - p[0])) > reach)) rooms_[at(i, j, k)] = 0;
+        if (!(std::abs(dot(normal, center - p[0])) > reach)) distances_[at(i, j, k)] = 0;
       }
 }
 
 DecidedCells::Side DecidedCells::side(Vec3 p) const {
   if (count_[0] == 0) return Side::unknown;
-  const Room room = rooms_[at(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2))];
-  return room == 0 ? Side::unknown : room > 0 ? Side::inside : Side::outside;
+  const Distance distance = distances_[at(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2))];
+  return distance == 0 ? Side::unknown : distance > 0 ? Side::inside : Side::outside;
 }
 
-bool DecidedCells::is_box_on(Room side, Vec3 a, Vec3 b) const {
+bool DecidedCells::is_box_on(Distance side, Vec3 a, Vec3 b) const {
   uint32_t first[3], last[3];
   for (int axis = 0; axis < 3; ++axis) {
     const uint32_t of_a = cell(a[axis], axis), of_b = cell(b[axis], axis);
@@ -167,28 +167,29 @@ bool DecidedCells::is_box_on(Room side, Vec3 a, Vec3 b) const {
   for (uint32_t k = first[2]; k <= last[2]; ++k)
     for (uint32_t j = first[1]; j <= last[1]; ++j)
       for (uint32_t i = first[0]; i <= last[0]; ++i)
-        if (side * rooms_[at(i, j, k)] <= 0) return false;
+        if (side * distances_[at(i, j, k)] <= 0) return false;
   return true;
 }
 
-double DecidedCells::same_side_until(const Ray& ray, double from, double to) const {
-  if (count_[0] == 0 || !(max_magnitude(ray.origin) <= max_origin_)) return from;
+bool DecidedCells::is_on_one_side(const Ray& ray, double from, double to) const {
+  if (count_[0] == 0 || !(max_magnitude(ray.origin) <= max_origin_)) return false;
   // Crosses at most the side of one cell along an axis.
   double step = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis)
     if (ray.direction[axis] != 0)
       step = std::min(step, (1 - 0x1p-10) * size_[axis] / std::abs(ray.direction[axis]));
   Vec3 p = ray.at(from);
-  for (Room side = 0;;) {
-    const Room room = rooms_[at(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2))];
-    if (side == 0) side = room > 0 ? 1 : room < 0 ? -1 : 0;
-    if (side == 0) return from;
-    const int cells = std::abs(room) - 1;
+  for (Distance side = 0;;) {
+    const Distance distance = distances_[at(cell(p.x, 0), cell(p.y, 1), cell(p.z, 2))];
+    if (side == 0) side = distance > 0 ? 1 : -1;
+    // Unknown, or another side: rounding of a far ray has left the cells that were proved.
+    if (side * distance <= 0) return false;
+    const int cells = std::abs(distance) - 1;
     const double next = std::min(to, from + std::max(1, cells) * step);
-    if (!(next > from)) return from;
+    if (!(next > from)) return false;
     const Vec3 q = ray.at(next);
-    if (cells == 0 && !is_box_on(side, p, q)) return from;
-    if (next == to) return to;
+    if (cells == 0 && !is_box_on(side, p, q)) return false;
+    if (next == to) return true;
     from = next;
     p = q;
   }

@@ -25,7 +25,7 @@ class DecidedCells {
 
   /// inside(p): the definition. Throws Error(cancelled) if the job, which may be null, is
   /// cancelled. All is unknown in a mesh whose triangles reach through too many cells, and where
-  /// the budget has no room.
+  /// the budget has no distance.
   DecidedCells(const TriangleSoup& soup, const Box3& bounds,
                const std::function<bool(Vec3)>& inside, const std::shared_ptr<MemoryBudget>& budget,
                const Job* job);
@@ -33,20 +33,20 @@ class DecidedCells {
   /// Of a point in the bounding box.
   Side side(Vec3 p) const;
 
-  /// The greatest t found such that a ray is on one side from `from` to t; at most `to`, and `from`
-  /// itself if the side is unknown there. Both points are in the bounding box.
-  double same_side_until(const Ray& ray, double from, double to) const;
+  /// Whether a ray is proved to be on one side from `from` to `to`. Both points are in the bounding
+  /// box.
+  bool is_on_one_side(const Ray& ray, double from, double to) const;
 
  private:
   /// 0: unknown. Otherwise all cells whose indices differ by less than the magnitude along each
   /// axis are on one side: inside (positive) or outside (negative).
-  using Room = int8_t;
+  using Distance = int8_t;
 
   void mark(const TriangleSoup& soup, const Triangle& triangle, uint64_t& work);
   void decide(const std::function<bool(Vec3)>& inside, JobPoll& poll);
-  void find_rooms(JobPoll& poll);
+  void find_distances(JobPoll& poll);
   /// Whether all cells that the box of two points meets are on that side.
-  bool is_box_on(Room side, Vec3 a, Vec3 b) const;
+  bool is_box_on(Distance side, Vec3 a, Vec3 b) const;
   uint32_t cell(double v, int axis) const {
     const double c = (v - origin_[axis]) * scale_[axis];
     return c <= 0 ? 0 : c >= count_[axis] ? count_[axis] - 1 : static_cast<uint32_t>(c);
@@ -58,8 +58,10 @@ class DecidedCells {
   Vec3 origin_, scale_, size_;
   double margin_ = 0;
   uint32_t count_[3] = {1, 1, 1};
-  double max_origin_ = 0;  ///< magnitude of rays' origins up to which rounding is within the margin
-  std::vector<Room> rooms_;
+  /// Of rays' origins, in magnitude: rounding of their points, 2^-39 of the coordinates, is then
+  /// below what steps leave, 2^-10 of a cell, which is above 2^-36 of them.
+  double max_origin_ = 0;
+  std::vector<Distance> distances_;
   Reservation reservation_;
 };
 

@@ -22,15 +22,13 @@ bool Mesh::find_along(const Ray& ray, double from, double to, bool wanted, doubl
     t = from;
     return true;
   }
-  const double same_until = decided ? decided->same_side_until(ray, from, to) : from;
-  if (same_until >= to) return false;
+  if (decided && decided->is_on_one_side(ray, from, to)) return false;
   const double tolerance = ray_tolerance();
   double known = from;  // not wanted here
   double crossing;
   Vec3 normal;
-  // What is crossed there may be found a little before it.
-  bool crosses =
-      boundary().first_crossing(ray, same_until - tolerance, to, tolerance, crossing, normal);
+  // What is crossed at `from` may be found a little before it.
+  bool crosses = boundary().first_crossing(ray, from - tolerance, to, tolerance, crossing, normal);
   if (crosses) crossing = std::max(crossing, from);
   // A triangle is crossed at one t, and each search begins behind the last crossing: there are no
   // more rounds than triangles.

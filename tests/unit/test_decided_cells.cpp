@@ -82,16 +82,12 @@ void test_segments(void**) {
       // A ray's origin may be far behind.
       const double behind = at % 3 == 0 ? random.between(0, 50) : 0;
       const Ray ray{a - (b - a) * behind, b - a};
-      const double until = cells.same_side_until(ray, behind, behind + 1);
+      if (!cells.is_on_one_side(ray, behind, behind + 1)) continue;
+      ++decided;
       const DecidedCells::Side side = cells.side(ray.at(behind));
-      assert_true(until >= behind && until <= behind + 1);
-      if (side == DecidedCells::Side::unknown) {
-        assert_true(until == behind);
-        continue;
-      }
-      decided += until == behind + 1;
+      assert_true(side != DecidedCells::Side::unknown);
       for (int i = 0; i <= 24; ++i) {
-        const Vec3 p = ray.at(behind + (until - behind) * (i / 24.0));
+        const Vec3 p = ray.at(behind + i / 24.0);
         if (mesh.inside(p) != (side == DecidedCells::Side::inside))
           fail_msg("mesh %zu: %g %g %g is decided wrongly", n, p.x, p.y, p.z);
       }
@@ -131,12 +127,17 @@ void test_unknown(void**) {
   const Ray diagonal{corner, mesh.bounds().extent()};
   assert_true(cells.side(middle) == DecidedCells::Side::inside);
   assert_true(cells.side(corner) == DecidedCells::Side::outside);
-  const double until = cells.same_side_until(diagonal, 0, 1);
-  assert_true(until > 0.1 && until < 0.3);  // the ball begins at 0.5 (1 - 1 / sqrt(3)) = 0.21
+  // The ball begins at 0.5 (1 - 1 / sqrt(3)) = 0.21, its middle ends after 0.79.
+  assert_true(cells.is_on_one_side(diagonal, 0, 0.15));
+  assert_true(cells.is_on_one_side(diagonal, 0.3, 0.7));
+  assert_false(cells.is_on_one_side(diagonal, 0, 0.5));
+  assert_false(cells.is_on_one_side(diagonal, 0, 1));
+  const Ray far{diagonal.origin - diagonal.direction * 0x1p14, diagonal.direction};
+  assert_false(cells.is_on_one_side(far, 0x1p14, 0x1p14 + 0.15));
   const std::shared_ptr<MemoryBudget> none = budget_of(100);
   const DecidedCells without(soup, mesh.bounds(), inside, none, nullptr);
   assert_true(without.side(middle) == DecidedCells::Side::unknown);
-  assert_true(without.same_side_until(diagonal, 0, 1) == 0);
+  assert_false(without.is_on_one_side(diagonal, 0, 0.1));
   assert_int_equal(none->held(), 0);
 }
 

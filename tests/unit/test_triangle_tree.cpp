@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Searches in a tree of triangles against all triangles one by one, to the last bit, with every
 // instruction set: distances, nearest triangles, ranges, and crossings of rays.
+#include "shape/triangle_search.h"
 #include "shape/triangle_tree.h"
 
 #include <hwy/targets.h>
@@ -169,11 +170,43 @@ bool grazes(const Row& row, const Ray& ray) {
   return false;
 }
 
+/// Whether and where a ray crosses a triangle, or passes it at less than `margin`: the definition.
+bool crosses(const TreeTriangle& t, const Ray& ray, double from, double to, double margin,
+             double& at) {
+  const Vec3 normal = cross(t.u, t.v), away = cross(ray.direction, t.v);
+  const double across = dot(away, t.u);
+  if (!(std::abs(across) > 0x1p-40 * length(normal))) return false;
+  const double inverse = 1 / across;
+  const Vec3 w = ray.origin - t.a, q = cross(w, t.u);
+  const double of_u = dot(w, away) * inverse, of_v = dot(ray.direction, q) * inverse;
+  const double room = margin * std::sqrt(t.longest_squared()) * std::abs(inverse);
+  at = dot(t.v, q) * inverse;
+  return of_u >= -room && of_v >= -room && of_u + of_v <= 1 + room && at >= from && at <= to;
+}
+
+/// Blocks of eight triangles say what the definition says of each, bit for bit.
+void check_blocks(const Row& row, const Ray& ray, double from, double to, double margin) {
+  for (size_t first = 0; first < row.triangles.size(); first += tree_width) {
+    TriangleBlock block;
+    const auto triangle = [&](uint32_t i) {
+      return row.triangles[std::min(first + i, row.triangles.size() - 1)];
+    };
+    for (uint32_t i = 0; i < tree_width; ++i) block.set(i, triangle(i));
+    alignas(64) double at[tree_width];
+    const uint32_t bits = meet_triangles(block, ray, from, to, margin, at);
+    for (uint32_t i = 0; i < tree_width; ++i) {
+      double t = 0;
+      const bool is_crossed = crosses(triangle(i), ray, from, to, margin, t);
+      if (is_crossed != (bits >> i & 1) || (is_crossed && t != at[i]))
+        fail_msg("triangle %zu: %d at %.17g, not %d at %.17g", first + i, bits >> i & 1, at[i],
+                 is_crossed, t);
+    }
+  }
+}
+
 /// A tree of a single triangle says whether and where a ray crosses that.
 void test_crossings(void** state) {
   const Row& row = *static_cast<const Row*>(*state);
-  // What passes a needle at the margin may be outside of its own box.
-  if (row.name == "degenerate") return;
   const TriangleTree tree(row.triangles, nullptr);
   std::vector<TriangleTree> single;
   for (const TreeTriangle& t : row.triangles)
@@ -192,6 +225,9 @@ void test_crossings(void** state) {
       const Ray ray{from, way * (1 / length(way))};
       const double begin = i % 2 ? 0 : -length(way), end = length(way);
       const double margin = 1e-12 * row.size + 1e-14 * (max_magnitude(from) + end);
+      check_blocks(row, ray, begin, end, margin);
+      // What passes a needle at the margin may be outside of its own box.
+      if (row.name == "degenerate") continue;
       TriangleTree::Crossing first{std::numeric_limits<double>::infinity(), {}}, one, got;
       bool wanted = false;
       for (const TriangleTree& of_one : single)

@@ -75,11 +75,14 @@ Vec3 WarpShell::normal(Vec3 p) const {
   return warp_.grid().rotation.apply(unit_along(g) * (is_inner ? -1.0 : 1.0));
 }
 
-bool WarpShell::keep_rows(const RowBlock& block) const {
+bool WarpShell::keep_rows(const RowBlock& block, const Job* job) const {
+  JobPoll poll(job);
   bool is_any = false;
   for (uint64_t k = block.z0; k < block.z1; ++k)
-    for (uint64_t j = block.y0; j < block.y1; ++j)
+    for (uint64_t j = block.y0; j < block.y1; ++j) {
+      poll();
       is_any |= keep_row(*block.grid, j, k, block.row(j, k));
+    }
   return is_any;
 }
 

@@ -29,7 +29,7 @@ class WarpShell {
   /// At a point of the boundary, outwards.
   Vec3 normal(Vec3 p) const;
   /// Clears the bits of samples that are outside. Returns whether any is left.
-  bool keep_rows(const RowBlock& block) const;
+  bool keep_rows(const RowBlock& block, const Job* job) const;
 
  private:
   bool keep_row(const SampleGrid& grid, uint64_t j, uint64_t k, uint64_t* row) const;

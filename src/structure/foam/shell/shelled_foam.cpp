@@ -44,7 +44,7 @@ BoxClass ShelledFoam::classify(const Box3& box) const {
 }
 
 void ShelledFoam::keep_rows(const RowBlock& block, const Job* job) const {
-  if (shell_.keep_rows(block)) foam_->keep_rows(block, job);
+  if (shell_.keep_rows(block, job)) foam_->keep_rows(block, job);
 }
 
 void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const {
