@@ -274,7 +274,7 @@ std::vector<Scenario> statistic_scenarios() {
                              World world(stage);
                              stage.needs_stack = kind.is_cgal;
                              const msq_structure* structure = kind.make(world);
-                             const msq_points_def sample = strata_of(2, 2);
+                             const msq_points_def sample = strata_of(4, 2);
                              std::vector<double> parameters(3), fractions(3);
                              msq_calibration_report report;
                              stage.watch(parameters);
@@ -283,7 +283,7 @@ std::vector<Scenario> statistic_scenarios() {
                                report = {};
                                report.struct_size = sizeof report;
                                return msq_structure_calibrate(
-                                   world.context, structure, &sample, 0.05, parameters.data(),
+                                   world.context, structure, &sample, 0.02, parameters.data(),
                                    fractions.data(), 3, &report, nullptr);
                              });
                            }});
