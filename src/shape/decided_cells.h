@@ -51,9 +51,7 @@ class DecidedCells {
     const double c = (v - origin_[axis]) * scale_[axis];
     return c <= 0 ? 0 : c >= count_[axis] ? count_[axis] - 1 : static_cast<uint32_t>(c);
   }
-  size_t at(uint32_t i, uint32_t j, uint32_t k) const {
-    return (size_t{k} * count_[1] + j) * count_[0] + i;
-  }
+  size_t at(size_t i, size_t j, size_t k) const { return (k * count_[1] + j) * count_[0] + i; }
 
   Vec3 origin_, scale_, size_;
   double margin_ = 0;

@@ -6,9 +6,10 @@
 // seed from whichever cell it is seen. Positions in cells are multiples of 2^-40 (placed_seeds.h,
 // graded_seeds.h), so along each axis differences of seeds are integers m 2^-40 times the scale.
 // The scale matters only to the squares of lengths, the sums of (m 2^-40 scale)^2. Scales are from
-// 1/16 to 1, so they are multiples of 2^-57, and everything is an integer of a known number of
-// bits. Double precision decides first, where a bound of its rounding lets it (J. R. Shewchuk,
-// "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997).
+// 1/16 to 1, so they are multiples of 2^-57, and everything but lifts is an integer of a known
+// number of bits. Lifts are rounded down to multiples of 2^-194. Double precision decides first,
+// where a bound of its rounding lets it (J. R. Shewchuk, "Adaptive Precision Floating-Point
+// Arithmetic and Fast Robust Geometric Predicates", 1997).
 #pragma once
 
 #include "structure/foam/joints/named_seeds.h"

@@ -11,14 +11,14 @@ namespace msq {
 
 namespace {
 
-/// The relative volume of four seeds below which they count as flat, and below which their
-/// circumcentre is computed exactly.
-constexpr double flat = 1e-13, narrow = 1e-6;
-/// Vertices that are closer together than this, in foam units, and those of four seeds of a lower
-/// relative volume may escape a brick's tolerances.
+/// Four seeds of a smaller relative volume count as flat.
+constexpr double flat = 1e-13;
+/// The circumcentre of four seeds of a smaller relative volume is computed exactly.
+constexpr double narrow = 1e-6;
+/// In foam units. A brick's tolerances may miss vertices that are closer together.
 constexpr double close = 1e-9;
-/// Fours that are tried about a place. Around an axis, dozens of seeds may be almost on one sphere;
-/// joints lead to the vertices that are left out (JointFinder::follow()).
+/// The maximum number of sets of four seeds that are tried about a place. Around an axis, dozens of
+/// seeds may be almost on one sphere. JointFinder::follow() finds the vertices that are left out.
 constexpr size_t max_tried = 1024;
 
 Id id_of(const std::vector<NamedSeed>& seeds) {
@@ -31,7 +31,7 @@ constexpr JointFace bit(size_t i) {
   return JointFace{1} << i;
 }
 
-/// Calls visit(a, b, c, d) for the fours of `count` numbers, a < b < c < d, until it returns true.
+/// Calls visit(a, b, c, d) for all a < b < c < d below `count`, until it returns true.
 template <class Visit>
 bool any_four(size_t count, Visit&& visit) {
   for (size_t d = 3; d < count; ++d)
@@ -244,9 +244,8 @@ bool JointFinder::choose(const Joint& joint, JointFace face, Three& three) const
 // with the face's seeds on its sphere. Each step has a ball that is too large and takes a seed in
 // it: the ball of that seed is smaller.
 bool JointFinder::follow(const Joint& joint, JointFace face, Joint& other) {
-  // Of distances: what rounding of a ball's centre is far below, and what is beyond all empty
-  // balls.
-  constexpr double margin = 1e-6, room = 1e-3;
+  // The rounding of a ball's centre is far smaller. NamedSeeds::find() allows the excess.
+  constexpr double margin = 1e-6, excess = 1e-3;
   Three three;
   if (!choose(joint, face, three)) return false;
   const auto& [a, b, c] = three.at;
@@ -254,7 +253,7 @@ bool JointFinder::follow(const Joint& joint, JointFace face, Joint& other) {
   const Vec3 place_of_a = three.seed[0]->from(home, seeds_->scale());
   const Vec3 from_a = joint.position - place_of_a;
   const double along = dot(from_a, three.normal), squared = dot(from_a, from_a) + a.lift,
-               radius = seeds_->empty_radius() * (1 + room);
+               radius = seeds_->empty_radius() * (1 + excess);
   const double way = std::sqrt(std::max(0.0, along * along + radius * radius - squared)) - along;
   Vec3 centre = joint.position + three.normal * way;
   NamedSeed met{};  // the last seed taken

@@ -18,6 +18,7 @@ void NamedSeeds::move_to(const FoamSeeds& seeds, const std::shared_ptr<const Gra
   // Points are within the empty radius of a seed of the brick, and so are their nearest seeds from
   // them.
   for (int axis = 0; axis < 3; ++axis) {
+    // One cell more than twice the empty radius: find() allows a little more.
     halo_[axis] = static_cast<int>(std::ceil(2 * seeds.empty_radius() / scale_[axis])) + 1;
     size_[axis] = static_cast<size_t>(side + 2 * halo_[axis]);
   }

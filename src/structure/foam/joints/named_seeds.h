@@ -52,7 +52,7 @@ class NamedSeeds {
 
   /// Fills `near`, in the order of seeds, with all seeds that are farther from p than its nearest
   /// one by at most `more`; distances are lifted (seeds/seeds.h). p, in foam units from the brick's
-  /// corner, is within the empty radius of a seed of the brick.
+  /// corner, is within 1.001 times the empty radius of a seed of the brick.
   void find(Vec3 p, double more, std::vector<NamedSeed>& near);
 
   Vec3 scale() const { return scale_; }
