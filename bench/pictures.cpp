@@ -2,9 +2,10 @@
 // The error and the processor time of pictures by the number of samples and occlusion rays: a
 // window of the picture of README, against 144 samples of 16 rays. usage: pictures [results.json]
 // [model]
-#include <array>
 #include <cmath>
-#include <cstdlib>
+#include <cstdio>
+#include <string>
+#include <vector>
 
 #include "setup.h"
 
@@ -73,13 +74,16 @@ int main(int count, char** arguments) try {
     const Scene scene(context, count > 2 ? arguments[2] : "examples/models/bracket.json");
     scene.render(1, 1);  // builds what all pictures share
     const Picture reference = scene.render(12, 16);
-    for (const auto& [samples, rays] :
-         std::vector<std::array<uint32_t, 2>>{{2, 8}, {3, 8}, {3, 12}, {4, 8}, {5, 4}}) {
+    struct Setting {
+      uint32_t samples, occlusion_rays;
+    };
+    for (const Setting& setting : std::vector<Setting>{{2, 8}, {3, 8}, {3, 12}, {4, 8}, {5, 4}}) {
       Picture picture;
-      const double seconds =
-          bench::min_processor_seconds([&] { picture = scene.render(samples, rays); });
-      const std::string name = std::to_string(samples) + " x " + std::to_string(samples) +
-                               " samples of " + std::to_string(rays) + " occlusion rays";
+      const double seconds = bench::min_processor_seconds(
+          [&] { picture = scene.render(setting.samples, setting.occlusion_rays); });
+      const std::string side = std::to_string(setting.samples);
+      const std::string name = side + " x " + side + " samples of " +
+                               std::to_string(setting.occlusion_rays) + " occlusion rays";
       report.add(name, seconds, width * height, "pixel");
       report.note(name + ": RMS error", error_of(picture, reference), "of 255");
     }
