@@ -555,7 +555,7 @@ enum msq_warp_kind {
  *
  * Cells fill the space from inner_radius to outer_radius. A functional structure is empty outside
  * of this space, and so is a foam. A lattice has the whole cells that fit in it
- * (msq_lattice_def.warp). Foams take CYLINDRICAL alone (msq_foam_def.warp).
+ * (msq_lattice_def.warp). Foams do not take SAMPLED (msq_foam_def.warp).
  *
  * SAMPLED: u, v and w are fields of samples (msq_field_grid) on one grid of at least 2 samples
  * along each axis. msq interpolates the samples. The three values at a point are its coordinates,
@@ -1436,15 +1436,17 @@ typedef struct msq_foam_def {
    * AUTO or DIRECT, density must not exceed 1, the three numbers of stretch must be equal, and
    * weight must be 0. NULL (default): all cells have one size. */
   const msq_period_def* period;
-  /** Cells around the z axis of the grid. The kind must be CYLINDRICAL, the shear 0, and
-   * outer_radius above 0. Each cell has a seed, and the Voronoi diagram is that of the seeds in
-   * model space. Struts stay straight and keep their radius; walls keep their thickness. Cells go
-   * on beyond inner_radius and outer_radius, so those at the two radii are like those between them.
-   * The foam is cut off there. Between the radii, cell sizes may differ by a factor of up to 16:
-   * grid.cell_size[0], grid.cell_size[2], and the width 2 pi r / count at a distance r from the
-   * axis. The limits of radius, wall_thickness and vent_radius refer to the smallest. With a warp,
-   * method must be AUTO or DIRECT, density must not exceed 1, the three numbers of stretch must be
-   * equal, weight must be 0, and period must be NULL. NULL (default): cells are boxes. */
+  /** Cells around the z axis of the grid, or around its origin. The kind must be CYLINDRICAL or
+   * SPHERICAL (with a count of at least 3 and a count_polar of at least 2), and outer_radius above
+   * 0. Each cell has a seed, and the Voronoi diagram is that of
+   * the seeds in model space. Struts stay straight and keep their radius; walls keep their
+   * thickness. Cells go on beyond inner_radius and outer_radius, so those at the two radii are like
+   * those between them. The foam is cut off there. Between the radii, cell sizes may differ by a
+   * factor of up to 16: grid.cell_size[0]; the width 2 pi r / count at a distance r from the axis,
+   * or at the equator; and grid.cell_size[2], or pi r / count_polar around a point. The limits of
+   * radius, wall_thickness and vent_radius refer to the smallest. With a warp, method must be AUTO
+   * or DIRECT, density must not exceed 1, the three numbers of stretch must be equal, weight must
+   * be 0, and period must be NULL. NULL (default): cells are boxes. */
   const msq_warp_def* warp;
 } msq_foam_def;
 
@@ -1466,8 +1468,8 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
  * shell that 2^15 are in a box of the search; stretch, see there; density above 32768), UNSUPPORTED
  * (METHOD_2 without CGAL; walls, a stretch, a weight, a period, a warp, or density above 1, with a
  * method other than AUTO and DIRECT; a stretch, a weight, a period or a warp with density above 1;
- * a stretch or a weight with vent_radius; two of stretch, weight, period and warp; a warp of
- * another kind, or with a shear), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams";
+ * a stretch or a weight with vent_radius; two of stretch, weight, period and warp; a SAMPLED
+ * warp), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams";
  * Martinez, Dumas and Lefebvre 2016. Weights: Imai, Iri and Murota, "Voronoi diagram in the
  * Laguerre geometry and its applications", 1985; Aurenhammer, "Power diagrams: properties,
  * algorithms and applications", 1987; for foams Fan, Wu, Zhao and Lu, "Simulation of

@@ -188,7 +188,7 @@ std::optional<Warp> read_foam_warp(msq_foam_def& def, msq_warp_def& known,
   if (map.sampled)
     fail(Status::unsupported,
          "warp.kind is MSQ_WARP_SAMPLED; the cells of a foam may be around an axis, "
-         "MSQ_WARP_CYLINDRICAL, only");
+         "MSQ_WARP_CYLINDRICAL, or around a point, MSQ_WARP_SPHERICAL");
   if (map && def.period)
     fail(Status::unsupported, "a period and a warp are given; a foam takes one of them");
   return map.round;

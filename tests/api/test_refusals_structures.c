@@ -220,10 +220,16 @@ static void foams(void** state) {
     def->warp = warp;
     WRONG(ARGUMENT, "warp.count is 0", warp->count = 0);
     WRONG(ARGUMENT, "warp.outer_radius is 0|in a foam", warp->outer_radius = 0);
-    WRONG(UNSUPPORTED, "warp.kind is 2|MSQ_WARP_CYLINDRICAL", warp->kind = MSQ_WARP_SPHERICAL;
-          warp->count_polar = 8);
-    WRONG(UNSUPPORTED, "warp.shear_outwards is 0.5|must be 0", warp->shear_outwards = 0.5);
-    WRONG(UNSUPPORTED, "warp.shear_along -1|must be 0", warp->shear_along = -1);
+    RIGHT(warp->kind = MSQ_WARP_SPHERICAL; warp->count_polar = 12);
+    WRONG(LIMIT, "warp.count is 2|at least 3 and 2", warp->kind = MSQ_WARP_SPHERICAL;
+          warp->count_polar = 12; warp->count = 2);
+    WRONG(LIMIT, "count_polar 1|at least 3 and 2", warp->kind = MSQ_WARP_SPHERICAL;
+          warp->count_polar = 1);
+    WRONG(LIMIT, "0.0785398 from south|their sizes run from 0.0785398 to 1.50796",
+          warp->kind = MSQ_WARP_SPHERICAL;
+          warp->count_polar = 80);
+    RIGHT(warp->shear_outwards = 0.5; warp->shear_along = -1);
+    WRONG(LIMIT, "shear_along 300|the limit is 32766", warp->shear_along = 300);
     WRONG(UNSUPPORTED, "a period and a warp", def->period = period);
     WRONG(LIMIT, "0 wide at inner_radius|16 times", warp->inner_radius = 0);
     RIGHT(warp->inner_radius = 0.376);

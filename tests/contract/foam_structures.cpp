@@ -5,7 +5,6 @@
 
 #include "field/gradient.h"
 #include "structure/foam/foam.h"
-#include "structure/foam/seeds/warp_seeds.h"
 #include "structure/foam/shell/shelled_foam.h"
 #include "structure/foam/walled_foam.h"
 
@@ -86,19 +85,18 @@ Factory placed_both_factory(double jitter, Placed place) {
   };
 }
 
-Warp warp_of_foams(const Neighbourhood& grid) {
-  const double size = grid.cell_size.x;
-  return {Warp::Kind::cylindrical, grid, {12, 0, 0.8 * size, 2.6 * size}};
+Warp warp_of_foams(const Neighbourhood& grid, FoamWarp kind) {
+  const double size = grid.cell_size.x, inner = 0.8 * size, outer = 2.6 * size;
+  if (kind == FoamWarp::sphere) return {Warp::Kind::spherical, grid, {12, 6, inner, outer}};
+  if (kind == FoamWarp::sheared)
+    return {Warp::Kind::cylindrical, grid, {12, 0, inner, outer, -0.5, 1.25}};
+  return {Warp::Kind::cylindrical, grid, {12, 0, inner, outer}};
 }
 
-std::shared_ptr<const PlacedSeeds> by_warp(const Neighbourhood& grid, double jitter) {
-  return std::make_shared<const WarpSeeds>(warp_of_foams(grid), jitter, uint64_t{7});
-}
-
-Factory shelled_factory(Factory foam) {
-  return [foam = std::move(foam)](const Neighbourhood& grid, Parameter size) {
+Factory shelled_factory(Factory foam, FoamWarp kind) {
+  return [foam = std::move(foam), kind](const Neighbourhood& grid, Parameter size) {
     return Ref<const Structure>(
-        make_ref<ShelledFoam>(foam(grid, std::move(size)), warp_of_foams(grid)));
+        make_ref<ShelledFoam>(foam(grid, std::move(size)), warp_of_foams(grid, kind)));
   };
 }
 

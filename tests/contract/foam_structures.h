@@ -7,6 +7,7 @@
 
 #include "lattice_structures.h"
 #include "structure/foam/seeds/period_seeds.h"
+#include "structure/foam/seeds/warp_seeds.h"
 #include "structures.h"
 
 namespace msq::test {
@@ -31,11 +32,16 @@ Factory placed_walls_factory(double jitter, Placed place, double vent_radius = 0
 /// Struts and walls.
 Factory placed_both_factory(double jitter, Placed place);
 
-/// Twelve cells around the grid's z axis, some of the shell's ends within reach.
-Warp warp_of_foams(const Neighbourhood& grid);
-std::shared_ptr<const PlacedSeeds> by_warp(const Neighbourhood& grid, double jitter);
+/// Twelve cells around the grid's z axis, some of the shell's ends within reach; those sheared; or
+/// cells around its origin.
+enum class FoamWarp { cylinder, sheared, sphere };
+Warp warp_of_foams(const Neighbourhood& grid, FoamWarp kind);
+template <FoamWarp kind = FoamWarp::cylinder>
+std::shared_ptr<const PlacedSeeds> by_warp(const Neighbourhood& grid, double jitter) {
+  return std::make_shared<const WarpSeeds>(warp_of_foams(grid, kind), jitter, uint64_t{7});
+}
 /// In that shell.
-Factory shelled_factory(Factory foam);
+Factory shelled_factory(Factory foam, FoamWarp kind = FoamWarp::cylinder);
 
 Factory walls_factory(double jitter, bool has_density = false);
 /// Walls with holes of 0.2 of a cell, or in places less.

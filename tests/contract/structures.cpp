@@ -375,17 +375,30 @@ std::vector<Kind> kinds() {
   kinds.push_back(
       {"foam placed", "walls with holes", 0.08, 1, placed_walls_factory(1, by_period<1>, 0.15)});
   kinds.push_back({"foam placed", "and struts", 0.09, 1, placed_both_factory(1, by_period<2>)});
-  kinds.push_back({"warped foam", "struts", 0.08, 1, shelled_factory(placed_factory(1, by_warp))});
   kinds.push_back(
-      {"warped foam", "struts, jitter 0", 0.1, 0, shelled_factory(placed_factory(0, by_warp))});
+      {"warped foam", "struts", 0.08, 1, shelled_factory(placed_factory(1, by_warp<>))});
+  kinds.push_back(
+      {"warped foam", "struts, jitter 0", 0.1, 0, shelled_factory(placed_factory(0, by_warp<>))});
   kinds.push_back({"warped foam", "struts, sampled radius", 0.1, 1,
-                   shelled_factory(placed_factory(1, by_warp)), sampled_field});
+                   shelled_factory(placed_factory(1, by_warp<>)), sampled_field});
   kinds.push_back(
-      {"warped foam", "walls", 0.06, 0.5, shelled_factory(placed_walls_factory(0.5, by_warp))});
+      {"warped foam", "walls", 0.06, 0.5, shelled_factory(placed_walls_factory(0.5, by_warp<>))});
   kinds.push_back({"warped foam", "walls with holes", 0.08, 1,
-                   shelled_factory(placed_walls_factory(1, by_warp, 0.15))});
+                   shelled_factory(placed_walls_factory(1, by_warp<>, 0.15))});
   kinds.push_back({"warped foam", "walls and struts", 0.09, 1,
-                   shelled_factory(placed_both_factory(1, by_warp))});
+                   shelled_factory(placed_both_factory(1, by_warp<>))});
+  kinds.push_back(
+      {"warped foam", "sheared struts", 0.08, 1,
+       shelled_factory(placed_factory(1, by_warp<FoamWarp::sheared>), FoamWarp::sheared)});
+  kinds.push_back(
+      {"warped foam", "sheared walls", 0.06, 0.5,
+       shelled_factory(placed_walls_factory(0.5, by_warp<FoamWarp::sheared>), FoamWarp::sheared)});
+  kinds.push_back(
+      {"warped foam", "struts around a point", 0.08, 1,
+       shelled_factory(placed_factory(1, by_warp<FoamWarp::sphere>), FoamWarp::sphere)});
+  kinds.push_back(
+      {"warped foam", "walls around a point", 0.06, 1,
+       shelled_factory(placed_walls_factory(1, by_warp<FoamWarp::sphere>), FoamWarp::sphere)});
   for (double jitter : {1.0, 0.01, 0.0})
     for (double thickness : {0.02, 0.1, 0.45}) {
       if (jitter < 1 && thickness != 0.1) continue;

@@ -98,6 +98,11 @@ bool holds(const StructureRow& row, const Strut& s, double factor, const Paramet
   return std::sqrt(Segment(s.a, s.b).distance_squared(p)) <= factor * radius.at(p) + extra;
 }
 
+FoamWarp warp_kind(const StructureRow& row) {
+  if (row.kind.name.find("around a point") != std::string::npos) return FoamWarp::sphere;
+  return row.kind.name.starts_with("sheared") ? FoamWarp::sheared : FoamWarp::cylinder;
+}
+
 void test_row(void** state) {
   const StructureRow& row = *static_cast<const StructureRow*>(*state);
   const Neighbourhood& grid = row.variant.grid;
@@ -137,7 +142,7 @@ void test_row(void** state) {
   const bool has_more = row.kind.name.find("and struts") != std::string::npos;  // walls
   // Struts are whole, the foam ends at its shell.
   std::optional<WarpShell> shell;
-  if (row.kind.family == "warped foam") shell.emplace(warp_of_foams(grid));
+  if (row.kind.family == "warped foam") shell.emplace(warp_of_foams(grid, warp_kind(row)));
   for (size_t i = 0; i < test_count(300); ++i) {
     const Vec3 p = random.in_box(box);
     bool may = false, must = false;
@@ -181,7 +186,8 @@ int main() {
     // Around an axis, seeds without jitter are on one sphere by dozens, which takes long.
     if (row.kind.family == "warped foam" &&
         (row.kind.jitter == 0 ? row.is_graded || !row.variant.name.empty()
-                              : row.kind.name != "struts" && !has_other))
+                              : !row.kind.name.starts_with("struts") &&
+                                    row.kind.name != "sheared struts" && !has_other))
       continue;
     // Foams with octrees of seeds take seconds, in slow builds tens of them.
     const bool is_slow = test_scale() < 1;

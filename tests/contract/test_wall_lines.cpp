@@ -54,7 +54,8 @@ bool holds_lines(const StructureRow& row, const Structure& structure) {
   // Fillets take a part of the walls.
   return row.kind.family != "combined" && row.kind.family != "smooth" &&
          !dynamic_cast<const Foam*>(&structure) &&
-         !(row.kind.family == "warped foam" && row.kind.name.starts_with("struts"));
+         !(row.kind.family == "warped foam" && row.kind.name.find("struts") != std::string::npos &&
+           row.kind.name.find("walls") == std::string::npos);
 }
 
 Vec2 point_on(const LineGraph& graph, const std::array<uint32_t, 2>& line, double t) {

@@ -160,6 +160,13 @@ Owner<msq_structure> Maker::foam() {
     warp.count = 2 + input_.below(40);
     warp.inner_radius = input_.number(0.3, 4) * sight_.unit;
     warp.outer_radius = warp.inner_radius + input_.number(0, 4) * sight_.unit;
+    if (input_.chance(60)) {
+      warp.kind = MSQ_WARP_SPHERICAL;
+      warp.count_polar = 2 + input_.below(20);
+    } else if (input_.chance(60)) {
+      warp.shear_outwards = input_.number(-2, 2);
+      warp.shear_along = input_.number(-2, 2);
+    }
     def.warp = &warp;
   }
   return make<msq_structure>("msq_structure_foam", [&](msq_structure** s) {

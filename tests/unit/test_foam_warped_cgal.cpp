@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Foams in cells around an axis, against a global Delaunay triangulation (CGAL) of the seeds of all
-// rings: from the axis to farther out than the foam has any. The C library places them.
+// Foams in cells around an axis or a point, against a global Delaunay triangulation (CGAL) of the
+// seeds of all rings: from the axis to farther out than the foam has any. The C library places
+// them.
 #include <cmath>
 
 #include "base/pi.h"
@@ -23,6 +24,8 @@ struct Row {
   double jitter;
   uint64_t seed;
   bool is_turned;
+  uint32_t polar = 0;              // cells from pole to pole
+  double outwards = 0, along = 0;  // shears
 };
 const Row rows[] = {
     {"even", 24, 4, 7, 1, 1, 1, 41, false},
@@ -33,6 +36,13 @@ const Row rows[] = {
     {"thin shell", 30, 5, 5.4, 1, 1, 1, 46, true},
     {"few around", 4, 0.75, 1.5, 1, 1, 1, 47, false},
     {"jitter 0", 16, 2, 4, 1, 1, 0, 48, false},
+    {"sheared along", 20, 3, 5, 1, 1, 1, 49, true, 0, 0, 1.5},
+    {"sheared outwards", 24, 4, 6, 1, 0.75, 1, 50, false, 0, -1, 0},
+    {"sheared to near the axis", 9, 1, 3, 1, 1, 1, 51, true, 0, 0.75, -0.5},
+    {"sphere", 24, 4, 5.5, 1, 1, 1, 52, true, 12},
+    {"sphere to near the point", 12, 1.25, 3, 1, 1, 1, 53, false, 6},
+    {"sphere of flat cells", 16, 3, 4, 0.5, 1, 0.7, 54, true, 10},
+    {"sphere with few cells", 5, 0.75, 1.5, 1, 1, 1, 55, false, 2},
 };
 
 Neighbourhood grid_of(const Row& row) {
@@ -42,14 +52,22 @@ Neighbourhood grid_of(const Row& row) {
   return {{0.25, -0.5, 0.125}, size, {{c, 0, s, 0, 1, 0, -s, 0, c}}};
 }
 
+Warp warp_of(const Row& row, const Neighbourhood& grid) {
+  return {row.polar > 0 ? Warp::Kind::spherical : Warp::Kind::cylindrical,
+          grid,
+          {row.count, row.polar, row.inner, row.outer, row.outwards, row.along}};
+}
+
 Vec3 half_of(const Row& row) {
-  return {1.1 * row.outer, 1.1 * row.outer, 1.2 * row.high};
+  return {1.1 * row.outer, 1.1 * row.outer, row.polar > 0 ? 1.1 * row.outer : 1.2 * row.high};
 }
 
 /// Farther from the shell than any seed that decides.
 double margin_of(const Row& row) {
   const auto diagonal = [&](double r) {
-    return length(Vec3{row.thick, two_pi * (r + row.thick) / row.count, row.high});
+    const double swell = 1 + std::abs(row.outwards) + std::abs(row.along);
+    return length(Vec3{row.thick, swell * two_pi * (r + row.thick) / row.count,
+                       row.polar > 0 ? pi * (r + row.thick) / row.polar : row.high});
   };
   return 1 + 2.2 * diagonal(row.outer + 1 + diagonal(row.outer + 1));
 }
@@ -61,14 +79,19 @@ Diagram diagram_of(const Row& row) {
   const auto whole = [](double cells) { return static_cast<int>(std::floor(cells)); };
   const int first = whole(-row.inner / row.thick),
             last = whole((row.outer + margin - row.inner) / row.thick),
-            high = whole((most.z + margin) / row.high) + 1;
+            high = row.polar > 0 ? 0 : whole((most.z + margin) / row.high) + 1,
+            top = row.polar > 0 ? static_cast<int>(row.polar) : high;
   std::vector<Vec3> points;
-  for (int k = -high; k < high; ++k)
+  for (int k = -high; k < top; ++k)
     for (int j = 0; j < static_cast<int>(row.count); ++j)
       for (int i = first; i <= last; ++i) {
         const Vec3 cells = seeds.at({}, i, j, k);
-        const double r = row.inner + cells.x * row.thick, angle = turn * cells.y;
-        points.push_back({r * std::cos(angle), r * std::sin(angle), cells.z * row.high});
+        const double r = row.inner + cells.x * row.thick,
+                     angle = turn * (cells.y - row.outwards * cells.x - row.along * cells.z),
+                     latitude = row.polar > 0 ? pi * (cells.z / row.polar - 0.5) : 0,
+                     across = r * std::cos(latitude);
+        points.push_back({across * std::cos(angle), across * std::sin(angle),
+                          row.polar > 0 ? r * std::sin(latitude) : cells.z * row.high});
       }
   const auto is_near = [&](const auto& part) {
     return box_of(part).overlaps(Box3{most * -1.0, most});
@@ -94,7 +117,8 @@ void check_shelled(const Row& row, const char* what, const Structure& solid, con
   solid.keep_points(asked.points.data(), alive.data(), asked.points.size());
   for (size_t i = 0; i < asked.points.size(); ++i) {
     const Vec3 p = asked.points[i], g = grid.to_grid(p);
-    const double r = std::hypot(g.x, g.y), beyond = std::max(row.inner - r, r - row.outer);
+    const double r = row.polar > 0 ? length(g) : std::hypot(g.x, g.y),
+                 beyond = std::max(row.inner - r, r - row.outer);
     if (std::abs(beyond) <= near) continue;
     if (beyond < 0) {
       within.points.push_back(p);
@@ -115,7 +139,7 @@ void test_diagram(void**) {
   for (const Row& row : rows) {
     const Diagram diagram = diagram_of(row);
     const Neighbourhood frame = grid_of(row);
-    const Warp warp(Warp::Kind::cylindrical, frame, {row.count, 0, row.inner, row.outer});
+    const Warp warp = warp_of(row, frame);
     const std::shared_ptr<const PlacedSeeds> placed =
         std::make_shared<const WarpSeeds>(warp, row.jitter, row.seed);
     const Neighbourhood grid = placed->grid();

@@ -366,7 +366,7 @@ class Foam(Structure):
     stretch: parameter[Sequence[float]] = parameter("Of the cells along the grid's axes.")
     weight: parameter[float] = parameter("Of the seeds; 0: a Voronoi diagram.")
     period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
-    warp: parameter[Optional[AnyWarp]] = parameter("Cells around an axis; None: boxes.")
+    warp: parameter[Optional[AnyWarp]] = parameter("Cells around an axis or a point; None: boxes.")
 
     @remembers
     def __init__(self, *, radius: Param = 0.0, cell_size: Cell = 1.0, jitter: float = 1.0,

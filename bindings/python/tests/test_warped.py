@@ -60,14 +60,17 @@ class WarpedFoams(unittest.TestCase):
     def test_nothing_is_beyond_the_shell(self):
         points = np.random.default_rng(5).uniform(-5, 5, (4000, 3))
         radius = np.hypot(points[:, 0], points[:, 1])
-        warp = msq.Warp(20, inner_radius=2, outer_radius=4.5)
         for sizes in ({"radius": 0.2}, {"wall_thickness": 0.2}):
-            onsets = msq.Foam(cell_size=1, warp=warp, **sizes).onset(points)
-            np.testing.assert_array_equal(np.isfinite(onsets), (radius >= 2) & (radius <= 4.5))
+            for more in ({}, {"shear_along": 0.5}, {"count_polar": 10}):
+                warp = msq.Warp(20, inner_radius=2, outer_radius=4.5, **more)
+                onsets = msq.Foam(cell_size=1, warp=warp, **sizes).onset(points)
+                r = np.linalg.norm(points, axis=1) if "count_polar" in more else radius
+                np.testing.assert_array_equal(np.isfinite(onsets), (r >= 2) & (r <= 4.5))
 
     def test_refusals(self):
-        with self.assertRaisesRegex(msq.UnsupportedError, "warp.kind is 2"):
-            msq.Foam(radius=0.1, warp=msq.Warp(8, inner_radius=1, outer_radius=2, count_polar=4))
+        axis = [msq.Field.grid(np.indices((3, 3, 3))[2 - n] * 1.0) for n in range(3)]
+        with self.assertRaisesRegex(msq.UnsupportedError, "warp.kind is MSQ_WARP_SAMPLED"):
+            msq.Foam(radius=0.1, warp=msq.SampledWarp(*axis))
         with self.assertRaisesRegex(msq.ArgumentError, "warp.outer_radius is 0"):
             msq.Foam(radius=0.1, warp=msq.Warp(8, inner_radius=1))
 

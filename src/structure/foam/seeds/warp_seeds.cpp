@@ -14,8 +14,6 @@ namespace {
 /// Own seeds of boxes beyond the outermost ring are in the outer eighth of their box, so that they
 /// hardly come into the rings.
 constexpr double outer_part = 0.125;
-/// By how much they may do so, and those within the innermost ring, in sides of boxes.
-const double dip_outside = std::sqrt(2.0) * outer_part * 1.001, dip_inside = std::sqrt(2.0) * 1.001;
 
 Warp in_grid(const Warp& warp) {
   Neighbourhood grid = warp.grid();
@@ -26,32 +24,40 @@ Warp in_grid(const Warp& warp) {
 
 const Warp& check(const Warp& warp) {
   const Warp::Shell& shell = warp.shell();
-  if (warp.kind() != Warp::Kind::cylindrical)
-    fail(Status::unsupported,
-         "warp.kind is %d; the cells of a foam may be around an axis, MSQ_WARP_CYLINDRICAL, only",
-         static_cast<int>(warp.kind()));
-  if (shell.is_sheared())
-    fail(Status::unsupported,
-         "warp.shear_outwards is %g and warp.shear_along %g; in a foam both must be 0",
-         shell.shear_outwards, shell.shear_along);
   if (!(shell.outer > 0))
     fail(Status::argument,
          "warp.outer_radius is %g; in a foam it must be above inner_radius, as cells grow outwards",
          shell.outer);
-  const Vec3 size = warp.grid().cell_size;
-  const double turn = two_pi / shell.count;
-  const double narrow = std::min({size.x, size.z, turn * shell.inner}),
-               wide = std::max({size.x, size.z, turn * shell.outer});
-  // A ratio of the limit may be rounded up.
-  if (!(wide <= WarpSeeds::max_ratio * narrow * (1 + 1e-12)))
+  const double thick = warp.grid().cell_size.x, turn = two_pi / shell.count;
+  const bool is_round = warp.kind() == Warp::Kind::spherical;
+  // Fewer seeds may all be on one line, and then have no edges.
+  if (is_round && (shell.count < 3 || shell.count_polar < 2))
     fail(
         Status::limit,
-        "warp.count is %u: cells are %g wide at inner_radius and %g at outer_radius, and with "
-        "grid.cell_size[0], %g, and [2], %g, their sizes run from %g to %g; in a foam, the largest "
-        "may be %g times the smallest",
-        shell.count, turn * shell.inner, turn * shell.outer, size.x, size.z, narrow, wide,
-        WarpSeeds::max_ratio);
-  return warp;
+        "warp.count is %u and count_polar %u; in a foam around a point they must be at least 3 and "
+        "2",
+        shell.count, shell.count_polar);
+  const auto height = [&](double radius) {
+    return is_round ? pi / shell.count_polar * radius : warp.grid().cell_size.z;
+  };
+  const double narrow = std::min({thick, height(shell.inner), turn * shell.inner}),
+               wide = std::max({thick, height(shell.outer), turn * shell.outer});
+  // A ratio of the limit may be rounded up.
+  if (wide <= WarpSeeds::max_ratio * narrow * (1 + 1e-12)) return warp;
+  if (is_round)
+    fail(
+        Status::limit,
+        "warp.count is %u and count_polar %u: at inner_radius, cells are %g wide and %g from south "
+        "to north, at outer_radius %g and %g, and with grid.cell_size[0], %g, their sizes run from "
+        "%g to %g; in a foam, the largest may be %g times the smallest",
+        shell.count, shell.count_polar, turn * shell.inner, height(shell.inner), turn * shell.outer,
+        height(shell.outer), thick, narrow, wide, WarpSeeds::max_ratio);
+  fail(Status::limit,
+       "warp.count is %u: cells are %g wide at inner_radius and %g at outer_radius, and with "
+       "grid.cell_size[0], %g, and [2], %g, their sizes run from %g to %g; in a foam, the largest "
+       "may be %g times the smallest",
+       shell.count, turn * shell.inner, turn * shell.outer, thick, warp.grid().cell_size.z, narrow,
+       wide, WarpSeeds::max_ratio);
 }
 
 }  // namespace
@@ -60,9 +66,14 @@ double WarpSeeds::width(double radius) const {
   return radius * (two_pi / warp_.shell().count);
 }
 
+double WarpSeeds::height(double radius) const {
+  return is_round_ ? radius * (pi / warp_.shell().count_polar) : warp_.grid().cell_size.z;
+}
+
 double WarpSeeds::diagonal(double radius) const {
-  const Vec3 size = warp_.grid().cell_size;
-  return length(Vec3{size.x, width(radius + size.x), size.z}) * (1 + 0x1p-13);
+  const double thick = warp_.grid().cell_size.x;
+  return length(Vec3{thick, width(radius + thick) * swell_, height(radius + thick)}) *
+         (1 + 0x1p-13);
 }
 
 double WarpSeeds::box_volume() const {
@@ -73,22 +84,37 @@ WarpSeeds::WarpSeeds(const Warp& warp, double jitter, uint64_t seed)
     : warp_(in_grid(check(warp))),
       grid_(warp.grid()),
       smallest_(warp.grid()),
+      is_round_(warp.kind() == Warp::Kind::spherical),
+      swell_(1 + std::abs(warp.shell().shear_outwards) + std::abs(warp.shell().shear_along)),
       cells_(seed, jitter, {1, 1, 1}),
       own_(seed ^ 0x626f72646572, 1, {1, 1, 1}) {  // the bytes "border"
   const Warp::Shell& shell = warp_.shell();
-  const double thick = smallest_.cell_size.x, high = smallest_.cell_size.z;
-  smallest_.cell_size.y = width(shell.inner);
+  const double thick = smallest_.cell_size.x;
+  smallest_.cell_size = {thick, width(shell.inner), height(shell.inner)};
   reach_ = min_component(smallest_.cell_size);
-  largest_ = std::max({thick, width(shell.outer), high});
+  largest_ = std::max({thick, width(shell.outer), height(shell.outer)});
   const auto too_many = [&](double cells) {
-    fail(Status::limit,
-         "warp.count is %u, inner_radius %g and outer_radius %g, and grid.cell_size[0] is %g and "
-         "[2] %g: about %.3g seeds would be in one box of the search; the limit is %g",
-         shell.count, shell.inner, shell.outer, thick, high, cells, max_in_box);
+    const char* const why = "seeds would be in one box of the search; the limit is";
+    if (is_round_)
+      fail(Status::limit,
+           "warp.count is %u, count_polar %u, inner_radius %g and outer_radius %g, and "
+           "grid.cell_size[0] is %g: about %.3g %s %g",
+           shell.count, shell.count_polar, shell.inner, shell.outer, thick, cells, why, max_in_box);
+    fail(
+        Status::limit,
+        "warp.count is %u, inner_radius %g, outer_radius %g, shear_outwards %g and shear_along %g, "
+        "and grid.cell_size[0] is %g and [2] %g: about %.3g %s %g",
+        shell.count, shell.inner, shell.outer, shell.shear_outwards, shell.shear_along, thick,
+        smallest_.cell_size.z, cells, why, max_in_box);
   };
   const auto side_at = [&](double radius) {
-    return std::max({thick, 0.25 * high, width(radius)}) * (1 + room);
+    const double high = is_round_ ? height(radius) : 0.25 * height(radius);
+    return std::max({thick, high, width(radius) * swell_}) * (1 + room);
   };
+  // By how much own seeds beyond the outermost ring may come into it, and those within the
+  // innermost one, in sides of boxes.
+  const double across_box = std::sqrt(is_round_ ? 3.0 : 2.0) * 1.001,
+               dip_outside = outer_part * across_box;
   const double at_outer = diagonal(shell.outer + reach_);
   const double needed = shell.outer + reach_ + at_outer;
   double rings = 0, side = 0;
@@ -103,17 +129,28 @@ WarpSeeds::WarpSeeds(const Warp& warp, double jitter, uint64_t seed)
   }
   last_ = static_cast<int32_t>(rings) - 1;
   high_ = shell.inner + rings * thick;
-  grid_.cell_size = {side, side, std::max(high * (1 + room), 0.25 * side)};
+  const double tall = std::max(smallest_.cell_size.z * (1 + room), 0.25 * side);
+  grid_.cell_size = {side, side, is_round_ ? side : tall};
   const double low =
       std::max(reach_ + diagonal(shell.inner), at_outer - (shell.outer + reach_ - shell.inner)) +
-      dip_inside * side;
+      across_box * side;
   first_ = -static_cast<int32_t>(std::ceil(std::min(low, shell.inner) / thick));
   // Where rings go to the axis, rounding leaves no gap.
   low_ = low < shell.inner ? std::max(0.0, shell.inner + first_ * thick) : 0;
-  const double across = std::sqrt(2.0) * side * 1.001, nearest = low_ - across;
-  const double around =
-      nearest > 0 ? std::min<double>(shell.count, across / width(nearest) + 3) : shell.count;
-  const double cells = (across / thick + 5) * around * (grid_.cell_size.z / high * (1 + 1e-6) + 3);
+  const double across = across_box * side, nearest = low_ - across;
+  const double outwards = across / thick + 5;
+  const auto within = [](double cells, double size) { return cells / size * (1 + 1e-6) + 3; };
+  double around = shell.count, up = 0;
+  if (is_round_) {  // all cells around where the box is at a pole
+    up = shell.count_polar;
+    if (nearest > 0) up = std::min(up, within(across, height(nearest)));
+  } else {
+    up = within(grid_.cell_size.z, smallest_.cell_size.z);
+    const double by_shear =
+        std::abs(shell.shear_outwards) * outwards + std::abs(shell.shear_along) * up;
+    if (nearest > 0) around = std::min(around, across / width(nearest) + 3 + by_shear);
+  }
+  const double cells = outwards * around * up;
   if (!(cells <= max_in_box)) too_many(cells);
 }
 
@@ -124,12 +161,14 @@ CellIndex WarpSeeds::canonical(CellIndex cell) const {
   return cell;
 }
 
-Interval WarpSeeds::radii_of(const Box3& box) {
+Interval WarpSeeds::radii_of(const Box3& box) const {
   const auto nearest = [](double low, double high) { return std::max({0.0, low, -high}); };
   const auto farthest = [](double low, double high) { return std::max(-low, high); };
   const double x0 = nearest(box.min.x, box.max.x), y0 = nearest(box.min.y, box.max.y),
-               x1 = farthest(box.min.x, box.max.x), y1 = farthest(box.min.y, box.max.y);
-  return {std::sqrt(x0 * x0 + y0 * y0), std::sqrt(x1 * x1 + y1 * y1)};
+               x1 = farthest(box.min.x, box.max.x), y1 = farthest(box.min.y, box.max.y),
+               z0 = is_round_ ? nearest(box.min.z, box.max.z) : 0,
+               z1 = is_round_ ? farthest(box.min.z, box.max.z) : 0;
+  return {std::sqrt(x0 * x0 + y0 * y0 + z0 * z0), std::sqrt(x1 * x1 + y1 * y1 + z1 * z1)};
 }
 
 Box3 WarpSeeds::bounds_of(CellIndex box) const {
@@ -146,7 +185,7 @@ PlacedSeed WarpSeeds::own_seed(CellIndex box) const {
   Vec3 f = own_.fractions(own_.bits(box));
   const Box3 bounds = bounds_of(box);
   if (radii_of(bounds).high > high_)
-    for (int axis = 0; axis < 2; ++axis)
+    for (int axis = 0; axis < (is_round_ ? 3 : 2); ++axis)
       f[axis] = outer_part * f[axis] + (bounds.max[axis] >= -bounds.min[axis] ? 1 - outer_part : 0);
   return {box, f, 0, 0};
 }
@@ -166,9 +205,12 @@ PlacedSeed WarpSeeds::place(CellIndex cell) const {
   seed.box = {box[0], box[1], box[2]};
   // The nearest power of 8.
   constexpr int max_level = 5;
-  const Vec3 size = warp_.grid().cell_size;
-  const double radius = std::abs(warp_.shell().inner + at.x * size.x);
-  const double of_cell = size.x * size.z * width(radius) * 2.828, volume = box_volume();
+  const double thick = warp_.grid().cell_size.x;
+  const double radius = std::abs(warp_.shell().inner + at.x * thick), high = height(radius);
+  // Around a point, cells are narrower towards the poles.
+  const double from_axis =
+      is_round_ ? std::max(std::sqrt(g.x * g.x + g.y * g.y), 0.5 * high) : radius;
+  const double of_cell = thick * high * width(from_axis) * 2.828, volume = box_volume();
   while (seed.level < max_level && volume > std::ldexp(of_cell, 3 * seed.level)) ++seed.level;
   return seed;
 }
@@ -178,7 +220,8 @@ PlacedSeed WarpSeeds::place(CellIndex cell) const {
 WarpSeeds::Block WarpSeeds::block_of(CellIndex box) const {
   const Box3 bounds = bounds_of(box);
   const double reach = std::max(max_magnitude(bounds.min), max_magnitude(bounds.max));
-  const double slack = 1e-9 * grid_.cell_size.x + 0x1p-43 * reach;
+  const double slack = 1e-9 * grid_.cell_size.x + 0x1p-43 * reach +
+                       4 * warp_.slack({reach, reach, reach}, grid_.cell_size.x);
   const Warp::Image image = warp_.image(bounds.grown(slack));
   const auto count = static_cast<int32_t>(warp_.shell().count);
   const auto whole = [](double cells) {
@@ -188,13 +231,20 @@ WarpSeeds::Block WarpSeeds::block_of(CellIndex box) const {
   block.first = {std::max(first_, whole(image.cells.min.x)), whole(image.cells.min.y),
                  whole(image.cells.min.z)};
   const int32_t last = std::min(last_, whole(image.cells.max.x));
+  int32_t top = whole(image.cells.max.z);
   block.count[1] = whole(image.cells.max.y) - block.first.y + 1;
-  block.count[2] = whole(image.cells.max.z) - block.first.z + 1;
-  // The first ring may go on through the axis.
-  if (low_ == 0 && image.radius.low <= warp_.grid().cell_size.x) {
+  // The first ring may go on through the axis or the point.
+  const bool goes_through = low_ == 0 && image.radius.low <= warp_.grid().cell_size.x;
+  if (goes_through) {
     block.first.x = first_;
     block.count[1] = count;
   }
+  if (is_round_) {
+    const auto most = static_cast<int32_t>(warp_.shell().count_polar) - 1;
+    block.first.z = goes_through ? 0 : std::clamp(block.first.z, 0, most);
+    top = goes_through ? most : std::clamp(top, 0, most);
+  }
+  block.count[2] = top - block.first.z + 1;
   if (block.count[1] >= count) {
     block.first.y = 0;
     block.count[1] = count;
@@ -250,6 +300,7 @@ PlacedSeed WarpSeeds::near(Vec3 g) const {
   }
   CellIndex cell = canonical(warp_.locate(at.cells).cell);
   cell.x = std::clamp(cell.x, first_, last_);
+  if (is_round_) cell.z = std::max(cell.z, 0);
   PlacedSeed seed = place(cell);
   const Block block = block_of(seed.box);
   const CellIndex from =
@@ -268,9 +319,10 @@ double WarpSeeds::max_distance(const Box3& box) const {
 
 Interval WarpSeeds::density(const Box3& box) const {
   const Interval radii = radii_of(box);
-  const Vec3 size = warp_.grid().cell_size;
+  const double thick = warp_.grid().cell_size.x;
   const auto at = [&](double radius) {
-    return box_volume() / (size.x * size.z * width(std::max(radius, 0.5 * size.x)));
+    const double r = std::max(radius, 0.5 * thick);
+    return box_volume() / (thick * height(r) * width(r));
   };
   Interval density{at(radii.high), at(std::max(radii.low, low_))};
   if (radii.low < low_ || radii.high > high_) density.low = std::min(density.low, 1.0);
@@ -294,7 +346,7 @@ void WarpSeeds::describe(HashInput& input) const {
   input.text("warp");
   warp_.describe(input);
   input.number(warp_.grid().cell_size.x);
-  input.number(warp_.grid().cell_size.z);
+  if (!is_round_) input.number(warp_.grid().cell_size.z);
 }
 
 }  // namespace msq

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Seeds in cells around an axis (cell/warp.h): that of a cell (i, j, k) and a position f in it lies
-// where the map has the coordinates (i, j, k) + f. Cells go around the axis, so j is counted modulo
-// the count of cells there.
+// Seeds in cells around an axis or a point (cell/warp.h): that of a cell (i, j, k) and a position f
+// in it lies where the map has the coordinates (i, j, k) + f. Cells go around the axis, so j is
+// counted modulo the count of cells there.
 //
 // The shell. The foam is needed between the inner and the outer radius of the warp. There its
 // diagram is that of the cells of all rings: inwards to the axis, outwards without end. A ring
-// whose inner face has a negative radius goes on through the axis, to the other side.
+// whose inner face has a negative radius goes on through the axis, to the other side. Around a
+// point, rings are shells, and what is said of the axis holds of the point.
 //
 // Not all rings have seeds. Outwards, rings would become ever wider, inwards ever narrower. So
 // there are as many beyond the shell as decide the diagram in it, and farther out there is one seed
@@ -19,11 +20,14 @@
 //
 // Boxes are cubes, or higher or lower, and exceed the largest cells of rings by `room`. The squared
 // distance of points at radii r and s, t apart in angle, is (r - s)^2 + 2 r s (1 - cos t). This is
-// at most (r - s)^2 + (max(r, s) t)^2 for radii of one sign, and (r - s)^2 for others. So a point
-// of a ring is no farther from the seed of its cell than the diagonal of a box of the cell's sizes,
-// where it is widest; and elsewhere each box has a seed. So the diagonal of a box bounds the
-// distance of any point to its nearest seed. Places are off by 2^-40 boxes and by 2^-46 of the
-// distance from the origin, which is below 2^24 cells: far less than `room`.
+// at most (r - s)^2 + (max(r, s) t)^2 for radii of one sign, and (r - s)^2 for others. Around a
+// point, the chord of t is at most the root of the sum of the squares of the differences of
+// latitude and longitude. In sheared cells, points of a cell are up to 1 + |shear_outwards| +
+// |shear_along| widths apart around the axis. So a point of a ring is no farther from the seed of
+// its cell than the diagonal of a box of the cell's sizes, where it is widest, its width times that
+// sum; and elsewhere each box has a seed. So the diagonal of a box bounds the distance of any point
+// to its nearest seed. Places are off by 2^-40 boxes and by 2^-46 of the distance from the origin,
+// which is below 2^24 cells: far less than `room`.
 #pragma once
 
 #include "cell/warp.h"
@@ -39,9 +43,8 @@ class WarpSeeds final : public PlacedSeeds {
   /// Of cells, of which a box may have the seeds.
   static constexpr double max_in_box = 32766;
 
-  /// Throws Error(unsupported) for cells around a point or with a shear, Error(argument) for a
-  /// shell without an outer radius, and Error(limit) for ratios above max_ratio or where a box
-  /// would have too many cells.
+  /// Throws Error(argument) for a shell without an outer radius, and Error(limit) for ratios above
+  /// max_ratio, too few cells around a point, or where a box would have too many cells.
   WarpSeeds(const Warp& warp, double jitter, uint64_t seed);
 
   const Neighbourhood& grid() const override { return grid_; }
@@ -73,8 +76,9 @@ class WarpSeeds final : public PlacedSeeds {
   };
   Block block_of(CellIndex box) const;
   CellIndex cell_in(const Block& block, uint32_t number) const;
-  /// The smallest and the greatest distance from the axis in a box, in grid coordinates.
-  static Interval radii_of(const Box3& box);
+  /// The smallest and the greatest distance from the axis or the point in a box, in grid
+  /// coordinates.
+  Interval radii_of(const Box3& box) const;
   Box3 bounds_of(CellIndex box) const;
   /// Whether rings do not fill the box, so that it has a seed of its own.
   bool has_own(CellIndex box) const;
@@ -83,14 +87,17 @@ class WarpSeeds final : public PlacedSeeds {
   /// The seed of a cell, without its number.
   PlacedSeed place(CellIndex cell) const;
   CellIndex canonical(CellIndex cell) const;
-  /// Around the axis.
+  /// Around the axis, and along it or from south to north.
   double width(double radius) const;
+  double height(double radius) const;
   /// Bounds the distance of points up to a radius from the seeds of their cells.
   double diagonal(double radius) const;
   double box_volume() const;
 
   Warp warp_;                      // in grid coordinates
   Neighbourhood grid_, smallest_;  // of boxes
+  bool is_round_;                  // around a point
+  double swell_;                   // widths that points of a cell are apart at most, by the shear
   double largest_ = 0, reach_ = 0;
   FoamSeeds cells_;  // in cells of size 1
   FoamSeeds own_;    // of boxes that rings do not fill

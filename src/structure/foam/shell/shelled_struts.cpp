@@ -32,7 +32,7 @@ class ShelledStruts final : public StrutParts {
   // The radius is continuous along a strut, so it takes all values between its least and greatest.
   bool meets_shell(const Strut& strut) const {
     Vec3 a = warp_.grid().to_grid(strut.a), b = warp_.grid().to_grid(strut.b);
-    a.z = b.z = 0;
+    if (warp_.kind() == Warp::Kind::cylindrical) a.z = b.z = 0;
     const double most = std::max(length(a), length(b));
     const Vec3 way = b - a;
     const double squared = dot(way, way);
