@@ -15,7 +15,6 @@
 #include "random.h"
 #include "structure/functional/functional.h"
 #include "structure/functional/presets.h"
-#include "structure/host/host_function.h"
 
 using namespace msq;
 using namespace msq::test;
@@ -208,32 +207,6 @@ void test_points_within_a_distance_are_one(void**) {
   assert_int_equal(paths[0].points.size(), 3);
 }
 
-/// A function of the host that computes what msq computes has the same lines, to the last bit.
-void test_functions_of_the_host(void**) {
-  const std::string text = "sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)+0.2*cos(2*x-1)";
-  const Tape tape = parse_expression(text, {});
-  HostFunctionCalls calls;
-  calls.evaluate = [&tape](const Vec3* angles, size_t count, double* values) {
-    for (size_t i = 0; i < count; ++i) values[i] = evaluate(tape, angles[i]);
-  };
-  for (const Neighbourhood& grid :
-       {Neighbourhood{}, Neighbourhood{{0.3, -2, 1}, {2, 1, 3}, turned()}})
-    for (const FunctionalKind kind : {FunctionalKind::network, FunctionalKind::sheet}) {
-      const bool is_sheet = kind == FunctionalKind::sheet;
-      const auto host = make_ref<HostFunction>(grid, calls, is_sheet, Parameter(0.3), 1,
-                                               std::numeric_limits<double>::infinity(), true);
-      const auto own = make(text, kind, grid);
-      const WallSection section{0.37, {{-1.1, -2.3}, {3.2, 2.9}}, 1e-3};
-      const LineGraph found = host->wall_lines(section), expected = own->wall_lines(section);
-      assert_true(found.lines.size() > 100);
-      assert_true(found.points.size() == expected.points.size() && found.lines == expected.lines);
-      assert_memory_equal(found.points.data(), expected.points.data(),
-                          found.points.size() * sizeof(Vec2));
-      assert_true(host->thin_walls() == own->thin_walls());
-      assert_true(mean_line_density(*host) == mean_line_density(*own));
-    }
-}
-
 /// Against the mean over all heights of what a plane of the cell shows by itself.
 void test_mean_length(void**) {
   // Planes x = constant: 1 per cell size, at any size; turned about y by a quarter of a right
@@ -281,7 +254,6 @@ int main() {
       cmocka_unit_test(test_a_jump_is_no_wall),
       cmocka_unit_test(test_paths_end_where_lines_meet),
       cmocka_unit_test(test_points_within_a_distance_are_one),
-      cmocka_unit_test(test_functions_of_the_host),
       cmocka_unit_test(test_mean_length),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);
