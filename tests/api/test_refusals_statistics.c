@@ -154,7 +154,6 @@ static void calibrations(void** state) {
     WRONG(ARGUMENT, "context is NULL", in = NULL);
     WRONG(ARGUMENT, "structure is NULL", structure = NULL);
     WRONG(UNSUPPORTED, "no onset", structure = host);
-    WRONG(ARGUMENT, "sample is NULL|around an axis", structure = around; sample = NULL);
     for (int i = 0; i < 4; ++i) WRONG(ARGUMENT, "target is ", target = targets[i]);
     WRONG(ARGUMENT, "pair_count is 1", count = 1);
     WRONG(ARGUMENT, "pair_count is 0; parameters must be NULL", count = 0; fractions = NULL);
@@ -167,6 +166,7 @@ static void calibrations(void** state) {
     RIGHT(report = NULL);
     RIGHT(parameters = fractions = NULL; count = 0);
     wrong_sample(table, sample);
+    WRONG(ARGUMENT, "sample is NULL|around an axis", structure = around; sample = NULL);
     /* The default: 2 * 64^3 points of 16 bytes. */
     WRONG(LIMIT, "8388608", in = small; structure = of_small; sample = NULL);
     TRY(msq_structure_calibrate(in, structure, sample, target, parameters, fractions, count, report,
