@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slices at 1024^3 with a skin about a structure of empty space but for hair-thin struts: under a
-// mesh of 270,000 triangles, a box and a cylinder, against the same without a skin. Two threads.
+// Slices at 1024^3 with a skin about a structure of empty space except for hair-thin struts: under
+// a mesh of 270,000 triangles, a box and a cylinder, against the same without a skin. Two threads.
 #include <cstdlib>
 
 #include "rippled_torus.h"

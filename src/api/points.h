@@ -43,7 +43,7 @@ inline const Scales& resolve(const Model& model, const msq_query_def* query, Sca
   return some = model.resolved(length_scale);
 }
 
-/// Throws Error(limit) where a model of all space cannot be asked about the point.
+/// Throws Error(limit) where a model of all space cannot be queried at the point.
 inline void require_point(const Model& model, const Scales& resolved, Vec3 p) {
   require_reach(model, resolved, Box3{p, p}, "the point");
 }

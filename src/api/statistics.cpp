@@ -58,10 +58,10 @@ msq_estimate given(const Estimate& e) {
 }
 
 /// The arguments of a statistic: kept alive, so that StatisticsOf can refer to them.
-class Asked {
+class Queried {
  public:
-  Asked(const msq_model* model, const msq_points_def* sample, const msq_query_def* query,
-        int32_t phase)
+  Queried(const msq_model* model, const msq_points_def* sample, const msq_query_def* query,
+          int32_t phase)
       : model_(object(model, "model")),
         keep_(&model_),
         sample_(read_sample(sample)),
@@ -71,7 +71,7 @@ class Asked {
   }
 
   const Scales& resolved() const { return resolved_; }
-  /// Throws Error(limit) where a model of all space cannot be asked so far around the sample.
+  /// Throws Error(limit) where a model of all space cannot be queried so far around the sample.
   void require_reach(double around) const {
     msq::require_reach(model_, resolved_, sample_, around);
   }
@@ -114,7 +114,7 @@ Segments read_segments(const msq_segments_def& def) {
 
 /// The step of a lineal path. Throws Error(limit) where segments would have more of them than make
 /// sense.
-double read_step(const msq_segments_def& def, const Segments& segments, const Asked& asked) {
+double read_step(const msq_segments_def& def, const Segments& segments, const Queried& queried) {
   constexpr double max_steps = 1e6, usual_steps = 256;
   const double longest = *std::max_element(segments.lengths.begin(), segments.lengths.end());
   double step = def.step;
@@ -122,7 +122,7 @@ double read_step(const msq_segments_def& def, const Segments& segments, const As
     fail(Status::argument, "step is %g; it must be finite and not negative", step);
   if (step == 0) {
     step = longest;
-    for (const Scale* scale : asked.resolved())
+    for (const Scale* scale : queried.resolved())
       step = std::min(step, scale->structure->cell_length());
     step /= usual_steps;
   }
@@ -137,16 +137,16 @@ void ask_segments(const msq_model* model, const msq_points_def* sample, const ms
                   const msq_segments_def* def, msq_estimate* estimates, uint64_t estimate_count,
                   msq_job* job, Estimates&& ask) {
   const msq_segments_def known = read_def(def, segments_defaults(), "def");
-  const Asked asked(model, sample, query, known.phase);
+  const Queried queried(model, sample, query, known.phase);
   const Segments segments = read_segments(known);
   if (estimate_count != segments.lengths.size())
     fail(Status::argument, "estimate_count is %llu; there are %zu lengths",
          static_cast<unsigned long long>(estimate_count), segments.lengths.size());
   require(estimates, "estimates");
-  asked.require_reach(*std::max_element(segments.lengths.begin(), segments.lengths.end()));
+  queried.require_reach(*std::max_element(segments.lengths.begin(), segments.lengths.end()));
   Job* work = job ? &object(job, "job") : nullptr;
   JobScope scope(work);
-  const std::vector<Estimate> found = ask(asked, known, segments, work);
+  const std::vector<Estimate> found = ask(queried, known, segments, work);
   for (size_t i = 0; i < found.size(); ++i) estimates[i] = given(found[i]);
   scope.done();
 }
@@ -212,12 +212,12 @@ msq_status msq_volume_fraction(const msq_model* model, const msq_points_def* sam
                                const msq_query_def* query, int32_t phase, msq_estimate* estimate,
                                msq_job* job) {
   return guard([&] {
-    const Asked asked(model, sample, query, phase);
+    const Queried queried(model, sample, query, phase);
     require(estimate, "estimate");
-    asked.require_reach(0);
+    queried.require_reach(0);
     Job* work = job ? &object(job, "job") : nullptr;
     JobScope scope(work);
-    *estimate = given(volume_fraction(asked.of(), work));
+    *estimate = given(volume_fraction(queried.of(), work));
     scope.done();
   });
 }
@@ -232,8 +232,8 @@ msq_status msq_two_point_correlation(const msq_model* model, const msq_points_de
                                      msq_job* job) {
   return guard([&] {
     ask_segments(model, sample, query, def, estimates, estimate_count, job,
-                 [](const Asked& asked, const msq_segments_def&, const Segments& segments,
-                    Job* work) { return two_point_correlation(asked.of(), segments, work); });
+                 [](const Queried& queried, const msq_segments_def&, const Segments& segments,
+                    Job* work) { return two_point_correlation(queried.of(), segments, work); });
   });
 }
 
@@ -241,11 +241,11 @@ msq_status msq_lineal_path(const msq_model* model, const msq_points_def* sample,
                            const msq_query_def* query, const msq_segments_def* def,
                            msq_estimate* estimates, uint64_t estimate_count, msq_job* job) {
   return guard([&] {
-    ask_segments(
-        model, sample, query, def, estimates, estimate_count, job,
-        [](const Asked& asked, const msq_segments_def& known, const Segments& segments, Job* work) {
-          const double step = read_step(known, segments, asked);
-          return lineal_path(asked.of(), segments, step, work);
-        });
+    ask_segments(model, sample, query, def, estimates, estimate_count, job,
+                 [](const Queried& queried, const msq_segments_def& known, const Segments& segments,
+                    Job* work) {
+                   const double step = read_step(known, segments, queried);
+                   return lineal_path(queried.of(), segments, step, work);
+                 });
   });
 }

@@ -76,8 +76,8 @@ void march_together(RaySearch* searches, size_t count, double min_step, Toleranc
 }
 
 /// The same, but evaluates the membership of all points first, then bounds for those that continue.
-/// keep(points, there, count) works as `ask` does. bound(asked, points, bounds) sets bounds[i] to a
-/// radius around point i, or a length along its ray, within which no point is there.
+/// keep(points, there, count) works as `ask` does. bound(queried, points, bounds) sets bounds[i] to
+/// a radius around point i, or a length along its ray, within which no point is there.
 template <class Tolerance, class Keep, class Bound>
 void march_by_bounds(RaySearch* searches, size_t count, double min_step, Tolerance&& tolerance_of,
                      const Job* job, Keep&& keep, Bound&& bound) {
@@ -85,17 +85,17 @@ void march_by_bounds(RaySearch* searches, size_t count, double min_step, Toleran
   std::vector<MarchPoint> going_on;
   std::vector<size_t> index;
   std::vector<double> bounds;
-  const auto ask = [&](const std::vector<MarchPoint>& asked, uint8_t* there, double* steps) {
+  const auto ask = [&](const std::vector<MarchPoint>& queried, uint8_t* there, double* steps) {
     points.clear();
     near.clear();
     going_on.clear();
     index.clear();
-    for (const MarchPoint& p : asked) points.push_back(searches[p.search].ray.at(p.t));
+    for (const MarchPoint& p : queried) points.push_back(searches[p.search].ray.at(p.t));
     keep(points.data(), there, points.size());
-    for (size_t i = 0; i < asked.size(); ++i) {
-      if (there[i] || asked[i].is_settling) continue;
+    for (size_t i = 0; i < queried.size(); ++i) {
+      if (there[i] || queried[i].is_settling) continue;
       near.push_back(points[i]);
-      going_on.push_back(asked[i]);
+      going_on.push_back(queried[i]);
       index.push_back(i);
     }
     if (near.empty()) return;

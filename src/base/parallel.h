@@ -17,7 +17,7 @@ struct HostLoop {
 
 /// A bounded set of threads. With one thread, everything runs on the caller and the thread library
 /// is not used. Otherwise the count is clamped to the machine's cores, since oneTBB warns on stderr
-/// if an arena asks for more. Bodies run in msq's floating-point environment. The host's callbacks
+/// if an arena requests more. Bodies run in msq's floating-point environment. The host's callbacks
 /// run in the environment of the thread that made the call, on any thread.
 class Executor {
  public:

@@ -50,7 +50,7 @@ void normals_by_membership(Keep&& keep, RaySearch* searches, size_t count, doubl
   auto& [points, inside] = *borrowed;
   points.resize(std::min(count, at_once) * around);
   inside.resize(points.size());
-  RaySearch* asked[at_once];
+  RaySearch* queried[at_once];
   size_t size = 0;
   for (size_t i = 0; i < count; ++i) {
     if (wanted(searches[i])) {
@@ -59,7 +59,7 @@ void normals_by_membership(Keep&& keep, RaySearch* searches, size_t count, doubl
         points[size * around + k] = p + directions[k] * distance;
         inside[size * around + k] = 1;
       }
-      asked[size++] = &searches[i];
+      queried[size++] = &searches[i];
     }
     if (size < (i + 1 < count ? at_once : 1)) continue;
     keep(points.data(), inside.data(), size * around);
@@ -67,10 +67,10 @@ void normals_by_membership(Keep&& keep, RaySearch* searches, size_t count, doubl
       Vec3 sum;
       for (size_t k = 0; k < around; ++k)
         if (!inside[n * around + k]) sum = sum + directions[k];
-      const Vec3 along = asked[n]->ray.direction;
+      const Vec3 along = queried[n]->ray.direction;
       const double length_of_sum = length(sum);
       // Against the ray's direction, because the ray enters.
-      asked[n]->normal =
+      queried[n]->normal =
           length_of_sum > 0.5 && dot(sum, along) < 0 ? sum * (1 / length_of_sum) : along * -1.0;
     }
     size = 0;

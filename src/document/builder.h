@@ -81,7 +81,7 @@ class Builder {
   uint64_t bytes_ = 0;
   uint32_t files_ = 0;
   unsigned depth_ = 0;  ///< definitions within each other
-  /// The names of each section that was asked for one, so that many names are found quickly.
+  /// The names of each section in which a name was looked up, so that many names are found quickly.
   std::unordered_map<std::string_view, std::unordered_map<std::string_view, uint32_t>> names_;
   /// Named definitions by their values; null: under construction.
   std::unordered_map<uint32_t, const void*> named_;

@@ -18,7 +18,7 @@ class Reader final : public api::DefinitionWalk {
 
   /// A key that is allowed and read elsewhere.
   void allow(const std::string& key) { known_.push_back(key); }
-  /// Refuses the first key that nothing asked for.
+  /// Refuses the first key that nothing requested.
   void finish() const;
 
   void number(const char* key, double& value) override;

@@ -124,7 +124,7 @@ bool Model::inside(Vec3 p, const Scales& resolved) const {
 }
 
 // The solid is an intersection. Outside a scale, no part of the solid is nearer than that scale's
-// own: the coarsest such scale answers, as in the paper, and none but it is asked about points
+// own: the coarsest such scale answers, as in the paper, and none but it is queried about points
 // where it has nothing. Inside all, the boundary is that of one of them: the nearest is near
 // enough.
 double Model::distance(Vec3 p, const Scales& resolved) const {
@@ -161,7 +161,7 @@ double Model::distance_of_regions(Vec3 p, const Scales& resolved) const {
   for (size_t r = 0; r < std::min(owner, regions_.size()); ++r)
     if (gap_of(*regions_[r]) < bound) bound = std::min(bound, regions_[r]->shape_->distance(p));
   if (owner != no_region && !is_inside) {
-    double depth = -1;  // in the owner's shape; not asked for yet
+    double depth = -1;  // in the owner's shape; not requested yet
     for (size_t r = owner + 1; r < regions_.size(); ++r) {
       if (!(gap_of(*regions_[r]) < bound)) continue;
       if (depth < 0) depth = -regions_[owner]->shape_->distance(p);

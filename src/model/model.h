@@ -34,7 +34,7 @@ class Model final : public Described {
   };
   /// Throws Error(limit) if a structure has more than max_cell_index cells across the shape where
   /// that has bounds (otherwise query/reach.h checks each query),
-  /// Error(unsupported) if a skin is asked for whose depth the shape does not know.
+  /// Error(unsupported) if a skin is requested whose depth the shape does not know.
   Model(Ref<Context> context, Ref<const Shape> shape, std::vector<ScaleParts> scales,
         Ref<const Material> material = {});
   /// Structures alone.

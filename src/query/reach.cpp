@@ -16,7 +16,7 @@ constexpr double max_far_coordinate = 1e75;
 /// A structure, and what messages call it.
 struct Limited {
   const Structure* structure;
-  size_t scale;  ///< 0: it is asked by itself
+  size_t scale;  ///< 0: it is queried by itself
 };
 using LimitedBy = std::vector<Limited>;
 

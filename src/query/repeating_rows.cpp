@@ -35,7 +35,7 @@ RowRepeats find_row_repeats(const Model& model, const Scales& resolved, const Sa
   const Rows rows = alike_rows(model.shape(), grid);
   if (resolved.empty())
     return rows.begin + 1 < rows.end ? RowRepeats{rows.begin, rows.end, 1} : RowRepeats{};
-  // Their positions are computed for each slicer, whichever layers are asked for.
+  // Their positions are computed for each slicer, whichever layers are requested.
   constexpr uint64_t max_rows = uint64_t{1} << 17;
   if (rows.end - rows.begin > max_rows) return {};
   const auto* structure = dynamic_cast<const RepeatingStructure*>(resolved[0]->structure.get());

@@ -11,7 +11,7 @@
 
 namespace msq {
 
-/// Row j has the bits of row j - period, for j from first + period to end - 1, but for flips.
+/// Row j has the bits of row j - period, for j from first + period to end - 1, except for flips.
 struct RowRepeats {
   uint64_t first = 0, end = 0, period = 0;  ///< period 0: no rows repeat
 

@@ -37,25 +37,25 @@ void set_onset(const Structure& structure, const PointSet& points, const OnsetPl
   run_parts(executor, points.parts(), job, {0, 1}, [&](uint64_t index) {
     PointSet::Part part;
     points.read_part(index, part);
-    std::vector<Vec3> asked;
+    std::vector<Vec3> queried;
     std::vector<double> found;
     for (size_t begin = 0; begin < part.numbers.size(); begin += at_once) {
       const size_t end = std::min(begin + at_once, part.numbers.size());
-      asked.clear();
+      queried.clear();
       for (size_t i = begin; i < end; ++i) {
         const Vec3 p = part.positions[i];
-        asked.push_back(p);
+        queried.push_back(p);
         for (int axis = 0; plan.gradients && axis < 3; ++axis) {
-          asked.insert(asked.end(), 2, p);
-          asked.end()[-2][axis] -= step;
-          asked.end()[-1][axis] += step;
+          queried.insert(queried.end(), 2, p);
+          queried.end()[-2][axis] -= step;
+          queried.end()[-1][axis] += step;
         }
       }
-      found.resize(asked.size());
-      structure.onsets(asked.data(), asked.size(), found.data());
-      for (size_t i = 0; plan.is_signed && i < asked.size(); ++i) {
+      found.resize(queried.size());
+      structure.onsets(queried.data(), queried.size(), found.data());
+      for (size_t i = 0; plan.is_signed && i < queried.size(); ++i) {
         if (i % 16 == 0) check_cancelled(job);
-        found[i] -= structure.parameter(asked[i]);
+        found[i] -= structure.parameter(queried[i]);
       }
       for (size_t i = begin; i < end; ++i) {
         const size_t first = (i - begin) * per_point;
@@ -65,7 +65,7 @@ void set_onset(const Structure& structure, const PointSet& points, const OnsetPl
           const double rise = found[beyond] - found[before];
           const int along = static_cast<int>(axis);
           // No number where one of them is infinite or rounding leaves no step.
-          const double slope = rise / (asked[beyond][along] - asked[before][along]);
+          const double slope = rise / (queried[beyond][along] - queried[before][along]);
           plan.gradients[3 * part.numbers[i] + axis] = std::isfinite(slope) ? slope : 0;
         }
       }

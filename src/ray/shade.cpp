@@ -113,17 +113,17 @@ RaySearch Shader::search_from(const Seen& seen, const RayHit& hit, Vec3 directio
 
 void Shader::find_lit(const std::vector<Seen>& seen, const std::vector<RayHit>& hits,
                       std::vector<uint8_t>& lit, const Job* job) const {
-  std::vector<size_t> asked;
+  std::vector<size_t> queried;
   std::vector<RaySearch> searches;
   for (size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].scale < 0 || !(dot(hits[i].normal, light_) > 0)) continue;
-    asked.push_back(i);
+    queried.push_back(i);
     searches.push_back(
         search_from(seen[i], hits[i], light_, std::numeric_limits<double>::infinity()));
   }
   std::vector<RayHit> found;
   cast_batch(model_, resolved_, searches, found, HitDetail::place, job);
-  for (size_t n = 0; n < asked.size(); ++n) lit[asked[n]] = found[n].scale < 0;
+  for (size_t n = 0; n < queried.size(); ++n) lit[queried[n]] = found[n].scale < 0;
 }
 
 void Shader::find_open(const std::vector<Seen>& seen, uint32_t samples,
@@ -131,14 +131,14 @@ void Shader::find_open(const std::vector<Seen>& seen, uint32_t samples,
                        const Job* job) const {
   const uint32_t count = shading_.occlusion_rays;
   const float part = 1.0f / static_cast<float>(count);
-  std::vector<size_t> asked;
+  std::vector<size_t> queried;
   std::vector<RaySearch> searches;
   std::vector<RayHit> found;
   const auto cast = [&] {
     cast_batch(model_, resolved_, searches, found, HitDetail::place, job);
-    for (size_t n = 0; n < asked.size(); ++n)
-      if (found[n].scale >= 0) open[asked[n]] -= part;
-    asked.clear();
+    for (size_t n = 0; n < queried.size(); ++n)
+      if (found[n].scale >= 0) open[queried[n]] -= part;
+    queried.clear();
     searches.clear();
   };
   for (size_t i = 0; i < hits.size(); ++i) {
@@ -148,7 +148,7 @@ void Shader::find_open(const std::vector<Seen>& seen, uint32_t samples,
     complete_basis(normal, a, b);
     const Directions directions(seen[i], samples, count);
     for (uint32_t k = 0; k < count; ++k) {
-      asked.push_back(i);
+      queried.push_back(i);
       searches.push_back(
           search_from(seen[i], hits[i], directions.direction(k, normal, a, b), reach_));
     }

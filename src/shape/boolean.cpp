@@ -131,7 +131,7 @@ double BooleanShape::depth(Vec3 p) const {
   return least;
 }
 
-// Members' depths are asked in all of the bounds, which may be many times larger than theirs.
+// Members' depths are queried in all of the bounds, which may be many times larger than theirs.
 double BooleanShape::depth_error() const {
   double error = 0;
   for (const Ref<const Shape>& member : members_) {
@@ -195,7 +195,7 @@ Vec3 BooleanShape::normal(const Ray& ray, double t) const {
 }
 
 void BooleanShape::fill_rows(const RowBlock& block) const {
-  // Members are asked in turn, in blocks of rows of up to a megabyte.
+  // Members are queried in turn, in blocks of rows of up to a megabyte.
   constexpr size_t max_words = size_t{1} << 17;
   const size_t words = block.row_words();
   const uint64_t rows = std::clamp<uint64_t>(max_words / words, 1, block.rows());

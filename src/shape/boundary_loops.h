@@ -74,7 +74,7 @@ class BoundaryLoops {
   };
   /// Lengths are scaled; the direction has length 1. Points of the ray are known to `rounding`.
   Course course(Vec3 p, Vec3 direction, double rounding) const;
-  /// The gradient of w but for its length.
+  /// The gradient of w except for its length.
   Vec3 gradient(Vec3 p) const;
 
   uint64_t bytes() const {

@@ -111,8 +111,8 @@ void HostShape::march_all(bool wanted, RaySearch* searches, size_t count, const 
         find_inside(points, n, there);
         for (size_t i = 0; i < n; ++i) there[i] = there[i] == static_cast<uint8_t>(wanted);
       },
-      [&](const std::vector<MarchPoint>& asked, const Vec3* points, double* bounds) {
-        find_distance_bounds(points, asked.size(), bounds);
+      [&](const std::vector<MarchPoint>& queried, const Vec3* points, double* bounds) {
+        find_distance_bounds(points, queried.size(), bounds);
       });
 }
 

@@ -39,7 +39,7 @@ void PlacedShape::find_inside(const Vec3* points, size_t count, uint8_t* inside)
 }
 
 // A ball about p is mapped into one about to_original(p) whose radius is at most its own over the
-// least growth, but for the rounding of the points of both.
+// least growth, except for the rounding of the points of both.
 double PlacedShape::distance_bound(Vec3 p) const {
   const double of_original = std::abs(original_->distance(placement_.to_original(p)));
   const double reach = std::min(of_original * placement_.min_growth() * (1 - 0x1p-50),

@@ -46,8 +46,8 @@ class PlacedShape final : public Shape, private BoundarySearch {
   unsigned nesting() const override { return 1 + original_->nesting(); }
 
  protected:
-  /// Exact, but for rounding, if the original's is and all lengths grow alike; otherwise at least
-  /// the original's times the least growth, and that to the bounds.
+  /// Exact, except for rounding, if the original's is and all lengths grow alike; otherwise at
+  /// least the original's times the least growth, and that to the bounds.
   double distance_bound(Vec3 p) const override;
 
  private:

@@ -3,10 +3,10 @@
 // B, once computed: the point q of the original that belongs to a point p is B (p - b), in the
 // order of operations of to_original().
 //
-// Each entry of B is within 4 * 2^-53 of that of the inverse of A, but for one factor that all have
-// in common (the determinant's, whose error is 5 K * 2^-53), and a product with B loses another 4:
-// A to_original(p) + b lies within 21 K * 2^-53 |p - b| of p, where K is the greatest row sum of
-// |A| |B| (Skeel's condition; 1 for scalings along the axes, at most 3 for rotations).
+// Each entry of B is within 4 * 2^-53 of that of the inverse of A, except for one factor that all
+// have in common (the determinant's, whose error is 5 K * 2^-53), and a product with B loses
+// another 4: A to_original(p) + b lies within 21 K * 2^-53 |p - b| of p, where K is the greatest
+// row sum of |A| |B| (Skeel's condition; 1 for scalings along the axes, at most 3 for rotations).
 // Source of K: Higham, "Accuracy and Stability of Numerical Algorithms", 2002, section 7.2.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of a solid of which membership and a bound of the distance are known: boxes of samples that
 // the distance of their middle proves to be all on one side are answered as a whole, others are
-// halved until few samples are left, which are asked together.
+// halved until few samples are left, which are queried together.
 #pragma once
 
 #include <array>

@@ -52,11 +52,11 @@ class Shape : public Described {
   /// Signed distance of a finite point: at most 0 where inside(p), positive elsewhere, finite, and
   /// never larger in magnitude than the distance from p to the boundary of the solid.
   double distance(Vec3 p) const;
-  /// Whether that of two points differs by no more than the way between them, but for 2^-21 of the
-  /// diagonal of bounds() and 2^-41 of the points' coordinates and distances.
+  /// Whether that of two points differs by no more than the way between them, except for 2^-21 of
+  /// the diagonal of bounds() and 2^-41 of the points' coordinates and distances.
   virtual bool has_steady_distance() const { return true; }
-  /// Whether distance() of points on that side is exact, but for rounding: within depth_error() in
-  /// bounds(), and beyond them within as much more as distances are longer.
+  /// Whether distance() of points on that side is exact, except for rounding: within depth_error()
+  /// in bounds(), and beyond them within as much more as distances are longer.
   virtual bool is_exact_outside() const { return false; }
   virtual bool is_exact_inside() const { return false; }
   /// How many shapes made of other shapes are within each other.
@@ -88,7 +88,7 @@ class Shape : public Described {
   /// enter(), and then `end`, what leave() returns from t on; t where that is past `to`.
   virtual bool cross(const Ray& ray, double from, double to, double& t, double& end,
                      const Job* job) const;
-  /// Whether rays are best asked about together, by the functions that take several.
+  /// Whether rays are best evaluated together, by the functions that take several.
   virtual bool gains_by_rays() const { return false; }
   /// As enter() for each search: found and t, where it was.
   virtual void enter_all(RaySearch* searches, size_t count, const Job* job) const;
@@ -129,7 +129,7 @@ class Shape : public Described {
   /// The first t in [from, to] where membership is `wanted`, by distance_bound() and
   /// min_ray_step().
   bool march(bool wanted, const Ray& ray, double from, double to, double& t, const Job* job) const;
-  /// At which membership is asked for a normal.
+  /// At which membership is evaluated for a normal.
   double normal_distance() const { return 1e-4 * max_component(bounds().extent()); }
 
   /// Calls visit(y, z, row, first, end) for each row of a block that has samples first to end - 1

@@ -3,8 +3,8 @@
 //
 // A node has up to eight children, and a leaf is a block of eight triangles: as many are evaluated
 // at once (triangle_search.h). The triangles are halved again and again at the median centre along
-// the longest extent, up to blocks. All nodes are full but for the last ones, so the depth is the
-// logarithm of the number of triangles, for any triangles. The search visits the nearest child
+// the longest extent, up to blocks. All nodes are full except for the last ones, so the depth is
+// the logarithm of the number of triangles, for any triangles. The search visits the nearest child
 // first, and no child that is provably farther than the best so far. A child's triangles lie in a
 // box, and in a round cylinder along their mean normal. Larsen, Gottschalk, Lin and Manocha ("Fast
 // proximity queries with swept sphere volumes", 1999) show how much bounds gain that fit a surface.

@@ -181,8 +181,8 @@ void ContourDetails::find_suspects(ContourPoints& points) {
   settle(points);
 }
 
-/// suspect() for all crossings of a closed ring, but for those that `bends` excludes: most pieces
-/// are short, or nearly straight, or lie on arcs.
+/// suspect() for all crossings of a closed ring, except for those that `bends` excludes: most
+/// pieces are short, or nearly straight, or lie on arcs.
 void ContourDetails::look_along(const ContourRings::Ring& ring, CancelPoll& poll) {
   for (uint32_t id = ring.first; id < ring.end;) {
     poll();

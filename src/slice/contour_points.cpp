@@ -9,12 +9,12 @@ namespace msq {
 
 const std::vector<uint8_t>& ContourPoints::find_inside() {
   check_cancelled(job_);
-  auto& [points, asked, inside, answers, held, doubtful] = *memory_;
+  auto& [points, queried, inside, answers, held, doubtful] = *memory_;
   inside.resize(points.size());
   if (!struts_) {
-    asked.resize(points.size());
-    for (size_t n = 0; n < points.size(); ++n) asked[n] = plane_.at(points[n].x, points[n].y);
-    msq::find_inside(model_, resolved_, asked, inside, job_);
+    queried.resize(points.size());
+    for (size_t n = 0; n < points.size(); ++n) queried[n] = plane_.at(points[n].x, points[n].y);
+    msq::find_inside(model_, resolved_, queried, inside, job_);
     return inside;
   }
   // By counts: a branch on each point would be predicted wrongly half the time.
@@ -42,11 +42,11 @@ const std::vector<uint8_t>& ContourPoints::find_inside() {
 }
 
 void ContourPoints::ask_some(std::span<const uint32_t> some, const Scales& scales) {
-  auto& [points, asked, inside, answers, held, doubtful] = *memory_;
-  asked.resize(some.size());
+  auto& [points, queried, inside, answers, held, doubtful] = *memory_;
+  queried.resize(some.size());
   for (size_t n = 0; n < some.size(); ++n)
-    asked[n] = plane_.at(points[some[n]].x, points[some[n]].y);
-  msq::find_inside(model_, scales, asked, answers, job_);
+    queried[n] = plane_.at(points[some[n]].x, points[some[n]].y);
+  msq::find_inside(model_, scales, queried, answers, job_);
   for (size_t n = 0; n < some.size(); ++n) inside[some[n]] = answers[n];
 }
 

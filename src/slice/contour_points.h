@@ -50,11 +50,11 @@ class ContourPoints {
   // Kept between calls: fresh memory of this size takes a while to get.
   struct Memory {
     std::vector<Vec2> points;
-    std::vector<Vec3> asked;
+    std::vector<Vec3> queried;
     std::vector<uint8_t> inside, answers;
     std::vector<uint32_t> held, doubtful;
     size_t bytes() const {
-      return points.capacity() * sizeof(Vec2) + asked.capacity() * sizeof(Vec3) +
+      return points.capacity() * sizeof(Vec2) + queried.capacity() * sizeof(Vec3) +
              inside.capacity() + answers.capacity() +
              (held.capacity() + doubtful.capacity()) * sizeof(uint32_t);
     }

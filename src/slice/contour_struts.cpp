@@ -215,7 +215,7 @@ void PlaneStruts::propose(const ContourGrid& grid, const CrossingTable& table,
                           const Job* job) const {
   constexpr size_t at_once = 128;
   // The struts of a few rows meet few crossings: these are set just before, so they are near the
-  // core. One that a strut reached earlier would be asked about instead.
+  // core. One that a strut reached earlier would be queried instead.
   constexpr uint32_t rows_beyond = 3;
   const ContourAxis& v = grid.v_nodes();
   uint32_t row = 0;

@@ -134,7 +134,7 @@ class TopologySteps {
     if (j == 0) window_rows |= 1u << bottom;
     if (j + 1 == up_) window_rows |= 1u << top;
     for (uint64_t w = 0; w * cells_of_word < across_; ++w) {
-      // A word holds the samples of its cells but for the last column.
+      // A word holds the samples of its cells except for the last column.
       uint64_t any = 0, all = ~uint64_t{0}, next_any = 0, next_all = 1;
       for (uint32_t s = 0; s <= k_; ++s) {
         const uint64_t* const words = lowest + s * row_words_ + w;
@@ -175,7 +175,7 @@ class TopologySteps {
     return mask;
   }
 
-  /// Cells are asked about in the order of saddles.
+  /// Cells are queried in the order of saddles.
   bool turns_right(uint64_t i, uint64_t j) {
     const uint64_t column = ContourGrid::left_edge + i, row = ContourGrid::bottom_row + j;
     const std::vector<ContourSection::Saddle>& saddles = section_.saddles();

@@ -181,8 +181,8 @@ void TopologyCells::add(uint32_t column, uint32_t row, const CellMask& mask, boo
     if ((window_sides >> side & 1) && is_shared(cell, side)) add_beyond(index, side);
 }
 
-/// What is beyond a side on the window's edge: a cell that is empty but for that side. The solid on
-/// the side ends there.
+/// What is beyond a side on the window's edge: a cell that is empty except for that side. The solid
+/// on the side ends there.
 void TopologyCells::add_beyond(uint32_t inner, unsigned side) {
   const Cell& of = cells_[inner];
   Cell cell{};

@@ -152,7 +152,7 @@ class RingBuilder {
   std::vector<Vec2> points_;
 };
 
-/// Whether crossings come from struts: of cells that are not smaller than this, few are asked
+/// Whether crossings come from struts: of cells that are not smaller than this, few are queried
 /// about.
 bool gives_struts(const Scales& resolved, double pitch) {
   return resolved.regions.empty() && resolved.size() == 1 && resolved[0]->skin.is_none() &&

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A model in the coordinates of a frame, for the membership of samples: a point is inside where the
 // model holds LayerFrame::to_model() of it. Where the frame's axes are those of the model in
-// another order, rows go over to the model's own; otherwise its shape is asked about boxes and
+// another order, rows go over to the model's own; otherwise its shape is queried for boxes and
 // points, and its structures about points.
 #pragma once
 

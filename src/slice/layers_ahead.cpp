@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t none = UINT64_MAX;
-/// A block that none of this many calls asked for is dropped.
+/// A block that none of this many calls requested is dropped.
 constexpr uint64_t max_idle_calls = 256;
 /// Parts of a block, so that several threads have enough of them.
 constexpr uint64_t min_parts = 8;
@@ -202,7 +202,7 @@ void LayersAhead::drop_old() {
                 [&](const BlockRef& block) { return calls_ - block->last_call > max_idle_calls; });
 }
 
-/// A layer of the block is not asked for any more.
+/// A layer of the block is not requested any more.
 void LayersAhead::note_taken(const BlockRef& block) {
   const std::lock_guard lock(mutex_);
   if (++block->taken == block->layers()) std::erase(blocks_, block);

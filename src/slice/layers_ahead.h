@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers that are asked for one by one, filled together. Many structures take two or three times as
+// Layers that are requested one by one, filled together. Many structures take two or three times as
 // long for single layers as for those of a slab, which share the struts that pass through them. So
 // calls that ask for layer after layer get their bits from blocks of layers that are filled ahead.
 //
-// A block begins where a call asks for the layer after one that was asked for lately. It has twice
-// the layers of the block before it, so less is filled than twice what is asked for, and at most as
+// A block begins where a call requests the layer after one that was requested lately. It has twice
+// the layers of the block before it, so less is filled than twice what is requested, and at most as
 // many as a slab. All blocks together have at most the layers of two slabs, as a run
-// has. A block goes when its layers are taken, when nobody has asked for it for long, or when
+// has. A block goes when its layers are taken, when nobody has requested it for long, or when
 // others need the memory.
 //
 // A block is filled in parts, tiles of rows. Each call that needs a layer of the block takes parts
@@ -75,7 +75,7 @@ class LayersAhead final : public SpareMemory {
   std::mutex mutex_;  ///< guards all below
   std::vector<BlockRef> blocks_;
   uint64_t calls_ = 0;
-  /// The last layers that were asked for.
+  /// The last layers that were requested.
   std::array<uint64_t, 64> asked_;
   /// Where the last blocks ended, and their layers.
   struct Ended {

@@ -74,8 +74,8 @@ class SpanRaster {
   uint64_t* certain_row(size_t j, size_t k) {
     return certain_->data() + k * layer_words_ + j * alive_.row_words();
   }
-  /// Samples whose radius is asked for together, with their squared distance from a strut.
-  struct Asked {
+  /// Samples whose radius is requested together, with their squared distance from a strut.
+  struct Queried {
     static constexpr size_t capacity = 128;
     size_t count = 0;
     Vec3 points[capacity];
@@ -83,7 +83,7 @@ class SpanRaster {
     Sample samples[capacity];
   };
   template <class FindRadii>
-  void decide(Asked& asked, double margin, FindRadii& find_radii);
+  void decide(Queried& queried, double margin, FindRadii& find_radii);
   /// Leaves the sample to the predicate.
   void leave(Sample sample);
 
@@ -104,7 +104,7 @@ void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_r
   doubtful_.clear();
   draw(target(margin), struts, doubtful_);
   const SampleGrid& grid = *alive_.grid;
-  Asked asked;
+  Queried queried;
   uint32_t strut = UINT32_MAX;
   Vec3 a, ab, slope;
   double inverse_squared = 0;
@@ -140,32 +140,32 @@ void SpanRaster::add(const StrutBatch& struts, double margin, FindRadii&& find_r
           continue;
         }
       }
-      if (asked.count == Asked::capacity) decide(asked, margin, find_radii);
-      asked.points[asked.count] = p;
-      asked.squared[asked.count] = squared;
-      asked.samples[asked.count++] = {i, span.j, span.k};
+      if (queried.count == Queried::capacity) decide(queried, margin, find_radii);
+      queried.points[queried.count] = p;
+      queried.squared[queried.count] = squared;
+      queried.samples[queried.count++] = {i, span.j, span.k};
     }
   }
-  if (asked.count > 0) decide(asked, margin, find_radii);
+  if (queried.count > 0) decide(queried, margin, find_radii);
 }
 
 template <class FindRadii>
-void SpanRaster::decide(Asked& asked, double margin, FindRadii& find_radii) {
-  double radii[Asked::capacity];
-  find_radii(asked.points, asked.count, radii);
-  for (size_t n = 0; n < asked.count; ++n) {
-    const Sample s = asked.samples[n];
+void SpanRaster::decide(Queried& queried, double margin, FindRadii& find_radii) {
+  double radii[Queried::capacity];
+  find_radii(queried.points, queried.count, radii);
+  for (size_t n = 0; n < queried.count; ++n) {
+    const Sample s = queried.samples[n];
     const double thick = radii[n] + margin, thin = radii[n] - margin;
-    if (asked.squared[n] > thick * thick) continue;
+    if (queried.squared[n] > thick * thick) continue;
     uint64_t& word = certain_row(s.j, s.k)[s.i / bits_per_word];
     const uint64_t bit = uint64_t{1} << (s.i % bits_per_word);
     if (word & bit) continue;
-    if (thin > 0 && asked.squared[n] < thin * thin)
+    if (thin > 0 && queried.squared[n] < thin * thin)
       word |= bit;
     else
       leave(s);
   }
-  asked.count = 0;
+  queried.count = 0;
 }
 
 template <class Draw, class Holds>

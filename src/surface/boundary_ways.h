@@ -9,7 +9,7 @@
 
 namespace msq {
 
-/// A way from a point inside to one outside; neither is asked about.
+/// A way from a point inside to one outside; neither is evaluated.
 struct BoundaryWay {
   Vec3 inside, outside;
   Vec3 middle() const { return (inside + outside) * 0.5; }

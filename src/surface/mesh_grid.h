@@ -46,8 +46,8 @@ class MeshGrid {
   /// Words of a row of nodes: node i is bit i % 64 of word i / 64.
   size_t row_words() const { return words_for(nodes(0)); }
 
-  /// The part of a cell that holds its vertices, but for those on faces of the box. So vertices of
-  /// different cells are apart.
+  /// The part of a cell that holds its vertices, except for those on faces of the box. So vertices
+  /// of different cells are apart.
   Box3 cell(uint32_t i, uint32_t j, uint32_t k) const;
 
  private:

@@ -72,7 +72,7 @@ class Quadric {
     const double side = max_component(box.extent());
     slack_ = 0x1p-20 * side;
     try_with({}, {false, false, false});
-    constexpr double close = 0.15;  // of the side: planes that meet, but for a bend
+    constexpr double close = 0.15;  // of the side: planes that meet, except for a bend
     if (!is_least_of_all_ && !(least_ + constant_ < count_ * close * close * side * side))
       best_ = along_few();
     return max(box.min, min(box.max, mean_ + best_));

@@ -169,7 +169,7 @@ static void cube_without_a_side_is_the_box_by_auto(void** state) {
   msq_context_release(context);
 }
 
-/* In the plane of the hole, at x = 4, the winding number is 1/2 but for rounding. Few rays
+/* In the plane of the hole, at x = 4, the winding number is 1/2 except for rounding. Few rays
  * meet struts of the lattice, so each part of the cube that rounding makes is left for the next
  * one. */
 static void rays_in_the_plane_of_a_hole_end(void** state) {

@@ -117,7 +117,7 @@ static void functions_have_their_fractions(void** state) {
   msq_context_release(context);
 }
 
-/* Thin struts fill pi r^2 L of space, but for their joints: 1 - 6 r to 1 + 1.6 r times that (see
+/* Thin struts fill pi r^2 L of space, except for their joints: 1 - 6 r to 1 + 1.6 r times that (see
  * tests/unit/test_volume_fraction.cpp). With little jitter the edges of the cubic lattice, L = 3,
  * come apart into pairs no farther from each other than the jitter: there struts overlap, and fill
  * at least what those of the cubic lattice do. */

@@ -42,7 +42,7 @@ static void a_box_is_exact(void** state) {
   msq_context_release(context);
 }
 
-/* Edges and corners of a turned box are kept, but for a few cells that few edges cross. */
+/* Edges and corners of a turned box are kept, except for a few cells that few edges cross. */
 static void features_are_kept(void** state) {
   const double c = cos(0.4), s = sin(0.4);
   const double matrix[12] = {c, -s * c, s * s, 1, s, c * c, -c * s, 2, 0, s, c, 3};

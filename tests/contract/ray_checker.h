@@ -118,7 +118,7 @@ class RayChecker {
     return true;
   }
 
-  /// All samples in [from, to) are outside, but for parts that may be lost.
+  /// All samples in [from, to) are outside, except for parts that may be lost.
   void window(const Ray& ray, double from, double to, size_t samples) {
     points_.clear();
     const auto at = [&](size_t i) {

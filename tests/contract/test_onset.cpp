@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A point is inside where its onset is at most the parameter, but for 1e-9 of a cell about it; and
-// cells of periodic structures have the same onsets.
+// A point is inside where its onset is at most the parameter, except for 1e-9 of a cell about it;
+// and cells of periodic structures have the same onsets.
 #include <cstring>
 
 #include "random.h"

@@ -64,8 +64,8 @@ void sizes(void**) {
           });
 }
 
-/// A first row that is zero but for one byte, at every place: the runs that follow it reach through
-/// rows that repeat the first, for every length of matches.
+/// A first row that is zero except for one byte, at every place: the runs that follow it reach
+/// through rows that repeat the first, for every length of matches.
 void lengths_of_runs(void**) {
   for (uint32_t run = 0; run < 800; ++run) {
     uint32_t at = 0;

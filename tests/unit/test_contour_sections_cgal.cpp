@@ -202,8 +202,8 @@ void test_exact_sections(void** state) {
     if (!(std::abs(found.area() - exact.area()) <= band))
       fail_msg("the area is %.9g, exactly %.9g", found.area(), exact.area());
 
-    // Along the rings, the exact boundary is within the tolerance, but for places that are counted,
-    // and where a disc of the diameter sqrt(2) pitch does not fit, on neither side.
+    // Along the rings, the exact boundary is within the tolerance, except for places that are
+    // counted, and where a disc of the diameter sqrt(2) pitch does not fit, on neither side.
     const double reach = 0.5 * std::sqrt(2.0) * c.pitch;
     const auto is_wide = [&](RingPoint p) {
       for (double r = 0; r < reach; r += 0.1 * reach)

@@ -514,7 +514,7 @@ Parts parts_of(const std::vector<uint8_t>& inside, size_t across, size_t up, siz
 }
 
 /// Against a mask of 16 samples to a pitch: no part that holds a disc of the diameter sqrt(2) *
-/// pitch is lost, and no more rings than parts appear, but for places that are counted. Parts
+/// pitch is lost, and no more rings than parts appear, except for places that are counted. Parts
 /// closer to each other than the pitch may be one.
 void test_topology(void** state) {
   const Case& c = *static_cast<const Case*>(*state);

@@ -10,7 +10,7 @@ using namespace msq;
 
 namespace {
 
-/// Of 24 samples along a side, whose positions in the cell are equal but for rounding.
+/// Of 24 samples along a side, whose positions in the cell are equal except for rounding.
 constexpr double cell = 0.3;
 constexpr uint64_t samples_per_cell = 24;
 

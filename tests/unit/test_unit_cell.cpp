@@ -133,7 +133,7 @@ void test_custom(void**) {
                 {1, 0.2, 0.2},    {1, 0.8, 0.2},    {0, 0.5, 0.1},    {1, 0.5, 0.1}};
   cell.struts = {{0, 1}, {1, 0}, {2, 1}, {3, 4}, {6, 5}, {7, 8}};
   assert_int_equal(periodic_struts(cell).size(), 3);
-  // Equal but for rounding.
+  // Equal except for rounding.
   cell.nodes = {{0.1, 0, 0}, {0.1 + 1e-12, 1, 0}, {0.1, 0, 1}, {0.1, 1, 1 - 1e-12}};
   cell.struts = {{0, 1}, {3, 2}};
   assert_int_equal(periodic_struts(cell).size(), 1);

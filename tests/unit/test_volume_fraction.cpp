@@ -70,7 +70,7 @@ void test_octet(void**) {
                    6 * std::sqrt(2.0) * pi * part * part - 54.627 * part * part * part);
 }
 
-/// Thin struts fill pi r^2 L of a cell, L being their length in it, but for the joints. What
+/// Thin struts fill pi r^2 L of a cell, L being their length in it, except for the joints. What
 /// capsules share at a joint is r^3 times a constant, as long as joints are apart; so with two
 /// radii the joints cancel.
 void test_thin_lattices(void**) {
@@ -115,11 +115,11 @@ double length_within(const Box3& box, Vec3 a, Vec3 b) {
   return low < high ? (high - low) * length(b - a) : 0;
 }
 
-/// Thin struts fill pi r^2 L_V of space, but for the joints. With n vertices a volume: capsules lie
-/// within the cylinders and one ball a vertex, so the fraction is at most that plus n 4/3 pi r^3;
-/// and each of the six pairs of struts at a vertex shares about half a Steinmetz body, 8/3 r^3, at
-/// most, so it is at least that less 16 n r^3. With n = 6.76 and L_V = 5.79: from -6 r to +1.6 r,
-/// relative. L_V is measured in the same box.
+/// Thin struts fill pi r^2 L_V of space, except for the joints. With n vertices a volume: capsules
+/// lie within the cylinders and one ball a vertex, so the fraction is at most that plus n 4/3 pi
+/// r^3; and each of the six pairs of struts at a vertex shares about half a Steinmetz body, 8/3
+/// r^3, at most, so it is at least that less 16 n r^3. With n = 6.76 and L_V = 5.79: from -6 r to
+/// +1.6 r, relative. L_V is measured in the same box.
 void test_thin_foam(void**) {
   const int cells = test_scale() < 0.5 ? 4 : 8;
   const Ref<Context> context = make_ref<Context>(1u, uint64_t{64} << 20, uint64_t{0});

@@ -58,7 +58,7 @@ void is_the_way_to_the_surface(void** state) {
       if (foam.inside(ray.at(way * i / steps)))
         fail_msg("ray %zu is inside at %.17g, its way is %.17g", n, way * i / steps, way);
     if (way >= 0.05 * size - 2 * tolerance) continue;
-    // All that is left is the tolerance, and how the radius changes on the way; but for grazes.
+    // All that is left is the tolerance, and how the radius changes on the way; except for grazes.
     ++met;
     slanting += way > 4 * around;
     passed += !foam.inside(ray.at(way + 2 * tolerance)) && !foam.inside(ray.at(way + left));

@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t POINTS_A_CELL = 2;
 
-// Two points in each of about as many cubes as the number asks for.
+// Two points in each of about as many cubes as the number requests.
 msq_points_def make_sample(const Arguments& arguments, const double min[3], const double max[3]) {
   constexpr uint64_t MOST = 1'000'000'000'000;
   const uint64_t wanted = arguments.count("samples", 1'000'000);

@@ -47,7 +47,7 @@ class Work {
   Work& operator=(const Work&) = delete;
 
   msq_job* job() const { return job_.get(); }
-  // How many units are done. Throws Interrupted if a signal asks for it.
+  // How many units are done. Throws Interrupted if a signal requests it.
   void done(uint64_t count);
   // Share that is done, 0 to 1, where the job does not know it.
   void set_share(double share) { share_ = share; }

@@ -57,7 +57,7 @@ void BeamSamples::keep_tile(const Box& tile) {
   const uint64_t most = looks_ + structure_.beams().size() + looks_to_a_sample * tile.samples();
   keep_alive(tile, [&](Vec3 p) { return looks_ > most || is_in_a_beam(p); });
   if (looks_ <= most) return;
-  // Samples that were not asked are alive. Those that are inside are asked again, which changes
+  // Samples that were not queried are alive. Those that are inside are queried again, which changes
   // nothing.
   beams_.clear();
   structure_.tree().find_overlapping(bounds(tile), [&](size_t begin, size_t end) {

@@ -50,7 +50,7 @@ class BlendedStructure final : public SteadyPair {
   };
 
   void describe(HashInput& input) const override;
-  /// The distances at p, where the members were asked if there are answers.
+  /// The distances at p, where the members were evaluated, if they have values.
   Pair distances(Vec3 p, const std::optional<Answer>& of_a = {},
                  const std::optional<Answer>& of_b = {}) const {
     return {distance_of_member(0, of_a, p), distance_of_member(1, of_b, p)};

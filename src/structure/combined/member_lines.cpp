@@ -13,7 +13,7 @@ namespace {
 
 constexpr double weld_distance = 1e-9;  // of the smallest cell size
 
-/// Of structures that are asked at the points of lines.
+/// Of structures that are evaluated at the points of lines.
 void require_in_cells_of(const Structure& structure, const LineGraph& graph, double z) {
   Box2 box{graph.points[0], graph.points[0]};
   for (const Vec2 p : graph.points)

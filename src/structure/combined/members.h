@@ -56,7 +56,7 @@ class CombinedStructure : public Structure {
     const CombinedStructure* combined = combined_[member];
     return combined ? combined->ask(p) : Answer{members_[member]->inside(p)};
   }
-  /// distance() of a member. It was asked at p if there is an answer.
+  /// distance() of a member. It was evaluated at p if it has a value.
   double distance_of_member(size_t member, const std::optional<Answer>& answer, Vec3 p) const {
     if (answer && answer->distance) return *answer->distance;
     if (answer) return signed_distance(answer->is_inside, members_[member]->distance_bound(p));

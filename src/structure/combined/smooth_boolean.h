@@ -76,7 +76,7 @@ class SmoothBoolean final : public SteadyPair {
   double oriented(size_t member, double distance) const {
     return is_turned(member) ? 0.0 - distance : distance;
   }
-  /// u and v at p, where the members were asked if there are answers.
+  /// u and v at p, where the members were evaluated, if they have values.
   Pair pair(Vec3 p, const std::optional<Answer>& of_a = {},
             const std::optional<Answer>& of_b = {}) const {
     return {oriented(0, distance_of_member(0, of_a, p)),

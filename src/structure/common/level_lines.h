@@ -32,7 +32,7 @@ class LevelFunction {
   /// Whether find_signs() is there: signs of rows cost less than values.
   virtual bool has_signs() const { return false; }
   /// In rows of nodes clears the bits of those that may be outside, and in `not_outside` of those
-  /// that are. The grid's positions are those of the nodes, but for rounding (SampleGrid).
+  /// that are. The grid's positions are those of the nodes, except for rounding (SampleGrid).
   virtual void find_signs(const RowBlock& /*inside*/, const RowBlock& /*not_outside*/) {}
 };
 

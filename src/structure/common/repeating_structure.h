@@ -15,7 +15,7 @@ class RepeatingStructure {
   virtual ~RepeatingStructure() = default;
 
   /// The least number of rows after which the membership of the samples of rows [y0, y1) repeats,
-  /// in any layer, but for flips. At most half of the rows; 0: none is known.
+  /// in any layer, except for flips. At most half of the rows; 0: none is known.
   virtual uint64_t row_period(const SampleGrid& grid, uint64_t y0, uint64_t y1) const = 0;
   /// As Structure::keep_rows(), of a period of rows. The samples that are alive are so in all rows
   /// up to `end`. Adds those whose membership differs from that of the row of the block that they

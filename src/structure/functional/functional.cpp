@@ -48,7 +48,7 @@ struct Points {
   static constexpr size_t room = batch_points + batch_padding;
   double coordinates[3][room] = {};
   double angles[3][room], levels[room] = {}, radii[room];
-  Vec3 asked[batch_points];
+  Vec3 queried[batch_points];
   size_t index[batch_points];
   uint64_t in_place[batch_points / 64 + 1];
 
@@ -309,17 +309,17 @@ double Functional::distance_bound(Vec3 p) const {
 void Functional::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   Batch batch(program_);
   const Borrowed<Points> borrowed;
-  auto& [coordinates, angles, levels, radii, asked, index, in_place] = *borrowed;
+  auto& [coordinates, angles, levels, radii, queried, index, in_place] = *borrowed;
   for (size_t axis = 0; axis < 3; ++axis) batch.set_input(axis, {angles[axis], false});
   for (size_t next = 0; next < count;) {
     size_t size = 0;
     for (; next < count && size < batch_points; ++next) {
       if (!alive[next]) continue;
       for (int axis = 0; axis < 3; ++axis) coordinates[axis][size] = points[next][axis];
-      asked[size] = points[next];
+      queried[size] = points[next];
       index[size++] = next;
     }
-    level_.values(asked, size, levels);
+    level_.values(queried, size, levels);
     borrowed->find_angles(angles_, size);
     batch.run(size);
     uint64_t bits[batch_points / 64 + 1];

@@ -57,7 +57,7 @@ Vec3 ShellRays::normal_of_shell(Vec3 p) const {
 
 void ShellRays::enter(RaySearch* searches, size_t count) const {
   FunctionalRays rays(solid_, job_);
-  std::vector<RaySearch> asked;
+  std::vector<RaySearch> queried;
   std::vector<RayPart> parts;
   std::vector<size_t> index;
   for (size_t i = 0; i < count; ++i) {
@@ -65,28 +65,28 @@ void ShellRays::enter(RaySearch* searches, size_t count) const {
     searches[i].normal = {};
   }
   for (size_t n = 0; n < 2; ++n) {
-    asked.clear();
+    queried.clear();
     parts.clear();
     index.clear();
     for (size_t i = 0; i < count; ++i) {
       if (searches[i].found) continue;
       const RayParts of_ray = parts_of(searches[i].ray, searches[i].from, searches[i].to);
       if (n >= of_ray.count) continue;
-      asked.push_back({searches[i].ray, of_ray.part[n].from, of_ray.part[n].to});
+      queried.push_back({searches[i].ray, of_ray.part[n].from, of_ray.part[n].to});
       parts.push_back(of_ray.part[n]);
       index.push_back(i);
     }
-    rays.find(true, asked.data(), asked.size());
-    for (size_t k = 0; k < asked.size(); ++k)
-      if (asked[k].found && parts[k].is_entry && asked[k].t == parts[k].from)
-        asked[k].normal = normal_of_shell(asked[k].ray.at(asked[k].t));
-    rays.find_normals(asked.data(), asked.size());
-    for (size_t k = 0; k < asked.size(); ++k) {
-      if (!asked[k].found) continue;
+    rays.find(true, queried.data(), queried.size());
+    for (size_t k = 0; k < queried.size(); ++k)
+      if (queried[k].found && parts[k].is_entry && queried[k].t == parts[k].from)
+        queried[k].normal = normal_of_shell(queried[k].ray.at(queried[k].t));
+    rays.find_normals(queried.data(), queried.size());
+    for (size_t k = 0; k < queried.size(); ++k) {
+      if (!queried[k].found) continue;
       RaySearch& search = searches[index[k]];
       search.found = true;
-      search.t = asked[k].t;
-      search.normal = asked[k].normal;
+      search.t = queried[k].t;
+      search.normal = queried[k].normal;
     }
   }
 }

@@ -128,17 +128,17 @@ bool HostFunction::inside(Vec3 p) const {
 void HostFunction::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   const Interval levels = level_.range();
   const size_t most = std::min(count, host_batch);
-  std::vector<Vec3> asked, angles;
+  std::vector<Vec3> queried, angles;
   std::vector<size_t> index;
   std::vector<double> onsets(most), level(most);
-  asked.reserve(most);
+  queried.reserve(most);
   angles.reserve(most);
   index.reserve(most);
   for (size_t next = 0; next < count;) {
-    asked.clear();
+    queried.clear();
     angles.clear();
     index.clear();
-    for (; next < count && asked.size() < most; ++next) {
+    for (; next < count && queried.size() < most; ++next) {
       if (!alive[next]) continue;
       const Vec3 a = angles_of(neighbourhood().locate(points[next]).fraction);
       if (!clusters_.empty()) {
@@ -149,14 +149,14 @@ void HostFunction::keep_points(const Vec3* points, uint8_t* alive, size_t count)
           continue;
         }
       }
-      asked.push_back(points[next]);
+      queried.push_back(points[next]);
       angles.push_back(a);
       index.push_back(next);
     }
-    if (asked.empty()) continue;
+    if (queried.empty()) continue;
     evaluate(angles.data(), angles.size(), onsets.data());
-    level_.values(asked.data(), asked.size(), level.data());
-    for (size_t i = 0; i < asked.size(); ++i)
+    level_.values(queried.data(), queried.size(), level.data());
+    for (size_t i = 0; i < queried.size(); ++i)
       if (!(onsets[i] <= level[i])) alive[index[i]] = 0;
   }
 }
@@ -259,21 +259,22 @@ double HostFunction::leave(const Ray& ray, double from, double to, const Job* jo
 void HostFunction::enter(RaySearch* searches, size_t count, const Job* job) const {
   std::vector<Vec3> points, angles;
   std::vector<double> onsets, levels;
-  const auto ask = [&](const std::vector<MarchPoint>& asked, uint8_t* inside, double* steps) {
+  const auto ask = [&](const std::vector<MarchPoint>& queried, uint8_t* inside, double* steps) {
     points.clear();
     angles.clear();
-    for (const MarchPoint& p : asked) {
+    for (const MarchPoint& p : queried) {
       points.push_back(searches[p.search].ray.at(p.t));
       angles.push_back(angles_of(neighbourhood().locate(points.back()).fraction));
     }
-    onsets.resize(asked.size());
-    levels.resize(asked.size());
+    onsets.resize(queried.size());
+    levels.resize(queried.size());
     evaluate(angles.data(), angles.size(), onsets.data());
     level_.values(points.data(), points.size(), levels.data());
-    for (size_t i = 0; i < asked.size(); ++i) {
+    for (size_t i = 0; i < queried.size(); ++i) {
       inside[i] = onsets[i] <= levels[i];
-      if (!inside[i] && !asked[i].is_settling)
-        steps[i] = outside_along(searches[asked[i].search].ray, asked[i].t, onsets[i] - levels[i]);
+      if (!inside[i] && !queried[i].is_settling)
+        steps[i] =
+            outside_along(searches[queried[i].search].ray, queried[i].t, onsets[i] - levels[i]);
     }
   };
   const auto tolerance_of = [this](const RaySearch& s) { return ray_tolerance(s.ray, s.to); };

@@ -173,11 +173,12 @@ void HostStructure::enter(RaySearch* searches, size_t count, const Job* job) con
   const auto keep = [this](const Vec3* points, uint8_t* inside, size_t n) {
     keep_points(points, inside, n);
   };
-  const auto bound = [&](const std::vector<MarchPoint>& asked, const Vec3* points, double* bounds) {
-    if (calls_.distance) return find_distance_bounds(points, asked.size(), bounds);
+  const auto bound = [&](const std::vector<MarchPoint>& queried, const Vec3* points,
+                         double* bounds) {
+    if (calls_.distance) return find_distance_bounds(points, queried.size(), bounds);
     if (!calls_.classify) return;
-    for (size_t i = 0; i < asked.size(); ++i) {
-      const Vec3 q = searches[asked[i].search].ray.at(asked[i].t + 8 * least);
+    for (size_t i = 0; i < queried.size(); ++i) {
+      const Vec3 q = searches[queried[i].search].ray.at(queried[i].t + 8 * least);
       if (calls_.classify({min(points[i], q), max(points[i], q)}) == BoxClass::outside)
         bounds[i] = 8 * least;
     }
@@ -195,8 +196,8 @@ void HostStructure::keep_points(const Vec3* points, uint8_t* alive, size_t count
     const std::vector<LocatedPoint> grouped = group_by_cell(neighbourhood(), points, alive, count);
     for_each_cell(grouped, [&](CellIndex index, std::span<const LocatedPoint> of_cell) {
       const auto data = cell(index);
-      const auto ask = [&](const HostPoints& asked, uint8_t* inside) {
-        calls_.evaluate_cell(static_cast<const Cell&>(*data).data(), asked, inside);
+      const auto ask = [&](const HostPoints& queried, uint8_t* inside) {
+        calls_.evaluate_cell(static_cast<const Cell&>(*data).data(), queried, inside);
       };
       for (const LocatedPoint& point : of_cell) {
         batch.add(points[point.index], point.located, point.index);

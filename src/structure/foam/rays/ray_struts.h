@@ -22,11 +22,11 @@ constexpr float along_rounding = 4e-6f;
 /// The first strut that a ray meets, among those tested.
 struct FirstEntry {
   StrutEntry entry;
-  std::vector<uint32_t> asked;
+  std::vector<uint32_t> queried;
 
   void clear() {
     entry = {};
-    asked.clear();
+    queried.clear();
   }
 };
 
@@ -106,8 +106,9 @@ class RayStruts {
       ids_[next] = ids_[count - 1];
       from_[next] = from_[count - 1];
       // Cells share struts.
-      if (std::find(first.asked.begin(), first.asked.end(), id) != first.asked.end()) continue;
-      first.asked.push_back(id);
+      if (std::find(first.queried.begin(), first.queried.end(), id) != first.queried.end())
+        continue;
+      first.queried.push_back(id);
       const StrutEntry found = entry(ray, id);
       if (comes_before(found, first.entry)) first.entry = found;
     }

@@ -31,7 +31,7 @@ class SingleRay {
  private:
   void forget() {
     struts_.forget();
-    first_.asked.clear();  // the ids now belong to others
+    first_.queried.clear();  // the ids now belong to others
   }
 
   /// Whether the ray meets a strut in a cell that it crosses from `in` to `out`.

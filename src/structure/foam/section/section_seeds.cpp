@@ -93,14 +93,14 @@ void Search::visit_tree(CellIndex cell) {
 
 SectionSeeds Search::find() {
   const Vec3 size = grid_.cell_size;
-  const Box3 asked = plane_.to_grid(slab_);
-  require_in_cells(grid_, asked);
+  const Box3 queried = plane_.to_grid(slab_);
+  require_in_cells(grid_, queried);
   const Vec2 extent = area_.extent();
   const double cells = extent.x * extent.y * 2 * reach_ / plane_.cell_volume();
   reserve(foam_.graded ? std::min(cells, max_seeds / 2) : cells);
   JobPoll poll(current_job());
-  for (double z = std::floor(asked.min.z / size.z); z <= asked.max.z / size.z; ++z)
-    for (double y = std::floor(asked.min.y / size.y); y <= asked.max.y / size.y; ++y) {
+  for (double z = std::floor(queried.min.z / size.z); z <= queried.max.z / size.z; ++z)
+    for (double y = std::floor(queried.min.y / size.y); y <= queried.max.y / size.y; ++y) {
       const CellRow row = cells_in_row(plane_.from_grid(), size, slab_, 1e-6 * reach_, y, z);
       poll();
       for (double x = row.first; x <= row.last; ++x) {

@@ -43,8 +43,8 @@ class SeedTrees {
   template <class Wanted, class Found>
   void visit(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found);
 
-  /// The same for twigs: found(twig). wanted(box) is not asked of the nodes in a twig. Faster if
-  /// most seeds in the box are wanted. A twig is valid until the next search.
+  /// The same for twigs: found(twig). wanted(box) is not evaluated for the nodes in a twig. Faster
+  /// if most seeds in the box are wanted. A twig is valid until the next search.
   template <class Wanted, class Found>
   void visit_twigs(CellIndex home, const Box3& box, Wanted&& wanted, Found&& found);
   /// LeafSeed::order of a leaf.

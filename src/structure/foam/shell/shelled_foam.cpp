@@ -48,12 +48,12 @@ void ShelledFoam::keep_rows(const RowBlock& block, const Job* job) const {
 }
 
 void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const {
-  std::vector<RaySearch> asked;
+  std::vector<RaySearch> queried;
   std::vector<RayPart> parts;
   std::vector<size_t> index;
   for (size_t i = 0; i < count; ++i) searches[i].found = false;
   for (size_t n = 0; n < 2; ++n) {
-    asked.clear();
+    queried.clear();
     parts.clear();
     index.clear();
     for (size_t i = 0; i < count; ++i) {
@@ -61,20 +61,20 @@ void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const
       if (s.found) continue;
       const RayParts of_ray = shell_.parts_of(s.ray, s.from, s.to, ray_tolerance(s.ray, s.to));
       if (n >= of_ray.count) continue;
-      asked.push_back({s.ray, of_ray.part[n].from, of_ray.part[n].to});
+      queried.push_back({s.ray, of_ray.part[n].from, of_ray.part[n].to});
       parts.push_back(of_ray.part[n]);
       index.push_back(i);
     }
-    if (asked.empty()) return;
-    foam_->enter(asked.data(), asked.size(), job);
-    for (size_t k = 0; k < asked.size(); ++k) {
-      if (!asked[k].found) continue;
+    if (queried.empty()) return;
+    foam_->enter(queried.data(), queried.size(), job);
+    for (size_t k = 0; k < queried.size(); ++k) {
+      if (!queried[k].found) continue;
       RaySearch& search = searches[index[k]];
       search.found = true;
-      search.t = asked[k].t;
-      search.normal = parts[k].is_entry && asked[k].t == parts[k].from
+      search.t = queried[k].t;
+      search.normal = parts[k].is_entry && queried[k].t == parts[k].from
                           ? shell_.normal(search.ray.at(search.t))
-                          : asked[k].normal;
+                          : queried[k].normal;
     }
   }
 }

@@ -110,9 +110,9 @@ double FoamWalls::distance_bound(Vec3 p) const {
 
 void FoamWalls::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   // Cell by cell, since the point query keeps the seeds about the last point's cell.
-  size_t asked = 0;
+  size_t queried = 0;
   for (const LocatedPoint& point : group_by_cell(neighbourhood(), points, alive, count)) {
-    if (asked++ % 16 == 0) check_cancelled();
+    if (queried++ % 16 == 0) check_cancelled();
     if (!inside(point.located, points[point.index])) alive[point.index] = 0;
   }
 }

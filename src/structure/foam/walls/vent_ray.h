@@ -22,7 +22,7 @@ struct VentRay {
   double growth;     ///< of the thickness, per model unit of the way
 
   /// Whether the ray meets a wall in [from, to], a short part that begins in the void; the first t,
-  /// but for rounding.
+  /// except for rounding.
   bool find(const Ray& ray, double from, double to, double& t) const;
 };
 

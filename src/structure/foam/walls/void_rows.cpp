@@ -61,14 +61,14 @@ class BlockVoids {
   }
 
   void decide(const Job* job) {
-    size_t asked = 0;
+    size_t queried = 0;
     for (const DoubtfulSamples& run : w_.doubts) {
       uint64_t* const row = block_.row(block_.y0 + run.row, block_.z0 + run.layer);
       for (uint64_t i = run.first; i < run.first + run.count; ++i) {
         uint64_t& word = row[i / bits_per_word];
         const uint64_t bit = uint64_t{1} << (i % bits_per_word);
         if (!(word & bit)) continue;
-        if (asked++ % 256 == 0) check_cancelled(job);
+        if (queried++ % 256 == 0) check_cancelled(job);
         if (!walls_.inside(block_.grid->at(i, block_.y0 + run.row, block_.z0 + run.layer)))
           word &= ~bit;
       }

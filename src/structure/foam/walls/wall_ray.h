@@ -20,8 +20,8 @@ struct WallRay {
   double thickness;  ///< in foam units
 
   enum class Way { meets, passes, unknown };
-  /// From a point outside all walls, the first t in [from, to] at which the ray meets one, but for
-  /// rounding. `unknown`: it was not found in some dozen steps.
+  /// From a point outside all walls, the first t in [from, to] at which the ray meets one, except
+  /// for rounding. `unknown`: it was not found in some dozen steps.
   Way find(const Ray& ray, double from, double to, double tolerance, double& t) const;
 
  private:

@@ -112,21 +112,21 @@ LineGraph PlateCut::find() {
   const double around = length(size);
   const Box3 box =
       Box3{{w.min.x, w.min.y, section_.z}, {w.max.x, w.max.y, section_.z}}.grown(around);
-  const Box3 asked = grid_.to_grid(box);
-  require_in_cells(grid_, asked);
+  const Box3 queried = grid_.to_grid(box);
+  require_in_cells(grid_, queried);
   const Vec3 extent = box.extent();
   if (!(extent.x * extent.y * extent.z / (size.x * size.y * size.z) < max_plate_cells))
     fail(Status::limit, "the window meets about %g cells of the plates; the limit is %g",
          extent.x * extent.y * extent.z / (size.x * size.y * size.z), max_plate_cells);
-  const Vec3 asked_extent = asked.extent();
+  const Vec3 asked_extent = queried.extent();
   const double rows = (asked_extent.y / size.y + 2) * (asked_extent.z / size.z + 2);
   if (!(rows < max_plate_rows))
     fail(Status::limit, "about %g rows of cells are about the window; the limit is %g", rows,
          max_plate_rows);
   const GridMap map = model_map(grid_);
   JobPoll poll(current_job());
-  for (double z = std::floor(asked.min.z / size.z); z <= asked.max.z / size.z; ++z)
-    for (double y = std::floor(asked.min.y / size.y); y <= asked.max.y / size.y; ++y) {
+  for (double z = std::floor(queried.min.z / size.z); z <= queried.max.z / size.z; ++z)
+    for (double y = std::floor(queried.min.y / size.y); y <= queried.max.y / size.y; ++y) {
       poll();
       const CellRow row = cells_in_row(map, size, box, 1e-6 * around, y, z);
       for (double x = row.first; x <= row.last; ++x) {
