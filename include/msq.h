@@ -555,21 +555,22 @@ enum msq_warp_kind {
  *
  * Cells fill the space from inner_radius to outer_radius. A functional structure is empty outside
  * of this space, and so is a foam. A lattice has the whole cells that fit in it
- * (msq_lattice_def.warp). Foams do not take SAMPLED (msq_foam_def.warp).
+ * (msq_lattice_def.warp).
  *
  * SAMPLED: u, v and w are fields of samples (msq_field_grid) on one grid of at least 2 samples
  * along each axis. msq interpolates the samples. The three values at a point are its coordinates,
  * counted in cells, at most 2^22 in magnitude. Cells begin and end at whole numbers. The
  * structure's grid is not used. The cells fill the box of the samples. A functional structure is
- * empty outside of this box. A lattice has the struts whose two nodes are in the box. So sample one
- * cell more than the part needs.
+ * empty outside of this box, and so is a foam. A lattice has the struts whose two nodes are in the
+ * box. So sample one cell more than the part needs.
  *
  * The map must not fold: the determinant of its derivatives has one sign in all voxels, is nowhere
  * 0, and its magnitude is above 2^-40 times the product of the gradients' lengths. An angle that
  * jumps by a whole turn is a fold. For a whole ring use CYLINDRICAL; a part of a ring may be
- * sampled. If two points have the same coordinates, msq places the nodes of lattices at one of
- * them. Cost: SAMPLED makes two passes over the samples, about 0.1 us per voxel. For lattices msq
- * places all nodes in the box, about 1 us each.
+ * sampled. If two points have the same coordinates, msq places the nodes of lattices and the
+ * seeds of foams at one of them. Cost: SAMPLED makes two passes over the samples, about 0.1 us per
+ * voxel. For lattices msq places all nodes in the box, about 1 us each; for foams all seeds, about
+ * 2 us each.
  *
  * docs/concepts.md defines the map bit for bit. */
 typedef struct msq_warp_def {
@@ -1436,17 +1437,25 @@ typedef struct msq_foam_def {
    * AUTO or DIRECT, density must not exceed 1, the three numbers of stretch must be equal, and
    * weight must be 0. NULL (default): all cells have one size. */
   const msq_period_def* period;
-  /** Cells around the z axis of the grid, or around its origin. The kind must be CYLINDRICAL or
-   * SPHERICAL (with a count of at least 3 and a count_polar of at least 2), and outer_radius above
-   * 0. Each cell has a seed, and the Voronoi diagram is that of
-   * the seeds in model space. Struts stay straight and keep their radius; walls keep their
-   * thickness. Cells go on beyond inner_radius and outer_radius, so those at the two radii are like
-   * those between them. The foam is cut off there. Between the radii, cell sizes may differ by a
-   * factor of up to 16: grid.cell_size[0]; the width 2 pi r / count at a distance r from the axis,
-   * or at the equator; and grid.cell_size[2], or pi r / count_polar around a point. The limits of
-   * radius, wall_thickness and vent_radius refer to the smallest. With a warp, method must be AUTO
-   * or DIRECT, density must not exceed 1, the three numbers of stretch must be equal, weight must
-   * be 0, and period must be NULL. NULL (default): cells are boxes. */
+  /** Cells around the z axis of the grid, around its origin, or by a sampled map. Each cell has a
+   * seed, and the Voronoi diagram is that of the seeds in model space. Struts stay straight and
+   * keep their radius; walls keep their thickness.
+   *
+   * CYLINDRICAL, SPHERICAL: outer_radius must be above 0. Around a point count must be at least 3
+   * and count_polar at least 2. Cells go on beyond inner_radius and outer_radius, so those at the
+   * two radii are like those between them. The foam is cut off there. Between the radii, cell sizes
+   * may differ by a factor of up to 16: grid.cell_size[0]; the width 2 pi r / count at a distance r
+   * from the axis, or at the equator; and grid.cell_size[2], or pi r / count_polar around a point.
+   *
+   * SAMPLED: the foam is cut off at the box of the samples. A cell has no seed if its place is
+   * beyond that box. Along the faces of the box, cells of the foam are therefore up to twice as
+   * large as others; sample a cell more than the part needs. The map may have 2^24 cells. Their
+   * edges in the middle of voxels may be up to 16 times as long as the smallest cell is wide, which
+   * is 1 over the greatest slope of the map.
+   *
+   * The limits of radius, wall_thickness and vent_radius refer to the smallest cell. With a warp,
+   * method must be AUTO or DIRECT, density must not exceed 1, the three numbers of stretch must be
+   * equal, weight must be 0, and period must be NULL. NULL (default): cells are boxes. */
   const msq_warp_def* warp;
 } msq_foam_def;
 
@@ -1464,13 +1473,12 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
  * recursively. Each leaf has one jittered seed, and the mean number of seeds is the density
  * (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius,
  * wall_thickness, vent_radius or weight above the smallest cell size; cell sizes that differ by a
- * factor above 4, or in a period or a warp above 16; a warp whose cells are so narrow beyond the
- * shell that 2^15 are in a box of the search; stretch, see there; density above 32768), UNSUPPORTED
- * (METHOD_2 without CGAL; walls, a stretch, a weight, a period, a warp, or density above 1, with a
+ * factor above 4, or in a period or a warp above 16; a warp of which 2^15 cells are in a box of the
+ * search; a sampled map of more than 2^24 cells; stretch, see there; density above 32768),
+ * UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, a weight, a period, a warp, or density above 1, with a
  * method other than AUTO and DIRECT; a stretch, a weight, a period or a warp with density above 1;
- * a stretch or a weight with vent_radius; two of stretch, weight, period and warp; a SAMPLED
- * warp), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams";
- * Martinez, Dumas and Lefebvre 2016. Weights: Imai, Iri and Murota, "Voronoi diagram in the
+ * a stretch or a weight with vent_radius; two of stretch, weight, period and warp), MEMORY. Source:
+ * paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. Weights: Imai, Iri and Murota, "Voronoi diagram in the
  * Laguerre geometry and its applications", 1985; Aurenhammer, "Power diagrams: properties,
  * algorithms and applications", 1987; for foams Fan, Wu, Zhao and Lu, "Simulation of
  * polycrystalline structure with Voronoi diagram in Laguerre geometry based on random closed

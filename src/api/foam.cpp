@@ -6,8 +6,11 @@
 #include "api/period.h"
 #include "api/strut_radius.h"
 #include "api/warp.h"
+#include "structure/common/box_shell.h"
+#include "structure/common/warp_shell.h"
 #include "structure/foam/paper/delaunay.h"
 #include "structure/foam/seeds/period_seeds.h"
+#include "structure/foam/seeds/sampled_seeds.h"
 #include "structure/foam/seeds/warp_seeds.h"
 #include "structure/foam/shell/shelled_foam.h"
 #include "structure/foam/walled_foam.h"
@@ -182,16 +185,22 @@ std::optional<GradedPeriod> read_foam_period(msq_foam_def& def, msq_period_def& 
   return period;
 }
 
-std::optional<Warp> read_foam_warp(msq_foam_def& def, msq_warp_def& known,
-                                   const Neighbourhood& grid) {
-  const CellMap map = read_warp(def.warp, known, grid);
-  if (map.sampled)
-    fail(Status::unsupported,
-         "warp.kind is MSQ_WARP_SAMPLED; the cells of a foam may be around an axis, "
-         "MSQ_WARP_CYLINDRICAL, or around a point, MSQ_WARP_SPHERICAL");
+CellMap read_foam_map(msq_foam_def& def, msq_warp_def& known, const Neighbourhood& grid) {
+  CellMap map = read_warp(def.warp, known, grid);
   if (map && def.period)
     fail(Status::unsupported, "a period and a warp are given; a foam takes one of them");
-  return map.round;
+  return map;
+}
+
+std::shared_ptr<const PlacedSeeds> seeds_of(const Context& context, const CellMap& map,
+                                            const msq_foam_def& def) {
+  if (map.round) return std::make_shared<const WarpSeeds>(*map.round, def.jitter, def.seed);
+  return std::make_shared<const SampledSeeds>(context, map.sampled, def.jitter, def.seed);
+}
+
+std::shared_ptr<const CellShell> shell_of(const CellMap& map) {
+  if (map.round) return std::make_shared<const WarpShell>(*map.round);
+  return std::make_shared<const BoxShell>(map.sampled);
 }
 
 /// What a foam with a period or a warp cannot be yet. `given`: the name of that.
@@ -231,13 +240,13 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     Neighbourhood grid = read_neighbourhood(known.grid);
     msq_period_def known_period;
     msq_warp_def known_warp;
-    const std::optional<Warp> warp = read_foam_warp(known, known_warp, grid);
+    const CellMap map = read_foam_map(known, known_warp, grid);
     const std::optional<GradedPeriod> period = read_foam_period(known, known_period);
     if (!(known.jitter >= 0 && known.jitter <= 1))
       fail(Status::argument, "jitter is %g; it must be from 0 to 1", known.jitter);
     std::shared_ptr<const PlacedSeeds> placed;
-    if (warp) {
-      placed = std::make_shared<WarpSeeds>(*warp, known.jitter, known.seed);
+    if (map) {
+      placed = seeds_of(owner, map, known);
       grid = placed->grid();
     }
     if (period) grid = period->resized(grid, period->largest());
@@ -255,7 +264,7 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            "MSQ_FOAM_DIRECT",
            density.range().high);
     const Vec3 stretch = read_stretch(known, grid);
-    const Neighbourhood smallest = warp     ? placed->smallest()
+    const Neighbourhood smallest = map      ? placed->smallest()
                                    : period ? period->resized(grid, period->smallest())
                                             : grid;
     const Parameter thickness = read_wall_thickness(known.wall_thickness, smallest);
@@ -269,7 +278,7 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     refuse_stretched(known, stretch, method, density.range().high, vent_radius.range().high);
     const double weight = read_weight(known, smallest);
     refuse_weighted(known, weight, method, stretch, density.range().high, vent_radius.range().high);
-    if (warp) refuse_placed("warp", known, method, stretch, weight, density.range().high);
+    if (map) refuse_placed("warp", known, method, stretch, weight, density.range().high);
     if (period) {
       refuse_placed("period", known, method, stretch, weight, density.range().high);
       placed = std::make_shared<const PeriodSeeds>(grid, *period, known.jitter, known.seed);
@@ -281,7 +290,7 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     };
     const auto finish = [&](Ref<Structure> foam) {
       const Ref<Structure> made =
-          warp ? Ref<Structure>(make_ref<ShelledFoam>(foam, *warp)) : std::move(foam);
+          map ? Ref<Structure>(make_ref<ShelledFoam>(foam, shell_of(map))) : std::move(foam);
       keep(*made, known);
       *structure = new_handle<msq_structure>(made);
     };

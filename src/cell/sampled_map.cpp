@@ -30,6 +30,16 @@ struct Jacobian {
   }
 };
 
+/// Of the edges of a cell where the coordinates have these derivatives by voxels: the columns of
+/// the inverse.
+double longest_edge_of(const Jacobian& j, Vec3 spacing) {
+  const auto row = [&](int c) { return Vec3{j.m[c][0], j.m[c][1], j.m[c][2]}; };
+  double most = 0;
+  for (int c = 0; c < 3; ++c)
+    most = std::max(most, length(cross(row((c + 1) % 3), row((c + 2) % 3)) * spacing));
+  return most / std::abs(j.determinant());
+}
+
 double blend(double a, double b, double f) {
   return a + f * (b - a);
 }
@@ -277,7 +287,8 @@ void SampledMap::examine() {
       for (uint64_t x = 0; x < nx; ++x) {
         const Voxel at = voxel(x, y, z);
         const Slants slants(at.samples);
-        const double in_middle = jacobian_of(at.samples, middle).determinant();
+        const Jacobian of_middle = jacobian_of(at.samples, middle);
+        const double in_middle = of_middle.determinant();
         if (sign == 0) sign = in_middle < 0 ? -1 : 1;
         const double most = slants.most(), limit = least_determinant * most;
         // Products may vanish or overflow.
@@ -288,6 +299,7 @@ void SampledMap::examine() {
           if (!Determinants(at.samples, sign).are_above(limit, 0, where))
             refuse(at, where, jacobian_of(at.samples, where).determinant());
         }
+        longest_edge_ = std::max(longest_edge_, longest_edge_of(of_middle, frame().spacing));
         cells += std::abs(in_middle);
         least = std::min(least, std::abs(in_middle));
         // With J the derivatives, the largest eigenvalue of J J^T is at most a sum of a row.

@@ -56,6 +56,8 @@ class SampledMap {
   /// The cube roots of the mean and of the largest volume of cells.
   double mean_size() const { return mean_size_; }
   double largest_size() const { return largest_size_; }
+  /// The length of the longest edge that a cell has in the middle of any voxel.
+  double longest_edge() const { return longest_edge_; }
   Interval range(int axis) const { return image(axis).range(); }
   /// The box of the samples, in their frame.
   Box3 box() const;
@@ -106,7 +108,7 @@ class SampledMap {
 
   Fields fields_;
   Vec3 top_;  // the last sample
-  double steepness_ = 0, mean_size_ = 0, largest_size_ = 0, rounding_ = 0;
+  double steepness_ = 0, mean_size_ = 0, largest_size_ = 0, longest_edge_ = 0, rounding_ = 0;
   Vec3 slopes_;
 };
 

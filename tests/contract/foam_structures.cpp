@@ -4,7 +4,11 @@
 #include <utility>
 
 #include "field/gradient.h"
+#include "structure/common/box_shell.h"
+#include "structure/common/warp_shell.h"
 #include "structure/foam/foam.h"
+#include "structure/foam/seeds/sampled_seeds.h"
+#include "structure/foam/seeds/warp_seeds.h"
 #include "structure/foam/shell/shelled_foam.h"
 #include "structure/foam/walled_foam.h"
 
@@ -85,6 +89,8 @@ Factory placed_both_factory(double jitter, Placed place) {
   };
 }
 
+namespace {
+
 Warp warp_of_foams(const Neighbourhood& grid, FoamWarp kind) {
   const double size = grid.cell_size.x, inner = 0.8 * size, outer = 2.6 * size;
   if (kind == FoamWarp::sphere) return {Warp::Kind::spherical, grid, {12, 6, inner, outer}};
@@ -93,10 +99,25 @@ Warp warp_of_foams(const Neighbourhood& grid, FoamWarp kind) {
   return {Warp::Kind::cylindrical, grid, {12, 0, inner, outer}};
 }
 
+}  // namespace
+
+std::shared_ptr<const PlacedSeeds> warped_seeds(const Neighbourhood& grid, double jitter,
+                                                FoamWarp kind) {
+  constexpr uint64_t seed = 7;
+  if (kind == FoamWarp::sampled)
+    return std::make_shared<const SampledSeeds>(*shared_context(), sampled_map(grid), jitter, seed);
+  return std::make_shared<const WarpSeeds>(warp_of_foams(grid, kind), jitter, seed);
+}
+
+std::shared_ptr<const CellShell> shell_of_foams(const Neighbourhood& grid, FoamWarp kind) {
+  if (kind == FoamWarp::sampled) return std::make_shared<const BoxShell>(sampled_map(grid));
+  return std::make_shared<const WarpShell>(warp_of_foams(grid, kind));
+}
+
 Factory shelled_factory(Factory foam, FoamWarp kind) {
   return [foam = std::move(foam), kind](const Neighbourhood& grid, Parameter size) {
     return Ref<const Structure>(
-        make_ref<ShelledFoam>(foam(grid, std::move(size)), warp_of_foams(grid, kind)));
+        make_ref<ShelledFoam>(foam(grid, std::move(size)), shell_of_foams(grid, kind)));
   };
 }
 

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "lattice_structures.h"
+#include "structure/common/cell_shell.h"
 #include "structure/foam/seeds/period_seeds.h"
-#include "structure/foam/seeds/warp_seeds.h"
 #include "structures.h"
 
 namespace msq::test {
@@ -32,14 +32,16 @@ Factory placed_walls_factory(double jitter, Placed place, double vent_radius = 0
 /// Struts and walls.
 Factory placed_both_factory(double jitter, Placed place);
 
-/// Twelve cells around the grid's z axis, some of the shell's ends within reach; those sheared; or
-/// cells around its origin.
-enum class FoamWarp { cylinder, sheared, sphere };
-Warp warp_of_foams(const Neighbourhood& grid, FoamWarp kind);
+/// Twelve cells around the grid's z axis, some of the shell's ends within reach; those sheared;
+/// cells around its origin; or those of sampled_map().
+enum class FoamWarp { cylinder, sheared, sphere, sampled };
+std::shared_ptr<const PlacedSeeds> warped_seeds(const Neighbourhood& grid, double jitter,
+                                                FoamWarp kind);
 template <FoamWarp kind = FoamWarp::cylinder>
 std::shared_ptr<const PlacedSeeds> by_warp(const Neighbourhood& grid, double jitter) {
-  return std::make_shared<const WarpSeeds>(warp_of_foams(grid, kind), jitter, uint64_t{7});
+  return warped_seeds(grid, jitter, kind);
 }
+std::shared_ptr<const CellShell> shell_of_foams(const Neighbourhood& grid, FoamWarp kind);
 /// In that shell.
 Factory shelled_factory(Factory foam, FoamWarp kind = FoamWarp::cylinder);
 

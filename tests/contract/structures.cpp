@@ -399,6 +399,12 @@ std::vector<Kind> kinds() {
   kinds.push_back(
       {"warped foam", "walls around a point", 0.06, 1,
        shelled_factory(placed_walls_factory(1, by_warp<FoamWarp::sphere>), FoamWarp::sphere)});
+  kinds.push_back(
+      {"warped foam", "struts by samples", 0.08, 1,
+       shelled_factory(placed_factory(1, by_warp<FoamWarp::sampled>), FoamWarp::sampled)});
+  kinds.push_back({"warped foam", "walls by samples", 0.06, 1,
+                   shelled_factory(placed_walls_factory(1, by_warp<FoamWarp::sampled>, 0.15),
+                                   FoamWarp::sampled)});
   for (double jitter : {1.0, 0.01, 0.0})
     for (double thickness : {0.02, 0.1, 0.45}) {
       if (jitter < 1 && thickness != 0.1) continue;

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <optional>
+#include <memory>
 
 #include "foam_structures.h"
 #include "random.h"
 #include "structure/common/struts.h"
-#include "structure/common/warp_shell.h"
 #include "structures.h"
 #include "suite.h"
 
@@ -100,6 +99,7 @@ bool holds(const StructureRow& row, const Strut& s, double factor, const Paramet
 
 FoamWarp warp_kind(const StructureRow& row) {
   if (row.kind.name.find("around a point") != std::string::npos) return FoamWarp::sphere;
+  if (row.kind.name.find("by samples") != std::string::npos) return FoamWarp::sampled;
   return row.kind.name.starts_with("sheared") ? FoamWarp::sheared : FoamWarp::cylinder;
 }
 
@@ -141,8 +141,8 @@ void test_row(void** state) {
   const double slack = 3e-9 * row.unit();
   const bool has_more = row.kind.name.find("and struts") != std::string::npos;  // walls
   // Struts are whole, the foam ends at its shell.
-  std::optional<WarpShell> shell;
-  if (row.kind.family == "warped foam") shell.emplace(warp_of_foams(grid, warp_kind(row)));
+  std::shared_ptr<const CellShell> shell;
+  if (row.kind.family == "warped foam") shell = shell_of_foams(grid, warp_kind(row));
   for (size_t i = 0; i < test_count(300); ++i) {
     const Vec3 p = random.in_box(box);
     bool may = false, must = false;

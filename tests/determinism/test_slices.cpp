@@ -21,6 +21,7 @@
 #include "structure/combined/blended_structure.h"
 #include "structure/combined/boolean_structure.h"
 #include "structure/combined/smooth_boolean.h"
+#include "structure/common/warp_shell.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/paper/delaunay.h"
 #include "structure/foam/seeds/period_seeds.h"
@@ -269,11 +270,11 @@ std::vector<ModelRow> models() {
                  make_ref<ShelledFoam>(
                      make_ref<Foam>(c, coarse->grid(), Parameter(0.08), 1.0, uint64_t{6},
                                     FoamMethod::direct, Parameter(1), Vec3{1, 1, 1}, 0.0, coarse),
-                     wide),
+                     std::make_shared<const WarpShell>(wide)),
                  make_ref<ShelledFoam>(
                      make_ref<FoamWalls>(c, fine->grid(), Parameter(0.04), 1.0, uint64_t{6},
                                          Parameter(1), Parameter(0), Vec3{1, 1, 1}, 0.0, fine),
-                     narrow)});
+                     std::make_shared<const WarpShell>(narrow))});
        }});
   rows.push_back(
       {"weighted walls in a weighted foam", 8, [](Ref<Context> c) {

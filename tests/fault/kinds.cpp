@@ -232,6 +232,41 @@ MakeStructure placed_foam(World& world, Places places, double radius, double thi
   };
 }
 
+/// Of cells by a map.
+MakeStructure sampled_foam(World& world, double radius, double thickness) {
+  return [=, &world](msq_structure** made) {
+    constexpr uint64_t side = 4;
+    msq_field* fields[3] = {};
+    msq_status status = MSQ_OK;
+    for (int axis = 0; axis < 3 && status == MSQ_OK; ++axis) {
+      double values[side * side * side];
+      for (uint64_t i = 0; i < side * side * side; ++i) {
+        const uint64_t at[3] = {i % side, i / side % side, i / side / side};
+        values[i] = static_cast<double>(at[axis]) * 1.25;
+      }
+      msq_grid_field_def def = make_def(msq_grid_field_def_init);
+      def.image.values = values;
+      def.image.value_type = MSQ_FLOAT64;
+      for (uint64_t& size : def.image.size) size = side;
+      status = msq_field_grid(world.context, &def, &fields[axis]);
+    }
+    msq_warp_def warp = make_def(msq_warp_def_init);
+    warp.kind = MSQ_WARP_SAMPLED;
+    warp.u = fields[0];
+    warp.v = fields[1];
+    warp.w = fields[2];
+    if (status == MSQ_OK) {
+      msq_foam_def def = make_def(msq_foam_def_init);
+      def.radius.value = radius;
+      def.wall_thickness.value = thickness;
+      def.warp = &warp;
+      status = msq_structure_foam(world.context, &def, made);
+    }
+    for (msq_field* field : fields) msq_field_release(field);
+    return status;
+  };
+}
+
 MakeStructure placed_gyroid(World& world, Places places) {
   return [&world, places](msq_structure** made) {
     auto def = places.placed(make_def(msq_functional_def_init));
@@ -416,6 +451,8 @@ const std::vector<Kind>& kinds() {
          [](World& w) {
            return placed_foam(w, {{}, foam_shell()}, 0, 0.1);
          }},
+        {"sampled foam", [](World& w) { return sampled_foam(w, 0.15, 0); }},
+        {"sampled walls", [](World& w) { return sampled_foam(w, 0, 0.1); }},
         {"warped lattice",
          [](World& w) {
            return placed_lattice(w, {{}, cylinder()});

@@ -167,6 +167,7 @@ Owner<msq_structure> Maker::foam() {
       warp.shear_outwards = input_.number(-2, 2);
       warp.shear_along = input_.number(-2, 2);
     }
+    if (input_.chance(80)) sample(warp);
     def.warp = &warp;
   }
   return make<msq_structure>("msq_structure_foam", [&](msq_structure** s) {

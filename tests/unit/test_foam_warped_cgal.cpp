@@ -7,6 +7,7 @@
 #include "base/pi.h"
 #include "diagram_check.h"
 #include "foam_diagram.h"
+#include "structure/common/warp_shell.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/seeds/warp_seeds.h"
 #include "structure/foam/shell/shelled_foam.h"
@@ -142,6 +143,7 @@ void test_diagram(void**) {
     const Warp warp = warp_of(row, frame);
     const std::shared_ptr<const PlacedSeeds> placed =
         std::make_shared<const WarpSeeds>(warp, row.jitter, row.seed);
+    const auto shell = std::make_shared<const WarpShell>(warp);
     const Neighbourhood grid = placed->grid();
     const double size = min_component(placed->smallest().cell_size);
     const size_t count = test_count(3000);
@@ -153,7 +155,7 @@ void test_diagram(void**) {
       const Ref<const Structure> foam =
           make_ref<Foam>(context, grid, Parameter(radius), row.jitter, row.seed, FoamMethod::direct,
                          Parameter(1), Vec3{1, 1, 1}, 0.0, placed);
-      check_shelled(row, "edges", *make_ref<ShelledFoam>(foam, warp),
+      check_shelled(row, "edges", *make_ref<ShelledFoam>(foam, shell),
                     ask(diagram.edges, frame, half, radius, count, row.seed), radius, 1, near);
     }
     // Without jitter, four seeds of one face of cells are on a circle up to rounding: the oracle
@@ -163,7 +165,7 @@ void test_diagram(void**) {
     const Ref<const Structure> walls =
         make_ref<FoamWalls>(context, grid, Parameter(thickness), row.jitter, row.seed, Parameter(1),
                             Parameter(0), Vec3{1, 1, 1}, 0.0, placed);
-    check_shelled(row, "faces", *make_ref<ShelledFoam>(walls, warp),
+    check_shelled(row, "faces", *make_ref<ShelledFoam>(walls, shell),
                   ask(diagram.faces, frame, half, 0.5 * thickness, count, row.seed),
                   0.5 * thickness, 2, near);
   }

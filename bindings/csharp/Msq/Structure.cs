@@ -26,7 +26,7 @@ namespace Msq
         public double Weight { get; set; }
         /// <summary>Cells of varying size.</summary>
         public Period Period { get; set; }
-        /// <summary>Cells around an axis or a point.</summary>
+        /// <summary>Cells around an axis or a point, or by a map.</summary>
         public Warp Warp { get; set; }
     }
 

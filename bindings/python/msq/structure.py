@@ -350,7 +350,7 @@ class Foam(Structure):
 
     radius may be 0 where wall_thickness is not. vent_radius: of a hole through each wall. jitter: 0,
     seeds at cell centres, to 1, anywhere. weight: the greatest radius of the seeds' spheres. period,
-    warp: cells that vary in size or lie around an axis. method: `auto` is fastest.
+    warp: cells that vary in size, lie around an axis or follow a map. method: `auto` is fastest.
     """
 
     radius: parameter[Param] = parameter("Of the struts.")
@@ -366,7 +366,7 @@ class Foam(Structure):
     stretch: parameter[Sequence[float]] = parameter("Of the cells along the grid's axes.")
     weight: parameter[float] = parameter("Of the seeds; 0: a Voronoi diagram.")
     period: parameter[Optional[Period]] = parameter("Cells of varying size; None: all alike.")
-    warp: parameter[Optional[AnyWarp]] = parameter("Cells around an axis or a point; None: boxes.")
+    warp: parameter[Optional[AnyWarp]] = parameter("Cells that are bent; None: boxes.")
 
     @remembers
     def __init__(self, *, radius: Param = 0.0, cell_size: Cell = 1.0, jitter: float = 1.0,

@@ -67,10 +67,18 @@ class WarpedFoams(unittest.TestCase):
                 r = np.linalg.norm(points, axis=1) if "count_polar" in more else radius
                 np.testing.assert_array_equal(np.isfinite(onsets), (r >= 2) & (r <= 4.5))
 
+    def test_nothing_is_beyond_the_samples(self):
+        coordinates = [msq.Field.grid(np.indices((9, 8, 7))[2 - n] * 0.9) for n in range(3)]
+        points = np.random.default_rng(6).uniform(-1, 9, (4000, 3))
+        for sizes in ({"radius": 0.2}, {"wall_thickness": 0.2}):
+            onsets = msq.Foam(warp=msq.SampledWarp(*coordinates), **sizes).onset(points)
+            holds = ((points >= 0) & (points <= (6, 7, 8))).all(axis=1)
+            np.testing.assert_array_equal(np.isfinite(onsets), holds)
+
     def test_refusals(self):
         axis = [msq.Field.grid(np.indices((3, 3, 3))[2 - n] * 1.0) for n in range(3)]
-        with self.assertRaisesRegex(msq.UnsupportedError, "warp.kind is MSQ_WARP_SAMPLED"):
-            msq.Foam(radius=0.1, warp=msq.SampledWarp(*axis))
+        with self.assertRaisesRegex(msq.LimitError, "radius reaches 1.01; the limit is 1 "):
+            msq.Foam(radius=1.01, warp=msq.SampledWarp(*axis))
         with self.assertRaisesRegex(msq.ArgumentError, "warp.outer_radius is 0"):
             msq.Foam(radius=0.1, warp=msq.Warp(8, inner_radius=1))
 

@@ -2,7 +2,6 @@
 #include "structure/common/warp_shell.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "base/infinity.h"
@@ -39,10 +38,11 @@ double WarpShell::distance_within(Vec3 p) const {
   return std::min(inner > 0 ? r - inner : infinity, warp_.outer() - r);
 }
 
-KeptPoint WarpShell::kept(Vec3 p) const {
-  const double r = warp_.radius(p);
-  return {warp_.is_in_shell(r),
-          std::min(std::abs(r - warp_.shell().inner), std::abs(warp_.outer() - r))};
+BoxClass WarpShell::classify(const Box3& box) const {
+  const Interval radius = warp_.image(box).radius;
+  if (radius.high < warp_.shell().inner || radius.low > warp_.outer()) return BoxClass::outside;
+  return warp_.is_in_shell(radius.low) && warp_.is_in_shell(radius.high) ? BoxClass::inside
+                                                                         : BoxClass::mixed;
 }
 
 RayParts WarpShell::parts_of(const Ray& ray, double from, double to, double tolerance) const {
@@ -63,10 +63,6 @@ RayParts WarpShell::parts_of(const Ray& ray, double from, double to, double tole
   return parts;
 }
 
-double WarpShell::follow(const Ray& ray, double t, double to, double tolerance) const {
-  return follow_part(t, to, tolerance, [&](double at) { return holds(ray.at(at)); });
-}
-
 Vec3 WarpShell::normal(Vec3 p) const {
   Vec3 g = warp_.grid().to_grid(p);
   if (warp_.kind() == Warp::Kind::cylindrical) g.z = 0;
@@ -75,78 +71,57 @@ Vec3 WarpShell::normal(Vec3 p) const {
   return warp_.grid().rotation.apply(unit_along(g) * (is_inner ? -1.0 : 1.0));
 }
 
-bool WarpShell::keep_rows(const RowBlock& block, const Job* job) const {
-  JobPoll poll(job);
-  bool is_any = false;
-  for (uint64_t k = block.z0; k < block.z1; ++k)
-    for (uint64_t j = block.y0; j < block.y1; ++j) {
-      poll();
-      is_any |= keep_row(*block.grid, j, k, block.row(j, k));
-    }
-  return is_any;
+// The radius is continuous along a line, so it takes all values between its least and greatest.
+bool WarpShell::meets(Vec3 a, Vec3 b) const {
+  a = warp_.grid().to_grid(a);
+  b = warp_.grid().to_grid(b);
+  if (warp_.kind() == Warp::Kind::cylindrical) a.z = b.z = 0;
+  const double most = std::max(length(a), length(b));
+  const Vec3 way = b - a;
+  const double squared = dot(way, way);
+  const double t = squared > 0 ? std::clamp(-dot(a, way) / squared, 0.0, 1.0) : 0;
+  return most >= warp_.shell().inner && length(a + way * t) <= warp_.outer();
 }
 
 // A sample is decided by where it is in the row, except those whose radius is one of the shell's up
 // to rounding.
-bool WarpShell::keep_row(const SampleGrid& grid, uint64_t j, uint64_t k, uint64_t* row) const {
-  const size_t words = words_for(grid.nx);
-  if (std::all_of(row, row + words, [](uint64_t w) { return w == 0; })) return false;
-  const auto decide = [&](uint64_t first, uint64_t end) {
-    for (uint64_t i = first; i < end; ++i) {
-      uint64_t& word = row[i / bits_per_word];
-      const uint64_t bit = uint64_t{1} << i % bits_per_word;
-      if (word & bit && !holds(grid.at(i, j, k))) word &= ~bit;
-    }
-  };
-  const auto clear = [&](uint64_t first, uint64_t end) {
-    for (uint64_t i = first; i < end;) {
-      const uint64_t bit = i % bits_per_word,
-                     count = std::min<uint64_t>(bits_per_word - bit, end - i);
-      row[i / bits_per_word] &= ~(~uint64_t{0} >> (bits_per_word - count) << bit);
-      i += count;
-    }
-  };
-  const Vec3 start = grid.at(0, j, k);
-  const double extent = grid.x(grid.nx - 1) - start.x;
-  const Ray ray{start, {1, 0, 0}};
-  const Passage passage(warp_, ray);
+void WarpShell::keep_row(Row& row) const {
+  const SampleGrid& grid = row.grid();
+  const Vec3 start = row.start();
+  const Passage passage(warp_, {start, {1, 0, 0}});
   constexpr double steep = 1e-3;
   // Of radii, with what the nearest point is off where the row is steep.
-  const double slack = 0x1p4 * warp_.slack(start, 2 * extent);
-  if (passage.speed > 0 && passage.speed < steep) {
-    decide(0, grid.nx);
-  } else {
-    // [first, last) of the samples within a radius that surely are, or may be.
-    struct Range {
-      uint64_t first, last;
-    };
-    const auto within = [&](double radius) -> Range {
-      const double half = passage.half(radius);
-      if (half < 0) return {0, 0};
-      if (half == infinity) return {0, grid.nx};
-      const double at = start.x + passage.middle;
-      const Range range{grid.first_x_from(at - half), grid.first_x_from<true>(at + half)};
-      return range.first < range.last ? range : Range{0, 0};
-    };
-    const double inner = warp_.shell().inner, outer = warp_.outer();
-    // Outwards: what is beyond the greater range is outside, what is in the smaller one inside.
-    const auto keep = [&](double radius, bool keeps_within) {
-      const Range sure = within(radius - slack), may = within(radius + slack);
-      const bool has_sure = sure.first < sure.last;
-      if (keeps_within) {
-        clear(0, may.first);
-        clear(may.last, grid.nx);
-      } else if (has_sure) {
-        clear(sure.first, sure.last);
-      }
-      if (!has_sure) return decide(may.first, may.last);
-      decide(may.first, sure.first);
-      decide(sure.last, may.last);
-    };
-    if (outer < infinity) keep(outer, true);
-    if (inner > 0) keep(inner, false);
-  }
-  return std::any_of(row, row + words, [](uint64_t w) { return w != 0; });
+  const double slack = 0x1p4 * warp_.slack(start, 2 * row.extent());
+  if (passage.speed > 0 && passage.speed < steep) return row.decide(0, grid.nx);
+  // [first, last) of the samples within a radius that surely are, or may be.
+  struct Range {
+    uint64_t first, last;
+  };
+  const auto within = [&](double radius) -> Range {
+    const double half = passage.half(radius);
+    if (half < 0) return {0, 0};
+    if (half == infinity) return {0, grid.nx};
+    const double at = start.x + passage.middle;
+    const Range range{grid.first_x_from(at - half), grid.first_x_from<true>(at + half)};
+    return range.first < range.last ? range : Range{0, 0};
+  };
+  const double inner = warp_.shell().inner, outer = warp_.outer();
+  // Outwards: what is beyond the greater range is outside, what is in the smaller one inside.
+  const auto keep = [&](double radius, bool keeps_within) {
+    const Range sure = within(radius - slack), may = within(radius + slack);
+    const bool has_sure = sure.first < sure.last;
+    if (keeps_within) {
+      row.clear(0, may.first);
+      row.clear(may.last, grid.nx);
+    } else if (has_sure) {
+      row.clear(sure.first, sure.last);
+    }
+    if (!has_sure) return row.decide(may.first, may.last);
+    row.decide(may.first, sure.first);
+    row.decide(sure.last, may.last);
+  };
+  if (outer < infinity) keep(outer, true);
+  if (inner > 0) keep(inner, false);
 }
 
 }  // namespace msq

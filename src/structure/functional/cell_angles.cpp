@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/borrowed.h"
+#include "structure/common/box_shell.h"
+#include "structure/common/warp_shell.h"
 #include "structure/functional/map_places.h"
 #include "structure/functional/warped_places.h"
 
@@ -62,6 +64,12 @@ void CellAngles::find(Values x, Values y, Values z, size_t count,
     const double u = period_->cells(position({x[i], y[i], z[i]}));
     to[i] = angle_of(u - std::floor(u));
   }
+}
+
+std::unique_ptr<const CellShell> CellAngles::shell() const {
+  if (warp_) return std::make_unique<const WarpShell>(*warp_);
+  if (sampled_) return std::make_unique<const BoxShell>(sampled_);
+  return nullptr;
 }
 
 CellIndex CellAngles::cell_of(Vec3 p) const {

@@ -12,6 +12,7 @@
 #include "cell/neighbourhood.h"
 #include "cell/sampled_map.h"
 #include "cell/warp.h"
+#include "structure/common/cell_shell.h"
 #include "structure/functional/row_kernels.h"
 
 namespace msq {
@@ -53,6 +54,8 @@ class CellAngles {
   bool holds(Vec3 p) const {
     return warp_ ? warp_->is_in_shell(warp_->radius(p)) : !sampled_ || sampled_->is_in_box(p);
   }
+  /// What mapped cells fill; null of others.
+  std::unique_ptr<const CellShell> shell() const;
   /// The coordinate of a point along the period's axis.
   double position(Vec3 p) const { return grid_.to_grid(p)[period_->axis()]; }
 

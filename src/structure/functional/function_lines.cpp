@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "base/infinity.h"
+#include "structure/common/cell_shell.h"
 #include "structure/common/kept_lines.h"
 #include "structure/common/level_lines.h"
 #include "structure/common/plane_cells.h"
-#include "structure/common/warp_shell.h"
 #include "structure/functional/functional.h"
 
 namespace msq {
@@ -85,15 +85,6 @@ double smallest_in_plane(const Functional& structure) {
       {smallest, around, std::max(least, 0.5 * two_pi * shell.inner / shell.count_polar)});
 }
 
-/// Of a warp and of a sampled map: whether the cells fill the place, and how far that is so.
-KeptPoint filled(const CellAngles& angles, Vec3 p) {
-  if (!angles.warp()) {
-    const double within = angles.sampled()->distance_within(p);
-    return {angles.holds(p), std::abs(within)};
-  }
-  return WarpShell(*angles.warp()).kept(p);
-}
-
 }  // namespace
 
 LineGraph find_function_lines(const Functional& structure, const WallSection& section) {
@@ -102,11 +93,10 @@ LineGraph find_function_lines(const Functional& structure, const WallSection& se
   LineGraph graph = LevelLines(function, smallest_in_plane(structure) / squares_per_cell,
                                !structure.is_sheet(), section)
                         .find();
-  const CellAngles& angles = structure.angles();
   // The function goes on beyond the cells, so that lines end where these do.
-  if (angles.is_mapped())
+  if (const std::unique_ptr<const CellShell> shell = structure.angles().shell())
     keep_parts(graph, section.tolerance, [&](Vec2 p) {
-      return filled(angles, {p.x, p.y, section.z});
+      return shell->kept({p.x, p.y, section.z});
     });
   return graph;
 }

@@ -4,10 +4,9 @@
 // ends the shell or the box is the boundary.
 #pragma once
 
-#include <optional>
+#include <memory>
 
-#include "structure/common/ray_parts.h"
-#include "structure/common/warp_shell.h"
+#include "structure/common/cell_shell.h"
 #include "structure/functional/functional.h"
 
 namespace msq {
@@ -16,9 +15,7 @@ class ShellRays {
  public:
   /// The job may be null.
   ShellRays(const Functional& solid, const Job* job)
-      : solid_(solid), map_(solid.angles().sampled()), job_(job) {
-    if (solid.angles().warp()) shell_.emplace(*solid.angles().warp());
-  }
+      : solid_(solid), shell_(solid.angles().shell()), job_(job) {}
 
   /// As Structure::enter() and Structure::leave().
   void enter(RaySearch* searches, size_t count) const;
@@ -27,13 +24,9 @@ class ShellRays {
  private:
   /// Of [from, to]. Both ends are in the shell.
   RayParts parts_of(const Ray& ray, double from, double to) const;
-  bool is_in_shell(const Ray& ray, double t) const { return solid_.angles().holds(ray.at(t)); }
-  RayParts parts_of_box(const Ray& ray, double from, double to) const;
-  Vec3 normal_of_shell(Vec3 p) const;
 
   const Functional& solid_;
-  std::optional<WarpShell> shell_;  // of a warp
-  const SampledMap* const map_;
+  const std::unique_ptr<const CellShell> shell_;
   const Job* const job_;
 };
 

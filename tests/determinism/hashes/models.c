@@ -313,6 +313,42 @@ static msq_model* walls_warp(Kit* kit) {
   return filled(kit, sphere(kit, 9.5), foam(kit, &def));
 }
 
+static msq_model* foam_sampled(Kit* kit) {
+  enum { nx = 12, ny = 11, nz = 10 };
+  static double values[3][nx * ny * nz];
+  msq_field* fields[3];
+  msq_warp_def warp;
+  must(msq_warp_def_init(&warp, sizeof warp));
+  for (int i = 0; i < nx * ny * nz; ++i) {
+    const double x = i % nx, y = i / nx % ny, z = i / nx / ny;
+    values[0][i] = 0.625 * x + 0.25 * y;
+    values[1][i] = 0.5 * y + 0.015625 * x * z;
+    values[2][i] = 0.5 * z + 0.03125 * y * y;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    msq_grid_field_def def;
+    must(msq_grid_field_def_init(&def, sizeof def));
+    def.image.values = values[axis];
+    def.image.value_type = MSQ_FLOAT64;
+    def.image.size[0] = nx;
+    def.image.size[1] = ny;
+    def.image.size[2] = nz;
+    for (int i = 0; i < 3; ++i) def.image.grid.cell_size[i] = 1.75;
+    turn(&def.image.grid);
+    must(msq_field_grid(kit->context, &def, &fields[axis]));
+  }
+  warp.kind = MSQ_WARP_SAMPLED;
+  warp.u = fields[0];
+  warp.v = fields[1];
+  warp.w = fields[2];
+  msq_foam_def def = foam_def(1, number(0.3));
+  def.wall_thickness = number(0.15);
+  def.warp = &warp;
+  msq_model* model = filled(kit, mesh(kit, 0), foam(kit, &def));
+  for (int axis = 0; axis < 3; ++axis) msq_field_release(fields[axis]);
+  return model;
+}
+
 static msq_model* warped_lattice(Kit* kit) {
   msq_warp_def warp;
   must(msq_warp_def_init(&warp, sizeof warp));
@@ -385,6 +421,7 @@ static const struct {
     {"foam-weighted", foam_weighted},
     {"foam-period", foam_period},
     {"foam-warp", foam_warp},
+    {"foam-sampled", foam_sampled},
     {"walls", walls},
     {"walls-stretched", walls_stretched},
     {"walls-weighted", walls_weighted},

@@ -5,7 +5,7 @@
 
 #include <msq.h>
 
-enum { model_count = 41 };
+enum { model_count = 42 };
 
 /** One word. */
 const char* model_name(int i);

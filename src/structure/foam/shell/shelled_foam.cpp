@@ -11,40 +11,38 @@
 
 namespace msq {
 
-ShelledFoam::ShelledFoam(Ref<const Structure> foam, const Warp& warp)
+ShelledFoam::ShelledFoam(Ref<const Structure> foam, std::shared_ptr<const CellShell> shell)
     : Structure(foam->neighbourhood(), foam->characteristic_length()),
       foam_(std::move(foam)),
-      shell_(warp) {}
+      shell_(std::move(shell)) {}
 
 // Of two solids, the greater of the signed distances bounds that of what they have in common.
 double ShelledFoam::distance_bound(Vec3 p) const {
-  const double bound = std::abs(std::max(foam_->distance(p), -shell_.distance_within(p)));
-  return std::max(0.0, bound - 2 * shell_.warp().slack(p, bound));
+  const double bound = std::abs(std::max(foam_->distance(p), -shell_->distance_within(p)));
+  return std::max(0.0, bound - 2 * shell_->slack(p, bound));
 }
 
 double ShelledFoam::onset(Vec3 p) const {
-  return shell_.holds(p) ? foam_->onset(p) : infinity;
+  return shell_->holds(p) ? foam_->onset(p) : infinity;
 }
 
 void ShelledFoam::keep_points(const Vec3* points, uint8_t* alive, size_t count) const {
   for (size_t i = 0; i < count; ++i) {
     if (i % 1024 == 0) check_cancelled();
-    if (alive[i] && !shell_.holds(points[i])) alive[i] = 0;
+    if (alive[i] && !shell_->holds(points[i])) alive[i] = 0;
   }
   foam_->keep_points(points, alive, count);
 }
 
 BoxClass ShelledFoam::classify(const Box3& box) const {
-  const Warp& warp = shell_.warp();
-  const Interval radius = warp.image(box).radius;
-  if (radius.high < warp.shell().inner || radius.low > warp.outer()) return BoxClass::outside;
+  const BoxClass of_shell = shell_->classify(box);
+  if (of_shell == BoxClass::outside) return of_shell;
   const BoxClass of_foam = foam_->classify(box);
-  const bool is_within = warp.is_in_shell(radius.low) && warp.is_in_shell(radius.high);
-  return is_within || of_foam == BoxClass::outside ? of_foam : BoxClass::mixed;
+  return of_shell == BoxClass::inside || of_foam == BoxClass::outside ? of_foam : BoxClass::mixed;
 }
 
 void ShelledFoam::keep_rows(const RowBlock& block, const Job* job) const {
-  if (shell_.keep_rows(block, job)) foam_->keep_rows(block, job);
+  if (shell_->keep_rows(block, job)) foam_->keep_rows(block, job);
 }
 
 void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const {
@@ -59,7 +57,7 @@ void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const
     for (size_t i = 0; i < count; ++i) {
       const RaySearch& s = searches[i];
       if (s.found) continue;
-      const RayParts of_ray = shell_.parts_of(s.ray, s.from, s.to, ray_tolerance(s.ray, s.to));
+      const RayParts of_ray = shell_->parts_of(s.ray, s.from, s.to, ray_tolerance(s.ray, s.to));
       if (n >= of_ray.count) continue;
       queried.push_back({s.ray, of_ray.part[n].from, of_ray.part[n].to});
       parts.push_back(of_ray.part[n]);
@@ -73,7 +71,7 @@ void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const
       search.found = true;
       search.t = queried[k].t;
       search.normal = parts[k].is_entry && queried[k].t == parts[k].from
-                          ? shell_.normal(search.ray.at(search.t))
+                          ? shell_->normal(search.ray.at(search.t))
                           : queried[k].normal;
     }
   }
@@ -81,22 +79,22 @@ void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const
 
 double ShelledFoam::leave(const Ray& ray, double from, double to, const Job* job) const {
   const double tolerance = ray_tolerance(ray, to);
-  const RayParts parts = shell_.parts_of(ray, from, to, tolerance);
+  const RayParts parts = shell_->parts_of(ray, from, to, tolerance);
   // Rounding may leave nothing of the shell.
   if (parts.count == 0 || parts.part[0].from > from) return from;
   const double end = parts.part[0].to, t = foam_->leave(ray, from, end, job);
-  return t < end ? t : shell_.follow(ray, end, to, tolerance);
+  return t < end ? t : shell_->follow(ray, end, to, tolerance);
 }
 
 Vec3 ShelledFoam::normal(const Ray& ray, double t) const {
   const double room = 2 * ray_tolerance(ray, t);
-  const bool meets_shell = !shell_.holds(ray.at(t - room)) && shell_.holds(ray.at(t + room));
+  const bool meets_shell = !shell_->holds(ray.at(t - room)) && shell_->holds(ray.at(t + room));
   // Where the ray enters both at once, either is a normal.
-  return meets_shell ? shell_.normal(ray.at(t)) : foam_->normal(ray, t);
+  return meets_shell ? shell_->normal(ray.at(t)) : foam_->normal(ray, t);
 }
 
 std::unique_ptr<StrutParts> ShelledFoam::struts(const StrutSelection& selection) const {
-  return shelled_struts(foam_->struts(selection), shell_.warp());
+  return shelled_struts(foam_->struts(selection), *shell_);
 }
 
 ThinWalls ShelledFoam::thin_walls() const {
@@ -115,7 +113,7 @@ LineGraph ShelledFoam::wall_lines(const WallSection& section) const {
     const double span = length(way);
     if (!(span > 0)) continue;
     const Ray ray{{begin.x, begin.y, section.z}, {way.x / span, way.y / span, 0}};
-    const RayParts parts = shell_.parts_of(ray, 0, span, tolerance);
+    const RayParts parts = shell_->parts_of(ray, 0, span, tolerance);
     const auto point_at = [&](double t) {
       if (t <= 0) return line[0];
       if (t >= span) return line[1];
@@ -133,7 +131,7 @@ LineGraph ShelledFoam::wall_lines(const WallSection& section) const {
 
 void ShelledFoam::describe(HashInput& input) const {
   input.kind("structure: foam in a shell");
-  shell_.warp().describe(input);
+  shell_->describe(input);
   input.object(*foam_);
 }
 

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // A foam in warped cells: what of a foam is in the shell that the cells fill. The foam goes on
-// beyond the shell (seeds/warp_seeds.h), so all searches in it are those of any foam.
+// beyond the shell (seeds/warp_seeds.h, sampled_seeds.h), so all searches in it are those of any
+// foam.
 #pragma once
 
-#include "structure/common/warp_shell.h"
+#include <memory>
+
+#include "structure/common/cell_shell.h"
 #include "structure/structure.h"
 
 namespace msq {
 
 class ShelledFoam final : public Structure {
  public:
-  /// `foam`: of struts, of walls or of both, whose seeds are those of the warp.
-  ShelledFoam(Ref<const Structure> foam, const Warp& warp);
+  /// `foam`: of struts, of walls or of both, whose seeds are those of the map.
+  ShelledFoam(Ref<const Structure> foam, std::shared_ptr<const CellShell> shell);
 
-  bool inside(Vec3 p) const override { return shell_.holds(p) && foam_->inside(p); }
+  bool inside(Vec3 p) const override { return shell_->holds(p) && foam_->inside(p); }
   CellIndex cell_of(Vec3 p) const override { return foam_->cell_of(p); }
   void for_each_grid(const TakeGrid& take) const override { foam_->for_each_grid(take); }
   bool is_concurrent() const override { return foam_->is_concurrent(); }
@@ -41,7 +44,7 @@ class ShelledFoam final : public Structure {
 
   /// Those that have a point in the shell, whole.
   std::unique_ptr<StrutParts> struts(const StrutSelection& selection) const override;
-  /// Cells grow outwards.
+  /// Cells vary in size.
   ThinWalls thin_walls() const override;
   /// Those of the foam, as far as the shell.
   LineGraph wall_lines(const WallSection& section) const override;
@@ -50,7 +53,7 @@ class ShelledFoam final : public Structure {
   void describe(HashInput& input) const override;
 
   const Ref<const Structure> foam_;
-  const WarpShell shell_;
+  const std::shared_ptr<const CellShell> shell_;
 };
 
 }  // namespace msq

@@ -4,12 +4,13 @@
 
 #include <memory>
 
-#include "cell/warp.h"
+#include "structure/common/cell_shell.h"
 #include "structure/common/struts.h"
 
 namespace msq {
 
-/// Refers to the warp, whose cells are around an axis. Null without struts.
-std::unique_ptr<StrutParts> shelled_struts(std::unique_ptr<StrutParts> struts, const Warp& warp);
+/// Refers to the shell. Null without struts.
+std::unique_ptr<StrutParts> shelled_struts(std::unique_ptr<StrutParts> struts,
+                                           const CellShell& shell);
 
 }  // namespace msq

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "structure/foam/seeds/sampled_seeds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/status.h"
+
+namespace msq {
+
+namespace {
+
+constexpr double room = 0x1p-14;
+/// Boxes of which bounds are looked up one by one.
+constexpr int64_t max_looked_up = 512;
+/// Along each axis, of a box, for its bound.
+constexpr int parts = 4;
+constexpr char memory_name[] = "the seeds of a sampled map";
+
+template <class Visit>
+void for_each_box(CellIndex low, CellIndex high, Visit&& visit) {
+  for (int32_t z = low.z; z <= high.z; ++z)
+    for (int32_t y = low.y; y <= high.y; ++y)
+      for (int32_t x = low.x; x <= high.x; ++x) visit(CellIndex{x, y, z});
+}
+
+Vec3 corner_of(CellIndex box) {
+  return {double(box.x), double(box.y), double(box.z)};
+}
+
+}  // namespace
+
+SampledSeeds::SampledSeeds(const Context& context, std::shared_ptr<const SampledMap> map,
+                           double jitter, uint64_t seed)
+    : map_(std::move(map)),
+      grid_(map_->smallest()),
+      smallest_(grid_),
+      cells_(seed, jitter, {1, 1, 1}),
+      own_(seed ^ 0x626f72646572, 1, {1, 1, 1}) {  // the bytes "border"
+  const double least = smallest_.cell_size.x, longest = map_->longest_edge();
+  if (longest > max_ratio * least * (1 + 1e-12))
+    fail(Status::limit,
+         "by warp.u, v and w, cells are at least %g wide and up to %g long; in a foam, the longest "
+         "may be %g times the smallest",
+         least, longest, max_ratio);
+  const Cells cells = all_cells();
+  // While places are found, with what is kept of them.
+  const Reservation room_for_all(
+      context.budget,
+      cells.count[0] * cells.count[1] * cells.count[2] * (sizeof(Found) + sizeof(Kept)),
+      memory_name);
+  const std::vector<Found> found = find_all(cells, context.executor);
+  choose_side(found);
+  keep(found, context);
+}
+
+SampledSeeds::Cells SampledSeeds::all_cells() const {
+  Cells cells{};
+  double all = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval range = map_->range(axis);
+    cells.low[axis] = static_cast<int32_t>(std::floor(range.low));
+    cells.count[axis] = static_cast<uint64_t>(std::floor(range.high) - std::floor(range.low)) + 1;
+    all *= static_cast<double>(cells.count[axis]);
+  }
+  if (all > max_cells)
+    fail(Status::limit,
+         "warp.u, v and w run over %llu x %llu x %llu cells; the limit of a foam is %.0f in all",
+         static_cast<unsigned long long>(cells.count[0]),
+         static_cast<unsigned long long>(cells.count[1]),
+         static_cast<unsigned long long>(cells.count[2]), max_cells);
+  return cells;
+}
+
+std::vector<SampledSeeds::Found> SampledSeeds::find_all(const Cells& cells,
+                                                        const Executor& executor) const {
+  std::vector<std::vector<Found>> layers(cells.count[2]);
+  executor.for_each(cells.count[2], [&](uint64_t k) {
+    for (uint64_t j = 0; j < cells.count[1]; ++j)
+      for (uint64_t i = 0; i < cells.count[0]; ++i) {
+        const CellIndex cell{cells.low[0] + static_cast<int32_t>(i),
+                             cells.low[1] + static_cast<int32_t>(j),
+                             cells.low[2] + static_cast<int32_t>(k)};
+        Vec3 g;
+        if (map_->find(corner_of(cell) + cells_.fractions(cells_.bits(cell)), g))
+          layers[k].push_back({g, cell});
+      }
+  });
+  std::vector<Found> found;
+  for (std::vector<Found>& layer : layers) {
+    found.insert(found.end(), layer.begin(), layer.end());
+    layer = {};
+  }
+  return found;
+}
+
+CellIndex SampledSeeds::box_at(Vec3 g) const {
+  const Vec3 boxes = g * (1 / side());
+  return {static_cast<int32_t>(std::floor(boxes.x)), static_cast<int32_t>(std::floor(boxes.y)),
+          static_cast<int32_t>(std::floor(boxes.z))};
+}
+
+bool SampledSeeds::is_known(CellIndex box) const {
+  return box.x >= 0 && box.y >= 0 && box.z >= 0 && box.x < count_[0] && box.y < count_[1] &&
+         box.z < count_[2];
+}
+
+size_t SampledSeeds::index(CellIndex box) const {
+  const auto nx = static_cast<size_t>(count_[0]), ny = static_cast<size_t>(count_[1]);
+  return (static_cast<size_t>(box.z) * ny + static_cast<size_t>(box.y)) * nx +
+         static_cast<size_t>(box.x);
+}
+
+void SampledSeeds::choose_side(const std::vector<Found>& found) {
+  const Vec3 size = map_->box().max;
+  std::vector<bool> has_seed;
+  for (double side = map_->longest_edge() * (1 + room);; side *= 1.125) {
+    grid_.cell_size = {side, side, side};
+    for (int axis = 0; axis < 3; ++axis)
+      count_[axis] = static_cast<int32_t>(std::floor(size[axis] * (1 / side))) + 1;
+    has_seed.assign(index({0, 0, count_[2]}), false);
+    for (const Found& one : found) has_seed[index(box_at(one.g))] = true;
+    // The last box along an axis reaches beyond the samples; those before it touch them or may.
+    bool is_any_empty = false;
+    for_each_box({1, 1, 1}, {count_[0] - 3, count_[1] - 3, count_[2] - 3},
+                 [&](CellIndex box) { is_any_empty = is_any_empty || !has_seed[index(box)]; });
+    if (!is_any_empty) return;
+  }
+}
+
+int SampledSeeds::level_at(Vec3 g) const {
+  const auto [u, v, w] = map_->gradients(grid_.from_grid(g));
+  const double in_box = side() * side() * side() * std::abs(dot(u, cross(v, w)));
+  // The nearest power of 8, as factors.
+  constexpr int max_level = 5;
+  int level = 0;
+  while (level < max_level && in_box > std::ldexp(2.828, 3 * level)) ++level;
+  return level;
+}
+
+void SampledSeeds::keep(const std::vector<Found>& found, const Context& context) {
+  const size_t boxes = index({0, 0, count_[2]});
+  reservation_ = Reservation(
+      context.budget, found.size() * sizeof(Kept) + boxes * (sizeof first_[0] + sizeof bounds_[0]),
+      memory_name);
+  first_.assign(boxes + 1, 0);
+  for (const Found& one : found) ++first_[index(box_at(one.g)) + 1];
+  const uint32_t most = *std::max_element(first_.begin(), first_.end());
+  if (most > max_in_box)
+    fail(Status::limit,
+         "by warp.u, v and w, %u seeds are in one box of the search, %g long; the limit is %u",
+         most, side(), max_in_box);
+  most_in_box_ = std::max(1.0, double(most));
+  for (size_t i = 0; i < boxes; ++i) first_[i + 1] += first_[i];
+  kept_.resize(found.size());
+  std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+  for (const Found& one : found) {
+    const CellIndex box = box_at(one.g);
+    Kept& kept = kept_[next[index(box)]++];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double in_boxes = one.g[axis] * (1 / side()), part = in_boxes - std::floor(in_boxes);
+      kept.in_box[axis] = std::min(std::floor(part * 0x1p40), 0x1p40 - 1) * 0x1p-40;
+    }
+    kept.cell = one.cell;
+    kept.level = level_at(one.g);
+  }
+  bounds_.resize(boxes);
+  context.executor.for_each(static_cast<uint64_t>(count_[2]), [&](uint64_t k) {
+    const auto z = static_cast<int32_t>(k);
+    std::vector<PlacedSeed> seeds;
+    for_each_box({0, 0, z}, {count_[0] - 1, count_[1] - 1, z},
+                 [&](CellIndex box) { bounds_[index(box)] = bound_of(box, seeds); });
+  });
+}
+
+/// In sides of boxes.
+float SampledSeeds::bound_of(CellIndex box, std::vector<PlacedSeed>& seeds) const {
+  seeds.clear();
+  for_each_box({box.x - 1, box.y - 1, box.z - 1}, {box.x + 1, box.y + 1, box.z + 1},
+               [&](CellIndex near) { find(near, seeds); });
+  float least[parts][parts][parts];  // squared, from the middles of the parts
+  std::fill_n(&least[0][0][0], parts * parts * parts, 9.0f);
+  for (const PlacedSeed& seed : seeds) {
+    const Vec3 at = corner_of(seed.box) - corner_of(box) + seed.in_box;
+    float squares[3][parts];
+    for (int axis = 0; axis < 3; ++axis)
+      for (int i = 0; i < parts; ++i) {
+        const auto d = static_cast<float>(at[axis] - (i + 0.5) / parts);
+        squares[axis][i] = d * d;
+      }
+    for (int k = 0; k < parts; ++k)
+      for (int j = 0; j < parts; ++j) {
+        const float beside = squares[2][k] + squares[1][j];
+        for (int i = 0; i < parts; ++i)
+          least[k][j][i] = std::min(least[k][j][i], beside + squares[0][i]);
+      }
+  }
+  const float most = *std::max_element(&least[0][0][0], &least[0][0][0] + parts * parts * parts);
+  constexpr float half_of_part = 0.8660255f / parts, up = 1 + 0x1p-18f;
+  return (std::sqrt(most) + half_of_part) * up;
+}
+
+PlacedSeed SampledSeeds::own_seed(CellIndex box) const {
+  return {box, own_.fractions(own_.bits(box)), 0, 0};
+}
+
+PlacedSeed SampledSeeds::placed(CellIndex box, uint32_t first, uint32_t number) const {
+  const Kept& kept = kept_[first + number];
+  return {box, kept.in_box, number, kept.level};
+}
+
+void SampledSeeds::find(CellIndex box, std::vector<PlacedSeed>& seeds) const {
+  const size_t at = is_known(box) ? index(box) : 0;
+  const uint32_t first = is_known(box) ? first_[at] : 0,
+                 count = is_known(box) ? first_[at + 1] - first : 0;
+  if (count == 0) seeds.push_back(own_seed(box));
+  for (uint32_t n = 0; n < count; ++n) seeds.push_back(placed(box, first, n));
+}
+
+PlacedSeed SampledSeeds::seed(CellIndex box, uint32_t number) const {
+  if (!is_known(box) || first_[index(box)] == first_[index(box) + 1]) return own_seed(box);
+  return placed(box, first_[index(box)], number);
+}
+
+CellIndex SampledSeeds::cell_of(CellIndex box, uint32_t number) const {
+  if (is_known(box) && first_[index(box)] < first_[index(box) + 1])
+    return kept_[first_[index(box)] + number].cell;
+  return cell_of((corner_of(box) + own_seed(box).in_box) * side());
+}
+
+CellIndex SampledSeeds::cell_of(Vec3 g) const {
+  const Vec3 cells = map_->cells_of(g);
+  return {static_cast<int32_t>(std::floor(cells.x)), static_cast<int32_t>(std::floor(cells.y)),
+          static_cast<int32_t>(std::floor(cells.z))};
+}
+
+PlacedSeed SampledSeeds::near(Vec3 g) const {
+  const CellIndex box = box_at(g);
+  if (!is_known(box)) return own_seed(box);
+  const Vec3 in_box = g * (1 / side()) - corner_of(box);
+  const uint32_t first = first_[index(box)], end = first_[index(box) + 1];
+  uint32_t nearest = first;
+  double least = 4;
+  for (uint32_t n = first; n < end; ++n) {
+    const Vec3 d = kept_[n].in_box - in_box;
+    if (dot(d, d) >= least) continue;
+    least = dot(d, d);
+    nearest = n;
+  }
+  return first < end ? placed(box, first, nearest - first) : own_seed(box);
+}
+
+bool SampledSeeds::known_boxes(const Box3& box, Boxes& boxes) const {
+  const double most = 0x1p30 * side();
+  if (!(max_magnitude(box.min) < most && max_magnitude(box.max) < most)) return false;
+  boxes = {box_at(box.min), box_at(box.max)};
+  if (!is_known(boxes.low) || !is_known(boxes.high)) return false;
+  const int64_t x = boxes.high.x - boxes.low.x + 1, y = boxes.high.y - boxes.low.y + 1,
+                z = boxes.high.z - boxes.low.z + 1;
+  return x <= max_looked_up && y <= max_looked_up && z <= max_looked_up &&
+         x * y * z <= max_looked_up;
+}
+
+double SampledSeeds::max_distance(const Box3& box) const {
+  Boxes boxes;
+  const double diagonal = length(grid_.cell_size) * (1 + 1e-9);
+  // Rounding does not leave out a box.
+  if (!known_boxes(box.grown(1e-9 * side()), boxes)) return diagonal;
+  float most = 0;
+  for_each_box(boxes.low, boxes.high,
+               [&](CellIndex at) { most = std::max(most, bounds_[index(at)]); });
+  return std::min(diagonal, most * side());
+}
+
+Interval SampledSeeds::density(const Box3& box) const {
+  Boxes boxes;
+  if (!known_boxes(box, boxes)) return {1, most_in_box_};
+  Interval range{most_in_box_, 1};
+  for_each_box(boxes.low, boxes.high, [&](CellIndex at) {
+    const double count = std::max(1u, first_[index(at) + 1] - first_[index(at)]);
+    range = {std::min(range.low, count), std::max(range.high, count)};
+  });
+  return range;
+}
+
+// Points where the foam is needed are within the radius of struts of the box of the samples, and
+// within the diagonal of a box of their nearest seeds.
+bool SampledSeeds::is_needed(const Box3& box) const {
+  const double most = smallest_.cell_size.x + length(grid_.cell_size) * (1 + 1e-9);
+  return box.grown(most).overlaps(map_->box());
+}
+
+void SampledSeeds::describe(HashInput& input) const {
+  input.text("sampled map");
+  map_->describe(input);
+}
+
+}  // namespace msq

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Foams in the cells of a sampled map, against a global Delaunay triangulation (CGAL) of their
+// seeds: one in each cell whose place is among the samples, and one in each box that has no other.
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "diagram_check.h"
+#include "foam_diagram.h"
+#include "structure/common/box_shell.h"
+#include "structure/foam/foam.h"
+#include "structure/foam/seeds/sampled_seeds.h"
+#include "structure/foam/shell/shelled_foam.h"
+#include "structure/foam/walls/foam_walls.h"
+
+using namespace msq;
+using namespace msq::test;
+
+namespace {
+
+constexpr uint64_t sample_count[3] = {13, 11, 9};
+const Vec3 spacing{0.5, 0.55, 0.6};
+
+struct Row {
+  const char* name;
+  double jitter;
+  uint64_t seed;
+  bool is_turned;
+  /// The coordinates in cells of a place among the samples.
+  Vec3 (*cells)(Vec3 g);
+};
+const Row rows[] = {
+    {"cubes", 1, 61, false,
+     [](Vec3 g) {
+       return Vec3{g.x - 0.3, g.y + 0.2, g.z};
+     }},
+    {"bent", 1, 62, true,
+     [](Vec3 g) {
+       return Vec3{g.x + 0.3 * g.y + 0.1 * std::sin(1.5 * g.z),
+                   1.1 * g.y + 0.12 * std::sin(1.3 * g.x) + 0.03 * g.x * g.z,
+                   0.9 * g.z - 0.1 * g.x + 0.04 * g.y * g.y};
+     }},
+    {"part of a ring", 1, 63, false,
+     [](Vec3 g) {
+       const double x = g.x + 4, y = g.y - 2.75;
+       return Vec3{std::hypot(x, y) * 1.2, 8 * std::atan2(y, x), g.z};
+     }},
+    {"larger along x", 0.6, 64, true,
+     [](Vec3 g) {
+       return Vec3{3 * std::log(g.x + 1.5), g.y, g.z};
+     }},
+    {"flat", 1, 65, false,
+     [](Vec3 g) {
+       return Vec3{0.6 * g.x, 0.7 * g.y, 2.1 * g.z};
+     }},
+    {"reflected", 0.1, 66, true,
+     [](Vec3 g) {
+       return Vec3{0.9 * g.y, 1.1 * g.x, g.z + 0.2 * g.x};
+     }},
+    {"few cells", 1, 67, false,
+     [](Vec3 g) {
+       return Vec3{0.3 * g.x, 0.3 * g.y, 0.3 * g.z};
+     }},
+};
+
+ImageFrame frame_of(const Row& row) {
+  if (!row.is_turned) return {{-1, 2, 0.5}, spacing, {}};
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  return {{0.25, -0.5, 0.125}, spacing, {{c, 0, s, 0, 1, 0, -s, 0, c}}};
+}
+
+std::shared_ptr<const SampledMap> map_of(const Row& row) {
+  const auto [nx, ny, nz] = sample_count;
+  std::vector<double> values[3];
+  for (uint64_t k = 0; k < nz; ++k)
+    for (uint64_t j = 0; j < ny; ++j)
+      for (uint64_t i = 0; i < nx; ++i) {
+        const Vec3 cells = row.cells(
+            Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} * spacing);
+        for (int axis = 0; axis < 3; ++axis) values[axis].push_back(cells[axis]);
+      }
+  const auto field = [&](int axis) {
+    const Image::Source source{
+        values[axis].data(), Image::Type::float64, {nx, ny, nz}, nx * 8, nx * ny * 8};
+    return Ref<const GridField>(
+        make_ref<GridField>(Image(source, frame_of(row), std::make_shared<MemoryBudget>(0))));
+  };
+  return std::make_shared<const SampledMap>(SampledMap::Fields{field(0), field(1), field(2)});
+}
+
+Vec3 half_of() {
+  return Vec3{sample_count[0] - 1.0, sample_count[1] - 1.0, sample_count[2] - 1.0} * spacing * 0.5;
+}
+
+/// About the middle of the samples.
+Diagram diagram_of(const Row& row, const SampledMap& map, double side) {
+  const FoamSeeds cells(row.seed, row.jitter, {1, 1, 1}),
+      own(row.seed ^ 0x626f72646572, 1, {1, 1, 1});
+  const Vec3 half = half_of();
+  using Box = std::tuple<int, int, int>;
+  std::set<Box> filled;
+  std::vector<Vec3> points;
+  const auto whole = [](double value) { return static_cast<int>(std::floor(value)); };
+  const auto range = [&](int axis, bool is_last) {
+    return whole(is_last ? map.range(axis).high : map.range(axis).low);
+  };
+  for (int k = range(2, false); k <= range(2, true); ++k)
+    for (int j = range(1, false); j <= range(1, true); ++j)
+      for (int i = range(0, false); i <= range(0, true); ++i) {
+        Vec3 g;
+        if (!map.find(cells.at({}, i, j, k), g)) continue;
+        points.push_back(g - half);
+        filled.insert({whole(g.x / side), whole(g.y / side), whole(g.z / side)});
+      }
+  const size_t mapped = points.size();
+  constexpr int margin = 5;
+  const auto last = [&](int axis) { return whole(2 * half[axis] / side) + margin; };
+  for (int z = -margin; z <= last(2); ++z)
+    for (int y = -margin; y <= last(1); ++y)
+      for (int x = -margin; x <= last(0); ++x)
+        if (!filled.count({x, y, z})) points.push_back(own.at({}, x, y, z) * side - half);
+  const Vec3 most = half * 1.1 + Vec3{1, 1, 1};
+  const auto is_near = [&](const auto& part) {
+    return box_of(part).overlaps(Box3{most * -1.0, most});
+  };
+  Diagram diagram;
+  for (const DualEdge& e : dual_edges(points)) {
+    const Segment edge(e.a, e.b);
+    if (is_near(edge)) diagram.edges.push_back(edge);
+  }
+  for (const std::vector<Vec3>& face : dual_faces(points))
+    if (is_near(face)) diagram.faces.push_back(face);
+  print_message("%s: %zu seeds of cells in boxes of %g, %zu others\n", row.name, mapped, side,
+                points.size() - mapped);
+  return diagram;
+}
+
+/// In the box of the samples as check_diagram() says; nothing is outside of it.
+void check_shelled(const Row& row, const char* what, const Structure& solid, const Asked& asked,
+                   const Neighbourhood& frame, double reach, double onsets, double near) {
+  Asked within;
+  size_t outside = 0;
+  std::vector<uint8_t> alive(asked.points.size(), 1);
+  solid.keep_points(asked.points.data(), alive.data(), asked.points.size());
+  for (size_t i = 0; i < asked.points.size(); ++i) {
+    const Vec3 p = asked.points[i], g = frame.to_grid(p);
+    const Vec3 gap = max(g, g * -1.0) - half_of();
+    const double beyond = max_component(gap);
+    if (std::abs(beyond) <= near) continue;
+    if (beyond < 0) {
+      within.points.push_back(p);
+      within.distances.push_back(asked.distances[i]);
+      continue;
+    }
+    ++outside;
+    assert_false(alive[i] || solid.inside(p));
+    assert_true(std::isinf(solid.onset(p)));
+    assert_true(solid.distance(p) >= beyond - near);
+  }
+  assert_true(outside > 0);
+  check_diagram(row.name, what, solid, within, reach, onsets, near);
+}
+
+void test_diagram(void**) {
+  const Ref<Context> context = make_ref<Context>(1u, uint64_t{64} << 20, uint64_t{0});
+  for (const Row& row : rows) {
+    const std::shared_ptr<const SampledMap> map = map_of(row);
+    const std::shared_ptr<const PlacedSeeds> placed =
+        std::make_shared<const SampledSeeds>(*context, map, row.jitter, row.seed);
+    const auto shell = std::make_shared<const BoxShell>(map);
+    const Neighbourhood grid = placed->grid();
+    const Diagram diagram = diagram_of(row, *map, grid.cell_size.x);
+    Neighbourhood frame = grid;
+    frame.origin = grid.from_grid(half_of());
+    const double size = min_component(placed->smallest().cell_size);
+    const size_t count = test_count(4000);
+    const Vec3 half = half_of() * 1.1;
+    const double near = 3e-8 * max_component(grid.cell_size);
+    for (const double part : {0.15, 0.45}) {
+      const double radius = part * size;
+      const Ref<const Structure> foam =
+          make_ref<Foam>(context, grid, Parameter(radius), row.jitter, row.seed, FoamMethod::direct,
+                         Parameter(1), Vec3{1, 1, 1}, 0.0, placed);
+      check_shelled(row, "edges", *make_ref<ShelledFoam>(foam, shell),
+                    ask(diagram.edges, frame, half, radius, count, row.seed), frame, radius, 1,
+                    near);
+    }
+    const double thickness = 0.2 * size;
+    const Ref<const Structure> walls =
+        make_ref<FoamWalls>(context, grid, Parameter(thickness), row.jitter, row.seed, Parameter(1),
+                            Parameter(0), Vec3{1, 1, 1}, 0.0, placed);
+    check_shelled(row, "faces", *make_ref<ShelledFoam>(walls, shell),
+                  ask(diagram.faces, frame, half, 0.5 * thickness, count, row.seed), frame,
+                  0.5 * thickness, 2, near);
+  }
+}
+
+}  // namespace
+
+int main() {
+  const CMUnitTest tests[] = {cmocka_unit_test(test_diagram)};
+  return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
