@@ -7,6 +7,7 @@
 #include "base/infinity.h"
 #include "expression/period.h"
 #include "structure/common/row_period.h"
+#include "structure/common/shell_rays.h"
 #include "structure/common/strut_distance_bound.h"
 #include "structure/functional/function_lines.h"
 #include "structure/functional/functional_rows.h"
@@ -15,7 +16,6 @@
 #include "structure/functional/ray_search.h"
 #include "structure/functional/row_kernels.h"
 #include "structure/functional/sheared_rows.h"
-#include "structure/functional/shell_rays.h"
 #include "structure/functional/tape_rows.h"
 #include "structure/functional/turned_rows.h"
 #include "structure/functional/warped_places.h"
@@ -185,16 +185,31 @@ double Functional::min_ray_step() const {
 }
 
 void Functional::enter(RaySearch* searches, size_t count, const Job* job) const {
-  if (angles_.is_mapped()) return ShellRays(*this, job).enter(searches, count);
   FunctionalRays rays(*this, job);
+  if (const std::unique_ptr<const CellShell> shell = angles_.shell())
+    return enter_in_shell(
+        *shell, searches, count,
+        [this](const Ray& ray, double to) { return ray_tolerance(ray, to); },
+        [&](RaySearch* queried, size_t n) {
+          rays.find(true, queried, n);
+          rays.find_normals(queried, n);
+        });
   rays.find(true, searches, count);
   rays.find_normals(searches, count);
 }
 
 double Functional::leave(const Ray& ray, double from, double to, const Job* job) const {
-  if (angles_.is_mapped()) return ShellRays(*this, job).leave(ray, from, to);
+  FunctionalRays rays(*this, job);
+  if (const std::unique_ptr<const CellShell> shell = angles_.shell())
+    return leave_in_shell(*shell, ray, from, to, ray_tolerance(ray, to),
+                          [&](double begin, double end, double& t) {
+                            RaySearch search{ray, begin, end};
+                            rays.find(false, &search, 1);
+                            t = search.t;
+                            return search.found;
+                          });
   RaySearch search{ray, from, to};
-  FunctionalRays(*this, job).find(false, &search, 1);
+  rays.find(false, &search, 1);
   return search.found ? search.t : to;
 }
 

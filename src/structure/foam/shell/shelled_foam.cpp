@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "base/hash_input.h"
 #include "base/infinity.h"
+#include "structure/common/shell_rays.h"
 #include "structure/foam/shell/shelled_struts.h"
 
 namespace msq {
@@ -46,44 +46,18 @@ void ShelledFoam::keep_rows(const RowBlock& block, const Job* job) const {
 }
 
 void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const {
-  std::vector<RaySearch> queried;
-  std::vector<RayPart> parts;
-  std::vector<size_t> index;
-  for (size_t i = 0; i < count; ++i) searches[i].found = false;
-  for (size_t n = 0; n < 2; ++n) {
-    queried.clear();
-    parts.clear();
-    index.clear();
-    for (size_t i = 0; i < count; ++i) {
-      const RaySearch& s = searches[i];
-      if (s.found) continue;
-      const RayParts of_ray = shell_->parts_of(s.ray, s.from, s.to, ray_tolerance(s.ray, s.to));
-      if (n >= of_ray.count) continue;
-      queried.push_back({s.ray, of_ray.part[n].from, of_ray.part[n].to});
-      parts.push_back(of_ray.part[n]);
-      index.push_back(i);
-    }
-    if (queried.empty()) return;
-    foam_->enter(queried.data(), queried.size(), job);
-    for (size_t k = 0; k < queried.size(); ++k) {
-      if (!queried[k].found) continue;
-      RaySearch& search = searches[index[k]];
-      search.found = true;
-      search.t = queried[k].t;
-      search.normal = parts[k].is_entry && queried[k].t == parts[k].from
-                          ? shell_->normal(search.ray.at(search.t))
-                          : queried[k].normal;
-    }
-  }
+  enter_in_shell(
+      *shell_, searches, count,
+      [this](const Ray& ray, double to) { return ray_tolerance(ray, to); },
+      [&](RaySearch* queried, size_t n) { foam_->enter(queried, n, job); });
 }
 
 double ShelledFoam::leave(const Ray& ray, double from, double to, const Job* job) const {
-  const double tolerance = ray_tolerance(ray, to);
-  const RayParts parts = shell_->parts_of(ray, from, to, tolerance);
-  // Rounding may leave nothing of the shell.
-  if (parts.count == 0 || parts.part[0].from > from) return from;
-  const double end = parts.part[0].to, t = foam_->leave(ray, from, end, job);
-  return t < end ? t : shell_->follow(ray, end, to, tolerance);
+  return leave_in_shell(*shell_, ray, from, to, ray_tolerance(ray, to),
+                        [&](double begin, double end, double& t) {
+                          t = foam_->leave(ray, begin, end, job);
+                          return t < end;
+                        });
 }
 
 Vec3 ShelledFoam::normal(const Ray& ray, double t) const {

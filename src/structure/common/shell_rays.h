@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays through what of a solid is in a shell (cell_shell.h). A ray meets the shell in two parts at
+// most. The solid is searched in these; at their ends the shell is the boundary.
+#pragma once
+
+#include <vector>
+
+#include "structure/common/cell_shell.h"
+
+namespace msq {
+
+/// As Structure::enter(). find(searches, count) does it for the solid; tolerance(ray, to) is that
+/// of the structure.
+template <class Tolerance, class Find>
+void enter_in_shell(const CellShell& shell, RaySearch* searches, size_t count,
+                    Tolerance&& tolerance, Find&& find) {
+  std::vector<RaySearch> queried;
+  std::vector<RayPart> parts;
+  std::vector<size_t> index;
+  for (size_t i = 0; i < count; ++i) {
+    searches[i].found = false;
+    searches[i].normal = {};
+  }
+  for (size_t n = 0; n < 2; ++n) {
+    queried.clear();
+    parts.clear();
+    index.clear();
+    for (size_t i = 0; i < count; ++i) {
+      const RaySearch& s = searches[i];
+      if (s.found) continue;
+      const RayParts of_ray = shell.parts_of(s.ray, s.from, s.to, tolerance(s.ray, s.to));
+      if (n >= of_ray.count) continue;
+      queried.push_back({s.ray, of_ray.part[n].from, of_ray.part[n].to});
+      parts.push_back(of_ray.part[n]);
+      index.push_back(i);
+    }
+    if (queried.empty()) return;
+    find(queried.data(), queried.size());
+    for (size_t k = 0; k < queried.size(); ++k) {
+      if (!queried[k].found) continue;
+      RaySearch& search = searches[index[k]];
+      search.found = true;
+      search.t = queried[k].t;
+      search.normal = parts[k].is_entry && search.t == parts[k].from
+                          ? shell.normal(search.ray.at(search.t))
+                          : queried[k].normal;
+    }
+  }
+}
+
+/// As Structure::leave(). leave(from, to, t) does it for the solid: false if the ray does not leave
+/// it.
+template <class Leave>
+double leave_in_shell(const CellShell& shell, const Ray& ray, double from, double to,
+                      double tolerance, Leave&& leave) {
+  const RayParts parts = shell.parts_of(ray, from, to, tolerance);
+  // Rounding may leave nothing of the shell.
+  if (parts.count == 0 || parts.part[0].from > from) return from;
+  const double end = parts.part[0].to;
+  double t = end;
+  return leave(from, end, t) ? t : shell.follow(ray, end, to, tolerance);
+}
+
+}  // namespace msq
