@@ -14,6 +14,7 @@ check_cxx_source_compiles("#include <cstddef>
 extern \"C\" int LLVMFuzzerTestOneInput(const uint8_t*, size_t) { return 0; }" MSQ_HAS_LIBFUZZER)
 unset(CMAKE_REQUIRED_FLAGS)
 if(NOT MSQ_HAS_LIBFUZZER)
+  unset(MSQ_HAS_LIBFUZZER CACHE)  # looks again once the package is installed
   message(FATAL_ERROR "msq: MSQ_BUILD_FUZZERS needs libFuzzer and AddressSanitizer of Clang, and a program with "
                       "-fsanitize=fuzzer,address cannot be built (Debian: libclang-rt-14-dev).")
 endif()
