@@ -1447,11 +1447,11 @@ typedef struct msq_foam_def {
    * may differ by a factor of up to 16: grid.cell_size[0]; the width 2 pi r / count at a distance r
    * from the axis, or at the equator; and grid.cell_size[2], or pi r / count_polar around a point.
    *
-   * SAMPLED: the foam is cut off at the box of the samples. A cell has no seed if its place is
-   * beyond that box. Along the faces of the box, cells of the foam are therefore up to twice as
-   * large as others; sample a cell more than the part needs. The map may have 2^24 cells. Their
-   * edges in the middle of voxels may be up to 16 times as long as the smallest cell is wide, which
-   * is 1 over the greatest slope of the map.
+   * SAMPLED: the foam is cut off at the box of the samples. At the faces of this box, cells of the
+   * foam differ in size from others: sample one cell more than the part needs. The smallest cell
+   * size is 1 over the greatest slope of the map. The longest edge of a cell, in the middle of any
+   * voxel, may be 16 times as long. The ranges of u, v and w, in whole cells, may have a product of
+   * 2^24. The seeds count against the memory limit.
    *
    * The limits of radius, wall_thickness and vent_radius refer to the smallest cell. With a warp,
    * method must be AUTO or DIRECT, density must not exceed 1, the three numbers of stretch must be
@@ -1473,8 +1473,9 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
  * recursively. Each leaf has one jittered seed, and the mean number of seeds is the density
  * (docs/concepts.md). Cells are built by the calls that need them. Errors: ARGUMENT, LIMIT (radius,
  * wall_thickness, vent_radius or weight above the smallest cell size; cell sizes that differ by a
- * factor above 4, or in a period or a warp above 16; a warp of which 2^15 cells are in a box of the
- * search; a sampled map of more than 2^24 cells; stretch, see there; density above 32768),
+ * factor above 4, or in a period or a warp above 16; a warp with 2^15 seeds in a volume of about
+ * the largest cell; a sampled map of more than 2^24 cells; stretch, see there; density above
+ * 32768),
  * UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, a weight, a period, a warp, or density above 1, with a
  * method other than AUTO and DIRECT; a stretch, a weight, a period or a warp with density above 1;
  * a stretch or a weight with vent_radius; two of stretch, weight, period and warp), MEMORY. Source:

@@ -192,12 +192,6 @@ CellMap read_foam_map(msq_foam_def& def, msq_warp_def& known, const Neighbourhoo
   return map;
 }
 
-std::shared_ptr<const PlacedSeeds> seeds_of(const Context& context, const CellMap& map,
-                                            const msq_foam_def& def) {
-  if (map.round) return std::make_shared<const WarpSeeds>(*map.round, def.jitter, def.seed);
-  return std::make_shared<const SampledSeeds>(context, map.sampled, def.jitter, def.seed);
-}
-
 std::shared_ptr<const CellShell> shell_of(const CellMap& map) {
   if (map.round) return std::make_shared<const WarpShell>(*map.round);
   return std::make_shared<const BoxShell>(map.sampled);
@@ -245,10 +239,11 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     if (!(known.jitter >= 0 && known.jitter <= 1))
       fail(Status::argument, "jitter is %g; it must be from 0 to 1", known.jitter);
     std::shared_ptr<const PlacedSeeds> placed;
-    if (map) {
-      placed = seeds_of(owner, map, known);
+    if (map.round) {
+      placed = std::make_shared<const WarpSeeds>(*map.round, known.jitter, known.seed);
       grid = placed->grid();
     }
+    if (map.sampled) grid = map.sampled->smallest();
     if (period) grid = period->resized(grid, period->largest());
     const double ratio = max_component(grid.cell_size) / min_component(grid.cell_size);
     if (ratio > 4)
@@ -264,9 +259,9 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            "MSQ_FOAM_DIRECT",
            density.range().high);
     const Vec3 stretch = read_stretch(known, grid);
-    const Neighbourhood smallest = map      ? placed->smallest()
-                                   : period ? period->resized(grid, period->smallest())
-                                            : grid;
+    const Neighbourhood smallest = map.round ? placed->smallest()
+                                   : period  ? period->resized(grid, period->smallest())
+                                             : grid;
     const Parameter thickness = read_wall_thickness(known.wall_thickness, smallest);
     const bool has_walls = !is_none(known.wall_thickness);
     if (has_walls && method != FoamMethod::automatic && method != FoamMethod::direct)
@@ -274,6 +269,8 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
            "wall_thickness reaches %g; with walls, the method of a foam must be MSQ_FOAM_AUTO or "
            "MSQ_FOAM_DIRECT",
            thickness.range().high);
+    const bool has_struts = !has_walls || !is_none(known.radius);
+    const Parameter radius = has_struts ? read_radius(known.radius, smallest, 1) : Parameter(0);
     const Parameter vent_radius = read_vent_radius(known, smallest);
     refuse_stretched(known, stretch, method, density.range().high, vent_radius.range().high);
     const double weight = read_weight(known, smallest);
@@ -282,6 +279,11 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     if (period) {
       refuse_placed("period", known, method, stretch, weight, density.range().high);
       placed = std::make_shared<const PeriodSeeds>(grid, *period, known.jitter, known.seed);
+      grid = placed->grid();
+    }
+    // All seeds are found: after what is refused.
+    if (map.sampled) {
+      placed = std::make_shared<const SampledSeeds>(owner, map.sampled, known.jitter, known.seed);
       grid = placed->grid();
     }
     const auto make_walls = [&] {
@@ -294,10 +296,9 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
       keep(*made, known);
       *structure = new_handle<msq_structure>(made);
     };
-    if (has_walls && is_none(known.radius)) return finish(make_walls());
-    Ref<Foam> struts =
-        make_ref<Foam>(Ref<Context>(&owner), grid, read_radius(known.radius, smallest, 1),
-                       known.jitter, known.seed, method, density, stretch, weight, placed);
+    if (!has_struts) return finish(make_walls());
+    Ref<Foam> struts = make_ref<Foam>(Ref<Context>(&owner), grid, radius, known.jitter, known.seed,
+                                      method, density, stretch, weight, placed);
     finish(has_walls ? Ref<Structure>(make_ref<WalledFoam>(std::move(struts), make_walls()))
                      : Ref<Structure>(std::move(struts)));
   });

@@ -119,7 +119,7 @@ Diagram diagram_of(const Row& row, const SampledMap& map, double side) {
     for (int y = -margin; y <= last(1); ++y)
       for (int x = -margin; x <= last(0); ++x)
         if (!filled.count({x, y, z})) points.push_back(own.at({}, x, y, z) * side - half);
-  const Vec3 most = half * 1.1 + Vec3{1, 1, 1};
+  const Vec3 most = half * 1.1 + Vec3{side, side, side} * 1.5;
   const auto is_near = [&](const auto& part) {
     return box_of(part).overlaps(Box3{most * -1.0, most});
   };
@@ -195,9 +195,52 @@ void test_diagram(void**) {
   }
 }
 
+/// A plate that is few cells thick has hardly more seeds than cells, wherever its cells begin.
+void test_plate(void**) {
+  constexpr uint64_t side = 31;
+  const Ref<Context> context = make_ref<Context>(1u, uint64_t{64} << 20, uint64_t{0});
+  for (const double thick : {1.0, 2.0, 2.5, 3.0, 4.0})
+    for (const double offset : {0.0, 0.3, 0.5}) {
+      std::vector<double> values[3];
+      for (uint64_t i = 0; i < side * side * 2; ++i) {
+        values[0].push_back(static_cast<double>(i % side) + offset);
+        values[1].push_back(static_cast<double>(i / side % side) + offset);
+        values[2].push_back(static_cast<double>(i / side / side) * thick + offset);
+      }
+      const auto field = [&](int axis) {
+        const Image::Source source{
+            values[axis].data(), Image::Type::float64, {side, side, 2}, side * 8, side * side * 8};
+        return Ref<const GridField>(make_ref<GridField>(
+            Image(source, {{}, {1, 1, thick}, {}}, std::make_shared<MemoryBudget>(0))));
+      };
+      const auto map =
+          std::make_shared<const SampledMap>(SampledMap::Fields{field(0), field(1), field(2)});
+      const SampledSeeds seeds(*context, map, 1, 9);
+      const int across = static_cast<int>(30 / seeds.grid().cell_size.x) - 1,
+                up = static_cast<int>(thick / seeds.grid().cell_size.z);
+      size_t cells = 0, others = 0;
+      std::vector<PlacedSeed> found;
+      const FoamSeeds own(9 ^ 0x626f72646572, 1, {1, 1, 1});
+      for (int z = 0; z <= up; ++z)
+        for (int y = 1; y < across; ++y)
+          for (int x = 1; x < across; ++x) {
+            found.clear();
+            seeds.find({x, y, z}, found);
+            const Vec3 at = own.fractions(own.bits({x, y, z}));
+            const bool is_own = found.size() == 1 && length(found[0].in_box - at) < 1e-9;
+            const double height = (z + at.z) * seeds.grid().cell_size.z;
+            if (!is_own) cells += found.size();
+            others += is_own && height < thick;
+          }
+      print_message("%g cells thick, from %g on: %zu seeds of cells, %zu others\n", thick, offset,
+                    cells, others);
+      assert_true(cells > 500 * thick && others * 50 < cells);
+    }
+}
+
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_diagram)};
+  const CMUnitTest tests[] = {cmocka_unit_test(test_diagram), cmocka_unit_test(test_plate)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -35,11 +35,12 @@ Interval BoxShell::within(Vec3 at, Vec3 way, double more) const {
   return range;
 }
 
-// Rounding may put points on a face to either side of it, also of a ray along the face:
-// settle_end() looks at them.
+// Rounding may put points on a face to either side of it, also of a ray that is along the face up
+// to rounding: settle_end() looks at them.
 RayParts BoxShell::parts_of(const Ray& ray, double from, double to, double tolerance) const {
   const Vec3 at = frame_.to_grid(ray.origin), way = frame_.rotation.apply_inverse(ray.direction);
-  const bool is_along = way.x == 0 || way.y == 0 || way.z == 0;
+  constexpr double flat = 1e-12;
+  const bool is_along = std::abs(way.x) < flat || std::abs(way.y) < flat || std::abs(way.z) < flat;
   const double more = is_along ? map_->slack(ray.origin, max_component(size_)) : 0;
   const Interval range = within(at, way, more);
   RayParts parts;
@@ -74,11 +75,14 @@ bool BoxShell::meets(Vec3 a, Vec3 b) const {
 void BoxShell::keep_row(Row& row) const {
   const SampleGrid& grid = row.grid();
   const Vec3 start = row.start(), at = frame_.to_grid(start);
-  const Vec3 way = frame_.rotation.apply_inverse(Vec3{1, 0, 0});
-  const double slack = 0x1p4 * map_->slack(start, 2 * row.extent());
+  Vec3 way = frame_.rotation.apply_inverse(Vec3{1, 0, 0});
+  // That of places, and as much for what a row departs from a line along the faces.
+  const double rounding = 0x1p4 * map_->slack(start, 2 * row.extent()), slack = 2 * rounding;
   constexpr double steep = 1e-3;
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(way[axis]) * row.extent() <= rounding) way[axis] = 0;
     if (way[axis] != 0 && std::abs(way[axis]) < steep) return row.decide(0, grid.nx);
+  }
   const Interval may = within(at, way, slack), sure = within(at, way, -slack);
   if (may.low > may.high) return row.clear(0, grid.nx);
   const uint64_t first = grid.first_x_from(start.x + may.low - slack),

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/job.h"
 #include "base/status.h"
 
 namespace msq {
 
 namespace {
 
-constexpr double room = 0x1p-14;
 /// Boxes of which bounds are looked up one by one.
 constexpr int64_t max_looked_up = 512;
 /// Along each axis, of a box, for its bound.
@@ -44,6 +44,7 @@ SampledSeeds::SampledSeeds(const Context& context, std::shared_ptr<const Sampled
          "may be %g times the smallest",
          least, longest, max_ratio);
   const Cells cells = all_cells();
+  set_side(2 * longest);
   // While places are found, with what is kept of them.
   const Reservation room_for_all(
       context.budget,
@@ -76,7 +77,8 @@ std::vector<SampledSeeds::Found> SampledSeeds::find_all(const Cells& cells,
                                                         const Executor& executor) const {
   std::vector<std::vector<Found>> layers(cells.count[2]);
   executor.for_each(cells.count[2], [&](uint64_t k) {
-    for (uint64_t j = 0; j < cells.count[1]; ++j)
+    for (uint64_t j = 0; j < cells.count[1]; ++j) {
+      check_cancelled();
       for (uint64_t i = 0; i < cells.count[0]; ++i) {
         const CellIndex cell{cells.low[0] + static_cast<int32_t>(i),
                              cells.low[1] + static_cast<int32_t>(j),
@@ -85,6 +87,7 @@ std::vector<SampledSeeds::Found> SampledSeeds::find_all(const Cells& cells,
         if (map_->find(corner_of(cell) + cells_.fractions(cells_.bits(cell)), g))
           layers[k].push_back({g, cell});
       }
+    }
   });
   std::vector<Found> found;
   for (std::vector<Found>& layer : layers) {
@@ -111,13 +114,24 @@ size_t SampledSeeds::index(CellIndex box) const {
          static_cast<size_t>(box.x);
 }
 
-void SampledSeeds::choose_side(const std::vector<Found>& found) {
+void SampledSeeds::set_side(double side) {
   const Vec3 size = map_->box().max;
+  double count[3];
+  for (int axis = 0; axis < 3; ++axis) count[axis] = std::floor(size[axis] * (1 / side)) + 1;
+  const double all = count[0] * count[1] * count[2];
+  if (all > max_boxes)
+    fail(Status::limit,
+         "by warp.u, v and w, cells are up to %g long, and the box of the samples is %g x %g x %g: "
+         "it has %.0f cubes twice as long as a cell; the limit of a foam is %.0f",
+         map_->longest_edge(), size.x, size.y, size.z, all, max_boxes);
+  grid_.cell_size = {side, side, side};
+  for (int axis = 0; axis < 3; ++axis) count_[axis] = static_cast<int32_t>(count[axis]);
+}
+
+void SampledSeeds::choose_side(const std::vector<Found>& found) {
   std::vector<bool> has_seed;
-  for (double side = map_->longest_edge() * (1 + room);; side *= 1.125) {
-    grid_.cell_size = {side, side, side};
-    for (int axis = 0; axis < 3; ++axis)
-      count_[axis] = static_cast<int32_t>(std::floor(size[axis] * (1 / side))) + 1;
+  for (;; set_side(1.125 * side())) {
+    check_cancelled();
     has_seed.assign(index({0, 0, count_[2]}), false);
     for (const Found& one : found) has_seed[index(box_at(one.g))] = true;
     // The last box along an axis reaches beyond the samples; those before it touch them or may.
@@ -140,9 +154,11 @@ int SampledSeeds::level_at(Vec3 g) const {
 
 void SampledSeeds::keep(const std::vector<Found>& found, const Context& context) {
   const size_t boxes = index({0, 0, count_[2]});
-  reservation_ = Reservation(
-      context.budget, found.size() * sizeof(Kept) + boxes * (sizeof first_[0] + sizeof bounds_[0]),
-      memory_name);
+  // The firsts are there twice for a while.
+  reservation_ =
+      Reservation(context.budget,
+                  found.size() * sizeof(Kept) + boxes * (2 * sizeof first_[0] + sizeof bounds_[0]),
+                  memory_name);
   first_.assign(boxes + 1, 0);
   for (const Found& one : found) ++first_[index(box_at(one.g)) + 1];
   const uint32_t most = *std::max_element(first_.begin(), first_.end());
@@ -168,6 +184,7 @@ void SampledSeeds::keep(const std::vector<Found>& found, const Context& context)
   context.executor.for_each(static_cast<uint64_t>(count_[2]), [&](uint64_t k) {
     const auto z = static_cast<int32_t>(k);
     std::vector<PlacedSeed> seeds;
+    check_cancelled();
     for_each_box({0, 0, z}, {count_[0] - 1, count_[1] - 1, z},
                  [&](CellIndex box) { bounds_[index(box)] = bound_of(box, seeds); });
   });
@@ -257,8 +274,8 @@ bool SampledSeeds::known_boxes(const Box3& box, Boxes& boxes) const {
   if (!is_known(boxes.low) || !is_known(boxes.high)) return false;
   const int64_t x = boxes.high.x - boxes.low.x + 1, y = boxes.high.y - boxes.low.y + 1,
                 z = boxes.high.z - boxes.low.z + 1;
-  return x <= max_looked_up && y <= max_looked_up && z <= max_looked_up &&
-         x * y * z <= max_looked_up;
+  return x > 0 && y > 0 && z > 0 && x <= max_looked_up && y <= max_looked_up &&
+         z <= max_looked_up && x * y * z <= max_looked_up;
 }
 
 double SampledSeeds::max_distance(const Box3& box) const {

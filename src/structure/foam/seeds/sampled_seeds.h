@@ -3,11 +3,11 @@
 // f in it lies where the map has the coordinates (i, j, k) + f. A cell has no seed if that place is
 // not in the box of the samples.
 //
-// Boxes are cubes. Their side is the longest edge of a cell, in the middle of any voxel, times 1 +
-// 2^-14, and then times 9/8 until each box inside the box of the samples, except those along its
-// faces, has a seed. Each other box without one has a seed of its own: so the foam goes on beyond
-// the samples, and the diagonal of a box bounds the distance of any point to its nearest seed. That
-// holds whatever the map is, also where it has the same coordinates at two places.
+// Boxes are cubes. Their side is twice the longest edge of a cell, in the middle of any voxel, and
+// then times 9/8 until each box inside the box of the samples, except those along its faces, has a
+// seed. Each other box without one has a seed of its own: so the foam goes on beyond the samples,
+// and the diagonal of a box bounds the distance of any point to its nearest seed. That holds
+// whatever the map is, also where it has the same coordinates at two places.
 //
 // All seeds are found at once and kept, since a place is found by a search among the samples. Each
 // box knows a bound on the distances of its points to their nearest seeds: of each 64th of the box,
@@ -30,11 +30,12 @@ class SampledSeeds final : public PlacedSeeds {
   /// By how much the longest edge of a cell may exceed the smallest size.
   static constexpr double max_ratio = 16;
   static constexpr double max_cells = 0x1p24;
+  static constexpr double max_boxes = 0x1p24;
   /// Of seeds in a box.
   static constexpr uint32_t max_in_box = 32766;
 
-  /// Throws Error(limit) for a ratio above max_ratio, too many cells, too many in a box, or too
-  /// little memory.
+  /// Throws Error(limit) for a ratio above max_ratio, too many cells or boxes, too many seeds in a
+  /// box, or too little memory. Error(cancelled) with the thread's job.
   SampledSeeds(const Context& context, std::shared_ptr<const SampledMap> map, double jitter,
                uint64_t seed);
 
@@ -74,6 +75,8 @@ class SampledSeeds final : public PlacedSeeds {
   /// Those that the map's coordinates run over.
   Cells all_cells() const;
   std::vector<Found> find_all(const Cells& cells, const Executor& executor) const;
+  /// Throws Error(limit) for too many.
+  void set_side(double side);
   void choose_side(const std::vector<Found>& found);
   void keep(const std::vector<Found>& found, const Context& context);
   float bound_of(CellIndex box, std::vector<PlacedSeed>& seeds) const;
