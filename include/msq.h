@@ -1463,8 +1463,7 @@ typedef struct msq_foam_def {
 MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
 
 /** Creates a Voronoi foam of one jittered seed per neighbourhood cell: all points within radius of
- * an edge of the Voronoi diagram, or within half of wall_thickness of a face. def must
- * not be NULL.
+ * an edge of the Voronoi diagram, or within half of wall_thickness of a face. def must not be NULL.
  *
  * Struts are capsules, circular in model units. Walls are plane; their thickness is measured across
  * the face. Foams with walls alone have an onset, which is a thickness. Those with struts and walls
@@ -1475,15 +1474,14 @@ MSQ_API msq_status msq_foam_def_init(msq_foam_def* def, size_t size);
  * wall_thickness, vent_radius or weight above the smallest cell size; cell sizes that differ by a
  * factor above 4, or in a period or a warp above 16; a warp with 2^15 seeds in a volume of about
  * the largest cell; a sampled map of more than 2^24 cells; stretch, see there; density above
- * 32768),
- * UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, a weight, a period, a warp, or density above 1, with a
- * method other than AUTO and DIRECT; a stretch, a weight, a period or a warp with density above 1;
- * a stretch or a weight with vent_radius; two of stretch, weight, period and warp), MEMORY. Source:
- * paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and Lefebvre 2016. Weights: Imai, Iri and Murota, "Voronoi diagram in the
- * Laguerre geometry and its applications", 1985; Aurenhammer, "Power diagrams: properties,
- * algorithms and applications", 1987; for foams Fan, Wu, Zhao and Lu, "Simulation of
- * polycrystalline structure with Voronoi diagram in Laguerre geometry based on random closed
- * packing of spheres", 2004. */
+ * 32768), UNSUPPORTED (METHOD_2 without CGAL; walls, a stretch, a weight, a period, a warp, or
+ * density above 1, with a method other than AUTO and DIRECT; a stretch, a weight, a period or a
+ * warp with density above 1; a stretch or a weight with vent_radius; two of stretch, weight, period
+ * and warp), MEMORY. Source: paper, section "Preprocessing for Voronoi Foams"; Martinez, Dumas and
+ * Lefebvre 2016. Weights: Imai, Iri and Murota, "Voronoi diagram in the Laguerre geometry and its
+ * applications", 1985; Aurenhammer, "Power diagrams: properties, algorithms and applications",
+ * 1987; for foams Fan, Wu, Zhao and Lu, "Simulation of polycrystalline structure with Voronoi
+ * diagram in Laguerre geometry based on random closed packing of spheres", 2004. */
 MSQ_API msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
                                       msq_structure** structure);
 
