@@ -87,6 +87,12 @@ Placement::Placement(const std::array<double, 12>& matrix) {
 void Placement::invert() {
   const double size = largest(linear_);
   if (!(size > 0)) fail(Status::argument, "the matrix is singular: its determinant is 0");
+  // Beyond, powers of two have no inverse. Lengths grow by the size at least, by 3 times it at
+  // most.
+  if (!(size >= 0x1p-900 && size <= 0x1p900))
+    fail(Status::argument,
+         "the numbers of the matrix are up to %g; lengths may grow by factors from %g to %g", size,
+         1 / max_scale, max_scale);
   // By a power of two, which changes nothing but the range of numbers.
   const double power = std::ldexp(1.0, -std::ilogb(size));
   const Matrix a = scaled(linear_, power);

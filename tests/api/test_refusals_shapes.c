@@ -332,6 +332,10 @@ static void shapes_of_shapes(void** state) {
           numbers[0] = numbers[5] = numbers[10] = 1e76);
     WRONG(ARGUMENT, "1e-76", memset(numbers, 0, sizeof numbers);
           numbers[0] = numbers[5] = numbers[10] = 1e-76);
+    WRONG(ARGUMENT, "up to 1e+308|1e+75", memset(numbers, 0, sizeof numbers);
+          numbers[0] = numbers[5] = numbers[10] = 1e308);
+    WRONG(ARGUMENT, "up to 9.9|e-321|1e-75", memset(numbers, 0, sizeof numbers);
+          numbers[0] = numbers[5] = numbers[10] = 1e-320);
     RIGHT(original = nested[63]);
     WRONG(LIMIT, "64", original = nested[64]);
     WRONG(UNSUPPORTED, "original is all space", original = space);
