@@ -113,7 +113,9 @@ HWY_INLINE void compare_words(const float* values, const uint32_t* words, size_t
 void compare_all_singles(ValuesOf<float> values, const uint32_t* words, size_t count,
                          const float* low, const float* high, bool has_one_level,
                          uint64_t* at_most_low, uint64_t* at_most_high) {
-  if (values.is_uniform)
+  if (values.is_uniform && has_one_level)
+    compare_words<true, true>(values.data, words, count, low, high, at_most_low, at_most_high);
+  else if (values.is_uniform)
     compare_words<true, false>(values.data, words, count, low, high, at_most_low, at_most_high);
   else if (has_one_level)
     compare_words<false, true>(values.data, words, count, low, high, at_most_low, at_most_high);
