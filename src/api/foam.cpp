@@ -6,8 +6,7 @@
 #include "api/period.h"
 #include "api/strut_radius.h"
 #include "api/warp.h"
-#include "structure/common/box_shell.h"
-#include "structure/common/warp_shell.h"
+#include "structure/common/make_shell.h"
 #include "structure/foam/paper/delaunay.h"
 #include "structure/foam/seeds/period_seeds.h"
 #include "structure/foam/seeds/sampled_seeds.h"
@@ -192,11 +191,6 @@ CellMap read_foam_map(msq_foam_def& def, msq_warp_def& known, const Neighbourhoo
   return map;
 }
 
-std::shared_ptr<const CellShell> shell_of(const CellMap& map) {
-  if (map.round) return std::make_shared<const WarpShell>(*map.round);
-  return std::make_shared<const BoxShell>(map.sampled);
-}
-
 /// What a foam with a period or a warp cannot be yet. `given`: the name of that.
 void refuse_placed(const char* given, const msq_foam_def& def, FoamMethod method, Vec3 stretch,
                    double weight, double density) {
@@ -292,7 +286,8 @@ msq_status msq_structure_foam(msq_context* context, const msq_foam_def* def,
     };
     const auto finish = [&](Ref<Structure> foam) {
       const Ref<Structure> made =
-          map ? Ref<Structure>(make_ref<ShelledFoam>(foam, shell_of(map))) : std::move(foam);
+          map ? Ref<Structure>(make_ref<ShelledFoam>(foam, make_shell(map.round, map.sampled)))
+              : std::move(foam);
       keep(*made, known);
       *structure = new_handle<msq_structure>(made);
     };

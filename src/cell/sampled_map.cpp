@@ -332,6 +332,20 @@ Neighbourhood SampledMap::smallest() const {
   return {frame().origin, {side, side, side}, frame().rotation};
 }
 
+SampledMap::Cells SampledMap::cells() const {
+  int32_t first[3];
+  Cells cells{};
+  cells.all = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval within = range(axis);
+    first[axis] = static_cast<int32_t>(std::floor(within.low));
+    cells.count[axis] = static_cast<uint64_t>(std::floor(within.high) - std::floor(within.low)) + 1;
+    cells.all *= static_cast<double>(cells.count[axis]);
+  }
+  cells.first = {first[0], first[1], first[2]};
+  return cells;
+}
+
 Box3 SampledMap::box() const {
   return {{}, top_ * frame().spacing};
 }

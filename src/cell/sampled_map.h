@@ -59,6 +59,13 @@ class SampledMap {
   /// The length of the longest edge that a cell has in the middle of any voxel.
   double longest_edge() const { return longest_edge_; }
   Interval range(int axis) const { return image(axis).range(); }
+  /// Those that the coordinates run over.
+  struct Cells {
+    CellIndex first;
+    uint64_t count[3];
+    double all;  // the product of the counts
+  };
+  Cells cells() const;
   /// The box of the samples, in their frame.
   Box3 box() const;
 

@@ -9,11 +9,10 @@
 
 namespace msq {
 
-/// As Structure::enter(). find(searches, count) does it for the solid; tolerance(ray, to) is that
-/// of the structure.
-template <class Tolerance, class Find>
-void enter_in_shell(const CellShell& shell, RaySearch* searches, size_t count,
-                    Tolerance&& tolerance, Find&& find) {
+/// As Structure::enter() of `solid`. find(searches, count) does it as if there were no shell.
+template <class Find>
+void enter_in_shell(const CellShell& shell, const Structure& solid, RaySearch* searches,
+                    size_t count, Find&& find) {
   std::vector<RaySearch> queried;
   std::vector<RayPart> parts;
   std::vector<size_t> index;
@@ -28,7 +27,7 @@ void enter_in_shell(const CellShell& shell, RaySearch* searches, size_t count,
     for (size_t i = 0; i < count; ++i) {
       const RaySearch& s = searches[i];
       if (s.found) continue;
-      const RayParts of_ray = shell.parts_of(s.ray, s.from, s.to, tolerance(s.ray, s.to));
+      const RayParts of_ray = shell.parts_of(s.ray, s.from, s.to, solid.ray_tolerance(s.ray, s.to));
       if (n >= of_ray.count) continue;
       queried.push_back({s.ray, of_ray.part[n].from, of_ray.part[n].to});
       parts.push_back(of_ray.part[n]);
@@ -48,11 +47,12 @@ void enter_in_shell(const CellShell& shell, RaySearch* searches, size_t count,
   }
 }
 
-/// As Structure::leave(). leave(from, to, t) does it for the solid: false if the ray does not leave
-/// it.
+/// As Structure::leave() of `solid`. leave(from, to, t) does it as if there were no shell: false if
+/// the ray does not leave.
 template <class Leave>
-double leave_in_shell(const CellShell& shell, const Ray& ray, double from, double to,
-                      double tolerance, Leave&& leave) {
+double leave_in_shell(const CellShell& shell, const Structure& solid, const Ray& ray, double from,
+                      double to, Leave&& leave) {
+  const double tolerance = solid.ray_tolerance(ray, to);
   const RayParts parts = shell.parts_of(ray, from, to, tolerance);
   // Rounding may leave nothing of the shell.
   if (parts.count == 0 || parts.part[0].from > from) return from;

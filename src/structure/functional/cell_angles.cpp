@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "base/borrowed.h"
-#include "structure/common/box_shell.h"
-#include "structure/common/warp_shell.h"
+#include "structure/common/make_shell.h"
 #include "structure/functional/map_places.h"
 #include "structure/functional/warped_places.h"
 
@@ -67,9 +66,7 @@ void CellAngles::find(Values x, Values y, Values z, size_t count,
 }
 
 std::unique_ptr<const CellShell> CellAngles::shell() const {
-  if (warp_) return std::make_unique<const WarpShell>(*warp_);
-  if (sampled_) return std::make_unique<const BoxShell>(sampled_);
-  return nullptr;
+  return make_shell(warp_, sampled_);
 }
 
 CellIndex CellAngles::cell_of(Vec3 p) const {

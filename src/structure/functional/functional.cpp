@@ -187,13 +187,10 @@ double Functional::min_ray_step() const {
 void Functional::enter(RaySearch* searches, size_t count, const Job* job) const {
   FunctionalRays rays(*this, job);
   if (const std::unique_ptr<const CellShell> shell = angles_.shell())
-    return enter_in_shell(
-        *shell, searches, count,
-        [this](const Ray& ray, double to) { return ray_tolerance(ray, to); },
-        [&](RaySearch* queried, size_t n) {
-          rays.find(true, queried, n);
-          rays.find_normals(queried, n);
-        });
+    return enter_in_shell(*shell, *this, searches, count, [&](RaySearch* queried, size_t n) {
+      rays.find(true, queried, n);
+      rays.find_normals(queried, n);
+    });
   rays.find(true, searches, count);
   rays.find_normals(searches, count);
 }
@@ -201,13 +198,12 @@ void Functional::enter(RaySearch* searches, size_t count, const Job* job) const 
 double Functional::leave(const Ray& ray, double from, double to, const Job* job) const {
   FunctionalRays rays(*this, job);
   if (const std::unique_ptr<const CellShell> shell = angles_.shell())
-    return leave_in_shell(*shell, ray, from, to, ray_tolerance(ray, to),
-                          [&](double begin, double end, double& t) {
-                            RaySearch search{ray, begin, end};
-                            rays.find(false, &search, 1);
-                            t = search.t;
-                            return search.found;
-                          });
+    return leave_in_shell(*shell, *this, ray, from, to, [&](double begin, double end, double& t) {
+      RaySearch search{ray, begin, end};
+      rays.find(false, &search, 1);
+      t = search.t;
+      return search.found;
+    });
   RaySearch search{ray, from, to};
   rays.find(false, &search, 1);
   return search.found ? search.t : to;

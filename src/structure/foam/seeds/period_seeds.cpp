@@ -40,8 +40,7 @@ PlacedSeed PeriodSeeds::place(CellIndex cell) const {
   const double boxes = s / size(), box = std::floor(boxes);
   component(cell, axis) = static_cast<int32_t>(box);
   PlacedSeed seed{cell, f, 0, 0};
-  // A tiny negative number of boxes is 1 above its floor once rounded.
-  seed.in_box[axis] = std::min(std::floor((boxes - box) * 0x1p40), 0x1p40 - 1) * 0x1p-40;
+  seed.in_box[axis] = place_in_box(boxes);
   // The nearest power of 8, as factors; max_ratio is below 64.
   seed.level = size() * period_.frequency(s) < 2.828 ? 0 : 1;
   return seed;

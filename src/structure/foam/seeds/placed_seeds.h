@@ -11,6 +11,8 @@
 // paths start from the same bits.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +28,24 @@ struct PlacedSeed {
   uint32_t number;  ///< of the seed among those of its box, in their order; below 2^15
   int level;        ///< seeds are about 2^-level boxes apart
 };
+
+/// The part of `boxes` beyond its floor, rounded as a seed's place is.
+inline double place_in_box(double boxes) {
+  // A tiny negative number of boxes is 1 above its floor once rounded.
+  return std::min(std::floor((boxes - std::floor(boxes)) * 0x1p40), 0x1p40 - 1) * 0x1p-40;
+}
+
+/// The level of a seed: of the volume of a box over that of the seed's cell the nearest power of 8,
+/// as factors, up to 8^5. of_cell: the latter volume times 2.828.
+inline int seed_level(double of_box, double of_cell) {
+  constexpr int max_level = 5;
+  int level = 0;
+  while (level < max_level && of_box > std::ldexp(of_cell, 3 * level)) ++level;
+  return level;
+}
+
+/// Of the seeds that boxes have of their own, where cells have none: XOR the seed of the foam.
+constexpr uint64_t border_stream = 0x626f72646572;  // the bytes "border"
 
 class PlacedSeeds {
  public:

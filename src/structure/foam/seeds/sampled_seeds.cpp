@@ -36,53 +36,40 @@ SampledSeeds::SampledSeeds(const Context& context, std::shared_ptr<const Sampled
       grid_(map_->smallest()),
       smallest_(grid_),
       cells_(seed, jitter, {1, 1, 1}),
-      own_(seed ^ 0x626f72646572, 1, {1, 1, 1}) {  // the bytes "border"
+      own_(seed ^ border_stream, 1, {1, 1, 1}) {
   const double least = smallest_.cell_size.x, longest = map_->longest_edge();
   if (longest > max_ratio * least * (1 + 1e-12))
     fail(Status::limit,
          "by warp.u, v and w, cells are at least %g wide and up to %g long; in a foam, the longest "
          "may be %g times the smallest",
          least, longest, max_ratio);
-  const Cells cells = all_cells();
-  set_side(2 * longest);
-  // While places are found, with what is kept of them.
-  const Reservation room_for_all(
-      context.budget,
-      cells.count[0] * cells.count[1] * cells.count[2] * (sizeof(Found) + sizeof(Kept)),
-      memory_name);
-  const std::vector<Found> found = find_all(cells, context.executor);
-  choose_side(found);
-  keep(found, context);
-}
-
-SampledSeeds::Cells SampledSeeds::all_cells() const {
-  Cells cells{};
-  double all = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Interval range = map_->range(axis);
-    cells.low[axis] = static_cast<int32_t>(std::floor(range.low));
-    cells.count[axis] = static_cast<uint64_t>(std::floor(range.high) - std::floor(range.low)) + 1;
-    all *= static_cast<double>(cells.count[axis]);
-  }
-  if (all > max_cells)
+  const SampledMap::Cells cells = map_->cells();
+  if (cells.all > max_cells)
     fail(Status::limit,
          "warp.u, v and w run over %llu x %llu x %llu cells; the limit of a foam is %.0f in all",
          static_cast<unsigned long long>(cells.count[0]),
          static_cast<unsigned long long>(cells.count[1]),
          static_cast<unsigned long long>(cells.count[2]), max_cells);
-  return cells;
+  set_side(2 * longest);
+  // While places are found, with what is kept of them.
+  const Reservation room_for_all(context.budget,
+                                 static_cast<uint64_t>(cells.all) * (sizeof(Found) + sizeof(Kept)),
+                                 memory_name);
+  const std::vector<Found> found = find_all(cells, context.executor);
+  choose_side(found);
+  keep(found, context);
 }
 
-std::vector<SampledSeeds::Found> SampledSeeds::find_all(const Cells& cells,
+std::vector<SampledSeeds::Found> SampledSeeds::find_all(const SampledMap::Cells& cells,
                                                         const Executor& executor) const {
   std::vector<std::vector<Found>> layers(cells.count[2]);
   executor.for_each(cells.count[2], [&](uint64_t k) {
     for (uint64_t j = 0; j < cells.count[1]; ++j) {
       check_cancelled();
       for (uint64_t i = 0; i < cells.count[0]; ++i) {
-        const CellIndex cell{cells.low[0] + static_cast<int32_t>(i),
-                             cells.low[1] + static_cast<int32_t>(j),
-                             cells.low[2] + static_cast<int32_t>(k)};
+        const CellIndex cell{cells.first.x + static_cast<int32_t>(i),
+                             cells.first.y + static_cast<int32_t>(j),
+                             cells.first.z + static_cast<int32_t>(k)};
         Vec3 g;
         if (map_->find(corner_of(cell) + cells_.fractions(cells_.bits(cell)), g))
           layers[k].push_back({g, cell});
@@ -144,12 +131,7 @@ void SampledSeeds::choose_side(const std::vector<Found>& found) {
 
 int SampledSeeds::level_at(Vec3 g) const {
   const auto [u, v, w] = map_->gradients(grid_.from_grid(g));
-  const double in_box = side() * side() * side() * std::abs(dot(u, cross(v, w)));
-  // The nearest power of 8, as factors.
-  constexpr int max_level = 5;
-  int level = 0;
-  while (level < max_level && in_box > std::ldexp(2.828, 3 * level)) ++level;
-  return level;
+  return seed_level(side() * side() * side() * std::abs(dot(u, cross(v, w))), 2.828);
 }
 
 void SampledSeeds::keep(const std::vector<Found>& found, const Context& context) {
@@ -173,10 +155,8 @@ void SampledSeeds::keep(const std::vector<Found>& found, const Context& context)
   for (const Found& one : found) {
     const CellIndex box = box_at(one.g);
     Kept& kept = kept_[next[index(box)]++];
-    for (int axis = 0; axis < 3; ++axis) {
-      const double in_boxes = one.g[axis] * (1 / side()), part = in_boxes - std::floor(in_boxes);
-      kept.in_box[axis] = std::min(std::floor(part * 0x1p40), 0x1p40 - 1) * 0x1p-40;
-    }
+    for (int axis = 0; axis < 3; ++axis)
+      kept.in_box[axis] = place_in_box(one.g[axis] * (1 / side()));
     kept.cell = one.cell;
     kept.level = level_at(one.g);
   }
@@ -221,27 +201,28 @@ PlacedSeed SampledSeeds::own_seed(CellIndex box) const {
   return {box, own_.fractions(own_.bits(box)), 0, 0};
 }
 
-PlacedSeed SampledSeeds::placed(CellIndex box, uint32_t first, uint32_t number) const {
-  const Kept& kept = kept_[first + number];
-  return {box, kept.in_box, number, kept.level};
+std::span<const SampledSeeds::Kept> SampledSeeds::kept_in(CellIndex box) const {
+  if (!is_known(box)) return {};
+  const size_t at = index(box);
+  return {kept_.data() + first_[at], kept_.data() + first_[at + 1]};
 }
 
 void SampledSeeds::find(CellIndex box, std::vector<PlacedSeed>& seeds) const {
-  const size_t at = is_known(box) ? index(box) : 0;
-  const uint32_t first = is_known(box) ? first_[at] : 0,
-                 count = is_known(box) ? first_[at + 1] - first : 0;
-  if (count == 0) seeds.push_back(own_seed(box));
-  for (uint32_t n = 0; n < count; ++n) seeds.push_back(placed(box, first, n));
+  const std::span<const Kept> kept = kept_in(box);
+  if (kept.empty()) seeds.push_back(own_seed(box));
+  for (uint32_t n = 0; n < kept.size(); ++n)
+    seeds.push_back({box, kept[n].in_box, n, kept[n].level});
 }
 
 PlacedSeed SampledSeeds::seed(CellIndex box, uint32_t number) const {
-  if (!is_known(box) || first_[index(box)] == first_[index(box) + 1]) return own_seed(box);
-  return placed(box, first_[index(box)], number);
+  const std::span<const Kept> kept = kept_in(box);
+  if (kept.empty()) return own_seed(box);
+  return {box, kept[number].in_box, number, kept[number].level};
 }
 
 CellIndex SampledSeeds::cell_of(CellIndex box, uint32_t number) const {
-  if (is_known(box) && first_[index(box)] < first_[index(box) + 1])
-    return kept_[first_[index(box)] + number].cell;
+  const std::span<const Kept> kept = kept_in(box);
+  if (!kept.empty()) return kept[number].cell;
   return cell_of((corner_of(box) + own_seed(box).in_box) * side());
 }
 
@@ -253,18 +234,17 @@ CellIndex SampledSeeds::cell_of(Vec3 g) const {
 
 PlacedSeed SampledSeeds::near(Vec3 g) const {
   const CellIndex box = box_at(g);
-  if (!is_known(box)) return own_seed(box);
   const Vec3 in_box = g * (1 / side()) - corner_of(box);
-  const uint32_t first = first_[index(box)], end = first_[index(box) + 1];
-  uint32_t nearest = first;
+  const std::span<const Kept> kept = kept_in(box);
+  uint32_t nearest = 0;
   double least = 4;
-  for (uint32_t n = first; n < end; ++n) {
-    const Vec3 d = kept_[n].in_box - in_box;
+  for (uint32_t n = 0; n < kept.size(); ++n) {
+    const Vec3 d = kept[n].in_box - in_box;
     if (dot(d, d) >= least) continue;
     least = dot(d, d);
     nearest = n;
   }
-  return first < end ? placed(box, first, nearest - first) : own_seed(box);
+  return seed(box, nearest);
 }
 
 bool SampledSeeds::known_boxes(const Box3& box, Boxes& boxes) const {
@@ -294,7 +274,7 @@ Interval SampledSeeds::density(const Box3& box) const {
   if (!known_boxes(box, boxes)) return {1, most_in_box_};
   Interval range{most_in_box_, 1};
   for_each_box(boxes.low, boxes.high, [&](CellIndex at) {
-    const double count = std::max(1u, first_[index(at) + 1] - first_[index(at)]);
+    const double count = std::max(1.0, static_cast<double>(kept_in(at).size()));
     range = {std::min(range.low, count), std::max(range.high, count)};
   });
   return range;

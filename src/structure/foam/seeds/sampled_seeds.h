@@ -15,6 +15,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/memory.h"
@@ -68,13 +69,7 @@ class SampledSeeds final : public PlacedSeeds {
     CellIndex low, high;  // inclusive
   };
 
-  struct Cells {
-    int32_t low[3];
-    uint64_t count[3];
-  };
-  /// Those that the map's coordinates run over.
-  Cells all_cells() const;
-  std::vector<Found> find_all(const Cells& cells, const Executor& executor) const;
+  std::vector<Found> find_all(const SampledMap::Cells& cells, const Executor& executor) const;
   /// Throws Error(limit) for too many.
   void set_side(double side);
   void choose_side(const std::vector<Found>& found);
@@ -88,7 +83,8 @@ class SampledSeeds final : public PlacedSeeds {
   bool is_known(CellIndex box) const;
   size_t index(CellIndex box) const;
   PlacedSeed own_seed(CellIndex box) const;
-  PlacedSeed placed(CellIndex box, uint32_t first, uint32_t number) const;
+  /// The seeds of cells in a box.
+  std::span<const Kept> kept_in(CellIndex box) const;
   /// Those that a box in grid coordinates overlaps, if they are known and not too many.
   bool known_boxes(const Box3& box, Boxes& boxes) const;
 

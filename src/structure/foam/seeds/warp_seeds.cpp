@@ -87,7 +87,7 @@ WarpSeeds::WarpSeeds(const Warp& warp, double jitter, uint64_t seed)
       is_round_(warp.kind() == Warp::Kind::spherical),
       swell_(1 + std::abs(warp.shell().shear_outwards) + std::abs(warp.shell().shear_along)),
       cells_(seed, jitter, {1, 1, 1}),
-      own_(seed ^ 0x626f72646572, 1, {1, 1, 1}) {  // the bytes "border"
+      own_(seed ^ border_stream, 1, {1, 1, 1}) {
   const Warp::Shell& shell = warp_.shell();
   const double thick = smallest_.cell_size.x;
   smallest_.cell_size = {thick, width(shell.inner), height(shell.inner)};
@@ -197,21 +197,17 @@ PlacedSeed WarpSeeds::place(CellIndex cell) const {
   int32_t box[3];
   PlacedSeed seed{};
   for (int axis = 0; axis < 3; ++axis) {
-    const double boxes = g[axis] / grid_.cell_size[axis], floor = std::floor(boxes);
-    box[axis] = static_cast<int32_t>(floor);
-    // A tiny negative number of boxes is 1 above its floor once rounded.
-    seed.in_box[axis] = std::min(std::floor((boxes - floor) * 0x1p40), 0x1p40 - 1) * 0x1p-40;
+    const double boxes = g[axis] / grid_.cell_size[axis];
+    box[axis] = static_cast<int32_t>(std::floor(boxes));
+    seed.in_box[axis] = place_in_box(boxes);
   }
   seed.box = {box[0], box[1], box[2]};
-  // The nearest power of 8.
-  constexpr int max_level = 5;
   const double thick = warp_.grid().cell_size.x;
   const double radius = std::abs(warp_.shell().inner + at.x * thick), high = height(radius);
   // Around a point, cells are narrower towards the poles.
   const double from_axis =
       is_round_ ? std::max(std::sqrt(g.x * g.x + g.y * g.y), 0.5 * high) : radius;
-  const double of_cell = thick * high * width(from_axis) * 2.828, volume = box_volume();
-  while (seed.level < max_level && volume > std::ldexp(of_cell, 3 * seed.level)) ++seed.level;
+  seed.level = seed_level(box_volume(), thick * high * width(from_axis) * 2.828);
   return seed;
 }
 

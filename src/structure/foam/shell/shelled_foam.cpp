@@ -46,18 +46,15 @@ void ShelledFoam::keep_rows(const RowBlock& block, const Job* job) const {
 }
 
 void ShelledFoam::enter(RaySearch* searches, size_t count, const Job* job) const {
-  enter_in_shell(
-      *shell_, searches, count,
-      [this](const Ray& ray, double to) { return ray_tolerance(ray, to); },
-      [&](RaySearch* queried, size_t n) { foam_->enter(queried, n, job); });
+  enter_in_shell(*shell_, *this, searches, count,
+                 [&](RaySearch* queried, size_t n) { foam_->enter(queried, n, job); });
 }
 
 double ShelledFoam::leave(const Ray& ray, double from, double to, const Job* job) const {
-  return leave_in_shell(*shell_, ray, from, to, ray_tolerance(ray, to),
-                        [&](double begin, double end, double& t) {
-                          t = foam_->leave(ray, begin, end, job);
-                          return t < end;
-                        });
+  return leave_in_shell(*shell_, *this, ray, from, to, [&](double begin, double end, double& t) {
+    t = foam_->leave(ray, begin, end, job);
+    return t < end;
+  });
 }
 
 Vec3 ShelledFoam::normal(const Ray& ray, double t) const {

@@ -50,14 +50,12 @@ SampledPlaces::SampledPlaces(std::shared_ptr<const SampledMap> map, const UnitCe
   std::sort(fractions_.begin(), fractions_.end(), precedes);
   fractions_.erase(std::unique(fractions_.begin(), fractions_.end()), fractions_.end());
   // A strut may belong to the cell before that of its nodes.
+  const SampledMap::Cells of_map = map_->cells();
+  first_ = {of_map.first.x - 1, of_map.first.y - 1, of_map.first.z - 1};
   Level cells;
   double count = 1;
-  int32_t* const first[3] = {&first_.x, &first_.y, &first_.z};
   for (int axis = 0; axis < 3; ++axis) {
-    const Interval range = map_->range(axis);
-    *first[axis] = static_cast<int32_t>(std::floor(range.low)) - 1;
-    const double last = std::floor(range.high);
-    cells.size[axis] = static_cast<uint64_t>(last - *first[axis]) + 1;
+    cells.size[axis] = of_map.count[axis] + 1;
     count *= static_cast<double>(cells.size[axis]);
   }
   if (!(count <= max_cells))
