@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "field/gradient.h"
+#include "sampled_maps.h"
 #include "structure/lattice/lattice.h"
 #include "structure/lattice/mixed/mixed_lattice.h"
 #include "structure/lattice/plated_lattice.h"
@@ -81,13 +82,7 @@ std::shared_ptr<const SampledMap> sampled_map(const Neighbourhood& grid) {
     values[2].push_back(0.9 * p.z - 0.1 * p.x + 0.04 * p.y * p.y);
   }
   const ImageFrame frame{grid.from_grid(corner), spacing, grid.rotation};
-  const auto field = [&](int axis) {
-    const Image::Source source{
-        values[axis].data(), Image::Type::float64, {nx, ny, nz}, nx * 8, nx * ny * 8};
-    return Ref<const GridField>(
-        make_ref<GridField>(Image(source, frame, std::make_shared<MemoryBudget>(0))));
-  };
-  return std::make_shared<const SampledMap>(SampledMap::Fields{field(0), field(1), field(2)});
+  return make_map(frame, {nx, ny, nz}, values);
 }
 
 Factory sampled_lattice_factory(UnitCell cell) {

@@ -5,8 +5,8 @@
 #include <set>
 #include <tuple>
 
-#include "diagram_check.h"
-#include "foam_diagram.h"
+#include "sampled_maps.h"
+#include "shelled_check.h"
 #include "structure/common/box_shell.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/seeds/sampled_seeds.h"
@@ -79,13 +79,7 @@ std::shared_ptr<const SampledMap> map_of(const Row& row) {
             Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} * spacing);
         for (int axis = 0; axis < 3; ++axis) values[axis].push_back(cells[axis]);
       }
-  const auto field = [&](int axis) {
-    const Image::Source source{
-        values[axis].data(), Image::Type::float64, {nx, ny, nz}, nx * 8, nx * ny * 8};
-    return Ref<const GridField>(
-        make_ref<GridField>(Image(source, frame_of(row), std::make_shared<MemoryBudget>(0))));
-  };
-  return std::make_shared<const SampledMap>(SampledMap::Fields{field(0), field(1), field(2)});
+  return make_map(frame_of(row), {nx, ny, nz}, values);
 }
 
 Vec3 half_of() {
@@ -95,7 +89,7 @@ Vec3 half_of() {
 /// About the middle of the samples.
 Diagram diagram_of(const Row& row, const SampledMap& map, double side) {
   const FoamSeeds cells(row.seed, row.jitter, {1, 1, 1}),
-      own(row.seed ^ 0x626f72646572, 1, {1, 1, 1});
+      own(row.seed ^ border_stream, 1, {1, 1, 1});
   const Vec3 half = half_of();
   using Box = std::tuple<int, int, int>;
   std::set<Box> filled;
@@ -120,45 +114,10 @@ Diagram diagram_of(const Row& row, const SampledMap& map, double side) {
       for (int x = -margin; x <= last(0); ++x)
         if (!filled.count({x, y, z})) points.push_back(own.at({}, x, y, z) * side - half);
   const Vec3 most = half * 1.1 + Vec3{side, side, side} * 1.5;
-  const auto is_near = [&](const auto& part) {
-    return box_of(part).overlaps(Box3{most * -1.0, most});
-  };
-  Diagram diagram;
-  for (const DualEdge& e : dual_edges(points)) {
-    const Segment edge(e.a, e.b);
-    if (is_near(edge)) diagram.edges.push_back(edge);
-  }
-  for (const std::vector<Vec3>& face : dual_faces(points))
-    if (is_near(face)) diagram.faces.push_back(face);
+  const Diagram diagram = diagram_among(points, most);
   print_message("%s: %zu seeds of cells in boxes of %g, %zu others\n", row.name, mapped, side,
                 points.size() - mapped);
   return diagram;
-}
-
-/// In the box of the samples as check_diagram() says; nothing is outside of it.
-void check_shelled(const Row& row, const char* what, const Structure& solid, const Asked& asked,
-                   const Neighbourhood& frame, double reach, double onsets, double near) {
-  Asked within;
-  size_t outside = 0;
-  std::vector<uint8_t> alive(asked.points.size(), 1);
-  solid.keep_points(asked.points.data(), alive.data(), asked.points.size());
-  for (size_t i = 0; i < asked.points.size(); ++i) {
-    const Vec3 p = asked.points[i], g = frame.to_grid(p);
-    const Vec3 gap = max(g, g * -1.0) - half_of();
-    const double beyond = max_component(gap);
-    if (std::abs(beyond) <= near) continue;
-    if (beyond < 0) {
-      within.points.push_back(p);
-      within.distances.push_back(asked.distances[i]);
-      continue;
-    }
-    ++outside;
-    assert_false(alive[i] || solid.inside(p));
-    assert_true(std::isinf(solid.onset(p)));
-    assert_true(solid.distance(p) >= beyond - near);
-  }
-  assert_true(outside > 0);
-  check_diagram(row.name, what, solid, within, reach, onsets, near);
 }
 
 void test_diagram(void**) {
@@ -176,21 +135,25 @@ void test_diagram(void**) {
     const size_t count = test_count(4000);
     const Vec3 half = half_of() * 1.1;
     const double near = 3e-8 * max_component(grid.cell_size);
+    const auto beyond = [&](Vec3 p) {
+      const Vec3 g = frame.to_grid(p);
+      return max_component(max(g, g * -1.0) - half_of());
+    };
     for (const double part : {0.15, 0.45}) {
       const double radius = part * size;
       const Ref<const Structure> foam =
           make_ref<Foam>(context, grid, Parameter(radius), row.jitter, row.seed, FoamMethod::direct,
                          Parameter(1), Vec3{1, 1, 1}, 0.0, placed);
-      check_shelled(row, "edges", *make_ref<ShelledFoam>(foam, shell),
-                    ask(diagram.edges, frame, half, radius, count, row.seed), frame, radius, 1,
+      check_shelled(row.name, "edges", *make_ref<ShelledFoam>(foam, shell),
+                    ask(diagram.edges, frame, half, radius, count, row.seed), beyond, radius, 1,
                     near);
     }
     const double thickness = 0.2 * size;
     const Ref<const Structure> walls =
         make_ref<FoamWalls>(context, grid, Parameter(thickness), row.jitter, row.seed, Parameter(1),
                             Parameter(0), Vec3{1, 1, 1}, 0.0, placed);
-    check_shelled(row, "faces", *make_ref<ShelledFoam>(walls, shell),
-                  ask(diagram.faces, frame, half, 0.5 * thickness, count, row.seed), frame,
+    check_shelled(row.name, "faces", *make_ref<ShelledFoam>(walls, shell),
+                  ask(diagram.faces, frame, half, 0.5 * thickness, count, row.seed), beyond,
                   0.5 * thickness, 2, near);
   }
 }
@@ -207,20 +170,13 @@ void test_plate(void**) {
         values[1].push_back(static_cast<double>(i / side % side) + offset);
         values[2].push_back(static_cast<double>(i / side / side) * thick + offset);
       }
-      const auto field = [&](int axis) {
-        const Image::Source source{
-            values[axis].data(), Image::Type::float64, {side, side, 2}, side * 8, side * side * 8};
-        return Ref<const GridField>(make_ref<GridField>(
-            Image(source, {{}, {1, 1, thick}, {}}, std::make_shared<MemoryBudget>(0))));
-      };
-      const auto map =
-          std::make_shared<const SampledMap>(SampledMap::Fields{field(0), field(1), field(2)});
+      const auto map = make_map({{}, {1, 1, thick}, {}}, {side, side, 2}, values);
       const SampledSeeds seeds(*context, map, 1, 9);
       const int across = static_cast<int>(30 / seeds.grid().cell_size.x) - 1,
                 up = static_cast<int>(thick / seeds.grid().cell_size.z);
       size_t cells = 0, others = 0;
       std::vector<PlacedSeed> found;
-      const FoamSeeds own(9 ^ 0x626f72646572, 1, {1, 1, 1});
+      const FoamSeeds own(9 ^ border_stream, 1, {1, 1, 1});
       for (int z = 0; z <= up; ++z)
         for (int y = 1; y < across; ++y)
           for (int x = 1; x < across; ++x) {

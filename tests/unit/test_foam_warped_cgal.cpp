@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "base/pi.h"
-#include "diagram_check.h"
-#include "foam_diagram.h"
+#include "shelled_check.h"
 #include "structure/common/warp_shell.h"
 #include "structure/foam/foam.h"
 #include "structure/foam/seeds/warp_seeds.h"
@@ -94,45 +93,15 @@ Diagram diagram_of(const Row& row) {
         points.push_back({across * std::cos(angle), across * std::sin(angle),
                           row.polar > 0 ? r * std::sin(latitude) : cells.z * row.high});
       }
-  const auto is_near = [&](const auto& part) {
-    return box_of(part).overlaps(Box3{most * -1.0, most});
-  };
-  Diagram diagram;
-  for (const DualEdge& e : dual_edges(points)) {
-    const Segment edge(e.a, e.b);
-    if (is_near(edge)) diagram.edges.push_back(edge);
-  }
-  for (const std::vector<Vec3>& face : dual_faces(points))
-    if (is_near(face)) diagram.faces.push_back(face);
+  const Diagram diagram = diagram_among(points, most);
   print_message("%s: %zu seeds\n", row.name, points.size());
   return diagram;
 }
 
-/// In the shell as check_diagram() says; nothing is outside of it.
-void check_shelled(const Row& row, const char* what, const Structure& solid, const Asked& asked,
-                   double reach, double onsets, double near) {
-  const Neighbourhood grid = grid_of(row);
-  Asked within;
-  size_t outside = 0;
-  std::vector<uint8_t> alive(asked.points.size(), 1);
-  solid.keep_points(asked.points.data(), alive.data(), asked.points.size());
-  for (size_t i = 0; i < asked.points.size(); ++i) {
-    const Vec3 p = asked.points[i], g = grid.to_grid(p);
-    const double r = row.polar > 0 ? length(g) : std::hypot(g.x, g.y),
-                 beyond = std::max(row.inner - r, r - row.outer);
-    if (std::abs(beyond) <= near) continue;
-    if (beyond < 0) {
-      within.points.push_back(p);
-      within.distances.push_back(asked.distances[i]);
-      continue;
-    }
-    ++outside;
-    assert_false(alive[i] || solid.inside(p));
-    assert_true(std::isinf(solid.onset(p)));
-    assert_true(solid.distance(p) >= beyond - near);
-  }
-  assert_true(outside > 0);
-  check_diagram(row.name, what, solid, within, reach, onsets, near);
+/// The distance from the shell of a point, in grid coordinates; in it below 0.
+double beyond(const Row& row, Vec3 g) {
+  const double r = row.polar > 0 ? length(g) : std::hypot(g.x, g.y);
+  return std::max(row.inner - r, r - row.outer);
 }
 
 void test_diagram(void**) {
@@ -149,14 +118,16 @@ void test_diagram(void**) {
     const size_t count = test_count(3000);
     const Vec3 half = half_of(row);
     const double near = 3e-8 * max_component(grid.cell_size);
+    const auto from_shell = [&](Vec3 p) { return beyond(row, frame.to_grid(p)); };
     print_message("  boxes of %g x %g\n", grid.cell_size.x, grid.cell_size.z);
     for (const double part : {0.15, 0.45}) {
       const double radius = part * size;
       const Ref<const Structure> foam =
           make_ref<Foam>(context, grid, Parameter(radius), row.jitter, row.seed, FoamMethod::direct,
                          Parameter(1), Vec3{1, 1, 1}, 0.0, placed);
-      check_shelled(row, "edges", *make_ref<ShelledFoam>(foam, shell),
-                    ask(diagram.edges, frame, half, radius, count, row.seed), radius, 1, near);
+      check_shelled(row.name, "edges", *make_ref<ShelledFoam>(foam, shell),
+                    ask(diagram.edges, frame, half, radius, count, row.seed), from_shell, radius, 1,
+                    near);
     }
     // Without jitter, four seeds of one face of cells are on a circle up to rounding: the oracle
     // has flat tetrahedra, whose centres are no corners of faces.
@@ -165,8 +136,8 @@ void test_diagram(void**) {
     const Ref<const Structure> walls =
         make_ref<FoamWalls>(context, grid, Parameter(thickness), row.jitter, row.seed, Parameter(1),
                             Parameter(0), Vec3{1, 1, 1}, 0.0, placed);
-    check_shelled(row, "faces", *make_ref<ShelledFoam>(walls, shell),
-                  ask(diagram.faces, frame, half, 0.5 * thickness, count, row.seed),
+    check_shelled(row.name, "faces", *make_ref<ShelledFoam>(walls, shell),
+                  ask(diagram.faces, frame, half, 0.5 * thickness, count, row.seed), from_shell,
                   0.5 * thickness, 2, near);
   }
 }
