@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Foams in the cells of a sampled map, against a global Delaunay triangulation (CGAL) of their
 // seeds: one in each cell whose place is among the samples, and one in each box that has no other.
+// The bounds on the distance to a seed, and how many seeds there are.
 #include <cmath>
 #include <set>
 #include <tuple>
@@ -158,6 +159,45 @@ void test_diagram(void**) {
   }
 }
 
+/// max_distance() of boxes in the samples, at their border and beyond: no point of a box is farther
+/// from its nearest seed.
+void test_bounds(void**) {
+  const Ref<Context> context = make_ref<Context>(1u, uint64_t{64} << 20, uint64_t{0});
+  for (const Row& row : rows) {
+    const SampledSeeds seeds(*context, map_of(row), row.jitter, row.seed);
+    const double side = seeds.grid().cell_size.x;
+    Random random(row.seed + 100);
+    std::vector<PlacedSeed> found;
+    double tightest = 0;
+    for (size_t n = 0; n < test_count(400); ++n) {
+      const Vec3 corner = random.in_box(Box3{half_of() * -0.4, half_of() * 2.4});
+      const Box3 box{corner, corner + Vec3{1, 1, 1} * (0.3 * side * random.unit())};
+      const double most = seeds.max_distance(box);
+      for (int i = 0; i < 10; ++i) {
+        const Vec3 g = random.in_box(box), in_boxes = g * (1 / side);
+        const CellIndex at{static_cast<int32_t>(std::floor(in_boxes.x)),
+                           static_cast<int32_t>(std::floor(in_boxes.y)),
+                           static_cast<int32_t>(std::floor(in_boxes.z))};
+        found.clear();
+        for (int z = -2; z <= 2; ++z)
+          for (int y = -2; y <= 2; ++y)
+            for (int x = -2; x <= 2; ++x) seeds.find({at.x + x, at.y + y, at.z + z}, found);
+        double nearest = 1e300;
+        for (const PlacedSeed& seed : found) {
+          const Vec3 of_box{double(seed.box.x), double(seed.box.y), double(seed.box.z)};
+          nearest = std::min(nearest, length((of_box + seed.in_box) * side - g));
+        }
+        if (!(nearest <= most))
+          fail_msg("%s: (%.17g, %.17g, %.17g) is %g from a seed; the bound is %g", row.name, g.x,
+                   g.y, g.z, nearest, most);
+        tightest = std::max(tightest, nearest / most);
+      }
+    }
+    print_message("%s: at most %.2f of the bound\n", row.name, tightest);
+    assert_true(tightest > 0.4);
+  }
+}
+
 /// A plate that is few cells thick has hardly more seeds than cells, wherever its cells begin.
 void test_plate(void**) {
   constexpr uint64_t side = 31;
@@ -197,6 +237,7 @@ void test_plate(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(test_diagram), cmocka_unit_test(test_plate)};
+  const CMUnitTest tests[] = {cmocka_unit_test(test_diagram), cmocka_unit_test(test_bounds),
+                              cmocka_unit_test(test_plate)};
   return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
