@@ -175,7 +175,7 @@ class Terminals(Case):
         return text.decode()
 
     def test_progress_has_rate_and_time_left(self):
-        text = self.on_terminal("slice", "box:30,30,30", *FOAM, "-p", "0.05", "-l", "0.01", "-o",
+        text = self.on_terminal("slice", "box:30,30,30", *FOAM, "-p", "0.05", "-l", "0.001", "-o",
                                 self.folder / "layers")
         self.assertRegex(text, r"\rslicing  \d+ %  [\d.]+ layers/s  (\d+:)?\d+:\d\d left\x1b\[K")
         self.assertTrue(text.endswith("\r\x1b[Kmsq: interrupted\r\n"), repr(text[-80:]))
