@@ -53,6 +53,9 @@ class FacetWalk {
   size_t vertex_count() const { return s_.tetrahedra; }
   const float (&vertex(uint32_t number) const)[4] { return s_.centres[number]; }
 
+  /// What FacetCells reads: after a successful build.
+  const FacetState& state() const { return s_; }
+
   size_t bytes() const { return sizeof *this; }
 
  private:

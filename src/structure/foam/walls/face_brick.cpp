@@ -12,18 +12,11 @@
 #include "structure/foam/edges/brick_cells.h"
 #include "structure/foam/edges/graded_cells.h"
 #include "structure/foam/edges/weighted_cells.h"
+#include "structure/foam/walls/facet_faces.h"
 
 namespace msq {
 
 namespace {
-
-/// `box`: of the vertices.
-void set_box(FaceBrick::Cell& cell, const Box3& box) {
-  for (int axis = 0; axis < 3; ++axis) {
-    cell.low[axis] = static_cast<float>(box.min[axis] - 2 * FaceBrick::box_slack);
-    cell.high[axis] = static_cast<float>(box.max[axis] + 2 * FaceBrick::box_slack);
-  }
-}
 
 /// Half-way to a neighbour.
 void add_face(Vec3 apart, std::vector<FaceBrick::Face>& faces) {
@@ -110,7 +103,7 @@ class FaceBuilder {
       high_ = high_ * factor_;
     }
     FaceBrick::Cell cell{seed, {}, {}, static_cast<uint32_t>(faces.size()), 0};
-    set_box(cell, {low_, high_});
+    cell.set_box({low_, high_});
     for (const Vec3& apart : planes_)
       is_stretched_ ? add_stretched(apart, faces) : msq::add_face(apart, faces);
     cell.count = static_cast<uint32_t>(faces.size()) - cell.first;
@@ -199,7 +192,7 @@ class WeightedFaceBuilder {
              const std::vector<FaceBrick::Face>& faces) const {
     FaceBrick::Cell cell{
         cells_.block().position(own), {}, {}, static_cast<uint32_t>(faces.size()), 0};
-    set_box(cell, {low, high});
+    cell.set_box({low, high});
     cells.push_back(cell);
   }
 
@@ -239,10 +232,23 @@ class WeightedFaceBuilder {
 
 }  // namespace
 
+void FaceBrick::Cell::set_box(const Box3& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = static_cast<float>(box.min[axis] - 2 * box_slack);
+    high[axis] = static_cast<float>(box.max[axis] + 2 * box_slack);
+  }
+}
+
+bool FaceBrick::walk(const FoamSeeds& seeds, CellIndex corner, Vec3 factor) {
+  const Borrowed<FacetFaces> faces;
+  return faces->build(seeds, corner, factor, cells_, faces_);
+}
+
 FaceBrick::FaceBrick(const FoamSeeds& seeds, CellIndex corner, bool with_areas) {
-  const Borrowed<FaceBuilder> builder;
   cells_.reserve(size_t{side} * side * side);
   faces_.reserve(size_t{side} * side * side * 17);
+  if (!with_areas && walk(seeds, corner, {1, 1, 1})) return;
+  const Borrowed<FaceBuilder> builder;
   if (with_areas) areas_.reserve(faces_.capacity());
   builder->build(seeds, corner, nullptr, cells_, faces_, with_areas ? &areas_ : nullptr);
 }
@@ -274,7 +280,7 @@ FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex 
     Box3 box;
     graded.find_faces(neighbours, box);
     Cell cell{own.position, {}, {}, static_cast<uint32_t>(faces_.size()), 0};
-    set_box(cell, box);
+    cell.set_box(box);
     for (const Vec3& apart : neighbours) add_face(apart, faces_);
     cell.count = static_cast<uint32_t>(faces_.size()) - cell.first;
     cells_.push_back(cell);
@@ -282,9 +288,10 @@ FaceBrick::FaceBrick(const std::shared_ptr<const GradedSeeds>& seeds, CellIndex 
 }
 
 FaceBrick::FaceBrick(const Stretch& stretch, CellIndex corner) {
-  const Borrowed<FaceBuilder> builder;
   cells_.reserve(size_t{side} * side * side);
   faces_.reserve(size_t{side} * side * side * 17);
+  if (walk(stretch.seeds(), corner, stretch.factor() * (1 / stretch.max_factor()))) return;
+  const Borrowed<FaceBuilder> builder;
   builder->build(stretch.seeds(), corner, &stretch, cells_, faces_, nullptr);
 }
 

@@ -29,6 +29,9 @@ class FaceBrick final : public CellData {
     Vec3 seed;              // from the corner of the brick
     float low[3], high[3];  // about the cell, from the seed
     uint32_t first, count;  // of its faces
+
+    /// `box`: of the vertices.
+    void set_box(const Box3& box);
   };
   /// By how much coordinates of the boxes about cells exceed those of their vertices, at least.
   static constexpr double box_slack = 1e-6;
@@ -54,6 +57,9 @@ class FaceBrick final : public CellData {
   }
 
  private:
+  /// From a walk over tetrahedra (facet_faces.h); false, and nothing is there, if it gives up.
+  bool walk(const FoamSeeds& seeds, CellIndex corner, Vec3 factor);
+
   std::vector<Cell> cells_;
   std::vector<Face> faces_;
   std::vector<WallFace> areas_;
