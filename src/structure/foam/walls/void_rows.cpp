@@ -18,13 +18,54 @@ namespace {
 
 /// Samples of a cell from which on its faces cost less than asking them (docs/benchmarks.md).
 constexpr double critical_samples = 24;
+constexpr size_t cache_line = 64;
 /// Fields that grow faster tilt planes too far for the margin; they are bounded instead.
 constexpr double max_gradient = 0.25;
 
+/// Ascending coordinates, mostly at equal distances.
+class Places {
+ public:
+  void clear() { at_.clear(); }
+  void add(double at) { at_.push_back(at); }
+  void finish() {
+    const double steps = double(at_.size() - 1) / (at_.back() - at_.front());
+    per_unit_ = steps < 1e300 ? steps : 0;  // not if there is one
+  }
+
+  const std::vector<double>& all() const { return at_; }
+  double operator[](size_t i) const { return at_[i]; }
+  /// How many are in [low, high], and the first.
+  size_t part(double low, double high, size_t& first) const {
+    first = count([&](double at) { return at < low; }, low);
+    return std::max(first, count([&](double at) { return at <= high; }, high)) - first;
+  }
+
+ private:
+  /// How many are below a value; from a guess.
+  template <class IsBelow>
+  size_t count(const IsBelow& is_below, double value) const {
+    auto n =
+        static_cast<size_t>(std::clamp((value - at_.front()) * per_unit_, 0.0, double(at_.size())));
+    while (n < at_.size() && is_below(at_[n])) ++n;
+    while (n > 0 && !is_below(at_[n - 1])) --n;
+    return n;
+  }
+
+  std::vector<double> at_;
+  double per_unit_ = 0;
+};
+
+/// A cell that meets the block.
+struct NearCell {
+  const FaceBrick::Cell* cell;
+  Vec3 seed;    // model units, along the axes of the samples
+  Box3 around;  // about the cell, from the seed, foam units
+};
+
 struct VoidRowsWorkspace {
-  std::vector<VoidPlane> planes;
+  std::vector<NearCell> near;
   std::vector<DoubtfulSamples> doubts;
-  std::vector<double> y, z;
+  Places y, z;
   std::vector<float> near_y, near_z;
   std::vector<VentPlane> vents;
   std::vector<double> vent_y, vent_z;
@@ -57,7 +98,24 @@ class BlockVoids {
   void take(const FaceBrick& brick, CellIndex corner) {
     const Vec3 origin =
         Vec3{double(corner.x), double(corner.y), double(corner.z)} * grid_.cell_size;
-    for (const FaceBrick::Cell& cell : brick.cells()) clear(brick, cell, origin);
+    w_.near.clear();
+    for (const FaceBrick::Cell& cell : brick.cells()) {
+      const Vec3 seed = grid_.from_grid(origin + cell.seed * unit_);
+      const Box3 around = turned(
+          {{cell.low[0], cell.low[1], cell.low[2]}, {cell.high[0], cell.high[1], cell.high[2]}});
+      if (Box3{seed + around.min * unit_, seed + around.max * unit_}.overlaps(box_))
+        w_.near.push_back({&cell, seed, around});
+    }
+    for (size_t i = 0; i < w_.near.size(); ++i) {
+      // Bricks do not stay in a core's cache from one block to the next.
+      if (i + 1 < w_.near.size()) {
+        const FaceBrick::Cell& next = *w_.near[i + 1].cell;
+        const char* const faces = reinterpret_cast<const char*>(brick.faces(next));
+        for (size_t at = 0; at < next.count * sizeof(FaceBrick::Face); at += cache_line)
+          hwy::Prefetch(faces + at);
+      }
+      clear(brick, w_.near[i]);
+    }
   }
 
   void decide(const Job* job) {
@@ -108,23 +166,22 @@ class BlockVoids {
     // Positions of samples and seeds carry a few units of 2^-53 of the largest magnitude.
     const double most = max_magnitude(box_.min) + max_magnitude(box_.max) +
                         max_magnitude(grid_.origin) + samples.magnitude();
-    margin_ = void_margin + 0x1p-40 * most / unit_;
+    position_error_ = 0x1p-40 * most / unit_;
+    margin_ = void_margin(max_void_reach) + position_error_;
     w_.y.clear();
     w_.z.clear();
-    for (uint64_t j = j0_; j < j1_; ++j) w_.y.push_back(samples.y(j));
-    for (uint64_t k = k0_; k < k1_; ++k) w_.z.push_back(samples.z(k));
+    for (uint64_t j = j0_; j < j1_; ++j) w_.y.add(samples.y(j));
+    for (uint64_t k = k0_; k < k1_; ++k) w_.z.add(samples.z(k));
+    w_.y.finish();
+    w_.z.finish();
     w_.doubts.clear();
   }
 
-  /// `origin`: of the brick, in grid coordinates.
-  void clear(const FaceBrick& brick, const FaceBrick::Cell& cell, Vec3 origin) {
-    const Vec3 seed = grid_.from_grid(origin + cell.seed * unit_);
-    Box3 around{{cell.low[0], cell.low[1], cell.low[2]},
-                {cell.high[0], cell.high[1], cell.high[2]}};
-    around = turned(around);
+  void clear(const FaceBrick& brick, const NearCell& near) {
+    const FaceBrick::Cell& cell = *near.cell;
+    const Vec3 seed = near.seed;
+    const Box3& around = near.around;
     const Box3 reach{seed + around.min * unit_, seed + around.max * unit_};
-    if (!reach.overlaps(box_)) return;
-
     // The thickness: at_seed + gradient . x, off by `off` at most.
     const Parameter& thickness = walls_.thickness();
     const Box3 whole = reach.grown(1e-3 * unit_);
@@ -141,36 +198,25 @@ class BlockVoids {
         off = 0.5 * (range.high - range.low) / unit_ * (1 + 1e-9) + 1e-9 * range.high / unit_;
       }
     }
-    w_.planes.clear();
-    const FaceBrick::Face* faces = brick.faces(cell);
-    const float plane_margin = static_cast<float>((margin_ + 0.5 * off) * (1 + 1e-6));
-    for (uint32_t i = 0; i < cell.count; ++i) {
-      const FaceBrick::Face& face = faces[i];
-      const Vec3 n =
-          grid_.rotation.apply({face.normal[0], face.normal[1], face.normal[2]}) + gradient * 0.5;
-      w_.planes.push_back(
-          {{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
-           static_cast<float>(face.distance - 0.5 * at_seed),
-           plane_margin});
-    }
+    const double reach_of_cell = std::max(max_magnitude(around.min), max_magnitude(around.max));
+    const double margin = void_margin(reach_of_cell) + position_error_;
+    const VoidFaces faces{brick.faces(cell),
+                          cell.count,
+                          grid_.rotation,
+                          0.5 * at_seed,
+                          gradient * 0.5,
+                          static_cast<float>((margin + 0.5 * off) * (1 + 1e-6)),
+                          static_cast<float>(reach_of_cell * (1 + 1e-6))};
     const double place = (seed.x - block_.grid->x(0)) / block_.grid->spacing.x;
     if (!(std::abs(place) < 0x1p52)) return;  // no sample is near
-    clear_spans(around, seed, place, 0.5 * range.low / unit_);
+    clear_spans(faces, around, seed, place, 0.5 * range.low / unit_);
     if (walls_.vents().exist())
-      clear_holes(brick, cell, seed, reach, place, 0.5 * range.high / unit_);
+      clear_holes(faces, brick.areas(cell), seed, reach, place, 0.5 * range.high / unit_);
   }
 
-  /// How many of ascending numbers are in [low, high], and the first.
-  static size_t part(const std::vector<double>& v, double low, double high, size_t& first) {
-    const auto begin = std::lower_bound(v.begin(), v.end(), low),
-               end = std::upper_bound(begin, v.end(), high);
-    first = static_cast<size_t>(begin - v.begin());
-    return static_cast<size_t>(end - begin);
-  }
-
-  /// Of the void within the planes at hand. `around`: about the cell, from the seed along the axes
-  /// of the samples. `place`: of the seed along x, in samples. `half`: half the thickness at least.
-  void clear_spans(Box3 around, Vec3 seed, double place, double half) {
+  /// `around`: about the cell, from the seed along the axes of the samples. `place`: of the seed
+  /// along x, in samples. `half`: half the thickness at least.
+  void clear_spans(const VoidFaces& faces, Box3 around, Vec3 seed, double place, double half) {
     // A ball of half the thickness about a point of the void lies in the cell.
     around = around.grown(margin_ - half);
     if (!(around.min.x < around.max.x && around.min.y < around.max.y &&
@@ -178,13 +224,13 @@ class BlockVoids {
       return;
     const Box3 reach{seed + around.min * unit_, seed + around.max * unit_};
     size_t row, layer;
-    const size_t rows = part(w_.y, reach.min.y, reach.max.y, row),
-                 layers = part(w_.z, reach.min.z, reach.max.z, layer);
+    const size_t rows = w_.y.part(reach.min.y, reach.max.y, row),
+                 layers = w_.z.part(reach.min.z, reach.max.z, layer);
     if (rows == 0 || layers == 0) return;
 
     const size_t room = 2 * max_simd_doubles;
     w_.near_y.assign(rows + room, 0);
-    w_.near_z.resize(layers);
+    w_.near_z.assign(layers + room, 0);
     const double per_unit = 1 / unit_;
     for (size_t j = 0; j < rows; ++j)
       w_.near_y[j] = static_cast<float>((w_.y[row + j] - seed.y) * per_unit);
@@ -206,21 +252,20 @@ class BlockVoids {
                           static_cast<float>(place - base),
                           static_cast<int64_t>(base),
                           static_cast<int64_t>(samples.nx) - 1};
-    clear_void(w_.planes, target, w_.doubts);
+    clear_void(faces, target, w_.doubts);
   }
 
   /// In holes. `reach`: about the cell. `half`: half the thickness at most.
-  void clear_holes(const FaceBrick& brick, const FaceBrick::Cell& cell, Vec3 seed,
-                   const Box3& reach, double place, double half) {
+  void clear_holes(const VoidFaces& faces, const WallFace* areas, Vec3 seed, const Box3& reach,
+                   double place, double half) {
     const Parameter& radius = walls_.vents().radius();
     w_.vents.clear();
-    for (uint32_t i = 0; i < cell.count; ++i) {
-      const FaceBrick::Face& face = brick.faces(cell)[i];
-      const WallFace& area = brick.areas(cell)[i];
+    for (size_t i = 0; i < faces.count; ++i) {
+      const FaceBrick::Face& face = faces.faces[i];
       const Vec3 n = grid_.rotation.apply({face.normal[0], face.normal[1], face.normal[2]}),
-                 middle = grid_.rotation.apply(area.middle), at = seed + middle * unit_;
+                 middle = grid_.rotation.apply(areas[i].middle), at = seed + middle * unit_;
       const Interval range = radius.range(Box3{at, at}.grown(1e-6 * unit_));
-      w_.vents.push_back({w_.planes[i], n * (1 / length(n)), face.distance, area.area, middle,
+      w_.vents.push_back({faces.plane(i), n * (1 / length(n)), face.distance, areas[i].area, middle,
                           Interval{range.low / unit_, range.high / unit_}});
     }
     const auto from_seed = [&](const std::vector<double>& v, size_t first, size_t count, double at,
@@ -229,11 +274,11 @@ class BlockVoids {
       for (size_t i = 0; i < count; ++i) near[i] = (v[first + i] - at) / unit_;
     };
     size_t row, layer;
-    const size_t row_count = part(w_.y, reach.min.y, reach.max.y, row),
-                 layer_count = part(w_.z, reach.min.z, reach.max.z, layer);
+    const size_t row_count = w_.y.part(reach.min.y, reach.max.y, row),
+                 layer_count = w_.z.part(reach.min.z, reach.max.z, layer);
     if (row_count == 0 || layer_count == 0) return;
-    from_seed(w_.y, row, row_count, seed.y, w_.vent_y);
-    from_seed(w_.z, layer, layer_count, seed.z, w_.vent_z);
+    from_seed(w_.y.all(), row, row_count, seed.y, w_.vent_y);
+    from_seed(w_.z.all(), layer, layer_count, seed.z, w_.vent_z);
     const uint64_t j = j0_ + row, k = k0_ + layer;
     const SampleGrid& samples = *block_.grid;
     const VentRows rows{w_.vent_y.data(),
@@ -272,7 +317,7 @@ class BlockVoids {
   uint64_t j0_ = 0, j1_ = 0, k0_ = 0, k1_ = 0;
   Box3 box_;
   double samples_ = 0;
-  double margin_ = 0;  // in that unit
+  double position_error_ = 0, margin_ = 0;  // in that unit; the latter for any cell
 };
 
 }  // namespace

@@ -7,23 +7,29 @@
 // cleared, and of that with them moved outwards by it. Samples between are in doubt: the predicate
 // decides them.
 //
-// The error in single precision, in units of 2^-24 and as a shift of a plane: x within 4 (spans are
-// cut off there), y and z within 2, components of n within 1.25 (a gradient of the thickness tilts
-// planes by a quarter at most). Rounding of n, d and the coordinates: 6 + 1 + 3; of the products
-// n_y y and n_z z, the quotients by n_x and the sums: 5 + 5 + 10 + 8; of x and of its place among
-// the samples, which is a few roundings of x and of one step: 4 * 3 + 4. Together below 64.
+// The error in single precision, in units of 2^-24 and as a shift of a plane. All coordinates are
+// within r (ends of spans are cut off there), components of n within 1.25 (a gradient of the
+// thickness tilts planes by a quarter at most), and so d within 1.75 r. Rounding of n: 3 r; of d:
+// 2 r; of y and z: 2.5 r; of the slopes n_y / n_x and n_z / n_x, which two roundings each go into:
+// 5 r; of d / n_x: 3.5 r; of the same with the margin: 2 r; of the products and sums: 7 r; of x and
+// of its place among the samples, a few roundings of x and of one step: 4 r + 4. Together 29 r + 4.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "base/vec.h"
 #include "structure/foam/walls/face_brick.h"
 
 namespace msq {
 
-/// In foam units. Half of it for planes on either side of rounding, as said above.
-constexpr double void_margin = 64 * 0x1p-24;
+/// In foam units, of cells whose coordinates from the seed are within `reach`.
+constexpr double void_margin(double reach) {
+  return (30 * reach + 4) * 0x1p-24;
+}
+/// No point of a cell is farther from its seed.
+constexpr double max_void_reach = 2;
 
 /// A plane, foam units along the axes of the samples: n . x <= offset, within `margin`.
 struct VoidPlane {
@@ -31,9 +37,29 @@ struct VoidPlane {
   float offset, margin;
 };
 
+/// The faces of a cell, moved inwards.
+struct VoidFaces {
+  const FaceBrick::Face* faces;  ///< along the axes of the grid
+  size_t count;
+  Rotation rotation;  ///< to the axes of the samples
+  // By half the thickness: `half` + `tilt` . x, within `margin`, which includes that of rounding.
+  double half;
+  Vec3 tilt;
+  float margin;
+  float reach;  ///< of the cell: no coordinate of it, from the seed, is greater
+
+  VoidPlane plane(size_t i) const {
+    const FaceBrick::Face& face = faces[i];
+    const Vec3 n = rotation.apply({face.normal[0], face.normal[1], face.normal[2]}) + tilt;
+    return {{static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
+            static_cast<float>(face.distance - half),
+            margin};
+  }
+};
+
 /// The samples that may be in the void of a cell.
 struct VoidRows {
-  const float *y, *z;  ///< of rows and layers, from the seed; vectors may be read
+  const float *y, *z;  ///< of rows, at equal distances, and layers, from the seed; vectors are read
   size_t rows, layers;
   uint32_t first_row, first_layer;  ///< in the block
   uint64_t* words;                  ///< of the first row
@@ -54,7 +80,6 @@ struct DoubtfulSamples {
 constexpr double max_per_unit = 1 << 20;
 
 /// Clears the samples of the void; appends those that are not decided.
-void clear_void(const std::vector<VoidPlane>& planes, const VoidRows& rows,
-                std::vector<DoubtfulSamples>& doubts);
+void clear_void(const VoidFaces& faces, const VoidRows& rows, std::vector<DoubtfulSamples>& doubts);
 
 }  // namespace msq
