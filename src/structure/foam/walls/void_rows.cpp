@@ -17,7 +17,7 @@ namespace msq {
 namespace {
 
 /// Samples of a cell from which on its faces cost less than asking them (docs/benchmarks.md).
-constexpr double critical_samples = 24;
+constexpr double critical_samples = 12;
 constexpr size_t cache_line = 64;
 /// Fields that grow faster tilt planes too far for the margin; they are bounded instead.
 constexpr double max_gradient = 0.25;
