@@ -21,12 +21,14 @@ constexpr int64_t samples = 64 * words;
 struct Block {
   double per_unit;  // samples in a foam unit
   double place[3];  // of the seed, in samples
+  double dy;        // of rows, in foam units; sometimes less than single precision can tell
   std::vector<uint64_t> bits = std::vector<uint64_t>(rows * layers * words, ~uint64_t{0});
 
   explicit Block(Random& random) : per_unit(random.between(6, 40)) {
     place[0] = random.between(0, samples);
     place[1] = random.between(10, 30);
     place[2] = random.between(10, 27);
+    dy = (random.below(8) == 0 ? 1e-9 : 1) / per_unit;
   }
   Vec3 at(int64_t i, int j, int k) const {
     return Vec3{double(i) - place[0], double(j) - place[1], double(k) - place[2]} * (1 / per_unit);
@@ -86,7 +88,7 @@ Void random_void(Random& random, const Block& block) {
     const Vec3 middle = n * double(face.distance);
     const int64_t i = std::clamp<int64_t>(std::llround(block.place[0] + middle.x * block.per_unit),
                                           0, samples - 1);
-    const Vec3 by = block.at(i, row(block.place[1] + middle.y * block.per_unit, rows),
+    const Vec3 by = block.at(i, row(block.place[1] + middle.y / block.dy, rows),
                              row(block.place[2] + middle.z * block.per_unit, layers));
     const Vec3 exact{face.normal[0], face.normal[1], face.normal[2]};
     const double distance = dot(exact + p.tilt, by) + p.half + random.between(-2e-6, 2e-6);

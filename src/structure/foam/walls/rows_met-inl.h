@@ -71,15 +71,17 @@ HWY_INLINE void bound_rows(VoidWork& work) {
   work.downs = downs;
 }
 
-/// Sets `first` and `count` of each layer. y: of the rows, at equal distances.
-HWY_INLINE void find_rows_met(const VoidRows& rows, VoidWork& work) {
+/// Sets `first` and `count` of each layer. Returns false, and sets nothing, if rows are too close
+/// or too many for single precision.
+HWY_INLINE bool find_rows_met(const VoidRows& rows, VoidWork& work) {
   const hn::ScalableTag<float> d;
   const hn::RebindToSigned<decltype(d)> di;
   const size_t lanes = hn::Lanes(d);
+  const float y0 = rows.y[0], extent = rows.y[rows.rows - 1] - y0;
+  if (!(extent > 0x1p-20f) || rows.rows > size_t{1} << 22) return false;
   bound_rows(work);
   const auto all = static_cast<float>(rows.rows);
-  const float y0 = rows.y[0], steps = static_cast<float>(rows.rows - 1);
-  const float per_unit = rows.rows > 1 ? steps / (rows.y[rows.rows - 1] - y0) : 0;
+  const float per_unit = (all - 1) / extent;
   const auto zero = hn::Zero(d), most = hn::Set(d, all);
   for (size_t k = 0; k < rows.layers; k += lanes) {
     const auto z = hn::LoadU(d, rows.z + k);
@@ -99,6 +101,7 @@ HWY_INLINE void find_rows_met(const VoidRows& rows, VoidWork& work) {
     hn::StoreU(hn::ConvertTo(di, first), di, &work.first[k]);
     hn::StoreU(hn::ConvertTo(di, hn::Max(zero, hn::Sub(end, first))), di, &work.count[k]);
   }
+  return true;
 }
 
 }  // namespace

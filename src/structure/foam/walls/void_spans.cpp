@@ -190,12 +190,11 @@ class RowsAtHand {
       work.first.resize(room);
       work.count.resize(room);
     }
-    if (work.along.empty() && rows.rows * rows.layers > few_vectors * hn::Lanes(D())) {
-      find_rows_met(rows, work);
-    } else {
-      std::fill_n(work.first.begin(), rows.layers, 0);
-      std::fill_n(work.count.begin(), rows.layers, static_cast<int32_t>(rows.rows));
-    }
+    if (work.along.empty() && rows.rows * rows.layers > few_vectors * hn::Lanes(D()) &&
+        find_rows_met(rows, work))
+      return;
+    std::fill_n(work.first.begin(), rows.layers, 0);
+    std::fill_n(work.count.begin(), rows.layers, static_cast<int32_t>(rows.rows));
   }
 
   /// Goes on; returns how many are at hand, 0 after the last.
