@@ -12,6 +12,7 @@
 #include "foam_rays.h"
 #include "rippled_torus.h"
 #include "structure/foam/edges/edge_brick.h"
+#include "structure/foam/walls/face_brick.h"
 
 #if MSQ_WITH_PNG
 #include "png_stream.h"
@@ -64,6 +65,53 @@ msq_model* make_gyroid(msq_context* context, int cells, bool is_turned) {
   msq_structure* gyroid;
   check(msq_structure_functional(context, &def, &gyroid));
   return bench::make_model(context, bench::make_cube(context), gyroid);
+}
+
+/// A foam of walls of 0.1 cell.
+msq_model* make_walls(msq_context* context, int cells) {
+  msq_foam_def def;
+  check(msq_foam_def_init(&def, sizeof def));
+  for (double& size : def.grid.cell_size) size = 1.0 / cells;
+  def.wall_thickness.value = 0.1 / cells;
+  msq_structure* foam;
+  check(msq_structure_foam(context, &def, &foam));
+  return bench::make_model(context, bench::make_cube(context), foam);
+}
+
+msq_model* make_waves(msq_context* context) {
+  msq_waves_def def;
+  check(msq_waves_def_init(&def, sizeof def));
+  def.count = 100;
+  for (double& size : def.grid.cell_size) size = 1.0 / 8;
+  msq_structure* waves;
+  check(msq_structure_waves(context, &def, &waves));
+  return bench::make_model(context, bench::make_cube(context), waves);
+}
+
+/// Beams between random places, with two radii.
+msq_model* make_beams(msq_context* context) {
+  constexpr size_t count = 4000;
+  std::vector<double> nodes = random_points(2 * count), radii(2 * count);
+  std::vector<uint32_t> beams(2 * count);
+  for (size_t i = 0; i < 2 * count; ++i) {
+    beams[i] = static_cast<uint32_t>(i);
+    radii[i] = i % 2 ? 0.004 : 0.008;
+  }
+  for (size_t i = 1; i < 2 * count; i += 2)  // short ones
+    for (size_t k = 0; k < 3; ++k) {
+      const double a = nodes[3 * (i - 1) + k];
+      nodes[3 * i + k] = a + 0.1 * (nodes[3 * i + k] - a);
+    }
+  msq_beams_def def;
+  check(msq_beams_def_init(&def, sizeof def));
+  def.nodes = nodes.data();
+  def.node_count = 2 * count;
+  def.beams = beams.data();
+  def.beam_count = count;
+  def.radii = radii.data();
+  msq_structure* structure;
+  check(msq_structure_beams(context, &def, &structure, nullptr));
+  return bench::make_model(context, bench::make_cube(context), structure);
 }
 
 /// Around the cube's middle and twisted, or by a map of samples.
@@ -173,6 +221,13 @@ void build_edges() {
       msq::EdgeBrick(seeds, {x, 0, 0});
   });
 }
+void build_faces() {
+  const msq::FoamSeeds seeds(0, 1, {1, 1, 1});
+  msq_measured([&] {
+    for (int x = 0; x < 4 * msq::FaceBrick::side; x += msq::FaceBrick::side)
+      msq::FaceBrick(seeds, {x, 0, 0}, false);
+  });
+}
 
 void read_part() {
   msq_context* const context = bench::make_context(1);
@@ -242,7 +297,10 @@ std::vector<Kernel> kernels() {
         {"foam: points, one by one", with(foam(16, MSQ_FOAM_POINT), single(5000))},
         {"foam: points as a set", with(foam(8), set(20000))},
         {"foam: distances", with(foam(8), far(1000))}, {"foam: rays", with(foam(8), picture(96))},
-        {"foam: contours", with(foam(16), outline)},
+        {"foam: contours", with(foam(16), outline)}, {"walls: faces of bricks", build_faces},
+        {"walls: rows", with([](msq_context* c) { return make_walls(c, 16); }, slices(32))},
+        {"beams: rows", with(make_beams, slices(32))},
+        {"waves: rows", with(make_waves, slices(32))},
         {"lattice: rows along the grid", with(lattice(9, false), slices(64))},
         {"lattice: rows of a turned grid", with(lattice(9, true), slices(16))},
         {"lattice: rays", with(lattice(9, false), picture(96))},
