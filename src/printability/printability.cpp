@@ -84,11 +84,11 @@ class Inspection {
                plan.overhang, plan.overhang / pitch[axis], "xy"[axis], OverhangSamples::max_reach);
       overhangs_.emplace(plan.overhang, pitch);
     }
-    const uint64_t mask = words_ * ny, rows = ny / bands + 1;
+    const uint64_t mask = words_ * ny;
     uint64_t words = 0;
     if (finds_empty) words += mask;
-    if (thin_) words += mask + bands * thin_->scratch_words(words_, rows);
-    if (overhangs_) words += 2 * mask + bands * OverhangSamples::scratch_words(words_);
+    if (thin_) words += mask + bands * thin_->scratch_words(words_);
+    if (overhangs_) words += 2 * mask + bands * overhangs_->scratch_words(words_);
     const uint64_t analyses =
         uint64_t{finds_solid} + finds_empty + thin_.has_value() + overhangs_.has_value();
     reserve(words * sizeof(uint64_t) + analyses * Components::bytes(nx, ny), "masks of layers");
@@ -112,14 +112,13 @@ class Inspection {
     if (thin_) {
       analyses_.emplace_back(Samples::thin, Components(nx, ny, rules, bands));
       analyses_.back().rows.resize(mask);
-      analyses_.back().scratch.assign(bands,
-                                      std::vector<uint64_t>(thin_->scratch_words(words_, rows)));
+      analyses_.back().scratch.assign(bands, std::vector<uint64_t>(thin_->scratch_words(words_)));
     }
     if (overhangs_) {
       analyses_.emplace_back(Samples::overhang, Components(nx, ny, rules, bands));
       analyses_.back().rows.resize(mask);
-      analyses_.back().scratch.assign(
-          bands, std::vector<uint64_t>(OverhangSamples::scratch_words(words_)));
+      analyses_.back().scratch.assign(bands,
+                                      std::vector<uint64_t>(overhangs_->scratch_words(words_)));
       below_.resize(mask);
     }
     bands_ = bands;

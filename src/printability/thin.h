@@ -11,14 +11,33 @@
 
 namespace msq {
 
-/// A row of a disc: samples first to first + length - 1 from its place. |first| and
-/// first + length - 1 are less than 64.
-struct DiscRow {
-  int row, first;
-  unsigned length;
+/// Of a disc: sqrt(2) times 32, or 31 around one.
+constexpr size_t max_disc_rows = 64;
+
+/// Samples around a place, by rows.
+struct Disc {
+  /// Samples first to first + length - 1 from the place. |first| and first + length - 1 are less
+  /// than 64.
+  struct Length {
+    int first;
+    unsigned length;
+  };
+  struct Row {
+    int row;        ///< from the place
+    size_t length;  ///< which of `lengths`
+  };
+  std::vector<Length> lengths;  ///< in ascending order: longer ones are made from shorter ones
+  std::vector<Row> rows;
+  int low = 0, high = 0;  ///< least and greatest row
+
+  /// Adds a row.
+  void add(int row, Length length);
+  size_t row_count() const { return static_cast<size_t>(high - low + 1); }
+  /// Rows of a layer of which lines are kept.
+  size_t kept_rows() const { return row_count() + 32; }
+  /// Words that their lines take, of rows of so many words.
+  size_t words(size_t words) const;
 };
-/// Shorter rows first: longer ones are made from them.
-using Disc = std::vector<DiscRow>;
 
 /// Rows of a layer, in words_for(nx) words each, 0 past nx. What is outside the grid is not set.
 struct LayerRows {
@@ -43,13 +62,10 @@ class ThinSamples {
   void find(const LayerRows& layer, uint64_t begin, uint64_t end, uint64_t* scratch,
             uint64_t* out) const;
 
-  size_t scratch_words(size_t words, uint64_t rows) const {
-    return words * (static_cast<size_t>(rows) + reach_) + words + 2;
-  }
+  size_t scratch_words(size_t words) const;
 
  private:
   Disc disc_, wide_;
-  size_t reach_;  ///< rows around a band whose discs reach into it
 };
 
 /// Solid samples with none below them and none near that: sample (a, b) of the layer below is near
@@ -65,7 +81,7 @@ class OverhangSamples {
   void find(const LayerRows& layer, const uint64_t* below, uint64_t begin, uint64_t end,
             uint64_t* scratch, uint64_t* out) const;
 
-  static size_t scratch_words(size_t words) { return words + 2; }
+  size_t scratch_words(size_t words) const;
 
  private:
   Disc disc_;

@@ -347,7 +347,7 @@ std::vector<uint64_t> thin_of(const ThinSamples& thin, const Volume& volume, uns
   const size_t words = words_for(static_cast<uint64_t>(volume.n[0]));
   for (unsigned b = 0; b < bands; ++b) {
     const uint64_t begin = ny * b / bands, end = ny * (b + 1) / bands;
-    std::vector<uint64_t> scratch(thin.scratch_words(words, end - begin), ~uint64_t{0});
+    std::vector<uint64_t> scratch(thin.scratch_words(words), ~uint64_t{0});
     thin.find({rows.data(), words, ny}, begin, end, scratch.data(), found.data());
   }
   return found;
@@ -357,8 +357,8 @@ void test_overhangs(void**) {
   Random random(7);
   const size_t count = std::max<size_t>(test_count(200), 30);
   for (size_t n = 0; n < count; ++n) {
-    Volume volume(1 + static_cast<int>(random.below(150)), 1 + static_cast<int>(random.below(40)),
-                  2);
+    Volume volume(1 + static_cast<int>(random.below(n % 8 == 7 ? 1200 : 150)),
+                  1 + static_cast<int>(random.below(40)), 2);
     const double density[2] = {n % 3 ? 0.01 : 0.3, 0.7};
     for (int k = 0; k < 2; ++k)
       for (int j = 0; j < volume.n[1]; ++j)
@@ -372,7 +372,7 @@ void test_overhangs(void**) {
     const size_t words = words_for(static_cast<uint64_t>(volume.n[0]));
     const std::vector<uint64_t> below = volume.layer(0), rows = volume.layer(1);
     std::vector<uint64_t> found(rows.size(), ~uint64_t{0}),
-        scratch(OverhangSamples::scratch_words(words), ~uint64_t{0});
+        scratch(overhangs.scratch_words(words), ~uint64_t{0});
     const auto ny = static_cast<uint64_t>(volume.n[1]);
     const unsigned bands = std::min(1 + static_cast<unsigned>(n % 3), static_cast<unsigned>(ny));
     for (unsigned b = 0; b < bands; ++b)
@@ -401,11 +401,13 @@ void test_thin(void**) {
   Random random(4);
   const size_t count = std::max<size_t>(test_count(80), 12);
   for (size_t n = 0; n < count; ++n) {
-    Volume volume(1 + static_cast<int>(random.below(150)), 1 + static_cast<int>(random.below(20)),
-                  1);
+    const bool is_wide = n % 8 == 7;
+    Volume volume(1 + static_cast<int>(random.below(is_wide ? 1200 : 150)),
+                  1 + static_cast<int>(random.below(20)), 1);
     // Boxes and noise, so that some discs fit.
     for (int box = 0; box < 6; ++box) {
-      const int x = static_cast<int>(random.below(150)), y = static_cast<int>(random.below(20));
+      const int x = static_cast<int>(random.below(is_wide ? 1200 : 150)),
+                y = static_cast<int>(random.below(20));
       const int w = static_cast<int>(random.below(40)), h = static_cast<int>(random.below(20));
       for (int j = y; j < y + h; ++j)
         for (int i = x; i < x + w; ++i)
@@ -413,7 +415,7 @@ void test_thin(void**) {
             volume.samples[volume.at({i, j, 0})] = 1;
     }
     unsigned across[2];
-    for (unsigned& a : across) a = 2 + static_cast<unsigned>(random.below(n % 20 ? 6 : 30));
+    for (unsigned& a : across) a = 2 + static_cast<unsigned>(random.below(n % 20 ? 6 : 31));
     const ThinSamples thin(across);
     for (unsigned bands = 1; bands <= std::min(3u, static_cast<unsigned>(volume.n[1])); ++bands) {
       const size_t words = words_for(static_cast<uint64_t>(volume.n[0]));
