@@ -2,6 +2,7 @@
 // A band of rows of a layer, labelled on its own. Components joins the bands of a layer.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -34,20 +35,51 @@ struct ComponentTotals {
 
   void add_run(uint32_t first, uint32_t last, uint32_t row) {
     samples += last - first + 1;
-    low[0] = first < low[0] ? first : low[0];
-    high[0] = last > high[0] ? last : high[0];
-    low[1] = row < low[1] ? row : low[1];
-    high[1] = row > high[1] ? row : high[1];
+    low[0] = std::min(low[0], first);
+    high[0] = std::max(high[0], last);
+    low[1] = std::min(low[1], row);
+    high[1] = std::max(high[1], row);
   }
   void merge(const ComponentTotals& other);
 };
 
-/// Runs of samples that are not known, by rows: those of row j are [begin[j], begin[j + 1]).
+/// Runs of samples that are not known, by rows: those of row j are [begin[j], begin[j + 1]). Run r
+/// has samples edges[2 r] to edges[2 r + 1] - 1. The arrays may be longer than the runs.
 struct ComponentRuns {
-  std::vector<uint32_t> first, last;
-  std::vector<uint32_t> component;  ///< from 1, of the band; 0 is the known one
+  std::vector<uint32_t> edges;
+  std::vector<uint32_t> node;     ///< by run: the node of the band that it was given
+  std::vector<uint32_t> numbers;  ///< by node: its component, from 1, of the band; 0: the known one
   std::vector<uint32_t> begin;
-  size_t size() const { return first.size(); }
+
+  size_t size() const { return begin.back(); }
+  uint32_t component(size_t run) const { return numbers[node[run]]; }
+  uint32_t first(size_t run) const { return edges[2 * run]; }
+  uint32_t end(size_t run) const { return edges[2 * run + 1]; }
+};
+
+/// What is known of a component in a band of a layer.
+struct ComponentPart {
+  /// Maxima: of ~x, x + 1 and y of its samples, and of whether one is above a sample that is not
+  /// known. A run changes them by one operation of four numbers.
+  uint32_t maxima[4] = {};
+  uint64_t samples = 0;
+  uint32_t first = 0, row = 0;  ///< x and y of its first sample: lowest y, then x
+
+  uint32_t low_x() const { return ~maxima[0]; }
+  uint32_t high_x() const { return maxima[1] - 1; }
+  uint32_t high_y() const { return maxima[2]; }
+  bool has_below() const { return maxima[3] != 0; }
+  void set_has_below() { maxima[3] = 1; }
+  /// The other begins later.
+  void merge(const ComponentPart& other) {
+    for (int i = 0; i < 4; ++i) maxima[i] = std::max(maxima[i], other.maxima[i]);
+    samples += other.samples;
+  }
+};
+
+/// Two runs that touch.
+struct RunPair {
+  uint32_t a, b;
 };
 
 /// Bits of a layer.
@@ -59,25 +91,35 @@ struct ComponentMask {
 };
 
 struct ComponentMasks {
+  bool has_known = false;  ///< otherwise `known` is not used, and the rest is all samples
   ComponentMask known, known_below;
   ComponentMask rest, rest_below;  ///< the other samples, in rows that have some
 };
 
 struct ComponentBand {
-  /// Value of heirs: the component has joined the known one.
-  static constexpr uint32_t known = UINT32_MAX;
+  static constexpr uint32_t none = UINT32_MAX;
 
   uint64_t begin = 0, end = 0;    ///< rows
   ComponentRuns runs, below;      ///< of this layer and of the one before; rows count from `begin`
   std::vector<uint8_t> has_rest;  ///< by row: whether it has samples that are not known
-  /// Node 0: the known component; then those of the band below; then the runs.
-  std::vector<uint32_t> parents, numbers;
-  /// By number - 1: the band's components in this layer, and which of the layer each is part of.
-  std::vector<ComponentTotals> totals;
+  /// Node 0: the known component. The others are of runs that touch none in the row before, in the
+  /// order of the runs. The smallest node of a component is its root.
+  std::vector<uint32_t> parents;
+  /// By number below: a node of this layer above the component, or none.
+  std::vector<uint32_t> node_below;
+  std::vector<ComponentPart> parts;  ///< by node; of a root: of its component
+  std::vector<uint32_t> roots;       ///< by number - 1: the band's components in this layer
+  uint32_t nodes = 1, count = 0;     ///< how many nodes, and components without the known one
+  /// Of a row, while it is labelled.
+  std::vector<RunPair> pairs;
+  std::vector<uint32_t> fresh;
+  std::vector<uint64_t> overlaps;
+  /// By number - 1: which of the layer each is part of.
   std::vector<uint32_t> global, global_below;
-  std::vector<uint32_t> heirs;  ///< by number - 1 below: the number in this layer; 0: none
-  ComponentTotals known_here;   ///< samples and box of the known component
-  uint32_t base = 0;            ///< in Components: component n of the band is node base + n
+  /// By number - 1 below: the number in this layer; 0: it has joined the known one; or none.
+  std::vector<uint32_t> heirs;
+  ComponentTotals known_here;  ///< samples and box of the known component
+  uint32_t base = 0;           ///< in Components: component n of the band is node base + n
 
   uint32_t find(uint32_t node) {
     while (parents[node] != node) {
@@ -86,15 +128,10 @@ struct ComponentBand {
     }
     return node;
   }
-  /// The smaller node is the root, so 0 stays one.
-  void unite(uint32_t a, uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a < b) parents[b] = a;
-    if (b < a) parents[a] = b;
-  }
-  /// Drops runs whose component is 0, and their samples from the rest.
+  /// Runs whose component is 0 move from the rest to the known samples.
   void drop_known_runs(ComponentMasks& masks);
+  /// The same of runs whose component has this number in `global`.
+  void make_known(uint32_t number, ComponentMasks& masks);
   uint64_t bytes() const;
 };
 
@@ -113,8 +150,8 @@ void for_each_overlap(const ComponentRuns& of_a, uint32_t a, uint32_t a_end,
                       const ComponentRuns& of_b, uint32_t b, uint32_t b_end, uint32_t reach,
                       Join&& join) {
   while (a < a_end && b < b_end) {
-    if (of_a.first[a] <= of_b.last[b] + reach && of_b.first[b] <= of_a.last[a] + reach) join(a, b);
-    if (of_a.last[a] < of_b.last[b])
+    if (of_a.first(a) < of_b.end(b) + reach && of_b.first(b) < of_a.end(a) + reach) join(a, b);
+    if (of_a.end(a) < of_b.end(b))
       ++a;
     else
       ++b;

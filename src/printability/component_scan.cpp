@@ -11,6 +11,7 @@
 #include "base/simd.h"
 #include "printability/bit_row.h"
 #include "printability/component_band.h"
+#include "printability/known_rows-inl.h"
 
 // Compiled for each instruction set: counting the bits of a word is one instruction in most.
 HWY_BEFORE_NAMESPACE();
@@ -48,9 +49,51 @@ struct RowReader {
   }
   /// The run that holds a bit of this word.
   uint32_t run_at(unsigned bit) const { return before + count_ones(starts & bits_to(bit)) - 1; }
-  /// The run that holds the last bit of the word before.
-  uint32_t run_before() const { return before - 1; }
 };
+
+/// Bits of a word that are looked at together, even if fewer are set: the processor foresees loops
+/// of so many better.
+constexpr uint32_t at_once = 4;
+
+/// Gives the runs that have none the next nodes. Returns how many, and lists these runs. All is
+/// written in any case: the processor does not foresee which runs have none.
+HWY_NOINLINE uint32_t take_nodes(uint32_t* HWY_RESTRICT nodes, size_t count, uint32_t next,
+                                 uint32_t* HWY_RESTRICT fresh) {
+  uint32_t made = 0;
+  for (size_t r = 0; r < count; ++r) {
+    fresh[made] = static_cast<uint32_t>(r);
+    const uint32_t node = nodes[r], is_fresh = node == ComponentBand::none, mask = 0u - is_fresh;
+    nodes[r] = (node & ~mask) | ((next + made) & mask);
+    made += is_fresh;
+  }
+  return made;
+}
+
+/// Adds runs of a row to the parts of components. `edges` has one run more.
+HWY_NOINLINE void add_runs(const uint32_t* HWY_RESTRICT edges, const uint32_t* HWY_RESTRICT nodes,
+                           size_t count, uint32_t row, ComponentPart* HWY_RESTRICT parts) {
+#if HWY_TARGET == HWY_SCALAR
+  for (size_t r = 0; r < count; ++r) {
+    const uint32_t first = edges[2 * r], end = edges[2 * r + 1];
+    ComponentPart& part = parts[nodes[r]];
+    part.maxima[0] = std::max(part.maxima[0], ~first);
+    part.maxima[1] = std::max(part.maxima[1], end);
+    part.maxima[2] = std::max(part.maxima[2], row);
+    part.samples += end - first;
+  }
+#else
+  const hn::Simd<uint32_t, 4, 0> d;
+  alignas(16) const uint32_t of_run[4] = {~0u, ~0u, 0, 0}, of_first[4] = {~0u, 0, 0, 0},
+                             of_row[4] = {0, 0, row, 0};
+  const auto run_mask = hn::Load(d, of_run), flip = hn::Load(d, of_first), y = hn::Load(d, of_row);
+  for (size_t r = 0; r < count; ++r) {
+    ComponentPart& part = parts[nodes[r]];
+    const auto run = hn::Xor(hn::And(hn::LoadU(d, edges + 2 * r), run_mask), flip);
+    hn::StoreU(hn::Max(hn::LoadU(d, part.maxima), hn::Or(run, y)), d, part.maxima);
+    part.samples += edges[2 * r + 1] - edges[2 * r];
+  }
+#endif
+}
 
 class Scan {
  public:
@@ -64,12 +107,16 @@ class Scan {
         ny_(ny),
         words_(masks.known.words),
         layer_(layer),
-        base_(static_cast<uint32_t>(1 + band.global_below.size())) {}
+        pairs_(band.pairs),
+        fresh_(band.fresh),
+        overlaps_(band.overlaps) {
+    overlaps_.resize(words_);
+  }
 
   void run() {
-    flood();
-    join();
-    resolve();
+    if (masks_.has_known) flood();
+    label();
+    number();
   }
 
  private:
@@ -77,20 +124,31 @@ class Scan {
   void flood_row(const uint64_t* row, uint64_t j, const uint64_t* beside) {
     uint64_t *known = masks_.known.row(j), *rest = masks_.rest.row(j);
     uint8_t& has_rest = band_.has_rest[j - band_.begin];
-    has_rest = 0;
-    if (!split_row(row, masks_.known_below.row(j), known, rest, words_)) return;
+    has_rest = fill_words(row, masks_.known_below.row(j), known, rest, words_);
+    if (!has_rest) return;
     if (rules_.anchors_sides) {
-      const uint64_t last = (nx_ - 1) / bits_per_word;
-      known[0] |= row[0] & 1;
-      known[last] |= row[last] & (uint64_t{1} << (nx_ - 1) % bits_per_word);
+      extend_word(row, known, rest, 0, 1);
+      extend_word(row, known, rest, (nx_ - 1) / bits_per_word,
+                  uint64_t{1} << (nx_ - 1) % bits_per_word);
     }
-    if (beside && rules_.joins_corners) {
-      for (size_t w = 0; w < words_; ++w)
-        if (rest[w]) known[w] |= rest[w] & spread_word(beside, words_, w);
-    } else if (beside) {
-      for (size_t w = 0; w < words_; ++w) known[w] |= rest[w] & beside[w];
-    }
-    has_rest = fill_runs(row, words_, known, rest);
+    has_rest = extend(row, beside, known, rest);
+  }
+
+  static void extend_word(const uint64_t* row, uint64_t* known, uint64_t* rest, size_t w,
+                          uint64_t seeds) {
+    if (!(rest[w] & seeds)) return;
+    known[w] = filled_down(row[w], filled_up(row[w], known[w] | (rest[w] & seeds)));
+    rest[w] = row[w] & ~known[w];
+  }
+
+  bool extend(const uint64_t* row, const uint64_t* beside, uint64_t* known, uint64_t* rest) const {
+    return rules_.joins_corners ? extend_row<true>(row, beside, known, rest, words_)
+                                : extend_row<false>(row, beside, known, rest, words_);
+  }
+
+  /// Samples that are next to those of a row beside them, in word w.
+  uint64_t touching(const uint64_t* beside, size_t w) const {
+    return rules_.joins_corners ? spread_word(beside, words_, w) : beside[w];
   }
 
   /// Finds most of what the known component has in this layer: row by row upwards and downwards.
@@ -116,205 +174,269 @@ class Scan {
     }
     for (uint64_t j = end - 1; j-- > begin;) {
       if (!band_.has_rest[j - begin]) continue;
-      const uint64_t* beside = known.row(j + 1);
-      uint64_t *here = known.row(j), *rest = masks_.rest.row(j);
-      uint64_t found = 0;
-      for (size_t w = 0; w < words_; ++w) {
-        const uint64_t more =
-            rest[w] & (rules_.joins_corners ? spread_word(beside, words_, w) : beside[w]);
-        here[w] |= more;
-        found |= more;
-      }
-      if (found) band_.has_rest[j - begin] = fill_runs(rows_ + j * words_, words_, here, rest);
+      band_.has_rest[j - begin] =
+          extend(rows_ + j * words_, known.row(j + 1), known.row(j), masks_.rest.row(j));
     }
   }
 
-  /// Lists the runs of the rest, row by row, and joins each with those below and in the row before.
-  void join() {
+  /// Lists the runs of the rest, row by row, and gives each a node: that of a run which it touches
+  /// in the row before, or a new one. Runs that touch join their nodes, and so do components below.
+  void label() {
     ComponentRuns& runs = band_.runs;
     const ComponentRuns& below = band_.below;
-    runs.first.clear();
-    runs.last.clear();
-    band_.parents.resize(base_);
-    for (uint32_t i = 0; i < base_; ++i) band_.parents[i] = i;
+    band_.node_below.assign(1 + band_.global_below.size(), ComponentBand::none);
+    nodes_ = 1;
+    reserve_nodes(0);
+    band_.parents[0] = 0;
+    band_.parts[0] = {};
     CancelPoll poll(current_job());
+    uint32_t count = 0;
     for (uint64_t j = band_.begin; j < band_.end; ++j) {
       poll();
       const uint64_t n = j - band_.begin;
-      runs.begin[n] = static_cast<uint32_t>(runs.size());
+      runs.begin[n] = count;
       const bool has_below = below.begin[n] < below.begin[n + 1];
-      if (has_below) join_known_above(j, n);
-      if (!band_.has_rest[n]) continue;
-      list(j);
-      if (has_below) join_below(j, n);
-      if (n > 0 && band_.has_rest[n - 1]) join_beside(j, n);
+      if (masks_.has_known && has_below) join_known_above(j, n);
+      if (masks_.has_known && !band_.has_rest[n]) continue;
+      if (!masks_.has_known) std::copy_n(rows_ + j * words_, words_, masks_.rest.row(j));
+      count = list(masks_.rest.row(j), count);
+      if (runs.begin[n] == count) continue;
+      label_row(n, count, static_cast<uint32_t>(j));
+      if (!masks_.has_known) continue;
       if (n > 0) join_known_beside(j, n, j - 1);
       if (j + 1 < band_.end) join_known_beside(j, n, j + 1);
     }
-    runs.begin[band_.end - band_.begin] = static_cast<uint32_t>(runs.size());
-    runs.component.resize(runs.size());
+    runs.begin[band_.end - band_.begin] = count;
   }
 
-  void list(uint64_t j) {
-    const uint64_t* row = masks_.rest.row(j);
-    std::vector<uint32_t>&firsts = band_.runs.first, &lasts = band_.runs.last;
-    const size_t before = firsts.size();
+  /// Room for as many nodes more.
+  void reserve_nodes(size_t more) {
+    const size_t wanted = nodes_ + more;
+    if (band_.parents.size() >= wanted) return;
+    const size_t size = std::max(wanted, band_.parents.size() * 3 / 2);
+    band_.parents.resize(size);
+    band_.parts.resize(size);
+  }
+
+  /// Adds the runs of a row to the first `before` runs. Returns how many there are then.
+  uint32_t list(const uint64_t* row, uint32_t before) {
+    ComponentRuns& runs = band_.runs;
+    size_t at = 2 * size_t{before};
     uint64_t carry = 0;
-    size_t count = 0;
     for (size_t w = 0; w < words_; ++w) {
-      count += count_ones(row[w] & ~(row[w] << 1 | carry));
+      // A run begins and ends where a sample is unlike the one before it.
+      uint64_t edges = row[w] ^ (row[w] << 1 | carry);
       carry = row[w] >> (bits_per_word - 1);
+      if (!edges) continue;
+      if (runs.edges.size() < at + 2 * bits_per_word)
+        runs.edges.resize(std::max(at + 2 * bits_per_word, runs.edges.size() * 3 / 2));
+      uint32_t* to = runs.edges.data() + at;
+      const auto first = static_cast<uint32_t>(w * bits_per_word);
+      const uint32_t found = count_ones(edges);
+      for (uint32_t i = 0; i < found; i += 2 * at_once)
+        for (uint32_t k = i; k < i + 2 * at_once; ++k) {
+          to[k] = first + static_cast<uint32_t>(std::countr_zero(edges));
+          edges &= edges - 1;
+        }
+      at += found;
     }
-    const size_t nodes = base_ + before + count;
-    if (nodes > UINT32_MAX)
+    if (carry) runs.edges[at++] = static_cast<uint32_t>(words_ * bits_per_word);
+    const size_t all = at / 2;
+    if (all >= UINT32_MAX)
       fail(Status::limit, "layer %llu has %zu runs of samples to label; the limit is 2^32 - 1",
-           static_cast<unsigned long long>(layer_), nodes);
-    firsts.resize(before + count);
-    lasts.resize(before + count);
-    band_.parents.resize(nodes);
-    uint32_t *first = firsts.data() + before, *last = lasts.data() + before;
-    carry = 0;
-    for (size_t w = 0; w < words_; ++w) {
-      const uint64_t word = row[w];
-      const auto at = static_cast<uint32_t>(w * bits_per_word);
-      const uint64_t next = w + 1 < words_ ? row[w + 1] << (bits_per_word - 1) : 0;
-      for_each_bit(word & ~(word << 1 | carry), [&](unsigned bit) { *first++ = at + bit; });
-      for_each_bit(word & ~(word >> 1 | next), [&](unsigned bit) { *last++ = at + bit; });
-      carry = word >> (bits_per_word - 1);
-    }
-    for (size_t node = base_ + before; node < nodes; ++node)
-      band_.parents[node] = static_cast<uint32_t>(node);
+           static_cast<unsigned long long>(layer_), all);
+    if (runs.node.size() < all) runs.node.resize(std::max(all, runs.node.size() * 3 / 2));
+    reserve_nodes(all - before);
+    return static_cast<uint32_t>(all);
   }
 
-  uint32_t node_of(uint32_t run) const { return base_ + run; }
-
-  /// A run's first neighbour becomes its parent at once. So runs of one component mostly have the
-  /// same parent, and few unions are left.
-  void join_node(uint32_t node, uint32_t other) {
-    uint32_t* parents = band_.parents.data();
-    if (parents[node] == parents[other]) return;
-    if (parents[node] == node && node > other)
-      parents[node] = band_.find(other);
-    else
-      band_.unite(node, other);
-  }
-
-  /// Each run of samples that two rows have in common belongs to one run of either.
-  void join_below(uint64_t j, uint64_t n) {
-    RowReader here{masks_.rest.row(j), band_.runs.begin[n]},
-        under{masks_.rest_below.row(j), band_.below.begin[n]};
-    const uint32_t* component = band_.below.component.data();
+  /// Lists the pairs of runs of two rows that overlap or, with corners, meet at one.
+  template <bool corners>
+  size_t list_pairs(const uint64_t* a, uint32_t a_begin, uint32_t a_end, const uint64_t* b,
+                    uint32_t b_begin, uint32_t b_end) {
+    // Each pair is the first for one of its runs.
+    const size_t most = size_t{a_end - a_begin} + (b_end - b_begin) + at_once;
+    if (pairs_.size() < most) pairs_.resize(most);
+    RunPair* to = pairs_.data();
+    RowReader of_a{a, a_begin}, of_b{b, b_begin};
     uint64_t carry = 0;
     for (size_t w = 0; w < words_; ++w) {
-      here.read(w);
-      under.read(w);
-      const uint64_t both = here.word & under.word;
-      for_each_bit(both & ~(both << 1 | carry), [&](unsigned bit) {
-        join_node(node_of(here.run_at(bit)), component[under.run_at(bit)]);
-      });
+      of_a.read(w);
+      of_b.read(w);
+      const uint64_t both = of_a.word & of_b.word;
+      // Samples where a run of `a` and one of `b` are met first.
+      uint64_t meet = both & ~(both << 1 | carry);
       carry = both >> (bits_per_word - 1);
+      if constexpr (corners)
+        meet |= (of_a.starts & (of_b.word << 1 | of_b.last) & ~of_b.word) |
+                (of_b.starts & (of_a.word << 1 | of_a.last) & ~of_a.word);
+      const uint32_t found = count_ones(meet);
+      for (uint32_t i = 0; i < found; i += at_once)
+        for (uint32_t k = i; k < i + at_once; ++k) {
+          // The bits up to and with the lowest of `meet`.
+          const uint64_t up_to = meet ^ (meet - 1);
+          to[k] = {of_a.before + count_ones(of_a.starts & up_to) - 1,
+                   of_b.before + count_ones(of_b.starts & up_to) - 1};
+          meet &= meet - 1;
+        }
+      to += found;
     }
+    return static_cast<size_t>(to - pairs_.data());
   }
 
-  void join_beside(uint64_t j, uint64_t n) {
-    RowReader here{masks_.rest.row(j), band_.runs.begin[n]},
-        beside{masks_.rest.row(j - 1), band_.runs.begin[n - 1]};
-    uint64_t carry = 0;
+  /// Lists pairs of runs of a row and of the row below it that overlap. Those are left out that
+  /// share samples with such a pair of the row before: its runs belong to the same components.
+  size_t list_new_pairs(const uint64_t* a, uint32_t a_begin, uint32_t a_end, const uint64_t* b,
+                        uint32_t b_begin, uint32_t b_end, uint64_t row) {
+    const size_t most = size_t{a_end - a_begin} + (b_end - b_begin) + at_once;
+    if (pairs_.size() < most) pairs_.resize(most);
+    if (overlaps_row_ + 1 != row) std::fill_n(overlaps_.begin(), words_, uint64_t{0});
+    overlaps_row_ = row;
+    RunPair* to = pairs_.data();
+    RowReader of_a{a, a_begin}, of_b{b, b_begin};
+    uint64_t carry = 0, both = a[0] & b[0];
     for (size_t w = 0; w < words_; ++w) {
-      here.read(w);
-      beside.read(w);
-      if (!here.word && !beside.word) {
-        carry = 0;
-        continue;
+      of_a.read(w);
+      of_b.read(w);
+      const uint64_t next = w + 1 < words_ ? a[w + 1] & b[w + 1] : 0;
+      // From samples that they share to the last sample of the overlap.
+      const uint64_t shared = filled_up(both, (both & overlaps_[w]) | (carry & both));
+      overlaps_[w] = both;
+      carry = shared >> (bits_per_word - 1);
+      uint64_t ends = both & ~(both >> 1 | next << (bits_per_word - 1)) & ~shared;
+      both = next;
+      // One is written in any case.
+      const uint32_t found = count_ones(ends);
+      uint32_t i = 0;
+      do {
+        const uint64_t up_to = ends ^ (ends - 1);
+        to[i] = {of_a.before + count_ones(of_a.starts & up_to) - 1,
+                 of_b.before + count_ones(of_b.starts & up_to) - 1};
+        ends &= ends - 1;
+      } while (++i < found);
+      to += found;
+    }
+    return static_cast<size_t>(to - pairs_.data());
+  }
+
+  uint32_t joined(uint32_t a, uint32_t b) {
+    if (a == b) return a;
+    a = band_.find(a);
+    b = band_.find(b);
+    const uint32_t low = std::min(a, b);
+    band_.parents[std::max(a, b)] = low;
+    return low;
+  }
+
+  /// Labels the runs of row n of the band, up to the last that are listed.
+  void label_row(uint64_t n, uint32_t end, uint32_t row) {
+    constexpr uint32_t none = ComponentBand::none;
+    const uint64_t* const bits = masks_.rest.row(row);
+    const uint32_t* const edges = band_.runs.edges.data();
+    uint32_t* const nodes = band_.runs.node.data();
+    ComponentPart* const parts = band_.parts.data();
+    uint32_t* const parents = band_.parents.data();
+    const uint32_t begin = band_.runs.begin[n];
+    std::fill(nodes + begin, nodes + end, none);
+    const uint32_t before = n > 0 ? band_.runs.begin[n - 1] : begin;
+    if (before < begin) {
+      const uint64_t* beside = masks_.rest.row(row - 1);
+      const size_t count = rules_.joins_corners
+                               ? list_pairs<true>(bits, begin, end, beside, before, begin)
+                               : list_pairs<false>(bits, begin, end, beside, before, begin);
+      for (size_t i = 0; i < count; ++i) {
+        const RunPair pair = pairs_[i];
+        const uint32_t node = nodes[pair.a], other = nodes[pair.b];
+        nodes[pair.a] = node & other;  // none has all bits
+        if (node != other && node != none) nodes[pair.a] = joined(node, other);
       }
-      const uint64_t both = here.word & beside.word;
-      for_each_bit(both & ~(both << 1 | carry), [&](unsigned bit) {
-        join_node(node_of(here.run_at(bit)), node_of(beside.run_at(bit)));
-      });
-      carry = both >> (bits_per_word - 1);
-      if (!rules_.joins_corners) continue;
-      // Runs that meet at a corner: one starts where the other has just ended.
-      const auto corners = [&](const RowReader& starts, const RowReader& ended) {
-        uint64_t at = starts.starts & (ended.word << 1 | ended.last) & ~ended.word;
-        for_each_bit(at, [&](unsigned bit) {
-          const uint32_t a = starts.run_at(bit),
-                         b = bit ? ended.run_at(bit - 1) : ended.run_before();
-          join_node(node_of(std::max(a, b)), node_of(std::min(a, b)));
-        });
-      };
-      corners(here, beside);
-      corners(beside, here);
+    }
+    // Runs that touch none become nodes of their own.
+    if (fresh_.size() < end - begin) fresh_.resize(end - begin);
+    uint32_t* const fresh = fresh_.data();
+    const uint32_t made = take_nodes(nodes + begin, end - begin, nodes_, fresh);
+    for (uint32_t i = 0; i < made; ++i) {
+      const uint32_t node = nodes_ + i;
+      parents[node] = node;
+      parts[node] = {{}, 0, edges[2 * (begin + fresh[i])], row};
+    }
+    nodes_ += made;
+    add_runs(edges + 2 * size_t{begin}, nodes + begin, end - begin, row, parts);
+    const ComponentRuns& below = band_.below;
+    const uint32_t below_begin = below.begin[n], below_end = below.begin[n + 1];
+    if (below_begin == below_end) return;
+    const size_t count =
+        list_new_pairs(bits, begin, end, masks_.rest_below.row(row), below_begin, below_end, row);
+    uint32_t* const node_below = band_.node_below.data();
+    for (size_t i = 0; i < count; ++i) {
+      const RunPair pair = pairs_[i];
+      const uint32_t node = nodes[pair.a];
+      uint32_t& other = node_below[below.component(pair.b)];
+      parts[node].set_has_below();
+      other = other == none ? node : joined(node, other);
     }
   }
 
   /// Runs of the rest that touch a known sample in the row `other`.
   void join_known_beside(uint64_t j, uint64_t n, uint64_t other) {
     const uint64_t *rest = masks_.rest.row(j), *known = masks_.known.row(other);
-    uint64_t any = 0;
-    if (rules_.joins_corners)
-      for (size_t w = 0; w < words_; ++w) any |= rest[w] & spread_word(known, words_, w);
-    else
-      for (size_t w = 0; w < words_; ++w) any |= rest[w] & known[w];
-    if (!any) return;
+    if (!(rules_.joins_corners ? any_next_to(rest, known, words_)
+                               : any_common(rest, known, words_)))
+      return;
     RowReader here{rest, band_.runs.begin[n]};
     for (size_t w = 0; w < words_; ++w) {
       here.read(w);
-      for_each_bit(here.word & (rules_.joins_corners ? spread_word(known, words_, w) : known[w]),
-                   [&](unsigned bit) { band_.unite(0, node_of(here.run_at(bit))); });
+      for_each_bit(here.word & touching(known, w),
+                   [&](unsigned bit) { joined(0, band_.runs.node[here.run_at(bit)]); });
     }
   }
 
   /// Components below that known samples lie on.
   void join_known_above(uint64_t j, uint64_t n) {
     const uint64_t *rest = masks_.rest_below.row(j), *known = masks_.known.row(j);
-    uint64_t any = 0;
-    for (size_t w = 0; w < words_; ++w) any |= rest[w] & known[w];
-    if (!any) return;
+    if (!any_common(rest, known, words_)) return;
     RowReader under{rest, band_.below.begin[n]};
     uint64_t carry = 0;
     for (size_t w = 0; w < words_; ++w) {
       under.read(w);
       const uint64_t both = under.word & known[w];
-      for_each_bit(both & ~(both << 1 | carry),
-                   [&](unsigned bit) { band_.unite(0, band_.below.component[under.run_at(bit)]); });
+      for_each_bit(both & ~(both << 1 | carry), [&](unsigned bit) {
+        uint32_t& node = band_.node_below[band_.below.component(under.run_at(bit))];
+        node = node == ComponentBand::none ? 0 : joined(0, node);
+      });
       carry = both >> (bits_per_word - 1);
     }
   }
 
-  /// Numbers the components in the order of their first runs.
-  void resolve() {
+  /// Numbers the components in the order of their first runs, which is that of the roots.
+  void number() {
     ComponentRuns& runs = band_.runs;
-    std::vector<uint32_t>& numbers = band_.numbers;
-    numbers.assign(band_.parents.size(), 0);
-    band_.totals.clear();
-    bool has_known_runs = false;
-    for (uint64_t j = band_.begin; j < band_.end; ++j) {
-      const uint64_t n = j - band_.begin;
-      for (uint32_t r = runs.begin[n]; r < runs.begin[n + 1]; ++r) {
-        const uint32_t root = band_.find(node_of(r));
-        const uint32_t first = runs.first[r], last = runs.last[r];
-        if (root == 0) {
-          set_bits(masks_.known.row(j), first, last);
-          runs.component[r] = 0;
-          has_known_runs = true;
-          continue;
-        }
-        const auto row = static_cast<uint32_t>(j);
-        if (numbers[root] == 0) {
-          ComponentTotals& totals = band_.totals.emplace_back();
-          totals.first_layer = totals.last_layer = layer_;
-          totals.place[0] = first;
-          totals.place[1] = row;
-          numbers[root] = static_cast<uint32_t>(band_.totals.size());
-        }
-        runs.component[r] = numbers[root];
-        band_.totals[numbers[root] - 1].add_run(first, last, row);
-      }
+    if (runs.numbers.size() <= band_.parents.size()) runs.numbers.resize(band_.parents.size() + 1);
+    if (band_.roots.size() < nodes_) band_.roots.resize(band_.parents.size());
+    uint32_t *const parents = band_.parents.data(), *const numbers = runs.numbers.data(),
+                    *const roots = band_.roots.data();
+    ComponentPart* const parts = band_.parts.data();
+    numbers[0] = 0;
+    uint32_t count = 0;
+    bool has_known_runs = parts[0].samples > 0;
+    for (uint32_t node = 1; node < nodes_; ++node) {
+      const uint32_t root = parents[node] = parents[parents[node]];
+      roots[count] = node;
+      count += root == node;
+      numbers[node] = count;
+      numbers[node] = numbers[root];
+      if (root == node) continue;
+      has_known_runs |= root == 0;
+      parts[root].merge(parts[node]);
     }
-    band_.heirs.resize(base_ - 1);
-    for (uint32_t c = 1; c < base_; ++c) {
-      const uint32_t root = band_.find(c);
-      band_.heirs[c - 1] = root == 0 ? ComponentBand::known : numbers[root];
+    band_.nodes = nodes_;
+    band_.count = count;
+    const size_t below = band_.global_below.size();
+    band_.heirs.resize(below);
+    numbers[nodes_] = ComponentBand::none;
+    for (size_t c = 0; c < below; ++c) {
+      const uint32_t node = band_.node_below[c + 1], mask = 0u - (node == ComponentBand::none);
+      band_.heirs[c] = numbers[(node & ~mask) | (nodes_ & mask)];
     }
     if (has_known_runs) band_.drop_known_runs(masks_);
   }
@@ -326,7 +448,11 @@ class Scan {
   const uint64_t nx_, ny_;
   const size_t words_;
   const uint64_t layer_;
-  const uint32_t base_;  // node of the first run
+  uint32_t nodes_ = 1;
+  std::vector<RunPair>& pairs_;
+  std::vector<uint32_t>& fresh_;
+  std::vector<uint64_t>& overlaps_;  // of a row and the one below it
+  uint64_t overlaps_row_ = UINT64_MAX - 1;
 };
 
 void scan_target(ComponentBand& band, ComponentMasks& masks, const ComponentRules& rules,

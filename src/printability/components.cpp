@@ -17,8 +17,18 @@ uint64_t capacity_bytes(const std::vector<T>& of) {
 }
 
 uint64_t capacity_bytes(const ComponentRuns& runs) {
-  return capacity_bytes(runs.first) + capacity_bytes(runs.last) + capacity_bytes(runs.component) +
+  return capacity_bytes(runs.edges) + capacity_bytes(runs.node) + capacity_bytes(runs.numbers) +
          capacity_bytes(runs.begin);
+}
+
+ComponentTotals totals_of(const ComponentPart& part, uint64_t layer, double height) {
+  return {part.samples,
+          static_cast<double>(part.samples) * height,
+          layer,
+          layer,
+          {part.low_x(), part.row},
+          {part.high_x(), part.high_y()},
+          {part.first, part.row}};
 }
 
 }  // namespace
@@ -45,26 +55,35 @@ void ComponentBand::drop_known_runs(ComponentMasks& masks) {
     const uint64_t n = j - begin;
     const uint32_t from = runs.begin[n], to = runs.begin[n + 1];
     runs.begin[n] = kept;
-    if (from == to) continue;
+    bool has_dropped = false;
     for (uint32_t r = from; r < to; ++r) {
-      if (runs.component[r] == 0) continue;
-      runs.first[kept] = runs.first[r];
-      runs.last[kept] = runs.last[r];
-      runs.component[kept++] = runs.component[r];
+      if (runs.component(r) == 0) {
+        set_bits(masks.known.row(j), runs.first(r), runs.end(r) - 1);
+        has_dropped = true;
+        continue;
+      }
+      runs.edges[2 * size_t{kept}] = runs.first(r);
+      runs.edges[2 * size_t{kept} + 1] = runs.end(r);
+      runs.node[kept++] = runs.node[r];
     }
+    if (!has_dropped) continue;
     for (size_t w = 0; w < words; ++w) masks.rest.row(j)[w] &= ~masks.known.row(j)[w];
   }
   runs.begin[end - begin] = kept;
-  runs.first.resize(kept);
-  runs.last.resize(kept);
-  runs.component.resize(kept);
+}
+
+void ComponentBand::make_known(uint32_t number, ComponentMasks& masks) {
+  for (uint32_t node = 1; node < nodes; ++node)
+    if (runs.numbers[node] && global[runs.numbers[node] - 1] == number) runs.numbers[node] = 0;
+  drop_known_runs(masks);
 }
 
 uint64_t ComponentBand::bytes() const {
   uint64_t all = capacity_bytes(runs) + capacity_bytes(below) + capacity_bytes(has_rest);
-  for (const std::vector<uint32_t>* each : {&parents, &numbers, &global, &global_below, &heirs})
+  for (const std::vector<uint32_t>* each :
+       {&parents, &node_below, &roots, &fresh, &global, &global_below, &heirs})
     all += capacity_bytes(*each);
-  return all + capacity_bytes(totals);
+  return all + capacity_bytes(parts) + capacity_bytes(pairs) + capacity_bytes(overlaps);
 }
 
 void Components::Events::clear() {
@@ -79,6 +98,7 @@ Components::Components(uint64_t nx, uint64_t ny, Rules rules, unsigned bands)
       rules_(rules),
       has_anchor_(rules.anchors_sides || rules.anchors_first_layer),
       bands_(bands) {
+  masks_.has_known = has_anchor_;
   const size_t words = words_for(nx);
   for (ComponentMask* mask :
        {&masks_.known, &masks_.known_below, &masks_.rest, &masks_.rest_below}) {
@@ -98,8 +118,9 @@ Components::Components(uint64_t nx, uint64_t ny, Rules rules, unsigned bands)
 
 uint64_t Components::held_bytes() const {
   uint64_t all = capacity_bytes(live_) + capacity_bytes(next_) + capacity_bytes(parents_) +
-                 capacity_bytes(numbers_) + capacity_bytes(events_.islands) +
-                 capacity_bytes(events_.cups) + capacity_bytes(events_.ended);
+                 capacity_bytes(numbers_) + capacity_bytes(heirs_) + capacity_bytes(has_below_) +
+                 capacity_bytes(events_.islands) + capacity_bytes(events_.cups) +
+                 capacity_bytes(events_.ended);
   for (const ComponentBand& band : bands_) all += sizeof band + band.bytes();
   return all;
 }
@@ -127,20 +148,27 @@ void Components::scan(unsigned band, const uint64_t* rows) {
 void Components::join(double height) {
   events_.clear();
   height_ = height;
-  size_t nodes = 1 + live_.size();
+  size_t nodes = 1;
   for (ComponentBand& band : bands_) {
     band.base = static_cast<uint32_t>(nodes - 1);
-    nodes += band.totals.size();
+    nodes += band.count;
     if (nodes > UINT32_MAX)
       fail(Status::limit, "layer %llu has more than 2^32 - 1 components",
            static_cast<unsigned long long>(layer_));
   }
   parents_.resize(nodes);
   for (size_t i = 0; i < nodes; ++i) parents_[i] = static_cast<uint32_t>(i);
+  heirs_.assign(live_.size() + 1, ComponentBand::none);
   for (const ComponentBand& band : bands_)
     for (size_t c = 0; c < band.heirs.size(); ++c) {
-      const uint32_t heir = band.heirs[c];
-      if (heir) unite(band.global_below[c], heir == ComponentBand::known ? 0 : band.base + heir);
+      const uint32_t number = band.heirs[c];
+      if (number == ComponentBand::none) continue;
+      uint32_t& heir = heirs_[band.global_below[c]];
+      const uint32_t node = number == 0 ? 0 : band.base + number;
+      if (heir == ComponentBand::none)
+        heir = node;
+      else
+        unite(heir, node);
     }
   for (size_t b = 1; b < bands_.size(); ++b) join_seam(bands_[b - 1], bands_[b]);
   number(height);
@@ -153,14 +181,15 @@ void Components::join_seam(const ComponentBand& low, const ComponentBand& high) 
   const uint32_t a = low.runs.begin[rows - 1], a_end = low.runs.begin[rows];
   const uint32_t b = high.runs.begin[0], b_end = high.runs.begin[1];
   for_each_overlap(low.runs, a, a_end, high.runs, b, b_end, reach, [&](uint32_t x, uint32_t y) {
-    unite(low.base + low.runs.component[x], high.base + high.runs.component[y]);
+    unite(low.base + low.runs.component(x), high.base + high.runs.component(y));
   });
+  if (!masks_.has_known) return;
   const auto join_known = [&](const ComponentBand& band, uint32_t first, uint32_t end,
                               const uint64_t* known) {
     for (uint32_t r = first; r < end; ++r) {
-      const uint64_t from = band.runs.first[r] - std::min(band.runs.first[r], reach);
-      const uint64_t to = std::min<uint64_t>(uint64_t{band.runs.last[r]} + reach, nx_ - 1);
-      if (any_bit(known, from, to)) unite(0, band.base + band.runs.component[r]);
+      const uint64_t from = band.runs.first(r) - std::min(band.runs.first(r), reach);
+      const uint64_t to = std::min<uint64_t>(uint64_t{band.runs.end(r)} - 1 + reach, nx_ - 1);
+      if (any_bit(known, from, to)) unite(0, band.base + band.runs.component(r));
     }
   };
   join_known(low, a, a_end, masks_.known.row(high.begin));
@@ -169,79 +198,80 @@ void Components::join_seam(const ComponentBand& low, const ComponentBand& high) 
 
 /// Numbers the components that have runs in this layer, in the order of their first runs.
 void Components::number(double height) {
-  const auto first_of_bands = static_cast<uint32_t>(1 + live_.size());
-  numbers_.assign(parents_.size(), 0);
+  if (numbers_.size() < parents_.size()) numbers_.resize(parents_.size());
+  numbers_[0] = 0;
   next_.clear();
+  has_below_.clear();
+  layer_samples_ = 0;
+  const bool finds_islands = rules_.finds_islands && layer_ > 0;
+  bool has_merged = false;
   for (ComponentBand& band : bands_) {
-    band.global.resize(band.totals.size());
-    for (size_t c = 0; c < band.totals.size(); ++c) {
-      const uint32_t root = find(band.base + static_cast<uint32_t>(c) + 1);
-      band.global[c] = 0;
-      if (root == 0) continue;
-      if (numbers_[root] == 0) {
-        next_.push_back(band.totals[c]);
-        numbers_[root] = static_cast<uint32_t>(next_.size());
+    band.global.resize(band.count);
+    for (uint32_t c = 0; c < band.count; ++c) {
+      const ComponentPart& part = band.parts[band.roots[c]];
+      const uint32_t node = band.base + c + 1, root = parents_[node] = parents_[parents_[node]];
+      layer_samples_ += part.samples;
+      if (root == node) {
+        next_.push_back(totals_of(part, layer_, height));
+        if (finds_islands) has_below_.push_back(part.has_below());
+        numbers_[node] = static_cast<uint32_t>(next_.size());
       } else {
-        next_[numbers_[root] - 1].merge(band.totals[c]);
+        numbers_[node] = numbers_[root];
+        if (root != 0) {
+          next_[numbers_[root] - 1].merge(totals_of(part, layer_, height));
+          if (finds_islands) has_below_[numbers_[root] - 1] |= part.has_below();
+          has_merged = true;
+        }
       }
-      band.global[c] = numbers_[root];
+      band.global[c] = numbers_[node];
     }
   }
-  for (ComponentTotals& totals : next_)
-    totals.height_sum = static_cast<double>(totals.samples) * height;
-  // A root is the smallest node, so a component whose root is of this layer has nothing below.
-  if (rules_.finds_islands && layer_ > 0)
-    for (size_t root = first_of_bands; root < parents_.size(); ++root)
-      if (numbers_[root]) events_.islands.push_back(next_[numbers_[root] - 1]);
-  for (uint32_t c = 1; c < first_of_bands; ++c) {
-    const ComponentTotals& totals = live_[c - 1];
-    const uint32_t root = find(c);
-    if (root == 0) {
-      if (!has_anchor_) known_totals_.merge(totals);
-      if (rules_.finds_cups) events_.cups.push_back(totals);
-    } else if (numbers_[root]) {
-      next_[numbers_[root] - 1].merge(totals);
-    } else {
+  if (has_merged)  // not the sum of rounded heights
+    for (ComponentTotals& totals : next_)
+      totals.height_sum = static_cast<double>(totals.samples) * height;
+  for (size_t c = 0; c < has_below_.size(); ++c)
+    if (!has_below_[c]) events_.islands.push_back(next_[c]);
+  next_kept_ = kept_ && heirs_[kept_] != ComponentBand::none ? numbers_[heirs_[kept_]] : 0;
+  const auto take_below = [&](size_t c) {
+    const ComponentTotals& totals = live_[c];
+    const uint32_t heir = heirs_[c + 1];
+    if (heir == ComponentBand::none) {
       events_.ended.push_back(totals);
+      return;
     }
+    const uint32_t number = numbers_[heir];
+    if (number && number != next_kept_) {
+      next_[number - 1].merge(totals);
+      return;
+    }
+    if (!has_anchor_) kept_totals_.merge(totals);
+    if (number == 0 && rules_.finds_cups) events_.cups.push_back(totals);
+  };
+  // The kept component is not among the others. When it is chosen, the last one takes its place.
+  const size_t last = live_.size() - (is_kept_anew_ ? 1 : 0);
+  for (size_t c = 0; c < last; ++c) {
+    if (c + 1 != kept_)
+      take_below(c);
+    else if (is_kept_anew_)
+      take_below(last);
   }
 }
 
 /// Runs that other bands have made known join the mask.
 void Components::settle(unsigned n) {
   ComponentBand& band = bands_[n];
-  if (std::find(band.global.begin(), band.global.end(), 0u) != band.global.end()) {
-    for (uint64_t j = band.begin; j < band.end; ++j)
-      for (uint32_t r = band.runs.begin[j - band.begin]; r < band.runs.begin[j - band.begin + 1];
-           ++r)
-        if (band.global[band.runs.component[r] - 1] == 0) {
-          set_bits(masks_.known.row(j), band.runs.first[r], band.runs.last[r]);
-          band.runs.component[r] = 0;
-        }
-    band.drop_known_runs(masks_);
-  }
-  if (!has_anchor_ && known_totals_.samples) measure_known(band, masks_.known);
+  if (!masks_.has_known) return;
+  if (std::find(band.global.begin(), band.global.end(), 0u) != band.global.end())
+    band.make_known(0, masks_);
+  if (!has_anchor_) measure_known(band, masks_.known);
 }
 
 const Components::Events& Components::finish() {
-  if (!has_anchor_ && known_totals_.samples) {
-    ComponentTotals here;
-    here.first_layer = UINT64_MAX;  // it began below
-    here.last_layer = layer_;
-    for (const ComponentBand& band : bands_) {
-      ComponentTotals part = band.known_here;
-      part.first_layer = UINT64_MAX;
-      here.merge(part);
-    }
-    here.height_sum = static_cast<double>(here.samples) * height_;
-    if (here.samples) {
-      known_totals_.merge(here);
-    } else {
-      events_.ended.push_back(known_totals_);
-      known_totals_ = {};
-    }
+  if (!has_anchor_) {
+    follow_kept();
+    keep_largest();
+    make_kept_known();
   }
-  if (!has_anchor_) adopt();
   for (ComponentBand& band : bands_) {
     std::swap(band.runs, band.below);
     std::swap(band.global, band.global_below);
@@ -253,40 +283,63 @@ const Components::Events& Components::finish() {
   return events_;
 }
 
-const Components::Events& Components::end() {
-  events_.clear();
-  events_.ended.swap(live_);
-  if (known_totals_.samples) events_.ended.push_back(known_totals_);
-  known_totals_ = {};
-  return events_;
+/// Adds what the kept component has in this layer. If that is nothing, it has ended.
+void Components::follow_kept() {
+  is_kept_anew_ = false;
+  kept_ = next_kept_;
+  if (!kept_totals_.samples) return;
+  ComponentTotals here;
+  if (masks_.has_known)
+    for (const ComponentBand& band : bands_) here.merge(band.known_here);
+  else if (kept_)
+    here = next_[kept_ - 1];
+  if (!here.samples) {
+    events_.ended.push_back(kept_totals_);
+    kept_totals_ = {};
+    masks_.has_known = false;
+    return;
+  }
+  here.first_layer = UINT64_MAX;  // it began below
+  here.last_layer = layer_;
+  here.height_sum = static_cast<double>(here.samples) * height_;
+  kept_totals_.merge(here);
 }
 
-/// If no component is known, makes the largest one known. Results do not depend on which.
-void Components::adopt() {
-  if (known_totals_.samples || next_.empty()) return;
+/// If no component is kept, keeps the largest one. What is found does not depend on which, except
+/// for the order: where the kept one ends, it comes last.
+void Components::keep_largest() {
+  if (kept_totals_.samples || next_.empty()) return;
   const auto largest = std::max_element(
       next_.begin(), next_.end(),
       [](const ComponentTotals& a, const ComponentTotals& b) { return a.samples < b.samples; });
-  const auto number = static_cast<uint32_t>(largest - next_.begin()) + 1;
-  known_totals_ = *largest;
-  const auto moved = static_cast<uint32_t>(next_.size());  // takes the free number
-  *largest = next_.back();
-  next_.pop_back();
-  for (ComponentBand& band : bands_) {
-    for (uint64_t j = band.begin; j < band.end; ++j)
-      for (uint32_t r = band.runs.begin[j - band.begin]; r < band.runs.begin[j - band.begin + 1];
-           ++r)
-        if (band.global[band.runs.component[r] - 1] == number) {
-          set_bits(masks_.known.row(j), band.runs.first[r], band.runs.last[r]);
-          band.runs.component[r] = 0;
-        }
-    for (uint32_t& global : band.global)
-      if (global == number)
-        global = 0;
-      else if (global == moved)
-        global = number;
-    band.drop_known_runs(masks_);
+  kept_ = static_cast<uint32_t>(largest - next_.begin()) + 1;
+  kept_totals_ = *largest;
+  is_kept_anew_ = true;
+}
+
+/// If the kept component has a good part of the layer, it becomes the known one.
+void Components::make_kept_known() {
+  if (masks_.has_known || kept_ == 0 || is_kept_anew_) return;
+  constexpr uint64_t part = 8;
+  if (next_[kept_ - 1].samples < layer_samples_ / part) return;
+  masks_.has_known = true;
+  std::fill(masks_.known.bits.begin(), masks_.known.bits.end(), uint64_t{0});
+  for (ComponentBand& band : bands_) band.make_known(kept_, masks_);
+}
+
+const Components::Events& Components::end() {
+  events_.clear();
+  const size_t last = live_.size() - (is_kept_anew_ ? 1 : 0);
+  for (size_t c = 0; c < last; ++c) {
+    if (c + 1 != kept_)
+      events_.ended.push_back(live_[c]);
+    else if (is_kept_anew_)
+      events_.ended.push_back(live_[last]);
   }
+  live_.clear();
+  if (kept_totals_.samples) events_.ended.push_back(kept_totals_);
+  kept_totals_ = {};
+  return events_;
 }
 
 }  // namespace msq

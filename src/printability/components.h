@@ -61,21 +61,31 @@ class Components {
   void unite(uint32_t a, uint32_t b);
   void join_seam(const ComponentBand& low, const ComponentBand& high);
   void number(double height);
-  void adopt();
+  void follow_kept();
+  void keep_largest();
+  void make_kept_known();
 
   const uint64_t nx_, ny_;
   const Rules rules_;
-  /// Whether the known component is the anchored one. Otherwise one that is large.
+  /// Whether the known component is the anchored one. Otherwise it is the kept one, if that is
+  /// large.
   const bool has_anchor_;
   ComponentMasks masks_;
   std::vector<ComponentBand> bands_;
   std::vector<ComponentTotals> live_, next_;  ///< by component - 1
-  ComponentTotals known_totals_;              ///< without an anchor; no samples: there is none
-  /// Node 0: the known component; then the live ones; then those of the bands.
+  /// Without an anchor, one component is kept until it ends: the largest of a layer when none was.
+  /// No samples: there is none. It is known, or `kept_` is its number.
+  ComponentTotals kept_totals_;
+  uint32_t kept_ = 0, next_kept_ = 0;
+  bool is_kept_anew_ = false;  ///< kept since this layer
+  /// Node 0: the known component; then those of the bands.
   std::vector<uint32_t> parents_;
-  std::vector<uint32_t> numbers_;  ///< by node: new number of a root's component
+  std::vector<uint32_t> numbers_;   ///< by node: new number of its component
+  std::vector<uint8_t> has_below_;  ///< by number - 1: for islands
+  std::vector<uint32_t> heirs_;     ///< by component: a node; or none, it has ended
   Events events_;
   double height_ = 0;
+  uint64_t layer_samples_ = 0;  ///< of components with a number
   uint64_t layer_ = 0;
 };
 

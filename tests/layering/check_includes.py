@@ -31,7 +31,8 @@ OUTSIDE = [
     (r"msq\.h", ["api/*", "document/*"]),
     # Files that are compiled once for each target include these themselves, between their own lines.
     (r"hwy/highway\.h", ["base/simd.cpp", "base/*-inl.h", "shape/*.cpp", "strut/*.cpp",
-                         "strut/*-inl.h", "slice/*.cpp", "printability/*.cpp", "structure/*/*.cpp", "structure/*/*-inl.h",
+                         "strut/*-inl.h", "slice/*.cpp", "printability/*.cpp",
+                         "printability/*-inl.h", "structure/*/*.cpp", "structure/*/*-inl.h",
                          "structure/*/*/*.cpp", "structure/*/*/*-inl.h", "expression/*.cpp",
                          "expression/*-inl.h"]),
     (r"hwy/foreach_target\.h", ["shape/*.cpp", "strut/*.cpp", "structure/*/*.cpp",

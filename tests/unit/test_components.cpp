@@ -460,34 +460,59 @@ void test_width_of_strips(void**) {
   }
 }
 
-void test_rows_of_bits(void**) {
+/// Rows of many words, whose runs cross them or fill them.
+void test_wide_volumes(void**) {
+  Random random(8);
+  const size_t count = std::max<size_t>(test_count(40), 8);
+  for (size_t n = 0; n < count; ++n) {
+    Volume volume(400 + static_cast<int>(random.below(1000)), 1 + static_cast<int>(random.below(5)),
+                  1 + static_cast<int>(random.below(4)));
+    const double length = n % 3 ? random.between(1, 20) : random.between(20, 200);
+    for (int k = 0; k < volume.n[2]; ++k)
+      for (int j = 0; j < volume.n[1]; ++j) {
+        bool is_set = random.below(2);
+        for (int i = 0; i < volume.n[0]; ++i) {
+          if (random.unit() * length < 1) is_set = !is_set;
+          volume.samples[volume.at({i, j, k})] = is_set;
+        }
+      }
+    check(volume);
+  }
+}
+
+/// Without an anchor, the largest component is listed last where it ends. In the layer after its
+/// first one, the last of the others is listed in its place.
+void test_order(void**) {
+  for (const int layers : {1, 2}) {
+    Volume volume(40, 2, 3);
+    for (int k = 0; k < layers; ++k)
+      for (int i = 0; i < 18; ++i)
+        if (i < 12 || i % 3 != 0) volume.samples[volume.at({i, 0, k})] = 1;
+    const FoundAll got = by_layers(volume, {}, 1);
+    std::vector<uint32_t> places;
+    for (const Found& found : got.ended) places.push_back(std::get<3>(found)[0]);
+    const std::vector<uint32_t> wanted =
+        layers == 1 ? std::vector<uint32_t>{16, 13, 0} : std::vector<uint32_t>{13, 16, 0};
+    assert_true(places == wanted);
+  }
+}
+
+/// Runs of a word that hold seeds.
+void test_filled_words(void**) {
   Random random(6);
   const size_t count = std::max<size_t>(test_count(20000), 1000);
   for (size_t n = 0; n < count; ++n) {
-    constexpr size_t words = 3;
-    uint64_t row[words], seeds[words], wanted[words] = {};
-    for (size_t w = 0; w < words; ++w) {
-      row[w] = random.bits() | (n % 3 ? random.bits() : 0) | (n % 7 ? 0 : ~uint64_t{0});
-      seeds[w] =
-          row[w] & random.bits() & random.bits() & (n % 2 ? random.bits() & random.bits() : 0);
+    const uint64_t word = random.bits() | (n % 3 ? random.bits() : 0) | (n % 7 ? 0 : ~uint64_t{0});
+    const uint64_t seeds =
+        word & random.bits() & random.bits() & (n % 2 ? random.bits() & random.bits() : 0);
+    uint64_t wanted = 0;
+    for (unsigned begin = 0; begin < 64; ++begin) {
+      unsigned end = begin;
+      while (end < 64 && word >> end & 1) ++end;
+      if (begin < end && any_bit(&seeds, begin, end - 1)) set_bits(&wanted, begin, end - 1);
+      begin = end;
     }
-    bool has_rest = false;
-    uint64_t runs = 0;
-    for_each_run(row, words, [&](uint64_t first, uint64_t last) {
-      runs += last - first + 1;
-      for (uint64_t i = first; i <= last; ++i) assert_true(row[i / 64] >> i % 64 & 1);
-      if (any_bit(seeds, first, last))
-        set_bits(wanted, first, last);
-      else
-        has_rest = true;
-    });
-    uint64_t set = 0;
-    for (const uint64_t word : row) set += static_cast<uint64_t>(std::popcount(word));
-    assert_int_equal(runs, set);
-    uint64_t rest[words];
-    assert_int_equal(fill_runs(row, words, seeds, rest), has_rest);
-    assert_memory_equal(seeds, wanted, sizeof wanted);
-    for (size_t w = 0; w < words; ++w) assert_true(rest[w] == (row[w] & ~wanted[w]));
+    assert_true(filled_down(word, filled_up(word, seeds)) == wanted);
   }
 }
 
@@ -495,7 +520,8 @@ void test_rows_of_bits(void**) {
 
 int main() {
   const CMUnitTest tests[] = {
-      cmocka_unit_test(test_rows_of_bits),    cmocka_unit_test(test_random_volumes),
+      cmocka_unit_test(test_filled_words),    cmocka_unit_test(test_random_volumes),
+      cmocka_unit_test(test_wide_volumes),    cmocka_unit_test(test_order),
       cmocka_unit_test(test_mazes),           cmocka_unit_test(test_sticks),
       cmocka_unit_test(test_spiral),          cmocka_unit_test(test_thin),
       cmocka_unit_test(test_width_of_strips), cmocka_unit_test(test_overhangs),
