@@ -90,10 +90,12 @@ void ContourDetails::hold_memory() {
   constexpr uint64_t points_of_piece = 6;
   constexpr uint64_t of_piece = 3 * sizeof(Piece) + sizeof(Search) + sizeof(Search*) +
                                 points_of_piece * ContourPoints::bytes_of_point;
+  constexpr uint64_t of_taken = 6 * sizeof(uint64_t);
   constexpr uint64_t of_point = sizeof(DetailPoint) + sizeof(LineRun) + 2 * sizeof(Vec2);
   held_.grow_to(memory_->bends.size() * sizeof(uint64_t) +
                     memory_->closed.size() * sizeof(RingPoints) +
-                    memory_->pieces.size() * of_piece + memory_->details.size() * of_point,
+                    memory_->pieces.size() * of_piece + memory_->details.size() * of_point +
+                    taken_.size() * of_taken,
                 "the details of contours");
 }
 
@@ -146,6 +148,39 @@ bool ContourDetails::is_in_cell(uint32_t id, Vec2 p) const {
   const double margin = rings_.margin();
   return p.x >= cell.low.x + margin && p.x <= cell.high.x - margin && p.y >= cell.low.y + margin &&
          p.y <= cell.high.y - margin;
+}
+
+/// The cell that holds the corner of a piece, beside the piece's own one; 0 if there is no such
+/// cell or if it may have other pieces.
+uint64_t ContourDetails::cell_beside(const Piece& piece) const {
+  const ContourGrid& grid = rings_.grid();
+  const Cell cell = rings_.cell_of(piece.id);
+  const Vec2 x = piece.corner;
+  // The side between both cells: its direction is across `axis`.
+  const int axis = x.x < cell.low.x || x.x > cell.high.x ? 0 : 1, along = 1 - axis;
+  const bool is_high = x[axis] > cell.high[axis];
+  const double side = is_high ? cell.high[axis] : cell.low[axis], margin = rings_.margin();
+  const double room = grid.pitch() - margin, off = std::abs(x[axis] - side);
+  if (!(off >= margin && off <= room)) return 0;
+  // Away from nodes, also where the sides of the corner may move.
+  const double aside = margin + tolerance_;
+  const auto is_away = [&](double at) {
+    return at >= cell.low[along] + aside && at <= cell.high[along] - aside;
+  };
+  if (!is_away(x[along])) return 0;
+  for (const Vec2 end : {piece.a, piece.b}) {
+    const Vec2 d = end - x;
+    if (d[axis] == 0 || !is_away(x[along] + d[along] * ((side - x[axis]) / d[axis]))) return 0;
+  }
+  const uint64_t step = axis == 0 ? 1 : uint64_t{1} << 32;
+  const uint64_t own = rings_.place_of_cell(piece.id), place = is_high ? own + step : own - step;
+  const uint32_t column = static_cast<uint32_t>(place), row = static_cast<uint32_t>(place >> 32);
+  if (!grid.is_inner_cell(column, row) || rings_.gaps().holds(place)) return 0;
+  const bool is_inside = grid.inside(column, row);
+  const bool are_alike = grid.inside(column + 1, row) == is_inside &&
+                         grid.inside(column, row + 1) == is_inside &&
+                         grid.inside(column + 1, row + 1) == is_inside;
+  return are_alike ? place : 0;
 }
 
 void ContourDetails::find_suspects(ContourPoints& points) {
@@ -236,6 +271,7 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   if (has_triangle) {
     piece.corner = a + d1 * (turn2 / turn);
     piece.has_corner = is_in_cell(id, piece.corner);
+    piece.is_corner_beyond = !piece.has_corner;
   }
   if (const double bend =
           bend_of(rings_.at(before(p)), rings_.at(p), a, b, rings_.at(q), rings_.at(behind(q)));
@@ -339,7 +375,11 @@ void ContourDetails::take_corners(ContourPoints& points) {
     points.add(p + towards_inside * tolerance_);
     points.add(p - towards_inside * tolerance_);
   };
-  for (const Piece& piece : memory_->pieces) {
+  for (Piece& piece : memory_->pieces) {
+    if (piece.is_corner_beyond) {
+      piece.beside = cell_beside(piece);
+      piece.has_corner = piece.beside != 0;
+    }
     if (!piece.has_corner) continue;
     const Vec2 x = piece.corner;
     both_sides((piece.a + x) * 0.5, left_of(unit(x - piece.a)));
@@ -356,6 +396,7 @@ void ContourDetails::take_corners(ContourPoints& points) {
       for (size_t n = first; n < first + 6; n += 2)
         is_corner = is_corner && inside[n] && !inside[n + 1];
       first += 6;
+      if (is_corner && piece.beside != 0) is_corner = taken_.insert(piece.beside).second;
       if (is_corner) {
         memory_->details.push_back(
             {piece.id, piece.next, 0.5 * (piece.begin + piece.end), piece.corner});

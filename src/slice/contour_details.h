@@ -12,11 +12,14 @@
 // found by bisection, and both halves are looked into likewise.
 //
 // All points found lie within the cell, away from its edges, so pieces of different cells never
-// meet.
+// meet. One exception: a corner may lie in the cell beside, if the boundary meets no edge of that
+// cell at a node's scale (its nodes are alike), and no other corner lies there. Both cells together
+// are convex, so the sides of the corner stay within them.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 #include "base/borrowed.h"
@@ -38,8 +41,10 @@ struct DetailPoint {
 class ContourDetails {
  public:
   /// `units`: coordinates will be multiplied by it and rounded; 0: they will not be rounded.
-  ContourDetails(const ContourRings& rings, double tolerance, double units)
-      : rings_(rings), tolerance_(tolerance), units_(units) {
+  /// `taken`: cells beside those of pieces that hold corners; kept for all rings of a layer.
+  ContourDetails(const ContourRings& rings, double tolerance, double units,
+                 std::unordered_set<uint64_t>& taken)
+      : rings_(rings), tolerance_(tolerance), units_(units), taken_(taken) {
     memory_->pieces.clear();
     memory_->details.clear();
     memory_->runs.clear();
@@ -59,6 +64,8 @@ class ContourDetails {
     int depth = 0;
     int turn = 0;  // where known: 1: the boundary turns left between its ends, -1: right
     bool has_arc = false, has_corner = false, is_inside = false, is_bent = false;
+    bool is_corner_beyond = false;  // the piece's cell
+    uint64_t beside = 0;  // the cell that holds the corner, if the piece's own one does not
     Vec2 a, b;
     Vec2 arc = {}, corner = {};
     double begin = 0, end = 1;  // orders of a and b
@@ -86,11 +93,13 @@ class ContourDetails {
   /// A crossing that is nearer than that to another tells little about the direction.
   double close() const { return rings_.grid().pitch() / 16; }
   bool is_in_cell(uint32_t id, Vec2 p) const;
+  uint64_t cell_beside(const Piece& piece) const;
   bool is_in_window(Vec2 p) const;
   Vec2 rounded(Vec2 p) const;
 
   const ContourRings& rings_;
   const double tolerance_, units_;
+  std::unordered_set<uint64_t>& taken_;
   // Kept between calls: fresh memory of this size takes a while to get.
   struct Memory {
     std::vector<uint64_t> bends;  // see find_bends()

@@ -136,6 +136,12 @@ class ContourGrid {
                       : row == 0 || row == top_edge();
   }
 
+  /// Whether all nodes of a cell are inner; the cell is named by its first one.
+  bool is_inner_cell(uint32_t column, uint32_t row) const {
+    return column >= first_inner && column + 1 < right_edge() && row >= first_inner_row &&
+           row + 1 < top_edge();
+  }
+
   /// Bytes of memory that find_nodes() takes, and what the grid then keeps.
   uint64_t bytes(const Model& model, const Scales& resolved) const;
   /// Finds which nodes are inside.

@@ -36,6 +36,7 @@ class ContourPoints {
   void clear() { memory_->points.clear(); }
   void add(Vec2 p) { memory_->points.push_back(p); }
   size_t count() const { return memory_->points.size(); }
+  Vec2 at(size_t n) const { return memory_->points[n]; }
   /// Of the points added since clear().
   const std::vector<uint8_t>& find_inside();
 

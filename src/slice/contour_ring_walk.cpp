@@ -30,7 +30,8 @@ HWY_INLINE unsigned nodes_at(const uint64_t* nodes, uint64_t bit) {
   }
 }
 
-uint32_t follow_ring(const RingWalk& walk, uint32_t number, uint32_t first_crossing, uint32_t n,
+template <bool has_divided>
+uint32_t follow_some(const RingWalk& walk, uint32_t number, uint32_t first_crossing, uint32_t n,
                      uint32_t end, RingPlace& place, uint64_t& inner_bits) {
   const ContourSection& section = walk.section;
   const size_t row_words = section.grid().row_words();
@@ -49,6 +50,8 @@ uint32_t follow_ring(const RingWalk& walk, uint32_t number, uint32_t first_cross
   uint64_t bit = (cell >> 32) * row_words * 64 + static_cast<uint32_t>(cell);
   uint32_t id = place.crossing, side = place.side;
   while (n < end) {
+    if constexpr (has_divided)
+      if (walk.divided[bit / 64] >> (bit % 64) & 1) break;
     const unsigned around = nodes_at(nodes, bit) | nodes_at(nodes_above, bit) << 2;
     const RingStep* step = &steps.of[side][around];
     rings[std::min(id, horizontal_count)] = number;
@@ -76,6 +79,12 @@ uint32_t follow_ring(const RingWalk& walk, uint32_t number, uint32_t first_cross
   place = {cell, id, side};
   inner_bits = seen;
   return n;
+}
+
+uint32_t follow_ring(const RingWalk& walk, uint32_t number, uint32_t first_crossing, uint32_t n,
+                     uint32_t end, RingPlace& place, uint64_t& inner_bits) {
+  return walk.divided ? follow_some<true>(walk, number, first_crossing, n, end, place, inner_bits)
+                      : follow_some<false>(walk, number, first_crossing, n, end, place, inner_bits);
 }
 
 }  // namespace

@@ -52,11 +52,12 @@ struct RingWalk {
   double* ends;
   uint64_t* cells;
   uint8_t* kinds;
+  const uint64_t* divided;  ///< cells as bits, each that of its first node; null: none
 };
 
-/// Follows a ring from a place until its first crossing comes again, or until `end` crossings are
-/// there. Writes crossings from `n` on, and returns the number of crossings then. Joins
-/// `inner_bits` by those of the cells.
+/// Follows a ring from a place until its first crossing comes again, until `end` crossings are
+/// there, or until the cell behind the next one is divided. Writes crossings from `n` on, and
+/// returns the number of crossings then. Joins `inner_bits` by those of the cells.
 uint32_t follow_ring(const RingWalk& walk, uint32_t number, uint32_t first_crossing, uint32_t n,
                      uint32_t end, RingPlace& place, uint64_t& inner_bits);
 

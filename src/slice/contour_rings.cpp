@@ -37,8 +37,11 @@ InnerCells inner_cells(const ContourGrid& grid) {
 
 }  // namespace
 
-ContourRings::ContourRings(const ContourSection& section, bool has_struts)
+ContourRings::ContourRings(const ContourSection& section, ContourGaps& gaps, bool has_struts,
+                           double accuracy)
     : grid_(section.grid()),
+      gaps_(gaps),
+      accuracy_(accuracy),
       at_once_(has_struts ? crossings_at_once : many_crossings_at_once),
       axes_{{grid_.u_nodes().first(), grid_.pitch(), grid_.u_nodes().low(), grid_.u_nodes().high(),
              ContourGrid::first_inner, ContourGrid::left_beyond, ContourGrid::left_edge,
@@ -49,10 +52,10 @@ ContourRings::ContourRings(const ContourSection& section, bool has_struts)
       nodes_{grid_.u_nodes().first(),  grid_.v_nodes().first(),      grid_.pitch(),
              ContourGrid::first_inner, ContourGrid::first_inner_row, margin_},
       steps_(grid_.row_words()),
-      room_(std::min(section.count(), first_room)) {
+      most_(static_cast<uint32_t>(section.count() + gaps.crossing_count())),
+      room_(std::min(most_, first_room)) {
   if (memory_->x.size() < room_ + max_simd_doubles) memory_->resize(room_ + max_simd_doubles);
-  room_ = static_cast<uint32_t>(
-      std::min<size_t>(section.count(), memory_->x.size() - max_simd_doubles));
+  room_ = static_cast<uint32_t>(std::min<size_t>(most_, memory_->x.size() - max_simd_doubles));
 }
 
 uint64_t ContourRings::bytes(uint64_t crossings) {
@@ -62,66 +65,173 @@ uint64_t ContourRings::bytes(uint64_t crossings) {
          bytes_of_crossing;
 }
 
-void ContourRings::follow_all(ContourSection& section, const Job* job,
+// A crossing that has no ring yet is the leftmost one on the ring's lowest row, so what is to its
+// left is around the ring. The crossing before it on the row, if any, is of a ring that borders on
+// the same.
+void ContourRings::follow_all(ContourSection& section, ContourPoints& points,
                               const std::function<void()>& visit) {
+  const Job* const job = points.job();
+  const auto visit_these = [&] {
+    place(points);
+    visit();
+    rings_before_ += static_cast<uint32_t>(rings_.size());
+    rings_.clear();
+    gap_crossings_.clear();
+    count_ = 0;
+  };
+  const auto add = [&](uint32_t id, uint32_t column, uint32_t row, uint32_t beside) {
+    follow(section, id, column, row, beside, job);
+    if (count() >= at_once_) visit_these();
+  };
+  const auto add_from_gap = [&](const ContourGaps::Place& start, bool goes_up, uint32_t beside) {
+    follow_from_gap(section, start, goes_up, beside, job);
+    if (count() >= at_once_) visit_these();
+  };
   const uint32_t* const rings = section.rings();
   uint32_t id = 0;
   for (uint32_t r = 0; r < grid_.rows(); ++r) {
     check_cancelled(job);
     section.prefetch(r + rows_ahead);
+    if (const auto joints = gaps_.joints(r); !joints.empty()) {
+      id = follow_row(section, joints, r, id, add, add_from_gap);
+      continue;
+    }
     const uint32_t row_start = id;
     for (size_t w = 0; w < grid_.row_words(); ++w)
       for (uint64_t rest = section.horizontal(r, w); rest; rest &= rest - 1, ++id) {
         if (rings[id] != ContourSection::no_ring) continue;
-        const uint32_t column =
-            static_cast<uint32_t>(w * 64) + static_cast<uint32_t>(std::countr_zero(rest));
-        // It is the leftmost crossing on the ring's lowest row, so what is to its left is around
-        // the ring. The crossing before it on the row, if any, is of a ring that borders on the
-        // same.
-        const uint32_t beside = id > row_start ? rings[id - 1] : none;
-        const uint32_t first = count();
-        const bool is_inner = follow(section, id, column, r, job);
-        rings_.push_back({first, count(), beside, grid_.inside(column, r), true, is_inner});
-        if (count() < at_once_) continue;
-        place();
-        visit();
-        rings_before_ += static_cast<uint32_t>(rings_.size());
-        rings_.clear();
-        count_ = 0;
+        add(id, static_cast<uint32_t>(w * 64) + static_cast<uint32_t>(std::countr_zero(rest)), r,
+            id > row_start ? rings[id - 1] : none);
       }
   }
-  place();
-  visit();
+  visit_these();
 }
 
-bool ContourRings::follow(ContourSection& section, uint32_t id, uint32_t column, uint32_t row,
-                          const Job* job) {
-  const uint32_t number = rings_before_ + static_cast<uint32_t>(rings_.size());
+/// A row of nodes with joints, whose crossings take the place of the grid's there. `id`: its first
+/// crossing. Returns the first one of the next row.
+template <class Add, class AddFromGap>
+uint32_t ContourRings::follow_row(const ContourSection& section,
+                                  std::span<const ContourGaps::Joint> joints, uint32_t row,
+                                  uint32_t id, Add&& add, AddFromGap&& add_from_gap) {
+  uint32_t beside = none;
+  auto joint = joints.begin();
+  const auto pass_joint = [&] {
+    const uint32_t nodes = gaps_.nodes_below(joint->cell);
+    for (uint32_t i = 0; i < gaps_.parts(); ++i) {
+      if ((nodes >> i & 1) == (nodes >> (i + 1) & 1)) continue;
+      const ContourGaps::Place start = gaps_.start(joint->cell, i);
+      const uint32_t* const ring = gaps_.ring_before(start);
+      if (*ring == ContourSection::no_ring) add_from_gap(start, (nodes >> i & 1) != 0, beside);
+      beside = *ring;
+    }
+    ++joint;
+  };
+  for (size_t w = 0; w < grid_.row_words(); ++w)
+    for (uint64_t rest = section.horizontal(row, w); rest; rest &= rest - 1, ++id) {
+      const uint32_t column =
+          static_cast<uint32_t>(w * 64) + static_cast<uint32_t>(std::countr_zero(rest));
+      while (joint != joints.end() && joint->column < column) pass_joint();
+      if (joint != joints.end() && joint->column == column) continue;
+      if (section.ring(id) == ContourSection::no_ring) add(id, column, row, beside);
+      beside = section.ring(id);
+    }
+  while (joint != joints.end()) pass_joint();
+  return id;
+}
+
+void ContourRings::follow(ContourSection& section, uint32_t id, uint32_t column, uint32_t row,
+                          uint32_t beside, const Job* job) {
   const bool goes_up = grid_.inside(column, row);
-  RingPlace place{cell_at(column, goes_up ? row : row - 1), id,
-                  goes_up ? cell_sides::top : cell_sides::bottom};
+  const uint32_t first = count();
+  const bool is_inner = go_around(section,
+                                  {cell_at(column, goes_up ? row : row - 1), id,
+                                   goes_up ? cell_sides::top : cell_sides::bottom},
+                                  id, nullptr, job);
+  rings_.push_back({first, count(), beside, goes_up, true, is_inner});
+}
+
+void ContourRings::follow_from_gap(ContourSection& section, const ContourGaps::Place& start,
+                                   bool goes_up, uint32_t beside, const Job* job) {
+  const uint32_t first = count();
+  const bool is_inner = go_around(section, {}, none, &start, job);
+  rings_.push_back({first, count(), beside, goes_up, true, is_inner});
+}
+
+bool ContourRings::go_around(ContourSection& section, RingPlace place, uint32_t first,
+                             const ContourGaps::Place* start, const Job* job) {
+  const uint32_t number = next_number(), ring_first = count_;
   uint64_t inner_bits = 0;
   constexpr uint32_t poll_interval = 1024;
+  if (start && !go_through(section, *start, start, place, job)) return true;
   do {
-    if (count_ == room_) {
-      room_ = section.count();
-      memory_->resize(room_ + max_simd_doubles);
-    }
-    count_ =
-        follow_ring({section, steps_, inner_cells(grid_), section.rings(), memory_->ends.data(),
-                     memory_->cells.data(), memory_->kinds.data()},
-                    number, id, count_, std::min(room_, count_ + poll_interval), place, inner_bits);
+    make_room();
+    count_ = follow_ring(
+        {section, steps_, inner_cells(grid_), section.rings(), memory_->ends.data(),
+         memory_->cells.data(), memory_->kinds.data(), gaps_.is_empty() ? nullptr : gaps_.bits()},
+        number, first, count_, std::min(room_, count_ + poll_interval), place, inner_bits);
     check_cancelled(job);
-  } while (place.crossing != id);
+    if ((place.crossing == first && count_ > ring_first) || !gaps_.holds(place.cell)) continue;
+    make_room();
+    const uint8_t kind = section.is_horizontal(place.crossing) ? ring_kind::horizontal : 0;
+    if (kind) section.rings()[place.crossing] = number;
+    put_crossing(section.ends()[place.crossing], place.cell,
+                 kind | (place.side >= cell_sides::top ? ring_kind::first_inside : 0));
+    if (!go_through(section, gaps_.enter(gaps_.cell_at(place.cell), place.side), start, place, job))
+      return InnerCells::are_inner(inner_bits);
+  } while (place.crossing != first);
   return InnerCells::are_inner(inner_bits);
 }
 
+bool ContourRings::go_through(const ContourSection& section, ContourGaps::Place at,
+                              const ContourGaps::Place* start, RingPlace& place, const Job* job) {
+  const uint32_t number = next_number();
+  bool is_first = start && at == *start;
+  CancelPoll poll(job);
+  while (is_first || gaps_.step(at)) {
+    poll();
+    if (!is_first && start && at == *start) return false;
+    is_first = false;
+    GapCrossing crossing = gaps_.crossing_before(at);
+    crossing.id = count_;
+    gap_crossings_.push_back(crossing);
+    if (uint32_t* const ring = gaps_.ring_before(at)) *ring = number;
+    make_room();
+    put_crossing(0, gaps_.place_of(at.cell),
+                 (crossing.is_horizontal ? ring_kind::horizontal : 0) |
+                     (crossing.starts_inside ? ring_kind::first_inside : 0));
+  }
+  using namespace cell_sides;
+  const uint64_t cell = gaps_.place_of(at.cell);
+  const uint32_t column = column_of(cell), row = row_of(cell);
+  const uint32_t id = section.crossing_of(at.side == bottom || at.side == top,
+                                          column + (at.side == right), row + (at.side == top));
+  constexpr uint64_t row_step = uint64_t{1} << 32;
+  constexpr uint64_t to_cells[4] = {0 - row_step, 1, row_step, ~uint64_t{0}};
+  place = {cell + to_cells[at.side], id, at.side};
+  return true;
+}
+
+/// Adds a crossing behind which the boundary has no other points.
+void ContourRings::put_crossing(double end, uint64_t cell, int kind) {
+  memory_->ends[count_] = end;
+  memory_->cells[count_] = cell;
+  memory_->kinds[count_] = static_cast<uint8_t>(kind | ring_kind::saddle);
+  ++count_;
+}
+
+void ContourRings::make_room() {
+  if (count_ < room_) return;
+  room_ = most_;
+  memory_->resize(room_ + max_simd_doubles);
+}
+
 /// Finds where the crossings of the rings lie.
-void ContourRings::place() {
+void ContourRings::place(ContourPoints& points) {
   place_crossings({memory_->cells.data(), memory_->kinds.data(), count_}, nodes_,
                   memory_->ends.data(), memory_->x.data(), memory_->y.data());
   for (Ring& ring : rings_)
     if (!ring.is_inner) place_at_edges(ring);
+  gaps_.locate(gap_crossings_, accuracy_, points, memory_->x.data(), memory_->y.data());
 }
 
 ContourRings::Edge ContourRings::edge_of(uint32_t i) const {
@@ -157,6 +267,10 @@ void ContourRings::find_gates(const Ring& ring, double tolerance, Vec2* at, Line
   const size_t first = ring.first, count = ring.end - ring.first;
   msq::find_gates({memory_->cells.data() + first, memory_->kinds.data() + first, count}, nodes_,
                   memory_->x.data() + first, memory_->y.data() + first, tolerance, at, gates);
+  for (auto c = std::lower_bound(gap_crossings_.begin(), gap_crossings_.end(), ring.first,
+                                 [](const GapCrossing&g, uint32_t i) { return g.id < i; });
+       c != gap_crossings_.end() && c->id < ring.end; ++c)
+    gates[c->id - ring.first] = gaps_.gate(*c, this->at(c->id), tolerance);
   if (ring.is_inner) return;
   const InnerCells inner = inner_cells(grid_);
   for (uint32_t i = ring.first; i < ring.end; ++i) {

@@ -10,7 +10,9 @@
 #include "base/borrowed.h"
 #include "base/job.h"
 #include "base/vec2.h"
+#include "slice/contour_gaps.h"
 #include "slice/contour_gates.h"
+#include "slice/contour_points.h"
 #include "slice/contour_ring_kind.h"
 #include "slice/contour_ring_walk.h"
 #include "slice/contour_section.h"
@@ -19,12 +21,13 @@ namespace msq {
 
 class ContourRings {
  public:
-  /// `has_struts`: whether struts decide membership.
-  ContourRings(const ContourSection& section, bool has_struts);
+  /// `has_struts`: whether struts decide membership. `accuracy`: of crossings in divided cells.
+  ContourRings(const ContourSection& section, ContourGaps& gaps, bool has_struts, double accuracy);
 
   /// Follows all rings of the section; its crossings then know the numbers of their rings. Calls
   /// visit() whenever there are some: then rings() and all else here tell of these alone.
-  void follow_all(ContourSection& section, const Job* job, const std::function<void()>& visit);
+  void follow_all(ContourSection& section, ContourPoints& points,
+                  const std::function<void()>& visit);
 
   struct Ring {
     uint32_t first, end;  ///< its crossings
@@ -52,6 +55,7 @@ class ContourRings {
   bool is_beyond(uint32_t i) const { return memory_->kinds[i] & ring_kind::beyond; }
   /// Whether it lies on an edge of the window.
   bool is_on_seam(uint32_t i) const { return memory_->kinds[i] & ring_kind::seam; }
+  /// Whether it leads into a cell with four crossings, or into a part of a divided one.
   bool is_before_saddle(uint32_t i) const { return memory_->kinds[i] & ring_kind::saddle; }
 
   /// The cell that follows a crossing.
@@ -59,6 +63,9 @@ class ContourRings {
     Vec2 low, high;
   };
   Cell cell_of(uint32_t i) const;
+  /// Its column, and its row in the upper 32 bits.
+  uint64_t place_of_cell(uint32_t i) const { return memory_->cells[i]; }
+  const ContourGaps& gaps() const { return gaps_; }
 
   /// Of the crossings of a ring, finds the places and the gates. Both have room for them and for
   /// max_simd_doubles more. What lies beyond the window has no gate.
@@ -66,6 +73,9 @@ class ContourRings {
 
   /// Of a section with so many crossings.
   static uint64_t bytes(uint64_t crossings);
+  /// What is taken besides for a crossing of divided cells.
+  static constexpr uint64_t bytes_of_gap_crossing =
+      3 * sizeof(double) + sizeof(uint64_t) + sizeof(uint8_t) + 2 * sizeof(GapCrossing);
 
  private:
   /// Nodes along an axis, by their columns or rows; what the grid says of them, but without calls.
@@ -88,17 +98,39 @@ class ContourRings {
     uint32_t axis;           // of its direction
   };
   Edge edge_of(uint32_t i) const;
-  /// Whether the ring is inner.
-  bool follow(ContourSection& section, uint32_t id, uint32_t column, uint32_t row, const Job* job);
-  void place();
+  /// The number of the ring that is followed.
+  uint32_t next_number() const { return rings_before_ + static_cast<uint32_t>(rings_.size()); }
+  template <class Add, class AddFromGap>
+  uint32_t follow_row(const ContourSection& section, std::span<const ContourGaps::Joint> joints,
+                      uint32_t row, uint32_t id, Add&& add, AddFromGap&& add_from_gap);
+  /// Adds a ring that begins with a crossing on a horizontal edge.
+  void follow(ContourSection& section, uint32_t id, uint32_t column, uint32_t row, uint32_t beside,
+              const Job* job);
+  /// Adds a ring that begins on a joint of divided cells.
+  void follow_from_gap(ContourSection& section, const ContourGaps::Place& start, bool goes_up,
+                       uint32_t beside, const Job* job);
+  /// Follows a ring from a place until crossing `first` comes again; or, where `start` is given,
+  /// from there until it comes again. Returns whether the ring is inner.
+  bool go_around(ContourSection& section, RingPlace place, uint32_t first,
+                 const ContourGaps::Place* start, const Job* job);
+  /// Follows a ring through divided cells, to the place where it leaves them. False if `start`
+  /// comes again before.
+  bool go_through(const ContourSection& section, ContourGaps::Place at,
+                  const ContourGaps::Place* start, RingPlace& place, const Job* job);
+  void put_crossing(double end, uint64_t cell, int kind);
+  void make_room();
+  void place(ContourPoints& points);
   void place_at_edges(Ring& ring);
 
   const ContourGrid& grid_;
+  ContourGaps& gaps_;
+  const double accuracy_;
   const uint32_t at_once_;
   const Axis axes_[2];
   const double margin_;
   std::vector<Ring> rings_;
   uint32_t rings_before_ = 0;  // rings of earlier visits
+  std::vector<GapCrossing> gap_crossings_;
   const RingNodes nodes_;
   const RingSteps steps_;
   // Kept between calls: fresh memory of this size takes a while to get. May hold more than count_,
@@ -120,6 +152,7 @@ class ContourRings {
     }
   };
   const Borrowed<Memory> memory_;
+  const uint32_t most_;
   uint32_t room_, count_ = 0;
 };
 

@@ -51,10 +51,17 @@ class ContourSection {
   /// Row by row, and one row more without crossings.
   const EdgeWord* horizontal_edges() const { return memory_->edges.data(); }
   const EdgeWord* vertical_edges() const { return memory_->edges.data() + edge_words(); }
+  bool is_horizontal(uint32_t id) const { return id < horizontal_count_; }
+  /// The crossing of an edge, by its first node.
+  uint32_t crossing_of(bool is_horizontal, uint32_t column, uint32_t row) const {
+    const EdgeWord* const edges = is_horizontal ? horizontal_edges() : vertical_edges();
+    return edges[row * grid_.row_words() + column / 64].crossing(column % 64);
+  }
   /// By crossing on a horizontal edge: the number of its ring, which ContourRings sets; until then
   /// no_ring. One more number has no meaning.
   uint32_t* rings() { return memory_->rings.data(); }
   static constexpr uint32_t no_ring = UINT32_MAX;
+  uint32_t ring(uint32_t id) const { return memory_->rings[id]; }
   /// u or v of each crossing, and its negative where the first node of the edge is inside. Struts
   /// give some that are nearer to a node than the margin, or beyond it. Those beyond the window
   /// have no meaning.

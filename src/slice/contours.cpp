@@ -5,12 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <unordered_set>
 
 #include "base/borrowed.h"
 #include "base/memory.h"
 #include "base/simd.h"
 #include "base/status.h"
 #include "slice/contour_details.h"
+#include "slice/contour_gaps.h"
 #include "slice/contour_line.h"
 #include "slice/contour_points.h"
 #include "slice/contour_rings.h"
@@ -330,14 +332,21 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
                               "the crossings of a layer");
   section.trace(points, accuracy_of_tolerance * std::min(plan.tolerance, pitch),
                 struts ? &struts->all : nullptr, struts ? &struts->shape : nullptr);
+  ContourGaps gaps(section, gap_parts(pitch, plan.tolerance, margin));
+  gaps.find(points);
+  const Reservation more(budget,
+                         gaps.crossing_count() * (ContourRings::bytes_of_gap_crossing + bytes),
+                         "the gaps of a layer");
   if (job) job->set_progress(0.75);
-  ContourRings rings(section, struts.has_value());
+  ContourRings rings(section, gaps, struts.has_value(), plan.tolerance / 32);
   const Borrowed<ContourNumbers> room;
   out->begin(*room);
   RingBuilder builder(rings, part, plan.units, *out);
-  uint64_t unresolved = section.unresolved();
-  rings.follow_all(section, job, [&] {
-    ContourDetails details(rings, part, plan.format != ContourFormat::float64 ? plan.units : 0);
+  std::unordered_set<uint64_t> taken;
+  uint64_t unresolved = section.unresolved() - gaps.saddles() + gaps.unresolved();
+  rings.follow_all(section, points, [&] {
+    ContourDetails details(rings, part, plan.format != ContourFormat::float64 ? plan.units : 0,
+                           taken);
     details.find(points);
     builder.build(details, job);
     unresolved += details.unresolved();
@@ -345,7 +354,7 @@ Ref<Contours> layer_contours(const Model& model, const ContourPlan& plan, Job* j
   out->set_unresolved(unresolved);
   out->close(*room);
   if (plan.topology_samples != 0)
-    out->set_topology(builder.dropped() +
+    out->set_topology(builder.dropped() + gaps.count_topology_steps(job) +
                       count_topology_steps(model, resolved, section, plan.topology_samples, job));
   scope.done();
   return out;

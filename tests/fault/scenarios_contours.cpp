@@ -40,7 +40,9 @@ std::vector<Scenario> contour_scenarios() {
         {"msq_layer_contours: " + kind.name, [&kind](Stage& stage) {
            World world(stage);
            const msq_model* model = world.model(world.box(), kind.make(world));
-           const msq_contours_def def = coarse();
+           msq_contours_def def = coarse();
+           if (kind.name == std::string("foam"))
+             def.tolerance = def.pitch / 16;  // gaps are followed
            msq_contours* contours;
            std::vector<double> first(4);
            stage.watch_handle(contours);
@@ -56,6 +58,7 @@ std::vector<Scenario> contour_scenarios() {
          const msq_slicer* slicer = world.slicer(model, false);
          msq_contours_def def = coarse();
          def.topology_samples = 2;
+         def.tolerance = def.pitch / 16;  // gaps are followed
          msq_contours* contours;
          std::vector<double> first(4);
          stage.watch_handle(contours);

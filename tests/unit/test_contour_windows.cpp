@@ -79,6 +79,9 @@ std::vector<Kind> kinds() {
          return foam(Parameter(
              Ref<const Field>(make_ref<GradientField>(Vec3{0, 0, 0}, 0.03, Vec3{6, 0, 0}, 0.25))));
        })},
+      {"foam with narrow gaps", filled([] { return foam(Parameter(0.27)); })},
+      {"foam with narrow gaps and a skin, in a mesh",
+       filled([] { return foam(Parameter(0.25)); }, mesh, 0.2)},
       {"foam with a skin, in a mesh", filled([] { return foam(Parameter(0.1)); }, mesh, 0.2)},
       {"lattice", filled([] { return lattice(0.2, {}); })},
       {"lattice, turned", filled([] { return lattice(0.15, turned_twice()); })},
@@ -106,9 +109,14 @@ void test_windows(void** state) {
     const int w = plan.plane.axis;
     plan.plane.height = random.between(bounds.min[w] + 0.05, bounds.max[w] - 0.05);
     plan.pitch = random.between(0.02, 0.15);
-    plan.tolerance = plan.pitch * random.between(0.05, 1);
+    plan.tolerance = plan.pitch * (random.below(2) == 0 ? random.between(0.05, 0.125)
+                                                        : random.between(0.125, 1));
     plan.format = static_cast<ContourFormat>(1 + random.below(3));
-    plan.units = plan.format == ContourFormat::float64 ? 1 : 1e6;
+    // Some as coarse as units may be.
+    plan.units = plan.format == ContourFormat::float64 ? 1
+                 : random.below(2) == 0
+                     ? 1e6
+                     : std::max(64 / plan.pitch, 4 / plan.tolerance) * random.between(1.3, 3);
     plan.has_window = true;
     double low[2], high[2];
     const int axes[2] = {plan.plane.u_axis(), plan.plane.v_axis()};
@@ -140,7 +148,7 @@ void test_windows(void** state) {
     const Rings whole = make(low, high);
     // Two windows in its place.
     const int across = static_cast<int>(random.below(2));
-    const double cut = low[across] + (high[across] - low[across]) * random.between(0.1, 0.9);
+    const double cut = low[across] + (high[across] - low[across]) * random.between(0.2, 0.8);
     double first_high[2] = {high[0], high[1]}, second_low[2] = {low[0], low[1]};
     first_high[across] = second_low[across] = cut;
     const Rings parts[2] = {make(low, first_high), make(second_low, high)};

@@ -1554,7 +1554,7 @@ pub struct msq_contours_def {
     pub window_max: [f64; 2],
     /// Maximum distance between boundary and rings, in model units, where features are wider than the pitch. Positive; there is no default.
     pub tolerance: f64,
-    /// Distance between the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that contain a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. 0 (default): the tolerance. Up to 2^18 times each side of the window.
+    /// Distance between the nodes at which the model is sampled. Rounded down to three binary digits. Parts of the solid or of the void that contain a disc of diameter sqrt(2) * pitch are never lost; narrower ones may be. If the tolerance is at most pitch / 8, a gap that becomes narrower than the pitch is followed until it is about as narrow as the tolerance, or as pitch / 16 if that is more (docs/concepts.md). 0 (default): the tolerance. Up to 2^18 times each side of the window.
     pub pitch: f64,
     /// Coordinates are model coordinates times this. Default 1. Integer coordinates are rounded to the nearest integer. The pitch must then be at least 64 units, and the tolerance at least 4.
     pub units: f64,
