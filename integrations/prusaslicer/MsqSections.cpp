@@ -35,7 +35,7 @@ static ExPolygons section(const msq_model *part, double height, double pixel)
     check(msq_contours_def_init(&def, sizeof def));
     def.type      = MSQ_INT32;
     def.tolerance = pixel / 64;
-    def.pitch     = pixel / 4; // gaps between struts that are narrower may be lost
+    def.pitch     = pixel / 4; // gaps that become narrower than this are followed down to the tolerance
     def.units     = 1 / SCALING_FACTOR;
     const Contours contours = make<Contours>([](auto... a) { return msq_layer_contours(a..., nullptr); }, part, height, &def);
     msq_contours_report report{};
