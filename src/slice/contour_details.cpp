@@ -271,7 +271,7 @@ void ContourDetails::suspect(const ContourRings::Ring& ring, uint32_t id) {
   if (has_triangle) {
     piece.corner = a + d1 * (turn2 / turn);
     piece.has_corner = is_in_cell(id, piece.corner);
-    piece.is_corner_beyond = !piece.has_corner;
+    piece.is_corner_beyond = !piece.has_corner && rings_.gaps().parts() > 1;
   }
   if (const double bend =
           bend_of(rings_.at(before(p)), rings_.at(p), a, b, rings_.at(q), rings_.at(behind(q)));

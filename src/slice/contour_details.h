@@ -12,9 +12,10 @@
 // found by bisection, and both halves are looked into likewise.
 //
 // All points found lie within the cell, away from its edges, so pieces of different cells never
-// meet. One exception: a corner may lie in the cell beside, if the boundary meets no edge of that
-// cell at a node's scale (its nodes are alike), and no other corner lies there. Both cells together
-// are convex, so the sides of the corner stay within them.
+// meet. One exception, at tolerances at which gaps are followed (contour_gaps.h): a corner may lie
+// in the cell beside, if the boundary meets no edge of that cell at a node's scale (its nodes are
+// alike), and no other corner lies there. Both cells together are convex, so the sides of the
+// corner stay within them. At coarser tolerances the time is not worth it.
 #pragma once
 
 #include <cstdint>
