@@ -271,7 +271,7 @@ void clear_void_of(const VoidFaces& faces, const VoidRows& rows,
   while (const size_t n = at_hand.next()) {
     if (HWY_LIKELY(work.along.empty())) find_inner_ends(work, n, faces.reach);
     for (size_t j = 0; j < n; j += lanes) {
-      Ends inner, outer;
+      Ends inner{none, none}, outer = inner;
       V first, last;
       bool has_doubts;
       if (HWY_LIKELY(work.along.empty())) {
