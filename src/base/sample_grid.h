@@ -59,6 +59,14 @@ struct SampleGrid {
   uint64_t first_y_from(double value) const {
     return first_sample_from<beyond>(origin.y, spacing.y, first[1], ny, value);
   }
+  template <bool beyond = false>
+  uint64_t first_z_from(double value) const {
+    if (!heights) return first_sample_from<beyond>(origin.z, spacing.z, first[2], nz, value);
+    const double *const begin = heights + first[2], *const end = begin + nz;
+    return static_cast<uint64_t>(
+        (beyond ? std::upper_bound(begin, end, value) : std::lower_bound(begin, end, value)) -
+        begin);
+  }
 
   /// The largest number that positions are computed from.
   double magnitude() const {

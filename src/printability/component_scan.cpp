@@ -82,7 +82,7 @@ HWY_NOINLINE void add_runs(const uint32_t* HWY_RESTRICT edges, const uint32_t* H
     part.samples += end - first;
   }
 #else
-  const hn::Simd<uint32_t, 4, 0> d;
+  const hn::FixedTag<uint32_t, 4> d;
   alignas(16) const uint32_t of_run[4] = {~0u, ~0u, 0, 0}, of_first[4] = {~0u, 0, 0, 0},
                              of_row[4] = {0, 0, row, 0};
   const auto run_mask = hn::Load(d, of_run), flip = hn::Load(d, of_first), y = hn::Load(d, of_row);

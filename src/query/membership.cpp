@@ -102,8 +102,8 @@ bool clip_to_box(const RowBlock& slab, const Box3& box, RowBlock& part) {
   part = slab;
   part.y0 = std::max(slab.y0, grid.first_y_from(box.min.y));
   part.y1 = std::min(slab.y1, grid.first_y_from<true>(box.max.y));
-  while (part.z0 < part.z1 && grid.z(part.z0) < box.min.z) ++part.z0;
-  while (part.z0 < part.z1 && grid.z(part.z1 - 1) > box.max.z) --part.z1;
+  part.z0 = std::max(slab.z0, grid.first_z_from(box.min.z));
+  part.z1 = std::min(slab.z1, grid.first_z_from<true>(box.max.z));
   if (part.y0 >= part.y1 || part.z0 >= part.z1) return false;
   part.words = slab.row(part.y0, part.z0);
   return grid.first_x_from(box.min.x) < grid.first_x_from<true>(box.max.x);

@@ -145,4 +145,5 @@ void ContourGaps::keep_open(std::vector<Edge>& edges, uint32_t parts, double bey
   }
   edges.resize(kept);
 }
+
 }  // namespace msq

@@ -123,15 +123,12 @@ void ContourGaps::divide(ContourPoints& points) {
     for (size_t n = first; n < end; ++n)
       for (uint32_t side = bottom; side <= left; ++side) {
         if (cells_[n].neighbours[side] != none || !goes_on(cells_[n], side)) continue;
-        const uint32_t column = cells_[n].column, row = cells_[n].row;
-        if (end >= most ||
-            !section_.grid().is_inner_cell(side == right ? column + 1 : column - (side == left),
-                                           side == top ? row + 1 : row - (side == bottom))) {
+        const uint32_t column = cells_[n].column + (side == right) - (side == left),
+                       row = cells_[n].row + (side == top) - (side == bottom);
+        if (end < most && section_.grid().is_inner_cell(column, row))
+          add(column, row);
+        else
           ++unresolved_;
-          continue;
-        }
-        add(side == right ? column + 1 : column - (side == left),
-            side == top ? row + 1 : row - (side == bottom));
       }
     first = end;
   }
@@ -294,4 +291,5 @@ void ContourGaps::finish() {
     return a.row != b.row ? a.row < b.row : a.column < b.column;
   });
 }
+
 }  // namespace msq

@@ -25,7 +25,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Bounds from two planes count if the difference of their slopes is at least this part of their
-/// numbers. Each of these is off by at most 2^-21 of itself, coordinates are at most 2, and so the
+/// numbers. Each of these is off by at most 2^-21 of itself, coordinates are below 4, and so the
 /// bound is off by less than 2^-12 foam units, the room that bounds have.
 constexpr float min_difference = 0x1p-7f, bound_room = 0x1p-12f;
 

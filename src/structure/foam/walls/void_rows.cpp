@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/borrowed.h"
+#include "base/sample_bounds.h"
 #include "base/simd.h"
 #include "structure/common/grid_boxes.h"
 #include "structure/foam/walls/face_brick.h"
@@ -22,37 +23,10 @@ constexpr size_t cache_line = 64;
 /// Fields that grow faster tilt planes too far for the margin; they are bounded instead.
 constexpr double max_gradient = 0.25;
 
-/// Ascending coordinates, mostly at equal distances.
-class Places {
- public:
-  void clear() { at_.clear(); }
-  void add(double at) { at_.push_back(at); }
-  void finish() {
-    const double steps = double(at_.size() - 1) / (at_.back() - at_.front());
-    per_unit_ = steps < 1e300 ? steps : 0;  // not if there is one
-  }
-
-  const std::vector<double>& all() const { return at_; }
-  double operator[](size_t i) const { return at_[i]; }
-  /// How many are in [low, high], and the first.
-  size_t part(double low, double high, size_t& first) const {
-    first = count([&](double at) { return at < low; }, low);
-    return std::max(first, count([&](double at) { return at <= high; }, high)) - first;
-  }
-
- private:
-  /// How many are below a value; from a guess.
-  template <class IsBelow>
-  size_t count(const IsBelow& is_below, double value) const {
-    auto n =
-        static_cast<size_t>(std::clamp((value - at_.front()) * per_unit_, 0.0, double(at_.size())));
-    while (n < at_.size() && is_below(at_[n])) ++n;
-    while (n > 0 && !is_below(at_[n - 1])) --n;
-    return n;
-  }
-
-  std::vector<double> at_;
-  double per_unit_ = 0;
+/// Rows and layers of the block.
+struct RowPart {
+  uint64_t j, k;  // the first ones
+  size_t rows, layers;
 };
 
 /// A cell that meets the block.
@@ -65,7 +39,6 @@ struct NearCell {
 struct VoidRowsWorkspace {
   std::vector<NearCell> near;
   std::vector<DoubtfulSamples> doubts;
-  Places y, z;
   std::vector<float> near_y, near_z;
   std::vector<VentPlane> vents;
   std::vector<double> vent_y, vent_z;
@@ -84,7 +57,7 @@ class BlockVoids {
     find_alive();
   }
 
-  bool is_empty() const { return j0_ >= j1_; }
+  bool is_empty() const { return is_empty_; }
   /// Of the samples that are alive.
   const Box3& box() const { return box_; }
   bool pays() const {
@@ -138,43 +111,31 @@ class BlockVoids {
  private:
   void find_alive() {
     const SampleGrid& samples = *block_.grid;
-    const size_t words = block_.row_words();
-    size_t w0 = words, w1 = 0;
-    j0_ = block_.y1;
-    j1_ = block_.y0;
-    k0_ = block_.z1;
-    k1_ = block_.z0;
-    for (uint64_t k = block_.z0; k < block_.z1; ++k)
-      for (uint64_t j = block_.y0; j < block_.y1; ++j) {
-        const uint64_t* row = block_.row(j, k);
-        size_t first = 0, last = words;
-        while (first < words && !row[first]) ++first;
-        if (first == words) continue;
-        while (!row[last - 1]) --last;
-        w0 = std::min(w0, first);
-        w1 = std::max(w1, last);
-        j0_ = std::min(j0_, j);
-        j1_ = std::max(j1_, j + 1);
-        k0_ = std::min(k0_, k);
-        k1_ = std::max(k1_, k + 1);
-      }
-    if (is_empty()) return;
-    const uint64_t i0 = w0 * bits_per_word,
-                   i1 = std::min<uint64_t>(samples.nx, w1 * bits_per_word) - 1;
-    box_ = {samples.at(i0, j0_, k0_), samples.at(i1, j1_ - 1, k1_ - 1)};
-    samples_ = double(i1 - i0 + 1) * double(j1_ - j0_) * double(k1_ - k0_);
+    is_empty_ = !find_bounds(block_, alive_);
+    if (is_empty_) return;
+    box_ = {samples.at(alive_.i0, alive_.j0, alive_.k0),
+            samples.at(alive_.i1 - 1, alive_.j1 - 1, alive_.k1 - 1)};
+    samples_ = double(alive_.i1 - alive_.i0) * double(alive_.j1 - alive_.j0) *
+               double(alive_.k1 - alive_.k0);
     // Positions of samples and seeds carry a few units of 2^-53 of the largest magnitude.
     const double most = max_magnitude(box_.min) + max_magnitude(box_.max) +
                         max_magnitude(grid_.origin) + samples.magnitude();
     position_error_ = 0x1p-40 * most / unit_;
     margin_ = void_margin(max_void_reach) + position_error_;
-    w_.y.clear();
-    w_.z.clear();
-    for (uint64_t j = j0_; j < j1_; ++j) w_.y.add(samples.y(j));
-    for (uint64_t k = k0_; k < k1_; ++k) w_.z.add(samples.z(k));
-    w_.y.finish();
-    w_.z.finish();
     w_.doubts.clear();
+  }
+
+  /// What may meet a box of the rows and layers with samples that are alive; false if nothing does.
+  bool find_part(const Box3& box, RowPart& part) const {
+    const SampleGrid& samples = *block_.grid;
+    part.j = std::max(alive_.j0, samples.first_y_from(box.min.y));
+    part.k = std::max(alive_.k0, samples.first_z_from(box.min.z));
+    const uint64_t j1 = std::min(alive_.j1, samples.first_y_from<true>(box.max.y)),
+                   k1 = std::min(alive_.k1, samples.first_z_from<true>(box.max.z));
+    if (part.j >= j1 || part.k >= k1) return false;
+    part.rows = j1 - part.j;
+    part.layers = k1 - part.k;
+    return true;
   }
 
   void clear(const FaceBrick& brick, const NearCell& near) {
@@ -223,29 +184,26 @@ class BlockVoids {
           around.min.z < around.max.z))
       return;
     const Box3 reach{seed + around.min * unit_, seed + around.max * unit_};
-    size_t row, layer;
-    const size_t rows = w_.y.part(reach.min.y, reach.max.y, row),
-                 layers = w_.z.part(reach.min.z, reach.max.z, layer);
-    if (rows == 0 || layers == 0) return;
+    RowPart part;
+    if (!find_part(reach, part)) return;
 
     const size_t room = 2 * max_simd_doubles;
-    w_.near_y.assign(rows + room, 0);
-    w_.near_z.assign(layers + room, 0);
-    const double per_unit = 1 / unit_;
-    for (size_t j = 0; j < rows; ++j)
-      w_.near_y[j] = static_cast<float>((w_.y[row + j] - seed.y) * per_unit);
-    for (size_t k = 0; k < layers; ++k)
-      w_.near_z[k] = static_cast<float>((w_.z[layer + k] - seed.z) * per_unit);
+    w_.near_y.assign(part.rows + room, 0);
+    w_.near_z.assign(part.layers + room, 0);
     const SampleGrid& samples = *block_.grid;
+    const double per_unit = 1 / unit_;
+    for (size_t j = 0; j < part.rows; ++j)
+      w_.near_y[j] = static_cast<float>((samples.y(part.j + j) - seed.y) * per_unit);
+    for (size_t k = 0; k < part.layers; ++k)
+      w_.near_z[k] = static_cast<float>((samples.z(part.k + k) - seed.z) * per_unit);
     const double base = std::floor(place);
-    const uint64_t j = j0_ + row, k = k0_ + layer;
     const VoidRows target{w_.near_y.data(),
                           w_.near_z.data(),
-                          rows,
-                          layers,
-                          static_cast<uint32_t>(j - block_.y0),
-                          static_cast<uint32_t>(k - block_.z0),
-                          block_.row(j, k),
+                          part.rows,
+                          part.layers,
+                          static_cast<uint32_t>(part.j - block_.y0),
+                          static_cast<uint32_t>(part.k - block_.z0),
+                          block_.row(part.j, part.k),
                           block_.row_stride,
                           block_.layer_stride,
                           static_cast<float>(unit_ / samples.spacing.x),
@@ -268,26 +226,21 @@ class BlockVoids {
       w_.vents.push_back({faces.plane(i), n * (1 / length(n)), face.distance, areas[i].area, middle,
                           Interval{range.low / unit_, range.high / unit_}});
     }
-    const auto from_seed = [&](const std::vector<double>& v, size_t first, size_t count, double at,
-                               std::vector<double>& near) {
-      near.resize(count);
-      for (size_t i = 0; i < count; ++i) near[i] = (v[first + i] - at) / unit_;
-    };
-    size_t row, layer;
-    const size_t row_count = w_.y.part(reach.min.y, reach.max.y, row),
-                 layer_count = w_.z.part(reach.min.z, reach.max.z, layer);
-    if (row_count == 0 || layer_count == 0) return;
-    from_seed(w_.y.all(), row, row_count, seed.y, w_.vent_y);
-    from_seed(w_.z.all(), layer, layer_count, seed.z, w_.vent_z);
-    const uint64_t j = j0_ + row, k = k0_ + layer;
+    RowPart part;
+    if (!find_part(reach, part)) return;
     const SampleGrid& samples = *block_.grid;
+    w_.vent_y.resize(part.rows);
+    w_.vent_z.resize(part.layers);
+    for (size_t j = 0; j < part.rows; ++j) w_.vent_y[j] = (samples.y(part.j + j) - seed.y) / unit_;
+    for (size_t k = 0; k < part.layers; ++k)
+      w_.vent_z[k] = (samples.z(part.k + k) - seed.z) / unit_;
     const VentRows rows{w_.vent_y.data(),
                         w_.vent_z.data(),
-                        row_count,
-                        layer_count,
-                        static_cast<uint32_t>(j - block_.y0),
-                        static_cast<uint32_t>(k - block_.z0),
-                        block_.row(j, k),
+                        part.rows,
+                        part.layers,
+                        static_cast<uint32_t>(part.j - block_.y0),
+                        static_cast<uint32_t>(part.k - block_.z0),
+                        block_.row(part.j, part.k),
                         block_.row_stride,
                         block_.layer_stride,
                         unit_ / samples.spacing.x,
@@ -314,7 +267,8 @@ class BlockVoids {
   const double unit_;  // of FaceBrick
   const RowBlock& block_;
   VoidRowsWorkspace& w_;
-  uint64_t j0_ = 0, j1_ = 0, k0_ = 0, k1_ = 0;
+  bool is_empty_ = true;
+  SampleBounds alive_;
   Box3 box_;
   double samples_ = 0;
   double position_error_ = 0, margin_ = 0;  // in that unit; the latter for any cell

@@ -87,26 +87,28 @@ class ShortSpans {
       : base_(hn::Set(DW(), rows.base)),
         last_byte_(hn::Set(DW(), rows.last / static_cast<int64_t>(bits_per_word) * 8)) {}
 
-  HWY_INLINE void clear(uint64_t* const* rows, const Spans& spans, VoidWork& work) const {
+  HWY_INLINE void clear(uint64_t* const* rows, const Spans& spans) const {
     const DW dw;
     const DU du;
     const hn::Rebind<int32_t, DW> di;
+    // Of each row: where a word begins, and which of its bits are kept.
+    alignas(64) int64_t byte[2 * max_simd_doubles];
+    alignas(64) uint64_t kept[2 * max_simd_doubles];
     const size_t lanes = hn::Lanes(D());
     const auto one = hn::Set(du, 1);
     for (size_t l = 0; l < lanes; l += hn::Lanes(dw)) {
       const auto first = hn::Add(hn::PromoteTo(dw, hn::LoadU(di, spans.first + l)), base_);
       const auto count = hn::BitCast(du, hn::PromoteTo(dw, hn::LoadU(di, spans.count + l)));
-      const auto byte = hn::Min(hn::ShiftRight<3>(first), last_byte_);
-      const auto shift = hn::BitCast(du, hn::Sub(first, hn::ShiftLeft<3>(byte)));
-      hn::Store(byte, dw, work.byte + l);
-      hn::Store(hn::Not(hn::Shl(hn::Sub(hn::Shl(one, count), one), shift)), du, work.kept + l);
+      const auto begin = hn::Min(hn::ShiftRight<3>(first), last_byte_);
+      const auto shift = hn::BitCast(du, hn::Sub(first, hn::ShiftLeft<3>(begin)));
+      hn::Store(begin, dw, byte + l);
+      hn::Store(hn::Not(hn::Shl(hn::Sub(hn::Shl(one, count), one), shift)), du, kept + l);
     }
-    HWY_FENCE;  // otherwise GCC takes the lanes out of registers one by one, which costs more
     for (size_t l = 0; l < lanes; ++l) {
-      char* const at = reinterpret_cast<char*>(rows[l]) + work.byte[l];
+      char* const at = reinterpret_cast<char*>(rows[l]) + byte[l];
       uint64_t word;
       std::memcpy(&word, at, sizeof word);
-      word &= work.kept[l];
+      word &= kept[l];
       std::memcpy(at, &word, sizeof word);
     }
   }
@@ -302,7 +304,7 @@ void clear_void_of(const VoidFaces& faces, const VoidRows& rows,
       uint64_t* const* const row = work.row + j;
       if (has_bytes_in_order &&
           HWY_LIKELY(hn::AllTrue(di, hn::Lt(count, hn::Set(di, short_span + 1))))) {
-        short_spans.clear(row, certain, work);
+        short_spans.clear(row, certain);
       } else {
         for (size_t l = 0; l < end; ++l) {
           if (certain.count[l] == 0) continue;

@@ -44,9 +44,6 @@ struct VoidWork {
   alignas(64) float y[rows + padding] = {}, z[rows + padding] = {};
   alignas(64) float low[rows + padding] = {}, high[rows + padding] = {};
   uint64_t* row[rows + padding] = {};
-  // Of a vector of rows: where a word begins in the row, and which of its bits are kept.
-  alignas(64) int64_t byte[padding] = {};
-  alignas(64) uint64_t kept[padding] = {};
 
   size_t bytes() const {
     return sizeof *this + 10 * right.base.capacity() * sizeof(float) +
