@@ -37,6 +37,7 @@ OUTSIDE = [
                          "expression/*-inl.h"]),
     (r"hwy/foreach_target\.h", ["shape/*.cpp", "strut/*.cpp", "structure/*/*.cpp",
                                 "structure/*/*/*.cpp", "slice/*.cpp", "printability/*.cpp", "expression/*.cpp"]),
+    (r"hwy/contrib/math/math-inl\.h", ["structure/functional/single_wave.cpp"]),
     (r"hwy/.*", ["base/simd.h", "base/simd.cpp"]),
     (r"(oneapi/)?tbb/.*", ["base/parallel.cpp"]),
     (r"tiff\w*\.h", ["io/tiff_image.cpp"]),

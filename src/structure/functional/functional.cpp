@@ -17,6 +17,7 @@
 #include "structure/functional/row_kernels.h"
 #include "structure/functional/sheared_rows.h"
 #include "structure/functional/tape_rows.h"
+#include "structure/functional/single_wave_rows.h"
 #include "structure/functional/turned_rows.h"
 #include "structure/functional/warped_places.h"
 #include "structure/functional/warped_rows.h"
@@ -111,7 +112,10 @@ const Functional::Prepared& Functional::prepared() const {
   std::call_once(once_, [this] {
     Clusters clusters(onset_, side_, level_.range());
     std::vector<RowPlan> plans = msq::row_plans(clusters, sample_axis_);
-    prepared_ = Prepared{std::move(clusters), std::move(plans)};
+    std::optional<RowPlan> wave_plan;
+    if (sample_axis_[0] >= 0) wave_plan.emplace(onset_, sample_axis_);
+    if (wave_plan && !wave_plan->wave) wave_plan.reset();
+    prepared_ = Prepared{std::move(clusters), std::move(plans), std::move(wave_plan)};
   });
   return *prepared_;
 }
@@ -353,6 +357,8 @@ void Functional::keep_rows(const RowBlock& block, const Job* job) const {
     WarpedRows(*this, block).keep(job);
   else if (angles_.is_mapped())
     Structure::keep_rows(block, job);
+  else if (SingleWaveRows::serves(*this, block))
+    SingleWaveRows(*this, block).keep(job);
   else if (sample_axis_[0] >= 0)
     FunctionalRows(*this, block).keep(job);
   else if (form_)

@@ -95,6 +95,12 @@ class Functional final : public Structure, public RepeatingStructure {
   /// One for each of the clusters' tapes; empty if the grid is turned.
   const std::vector<RowPlan>& row_plans() const { return prepared().row_plans; }
 
+  /// How the onset is evaluated in rows, if it is a single wave there (RowPlan::wave); null
+  /// otherwise.
+  const RowPlan* wave_plan() const {
+    return prepared().wave_plan ? &*prepared().wave_plan : nullptr;
+  }
+
   /// The form of the onset; none for tapes of another form. In cells of one size there is none
   /// unless the grid is turned, in sheared cells and in those of a sampled map none if it is
   /// turned.
@@ -115,6 +121,7 @@ class Functional final : public Structure, public RepeatingStructure {
   struct Prepared {
     Clusters clusters;
     std::vector<RowPlan> row_plans;
+    std::optional<RowPlan> wave_plan;
   };
   const Prepared& prepared() const;
   /// The value of the onset's tape.

@@ -25,42 +25,26 @@ FunctionalRows::FunctionalRows(const Functional& structure, const RowBlock& bloc
     : structure_(structure),
       block_(block),
       grid_(*block.grid),
+      angles_(structure, block),
       words_(block.row_words()),
       works_(structure.row_plans().size()) {
   const Neighbourhood& cells = structure.neighbourhood();
-  const uint64_t first[3] = {0, block.y0, block.z0};
-  const uint64_t count[3] = {words_ * bits_per_word, block.rows(), block.layers()};
   const auto& sample_axis = structure.sample_axis();
   const auto along = std::find(sample_axis.begin(), sample_axis.end(), 0) - sample_axis.begin();
   const double samples = cells.cell_size[static_cast<int>(along)] / grid_.spacing.x;
   clusters_ = structure.clusters().at_most(
       samples / (structure.row_plans()[0].is_linear ? critical_linear : critical_samples));
-  for (int axis = 0; axis < 3; ++axis) {
-    // The other two coordinates do not matter.
-    std::vector<double> positions(count[axis] + batch_padding), angles[3];
-    for (uint64_t i = 0; i < count[axis]; ++i)
-      positions[i] = axis == 0   ? grid_.x(std::min(i, grid_.nx - 1))
-                     : axis == 1 ? grid_.y(first[1] + i)
-                                 : grid_.z(first[2] + i);
-    const double x = grid_.x(0), y = grid_.y(block.y0), z = grid_.z(block.z0);
-    const Values x_or = {axis == 0 ? positions.data() : &x, axis != 0};
-    const Values y_or = {axis == 1 ? positions.data() : &y, axis != 1};
-    const Values z_or = {axis == 2 ? positions.data() : &z, axis != 2};
-    for (auto& a : angles) a.resize(count[axis] + batch_padding);
-    structure.angles().find(x_or, y_or, z_or, count[axis],
-                            {angles[0].data(), angles[1].data(), angles[2].data()});
-    for (size_t a = 0; a < 3; ++a)
-      if (sample_axis[a] == axis) angles_[axis] = std::move(angles[a]);
-  }
   if (structure.level().is_constant()) {
     constant_level_ = structure.level().at({});
-    find_period();
+    words_ = angles_.period(grid_);
+    repeats_ = words_ < block.row_words();
   }
+  const uint64_t count[3] = {words_ * bits_per_word, block.rows(), block.layers()};
   for (int axis = 0; axis < 3; ++axis) {
-    numbers_[axis].resize(axis == 0 ? words_ * bits_per_word : count[axis]);
+    numbers_[axis].resize(count[axis]);
     if (clusters_)
       for (size_t i = 0; i < numbers_[axis].size(); ++i)
-        numbers_[axis][i] = clusters_->number(angles_[axis][i]);
+        numbers_[axis][i] = clusters_->number(angles_.of[axis][i]);
   }
   const uint64_t columns = repeats_ ? words_ * bits_per_word : grid_.nx;
   for (uint64_t i = 0; i < columns; ++i) {
@@ -77,22 +61,6 @@ FunctionalRows::FunctionalRows(const Functional& structure, const RowBlock& bloc
   doubt_.resize(words_);
 }
 
-/// Finds rows whose angles repeat after some words; they are computed once and copied.
-void FunctionalRows::find_period() {
-  const std::vector<double>& angles = angles_[0];
-  for (size_t words = 1; 2 * words <= words_; ++words) {
-    const size_t period = words * bits_per_word;
-    if (angles[period] != angles[0]) continue;
-    bool is_period = true;
-    for (uint64_t i = period; i < grid_.nx && is_period; ++i)
-      is_period = angles[i] == angles[i - period];
-    if (!is_period) continue;
-    words_ = words;
-    repeats_ = true;
-    return;
-  }
-}
-
 void FunctionalRows::tabulate(Work& work) const {
   const Program& program = work.plan.tables;
   const size_t outputs = program.outputs.size(), columns = words_ * bits_per_word;
@@ -101,7 +69,7 @@ void FunctionalRows::tabulate(Work& work) const {
   for (size_t begin = 0; begin < columns; begin += batch_points) {
     const size_t size = std::min(batch_points, columns - begin);
     for (size_t a = 0; a < 3; ++a)
-      if (structure_.sample_axis()[a] == 0) batch.set_input(a, {angles_[0].data() + begin, false});
+      if (structure_.sample_axis()[a] == 0) batch.set_input(a, {angles_.of[0].data() + begin, false});
     batch.run(size);
     for (size_t o = 0; o < outputs; ++o) {
       const Values values = batch.output(o);
@@ -195,8 +163,8 @@ void FunctionalRows::prepare(Work& work, const RowGroup& group) {
   y.resize(group.rows() + batch_padding);
   z.resize(group.rows() + batch_padding);
   for (size_t row = 0; row < group.rows(); ++row) {
-    y[row] = angles_[1][group.y(row) - block_.y0];
-    z[row] = angles_[2][group.z(row) - block_.z0];
+    y[row] = angles_.of[1][group.y(row) - block_.y0];
+    z[row] = angles_.of[2][group.z(row) - block_.z0];
   }
   for (size_t a = 0; a < 3; ++a) {
     const int axis = structure_.sample_axis()[a];

@@ -8,6 +8,7 @@
 
 #include "structure/functional/functional.h"
 #include "structure/functional/level_bounds.h"
+#include "structure/functional/row_angles.h"
 #include "structure/functional/row_kernels.h"
 
 namespace msq {
@@ -62,7 +63,6 @@ class FunctionalRows {
     std::vector<std::vector<double>> gathered;
   };
 
-  void find_period();
   void tabulate(Work& work) const;
   void keep_group(const RowGroup& group);
   bool find_alive(const RowGroup& group, uint64_t& first, uint64_t& last) const;
@@ -80,11 +80,11 @@ class FunctionalRows {
   const RowBlock& block_;
   const SampleGrid& grid_;
   const Clusters::Grid* clusters_;  // null: none
-  size_t words_;                    // of a row that are computed; the others repeat them
+  const RowAngles angles_;
+  size_t words_;  // of a row that are computed; the others repeat them
   bool repeats_ = false;
-  std::vector<double> angles_[3];  // by axis of the samples: of columns, of rows, of layers
-  std::vector<int> numbers_[3];    // of their clusters
-  std::vector<Run> columns_;       // a row's runs, by the cluster along it
+  std::vector<int> numbers_[3];  // of their clusters
+  std::vector<Run> columns_;     // a row's runs, by the cluster along it
   std::vector<std::unique_ptr<Work>> works_;
   std::vector<Work*> used_;  // in a group
   std::vector<uint64_t> certain_, result_, doubt_, held_;

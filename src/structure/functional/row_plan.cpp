@@ -99,6 +99,18 @@ class Splitter {
     }
   }
 
+  using WaveTable = RowPlan::WaveTable;
+
+  std::optional<std::vector<WaveTable>> wave(const std::vector<uint32_t>& tables) const {
+    std::vector<WaveTable> found;
+    for (const uint32_t table : tables) {
+      const std::optional<WaveTable> one = wave_table(table);
+      if (!one) return std::nullopt;
+      found.push_back(*one);
+    }
+    return found;
+  }
+
   Program compile(const std::vector<uint32_t>& inputs, const std::vector<uint32_t>& outputs) const {
     std::vector<Node> nodes;
     for (uint32_t i = 0; i < builder_.size(); ++i) nodes.push_back(builder_[i]);
@@ -109,6 +121,30 @@ class Splitter {
   }
 
  private:
+  std::optional<WaveTable> wave_table(uint32_t i) const {
+    double factor = 1;
+    for (;;) {
+      const Node& node = builder_[i];
+      const auto is_constant = [&](uint32_t n) { return builder_[n].op == Op::constant; };
+      if (node.op == Op::sine || node.op == Op::cosine) {
+        const Op angle = builder_[node.a].op;
+        if (angle != Op::x && angle != Op::y && angle != Op::z) return std::nullopt;
+        return WaveTable{node.op == Op::sine, factor};
+      }
+      if (node.op == Op::negate) {
+        factor = -factor;
+        i = node.a;
+      } else if (node.op == Op::multiply && is_constant(node.a)) {
+        factor *= builder_[node.a].value;
+        i = node.b;
+      } else if (node.op == Op::multiply && is_constant(node.b)) {
+        factor *= builder_[node.b].value;
+        i = node.a;
+      } else {
+        return std::nullopt;
+      }
+    }
+  }
   double most(uint32_t i) const {
     const Enclosure& e = enclosures_[i];
     return std::max(std::abs(e.low), std::abs(e.high));
@@ -149,6 +185,7 @@ RowPlan::RowPlan(const Tape& tape, const std::array<int, 3>& sample_axis) {
       values.push_back(coefficient);
     }
     values.push_back(form->constant);
+    wave = splitter.wave(bases);
     tables = splitter.compile(bases);
     rows = splitter.compile(values);
     most_ = form->most;

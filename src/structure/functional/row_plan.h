@@ -5,6 +5,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <vector>
 
 #include "expression/program.h"
 
@@ -25,6 +27,14 @@ struct RowPlan {
   /// Bound of the error of that sum in single precision, relative to the tape; with further terms,
   /// whose magnitudes sum to at most `magnitude`.
   double slack(size_t terms = 0, double magnitude = 0) const;
+
+  /// If is_linear and each table is a factor times the sine or the cosine of the angle along the
+  /// rows: of each table which of them, and the factor.
+  struct WaveTable {
+    bool is_sine;
+    double factor;
+  };
+  std::optional<std::vector<WaveTable>> wave;
 
   /// Inputs: the tables, then the rows' outputs. Output: the tape's value.
   Program samples;

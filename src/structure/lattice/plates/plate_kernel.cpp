@@ -28,6 +28,7 @@
 #include "base/sample_grid.h"
 #include "base/simd.h"
 #include "structure/lattice/plates/row_plates.h"
+#include "structure/lattice/rows/mark_section-inl.h"
 #include "structure/lattice/rows/row_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -158,48 +159,28 @@ HWY_INLINE void PlateRow::add_cylinder(const Segment& edge, V y, V r2, Intervals
         hn::Add(kept.high, ax));
 }
 
-/// The columns of a part in buckets [begin, end) of the unrolled line of the cell.
-struct Buckets {
-  const uint64_t *from, *to;
-  uint64_t flip = 0;
-
-  Buckets(const ColumnSets& columns, size_t part, int32_t begin, int32_t end) {
-    constexpr int32_t all = ColumnSets::buckets;
-    if (end <= begin) end = begin;
-    const bool is_all = end - begin >= all;
-    from = columns.before(begin, part);
-    to = is_all ? from : columns.before(end, part);
-    if (is_all || (end & (all - 1)) < (begin & (all - 1))) flip = ~uint64_t{0};
-  }
-  uint64_t operator[](size_t word) const { return (from[word] ^ to[word]) ^ flip; }
-};
-
-void draw_row(const RowTask& task, const RowWorkspace& workspace, size_t lane, size_t row,
-              std::vector<LeftSample>& left) {
-  const uint64_t* const alive = task.alive[row];
+template <size_t section_words>
+void draw_row(const RowTask& task, const RowWorkspace& workspace, bool is_even, size_t lane,
+              size_t row, std::vector<LeftSample>& left) {
+  const uint64_t *const alive = task.alive[row], *const sets = task.columns->sets();
   uint64_t* const inside = task.inside + row * task.row_words();
-  for (size_t first = 0, section = 0; first < task.words; first += task.section_words, ++section) {
-    const size_t o = task.outer[section], i = task.inner[section];
-    const size_t part = first / ColumnSets::part_words, offset = first % ColumnSets::part_words;
-    const Buckets outer(*task.columns, part, workspace.low[o][lane], workspace.high[o][lane] + 1);
-    const Buckets inner(*task.columns, part, workspace.low[i][lane] + 1, workspace.high[i][lane]);
-    const size_t end = std::min(task.section_words, task.words - first);
-    uint64_t rest[ColumnSets::part_words], any = 0;
-    for (size_t word = 0; word < end; ++word) {
-      const uint64_t now = inside[first + word] | inner[offset + word];
-      inside[first + word] = now;
-      rest[word] = outer[offset + word] & ~now & alive[first + word];
-      any |= rest[word];
-    }
-    if (!any) continue;
+  const size_t words = task.words;
+  SectionColumns columns(task, workspace, 0, lane);
+  for (size_t first = 0, section = 0; first < words; first += section_words, ++section) {
+    if (!is_even) columns = SectionColumns(task, workspace, section, lane);
+    HWY_ALIGN uint64_t doubtful[section_words];
+    if (HWY_LIKELY(!mark_section<section_words>(sets, columns, is_even, first, inside, doubtful)))
+      continue;
+    const size_t end = std::min(section_words, words - first);
     for (size_t word = 0; word < end; ++word)
-      for (uint64_t bits = rest[word]; bits; bits &= bits - 1)
+      for (uint64_t bits = doubtful[word] & alive[first + word]; bits; bits &= bits - 1)
         left.push_back(
             {static_cast<uint32_t>(row), static_cast<uint32_t>((first + word) * bits_per_word) +
                                              static_cast<uint32_t>(std::countr_zero(bits))});
   }
 }
 
+template <size_t section_words>
 void draw_plate(const RowPlates& plates, const RowPlate& plate, const RowTask& task,
                 RowWorkspace& workspace, std::vector<LeftSample>& left) {
   const Doubles d;
@@ -209,6 +190,7 @@ void draw_plate(const RowPlates& plates, const RowPlate& plate, const RowTask& t
   const V scale = hn::Set(d, ColumnSets::buckets / plates.cell_size[0]);
   const V y_min = hn::Set(d, plate.bounds.min.y), y_max = hn::Set(d, plate.bounds.max.y);
   const PlateRow shape(plate, task.z, plates.extent);
+  const bool is_even = task.is_even();
   for (size_t j = 0; j < task.rows; j += lanes) {
     const V y = hn::LoadU(d, task.y + j);
     const V of_row = task.of_row ? hn::LoadU(d, task.of_row + j) : zero;
@@ -235,7 +217,8 @@ void draw_plate(const RowPlates& plates, const RowPlate& plate, const RowTask& t
     }
     for (; met; met &= met - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(met));
-      if (task.alive[j + lane]) draw_row(task, workspace, lane, j + lane, left);
+      if (task.alive[j + lane])
+        draw_row<section_words>(task, workspace, is_even, lane, j + lane, left);
     }
   }
 }
@@ -249,7 +232,9 @@ void mark_plates(const RowPlates& plates, const RowTask& task, RowWorkspace& wor
   for (const RowPlate& plate : plates.plates) {
     const double reach = plate.factor * (widest.radius + max_of_row) + widest.margin;
     if (task.z + reach < plate.bounds.min.z || task.z - reach > plate.bounds.max.z) continue;
-    draw_plate(plates, plate, task, workspace, left);
+    with_section_words(task.section_words, [&](auto words) HWY_ATTR {
+      draw_plate<decltype(words)::value>(plates, plate, task, workspace, left);
+    });
     if (left.size() < max_left) continue;
     // Plates that share a surface leave the same samples undecided.
     std::sort(left.begin(), left.end());

@@ -31,6 +31,7 @@
 #include "base/mask_bits-inl.h"
 #include "base/sample_grid.h"
 #include "base/simd.h"
+#include "structure/lattice/rows/mark_section-inl.h"
 #include "structure/lattice/rows/row_kernel.h"
 #include "structure/lattice/rows/row_struts.h"
 
@@ -43,26 +44,6 @@ namespace {
 using Doubles = hn::ScalableTag<double>;
 using V = hn::Vec<Doubles>;
 
-/// The columns of a part in a range of buckets: the sets at both ends, and the bits to flip for
-/// ranges that wrap around.
-struct BucketRange {
-  static constexpr int32_t all = ColumnSets::buckets;
-  int32_t from, to;
-  uint64_t flip;
-
-  /// Buckets [begin, end) of the unrolled line of the cell.
-  BucketRange(int32_t begin, int32_t end) : from(0), to(0), flip(0) {
-    if (end <= begin) return;
-    if (end - begin >= all) {
-      flip = ~uint64_t{0};
-      return;
-    }
-    from = begin & (all - 1);
-    to = end & (all - 1);
-    flip = to < from ? ~uint64_t{0} : 0;
-  }
-};
-
 template <size_t section_words>
 class SectionRows {
  public:
@@ -72,7 +53,11 @@ class SectionRows {
         workspace_(workspace),
         left_(left),
         size_(struts.cell_size[0]),
-        to_buckets_(ColumnSets::buckets / size_) {}
+        to_buckets_(ColumnSets::buckets / size_),
+        sets_(task.columns->sets()),
+        words_(task.words),
+        row_words_(task.row_words()),
+        is_even_(task.is_even()) {}
 
   HWY_INLINE void draw(const RowStrut& strut);
 
@@ -84,6 +69,9 @@ class SectionRows {
   RowWorkspace& workspace_;
   std::vector<LeftSample>& left_;
   const double size_, to_buckets_;
+  const uint64_t* const sets_;
+  const size_t words_, row_words_;
+  const bool is_even_;
 
   // Of the current strut.
   double ax_, dx_, dy_, dz_, factor_, inverse_squared_;
@@ -181,38 +169,18 @@ HWY_INLINE void SectionRows<section_words>::draw(const RowStrut& strut) {
 
 template <size_t section_words>
 HWY_INLINE void SectionRows<section_words>::draw_row(size_t lane, size_t row) {
-  const hn::CappedTag<uint64_t, section_words> d;
-  const size_t lanes = hn::Lanes(d);
   const uint64_t* const alive = task_.alive[row];
-  uint64_t* const inside = task_.inside + row * task_.row_words();
+  uint64_t* const inside = task_.inside + row * row_words_;
   low_ = workspace_.low[task_.widest][lane];
   high_ = workspace_.high[task_.widest][lane];
   size_t words = 0, samples = 0;  // doubtful
-  for (size_t first = 0, section = 0; first < task_.words; first += section_words, ++section) {
-    const size_t o = task_.outer[section], i = task_.inner[section];
-    const BucketRange outer(workspace_.low[o][lane], workspace_.high[o][lane] + 1);
-    const BucketRange inner(workspace_.low[i][lane] + 1, workspace_.high[i][lane]);
-    const size_t part = first / ColumnSets::part_words, offset = first % ColumnSets::part_words;
-    const uint64_t* const outer_from = task_.columns->before(outer.from, part) + offset;
-    const uint64_t* const outer_to = task_.columns->before(outer.to, part) + offset;
-    const uint64_t* const inner_from = task_.columns->before(inner.from, part) + offset;
-    const uint64_t* const inner_to = task_.columns->before(inner.to, part) + offset;
-    const auto outer_flip = hn::Set(d, outer.flip), inner_flip = hn::Set(d, inner.flip);
+  SectionColumns columns(task_, workspace_, 0, lane);
+  for (size_t first = 0, section = 0; first < words_; first += section_words, ++section) {
+    if (!is_even_) columns = SectionColumns(task_, workspace_, section, lane);
     HWY_ALIGN uint64_t doubtful[section_words];
-    auto any = hn::Zero(d);
-    for (size_t word = 0; word < section_words; word += lanes) {
-      const auto most = hn::Xor(
-          hn::Xor(hn::LoadU(d, outer_from + word), hn::LoadU(d, outer_to + word)), outer_flip);
-      const auto least = hn::Xor(
-          hn::Xor(hn::LoadU(d, inner_from + word), hn::LoadU(d, inner_to + word)), inner_flip);
-      const auto now = hn::Or(hn::LoadU(d, inside + first + word), least);
-      hn::StoreU(now, d, inside + first + word);
-      const auto rest = hn::AndNot(now, most);
-      hn::StoreU(rest, d, doubtful + word);
-      any = hn::Or(any, rest);
-    }
-    if (hn::AllTrue(d, hn::Eq(any, hn::Zero(d)))) continue;
-    const size_t end = std::min(section_words, task_.words - first);
+    if (HWY_LIKELY(!mark_section<section_words>(sets_, columns, is_even_, first, inside, doubtful)))
+      continue;
+    const size_t end = std::min(section_words, words_ - first);
     for (size_t word = 0; word < end; ++word) {
       const uint64_t rest = doubtful[word] & alive[first + word];
       workspace_.doubtful[words] = rest;
@@ -285,7 +253,7 @@ HWY_INLINE void SectionRows<section_words>::decide(size_t lane, size_t row, size
     const uint64_t in =
         some & bits_of(dd, hn::And(hn::Gt(thin, zero), hn::Lt(least, hn::Mul(thin, thin))));
     const uint64_t near = some & ~in & bits_of(dd, hn::Le(least, hn::Mul(thick, thick)));
-    uint64_t* const bits = task_.inside + row * task_.row_words();
+    uint64_t* const bits = task_.inside + row * row_words_;
     for (uint64_t lanes = in; lanes; lanes &= lanes - 1) {
       const uint32_t at = column[n + static_cast<size_t>(std::countr_zero(lanes))];
       bits[at / bits_per_word] |= uint64_t{1} << (at % bits_per_word);
@@ -319,12 +287,9 @@ HWY_INLINE void mark_sections(const RowStruts& struts, const RowTask& task, RowW
 
 void mark_rows(const RowStruts& struts, const RowTask& task, RowWorkspace& workspace,
                std::vector<LeftSample>& left) {
-  if (task.section_words == 8)
-    mark_sections<8>(struts, task, workspace, left);
-  else if (task.section_words == 4)
-    mark_sections<4>(struts, task, workspace, left);
-  else
-    mark_sections<2>(struts, task, workspace, left);
+  with_section_words(task.section_words, [&](auto words) HWY_ATTR {
+    mark_sections<decltype(words)::value>(struts, task, workspace, left);
+  });
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "base/simd.h"
 #include "field/field.h"
-#include "structure/lattice/rows/column_sets.h"
+#include "structure/common/column_sets.h"
 #include "structure/lattice/rows/row_parts.h"
 
 namespace msq {
@@ -40,6 +40,12 @@ struct RowTask {
   std::vector<RowLevel> levels;
   size_t outer[max_sections], inner[max_sections];
   size_t widest;  ///< the level of the thickest struts
+  /// All sections have the same levels.
+  bool is_even() const {
+    for (size_t section = 1; section < sections(); ++section)
+      if (outer[section] != outer[0] || inner[section] != inner[0]) return false;
+    return true;
+  }
   /// The row's own part of the radius, padded likewise; null: 0.
   const double* of_row;
 

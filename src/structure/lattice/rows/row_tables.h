@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cell/neighbourhood.h"
-#include "structure/lattice/rows/column_sets.h"
+#include "structure/common/column_sets.h"
 #include "structure/lattice/rows/row_kernel.h"
 
 namespace msq {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "structure/lattice/rows/column_sets.h"
+#include "structure/common/column_sets.h"
 
 #include <algorithm>
 #include <array>

@@ -9,6 +9,7 @@
 // any spacing of samples.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,7 +20,7 @@ class ColumnSets {
  public:
   /// Columns are sorted in parts of this many words, so that the sets stay in a core's own cache.
   static constexpr size_t part_words = 8, max_parts = 8;
-  static constexpr int32_t buckets = 4096;
+  static constexpr int32_t buckets = 16384;
 
   /// Of columns [first, end), at most max_parts parts from column 0 on; fractions[i]: the position
   /// of column i in its cell, 0 to 1.
@@ -29,11 +30,21 @@ class ColumnSets {
   size_t bytes() const {
     return numbers_.capacity() * sizeof(uint16_t) + sets_.capacity() * sizeof(uint64_t);
   }
-  /// The columns of a part that lie in the buckets before `bucket`, which counts modulo `buckets`.
-  const uint64_t* before(int32_t bucket, size_t part) const {
-    const size_t place = static_cast<size_t>(bucket & (buckets - 1));
-    return sets_.data() + numbers_[place * parts_ + part] * part_words;
+  /// The columns in some buckets: the difference of two sets.
+  struct Range {
+    const uint16_t *from, *to;  ///< the numbers of the sets, by part
+    uint64_t flip;              ///< is exclusive-ored too: all bits of a range that wraps around
+  };
+  /// Buckets [begin, end) of the unrolled line of the cell.
+  Range range(int32_t begin, int32_t end) const {
+    if (end - begin >= buckets) return {numbers_.data(), numbers_.data(), ~uint64_t{0}};
+    const auto from = static_cast<uint32_t>(begin) % buckets,
+               to = static_cast<uint32_t>(std::max(begin, end)) % buckets;
+    return {numbers_.data() + from * parts_, numbers_.data() + to * parts_,
+            to < from ? ~uint64_t{0} : 0};
   }
+  /// The words of all sets, by their numbers.
+  const uint64_t* sets() const { return sets_.data(); }
 
  private:
   size_t parts_;
