@@ -337,7 +337,12 @@ class Caster {
 double way_past_end(const Model& model, const Scales& resolved, const Ray& ray, double to) {
   double sum = model.shape().ray_tolerance();
   for (const Scale* scale : resolved) sum += scale->structure->ray_tolerance(ray, to);
-  return 2 * sum;
+  // A grid with an origin far away makes it large. All cells stay within reach of their grids.
+  double past = 2 * sum;
+  for (const Scale* scale : resolved)
+    scale->structure->for_each_grid(
+        [&](const Neighbourhood& grid) { past = std::min(past, min_component(grid.cell_size)); });
+  return past;
 }
 
 double way_past_end(const Model& model, const Scales& resolved) {

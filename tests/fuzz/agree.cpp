@@ -389,6 +389,22 @@ class Checker {
     return true;
   }
 
+  /// Any point is inside whose coordinates are up to `away` from those at t.
+  bool is_inside_beside(const double* origin, const double* direction, double t, double away,
+                        bool* any) const {
+    constexpr int steps = 9;
+    for (int i = 0; i < steps * steps * steps && !*any; ++i) {
+      const int step[3] = {i % steps, i / steps % steps, i / (steps * steps)};
+      double p[3];
+      for (int axis = 0; axis < 3; ++axis)
+        p[axis] = origin[axis] + t * direction[axis] + away * (2.0 * step[axis] / (steps - 1) - 1);
+      uint8_t inside;
+      if (!inside_of(p, &inside)) return false;
+      *any = inside;
+    }
+    return true;
+  }
+
   bool check_ray(const double* origin, const double* direction, double end,
                  const msq_ray_hit& hit) const {
     const double speed = std::hypot(direction[0], direction[1], direction[2]);
@@ -431,9 +447,11 @@ class Checker {
     if (is_hit && !hit.starts_inside && tolerance * speed < 0.01 * sight_.unit) {
       if (!is_inside_about(origin, direction, hit.t, 2 * tolerance, 8, &all, &any)) return false;
       // A part no deeper than rounding may be seen, too: within some roundings of the ray's point.
-      const double rounding = 0x1p-50 * size / speed;
-      if (!any && !is_inside_about(origin, direction, hit.t, rounding, 64, &all, &any))
+      const double rounding = 0x1p-50 * size;
+      if (!any && !is_inside_about(origin, direction, hit.t, rounding / speed, 64, &all, &any))
         return false;
+      // As where a ray leaves a structure at the point where it enters the shape.
+      if (!any && !is_inside_beside(origin, direction, hit.t, rounding, &any)) return false;
       if (!any)
         wrong(
             "nothing is inside about a hit at t = %.17g of (%.17g, %.17g, %.17g) + t (%.17g, "
