@@ -31,7 +31,7 @@ struct Case {
 
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
-  const auto add = [&](const char* name, std::function<void(Setup&)> prepare, Call call) {
+  const auto add = [&](std::string name, std::function<void(Setup&)> prepare, Call call) {
     cases.push_back({name, std::move(prepare), std::move(call)});
   };
   const auto with_points = [](FoamOf of, size_t count) {
@@ -149,6 +149,18 @@ std::vector<Case> all_cases() {
   add("values of a field, 4 * 10^6 points", with_array, evaluate_field);
   add(
       "self-intersections, 10^6 triangles", [](Setup&) {}, intersect_itself);
+  for (const Varied& kind : varied_structures) {
+    const auto with_kind = [make = kind.make](int cells, size_t points) {
+      return [=](Setup& s) {
+        s.fill_cube(make(s.context, cells));
+        s.add_points(points);
+      };
+    };
+    add(std::string("slices, ") + kind.name, with_kind(48, 0), slice(1024));
+    add(std::string("array, ") + kind.name, with_kind(48, 1000000), ask_membership);
+    add(std::string("distances, ") + kind.name, with_kind(48, 1000000), ask_distance);
+    add(std::string("rays, ") + kind.name, with_kind(48, 1000000), cast);
+  }
   return cases;
 }
 

@@ -9,6 +9,7 @@
 
 #include "rippled_torus.h"
 #include "setup.h"
+#include "varied_structures.h"
 
 namespace bench {
 

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "setup.h"
+#include "varied_structures.h"
 
 namespace {
 
@@ -49,7 +50,7 @@ struct Setup {
 };
 
 struct Case {
-  const char* name;
+  std::string name;
   uint64_t limit;  // MB
   std::function<void(Setup&)> prepare;
   std::function<msq_status(Setup&, msq_job*)> call;
@@ -201,7 +202,7 @@ std::vector<Case> all_cases() {
   const auto both = [](std::function<void(Setup&)> a, std::function<void(Setup&)> b) {
     return [=](Setup& s) { a(s), b(s); };
   };
-  return {
+  std::vector<Case> cases = {
       {"4 layers, foam of 512^3 cells, bits", 256, cube_of('f', 512), slices(MSQ_LAYER_BITS, 4)},
       {"4 layers, foam of 64^3 cells, bits", 256, cube_of('f', 64), slices(MSQ_LAYER_BITS, 4)},
       {"4 layers, turned lattice, bits", 256, cube_of('l', 64), slices(MSQ_LAYER_BITS, 4)},
@@ -220,6 +221,16 @@ std::vector<Case> all_cases() {
       {"preview mesh, 10^9 nodes, foam", 512, cube_of('f', 64), mesh},
       {"preview mesh, 10^9 nodes, gyroid", 512, cube_of('g', 64), mesh},
   };
+  for (const bench::Varied& kind : bench::varied_structures) {
+    const auto cube = [make = kind.make](Setup& s) {
+      s.model = bench::make_model(s.context, bench::make_cube(s.context), make(s.context, 64));
+    };
+    cases.push_back(
+        {std::string("4 layers, ") + kind.name + ", bits", 256, cube, slices(MSQ_LAYER_BITS, 4)});
+    cases.push_back({std::string("membership of 10^9 points, ") + kind.name, 256,
+                     both(cube, add_memberships), ask_membership});
+  }
+  return cases;
 }
 
 struct Found {
@@ -248,7 +259,8 @@ Found run(const Case& of, double seconds) {
   });
   Found found{};
   found.status = of.call(setup, job);
-  if (found.status == MSQ_E_LIMIT) std::fprintf(stderr, "%s: %s\n", of.name, msq_error_message());
+  if (found.status == MSQ_E_LIMIT)
+    std::fprintf(stderr, "%s: %s\n", of.name.c_str(), msq_error_message());
   ended = true;
   timer.join();
   found.grown = megabytes("VmHWM:") - before;
@@ -266,7 +278,7 @@ int main(int count, char** arguments) try {
   const double seconds = count > 3 ? std::atof(arguments[3]) : 20;
   bench::Report report("memory of long calls, MB, two threads");
   for (const Case& of : all_cases()) {
-    if (count > 2 && std::string(of.name).find(arguments[2]) == std::string::npos) continue;
+    if (count > 2 && of.name.find(arguments[2]) == std::string::npos) continue;
     int ends[2];
     if (pipe(ends) != 0) throw std::runtime_error("no pipe");
     const pid_t child = fork();
@@ -281,7 +293,7 @@ int main(int count, char** arguments) try {
     close(ends[0]);
     int status = 0;
     if (child > 0) waitpid(child, &status, 0);
-    if (!is_read) throw std::runtime_error(std::string(of.name) + ": the process ended");
+    if (!is_read) throw std::runtime_error(of.name + ": the process ended");
     report.compare(of.name, msq_status_name(found.status),
                    {{"limit", static_cast<double>(of.limit)},
                     {"counted", found.counted},
