@@ -570,7 +570,8 @@ enum msq_warp_kind {
  * sampled. If two points have the same coordinates, msq places the nodes of lattices and the
  * seeds of foams at one of them. Cost: SAMPLED makes two passes over the samples, about 0.1 us per
  * voxel. For lattices msq places all nodes in the box, about 1 us each; for foams all seeds, about
- * 2 us each.
+ * 2 us each. A map that has nearly the same coordinates so often that a place takes ten times as
+ * long is refused (LIMIT).
  *
  * docs/concepts.md defines the map bit for bit. */
 typedef struct msq_warp_def {

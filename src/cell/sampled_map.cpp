@@ -404,12 +404,23 @@ std::array<Vec3, 3> SampledMap::gradients(Vec3 p) const {
   return gradients;
 }
 
-bool SampledMap::find(Vec3 cells, Vec3& g) const {
-  const uint64_t root[3] = {0, 0, 0};
-  return find_below(image(0).bounds().levels().size() - 1, root, cells, g);
+void SampledMap::SearchCost::add(uint64_t cost) {
+  check_cancelled();
+  if (sum_.fetch_add(cost, std::memory_order_relaxed) + cost > most_)
+    fail(Status::limit,
+         "by warp.u, v and w, so many points have nearly the same coordinates that to find the "
+         "places "
+         "of cells takes more than %llu looks at voxels, the limit",
+         static_cast<unsigned long long>(most_));
 }
 
-bool SampledMap::find_below(size_t level, const uint64_t (&block)[3], Vec3 cells, Vec3& g) const {
+bool SampledMap::find(Vec3 cells, Vec3& g, SearchCost& cost) const {
+  const uint64_t root[3] = {0, 0, 0};
+  return find_below(image(0).bounds().levels().size() - 1, root, cells, g, cost);
+}
+
+bool SampledMap::find_below(size_t level, const uint64_t (&block)[3], Vec3 cells, Vec3& g,
+                            SearchCost& cost) const {
   const auto holds = [](Interval range, double value) {
     const double slack = 0x1p-30 * (1 + std::abs(value));
     return range.low - slack <= value && value <= range.high + slack;
@@ -423,12 +434,14 @@ bool SampledMap::find_below(size_t level, const uint64_t (&block)[3], Vec3 cells
     end[axis] = std::min(
         side * (block[axis] + 1),
         level > 0 ? image(0).bounds().levels()[level - 1].size[axis] : image(0).cells(axis));
+  cost.add((end[0] - side * block[0]) * (end[1] - side * block[1]) * (end[2] - side * block[2]));
+  constexpr uint64_t trial = 64;
   for (uint64_t z = side * block[2]; z < end[2]; ++z)
     for (uint64_t y = side * block[1]; y < end[1]; ++y)
       for (uint64_t x = side * block[0]; x < end[0]; ++x) {
         if (level > 0) {
           const uint64_t child[3] = {x, y, z};
-          if (find_below(level - 1, child, cells, g)) return true;
+          if (find_below(level - 1, child, cells, g, cost)) return true;
           continue;
         }
         const Voxel at = voxel(x, y, z);
@@ -439,9 +452,11 @@ bool SampledMap::find_below(size_t level, const uint64_t (&block)[3], Vec3 cells
         }
         if (!may_hold) continue;
         Vec3 f{0.5, 0.5, 0.5};
+        cost.add(trial);
         int found = solve(at.samples, cells, f);
         for (int part = 0; part < 8 && found < 0; ++part) {
           f = {part & 1 ? 0.75 : 0.25, part & 2 ? 0.75 : 0.25, part & 4 ? 0.75 : 0.25};
+          cost.add(trial);
           found = solve(at.samples, cells, f);
         }
         if (found != 1) continue;

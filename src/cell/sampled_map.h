@@ -8,7 +8,9 @@
 // it. Source: Garloff, "Convergent bounds for the range of multivariate polynomials", 1985.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -46,7 +48,26 @@ class SampledMap {
   /// The position in the frame of the samples, in model units, that has these coordinates: in the
   /// first voxel, in the order of search, that has them up to 2^-32 of its size. False if there is
   /// none. Source: Newton's method.
-  bool find(Vec3 cells, Vec3& g) const;
+  bool find(Vec3 cells, Vec3& g) const {
+    SearchCost cost(1);
+    return find(cells, g, cost);
+  }
+  /// What the searches for some places cost together: a block of voxels or a voxel counts 1, and 64
+  /// where Newton's method tries one. In maps that do not have the same coordinates many times, a
+  /// place costs about 200.
+  class SearchCost {
+   public:
+    explicit SearchCost(uint64_t places) : most_(std::max(least_, per_place_ * places)) {}
+    /// Throws Error(limit) beyond the bound, and Error(cancelled) with the thread's job.
+    void add(uint64_t cost);
+
+   private:
+    static constexpr uint64_t least_ = uint64_t{1} << 27, per_place_ = 1024;
+    const uint64_t most_;
+    std::atomic<uint64_t> sum_{0};
+  };
+  /// The same as one of many searches, on any threads.
+  bool find(Vec3 cells, Vec3& g, SearchCost& cost) const;
 
   const Image& image(int axis) const { return fields_[static_cast<size_t>(axis)]->image(); }
   const ImageFrame& frame() const { return image(0).frame(); }
@@ -111,7 +132,8 @@ class SampledMap {
   void check_grids() const;
   void examine();
   [[noreturn]] void refuse(const Voxel& voxel, Vec3 fraction, double determinant) const;
-  bool find_below(size_t level, const uint64_t (&block)[3], Vec3 cells, Vec3& g) const;
+  bool find_below(size_t level, const uint64_t (&block)[3], Vec3 cells, Vec3& g,
+                  SearchCost& cost) const;
 
   Fields fields_;
   Vec3 top_;  // the last sample

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * What msq_structure_foam refuses. */
+#include <math.h>
+
 #include "wrong_values.h"
 
 static msq_context* context;
@@ -28,13 +30,35 @@ static msq_field* coordinate_of(int axis, double spacing, double slope) {
   return field;
 }
 
+/* A coordinate of a map that winds round a hole again and again, 8 voxels a turn. */
+static msq_field* winding(int axis) {
+  enum { turns = 4096, along = 8 * turns + 1 };
+  static double values[2 * along * 2];
+  msq_grid_field_def def;
+  msq_field* field;
+  for (int i = 0; i < 2 * along * 2; ++i) {
+    const double angle = 0.78539816339744830962 * (i / 2 % along), radius = i % 2 ? 60 : 50;
+    values[i] = axis == 0 ? radius * cos(angle) : axis == 1 ? radius * sin(angle) : i / (2 * along);
+  }
+  assert_ok(msq_grid_field_def_init(&def, sizeof def));
+  def.image.values = values;
+  def.image.value_type = MSQ_FLOAT64;
+  def.image.size[0] = def.image.size[2] = 2;
+  def.image.size[1] = along;
+  def.image.grid.cell_size[0] = def.image.grid.cell_size[2] = 1;
+  def.image.grid.cell_size[1] = 4;
+  assert_ok(msq_field_grid(context, &def, &field));
+  return field;
+}
+
 static void sampled_foams(void** state) {
   /* 8^3 cells of size 1; those that are 16 and 17 times as long along y; 300^3 cells. */
-  msq_field *even[3], *flat[2], *many[3];
+  msq_field *even[3], *flat[2], *many[3], *wound[3];
   (void)state;
   for (int axis = 0; axis < 3; ++axis) {
     even[axis] = coordinate_of(axis, 8, 1);
     many[axis] = coordinate_of(axis, 300, 1);
+    wound[axis] = winding(axis);
   }
   flat[0] = coordinate_of(1, 8, 1.0 / 16);
   flat[1] = coordinate_of(1, 8, 1.0 / 17);
@@ -56,6 +80,8 @@ static void sampled_foams(void** state) {
     WRONG(LIMIT, "at least 1 wide and up to 17 long|16 times", warp->v = flat[1]);
     WRONG(LIMIT, "301 x 301 x 301 cells|16777216", warp->u = many[0]; warp->v = many[1];
           warp->w = many[2]);
+    WRONG(LIMIT, "nearly the same coordinates|134217728 looks", warp->u = wound[0];
+          warp->v = wound[1]; warp->w = wound[2]; def->radius.value = 0.01);
     WRONG(LIMIT, "radius|1.01|the limit is 1", def->radius.value = 1.01);
     WRONG(LIMIT, "wall_thickness reaches 1.01|the limit is 1", def->wall_thickness.value = 1.01);
     WRONG(UNSUPPORTED, "a warp|method", def->method = MSQ_FOAM_POINT);
@@ -66,6 +92,7 @@ static void sampled_foams(void** state) {
   }
   release_fields(even);
   release_fields(many);
+  release_fields(wound);
   msq_field_release(flat[0]);
   msq_field_release(flat[1]);
 }

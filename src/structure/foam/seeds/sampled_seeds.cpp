@@ -63,6 +63,7 @@ SampledSeeds::SampledSeeds(const Context& context, std::shared_ptr<const Sampled
 std::vector<SampledSeeds::Found> SampledSeeds::find_all(const SampledMap::Cells& cells,
                                                         const Executor& executor) const {
   std::vector<std::vector<Found>> layers(cells.count[2]);
+  SampledMap::SearchCost cost(static_cast<uint64_t>(cells.all));
   executor.for_each(cells.count[2], [&](uint64_t k) {
     for (uint64_t j = 0; j < cells.count[1]; ++j) {
       check_cancelled();
@@ -71,7 +72,7 @@ std::vector<SampledSeeds::Found> SampledSeeds::find_all(const SampledMap::Cells&
                              cells.first.y + static_cast<int32_t>(j),
                              cells.first.z + static_cast<int32_t>(k)};
         Vec3 g;
-        if (map_->find(corner_of(cell) + cells_.fractions(cells_.bits(cell)), g))
+        if (map_->find(corner_of(cell) + cells_.fractions(cells_.bits(cell)), g, cost))
           layers[k].push_back({g, cell});
       }
     }

@@ -75,6 +75,7 @@ SampledPlaces::SampledPlaces(std::shared_ptr<const SampledMap> map, const UnitCe
 
 void SampledPlaces::place_nodes() {
   const Level& cells = levels_[0];
+  SampledMap::SearchCost cost(nodes_.size());
   size_t n = 0;
   for (uint64_t z = 0; z < cells.size[2]; ++z)
     for (uint64_t y = 0; y < cells.size[1]; ++y) {
@@ -84,7 +85,7 @@ void SampledPlaces::place_nodes() {
                           first_.z + static_cast<double>(z)};
         for (const Vec3 fraction : fractions_) {
           Vec3 g;
-          if (map_->find(corner + fraction, g)) nodes_[n] = g;
+          if (map_->find(corner + fraction, g, cost)) nodes_[n] = g;
           ++n;
         }
       }
