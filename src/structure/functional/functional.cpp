@@ -16,8 +16,8 @@
 #include "structure/functional/ray_search.h"
 #include "structure/functional/row_kernels.h"
 #include "structure/functional/sheared_rows.h"
-#include "structure/functional/tape_rows.h"
 #include "structure/functional/single_wave_rows.h"
+#include "structure/functional/tape_rows.h"
 #include "structure/functional/turned_rows.h"
 #include "structure/functional/warped_places.h"
 #include "structure/functional/warped_rows.h"
@@ -112,10 +112,7 @@ const Functional::Prepared& Functional::prepared() const {
   std::call_once(once_, [this] {
     Clusters clusters(onset_, side_, level_.range());
     std::vector<RowPlan> plans = msq::row_plans(clusters, sample_axis_);
-    std::optional<RowPlan> wave_plan;
-    if (sample_axis_[0] >= 0) wave_plan.emplace(onset_, sample_axis_);
-    if (wave_plan && !wave_plan->wave) wave_plan.reset();
-    prepared_ = Prepared{std::move(clusters), std::move(plans), std::move(wave_plan)};
+    prepared_ = Prepared{std::move(clusters), std::move(plans)};
   });
   return *prepared_;
 }
@@ -390,6 +387,16 @@ const RowPlan& Functional::warped_plan(unsigned changing) const {
     for (size_t axis = 0; axis < 3; ++axis) axes[axis] = changing >> axis & 1 ? 0 : 1;
     return std::make_unique<const RowPlan>(onset_, axes);
   });
+}
+
+const RowPlan* Functional::wave_plan() const {
+  const std::optional<RowPlan>& plan = wave_plan_.get([&] {
+    auto made = std::make_unique<std::optional<RowPlan>>();
+    if (sample_axis_[0] >= 0) made->emplace(onset_, sample_axis_);
+    if (*made && !(*made)->wave) made->reset();
+    return made;
+  });
+  return plan ? &*plan : nullptr;
 }
 
 LineGraph Functional::wall_lines(const WallSection& section) const {

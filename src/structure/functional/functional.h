@@ -97,9 +97,7 @@ class Functional final : public Structure, public RepeatingStructure {
 
   /// How the onset is evaluated in rows, if it is a single wave there (RowPlan::wave); null
   /// otherwise.
-  const RowPlan* wave_plan() const {
-    return prepared().wave_plan ? &*prepared().wave_plan : nullptr;
-  }
+  const RowPlan* wave_plan() const;
 
   /// The form of the onset; none for tapes of another form. In cells of one size there is none
   /// unless the grid is turned, in sheared cells and in those of a sampled map none if it is
@@ -121,7 +119,6 @@ class Functional final : public Structure, public RepeatingStructure {
   struct Prepared {
     Clusters clusters;
     std::vector<RowPlan> row_plans;
-    std::optional<RowPlan> wave_plan;
   };
   const Prepared& prepared() const;
   /// The value of the onset's tape.
@@ -146,6 +143,7 @@ class Functional final : public Structure, public RepeatingStructure {
   mutable std::once_flag once_;
   mutable std::optional<Prepared> prepared_;
   std::array<Lazy<RowPlan>, 2> warped_plans_;
+  Lazy<std::optional<RowPlan>> wave_plan_;
 };
 
 }  // namespace msq
