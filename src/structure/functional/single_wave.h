@@ -18,8 +18,9 @@ struct WaveEnds {
   int32_t low[batch_points + max_simd_doubles], high[batch_points + max_simd_doubles];
 };
 
-/// A sample with a value of at most `least` is inside, one above `most` is not. Of a sheet, one of
-/// at most `hole_least` is not, one above `hole_most` may be.
+/// Ends for four thresholds. Samples with values up to `least` are inside, those above `most` are
+/// not. A sheet has a hole, where its function is below minus the level: samples up to `hole_least`
+/// are in the hole, those above `hole_most` are not.
 struct WaveLevels {
   enum { least, most, hole_least, hole_most, count };
   WaveEnds ends[count];
