@@ -69,7 +69,8 @@ void FunctionalRows::tabulate(Work& work) const {
   for (size_t begin = 0; begin < columns; begin += batch_points) {
     const size_t size = std::min(batch_points, columns - begin);
     for (size_t a = 0; a < 3; ++a)
-      if (structure_.sample_axis()[a] == 0) batch.set_input(a, {angles_.of[0].data() + begin, false});
+      if (structure_.sample_axis()[a] == 0)
+        batch.set_input(a, {angles_.of[0].data() + begin, false});
     batch.run(size);
     for (size_t o = 0; o < outputs; ++o) {
       const Values values = batch.output(o);
