@@ -26,7 +26,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace {
 
-void find_ends(const WaveRows& rows, const double* thresholds, WaveEnds& ends) {
+void find_ends(const SingleWaves& rows, const double* thresholds, WaveEnds& ends) {
   const hn::ScalableTag<double> d;
   const hn::Rebind<int32_t, decltype(d)> di;
   using V = hn::Vec<decltype(d)>;
@@ -114,7 +114,7 @@ namespace msq {
 HWY_EXPORT(find_ends);
 HWY_EXPORT(mark);
 
-void find_wave_ends(const WaveRows& rows, const double* thresholds, WaveEnds& ends) {
+void find_wave_ends(const SingleWaves& rows, const double* thresholds, WaveEnds& ends) {
   HWY_DYNAMIC_DISPATCH(find_ends)(rows, thresholds, ends);
 }
 

@@ -28,7 +28,7 @@ struct WaveLevels {
 };
 
 /// The functions of some rows. Arrays are padded for batches.
-struct WaveRows {
+struct SingleWaves {
   const double *sine, *cosine;
   Values constant;
   size_t count;
@@ -36,7 +36,7 @@ struct WaveRows {
 
 /// Finds ends for values of at most the row's threshold. Their error is less than 2^-24 of the
 /// amplitude of the row, in terms of the value.
-void find_wave_ends(const WaveRows& rows, const double* thresholds, WaveEnds& ends);
+void find_wave_ends(const SingleWaves& rows, const double* thresholds, WaveEnds& ends);
 
 /// Overwrites the words of a row's parts with the samples that are certainly inside; `doubt` with
 /// those that may be. False if there are none.

@@ -133,7 +133,7 @@ void SingleWaveRows::find_levels(uint64_t first, size_t count, WaveLevels& level
     for (size_t row = 0; row < count; ++row) to[row] += tables[t].factor * values[row];
   }
   constant_ = rows_.output(tables.size());
-  const WaveRows waves{sine_.data(), cosine_.data(), constant_, count};
+  const SingleWaves waves{sine_.data(), cosine_.data(), constant_, count};
   if (!structure_.level().is_constant())
     for (size_t row = 0; row < count; ++row)
       level_[row] = level_of(structure_, block_, first + row);
