@@ -287,6 +287,9 @@ Known ReferenceExpression::evaluate(const Node& node, const double point[3]) {
     if (std::abs(a.value - 0.5L) <= a.error && a.error > 0) return not_known;
     return a.value > 0.5L ? of[1] : of[2];
   }
+  // A product of no factors, whatever the base is.
+  if (what == "^" && node.operands[1]->is_constant && b.is_known && b.value == 0 && b.error == 0)
+    return {1, 0, true};
   for (size_t i = 0; i < node.operands.size(); ++i)
     if (!of[i].is_known) return not_known;
   for (size_t i = 0; i < node.operands.size(); ++i)
