@@ -2,60 +2,21 @@
 // One structure of each newer kind, with so many cells across the unit cube.
 #pragma once
 
-#include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "setup.h"
 
 namespace bench {
 
-/// The map of a sampled warp: cells that sway along the axes.
-class SwayingMap {
- public:
-  SwayingMap(msq_context* context, int cells) {
-    constexpr size_t side = 33;
-    std::vector<double> values(side * side * side);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (size_t i = 0; i < values.size(); ++i) {
-        const double at[3] = {static_cast<double>(i % side) / (side - 1),
-                              static_cast<double>(i / side % side) / (side - 1),
-                              static_cast<double>(i / (side * side)) / (side - 1)};
-        values[i] = cells * (at[axis] + 0.03 * std::sin(6 * at[(axis + 1) % 3]));
-      }
-      msq_grid_field_def def;
-      check(msq_grid_field_def_init(&def, sizeof def));
-      def.image.values = values.data();
-      def.image.value_type = MSQ_FLOAT64;
-      for (int along = 0; along < 3; ++along) {
-        def.image.size[along] = side;
-        def.image.grid.cell_size[along] = 1.0 / (side - 1);
-      }
-      check(msq_field_grid(context, &def, &fields_[axis]));
-    }
-    check(msq_warp_def_init(&warp, sizeof warp));
-    warp.kind = MSQ_WARP_SAMPLED;
-    warp.u = fields_[0], warp.v = fields_[1], warp.w = fields_[2];
-  }
-  SwayingMap(const SwayingMap&) = delete;
-  SwayingMap& operator=(const SwayingMap&) = delete;
-  ~SwayingMap() {
-    for (msq_field* field : fields_) msq_field_release(field);
-  }
-
-  msq_warp_def warp;
-
- private:
-  msq_field* fields_[3] = {};
-};
-
+/// Cells around the corner of the cube; foams need an outer radius.
 inline msq_warp_def around_axis(int cells) {
-  msq_warp_def warp;
-  check(msq_warp_def_init(&warp, sizeof warp));
-  warp.count = static_cast<uint32_t>(4 * cells);
-  warp.inner_radius = 0.3;
+  msq_warp_def warp = warp_of(MSQ_WARP_CYLINDRICAL, cells);
   warp.outer_radius = 1.5;
+  return warp;
+}
+
+/// By a map that must live as long.
+inline msq_warp_def in_map(const SampledCells& map, int cells) {
+  msq_warp_def warp = warp_of(MSQ_WARP_SAMPLED, cells);
+  map.set(warp);
   return warp;
 }
 
@@ -129,10 +90,11 @@ inline const Varied varied_structures[] = {
      }},
     {"foam in a sampled map",
      [](msq_context* context, int cells) {
-       const SwayingMap map(context, cells);
+       const SampledCells map(context, cells);
+       const msq_warp_def warp = in_map(map, cells);
        return changed_foam(context, cells, [&](msq_foam_def& def) {
          def.radius.value = 0.05 / cells;
-         def.warp = &map.warp;
+         def.warp = &warp;
        });
      }},
     {"lattice around an axis",
@@ -142,15 +104,17 @@ inline const Varied varied_structures[] = {
      }},
     {"lattice in a sampled map",
      [](msq_context* context, int cells) {
-       const SwayingMap map(context, cells);
-       return changed_lattice(context, cells, [&](msq_lattice_def& def) { def.warp = &map.warp; });
+       const SampledCells map(context, cells);
+       const msq_warp_def warp = in_map(map, cells);
+       return changed_lattice(context, cells, [&](msq_lattice_def& def) { def.warp = &warp; });
      }},
     {"gyroid in a sampled map",
      [](msq_context* context, int cells) {
-       const SwayingMap map(context, cells);
+       const SampledCells map(context, cells);
+       const msq_warp_def warp = in_map(map, cells);
        msq_functional_def def;
        check(msq_functional_def_init(&def, sizeof def));
-       def.warp = &map.warp;
+       def.warp = &warp;
        msq_structure* made;
        check(msq_structure_functional(context, &def, &made));
        return made;
