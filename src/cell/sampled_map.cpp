@@ -408,9 +408,8 @@ void SampledMap::SearchCost::add(uint64_t cost) {
   check_cancelled();
   if (sum_.fetch_add(cost, std::memory_order_relaxed) + cost > most_)
     fail(Status::limit,
-         "by warp.u, v and w, so many points have nearly the same coordinates that to find the "
-         "places "
-         "of cells takes more than %llu looks at voxels, the limit",
+         "by warp.u, v and w, so many points have nearly the same coordinates that finding the "
+         "places of cells takes more than %llu looks at voxels, the limit",
          static_cast<unsigned long long>(most_));
 }
 

@@ -45,16 +45,9 @@ class SampledMap {
   /// The same of a position in the frame of the samples, in model units.
   Vec3 cells_of(Vec3 g) const { return cells_at(g * image(0).scale()); }
 
-  /// The position in the frame of the samples, in model units, that has these coordinates: in the
-  /// first voxel, in the order of search, that has them up to 2^-32 of its size. False if there is
-  /// none. Source: Newton's method.
-  bool find(Vec3 cells, Vec3& g) const {
-    SearchCost cost(1);
-    return find(cells, g, cost);
-  }
-  /// What the searches for some places cost together: a block of voxels or a voxel counts 1, and 64
-  /// where Newton's method tries one. In maps that do not have the same coordinates many times, a
-  /// place costs about 200.
+  /// What the searches for some places cost together, on any threads: a block of voxels or a voxel
+  /// counts 1, and 64 where Newton's method tries one. In maps that do not have the same
+  /// coordinates many times, a place costs about 200.
   class SearchCost {
    public:
     explicit SearchCost(uint64_t places) : most_(std::max(least_, per_place_ * places)) {}
@@ -66,7 +59,9 @@ class SampledMap {
     const uint64_t most_;
     std::atomic<uint64_t> sum_{0};
   };
-  /// The same as one of many searches, on any threads.
+  /// The position in the frame of the samples, in model units, that has these coordinates: in the
+  /// first voxel, in the order of search, that has them up to 2^-32 of its size. False if there is
+  /// none. Source: Newton's method.
   bool find(Vec3 cells, Vec3& g, SearchCost& cost) const;
 
   const Image& image(int axis) const { return fields_[static_cast<size_t>(axis)]->image(); }

@@ -99,11 +99,12 @@ Diagram diagram_of(const Row& row, const SampledMap& map, double side) {
   const auto range = [&](int axis, bool is_last) {
     return whole(is_last ? map.range(axis).high : map.range(axis).low);
   };
+  SampledMap::SearchCost cost(1);
   for (int k = range(2, false); k <= range(2, true); ++k)
     for (int j = range(1, false); j <= range(1, true); ++j)
       for (int i = range(0, false); i <= range(0, true); ++i) {
         Vec3 g;
-        if (!map.find(cells.at({}, i, j, k), g)) continue;
+        if (!map.find(cells.at({}, i, j, k), g, cost)) continue;
         points.push_back(g - half);
         filled.insert({whole(g.x / side), whole(g.y / side), whole(g.z / side)});
       }

@@ -17,10 +17,13 @@ namespace msq {
 
 namespace {
 
-/// Of a row of a block; rows are counted layer by layer.
-Interval level_of(const Functional& structure, const RowBlock& block, uint64_t number) {
-  const SampleGrid& grid = *block.grid;
-  const uint64_t j = block.y0 + number % block.rows(), k = block.z0 + number / block.rows();
+RowGroup all_rows(const RowBlock& block) {
+  return {block.y0, block.y1, block.z0, block.z1};
+}
+
+Interval level_of(const Functional& structure, const SampleGrid& grid, const RowGroup& rows,
+                  uint64_t number) {
+  const uint64_t j = rows.y(number), k = rows.z(number);
   return structure.level().range({grid.at(0, j, k), grid.at(grid.nx - 1, j, k)});
 }
 
@@ -71,13 +74,14 @@ bool SingleWaveRows::serves(const Functional& structure, const RowBlock& block) 
   if (!plan || block.row_words() > WaveColumns::window_words * WaveColumns::max_windows)
     return false;
   if (structure.level().is_constant()) return true;
-  const Interval level = level_of(structure, block, 0);
+  const Interval level = level_of(structure, *block.grid, all_rows(block), 0);
   return level.high - level.low <= 0x1p12 * plan->slack();
 }
 
 SingleWaveRows::SingleWaveRows(const Functional& structure, const RowBlock& block)
     : structure_(structure),
       block_(block),
+      all_(all_rows(block)),
       plan_(*structure.wave_plan()),
       angles_(structure, block),
       words_(structure.level().is_constant() ? angles_.period(*block.grid) : block.row_words()),
@@ -93,7 +97,7 @@ SingleWaveRows::SingleWaveRows(const Functional& structure, const RowBlock& bloc
 void SingleWaveRows::keep(const Job* job) {
   const std::vector<WaveColumns::Window>* windows = nullptr;
   const Borrowed<WaveLevels> levels;
-  const uint64_t rows = block_.rows() * block_.layers();
+  const uint64_t rows = all_.rows();
   for (uint64_t first = 0; first < rows; first += batch_points) {
     check_cancelled(job);
     const size_t count = std::min<uint64_t>(batch_points, rows - first);
@@ -113,14 +117,14 @@ void SingleWaveRows::keep(const Job* job) {
 }
 
 bool SingleWaveRows::is_alive(uint64_t number) const {
-  const uint64_t* const words = words_of(number);
+  const uint64_t* const words = block_.row(all_.y(number), all_.z(number));
   return std::any_of(words, words + block_.row_words(), [](uint64_t w) { return w != 0; });
 }
 
 void SingleWaveRows::find_levels(uint64_t first, size_t count, WaveLevels& levels) {
   for (size_t row = 0; row < count; ++row) {
-    y_[row] = angles_.of[1][(first + row) % block_.rows()];
-    z_[row] = angles_.of[2][(first + row) / block_.rows()];
+    y_[row] = angles_.of[1][all_.y(first + row) - block_.y0];
+    z_[row] = angles_.of[2][all_.z(first + row) - block_.z0];
   }
   for (size_t a = 0; a < 3; ++a)
     rows_.set_input(a, {structure_.sample_axis()[a] == 2 ? z_.data() : y_.data(), false});
@@ -136,7 +140,7 @@ void SingleWaveRows::find_levels(uint64_t first, size_t count, WaveLevels& level
   const SingleWaves waves{sine_.data(), cosine_.data(), constant_, count};
   if (!structure_.level().is_constant())
     for (size_t row = 0; row < count; ++row)
-      level_[row] = level_of(structure_, block_, first + row);
+      level_[row] = level_of(structure_, *block_.grid, all_, first + row);
   const auto find = [&](size_t level, const auto& threshold) {
     for (size_t row = 0; row < count; ++row) threshold_[row] = threshold(level_[row]);
     find_wave_ends(waves, threshold_.data(), levels.ends[level]);
@@ -151,8 +155,8 @@ void SingleWaveRows::find_levels(uint64_t first, size_t count, WaveLevels& level
 
 void SingleWaveRows::keep_row(const std::vector<WaveColumns::Window>& windows,
                               const WaveLevels& levels, uint64_t number, size_t row) {
-  const uint64_t j = block_.y0 + number % block_.rows(), k = block_.z0 + number / block_.rows();
-  uint64_t* const words = words_of(number);
+  const uint64_t j = all_.y(number), k = all_.z(number);
+  uint64_t* const words = block_.row(j, k);
   const double sine = sine_[row], cosine = cosine_[row], constant = constant_[row];
   for (size_t n = 0; n < windows.size(); ++n) {
     const WaveColumns::Window& window = windows[n];

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/borrowed.h"
+#include "structure/functional/level_bounds.h"
 #include "structure/functional/row_angles.h"
 #include "structure/functional/single_wave.h"
 
@@ -55,13 +56,11 @@ class SingleWaveRows {
   void keep_row(const std::vector<WaveColumns::Window>& windows, const WaveLevels& levels,
                 uint64_t number, size_t row);
   bool is_alive(uint64_t number) const;
-  uint64_t* words_of(uint64_t number) const {
-    return block_.row(block_.y0 + number % block_.rows(), block_.z0 + number / block_.rows());
-  }
   uint64_t alive(const uint64_t* words, size_t word) const;
 
   const Functional& structure_;
   const RowBlock& block_;
+  const RowGroup all_;  // the block's rows, which are numbered layer by layer
   const RowPlan& plan_;
   const RowAngles angles_;
   const size_t words_;  // after which rows repeat
